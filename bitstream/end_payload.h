@@ -1,0 +1,19 @@
+// The end packet: closes a complete file. SPEC 4.6.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "common/result.h"
+
+namespace fbs {
+
+[[nodiscard]] std::vector<std::uint8_t> encode_end(const End& end);
+
+/// Bytes behind the known fields are ignored.
+/// @return kTruncated or kInvalidStream
+[[nodiscard]] Result<End> decode_end(std::span<const std::uint8_t> payload);
+
+}  // namespace fbs

@@ -1,0 +1,37 @@
+// The geometry packet: the adapted head as residuals to the scaled generic head, coded by Draco. SPEC 4.2.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "common/result.h"
+
+namespace fbs {
+
+inline constexpr std::size_t kMaxGeometryPayload = 8192;                  ///< bytes
+inline constexpr std::int32_t kMaxCoordinate = 4 * kUnitsPerEyeDistance;  ///< of a vertex, head units
+inline constexpr std::int32_t kDefaultGeometryStep = 16;                  ///< 1/256 eye distance
+inline constexpr std::int32_t kMaxGeometryStep = kUnitsPerEyeDistance;    ///< head units
+
+/// What encode_geometry made: the bytes, and the head that a decoder gets from them.
+struct CodedGeometry {
+  std::vector<std::uint8_t> payload;
+  Geometry decoded;  ///< each coordinate within step / 2 of what was asked
+};
+
+/// Scales the generic head to fit by least squares for each axis, quantises what remains, and codes it with
+/// the shortest of Draco's sequential codings.
+/// @param step  size of a residual step, head units, 1..kMaxGeometryStep
+/// @return kInvalidArgument  a coordinate beyond kMaxCoordinate, or step out of range
+[[nodiscard]] Result<CodedGeometry> encode_geometry(const Geometry& geometry,
+                                                    std::int32_t step = kDefaultGeometryStep);
+
+/// @return kTooLarge       more than kMaxGeometryPayload bytes
+///         kTruncated      the payload ends inside its header
+///         kInvalidStream  Draco refuses the bytes, they hold other than 105 points, or a coordinate lies
+///                         beyond kMaxCoordinate
+[[nodiscard]] Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload);
+
+}  // namespace fbs

@@ -1,0 +1,20 @@
+// The surround packet: how the picture round the face follows the head. SPEC 4.3.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// @return kInvalidArgument  columns or rows outside 1..kMaxSurroundCells, follow.size() other than
+///                           (columns + 1) * (rows + 1), or a value beyond kFollowOne
+[[nodiscard]] Result<std::vector<std::uint8_t>> encode_surround(const SurroundMap& map);
+
+/// @return kTruncated, kTooLarge (columns or rows beyond kMaxSurroundCells), kInvalidStream
+[[nodiscard]] Result<SurroundMap> decode_surround(std::span<const std::uint8_t> payload);
+
+}  // namespace fbs

@@ -1,0 +1,76 @@
+// What the packets of a stream say, as plain data. How each is written in bits: SPEC.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/state.h"
+
+namespace fbs {
+
+inline constexpr int kFormatVersion = 1;
+inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one motion packet
+inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
+inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each
+inline constexpr std::uint32_t kMaxDuration = 90000 * 60;  ///< of one picture, 1/90000 s
+inline constexpr int kFollowOne = 4;  ///< a surround point that moves wholly with the head
+
+enum class PacketType : std::uint8_t {
+  kSetup = 1,     ///< begins a stream, or a new scene inside one
+  kGeometry = 2,  ///< the adapted head; absent in a scene without a face
+  kSurround = 3,  ///< how the picture round the face follows the head
+  kPattern = 4,   ///< one coded picture and the state in which it was seen
+  kMotion = 5,    ///< the states of a group of pictures
+  kEnd = 6,       ///< optional: number of pictures, and the index
+};
+
+/// Begins a scene. All later packets are read in its terms.
+struct Setup {
+  VideoFormat format;
+  QuantiserSteps steps;
+  FeatureMask features = 0;
+  friend bool operator==(const Setup&, const Setup&) = default;
+};
+
+/// The adapted head: where each vertex of the generic head lies for this face, expressionless. Head units.
+struct Geometry {
+  std::array<glm::ivec3, kVertexCount> positions{};  ///< each coordinate within +-4 * kUnitsPerEyeDistance
+  friend bool operator==(const Geometry&, const Geometry&) = default;
+};
+
+/// A regular grid of (columns + 1) x (rows + 1) points over the picture, first and last on its borders. Each
+/// point says how much of the head's motion it follows: 0 (ground) .. kFollowOne (hair, ears).
+struct SurroundMap {
+  std::int32_t columns = 0;  ///< 1..kMaxSurroundCells
+  std::int32_t rows = 0;
+  std::vector<std::uint8_t> follow;  ///< row by row from the top
+  friend bool operator==(const SurroundMap&, const SurroundMap&) = default;
+};
+
+/// One pattern: a picture, and the state in which it was seen.
+struct PatternSyntax {
+  std::int32_t index = 0;  ///< 0..kMaxPatterns-1
+  State state;
+  std::vector<std::uint8_t> av1;  ///< one AV1 temporal unit (low-overhead OBU format)
+  friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
+};
+
+/// The states of consecutive pictures.
+struct MotionGroup {
+  bool key = false;           ///< coded without reference to earlier groups
+  std::vector<State> states;  ///< 1..kMaxGroupPictures
+  std::vector<std::uint32_t>
+      durations;  ///< of each picture, 1..kMaxDuration, 1/90000 s; empty: constant frame rate
+  friend bool operator==(const MotionGroup&, const MotionGroup&) = default;
+};
+
+/// Closes a complete file.
+struct End {
+  std::uint64_t pictures = 0;
+  friend bool operator==(const End&, const End&) = default;
+};
+
+}  // namespace fbs

@@ -1,0 +1,19 @@
+# fbs_add_module(NAME source...): a module that the program loads when a verb needs it (cli/module.h).
+# It lands beside the program in the build tree and in lib/fbs when installed. Link its libraries afterwards with
+# target_link_libraries(NAME PRIVATE ...); static libraries that go in must be position independent.
+include_guard(GLOBAL)
+
+function(fbs_add_module name)
+  add_library(${name} MODULE ${ARGN})
+  set_target_properties(${name} PROPERTIES
+    PREFIX ""
+    SUFFIX ".so"
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+  target_sources(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/module_version.cpp)
+  target_compile_definitions(${name} PRIVATE FBS_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE fbs_options)
+  target_link_options(${name} PRIVATE -Wl,--exclude-libs,ALL)  # only the marked functions are seen from outside
+  install(TARGETS ${name} LIBRARY DESTINATION lib/fbs)
+endfunction()

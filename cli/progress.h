@@ -1,0 +1,44 @@
+// The progress bar: percent, pictures per second and the time left, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fbs {
+
+/// One line of standard error, redrawn in place at most ten times a second. Draws nothing when standard error
+/// is not a terminal or `quiet` is set; the line is wiped by finish() or the destructor.
+class Progress {
+ public:
+  /// @param label   what is being done, such as "encoding"
+  /// @param total   pictures expected; without it the bar shows counts and speed only
+  Progress(std::string label, std::optional<std::int64_t> total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// @param done  pictures finished so far; may exceed the total, which is only an estimate
+  void update(std::int64_t done);
+
+  /// Wipes the line. Calling it again does nothing.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string label_;
+  std::optional<std::int64_t> total_;
+  bool visible_;
+  bool drawn_ = false;
+  Clock::time_point begun_;
+  Clock::time_point last_drawn_;
+};
+
+/// The text of the bar, without control characters: "encoding  42 %  123/300  51.2 pictures/s  3 s left".
+/// @param columns  width of the terminal; the text is cut to fit
+std::string progress_text(const std::string& label, std::int64_t done, std::optional<std::int64_t> total,
+                          double seconds, int columns);
+
+}  // namespace fbs

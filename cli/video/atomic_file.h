@@ -1,0 +1,60 @@
+// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/result.h"
+
+namespace fbs {
+
+/// Writes `NAME.part` beside the final name and renames it in commit(); without commit() the destructor
+/// removes it. A symbolic link keeps pointing where it did: its target is replaced. Pipes and devices
+/// (`/dev/null`) are written directly. All errors are ErrorCode::kIo, "cannot write NAME: " and the system's
+/// reason.
+class AtomicFile {
+ public:
+  static Result<AtomicFile> create(const std::string& name);
+
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&& other) noexcept;
+  ~AtomicFile();
+
+  /// Appends at the cursor. Bytes may wait in a buffer of 256 KiB.
+  Result<void> write(std::span<const std::uint8_t> bytes);
+
+  /// Moves the cursor, for containers that fill in sizes late.
+  /// @param offset  bytes from the start of the file
+  Result<void> seek(std::uint64_t offset);
+
+  /// False for pipes and terminals, where seek fails.
+  [[nodiscard]] bool seekable() const { return !direct_; }
+
+  /// Writes out the buffer and closes the file, still under its `.part` name: for sets of files that must
+  /// appear together.
+  Result<void> close();
+
+  /// Closes if need be, and renames. Once.
+  Result<void> commit();
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  AtomicFile() = default;
+
+  Result<void> flush();
+  Result<void> write_through(std::span<const std::uint8_t> bytes);
+  [[nodiscard]] tl::unexpected<Error> system_error(int code) const;
+  void discard() noexcept;
+
+  std::string name_;     ///< as the user gave it
+  std::string target_;   ///< the same with links followed
+  std::string partial_;  ///< what is being written; empty when there is nothing to remove
+  int descriptor_ = -1;
+  bool direct_ = false;               ///< a pipe or device: no renaming
+  std::vector<std::uint8_t> buffer_;  ///< bytes for the place of the cursor, not yet written
+};
+
+}  // namespace fbs

@@ -1,0 +1,16 @@
+// Video files through libav. Part of the module fbs_av.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/video/video_source.h"
+
+namespace fbs {
+
+/// Opens the main video stream of a file or address and decodes its first picture.
+/// Timestamps are those of the container counted from its start. Containers that round them (Matroska to 1
+/// ms) get the exact time back when the rounded one lies within one of their units of the regular grid.
+Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, const SourceOptions& options);
+
+}  // namespace fbs

@@ -1,0 +1,26 @@
+// What the program and its video modules agree on: the names of the modules and of the functions in them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/video/video_sink.h"
+#include "cli/video/video_source.h"
+
+namespace fbs {
+
+inline constexpr const char* kAvModule = "fbs_av";          ///< libav: files, H.264 output
+inline constexpr const char* kImageModule = "fbs_image";    ///< OpenImageIO: image sequences
+inline constexpr const char* kCameraModule = "fbs_camera";  ///< OpenCV: cameras
+
+inline constexpr const char* kOpenSourceSymbol = "fbs_open_source";
+inline constexpr const char* kOpenSinkSymbol = "fbs_open_sink";
+
+/// `source` is set, whatever it held. A C function cannot return it.
+using OpenSourceFunction = void(const std::string& input, const SourceOptions& options,
+                                Result<std::unique_ptr<VideoSource>>& source);
+
+using OpenSinkFunction = void(const std::string& output, const VideoFormat& format,
+                              const SinkOptions& options, Result<std::unique_ptr<VideoSink>>& sink);
+
+}  // namespace fbs

@@ -1,0 +1,45 @@
+// Where pictures go: files, image sequences, pipes and nowhere behind one interface.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/picture.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// Takes pictures in order of showing. Nothing stands under the final name before finish() has succeeded:
+/// files grow as `NAME.part`, and the destructor removes what was not finished. Errors name the output.
+class VideoSink {
+ public:
+  virtual ~VideoSink() = default;
+
+  /// @param picture  of the format's size
+  /// @param pts      1/90000 s, above the one before; Y4M and image sequences keep the order only
+  /// @return ErrorCode::kIo with the system's reason (no space left on device, ...);
+  ///         after an error the sink must not be used further
+  virtual Result<void> write(const Picture& picture, std::int64_t pts) = 0;
+
+  /// Completes the output and gives it its final name. To be called once, last.
+  virtual Result<void> finish() = 0;
+};
+
+struct SinkOptions {
+  std::string sound_source;  ///< .mp4 and .mkv: file whose sound goes beside the pictures; none when empty
+};
+
+/// Opens `output`:
+///   `null:`             throws the pictures away
+///   `-`, `name.y4m`     Y4M, on standard output or in a file
+///   `name.mp4`, `.mkv`  H.264 (x264, CRF 12), made for looking at: pictures are no longer exact.
+///                       4:2:0, or 4:4:4 when a side is odd, since H.264 cannot crop half a chroma sample
+///   `frame_%05d.png`    image sequence numbered from 1 through OpenImageIO, or another suffix that it writes
+///
+/// @return ErrorCode::kIo when it cannot be created (the text says why), kUnsupported for other names,
+///         and for sound with an output that has none
+Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
+                                                   const SinkOptions& options = {});
+
+}  // namespace fbs

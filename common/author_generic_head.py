@@ -1,0 +1,574 @@
+#!/usr/bin/env python3
+"""Authors generic_head.gltf: the 105 vertices of the generic head, its triangles, features and spread weights.
+
+Run by hand; the output is committed. Needs nothing but Python; --preview OUT.png also needs numpy and OpenCV.
+
+    common/author_generic_head.py                        writes common/generic_head.gltf
+    common/author_generic_head.py --preview head.png     and draws it: neutral, lids closed, mouth open
+
+The shape is drawn by us after adult anthropometric proportions, with the roles CANDIDE gives its vertices and the
+68 landmarks of iBUG. glTF frame: x to the right of the picture (the subject's left), y up, z toward the viewer,
+1 unit = the distance between the eye centres, origin midway between the eyes in x and y and in mid-head in z.
+Only the subject's left half is written down; the right half is its mirror image, exactly.
+"""
+
+import argparse
+import base64
+import heapq
+import json
+import math
+import pathlib
+import struct
+
+UNIT = 4096  # units per eye distance, and the weight of one
+SMALLEST_WEIGHT = 16
+
+# name, iBUG-68 landmark or None, y, z
+MIDLINE = [
+    ("chin", 8, -1.87, 1.03),
+    ("nasion", 27, 0.04, 1.185),
+    ("nose_bridge_upper", 28, -0.16, 1.265),
+    ("nose_bridge_lower", 29, -0.35, 1.375),
+    ("nose_tip", 30, -0.53, 1.48),
+    ("subnasale", 33, -0.72, 1.29),
+    ("upper_lip_mid", 51, -0.995, 1.325),
+    ("lower_lip_mid", 57, -1.29, 1.265),
+    ("inner_upper_lip_mid", 62, -1.107, 1.29),
+    ("inner_lower_lip_mid", 66, -1.135, 1.275),
+    ("hairline_mid", None, 1.20, 1.03),
+    ("forehead_upper", None, 0.93, 1.16),
+    ("forehead_mid", None, 0.65, 1.225),
+    ("glabella", None, 0.32, 1.26),
+    ("philtrum", None, -0.86, 1.275),
+    ("labiomental_crease", None, -1.43, 1.175),
+    ("chin_boss", None, -1.65, 1.205),
+]
+
+# name, landmark on the subject's right or None, |x|, y, z
+SIDE = [
+    ("jaw_{}_0", 0, 1.10, -0.05, -0.08),
+    ("jaw_{}_1", 1, 1.085, -0.32, -0.04),
+    ("jaw_{}_2", 2, 1.05, -0.59, 0.02),
+    ("jaw_{}_3", 3, 0.985, -0.86, 0.10),
+    ("jaw_{}_4", 4, 0.885, -1.12, 0.21),
+    ("jaw_{}_5", 5, 0.735, -1.37, 0.38),
+    ("jaw_{}_6", 6, 0.535, -1.59, 0.61),
+    ("jaw_{}_7", 7, 0.285, -1.77, 0.86),
+    ("brow_{}_outer", 17, 0.90, 0.24, 0.80),
+    ("brow_{}_outer_mid", 18, 0.77, 0.355, 0.985),
+    ("brow_{}_mid", 19, 0.60, 0.405, 1.11),
+    ("brow_{}_inner_mid", 20, 0.41, 0.385, 1.195),
+    ("brow_{}_inner", 21, 0.215, 0.335, 1.24),
+    ("nostril_{}_outer", 31, 0.205, -0.665, 1.17),
+    ("nostril_{}_inner", 32, 0.105, -0.715, 1.25),
+    ("eye_{}_outer", 36, 0.73, -0.047, 0.86),
+    ("upper_lid_{}_outer", 37, 0.594, 0.100, 1.0),
+    ("upper_lid_{}_inner", 38, 0.414, 0.110, 1.03),
+    ("eye_{}_inner", 39, 0.268, -0.047, 0.965),
+    ("lower_lid_{}_inner", 40, 0.412, -0.058, 1.0),
+    ("lower_lid_{}_outer", 41, 0.582, -0.058, 0.97),
+    ("mouth_corner_{}", 48, 0.40, -1.12, 1.10),
+    ("upper_lip_{}_outer", 49, 0.245, -1.035, 1.235),
+    ("upper_lip_{}_inner", 50, 0.095, -0.985, 1.325),
+    ("lower_lip_{}_inner", 58, 0.14, -1.275, 1.245),
+    ("lower_lip_{}_outer", 59, 0.275, -1.215, 1.18),
+    ("inner_mouth_corner_{}", 60, 0.335, -1.12, 1.13),
+    ("inner_upper_lip_{}", 61, 0.165, -1.105, 1.25),
+    ("inner_lower_lip_{}", 67, 0.165, -1.131, 1.235),
+    ("pupil_{}", None, 0.50, 0.015, 1.03),
+    ("upper_lid_crease_{}", None, 0.51, 0.235, 1.085),
+    ("orbit_{}_outer", None, 0.89, 0.03, 0.76),
+    ("infraorbital_{}", None, 0.52, -0.26, 1.0),
+    ("nasojugal_{}", None, 0.25, -0.235, 1.075),
+    ("nose_wing_{}", None, 0.285, -0.575, 1.15),
+    ("nasolabial_{}", None, 0.42, -0.81, 1.085),
+    ("mouth_side_{}", None, 0.57, -1.15, 0.975),
+    ("mentolabial_{}", None, 0.30, -1.46, 1.09),
+    ("cheekbone_{}", None, 0.79, -0.38, 0.82),
+    ("cheek_{}", None, 0.74, -0.85, 0.79),
+    ("temple_{}", None, 1.06, 0.42, 0.28),
+    ("forehead_{}", None, 0.50, 0.72, 1.115),
+    ("hairline_{}_outer", None, 0.92, 0.78, 0.50),
+    ("hairline_{}_inner", None, 0.52, 1.08, 0.88),
+]
+
+# The subject's left half, counter-clockwise seen from the front.
+TRIANGLES = """
+hairline_mid forehead_upper hairline_{}_inner
+forehead_upper forehead_{} hairline_{}_inner
+forehead_upper forehead_mid forehead_{}
+forehead_{} hairline_{}_outer hairline_{}_inner
+forehead_mid glabella brow_{}_inner
+forehead_mid brow_{}_inner brow_{}_inner_mid
+forehead_mid brow_{}_inner_mid forehead_{}
+brow_{}_mid forehead_{} brow_{}_inner_mid
+brow_{}_mid hairline_{}_outer forehead_{}
+brow_{}_outer_mid hairline_{}_outer brow_{}_mid
+brow_{}_outer_mid temple_{} hairline_{}_outer
+brow_{}_outer temple_{} brow_{}_outer_mid
+jaw_{}_0 temple_{} brow_{}_outer
+jaw_{}_0 brow_{}_outer orbit_{}_outer
+nasion brow_{}_inner glabella
+nasion eye_{}_inner brow_{}_inner
+brow_{}_inner eye_{}_inner upper_lid_{}_inner
+brow_{}_inner_mid brow_{}_inner upper_lid_{}_inner
+brow_{}_inner_mid upper_lid_{}_inner upper_lid_crease_{}
+brow_{}_mid brow_{}_inner_mid upper_lid_crease_{}
+brow_{}_outer_mid brow_{}_mid upper_lid_crease_{}
+brow_{}_outer_mid upper_lid_crease_{} upper_lid_{}_outer
+upper_lid_{}_outer upper_lid_crease_{} upper_lid_{}_inner
+brow_{}_outer brow_{}_outer_mid upper_lid_{}_outer
+brow_{}_outer upper_lid_{}_outer orbit_{}_outer
+eye_{}_outer orbit_{}_outer upper_lid_{}_outer
+eye_{}_outer upper_lid_{}_outer pupil_{}
+upper_lid_{}_outer upper_lid_{}_inner pupil_{}
+upper_lid_{}_inner eye_{}_inner pupil_{}
+eye_{}_inner lower_lid_{}_inner pupil_{}
+lower_lid_{}_inner lower_lid_{}_outer pupil_{}
+lower_lid_{}_outer eye_{}_outer pupil_{}
+eye_{}_outer cheekbone_{} orbit_{}_outer
+eye_{}_outer infraorbital_{} cheekbone_{}
+eye_{}_outer lower_lid_{}_outer infraorbital_{}
+lower_lid_{}_inner infraorbital_{} lower_lid_{}_outer
+lower_lid_{}_inner nasojugal_{} infraorbital_{}
+eye_{}_inner nasojugal_{} lower_lid_{}_inner
+jaw_{}_0 orbit_{}_outer jaw_{}_1
+jaw_{}_1 orbit_{}_outer cheekbone_{}
+jaw_{}_1 cheekbone_{} jaw_{}_2
+jaw_{}_2 cheekbone_{} cheek_{}
+jaw_{}_2 cheek_{} jaw_{}_3
+jaw_{}_3 cheek_{} jaw_{}_4
+jaw_{}_4 cheek_{} mouth_side_{}
+jaw_{}_4 mouth_side_{} jaw_{}_5
+jaw_{}_5 mouth_side_{} jaw_{}_6
+jaw_{}_6 mouth_side_{} mentolabial_{}
+jaw_{}_6 mentolabial_{} jaw_{}_7
+chin_boss jaw_{}_7 mentolabial_{}
+chin jaw_{}_7 chin_boss
+nasion nose_bridge_upper eye_{}_inner
+nose_bridge_upper nasojugal_{} eye_{}_inner
+nose_bridge_upper nose_bridge_lower nasojugal_{}
+nose_bridge_lower nose_wing_{} nasojugal_{}
+nose_bridge_lower nose_tip nose_wing_{}
+nose_tip nostril_{}_outer nose_wing_{}
+nose_tip nostril_{}_inner nostril_{}_outer
+nose_tip subnasale nostril_{}_inner
+infraorbital_{} nasojugal_{} nose_wing_{}
+infraorbital_{} nose_wing_{} cheekbone_{}
+nose_wing_{} nasolabial_{} cheekbone_{}
+nasolabial_{} cheek_{} cheekbone_{}
+nasolabial_{} mouth_side_{} cheek_{}
+nostril_{}_outer nasolabial_{} nose_wing_{}
+nostril_{}_outer upper_lip_{}_outer nasolabial_{}
+nostril_{}_outer nostril_{}_inner upper_lip_{}_outer
+nostril_{}_inner upper_lip_{}_inner upper_lip_{}_outer
+philtrum upper_lip_{}_inner nostril_{}_inner
+subnasale philtrum nostril_{}_inner
+upper_lip_mid upper_lip_{}_inner philtrum
+mouth_corner_{} nasolabial_{} upper_lip_{}_outer
+mouth_corner_{} mouth_side_{} nasolabial_{}
+mouth_corner_{} lower_lip_{}_outer mouth_side_{}
+lower_lip_{}_outer mentolabial_{} mouth_side_{}
+lower_lip_{}_inner mentolabial_{} lower_lip_{}_outer
+labiomental_crease mentolabial_{} lower_lip_{}_inner
+lower_lip_mid labiomental_crease lower_lip_{}_inner
+labiomental_crease chin_boss mentolabial_{}
+upper_lip_mid inner_upper_lip_mid upper_lip_{}_inner
+inner_upper_lip_mid inner_upper_lip_{} upper_lip_{}_inner
+upper_lip_{}_outer upper_lip_{}_inner inner_upper_lip_{}
+upper_lip_{}_outer inner_upper_lip_{} inner_mouth_corner_{}
+mouth_corner_{} upper_lip_{}_outer inner_mouth_corner_{}
+mouth_corner_{} inner_mouth_corner_{} lower_lip_{}_outer
+lower_lip_{}_outer inner_mouth_corner_{} inner_lower_lip_{}
+lower_lip_{}_inner lower_lip_{}_outer inner_lower_lip_{}
+inner_lower_lip_mid lower_lip_{}_inner inner_lower_lip_{}
+lower_lip_mid lower_lip_{}_inner inner_lower_lip_mid
+inner_mouth_corner_{} inner_upper_lip_{} inner_lower_lip_{}
+inner_upper_lip_mid inner_lower_lip_{} inner_upper_lip_{}
+inner_upper_lip_mid inner_lower_lip_mid inner_lower_lip_{}
+"""
+
+# The border from the subject's right ear over the hairline to the left ear; the jaw closes it.
+HAIRLINE = ["temple_right", "hairline_right_outer", "hairline_right_inner", "hairline_mid",
+            "hairline_left_inner", "hairline_left_outer", "temple_left"]
+
+# name, closed, controls, [(landmark, 12 s)]
+FEATURES = [
+    ("mouth_outer", True, 10, [(48 + k, 10 * k) for k in range(12)]),
+    ("mouth_inner", True, 8, [(60 + k, 12 * k) for k in range(8)]),
+    ("brow_right", False, 4, [(17 + k, 3 * k) for k in range(5)]),
+    ("brow_left", False, 4, [(22 + k, 3 * k) for k in range(5)]),
+    ("upper_lid_right", False, 2, [(37, 4), (38, 8)]),
+    ("upper_lid_left", False, 2, [(43, 4), (44, 8)]),
+    ("lower_lid_right", False, 2, [(40, 4), (41, 8)]),
+    ("lower_lid_left", False, 2, [(46, 4), (47, 8)]),
+    ("pupil_right", False, 1, [("pupil_right", 0)]),
+    ("pupil_left", False, 1, [("pupil_left", 0)]),
+]
+CONTROL_MIRROR = ([(5 - i) % 10 for i in range(10)] + [10 + (4 - i) % 8 for i in range(8)] +
+                  [25, 24, 23, 22, 21, 20, 19, 18] + [29, 28, 27, 26] + [33, 32, 31, 30] + [35, 34])
+UPPER_CONTROLS = {1, 2, 3, 4, 11, 12, 13}  # strictly of the upper lip; 0, 5, 10, 14 are the corners
+LOWER_CONTROLS = {6, 7, 8, 9, 15, 16, 17}
+
+UPPER_LIP = [48, 49, 50, 51, 52, 53, 54]
+LOWER_LIP = [54, 55, 56, 57, 58, 59, 48]
+LOWER_LIP_INSIDE = [55, 56, 57, 58, 59]
+BROWS = [17, 18, 19, 20, 21, 22, 23, 24, 25, 26]
+UPPER_LIDS = {"left": [43, 44], "right": [37, 38]}
+LOWER_LIDS = {"left": [46, 47], "right": [40, 41]}
+
+# How vertices on no feature follow: name -> [(sources, sigma of the mean, sigma of the falloff, factor)].
+# Sources of both sides stand for one feature here, so that two raised brows lift the glabella once, not twice.
+FOLLOW = {
+    "philtrum": [(UPPER_LIP, 0.20, 0.22, 1.0)],
+    "subnasale": [(UPPER_LIP, 0.20, 0.22, 0.5)],
+    "nostril_{}_inner": [(UPPER_LIP, 0.20, 0.22, 0.5)],
+    "nostril_{}_outer": [(UPPER_LIP, 0.20, 0.25, 0.6)],
+    "nose_wing_{}": [(UPPER_LIP, 0.25, 0.30, 0.5)],
+    "nasolabial_{}": [(UPPER_LIP, 0.25, 0.40, 0.9)],
+    "infraorbital_{}": [(UPPER_LIP, 0.35, 0.45, 0.5), ("lower_lid", 0.12, 0.15, 1.0)],
+    "cheekbone_{}": [(UPPER_LIP, 0.35, 0.45, 0.7)],
+    "mouth_side_{}": [(UPPER_LIP + LOWER_LIP_INSIDE, 0.16, 0.36, 1.0)],
+    "cheek_{}": [(UPPER_LIP + LOWER_LIP_INSIDE, 0.25, 0.42, 1.0)],
+    "labiomental_crease": [(LOWER_LIP, 0.25, 0.65, 1.0)],
+    "mentolabial_{}": [(LOWER_LIP, 0.25, 0.65, 1.0)],
+    "chin_boss": [(LOWER_LIP_INSIDE, 0.35, 0.65, 1.0)],
+    "chin": [(LOWER_LIP_INSIDE, 0.40, 0.75, 1.0)],
+    "jaw_{}_7": [(LOWER_LIP_INSIDE, 0.40, 0.75, 1.0)],
+    "jaw_{}_6": [(LOWER_LIP_INSIDE, 0.40, 0.75, 0.95)],
+    "jaw_{}_5": [(LOWER_LIP_INSIDE, 0.40, 0.75, 0.8)],
+    "jaw_{}_4": [(LOWER_LIP_INSIDE, 0.40, 0.75, 0.45)],
+    "glabella": [(BROWS, 0.25, 0.27, 1.0)],
+    "nasion": [(BROWS, 0.25, 0.27, 0.4)],
+    "forehead_mid": [(BROWS, 0.25, 0.30, 1.0)],
+    "forehead_upper": [(BROWS, 0.25, 0.30, 1.0)],
+    "forehead_{}": [(BROWS, 0.20, 0.30, 1.0)],
+    "orbit_{}_outer": [(BROWS, 0.20, 0.25, 0.6)],
+    "upper_lid_crease_{}": [(BROWS, 0.20, 0.25, 0.6), ("upper_lid", 0.12, 0.12, 1.0)],
+}
+
+
+def to_units(x):
+    return math.floor(x * UNIT + 0.5)
+
+
+class Head:
+    """The whole head in integers: both sides, vertices 0..67 in the order of the landmarks."""
+
+    def __init__(self):
+        self.build_vertices()
+        self.build_triangles()
+        self.build_features()
+        self.build_spread()
+
+    def build_vertices(self):
+        rows = {}  # name -> (landmark, mirror name, position)
+        for name, landmark, y, z in MIDLINE:
+            rows[name] = (landmark, name, (0, to_units(y), to_units(z)))
+        for name, landmark, x, y, z in SIDE:
+            x, y, z = to_units(x), to_units(y), to_units(z)
+            right, left = name.format("right"), name.format("left")
+            other = None if landmark is None else mirror_landmark(landmark)
+            rows[right] = (landmark, left, (-x, y, z))
+            rows[left] = (other, right, (x, y, z))
+        marked = sorted((row[0], name) for name, row in rows.items() if row[0] is not None)
+        assert [landmark for landmark, _ in marked] == list(range(68))
+        self.names = [name for _, name in marked] + [name for name, row in rows.items() if row[0] is None]
+        self.index = {name: i for i, name in enumerate(self.names)}
+        self.mirror = [self.index[rows[name][1]] for name in self.names]
+        self.position = [list(rows[name][2]) for name in self.names]
+        assert len(self.names) == 105
+        self.centre_eyes()
+
+    def centre_eyes(self):
+        """Takes up the rounding in one lid point, so that the eye centres are exactly one unit apart at y = 0."""
+        lid = 47
+        for axis, target in ((0, 6 * UNIT // 2), (1, 0)):
+            self.position[lid][axis] += target - sum(self.position[v][axis] for v in range(42, 48))
+        x, y, z = self.position[lid]
+        self.position[self.mirror[lid]] = [-x, y, z]
+
+    def build_triangles(self):
+        self.triangles = []
+        for line in TRIANGLES.split("\n"):
+            if line:
+                a, b, c = (self.index[name.format("left")] for name in line.split())
+                self.triangles += [(a, b, c), (self.mirror[a], self.mirror[c], self.mirror[b])]
+        self.outline = [0] + [self.index[name] for name in HAIRLINE] + list(range(16, 0, -1))
+
+    def build_features(self):
+        self.features, self.feature_of, first = [], [-1] * 105, 0
+        for f, (name, closed, controls, points) in enumerate(FEATURES):
+            points = [(self.index.get(p, p), s12) for p, s12 in points]
+            self.features.append((name, closed, first, controls, points))
+            for v, _ in points:
+                self.feature_of[v] = f
+            first += controls
+        assert first == 36
+
+    def build_spread(self):
+        """Weights of each vertex as {control: integer}; the right half and the midline, then their mirror image."""
+        self.find_neighbours()
+        own = {v: row for feature in self.features for v, row in basis_rows(feature).items()}
+        self.spread = [None] * 105
+        for v in range(105):
+            if self.position[v][0] > 0:
+                continue
+            row = own.get(v, {})
+            wholes = [set(row)] if self.feature_of[v] in (0, 1, 2, 3) else []
+            extra = self.follow_inner_lip(v, own) if self.feature_of[v] == 1 else {}
+            if extra:
+                wholes.append(set(extra))
+            if self.names[v].startswith("pupil"):
+                extra = self.follow_lids(v, own)
+            if v not in own:
+                extra = self.follow_features(v, own)
+            row = {**row, **extra}
+            if self.mirror[v] == v:
+                row = {c: (row.get(c, 0) + row.get(CONTROL_MIRROR[c], 0)) / 2 for c in
+                       set(row) | {CONTROL_MIRROR[c] for c in row}}
+            self.spread[v] = to_weights(row, wholes)
+        for v in range(105):
+            if self.spread[v] is None:
+                row = self.spread[self.mirror[v]]
+                self.spread[v] = dict(sorted((CONTROL_MIRROR[c], w) for c, w in row.items()))
+
+    def find_neighbours(self):
+        """Edges for distances: all but those across the mouth's opening."""
+        upper, lower = {61, 62, 63}, {65, 66, 67}
+        self.neighbours = [{} for _ in range(105)]
+        for triangle in self.triangles:
+            for a, b in zip(triangle, triangle[1:] + triangle[:1]):
+                if not ({a, b} & upper and {a, b} & lower):
+                    length = math.dist(self.position[a], self.position[b]) / UNIT
+                    self.neighbours[a][b] = self.neighbours[b][a] = length
+
+    def distances(self, start):
+        """Shortest paths along edges (Dijkstra), in eye distances."""
+        done, queue = {}, [(0.0, start)]
+        while queue:
+            d, v = heapq.heappop(queue)
+            if v not in done:
+                done[v] = d
+                for to, length in self.neighbours[v].items():
+                    heapq.heappush(queue, (d + length, to))
+        return done
+
+    def mean_row(self, v, sources, own, sigma):
+        """The sources' rows, averaged with Gaussian weights of distance."""
+        d = self.distances(v)
+        g = {f: gauss(d[f], sigma) for f in sources}
+        return combine((g[f] / sum(g.values()), own[f]) for f in sources)
+
+    def follow_inner_lip(self, v, own):
+        """An inner lip vertex moves as the outer vertices of its own lip near it, so the lip keeps its thickness."""
+        if v in (60, 64):
+            return own[48 if v == 60 else 54]
+        upper = 60 < v < 64
+        row = self.mean_row(v, UPPER_LIP if upper else LOWER_LIP, own, 0.12)
+        row = {c: w for c, w in row.items() if c not in (LOWER_CONTROLS if upper else UPPER_CONTROLS)}
+        return {c: w / sum(row.values()) for c, w in row.items()}
+
+    def follow_lids(self, v, own):
+        """The pupil keeps its place between the lids, so that no triangle of the eye folds as they close."""
+        side = self.names[v].rsplit("_", 1)[1]
+        height = lambda lid: sum(self.position[u][1] for u in lid[side]) / 2
+        up = (self.position[v][1] - height(LOWER_LIDS)) / (height(UPPER_LIDS) - height(LOWER_LIDS))
+        return combine([(up / 2, own[u]) for u in UPPER_LIDS[side]] +
+                       [((1 - up) / 2, own[u]) for u in LOWER_LIDS[side]])
+
+    def follow_features(self, v, own):
+        name = self.names[v].replace("right", "{}").replace("left", "{}")
+        rows = []
+        for sources, mean_sigma, falloff_sigma, factor in FOLLOW.get(name, []):
+            if sources == "upper_lid":
+                sources = UPPER_LIDS[self.names[v].rsplit("_", 1)[1]]
+            elif sources == "lower_lid":
+                sources = LOWER_LIDS[self.names[v].rsplit("_", 1)[1]]
+            d = self.distances(v)
+            falloff = factor * gauss(min(d[f] for f in sources), falloff_sigma)
+            row = self.mean_row(v, sources, own, mean_sigma)
+            lips = set(sources) & (set(UPPER_LIP) | set(LOWER_LIP))
+            foreign = set()
+            if lips and not lips & {49, 50, 51, 52, 53}:
+                foreign = UPPER_CONTROLS
+            if lips and not lips & set(LOWER_LIP_INSIDE):
+                foreign = LOWER_CONTROLS
+            whole = sum(row.values())
+            row = {c: w for c, w in row.items() if c not in foreign}
+            rows.append((falloff * whole / sum(row.values()), row))
+        return combine(rows)
+
+
+def mirror_landmark(i):
+    for first, last, turn in ((0, 16, 16), (17, 26, 43), (31, 35, 66), (48, 54, 102), (55, 59, 114),
+                              (60, 64, 124), (65, 67, 132)):
+        if first <= i <= last:
+            return turn - i
+    return {36: 45, 37: 44, 38: 43, 39: 42, 40: 47, 41: 46}[i]
+
+
+def gauss(d, sigma):
+    return math.exp(-d * d / (2 * sigma * sigma))
+
+
+def combine(rows):
+    out = {}
+    for factor, row in rows:
+        for c, w in row.items():
+            out[c] = out.get(c, 0.0) + factor * w
+    return out
+
+
+def cubic(t):
+    """The cardinal cubic B-spline."""
+    t = abs(t)
+    return 2 / 3 - t * t + t ** 3 / 2 if t < 1 else (2 - t) ** 3 / 6 if t < 2 else 0.0
+
+
+def basis_rows(feature):
+    """{vertex: {control: weight}} of a feature's vertices under its own controls."""
+    _, closed, first, n, points = feature
+    rows = {}
+    for v, s12 in points:
+        s = s12 / 12
+        if closed:
+            weights = [cubic((s - i + n / 2) % n - n / 2) for i in range(n)]
+        elif n == 1:
+            weights = [1.0]
+        else:
+            weights = [math.comb(3, i) * s ** i * (1 - s) ** (3 - i) for i in range(4)]
+            weights = weights if n == 4 else weights[1:3]
+        rows[v] = {first + i: w for i, w in enumerate(weights) if w > 0}
+    return rows
+
+
+def to_weights(row, wholes):
+    """Rounds a row to integers; the controls of each set in `wholes` sum to exactly one."""
+    out = {c: to_units(w) for c, w in row.items()}
+    out = {c: w for c, w in out.items() if abs(w) >= SMALLEST_WEIGHT}
+    for whole in wholes:
+        ours = [c for c in sorted(out) if c in whole]
+        largest = [c for c in ours if out[c] == max(out[d] for d in ours)]
+        rest = UNIT - sum(out[c] for c in ours)
+        assert rest % len(largest) == 0 and abs(rest) < 2 * SMALLEST_WEIGHT, (row, out, rest)
+        for c in largest:
+            out[c] += rest // len(largest)
+    return dict(sorted(out.items()))
+
+
+def to_gltf(head):
+    positions = b"".join(struct.pack("<3f", *(c / UNIT for c in p)) for p in head.position)
+    indices = b"".join(struct.pack("<3H", *t) for t in head.triangles)
+    data = positions + indices
+    landmark = lambda v: v if v < 68 else -1
+    vertices = [{"name": head.names[v], "mirror": head.mirror[v], "landmark": landmark(v),
+                 "feature": head.feature_of[v], "spread": [[c, w] for c, w in head.spread[v].items()]}
+                for v in range(105)]
+    features = [{"name": name, "closed": closed, "first_control": first, "control_count": n,
+                 "vertices_s12": [list(p) for p in points]}
+                for name, closed, first, n, points in head.features]
+    low, high = ([f(p[k] for p in head.position) / UNIT for k in range(3)] for f in (min, max))
+    return {
+        "asset": {"version": "2.0", "generator": "fbs common/author_generic_head.py"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "generic_head", "mesh": 0}],
+        "meshes": [{
+            "name": "generic_head",
+            "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 4}],
+            "extras": {"units_per_eye_distance": UNIT, "spread_one": UNIT, "features": features,
+                       "outline": head.outline, "vertices": vertices},
+        }],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 105, "type": "VEC3", "min": low, "max": high},
+            {"bufferView": 1, "componentType": 5123, "count": 3 * len(head.triangles), "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": len(positions), "target": 34962},
+            {"buffer": 0, "byteOffset": len(positions), "byteLength": len(indices), "target": 34963},
+        ],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
+                     base64.b64encode(data).decode()}],
+    }
+
+
+def to_json(value, depth=0):
+    """JSON with a line per element of the outer levels, so that diffs can be read."""
+    flat = json.dumps(value)
+    if len(flat) < 100 or depth > 5 or not isinstance(value, (dict, list)):
+        return flat
+    pad, end = "\n" + " " * (depth + 1), "\n" + " " * depth
+    if isinstance(value, dict):
+        return "{" + pad + ("," + pad).join(f"{json.dumps(k)}: {to_json(v, depth + 1)}"
+                                            for k, v in value.items()) + end + "}"
+    return "[" + pad + ("," + pad).join(to_json(v, depth + 1) for v in value) + end + "]"
+
+
+def moved(head, offsets):
+    """Positions in eye distances after moving controls by {control: (dx, dy)}, y up."""
+    out = []
+    for p, row in zip(head.position, head.spread):
+        x, y, z = (c / UNIT for c in p)
+        for c, w in row.items():
+            dx, dy = offsets.get(c, (0, 0))
+            x, y = x + dx * w / UNIT, y + dy * w / UNIT
+        out.append((x, y, z))
+    return out
+
+
+def closed_lids(head, amount):
+    """Offsets of the upper lids that bring their vertices this share of the way to the lower ones."""
+    offsets = {}
+    for first, pairs in ((26, ((37, 41), (38, 40))), (28, ((43, 47), (44, 46)))):
+        a, b = (amount * (head.position[low][1] - head.position[up][1]) / UNIT for up, low in pairs)
+        offsets[first], offsets[first + 1] = (0, 3 * a - 1.5 * b), (0, 3 * b - 1.5 * a)
+    return offsets
+
+
+def preview(head, path):
+    import cv2
+    import numpy as np
+
+    def draw(points, yaw, shaded, size=560, scale=150):
+        image = np.full((size, 420, 3), 255, np.uint8)
+        c, s = math.cos(yaw), math.sin(yaw)
+        turned = np.array([(c * x + s * z, y, c * z - s * x) for x, y, z in points]) - (s * 0.6, -0.33, 0)
+        flat = np.stack([210 + scale * turned[:, 0], size / 2 - scale * turned[:, 1]], 1)
+        light = np.array([0.35, 0.45, 0.82])
+        for t in sorted(head.triangles, key=lambda t: sum(turned[v][2] for v in t)):
+            normal = np.cross(turned[t[1]] - turned[t[0]], turned[t[2]] - turned[t[0]])
+            normal /= np.linalg.norm(normal) + 1e-12
+            corners = np.round(flat[list(t)] * 16).astype(np.int32)
+            if shaded:
+                grey = 60 + 180 * max(0.0, float(normal @ light))
+                cv2.fillConvexPoly(image, corners, (grey, grey, grey), cv2.LINE_AA, 4)
+            colour = (40, 40, 220) if normal[2] < 0 else (150, 90, 20)
+            if not shaded:
+                cv2.polylines(image, [corners], True, colour, 1, cv2.LINE_AA, 4)
+        return image
+
+    neutral = moved(head, {})
+    shut = moved(head, closed_lids(head, 0.95))
+    opened = moved(head, {c: (0, -0.4) for c in (6, 7, 8, 9)})
+    raised = moved(head, {c: (0, 0.2) for c in range(18, 26)})
+    top = [draw(neutral, 0, False), draw(neutral, math.pi / 5, False), draw(neutral, math.pi / 2, False),
+           draw(shut, 0, False), draw(opened, 0, False)]
+    bottom = [draw(neutral, 0, True), draw(neutral, math.pi / 5, True), draw(neutral, math.pi / 2, True),
+              draw(raised, 0, False), draw(opened, math.pi / 5, True)]
+    cv2.imwrite(path, np.vstack([np.hstack(top), np.hstack(bottom)]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--output", default=pathlib.Path(__file__).with_name("generic_head.gltf"))
+    parser.add_argument("--preview", metavar="PNG", help="draw the head as well")
+    args = parser.parse_args()
+    head = Head()
+    pathlib.Path(args.output).write_text(to_json(to_gltf(head)) + "\n")
+    if args.preview:
+        preview(head, args.preview)
+
+
+if __name__ == "__main__":
+    main()

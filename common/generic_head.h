@@ -1,0 +1,103 @@
+// The generic head: 105 vertices, their triangles, and how control points move them. Paper section 2.1,
+// Fig. 2.
+//
+// It is authored in common/generic_head.gltf (made by common/author_generic_head.py, drawn by us after the
+// published roles of CANDIDE's vertices) and turned into tables at build time by common/head_table_tool.cpp.
+// The tables are integers and part of the format: SPEC.md gives their hash.
+//
+// Head frame: x to the right of the picture (the subject's left), y down, z away from the viewer;
+// right-handed. Origin: midway between the eye centres in x and y, in the middle of the head in z. Unit:
+// 1/4096 of the generic head's eye distance. "right" and "left" in names are the subject's own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+
+namespace fbs {
+
+inline constexpr int kVertexCount = 105;
+inline constexpr int kLandmarkCount = 68;  ///< iBUG-68
+inline constexpr int kUnitsPerEyeDistance = 4096;
+inline constexpr int kControlCount = 36;  ///< control points of all features together
+inline constexpr int kSpreadOne = 4096;   ///< a weight of one in the spread tables
+
+/// What a control point belongs to. Order is that of the stream (SPEC.md, "State").
+enum class FeatureId : std::uint8_t {
+  kMouthOuter,     ///< closed cubic B-spline, 10 control points
+  kMouthInner,     ///< closed cubic B-spline, 8 control points
+  kBrowRight,      ///< clamped cubic B-spline, 4 control points, outer end first (landmarks 17..21)
+  kBrowLeft,       ///< the same, inner end first (landmarks 22..26)
+  kUpperLidRight,  ///< clamped cubic with 4 control points, of which the inner 2 are free (36..39)
+  kUpperLidLeft,   ///< (42..45)
+  kLowerLidRight,  ///< (39, 40, 41, 36)
+  kLowerLidLeft,   ///< (45, 46, 47, 42)
+  kPupilRight,     ///< one control point
+  kPupilLeft,      ///< one control point
+};
+inline constexpr int kFeatureCount = 10;
+
+/// One vertex that lies on a feature's curve.
+struct FeatureVertex {
+  std::int16_t vertex;
+  float s;  ///< curve parameter; closed: 0 <= s < control_count; clamped: 0..1; only the encoder uses it
+};
+
+struct Feature {
+  std::string_view name;  ///< "mouth_outer", "brow_right", ...
+  bool closed;
+  std::int16_t first_control;  ///< index into the state's control points
+  std::int16_t control_count;
+  std::span<const FeatureVertex> vertices;  ///< in order of s; empty for none
+};
+
+struct HeadVertex {
+  std::string_view name;  ///< by anatomy: "nose_tip", "jaw_right_3"
+  glm::ivec3 position;    ///< head frame
+  std::int16_t mirror;    ///< index of the mirror partner; itself on the midline
+  std::int16_t landmark;  ///< 0..67, or -1
+  std::int16_t feature;   ///< index of the feature it lies on, or -1
+};
+
+/// Corner indices, clockwise in the picture when the head is seen from the front.
+using HeadTriangle = std::array<std::int16_t, 3>;
+
+/// One control point's share in one vertex: vertex displacement += control offset * weight / kSpreadOne.
+/// A Gaussian of edge distance on the generic mesh, fixed (paper section 2.1, design section 4).
+struct SpreadWeight {
+  std::int16_t control;
+  std::int16_t weight;
+};
+
+/// The tables; everything lives as long as the program. No allocation.
+struct GenericHead {
+  std::span<const HeadVertex, kVertexCount> vertices;
+  std::span<const HeadTriangle> triangles;
+  std::span<const std::int16_t>
+      outline;  ///< the mesh's border as a closed loop of vertices, clockwise in the picture
+  std::array<Feature, kFeatureCount> features;
+  std::span<const std::uint16_t, kVertexCount + 1>
+      spread_begin;  ///< weights of vertex v: [begin[v], begin[v+1])
+  std::span<const SpreadWeight> spread;
+  std::span<const std::int16_t, kLandmarkCount> landmark_vertex;  ///< vertex of each iBUG-68 point
+};
+
+[[nodiscard]] const GenericHead& generic_head();
+
+/// FNV-1a (64 bits: basis 0xCBF29CE484222325, prime 0x100000001B3) of the head's integers, each as 4 bytes,
+/// two's complement, little-endian, in this order; it equals the constant in SPEC.md.
+///   105; for each vertex: x, y, z, mirror, landmark, feature
+///   number of triangles; for each: three corners
+///   length of the outline; its vertices
+///   10; for each feature: closed (0 or 1), first control, number of controls, number of vertices, its
+///   vertices for each vertex: number of spread weights; for each: control, weight (controls ascend)
+[[nodiscard]] std::uint64_t generic_head_hash();
+
+[[nodiscard]] inline const Feature& feature(FeatureId id) {
+  return generic_head().features[static_cast<std::size_t>(id)];
+}
+
+}  // namespace fbs

@@ -1,0 +1,163 @@
+#include "decoder/projection.h"
+
+#include <algorithm>
+
+#include "decoder/fixed_math.h"
+
+namespace fbs {
+namespace {
+
+/// The ring lies this much farther from the head's axis than the outline, in 1/256.
+constexpr std::int32_t kRingGrowth = 36;
+
+/// Below this determinant (Q14) of the seen pose's upper-left 2 x 2 rotation the surround stays still: the head is
+/// seen from the side and its plane cannot be inverted.
+constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
+
+std::int32_t clamp_screen(std::int64_t v) {
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(v, -kMaxScreen, kMaxScreen));
+}
+
+HeadMesh make_head_mesh() {
+  const GenericHead& head = generic_head();
+  HeadMesh mesh;
+  mesh.triangles.assign(head.triangles.begin(), head.triangles.end());
+  const std::size_t n = head.outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const std::int16_t a = head.outline[i], b = head.outline[j];
+    const auto ring_a = static_cast<std::int16_t>(kVertexCount + i);
+    const auto ring_b = static_cast<std::int16_t>(kVertexCount + j);
+    mesh.triangles.push_back({a, ring_a, ring_b});
+    mesh.triangles.push_back({a, ring_b, b});
+  }
+  mesh.vertex_count = kVertexCount + static_cast<int>(n);
+  return mesh;
+}
+
+}  // namespace
+
+HeadPose dequantise_pose(const State& state, const QuantiserSteps& steps) {
+  return {state.pose[kPitch] * steps.rotation,      state.pose[kYaw] * steps.rotation,
+          state.pose[kRoll] * steps.rotation,       state.pose[kShiftX] * steps.translation,
+          state.pose[kShiftY] * steps.translation, state.pose[kLogScale] * steps.log_scale};
+}
+
+HeadProjection::HeadProjection(const HeadPose& pose)
+    : scale(exp2_q16(pose.log_scale)), shift(pose.shift_x, pose.shift_y) {
+  const std::int64_t sp = sine(pose.pitch), cp = cosine(pose.pitch);
+  const std::int64_t sy = sine(pose.yaw), cy = cosine(pose.yaw);
+  const std::int64_t sr = sine(pose.roll), cr = cosine(pose.roll);
+  const auto q = [](std::int64_t product) { return round_shift(product, kRotationOneLog2); };
+  const std::int64_t sysp = q(sy * sp), sycp = q(sy * cp);
+  const auto i = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+  rotation = {{{i(q(cr * cy)), i(q(cr * sysp - sr * cp)), i(q(cr * sycp + sr * sp))},
+               {i(q(sr * cy)), i(q(sr * sysp + cr * cp)), i(q(sr * sycp - cr * sp))},
+               {i(-sy), i(q(cy * sp)), i(q(cy * cp))}}};
+}
+
+glm::ivec3 HeadProjection::operator()(glm::ivec3 p) const {
+  const auto turned = [&](const std::array<std::int32_t, 3>& row) {
+    return round_shift(std::int64_t{row[0]} * p.x + std::int64_t{row[1]} * p.y + std::int64_t{row[2]} * p.z,
+                       kRotationOneLog2);
+  };
+  constexpr int kToScreen = kScaleOneLog2 + 12 - kScreenOneLog2;  // head units are 2^-12 eye distances
+  return {clamp_screen(shift.x + round_shift(scale * turned(rotation[0]), kToScreen)),
+          clamp_screen(shift.y + round_shift(scale * turned(rotation[1]), kToScreen)),
+          static_cast<std::int32_t>(turned(rotation[2]))};
+}
+
+std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral, const State& state,
+                                            const QuantiserSteps& steps) {
+  const GenericHead& head = generic_head();
+  std::array<glm::ivec3, kVertexCount> out = neutral;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    std::int64_t x = 0, y = 0;
+    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k) {
+      const glm::ivec2 c = state.control[static_cast<std::size_t>(head.spread[k].control)];
+      x += std::int64_t{head.spread[k].weight} * c.x;
+      y += std::int64_t{head.spread[k].weight} * c.y;
+    }
+    out[v].x += static_cast<std::int32_t>(round_shift(x * steps.control, 12));
+    out[v].y += static_cast<std::int32_t>(round_shift(y * steps.control, 12));
+  }
+  static_assert(kSpreadOne == 1 << 12);
+  return out;
+}
+
+const HeadMesh& head_mesh() {
+  static const HeadMesh mesh = make_head_mesh();
+  return mesh;
+}
+
+SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap surround, const State& seen)
+    : steps_(setup.steps),
+      width_(setup.format.width),
+      height_(setup.format.height),
+      geometry_(geometry),
+      surround_(std::move(surround)),
+      seen_(dequantise_pose(seen, setup.steps)) {}
+
+std::array<glm::ivec3, kVertexCount> SceneGeometry::project_vertices(const State& state) const {
+  const HeadProjection projection(dequantise_pose(state, steps_));
+  std::array<glm::ivec3, kVertexCount> points = deform(geometry_.positions, state, steps_);
+  for (glm::ivec3& p : points) p = projection(p);
+  return points;
+}
+
+ScreenMesh SceneGeometry::project(const State& state) const {
+  const HeadPose pose = dequantise_pose(state, steps_);
+  const HeadProjection projection(pose);
+  ScreenMesh mesh;
+  const auto vertices = project_vertices(state);
+  mesh.head.assign(vertices.begin(), vertices.end());
+  for (const std::int16_t v : generic_head().outline) {
+    // Ring vertices follow the head as a whole, never its expression.
+    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(v)];
+    mesh.head.push_back(projection({p.x + p.x * kRingGrowth / 256, p.y + p.y * kRingGrowth / 256, 0}));
+  }
+  project_surround(pose, mesh.surround);
+  return mesh;
+}
+
+void SceneGeometry::project_surround(const HeadPose& pose, std::vector<glm::ivec2>& out) const {
+  // A point of the surround lies in the head frame's plane z = 0. There the way from the seen pose to this one is
+  // affine: p -> m (p - seen.shift) + shift, with m = now * seen^-1, both scale * upper-left 2 x 2 of the rotation.
+  const HeadProjection seen(seen_), now(pose);
+  const auto& a = now.rotation;
+  const auto& b = seen.rotation;
+  const std::int64_t det = round_shift(std::int64_t{b[0][0]} * b[1][1] - std::int64_t{b[0][1]} * b[1][0], 14);
+  const bool moves = det >= kMinSeenDeterminant && !(pose == seen_);
+  std::int64_t m[2][2] = {{1 << 16, 0}, {0, 1 << 16}};  // Q16
+  if (moves) {
+    const std::int64_t ratio = (now.scale << 16) / seen.scale;  // Q16
+    const std::int64_t inverse[2][2] = {{b[1][1], -b[0][1]}, {-b[1][0], b[0][0]}};  // times 1 / det
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        const std::int64_t q14 = (a[i][0] * inverse[0][j] + a[i][1] * inverse[1][j]) / det;
+        m[i][j] = std::clamp<std::int64_t>(round_shift(q14 * ratio, 14), -(1 << 20), 1 << 20);
+      }
+  }
+  const int columns = surround_.columns, rows = surround_.rows;
+  out.resize(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1));
+  std::size_t k = 0;
+  for (int r = 0; r <= rows; ++r) {
+    const std::int32_t y = static_cast<std::int32_t>((std::int64_t{height_} << kScreenOneLog2) * r / rows);
+    for (int c = 0; c <= columns; ++c, ++k) {
+      const std::int32_t x = static_cast<std::int32_t>((std::int64_t{width_} << kScreenOneLog2) * c / columns);
+      glm::ivec2 p(x, y);
+      const int follow = surround_.follow[k];
+      const bool border = r == 0 || c == 0 || r == rows || c == columns;
+      if (moves && follow > 0 && !border) {
+        const std::int64_t dx = x - seen.shift.x, dy = y - seen.shift.y;
+        const std::int64_t px = now.shift.x + round_shift(m[0][0] * dx + m[0][1] * dy, 16);
+        const std::int64_t py = now.shift.y + round_shift(m[1][0] * dx + m[1][1] * dy, 16);
+        p.x = clamp_screen(x + (px - x) * follow / kFollowOne);
+        p.y = clamp_screen(y + (py - y) * follow / kFollowOne);
+      }
+      out[k] = p;
+    }
+  }
+}
+
+}  // namespace fbs

@@ -1,0 +1,183 @@
+#include "decoder/rasteriser.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fbs {
+namespace {
+
+using std::int32_t;
+using std::int64_t;
+
+/// Gradients per sample are clamped to this; only slivers reach it.
+constexpr int64_t kMaxGradient = int64_t{1} << 30;
+
+int64_t twice_area(const RasterTriangle& t) {
+  const int64_t ax = t[1].screen.x - t[0].screen.x, ay = t[1].screen.y - t[0].screen.y;
+  const int64_t bx = t[2].screen.x - t[0].screen.x, by = t[2].screen.y - t[0].screen.y;
+  return ax * by - ay * bx;
+}
+
+int64_t floor_div(int64_t a, int64_t b) {  // b > 0
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+/// A quantity that is linear over the triangle, Q16 per sample of the plane.
+struct Gradient {
+  int64_t origin;  ///< value at corner 0
+  int64_t dx, dy;  ///< per sample
+  bool exact = true;
+
+  /// @param value  at the corners, in units of which `1 << bits` make 1
+  Gradient(const RasterTriangle& t, const std::array<int64_t, 3>& value, int bits, int64_t area, int position_bits) {
+    const int64_t ax = t[1].screen.x - t[0].screen.x, ay = t[1].screen.y - t[0].screen.y;
+    const int64_t bx = t[2].screen.x - t[0].screen.x, by = t[2].screen.y - t[0].screen.y;
+    const int64_t va = value[1] - value[0], vb = value[2] - value[0];
+    // value / 2^bits per position, times 2^position_bits positions per sample, in Q16
+    const int shift = 16 - bits + position_bits;
+    dx = limited(((va * by - vb * ay) << shift) / area);
+    dy = limited(((vb * ax - va * bx) << shift) / area);
+    origin = value[0] << (16 - bits);
+  }
+
+  [[nodiscard]] int64_t at(int64_t position_dx, int64_t position_dy, int position_bits) const {
+    return origin + ((dx * position_dx + dy * position_dy) >> position_bits);
+  }
+
+ private:
+  int64_t limited(int64_t g) {
+    const int64_t c = std::clamp(g, -kMaxGradient, kMaxGradient);
+    exact = exact && c == g;
+    return c;
+  }
+};
+
+/// One edge as a half plane: inside where a x + b y + c > 0, or == 0 on a top or left edge.
+struct Edge {
+  int64_t a, b, c;
+
+  Edge(glm::ivec2 from, glm::ivec2 to) {
+    a = int64_t{from.y} - to.y;
+    b = int64_t{to.x} - from.x;
+    c = -(a * from.x + b * from.y);
+    const bool left = a > 0;              // the edge goes up: the inside is to its right
+    const bool top = a == 0 && b > 0;     // the edge goes right: the inside is below
+    if (!left && !top) c -= 1;
+  }
+
+  /// Narrows [first, last] to the samples of row position y that are inside.
+  void clip(int64_t y, int position_bits, int64_t& first, int64_t& last) const {
+    // sample x is at position (x << bits) + half; inside: a x' + d >= 0
+    const int64_t half = int64_t{1} << (position_bits - 1);
+    const int64_t d = b * y + c + a * half;
+    const int64_t step = a << position_bits;
+    if (step > 0) {
+      first = std::max(first, -floor_div(d, step));
+    } else if (step < 0) {
+      last = std::min(last, floor_div(d, -step));
+    } else if (d < 0) {
+      last = first - 1;
+    }
+  }
+};
+
+std::uint8_t blend(int32_t a, int32_t b, int32_t c, int32_t d, int32_t fx, int32_t fy) {
+  const int32_t top = a * (256 - fx) + b * fx;
+  const int32_t bottom = c * (256 - fx) + d * fx;
+  return static_cast<std::uint8_t>((top * (256 - fy) + bottom * fy + (1 << 15)) >> 16);
+}
+
+/// Bilinear; u and v in Q16 samples, already moved by half a sample. Positions outside repeat the border.
+std::uint8_t sample_clamped(const Plane& p, int64_t u, int64_t v) {
+  const int64_t max_u = int64_t{p.width - 1} << 16, max_v = int64_t{p.height - 1} << 16;
+  u = std::clamp<int64_t>(u, 0, max_u);
+  v = std::clamp<int64_t>(v, 0, max_v);
+  const int x0 = static_cast<int>(u >> 16), y0 = static_cast<int>(v >> 16);
+  const int x1 = std::min(x0 + 1, p.width - 1), y1 = std::min(y0 + 1, p.height - 1);
+  const std::uint8_t* top = p.row(y0);
+  const std::uint8_t* bottom = p.row(y1);
+  return blend(top[x0], top[x1], bottom[x0], bottom[x1], static_cast<int32_t>((u >> 8) & 255),
+               static_cast<int32_t>((v >> 8) & 255));
+}
+
+/// The same where all four neighbours are known to be inside.
+std::uint8_t sample_inside(const std::uint8_t* samples, int stride, int32_t u, int32_t v) {
+  const std::uint8_t* s = samples + static_cast<std::ptrdiff_t>(v >> 16) * stride + (u >> 16);
+  return blend(s[0], s[1], s[stride], s[stride + 1], (u >> 8) & 255, (v >> 8) & 255);
+}
+
+/// Whether every sample the triangle can ask for lies a whole sample inside the pattern.
+bool reads_inside(const RasterTriangle& t, const Plane& pattern, int position_bits) {
+  const int margin = 2 << position_bits;
+  const int max_x = (pattern.width << position_bits) - margin, max_y = (pattern.height << position_bits) - margin;
+  return std::all_of(t.begin(), t.end(), [&](const RasterVertex& v) {
+    return v.texture.x >= margin && v.texture.x <= max_x && v.texture.y >= margin && v.texture.y <= max_y;
+  });
+}
+
+struct Span {
+  int64_t first, last;
+  int64_t u, v, z;  ///< Q16 at the first sample; z without fraction bits beyond its own
+};
+
+}  // namespace
+
+void DepthPlane::reset(int w, int height) {
+  width = w;
+  depth.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(height),
+               std::numeric_limits<std::int32_t>::max());
+}
+
+bool faces_viewer(const RasterTriangle& triangle) { return twice_area(triangle) > 0; }
+
+void draw_triangle(const RasterTriangle& t, const Plane& pattern, PlaneScale scale, Plane& target,
+                   DepthPlane* depth) {
+  const int64_t area = twice_area(t);
+  if (area <= 0) return;
+  const int bits = static_cast<int>(scale);
+  const int64_t half = int64_t{1} << (bits - 1);
+
+  const Gradient u(t, {t[0].texture.x, t[1].texture.x, t[2].texture.x}, bits, area, bits);
+  const Gradient v(t, {t[0].texture.y, t[1].texture.y, t[2].texture.y}, bits, area, bits);
+  const Gradient z(t, {t[0].depth, t[1].depth, t[2].depth}, 16, area, bits);
+  const bool fast = u.exact && v.exact && reads_inside(t, pattern, bits);
+  const std::array<Edge, 3> edges = {Edge(t[0].screen, t[1].screen), Edge(t[1].screen, t[2].screen),
+                                     Edge(t[2].screen, t[0].screen)};
+
+  const auto [low, high] = std::minmax({t[0].screen.y, t[1].screen.y, t[2].screen.y});
+  const int first_row = static_cast<int>(std::max<int64_t>(0, (low - half) >> bits));
+  const int last_row = static_cast<int>(std::min<int64_t>(target.height - 1, (high - half) >> bits));
+  for (int row = first_row; row <= last_row; ++row) {
+    const int64_t y = (int64_t{row} << bits) + half;
+    int64_t first = 0, last = target.width - 1;
+    for (const Edge& e : edges) e.clip(y, bits, first, last);
+    if (first > last) continue;
+
+    const int64_t dx = (first << bits) + half - t[0].screen.x, dy = y - t[0].screen.y;
+    int64_t su = u.at(dx, dy, bits) - (1 << 15), sv = v.at(dx, dy, bits) - (1 << 15);
+    std::uint8_t* out = target.row(row);
+    if (depth == nullptr) {
+      if (fast) {
+        auto iu = static_cast<int32_t>(su), iv = static_cast<int32_t>(sv);
+        const auto du = static_cast<int32_t>(u.dx), dv = static_cast<int32_t>(v.dx);
+        for (int64_t x = first; x <= last; ++x, iu += du, iv += dv)
+          out[x] = sample_inside(pattern.samples.data(), pattern.width, iu, iv);
+      } else {
+        for (int64_t x = first; x <= last; ++x, su += u.dx, sv += v.dx) out[x] = sample_clamped(pattern, su, sv);
+      }
+      continue;
+    }
+    int64_t sz = z.at(dx, dy, bits);
+    int32_t* nearest = depth->depth.data() + static_cast<std::ptrdiff_t>(row) * depth->width;
+    for (int64_t x = first; x <= last; ++x, su += u.dx, sv += v.dx, sz += z.dx) {
+      const auto here = static_cast<int32_t>(std::clamp<int64_t>(sz, INT32_MIN, INT32_MAX - 1));
+      if (here >= nearest[x]) continue;
+      nearest[x] = here;
+      out[x] = fast ? sample_inside(pattern.samples.data(), pattern.width, static_cast<int32_t>(su),
+                                    static_cast<int32_t>(sv))
+                    : sample_clamped(pattern, su, sv);
+    }
+  }
+}
+
+}  // namespace fbs

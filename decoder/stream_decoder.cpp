@@ -1,0 +1,154 @@
+#include "decoder/stream_decoder.h"
+
+#include <utility>
+
+#include "bitstream/end_payload.h"
+#include "bitstream/geometry_payload.h"
+#include "bitstream/pattern_payload.h"
+#include "bitstream/setup.h"
+#include "bitstream/surround_payload.h"
+
+namespace fbs {
+namespace {
+
+/// Adds where in the stream the packet began.
+tl::unexpected<Error> at(const Packet& packet, Error error) {
+  error.byte_offset = packet.offset;
+  return tl::unexpected<Error>(std::move(error));
+}
+
+std::uint32_t nominal_duration(const VideoFormat& format) {
+  return static_cast<std::uint32_t>((std::uint64_t{90000} * format.frame_rate.den + format.frame_rate.num / 2) /
+                                    format.frame_rate.num);
+}
+
+}  // namespace
+
+StreamDecoder::StreamDecoder() { bytes_.other = bytes_.total = kSignature.size(); }
+
+void StreamDecoder::feed(std::span<const std::uint8_t> bytes) { reader_.feed(bytes); }
+
+void StreamDecoder::close() { reader_.close(); }
+
+Result<DecodeStatus> StreamDecoder::next() {
+  while (waiting_.empty()) {
+    auto read = damaged_ ? reader_.resync() : reader_.next();
+    if (!read) {
+      damaged_ = true;
+      if (motion_) motion_->lose();
+      return tl::unexpected<Error>(read.error());
+    }
+    if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
+    if (read->status == ReadStatus::kEnd) {
+      if (!has_setup_ && !damaged_) return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
+      return DecodeStatus::kEnd;
+    }
+    damaged_ = false;
+    count(read->packet);
+    if (auto taken = take(read->packet); !taken) return tl::unexpected<Error>(taken.error());
+  }
+  state_ = waiting_.front();
+  waiting_.pop_front();
+  duration_ = durations_.front();
+  durations_.pop_front();
+  ++pictures_;
+  return DecodeStatus::kPicture;
+}
+
+void StreamDecoder::render(Picture& out) { renderer_.render(scene_, state_, out); }
+
+void StreamDecoder::count(const Packet& packet) {
+  // Damage between the last packet and this one is nobody's.
+  bytes_.other += packet.offset - bytes_.total;
+  bytes_.total = packet.offset + packet.size;
+  switch (packet.type) {
+    case PacketType::kGeometry:
+    case PacketType::kSurround: bytes_.geometry += packet.size; break;
+    case PacketType::kPattern: bytes_.patterns += packet.size; break;
+    case PacketType::kMotion: bytes_.motion += packet.size; break;
+    default: bytes_.other += packet.size; break;
+  }
+  if (packet.type == PacketType::kMotion && bytes_.startup == 0) bytes_.startup = bytes_.total;
+}
+
+Result<void> StreamDecoder::take(const Packet& packet) {
+  if (packet.type == PacketType::kSetup) return take_setup(packet);
+  if (packet.type == PacketType::kEnd) {
+    auto end = decode_end(packet.payload);
+    if (!end) return at(packet, end.error());
+    announced_ = end->pictures;
+    return {};
+  }
+  const bool known = packet.type == PacketType::kGeometry || packet.type == PacketType::kSurround ||
+                     packet.type == PacketType::kPattern || packet.type == PacketType::kMotion;
+  if (!known) return {};  // SPEC 3: skipped
+  if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
+  switch (packet.type) {
+    case PacketType::kGeometry: {
+      auto geometry = decode_geometry(packet.payload);
+      if (!geometry) return at(packet, geometry.error());
+      geometry_ = *geometry;
+      return {};
+    }
+    case PacketType::kSurround: {
+      auto surround = decode_surround(packet.payload);
+      if (!surround) return at(packet, surround.error());
+      surround_ = std::move(*surround);
+      return {};
+    }
+    case PacketType::kPattern: return take_pattern(packet);
+    default: return take_motion(packet);
+  }
+}
+
+Result<void> StreamDecoder::take_setup(const Packet& packet) {
+  auto setup = decode_setup(packet.payload);
+  if (!setup) return at(packet, setup.error());
+  if (has_setup_ && (setup->format.width != format().width || setup->format.height != format().height))
+    return fail(ErrorCode::kUnsupported, "the picture size changes inside the stream", packet.offset);
+  auto patterns = PatternDecoder::create(setup->format.width, setup->format.height);
+  if (!patterns) return at(packet, patterns.error());
+  patterns_.emplace(std::move(*patterns));
+  scene_ = Scene{*setup, std::nullopt, {}};
+  motion_.emplace(*setup);
+  geometry_.reset();
+  surround_.reset();
+  has_setup_ = true;
+  return {};
+}
+
+Result<void> StreamDecoder::begin_geometry(const State& seen) {
+  if (!geometry_) return {};
+  // Without a map of its own the surround stays where it is.
+  SurroundMap still{1, 1, {0, 0, 0, 0}};
+  scene_.geometry.emplace(scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still), seen);
+  return {};
+}
+
+Result<void> StreamDecoder::take_pattern(const Packet& packet) {
+  auto pattern = decode_pattern(packet.payload, scene_.setup);
+  if (!pattern) return at(packet, pattern.error());
+  if (pattern->index != static_cast<int>(scene_.patterns.size()))
+    return fail(ErrorCode::kInvalidStream, "a pattern out of order", packet.offset);
+  auto picture = patterns_->decode(pattern->av1);
+  if (!picture) return at(packet, picture.error());
+  if (scene_.patterns.empty())
+    if (auto begun = begin_geometry(pattern->state); !begun) return begun;
+  scene_.patterns.push_back(
+      {std::move(*picture), scene_.geometry ? scene_.geometry->project(pattern->state) : ScreenMesh{}});
+  return {};
+}
+
+Result<void> StreamDecoder::take_motion(const Packet& packet) {
+  if (scene_.patterns.empty()) return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
+  auto group = motion_->decode(packet.payload);
+  if (!group) return at(packet, group.error());
+  waiting_.assign(group->states.begin(), group->states.end());
+  if (group->durations.empty())
+    durations_.assign(group->states.size(), nominal_duration(scene_.setup.format));
+  else
+    durations_.assign(group->durations.begin(), group->durations.end());
+  return {};
+}
+
+}  // namespace fbs

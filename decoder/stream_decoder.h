@@ -1,0 +1,98 @@
+// Stream to pictures: feed bytes, take pictures. Memory is bounded by the setup packet's picture size.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/motion_payload.h"
+#include "bitstream/packet.h"
+#include "common/result.h"
+#include "decoder/pattern_decoder.h"
+#include "decoder/renderer.h"
+
+namespace fbs {
+
+/// Bytes of a stream by what they are for; the parts sum to `total`.
+struct ByteCount {
+  std::uint64_t total = 0;
+  std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
+  std::uint64_t geometry = 0;  ///< geometry and surround packets
+  std::uint64_t patterns = 0;
+  std::uint64_t motion = 0;
+  std::uint64_t index = 0;
+  std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and damage
+};
+
+enum class DecodeStatus : std::uint8_t {
+  kPicture,   ///< the next picture's state is known: state(), and render() draws it
+  kNeedMore,  ///< feed more bytes, or close()
+  kEnd,       ///< the stream is complete
+};
+
+/// Decodes one stream.
+///
+///   StreamDecoder decoder;
+///   decoder.feed(bytes);  decoder.close();
+///   while (decoder.next() == DecodeStatus::kPicture) { decoder.render(picture); ... }
+///
+/// After an error next() goes on with the first packet behind the damage when it is called again, and returns
+/// kEnd when there is none; pictures that were lost are not replaced.
+class StreamDecoder {
+ public:
+  StreamDecoder();
+
+  /// Copies `bytes`.
+  void feed(std::span<const std::uint8_t> bytes);
+  /// No more bytes will come.
+  void close();
+
+  /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset of the
+  /// packet; kTruncated when the stream ends inside a packet or before its setup.
+  Result<DecodeStatus> next();
+
+  /// Draws the picture that next() announced; `out` takes the format's size.
+  void render(Picture& out);
+
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }          ///< valid from the first picture on
+  [[nodiscard]] const VideoFormat& format() const { return scene_.setup.format; }
+  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }   ///< announced so far
+  [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
+  /// Duration of the announced picture in 1/90000 s.
+  [[nodiscard]] std::uint32_t duration() const { return duration_; }
+  /// Number of pictures that the end packet announces, when it has been read.
+  [[nodiscard]] std::optional<std::uint64_t> announced_pictures() const { return announced_; }
+
+ private:
+  Result<void> take(const Packet& packet);
+  Result<void> take_setup(const Packet& packet);
+  Result<void> take_pattern(const Packet& packet);
+  Result<void> take_motion(const Packet& packet);
+  Result<void> begin_geometry(const State& seen);
+  void count(const Packet& packet);
+
+  PacketReader reader_;
+  bool damaged_ = false;
+
+  Scene scene_;
+  bool has_setup_ = false;
+  std::optional<Geometry> geometry_;
+  std::optional<SurroundMap> surround_;
+  std::optional<PatternDecoder> patterns_;
+  std::optional<MotionCoder> motion_;
+  Renderer renderer_;
+
+  std::deque<State> waiting_;
+  std::deque<std::uint32_t> durations_;
+  State state_;
+  std::uint32_t duration_ = 0;
+  std::uint64_t pictures_ = 0;
+  std::optional<std::uint64_t> announced_;
+  ByteCount bytes_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,142 @@
+#include "encoder/adapt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fbs {
+namespace {
+
+using Points = std::array<glm::dvec2, kVertexCount>;
+
+constexpr double kUnits = kUnitsPerEyeDistance;
+constexpr int kMaxIterations = 60;
+constexpr double kFirstSigma = 0.55, kLastSigma = 0.09;  // eye distances
+constexpr double kSigmaDecay = 0.93;
+constexpr double kAtRest = 1.0 / 512;  // largest force that counts as rest, eye distances
+constexpr double kLeastArea = 0.05;    // of a triangle's own area on the scaled head
+
+double area(const Points& p, const HeadTriangle& t) {
+  const auto at = [&](int i) { return p[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])]; };
+  const glm::dvec2 a = at(1) - at(0), b = at(2) - at(0);
+  return a.x * b.y - a.y * b.x;
+}
+
+bool folds(const Points& now, const Points& scaled) {
+  for (const HeadTriangle& t : generic_head().triangles)
+    if (area(now, t) < kLeastArea * area(scaled, t)) return true;
+  return false;
+}
+
+/// Scale of one axis that brings the generic positions nearest to the marked ones, within anatomical limits.
+double axis_scale(const Points& generic, const std::array<std::optional<glm::dvec2>, kVertexCount>& target, int axis) {
+  double num = 0, den = 0;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    if (!target[v]) continue;
+    num += (*target[v])[axis] * generic[v][axis];
+    den += generic[v][axis] * generic[v][axis];
+  }
+  return den > 0 ? std::clamp(num / den, 0.7, 1.4) : 1.0;
+}
+
+/// One elastic iteration: every vertex moves by the mean of the forces, each weighted with the Gaussian of its edge
+/// distance; far from all marks the motion fades out.
+Points pull(const Points& now, const std::array<std::optional<glm::dvec2>, kVertexCount>& target, double sigma) {
+  const std::vector<float>& distance = edge_distances();
+  Points moved = now;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    glm::dvec2 sum(0);
+    double weight = 0;
+    for (std::size_t m = 0; m < kVertexCount; ++m) {
+      if (!target[m]) continue;
+      const double d = distance[v * kVertexCount + m] / sigma;
+      const double g = std::exp(-0.5 * d * d);
+      sum += g * (*target[m] - now[m]);
+      weight += g;
+    }
+    moved[v] += sum / std::max(1.0, weight);
+  }
+  return moved;
+}
+
+double largest_force(const Points& now, const std::array<std::optional<glm::dvec2>, kVertexCount>& target) {
+  double largest = 0;
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    if (target[v]) largest = std::max(largest, std::hypot(target[v]->x - now[v].x, target[v]->y - now[v].y));
+  return largest;
+}
+
+}  // namespace
+
+const std::vector<float>& edge_distances() {
+  static const std::vector<float> table = [] {
+    constexpr std::size_t n = kVertexCount;
+    std::vector<float> d(n * n, std::numeric_limits<float>::infinity());
+    for (std::size_t v = 0; v < n; ++v) d[v * n + v] = 0;
+    const GenericHead& head = generic_head();
+    for (const HeadTriangle& t : head.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto a = static_cast<std::size_t>(t[i]), b = static_cast<std::size_t>(t[(i + 1) % 3]);
+        const glm::dvec3 e = glm::dvec3(head.vertices[a].position - head.vertices[b].position) / kUnits;
+        const auto length = static_cast<float>(std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z));
+        d[a * n + b] = d[b * n + a] = length;
+      }
+    }
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) d[i * n + j] = std::min(d[i * n + j], d[i * n + k] + d[k * n + j]);
+    return d;
+  }();
+  return table;
+}
+
+Result<AdaptedHead> adapt_head(const Marks& marks) {
+  const auto eyes = marks.eyes();
+  if (!eyes) return fail(ErrorCode::kDegenerateInput, "an eye has no mark");
+  const glm::dvec2 across = (*eyes)[1] - (*eyes)[0];
+  const double eye_distance = std::hypot(across.x, across.y);
+  if (eye_distance < 4) return fail(ErrorCode::kDegenerateInput, "the eyes are less than 4 pixels apart");
+
+  AdaptedHead out;
+  out.pose.roll = std::atan2(across.y, across.x);
+  out.pose.log2_scale = std::log2(eye_distance);
+  out.pose.shift = 0.5 * ((*eyes)[0] + (*eyes)[1]);
+
+  // Marks in the head frame, eye distances; the pose has neither pitch nor yaw, so a rotation by -roll undoes it.
+  const double c = std::cos(out.pose.roll) / eye_distance, s = std::sin(out.pose.roll) / eye_distance;
+  std::array<std::optional<glm::dvec2>, kVertexCount> target;
+  Points generic;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    const glm::ivec3 p = generic_head().vertices[v].position;
+    generic[v] = glm::dvec2(p.x, p.y) / kUnits;
+    if (!marks.vertex[v]) continue;
+    const glm::dvec2 d = *marks.vertex[v] - out.pose.shift;
+    target[v] = glm::dvec2(c * d.x + s * d.y, -s * d.x + c * d.y);
+  }
+  const double sx = axis_scale(generic, target, 0), sy = axis_scale(generic, target, 1);
+  Points now;
+  for (std::size_t v = 0; v < kVertexCount; ++v) now[v] = generic[v] * glm::dvec2(sx, sy);
+  const Points scaled = now;
+
+  double sigma = kFirstSigma;
+  for (; out.iterations < kMaxIterations && largest_force(now, target) > kAtRest; ++out.iterations) {
+    const Points moved = pull(now, target, sigma);
+    double reach = 1;
+    Points next = moved;
+    while (folds(next, scaled) && reach > 1.0 / 64) {
+      reach /= 2;
+      for (std::size_t v = 0; v < kVertexCount; ++v) next[v] = now[v] + reach * (moved[v] - now[v]);
+    }
+    if (folds(next, scaled)) break;  // marks that contradict the mesh: what was reached stays
+    now = next;
+    sigma = std::max(kLastSigma, sigma * kSigmaDecay);
+  }
+
+  const double sz = 0.5 * (sx + sy);
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    out.geometry.positions[v] = glm::ivec3(std::lround(now[v].x * kUnits), std::lround(now[v].y * kUnits),
+                                           std::lround(generic_head().vertices[v].position.z * sz));
+  return out;
+}
+
+}  // namespace fbs

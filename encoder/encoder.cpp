@@ -1,0 +1,105 @@
+#include "encoder/encoder.h"
+
+#include <utility>
+
+#include "bitstream/end_payload.h"
+#include "bitstream/packet.h"
+#include "bitstream/setup.h"
+#include "encoder/scene_encoder.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kSearchEvery = 5;  // pictures, until the first face
+
+}  // namespace
+
+struct Encoder::Impl {
+  VideoFormat format;
+  EncoderSettings settings;
+  FaceFinder finder;
+  std::optional<SceneEncoder> scene;
+  bool face_seen = false;
+  std::uint64_t pictures = 0;
+  std::vector<std::uint8_t> ready;
+  PictureAnalysis nothing;
+
+  void take_from_scene() {
+    const auto bytes = scene->take();
+    ready.insert(ready.end(), bytes.begin(), bytes.end());
+  }
+
+  /// Marks of the face to follow, if the picture shows one.
+  [[nodiscard]] std::optional<Marks> look_for_face(const Picture& picture) const {
+    if (settings.marks) return settings.marks;
+    const auto faces = finder.find(picture);
+    if (faces.size() <= static_cast<std::size_t>(settings.face)) return std::nullopt;
+    return find_marks(picture, faces[static_cast<std::size_t>(settings.face)]);
+  }
+
+  Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
+    if (scene) {
+      if (auto ended = scene->finish(); !ended) return ended;
+      take_from_scene();
+    }
+    auto begun = marks ? SceneEncoder::begin(format, settings, finder, picture, *marks)
+                       : SceneEncoder::begin_without_face(format, settings, picture);
+    if (!begun) return tl::unexpected<Error>(begun.error());
+    scene.emplace(std::move(*begun));
+    face_seen = face_seen || marks.has_value();
+    return {};
+  }
+};
+
+Encoder::Encoder(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Encoder::Encoder(Encoder&&) noexcept = default;
+Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+Encoder::~Encoder() = default;
+
+Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings& settings) {
+  if (settings.quality < 0 || settings.quality > 100) return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
+  if (settings.group_pictures < 0 || settings.group_pictures > kMaxGroupPictures)
+    return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
+  if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
+  Setup setup;
+  setup.format = format;
+  if (auto checked = check_setup(setup); !checked) return tl::unexpected<Error>(checked.error());
+  auto finder = FaceFinder::create();
+  if (!finder) return tl::unexpected<Error>(finder.error());
+  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), {}, false, 0, {}, {}});
+  write_signature(impl->ready);
+  return Encoder(std::move(impl));
+}
+
+Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
+  Impl& i = *impl_;
+  if (picture.width() != i.format.width || picture.height() != i.format.height)
+    return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
+  if (!i.face_seen && i.pictures % kSearchEvery == 0) {
+    const auto marks = i.look_for_face(picture);
+    if (marks || !i.scene)
+      if (auto begun = i.begin_scene(picture, marks); !begun) return begun;
+  }
+  if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
+  i.take_from_scene();
+  ++i.pictures;
+  return {};
+}
+
+Result<void> Encoder::finish() {
+  Impl& i = *impl_;
+  if (i.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
+  if (!i.face_seen && !i.settings.allow_no_face) return fail(ErrorCode::kNoFace, "no face found in any picture");
+  if (auto ended = i.scene->finish(); !ended) return ended;
+  i.take_from_scene();
+  write_packet(i.ready, PacketType::kEnd, encode_end({i.pictures}));
+  return {};
+}
+
+std::vector<std::uint8_t> Encoder::take() { return std::exchange(impl_->ready, {}); }
+
+const PictureAnalysis& Encoder::analysis() const {
+  return impl_->scene ? impl_->scene->analysis() : impl_->nothing;
+}
+
+}  // namespace fbs

@@ -1,0 +1,72 @@
+#include "encoder/feature_map.h"
+
+#include <array>
+#include <opencv2/imgproc.hpp>
+
+namespace fbs {
+namespace {
+
+/// Noise that every sample is taken to have, grey levels squared: keeps small patches from being over-explained.
+constexpr double kNoise[3] = {30, 6, 6};
+
+struct Class {
+  cv::Vec3d mean;
+  cv::Matx33d covariance = cv::Matx33d::zeros();
+  int count = 0;
+};
+
+Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
+  Class c;
+  cv::Vec3d sum(0, 0, 0);
+  cv::Matx33d product = cv::Matx33d::zeros();
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (mask.at<std::uint8_t>(y, x) == 0) continue;
+      const cv::Vec3d v(patch[0].at<std::uint8_t>(y, x), patch[1].at<std::uint8_t>(y, x), patch[2].at<std::uint8_t>(y, x));
+      sum += v;
+      product += v * v.t();
+      ++c.count;
+    }
+  }
+  if (c.count == 0) return c;
+  c.mean = sum * (1.0 / c.count);
+  c.covariance = product * (1.0 / c.count) - c.mean * c.mean.t();
+  return c;
+}
+
+}  // namespace
+
+FeatureMap FeatureMap::learn(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside, const cv::Mat& outside,
+                             bool luma_only) {
+  FeatureMap map;
+  const Class in = statistics(patch, inside), out = statistics(patch, outside);
+  if (in.count < 8 || out.count < 8) return map;
+  cv::Matx33d pooled = 0.5 * (in.covariance + out.covariance);
+  for (int k = 0; k < 3; ++k) pooled(k, k) += kNoise[k];
+  if (luma_only) {
+    for (int k = 1; k < 3; ++k) {
+      pooled(0, k) = pooled(k, 0) = 0;
+      pooled(k, k) = 1e9;
+    }
+  }
+  const cv::Vec3d difference = in.mean - out.mean;
+  const cv::Vec3d w = pooled.inv() * difference;
+  const double separation = w.dot(difference);
+  if (separation < 1e-6) return map;
+  map.weight_ = cv::Vec3f(static_cast<float>(w[0] / separation), static_cast<float>(w[1] / separation),
+                          static_cast<float>(w[2] / separation));
+  map.offset_ = static_cast<float>(-w.dot(out.mean) / separation);
+  return map;
+}
+
+cv::Mat1f FeatureMap::operator()(const std::array<cv::Mat, 3>& patch) const {
+  cv::Mat1f out(patch[0].size());
+  for (int y = 0; y < out.rows; ++y) {
+    const std::uint8_t *a = patch[0].ptr(y), *b = patch[1].ptr(y), *c = patch[2].ptr(y);
+    for (int x = 0; x < out.cols; ++x)
+      out(y, x) = std::clamp(weight_[0] * a[x] + weight_[1] * b[x] + weight_[2] * c[x] + offset_, -1.0F, 2.0F);
+  }
+  return out;
+}
+
+}  // namespace fbs

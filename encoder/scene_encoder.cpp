@@ -1,0 +1,226 @@
+#include "encoder/scene_encoder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bitstream/geometry_payload.h"
+#include "bitstream/packet.h"
+#include "bitstream/pattern_payload.h"
+#include "bitstream/setup.h"
+#include "bitstream/surround_payload.h"
+#include "decoder/pattern_decoder.h"
+#include "encoder/pattern_encoder.h"
+#include "encoder/surround_fit.h"
+
+namespace fbs {
+namespace {
+
+constexpr double kLookaheadSeconds = 2;  // that the surround's map is learned from
+constexpr std::size_t kSurroundPictures = 12;
+constexpr double kLostBelow = 0.55;       // correlation under which a pose is not believed
+constexpr int kSearchEvery = 5;           // pictures, while the face is lost
+constexpr double kRelax = 0.85;           // what remains of the expression per picture while the face is lost
+
+FeatureMask mask_of(bool snakes) {
+  FeatureMask mask = 0;
+  if (snakes)
+    for (const FeatureId id : kSnakeFeatures) mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
+  return mask;
+}
+
+double pictures_per_second(const VideoFormat& f) {
+  return static_cast<double>(f.frame_rate.num) / static_cast<double>(f.frame_rate.den);
+}
+
+}  // namespace
+
+SceneEncoder::SceneEncoder(const VideoFormat& format, const EncoderSettings& settings) : settings_(settings) {
+  const double fps = pictures_per_second(format);
+  group_pictures_ = settings.group_pictures > 0 ? settings.group_pictures : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
+  lookahead_ = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
+  scene_.setup.format = format;
+}
+
+Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const EncoderSettings& settings,
+                                         const FaceFinder& finder, const Picture& first, const Marks& marks) {
+  auto adapted = adapt_head(marks);
+  if (!adapted) return tl::unexpected<Error>(adapted.error());
+  SceneEncoder scene(format, settings);
+  scene.finder_ = &finder;
+  scene.eye_distance_px_ = adapted->pose.eye_distance_px();
+  const OperatingPoint point = OperatingPoint::at(settings.quality, scene.eye_distance_px_);
+  scene.scene_.setup.steps = point.steps;
+  scene.scene_.setup.features = mask_of(settings.snakes);
+
+  const WorkFrame frame = WorkFrame::cut(first, adapted->pose.shift, scene.eye_distance_px_, true);
+  auto geometry = encode_geometry(adapted->geometry);
+  if (!geometry) return tl::unexpected<Error>(geometry.error());
+  scene.geometry_bytes_ = std::move(geometry->payload);
+  scene.seen_.pose = quantise(adapted->pose, point.steps);
+  scene.scene_.geometry.emplace(scene.scene_.setup, geometry->decoded, SurroundMap{1, 1, {0, 0, 0, 0}}, scene.seen_);
+  const Pose seen_pose = dequantise(scene.seen_, point.steps);
+  scene.head_.emplace(geometry->decoded, seen_pose, frame);
+  scene.features_.emplace(geometry->decoded, seen_pose, frame);
+  scene.choice_.emplace(point.lambda);
+  scene.state_ = scene.seen_;
+  scene.first_ = first;
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return tl::unexpected<Error>(added.error());
+  scene.coder_.emplace(scene.scene_.setup);
+  scene.counter_.emplace(*scene.coder_, true);
+  return scene;
+}
+
+Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format, const EncoderSettings& settings,
+                                                      const Picture& first) {
+  SceneEncoder scene(format, settings);
+  const OperatingPoint point = OperatingPoint::at(settings.quality, 64);
+  scene.scene_.setup.steps = point.steps;
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return tl::unexpected<Error>(added.error());
+  scene.coder_.emplace(scene.scene_.setup);
+  return scene;
+}
+
+Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
+  const VideoFormat& format = scene_.setup.format;
+  auto encoder = PatternEncoder::create(format, quantiser);
+  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  auto av1 = encoder->encode(picture);
+  if (!av1) return tl::unexpected<Error>(av1.error());
+  auto decoder = PatternDecoder::create(format.width, format.height);
+  if (!decoder) return tl::unexpected<Error>(decoder.error());
+  auto decoded = decoder->decode(*av1);
+  if (!decoded) return tl::unexpected<Error>(decoded.error());
+  auto payload = encode_pattern({0, seen_, std::move(*av1)}, scene_.setup);
+  if (!payload) return tl::unexpected<Error>(payload.error());
+  pattern_bytes_ = std::move(*payload);
+  scene_.patterns.push_back({std::move(*decoded), scene_.geometry ? scene_.geometry->project(seen_) : ScreenMesh{}});
+  return {};
+}
+
+State SceneEncoder::analyse(const Picture& picture) {
+  const QuantiserSteps& steps = scene_.setup.steps;
+  const auto deformed = deform(scene_.geometry->geometry().positions, state_, steps);
+  std::array<glm::dvec3, kVertexCount> vertices;
+  for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(deformed[v]);
+
+  WorkFrame frame = WorkFrame::cut(picture, head_->pose().shift, eye_distance_px_, true);
+  const Pose last_good = dequantise(state_, steps);
+  TrackedPose tracked = head_->track(frame, vertices);
+  if (tracked.confidence < kLostBelow) {
+    if (lost_pictures_++ % kSearchEvery == 0) {
+      for (const FoundFace& face : finder_->find(picture)) {
+        const glm::dvec2 across = face.left_eye - face.right_eye;
+        Pose found = last_good;
+        found.pitch = found.yaw = 0;
+        found.roll = std::atan2(across.y, across.x);
+        found.shift = 0.5 * (face.left_eye + face.right_eye);
+        found.log2_scale = std::log2(std::hypot(across.x, across.y));
+        frame = WorkFrame::cut(picture, found.shift, eye_distance_px_, true);
+        head_->restart(found);
+        const TrackedPose again = head_->track(frame, vertices);
+        if (again.confidence > tracked.confidence) tracked = again;
+        if (tracked.confidence >= kLostBelow) break;
+      }
+    }
+  }
+  analysis_.confidence = tracked.confidence;
+  State wanted = state_;
+  if (tracked.confidence < kLostBelow) {
+    // Held, and the expression relaxed: never a wild face.
+    head_->restart(last_good);
+    for (glm::ivec2& c : wanted.control)
+      c = {static_cast<int>(std::lround(c.x * kRelax)), static_cast<int>(std::lround(c.y * kRelax))};
+    std::array<glm::dvec2, kControlCount> offsets;
+    for (std::size_t i = 0; i < kControlCount; ++i) offsets[i] = glm::dvec2(wanted.control[i] * steps.control);
+    features_->set_offsets(offsets);
+    return wanted;
+  }
+  lost_pictures_ = 0;
+  wanted.pose = quantise(tracked.pose, steps);
+  if (settings_.snakes) {
+    features_->track(frame, tracked.pose, head_->flow());
+    const auto offsets = features_->offsets();
+    for (std::size_t i = 0; i < kControlCount; ++i) {
+      wanted.control[i] = {static_cast<int>(std::lround(offsets[i].x / steps.control)),
+                           static_cast<int>(std::lround(offsets[i].y / steps.control))};
+    }
+  }
+  return choice_->choose(scene_, picture, state_, wanted, *counter_);
+}
+
+void SceneEncoder::report(const State& state) {
+  analysis_.face = true;
+  const auto points = scene_.geometry->project_vertices(state);
+  for (std::size_t v = 0; v < kVertexCount; ++v) analysis_.vertices[v] = glm::dvec2(points[v].x, points[v].y) / 64.0;
+  const PoseProjection projection(head_->pose());
+  analysis_.snakes.clear();
+  analysis_.iterations.clear();
+  for (std::size_t i = 0; i < features_->count(); ++i) {
+    std::vector<glm::dvec2> curve;
+    for (const glm::dvec3& p : features_->outline(i)) curve.push_back(projection(p));
+    analysis_.snakes.push_back(std::move(curve));
+    analysis_.iterations.push_back(features_->iterations(i));
+  }
+}
+
+Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) {
+  if (scene_.geometry) {
+    if (pictures_ > 0) state_ = analyse(picture);
+    else analysis_.confidence = 1;
+    report(state_);
+    counter_->push(state_);
+    const auto every = static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
+    if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state_);
+  }
+  group_.states.push_back(state_);
+  group_.durations.push_back(duration);
+  ++pictures_;
+  if (static_cast<int>(group_.states.size()) == group_pictures_)
+    if (auto ended = end_group(); !ended) return ended;
+  if (!started_ && pictures_ >= static_cast<std::uint64_t>(lookahead_)) return start();
+  return {};
+}
+
+Result<void> SceneEncoder::end_group() {
+  if (group_.states.empty()) return {};
+  group_.key = coder_->needs_key();
+  const bool constant = std::all_of(group_.durations.begin(), group_.durations.end(), [](std::uint32_t d) { return d == 0; });
+  if (constant) group_.durations.clear();
+  auto payload = coder_->encode(group_);
+  if (!payload) return tl::unexpected<Error>(payload.error());
+  write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, *payload);
+  group_ = {};
+  if (scene_.geometry) counter_.emplace(*coder_);
+  return {};
+}
+
+Result<void> SceneEncoder::start() {
+  auto setup = encode_setup(scene_.setup);
+  if (!setup) return tl::unexpected<Error>(setup.error());
+  write_packet(ready_, PacketType::kSetup, *setup);
+  if (scene_.geometry) {
+    std::vector<SeenPicture> later;
+    for (const auto& [picture, state] : later_) later.push_back({&picture, state});
+    const SurroundMap map = fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later);
+    auto surround = encode_surround(map);
+    if (!surround) return tl::unexpected<Error>(surround.error());
+    write_packet(ready_, PacketType::kGeometry, geometry_bytes_);
+    write_packet(ready_, PacketType::kSurround, *surround);
+  }
+  write_packet(ready_, PacketType::kPattern, pattern_bytes_);
+  ready_.insert(ready_.end(), held_back_.begin(), held_back_.end());
+  held_back_.clear();
+  later_.clear();
+  first_.reset();
+  started_ = true;
+  return {};
+}
+
+Result<void> SceneEncoder::finish() {
+  if (auto ended = end_group(); !ended) return ended;
+  return started_ ? Result<void>{} : start();
+}
+
+std::vector<std::uint8_t> SceneEncoder::take() { return std::exchange(ready_, {}); }
+
+}  // namespace fbs

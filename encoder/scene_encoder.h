@@ -1,0 +1,78 @@
+// One scene: from the picture that shows the face first to the next cut or the end.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bitstream/motion_payload.h"
+#include "common/result.h"
+#include "decoder/renderer.h"
+#include "encoder/adapt.h"
+#include "encoder/encoder.h"
+#include "encoder/feature_tracker.h"
+#include "encoder/head_tracker.h"
+#include "encoder/operating_point.h"
+#include "encoder/state_choice.h"
+
+namespace fbs {
+
+class SceneEncoder {
+ public:
+  /// A scene that begins with a face.
+  /// @param finder  used again when the face is lost; must outlive the object
+  static Result<SceneEncoder> begin(const VideoFormat& format, const EncoderSettings& settings, const FaceFinder& finder,
+                                    const Picture& first, const Marks& marks);
+
+  /// A scene without a face: the picture is shown as it is as long as it lasts.
+  static Result<SceneEncoder> begin_without_face(const VideoFormat& format, const EncoderSettings& settings,
+                                                 const Picture& first);
+
+  /// The first picture too is pushed.
+  Result<void> push(const Picture& picture, std::uint32_t duration);
+
+  /// Ends the scene.
+  Result<void> finish();
+
+  /// Whole packets that are ready.
+  [[nodiscard]] std::vector<std::uint8_t> take();
+
+  [[nodiscard]] const PictureAnalysis& analysis() const { return analysis_; }
+
+ private:
+  SceneEncoder(const VideoFormat& format, const EncoderSettings& settings);
+  Result<void> add_pattern(const Picture& picture, int quantiser);
+  State analyse(const Picture& picture);
+  void report(const State& state);
+  Result<void> start();
+  Result<void> end_group();
+
+  EncoderSettings settings_;
+  const FaceFinder* finder_ = nullptr;
+  int group_pictures_ = 30;
+  int lookahead_ = 60;
+
+  Scene scene_;                            ///< as the decoder has it; the surround stays still in here
+  State seen_;                             ///< of pattern 0
+  double eye_distance_px_ = 0;
+  std::optional<HeadTracker> head_;
+  std::optional<FeatureTracker> features_;
+  std::optional<StateChoice> choice_;
+  int lost_pictures_ = 0;
+  State state_;
+
+  std::optional<MotionCoder> coder_;
+  std::optional<MotionCounter> counter_;
+  MotionGroup group_;
+  std::uint64_t pictures_ = 0;
+
+  std::optional<Picture> first_;           ///< kept until the surround has been fitted
+  std::vector<std::pair<Picture, State>> later_;
+  std::vector<std::uint8_t> geometry_bytes_, pattern_bytes_;
+  std::vector<std::uint8_t> held_back_;    ///< motion packets that wait for the scene's start
+  std::vector<std::uint8_t> ready_;
+  bool started_ = false;
+  PictureAnalysis analysis_;
+};
+
+}  // namespace fbs
