@@ -60,13 +60,17 @@ SnakeCurve SnakeCurve::clamped(int points) {
 }
 
 BSnake::BSnake(const SnakeCurve& curve, const SnakeImage& image, const SnakeWeights& weights,
-               const std::vector<glm::dvec2>& before, const std::vector<FacingPair>& facing)
+               const std::vector<glm::dvec2>& rest, const std::vector<glm::dvec2>& before,
+               const std::vector<FacingPair>& facing)
     : curve_(curve),
       image_(image),
       weights_(weights),
       facing_(facing),
       pairs_of_control_(static_cast<std::size_t>(curve.controls())) {
-  for (const SplineBasis& b : curve.points()) before_.push_back(curve_point(b, before));
+  for (const SplineBasis& b : curve.points()) {
+    rest_slope_.push_back(combine(b, b.d1, rest));
+    before_.push_back(curve_point(b, before));
+  }
   for (std::size_t p = 0; p < facing.size(); ++p) {
     for (const int h : {facing[p].from, facing[p].to}) {
       for (const int c : curve.points()[static_cast<std::size_t>(h)].control) {
@@ -84,7 +88,8 @@ double BSnake::point_energy(int point, const std::vector<glm::dvec2>& control) c
   const glm::dvec2 vt = v - before_[static_cast<std::size_t>(point)];
   const double internal = weights_.tension * squared(vs)      // eq. 3
                           + weights_.rigidity * squared(vss)  // eq. 4
-                          + weights_.temporal * squared(vt);  // eq. 5
+                          + weights_.temporal * squared(vt)   // eq. 5
+                          + weights_.shape * squared(vs - rest_slope_[static_cast<std::size_t>(point)]);
   const glm::dvec2 at = (v - image_.origin) * image_.px_per_unit;
   double h = 0;
   if (image_.ridge.empty()) {

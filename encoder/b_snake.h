@@ -16,6 +16,8 @@ struct SnakeWeights {
   double tension = 0;     ///< alpha, eq. 3
   double rigidity = 0;    ///< beta, eq. 4
   double temporal = 0;    ///< tau, eq. 5
+  double shape = 0;       ///< of |v_s - r_s|^2, with r the curve at rest: not in the paper. Contrast sees motion across
+                          ///< the curve only; this keeps points from sliding along it, which would tear the texture
   double repulsion = 0;   ///< between facing points; the paper gives no formula, see FacingPair
   double contrast = 0;    ///< rho, eq. 7
   double change = 0;      ///< gamma, eq. 8
@@ -77,9 +79,12 @@ struct SnakeOutcome {
 /// One snake on one picture.
 class BSnake {
  public:
-  /// All arguments must outlive the object.
+  /// @param rest    control points at rest (for SnakeWeights::shape)
+  /// @param before  control points in the picture before (for SnakeWeights::temporal)
+  /// Curve, image, weights and facing must outlive the object.
   BSnake(const SnakeCurve& curve, const SnakeImage& image, const SnakeWeights& weights,
-         const std::vector<glm::dvec2>& before, const std::vector<FacingPair>& facing);
+         const std::vector<glm::dvec2>& rest, const std::vector<glm::dvec2>& before,
+         const std::vector<FacingPair>& facing);
 
   /// E_tot = E_int - E_img (eq. 1) of the whole curve.
   [[nodiscard]] double energy(const std::vector<glm::dvec2>& control) const;
@@ -99,6 +104,7 @@ class BSnake {
   const SnakeImage& image_;
   const SnakeWeights& weights_;
   const std::vector<FacingPair>& facing_;
+  std::vector<glm::dvec2> rest_slope_;            ///< r_s at each point
   std::vector<glm::dvec2> before_;                ///< v(s, t - 1) at each point
   std::vector<std::vector<int>> pairs_of_control_;  ///< facing pairs that control point i moves
 };

@@ -10,14 +10,16 @@ namespace {
 constexpr double kPxPerUnit = 1.5;   // patch resolution: WorkFrame's 48 pixels per eye distance
 constexpr double kBlur = 1.2;        // of the feature map, snake units
 constexpr int kLipPoints = 40, kBrowPoints = 13;
-constexpr double kLipLeastGap = 0.8, kBrowLeastLength = 0.97;  // of the gap at rest
+constexpr double kLipLeastGap = 0.8, kMouthLeastWidth = 0.7, kBrowLeastLength = 0.97;  // of the gap at rest
 constexpr double kBrowBelowMarks = 1.8;  // iBUG marks a brow's upper border; its middle lies this far below, units
 
 bool is_mouth(FeatureId id) { return id == FeatureId::kMouthOuter; }
 
 // Found by looking at where the contours settle on the clips and on the talker; the contrast sets the scale.
-constexpr SnakeWeights kMouthWeights = {0.0012, 0.003, 0.004, 0.10, 1.0, 0.05};
-constexpr SnakeWeights kBrowWeights = {0.00002, 0.00004, 0.02, 0.05, 1.0, 0.0};
+constexpr SnakeWeights kMouthWeights = {
+    .tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .repulsion = 0.10, .contrast = 1, .change = 0.05};
+constexpr SnakeWeights kBrowWeights = {
+    .tension = 2e-5, .rigidity = 4e-5, .temporal = 0.02, .shape = 4e-4, .repulsion = 0.05, .contrast = 1, .change = 0};
 
 /// Control points whose curve passes nearest to the feature's vertices, with a little rigidity where the vertices
 /// leave it open.
@@ -84,6 +86,7 @@ FeatureTracker::Snake FeatureTracker::make(FeatureId id, const Geometry& geometr
       add_pair(h, kLipPoints - h, {0, 1}, kLipLeastGap);
       s.facing.back().least_gap = std::min(s.facing.back().least_gap, kLipLeastGap * kThickLips);
     }
+    add_pair(0, kLipPoints / 2, {1, 0}, kMouthLeastWidth);
   } else {
     add_pair(0, kBrowPoints - 1, {1, 0}, kBrowLeastLength);
   }
@@ -163,7 +166,7 @@ FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const
     learn(s, seen);
     const SnakeImage image = look(s, seen);
     // The rest shape is where the snake settles, so that its own pull on the curve cancels out of all offsets.
-    const SnakeOutcome settled = BSnake(s.curve, image, s.weights, s.rest, s.facing).minimise(s.rest);
+    const SnakeOutcome settled = BSnake(s.curve, image, s.weights, s.rest, s.rest, s.facing).minimise(s.rest);
     s.rest = s.now = settled.control;
     s.iterations = settled.iterations;
     snakes_.push_back(std::move(s));
@@ -207,7 +210,7 @@ std::vector<glm::dvec2> FeatureTracker::predict(const Snake& s, const Pose& pose
 void FeatureTracker::track(const WorkFrame& now, const Pose& pose, const std::array<glm::dvec2, kVertexCount>& flow) {
   for (Snake& s : snakes_) {
     const SnakeImage image = look(s, patch(s, now, pose));
-    const BSnake snake(s.curve, image, s.weights, s.now, s.facing);
+    const BSnake snake(s.curve, image, s.weights, s.rest, s.now, s.facing);
     const auto predicted = predict(s, pose, flow);
     const SnakeOutcome settled = snake.minimise(snake.energy(predicted) < snake.energy(s.now) ? predicted : s.now);
     s.now = settled.control;

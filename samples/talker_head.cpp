@@ -92,7 +92,7 @@ float hair_depth(glm::vec3 q) {
   // A plane from the forehead over the temples to the nape, swept to one side of the parting.
   const float swept = 0.10f * smooth_step(-0.7f, 0.9f, q.x) - 0.05f + 0.09f * std::abs(q.x + 0.35f);
   const float plane = 0.70f * (q.z - q.y) + 0.16f + swept;
-  const float sideburn = 0.25f - q.y + 0.9f * smooth_step(0.1f, 0.45f, q.z);
+  const float sideburn = 0.10f - q.y + 0.9f * smooth_step(0.3f, 0.65f, q.z);
   return std::min(plane, sideburn);
 }
 

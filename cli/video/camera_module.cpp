@@ -28,7 +28,7 @@ class CameraSource final : public VideoSource {
 
   Result<void> open(int index) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    if (!camera_.open(index) || !camera_.read(image_) || image_.type() != CV_8UC3) {
+    if (!camera_.open(index, cv::CAP_V4L2) || !camera_.read(image_) || image_.type() != CV_8UC3) {
       return fail(ErrorCode::kIo, "cannot read " + name_ + ": no such camera, or no permission to use it");
     }
     image_waiting_ = true;

@@ -71,6 +71,16 @@ void parse_extension(std::string_view text, VideoFormat& format) {
   if (text == "MATRIX=BT709") format.matrix = ColourMatrix::kBt709;
 }
 
+/// Text of a file in a form fit for an error message.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMaxQuote = 24;
+  std::string quote(text.substr(0, kMaxQuote));
+  for (char& c : quote) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return "'" + quote + "'";
+}
+
 /// One tag, its letter first. @return false when its value cannot be read
 bool parse_tag(std::string_view tag, Y4mHeader& header) {
   const std::string_view value = tag.substr(1);
@@ -116,10 +126,10 @@ Result<Y4mHeader> parse_y4m_header(std::string_view line) {
     if (tag.empty()) continue;
     if (tag[0] == 'C') {
       const auto layout = parse_chroma(tag.substr(1));
-      if (!layout) return fail(ErrorCode::kUnsupported, "Y4M chroma format " + std::string(tag.substr(1)));
+      if (!layout) return fail(ErrorCode::kUnsupported, "unknown Y4M chroma format " + quoted(tag.substr(1)));
       header.layout = *layout;
     } else if (!parse_tag(tag, header)) {
-      return fail(ErrorCode::kInvalidStream, "damaged Y4M header at " + std::string(tag));
+      return fail(ErrorCode::kInvalidStream, "damaged Y4M header at " + quoted(tag));
     }
   }
   if (header.format.width <= 0 || header.format.height <= 0) {

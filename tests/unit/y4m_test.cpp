@@ -30,7 +30,7 @@ class Y4m : public ::testing::Test {
 
 Picture numbered_picture(int width, int height, int number) {
   Picture picture(width, height);
-  int value = number;
+  auto value = static_cast<unsigned>(number);
   for (Plane* plane : {&picture.y, &picture.u, &picture.v}) {
     for (std::uint8_t& sample : plane->samples) sample = static_cast<std::uint8_t>(value = value * 5 + 3);
   }
