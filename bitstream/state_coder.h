@@ -185,7 +185,6 @@ bool StateCoder<Coder>::next(FlatState& state, PredictionChoice damped) {
   PartMask with_residual = 0;
   bool inside = true;
   if (moves) {
-    history_.parts_before = 0;
     for (std::size_t part = 0; part < kPartCount; ++part) {
       if ((limits_.coded >> part & 1) == 0) continue;
       const auto first = static_cast<std::size_t>(parts()[part].first);
@@ -199,7 +198,6 @@ bool StateCoder<Coder>::next(FlatState& state, PredictionChoice damped) {
       }
       if (part_flag(part, any, with_residual)) {
         with_residual = static_cast<PartMask>(with_residual | 1 << part);
-        ++history_.parts_before;
         part_residuals(part);
       }
       for (std::size_t i = first; i < end; ++i) {
@@ -207,6 +205,7 @@ bool StateCoder<Coder>::next(FlatState& state, PredictionChoice damped) {
         inside = inside && state[i] >= limits_.least[i] && state[i] <= limits_.most[i];
       }
     }
+    history_.parts_before = static_cast<std::uint8_t>(std::popcount(with_residual));
   } else {
     state = history_.last;
   }

@@ -32,10 +32,11 @@ Rational as_rational(AVRational value) {
 Rational choose_frame_rate(AVFormatContext* container, AVStream* stream) {
   const AVRational nominal = av_guess_frame_rate(container, stream, nullptr);
   const AVRational mean = stream->avg_frame_rate;
-  const bool nominal_known = nominal.num > 0 && nominal.den > 0;
-  if (mean.num <= 0 || mean.den <= 0) return nominal_known ? as_rational(nominal) : kUnknownRate;
-  const bool agree = nominal_known && std::abs(av_q2d(nominal) / av_q2d(mean) - 1) < 0.1;
-  return as_rational(agree ? nominal : mean);
+  const bool mean_known = mean.num > 0 && mean.den > 0;
+  const bool agree = !mean_known || std::abs(av_q2d(nominal) / av_q2d(mean) - 1) < 0.1;
+  AVRational rate = agree ? nominal : mean;
+  av_reduce(&rate.num, &rate.den, rate.num, rate.den, kMaxRatePart);
+  return plausible_rate(as_rational(rate)) ? as_rational(rate) : kUnknownRate;
 }
 
 std::optional<Orientation> orientation_of(const std::uint8_t* matrix_bytes, std::size_t size) {

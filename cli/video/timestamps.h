@@ -9,8 +9,17 @@ namespace fbs {
 
 inline constexpr std::int64_t kTicksPerSecond = 90000;
 
+inline constexpr std::uint32_t kMaxRatePart =
+    1000000;  ///< of either part of a frame rate: keeps times in 64 bits
+
+/// Whether a frame rate is one that sources may have: 1/100 to 1000 pictures per second.
+[[nodiscard]] constexpr bool plausible_rate(Rational rate) {
+  if (rate.num == 0 || rate.den == 0 || rate.num > kMaxRatePart || rate.den > kMaxRatePart) return false;
+  return rate.num <= 1000 * rate.den && 100 * rate.num >= rate.den;
+}
+
 /// Time of picture `index` of a video without timestamps, rounded to the nearest tick.
-/// @param rate  pictures per second, both parts above zero
+/// @param rate  pictures per second, a plausible_rate
 [[nodiscard]] constexpr std::int64_t regular_pts(std::int64_t index, Rational rate) {
   const std::int64_t num = rate.num;
   const std::int64_t whole = index / num * kTicksPerSecond * rate.den;

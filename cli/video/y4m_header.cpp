@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "cli/video/picture_size.h"
+#include "cli/video/timestamps.h"
 #include "cli/video/y4m.h"
 
 namespace fbs {
@@ -94,8 +94,9 @@ bool parse_tag(std::string_view tag, Y4mHeader& header) {
     }
     case 'F': {
       const auto rate = parse_ratio(value);
-      if (rate && rate->num != 0 && rate->den != 0) format.frame_rate = *rate;
-      return rate.has_value();
+      if (!rate || *rate == Rational{0, 0}) return rate.has_value();
+      format.frame_rate = *rate;
+      return plausible_rate(*rate);
     }
     case 'A': {
       const auto aspect = parse_ratio(value);

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "bitstream/crc16.h"
 #include "bitstream/setup.h"
 
 namespace fbs {
@@ -235,6 +236,19 @@ TEST(MotionCounter, AgreesWithWhatIsWritten) {
     const double written = static_cast<double>(coder.encode(group)->size()) * 8;
     EXPECT_NEAR(counted, written, written * 0.01 + 16);  // header, choice and end are not counted
   }
+}
+
+// Known bytes: a change of contexts, mixing or order shows here, and needs a new format version.
+TEST(MotionCoder, WritesTheBytesOfVersionOne) {
+  const auto setup = sample_setup();
+  MotionCoder coder(setup);
+  std::vector<std::uint8_t> all;
+  for (const MotionGroup& group : groups_of(random_walk(setup, 90, 8, 3, 21), 30)) {
+    const auto payload = *coder.encode(group);
+    all.insert(all.end(), payload.begin(), payload.end());
+  }
+  EXPECT_EQ(all.size(), 725u);
+  EXPECT_EQ(crc16(all), 32284);
 }
 
 // A steady turn of the head: the damped velocity must be found and pay.

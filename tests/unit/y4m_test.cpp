@@ -83,9 +83,9 @@ TEST(Y4mHeader, UnknownAspectAndRateAreAccepted) {
 TEST_F(Y4m, DamagedHeaderIsAnErrorNamingTheFile) {
   for (const char* header :
        {"", "YUV4MPEG3 W64 H64\n", "YUV4MPEG2\n", "YUV4MPEG2 W64\n", "YUV4MPEG2 Wx H64\n",
-        "YUV4MPEG2 W64 H-64\n", "YUV4MPEG2 W64 H64 F25\n", "YUV4MPEG2 W64 H64 C999\n",
-        "YUV4MPEG2 W64 H64 C420p99\n", "YUV4MPEG2 W99999999999999 H64\n", "YUV4MPEG2 W16 H64\n",
-        "YUV4MPEG2 W64 H100000\n", "YUV4MPEG2 W64 H64"}) {
+        "YUV4MPEG2 W64 H-64\n", "YUV4MPEG2 W64 H64 F25\n", "YUV4MPEG2 W64 H64 F1:4294967295\n",
+        "YUV4MPEG2 W64 H64 C999\n", "YUV4MPEG2 W64 H64 C420p99\n", "YUV4MPEG2 W99999999999999 H64\n",
+        "YUV4MPEG2 W16 H64\n", "YUV4MPEG2 W64 H100000\n", "YUV4MPEG2 W64 H64"}) {
     const auto source = open_y4m_source(store(header));
     ASSERT_FALSE(source) << header;
     EXPECT_NE(source.error().text.find("given.y4m"), std::string::npos) << source.error().text;

@@ -1,0 +1,22 @@
+// Source to bytes, measured on the way: what `encode` and `evaluate` share.
+#pragma once
+
+#include <functional>
+
+#include "cli/stream_meter.h"
+#include "cli/verbs.h"
+#include "cli/video/video_source.h"
+#include "encoder/encoder.h"
+
+namespace fbs::cli {
+
+using TakeBytes = std::function<Result<void>(std::span<const std::uint8_t>)>;
+using SeePicture = std::function<Result<void>(const TimedPicture&, const PictureAnalysis&)>;
+
+/// Encodes all of `source`, hands every piece of the stream to `take` and measures it against the source.
+/// @param see        called with every picture after its analysis; may be empty
+/// @param with_ssim  SSIM costs more than encoding does
+[[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
+                                            const SeePicture& see, bool with_ssim, bool quiet);
+
+}  // namespace fbs::cli

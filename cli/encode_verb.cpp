@@ -1,0 +1,70 @@
+// fbs encode: a video becomes a stream.
+#include <cstdio>
+#include <optional>
+
+#include "cli/encode_session.h"
+#include "cli/module.h"
+#include "cli/overlay.h"
+#include "cli/stream_file.h"
+#include "cli/video/atomic_file.h"
+
+namespace fbs::cli {
+namespace {
+
+void print_closing_line(const std::string& output, const Measure& m) {
+  std::fprintf(stderr, "%s: %llu pictures, %llu bytes, %.2f kbit/s (motion %.2f)", output.c_str(),
+               static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total), m.kbps(),
+               m.rate(m.bytes.motion));
+  if (m.face.count > 0) std::fprintf(stderr, ", PSNR face %.2f dB", m.face.psnr());
+  std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
+}
+
+Result<void> encode(const EncodeArguments& arguments) {
+  EncoderSettings settings;
+  settings.quality = arguments.quality;
+  settings.face = arguments.face;
+  settings.allow_no_face = arguments.allow_no_face;
+  settings.snakes = arguments.snakes;
+  if (!arguments.marks.empty()) {
+    auto marks = read_marks(arguments.marks);
+    if (!marks) return tl::unexpected<Error>(about_file(arguments.marks, marks.error()));
+    settings.marks = *marks;
+  }
+  SourceOptions options;
+  options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
+  auto source = open_video_source(arguments.input, options);
+  if (!source) return tl::unexpected<Error>(source.error());
+  auto file = AtomicFile::create(arguments.output);
+  if (!file) return tl::unexpected<Error>(file.error());
+  std::optional<Overlay> overlay;
+  SeePicture see;
+  if (!arguments.overlay.empty()) {
+    auto created = Overlay::create(arguments.overlay, (*source)->format());
+    if (!created) return tl::unexpected<Error>(created.error());
+    overlay.emplace(std::move(*created));
+    see = [&](const TimedPicture& p, const PictureAnalysis& a) { return overlay->write(p.picture, p.pts, a); };
+  }
+  auto measure = encode_source(
+      **source, settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see, false, arguments.quiet);
+  if (!measure) {
+    Error error = measure.error();
+    // Errors of files name their file already; those of the codec are about the input.
+    if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input)) error.text = arguments.input + ": " + error.text;
+    return tl::unexpected<Error>(std::move(error));
+  }
+  if (overlay)
+    if (auto finished = overlay->finish(); !finished) return finished;
+  if (auto committed = file->commit(); !committed) return committed;
+  if ((*source)->damaged_packets() > 0)
+    std::fprintf(stderr, "fbs: %s: %lld damaged packets were passed over\n", arguments.input.c_str(),
+                 static_cast<long long>((*source)->damaged_packets()));
+  if (!arguments.quiet) print_closing_line(arguments.output, *measure);
+  return {};
+}
+
+}  // namespace
+}  // namespace fbs::cli
+
+FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments, fbs::Result<void>& result) {
+  result = fbs::cli::encode(arguments);
+}

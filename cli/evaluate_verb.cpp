@@ -1,0 +1,121 @@
+// fbs evaluate: what a stream costs and how near it comes to its source.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/encode_session.h"
+#include "cli/module.h"
+#include "cli/progress.h"
+#include "cli/stream_file.h"
+
+namespace fbs::cli {
+namespace {
+
+struct Point {
+  std::string label;
+  Measure measure;
+};
+
+Result<Measure> measure_stream(const EvaluateArguments& arguments) {
+  auto source = open_video_source(arguments.source);
+  if (!source) return tl::unexpected<Error>(source.error());
+  auto file = StreamFile::open(arguments.stream);
+  if (!file) return tl::unexpected<Error>(file.error());
+  StreamMeter meter(file->decoder(), true);
+  Progress progress("evaluating", (*source)->frame_count_estimate(), arguments.quiet);
+  for (std::int64_t n = 1;; ++n) {
+    auto status = file->next();
+    if (!status) return tl::unexpected<Error>(status.error());
+    auto picture = (*source)->next();
+    if (!picture) return tl::unexpected<Error>(picture.error());
+    const bool ended = *status == DecodeStatus::kEnd;
+    if (ended && !*picture) return meter.result();
+    if (ended || !*picture)
+      return fail(ErrorCode::kInvalidArgument, arguments.stream + ": holds " + (ended ? "fewer" : "more") +
+                                                   " pictures than " + arguments.source);
+    const VideoFormat &a = file->decoder().format(), &b = (*source)->format();
+    if (a.width != b.width || a.height != b.height)
+      return fail(ErrorCode::kInvalidArgument, arguments.stream + ": its pictures are not of the size of " + arguments.source);
+    meter.compare((*picture)->picture);
+    progress.update(n);
+  }
+}
+
+Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality) {
+  auto source = open_video_source(arguments.source);
+  if (!source) return tl::unexpected<Error>(source.error());
+  EncoderSettings settings;
+  settings.quality = quality;
+  auto measure = encode_source(
+      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, true, arguments.quiet);
+  if (!measure) {
+    Error error = measure.error();
+    error.text = arguments.source + ": " + error.text;
+    return tl::unexpected<Error>(std::move(error));
+  }
+  return measure;
+}
+
+nlohmann::json to_json(const Point& p) {
+  const Measure& m = p.measure;
+  nlohmann::json j = {{"point", p.label},
+                      {"frames", m.pictures},
+                      {"seconds", m.seconds},
+                      {"kbps", m.kbps()},
+                      {"bytes",
+                       {{"total", m.bytes.total},
+                        {"startup", m.bytes.startup},
+                        {"geometry", m.bytes.geometry},
+                        {"patterns", m.bytes.patterns},
+                        {"motion", m.bytes.motion},
+                        {"index", m.bytes.index},
+                        {"other", m.bytes.other}}},
+                      {"psnr_frame", m.frame.psnr()},
+                      {"ssim_frame", m.ssim_frame}};
+  if (m.face.count > 0) {
+    j["psnr_face"] = m.face.psnr();
+    j["ssim_face"] = m.ssim_face;
+  }
+  return j;
+}
+
+void print(const std::vector<Point>& points) {
+  std::printf("%-20s %9s %9s %9s %9s %9s %9s %8s %8s %8s %8s\n", "", "kbit/s", "motion", "startup B", "geometry", "patterns",
+              "total B", "face dB", "SSIM", "frame dB", "SSIM");
+  for (const Point& p : points) {
+    const Measure& m = p.measure;
+    const auto b = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
+    std::printf("%-20s %9.3f %9.3f %9llu %9llu %9llu %9llu %8.2f %8.4f %8.2f %8.4f\n", p.label.c_str(), m.kbps(),
+                m.rate(m.bytes.motion), b(m.bytes.startup), b(m.bytes.geometry), b(m.bytes.patterns), b(m.bytes.total),
+                m.face.psnr(), m.ssim_face, m.frame.psnr(), m.ssim_frame);
+  }
+}
+
+Result<void> evaluate(const EvaluateArguments& arguments) {
+  std::vector<Point> points;
+  if (!arguments.stream.empty()) {
+    auto m = measure_stream(arguments);
+    if (!m) return tl::unexpected<Error>(m.error());
+    points.push_back({arguments.stream, *m});
+  } else {
+    for (const int quality : arguments.qualities) {
+      auto m = measure_encoding(arguments, quality);
+      if (!m) return tl::unexpected<Error>(m.error());
+      points.push_back({"quality " + std::to_string(quality), *m});
+    }
+  }
+  if (arguments.json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Point& p : points) list.push_back(to_json(p));
+    std::printf("%s\n", nlohmann::json{{"source", arguments.source}, {"points", list}}.dump(1).c_str());
+  } else {
+    print(points);
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace fbs::cli
+
+FBS_MODULE_EXPORT void fbs_run_evaluate(const fbs::cli::EvaluateArguments& arguments, fbs::Result<void>& result) {
+  result = fbs::cli::evaluate(arguments);
+}

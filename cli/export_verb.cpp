@@ -1,0 +1,64 @@
+// fbs export: a stream's motion as a table.
+#include <cmath>
+#include <cstdio>
+
+#include "cli/stream_file.h"
+#include "cli/verbs.h"
+#include "cli/video/atomic_file.h"
+
+namespace fbs::cli {
+namespace {
+
+std::string header() {
+  std::string line = "frame,rx_deg,ry_deg,rz_deg,tx_px,ty_px,scale";
+  for (int k = 0; k < kLandmarkCount; ++k) line += ",x" + std::to_string(k) + ",y" + std::to_string(k);
+  return line + "\n";
+}
+
+std::string number(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, ",%.3f", v);
+  return text;
+}
+
+std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
+  std::string line = std::to_string(frame);
+  const auto& geometry = decoder.scene().geometry;
+  if (!geometry) {
+    for (int k = 0; k < 6 + 2 * kLandmarkCount; ++k) line += ",nan";
+    return line + "\n";
+  }
+  const HeadPose pose = dequantise_pose(decoder.state(), decoder.scene().setup.steps);
+  for (const std::int32_t angle : {pose.pitch, pose.yaw, pose.roll}) line += number(angle * 360.0 / 65536);
+  line += number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
+  const auto vertices = geometry->project_vertices(decoder.state());
+  for (const std::int16_t v : generic_head().landmark_vertex) {
+    const glm::ivec3 p = vertices[static_cast<std::size_t>(v)];
+    line += number(p.x / 64.0) + number(p.y / 64.0);
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+Result<void> run_export(const ExportArguments& arguments) {
+  if (!arguments.output.ends_with(".csv"))
+    return fail(ErrorCode::kUnsupported, arguments.output + ": only .csv can be exported so far");
+  auto file = StreamFile::open(arguments.input);
+  if (!file) return tl::unexpected<Error>(file.error());
+  auto out = AtomicFile::create(arguments.output);
+  if (!out) return tl::unexpected<Error>(out.error());
+  const auto write = [&](const std::string& text) {
+    return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  };
+  if (auto written = write(header()); !written) return written;
+  for (std::uint64_t frame = 0;; ++frame) {
+    auto status = file->next();
+    if (!status) return tl::unexpected<Error>(status.error());
+    if (*status == DecodeStatus::kEnd) break;
+    if (auto written = write(row(frame, file->decoder())); !written) return written;
+  }
+  return out->commit();
+}
+
+}  // namespace fbs::cli

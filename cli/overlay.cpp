@@ -1,0 +1,58 @@
+#include "cli/overlay.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "cli/video/colour.h"
+
+namespace fbs::cli {
+namespace {
+
+constexpr int kWantedHeight = 576;
+constexpr int kShift = 4;  // OpenCV draws with positions in 1/16 pixel
+
+const cv::Scalar kMeshColour(90, 200, 90), kSnakeColour(40, 60, 255);
+
+cv::Point fixed(glm::dvec2 p, int zoom) {
+  const double one = zoom * (1 << kShift);
+  return {static_cast<int>(p.x * one), static_cast<int>(p.y * one)};
+}
+
+}  // namespace
+
+Result<Overlay> Overlay::create(const std::string& name, const VideoFormat& format) {
+  const int zoom = std::clamp(kWantedHeight / format.height, 1, 4);
+  VideoFormat enlarged = format;
+  enlarged.width *= zoom;
+  enlarged.height *= zoom;
+  auto sink = open_video_sink(name, enlarged);
+  if (!sink) return tl::unexpected<Error>(sink.error());
+  return Overlay(std::move(*sink), enlarged, zoom);
+}
+
+Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const PictureAnalysis& analysis) {
+  RgbImage rgb = rgb_from_picture(picture, format_.range, format_.matrix, ChannelOrder::kBgr);
+  cv::Mat image(rgb.height, rgb.width, CV_8UC3, rgb.samples.data()), large;
+  cv::resize(image, large, {}, zoom_, zoom_, cv::INTER_CUBIC);
+  if (analysis.face) {
+    for (const HeadTriangle& t : generic_head().triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        cv::line(large, fixed(analysis.vertices[static_cast<std::size_t>(t[i])], zoom_),
+                 fixed(analysis.vertices[static_cast<std::size_t>(t[(i + 1) % 3])], zoom_), kMeshColour, 1, cv::LINE_AA, kShift);
+    for (const auto& snake : analysis.snakes) {
+      std::vector<cv::Point> points;
+      for (const glm::dvec2 p : snake) points.push_back(fixed(p, zoom_));
+      const bool closed = points.size() > 20;
+      cv::polylines(large, points, closed, kSnakeColour, 2, cv::LINE_AA, kShift);
+    }
+    char text[64];
+    std::snprintf(text, sizeof text, "confidence %.2f", analysis.confidence);
+    cv::putText(large, text, {8, large.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {255, 255, 255}, 1, cv::LINE_AA);
+  }
+  return sink_->write(picture_from_rgb({large.data, large.total() * 3}, large.cols, large.rows, format_.range,
+                                       format_.matrix, ChannelOrder::kBgr),
+                      pts);
+}
+
+}  // namespace fbs::cli

@@ -1,0 +1,38 @@
+// How near two pictures are: PSNR and SSIM.
+#pragma once
+
+#include <cstdint>
+
+#include "common/picture.h"
+
+namespace fbs {
+
+/// Squared differences summed over any number of samples and pictures.
+struct SquaredError {
+  std::uint64_t sum = 0;
+  std::uint64_t count = 0;
+
+  void add(int a, int b) {
+    sum += static_cast<std::uint64_t>((a - b) * (a - b));
+    ++count;
+  }
+  SquaredError& operator+=(const SquaredError& other) {
+    sum += other.sum;
+    count += other.count;
+    return *this;
+  }
+
+  /// 10 log10(255^2 / mean); 99 when nothing differs; 0 without samples. dB.
+  [[nodiscard]] double psnr() const;
+};
+
+/// Over a whole plane; both of the same size.
+[[nodiscard]] SquaredError squared_error(const Plane& a, const Plane& b);
+
+/// Where `mask` (of the same size) is not zero.
+[[nodiscard]] SquaredError squared_error(const Plane& a, const Plane& b, const Plane& mask);
+
+/// Mean structural similarity, Wang et al. 2004: 11 x 11 Gaussian of sigma 1.5, borders reflected; -1..1.
+[[nodiscard]] double ssim(const Plane& a, const Plane& b);
+
+}  // namespace fbs
