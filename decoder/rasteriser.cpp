@@ -115,67 +115,93 @@ bool reads_inside(const RasterTriangle& t, const Plane& pattern, int position_bi
   });
 }
 
-struct Span {
-  int64_t first, last;
-  int64_t u, v, z;  ///< Q16 at the first sample; z without fraction bits beyond its own
+/// A way through the pattern, one step per sample of a row; Q16 samples, moved by half a sample.
+struct Walk {
+  int64_t u, v, du, dv;
+  bool inside;  ///< no step of it needs clamping
+
+  [[nodiscard]] Walk from(int64_t steps) const { return {u + steps * du, v + steps * dv, du, dv, inside}; }
+
+  /// Samples [first, last] of a row.
+  void fill(const Plane& pattern, std::uint8_t* out, int64_t first, int64_t last) const {
+    if (inside) {
+      auto iu = static_cast<int32_t>(u), iv = static_cast<int32_t>(v);
+      const auto step_u = static_cast<int32_t>(du), step_v = static_cast<int32_t>(dv);
+      const std::uint8_t* samples = pattern.samples.data();
+      const int stride = pattern.width;
+      for (int64_t x = first; x <= last; ++x, iu += step_u, iv += step_v) out[x] = sample_inside(samples, stride, iu, iv);
+    } else {
+      int64_t su = u, sv = v;
+      for (int64_t x = first; x <= last; ++x, su += du, sv += dv) out[x] = sample_clamped(pattern, su, sv);
+    }
+  }
 };
+
+/// Calls draw(from, to) for each run of samples of [first, last] that are nearer than what is there, and notes them.
+/// @param z  depth at `first`  @param dz  per sample
+template <class Draw>
+void for_each_nearer(int32_t* nearest, int64_t first, int64_t last, int64_t z, int64_t dz, Draw&& draw) {
+  int64_t run = -1;
+  for (int64_t x = first; x <= last; ++x, z += dz) {
+    const auto here = static_cast<int32_t>(std::clamp<int64_t>(z, INT32_MIN, INT32_MAX - 1));
+    if (here < nearest[x]) {
+      nearest[x] = here;
+      if (run < 0) run = x;
+    } else if (run >= 0) {
+      draw(run, x - 1);
+      run = -1;
+    }
+  }
+  if (run >= 0) draw(run, last);
+}
 
 }  // namespace
 
-void DepthPlane::reset(int w, int height) {
+void DepthPlane::reset(int w, int height, const SampleArea& area) {
   width = w;
-  depth.assign(static_cast<std::size_t>(w) * static_cast<std::size_t>(height),
-               std::numeric_limits<std::int32_t>::max());
+  depth.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(height));
+  for (int y = area.y0; y < area.y1; ++y) {
+    int32_t* row = depth.data() + static_cast<std::ptrdiff_t>(y) * w;
+    std::fill(row + area.x0, row + area.x1, std::numeric_limits<int32_t>::max());
+  }
 }
 
 bool faces_viewer(const RasterTriangle& triangle) { return twice_area(triangle) > 0; }
 
-void draw_triangle(const RasterTriangle& t, const Plane& pattern, PlaneScale scale, Plane& target,
-                   DepthPlane* depth) {
+void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const PlanePair> planes,
+                   const SampleArea& area_to_draw, DepthPlane* depth) {
   const int64_t area = twice_area(t);
   if (area <= 0) return;
   const int bits = static_cast<int>(scale);
   const int64_t half = int64_t{1} << (bits - 1);
+  const auto [low, high] = std::minmax({t[0].screen.y, t[1].screen.y, t[2].screen.y});
+  const int first_row = static_cast<int>(std::max<int64_t>(area_to_draw.y0, (low - half) >> bits));
+  const int last_row = static_cast<int>(std::min<int64_t>(area_to_draw.y1 - 1, (high - half) >> bits));
+  if (first_row > last_row) return;
 
+  const Plane& shape = *planes.front().pattern;
   const Gradient u(t, {t[0].texture.x, t[1].texture.x, t[2].texture.x}, bits, area, bits);
   const Gradient v(t, {t[0].texture.y, t[1].texture.y, t[2].texture.y}, bits, area, bits);
   const Gradient z(t, {t[0].depth, t[1].depth, t[2].depth}, 16, area, bits);
-  const bool fast = u.exact && v.exact && reads_inside(t, pattern, bits);
+  const bool fast = u.exact && v.exact && reads_inside(t, shape, bits);
   const std::array<Edge, 3> edges = {Edge(t[0].screen, t[1].screen), Edge(t[1].screen, t[2].screen),
                                      Edge(t[2].screen, t[0].screen)};
 
-  const auto [low, high] = std::minmax({t[0].screen.y, t[1].screen.y, t[2].screen.y});
-  const int first_row = static_cast<int>(std::max<int64_t>(0, (low - half) >> bits));
-  const int last_row = static_cast<int>(std::min<int64_t>(target.height - 1, (high - half) >> bits));
   for (int row = first_row; row <= last_row; ++row) {
     const int64_t y = (int64_t{row} << bits) + half;
-    int64_t first = 0, last = target.width - 1;
+    int64_t first = area_to_draw.x0, last = area_to_draw.x1 - 1;
     for (const Edge& e : edges) e.clip(y, bits, first, last);
     if (first > last) continue;
 
     const int64_t dx = (first << bits) + half - t[0].screen.x, dy = y - t[0].screen.y;
-    int64_t su = u.at(dx, dy, bits) - (1 << 15), sv = v.at(dx, dy, bits) - (1 << 15);
-    std::uint8_t* out = target.row(row);
+    const Walk walk{u.at(dx, dy, bits) - (1 << 15), v.at(dx, dy, bits) - (1 << 15), u.dx, v.dx, fast};
     if (depth == nullptr) {
-      if (fast) {
-        auto iu = static_cast<int32_t>(su), iv = static_cast<int32_t>(sv);
-        const auto du = static_cast<int32_t>(u.dx), dv = static_cast<int32_t>(v.dx);
-        for (int64_t x = first; x <= last; ++x, iu += du, iv += dv)
-          out[x] = sample_inside(pattern.samples.data(), pattern.width, iu, iv);
-      } else {
-        for (int64_t x = first; x <= last; ++x, su += u.dx, sv += v.dx) out[x] = sample_clamped(pattern, su, sv);
-      }
-      continue;
-    }
-    int64_t sz = z.at(dx, dy, bits);
-    int32_t* nearest = depth->depth.data() + static_cast<std::ptrdiff_t>(row) * depth->width;
-    for (int64_t x = first; x <= last; ++x, su += u.dx, sv += v.dx, sz += z.dx) {
-      const auto here = static_cast<int32_t>(std::clamp<int64_t>(sz, INT32_MIN, INT32_MAX - 1));
-      if (here >= nearest[x]) continue;
-      nearest[x] = here;
-      out[x] = fast ? sample_inside(pattern.samples.data(), pattern.width, static_cast<int32_t>(su),
-                                    static_cast<int32_t>(sv))
-                    : sample_clamped(pattern, su, sv);
+      for (const PlanePair& p : planes) walk.fill(*p.pattern, p.target->row(row), first, last);
+    } else {
+      int32_t* nearest = depth->depth.data() + static_cast<std::ptrdiff_t>(row) * depth->width;
+      for_each_nearer(nearest, first, last, z.at(dx, dy, bits), z.dx, [&](int64_t from, int64_t to) {
+        for (const PlanePair& p : planes) walk.from(from - first).fill(*p.pattern, p.target->row(row), from, to);
+      });
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "common/picture.h"
@@ -20,22 +21,36 @@ struct RasterVertex {
 };
 using RasterTriangle = std::array<RasterVertex, 3>;
 
+/// Samples [x0, x1) x [y0, y1) of a plane.
+struct SampleArea {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
 /// Depth of what has been drawn so far, per sample of a plane.
 struct DepthPlane {
   int width = 0;
   std::vector<std::int32_t> depth;
 
-  /// Everything infinitely far.
-  void reset(int width, int height);
+  /// Makes everything in `area` infinitely far; the rest keeps no meaning.
+  void reset(int width, int height, const SampleArea& area);
 };
 
 enum class PlaneScale : std::uint8_t { kLuma = 6, kChroma = 7 };  ///< log2 of positions per sample
 
-/// Draws the triangle's part of `pattern` into `target`; both of the same scale. Samples whose centre is inside
-/// (top-left rule) are drawn. A triangle that is anticlockwise on the screen or has no area is not drawn.
-/// @param depth  of the target's size: samples that are not nearer are left alone; null: all are drawn
-void draw_triangle(const RasterTriangle& triangle, const Plane& pattern, PlaneScale scale, Plane& target,
-                   DepthPlane* depth);
+/// A plane of the pattern and the plane of the picture that it is drawn into.
+struct PlanePair {
+  const Plane* pattern;
+  Plane* target;
+};
+
+/// Draws the triangle's part of each pattern plane into its target; all of the same size and scale. Samples in
+/// `area` whose centre is inside the triangle (top-left rule) are drawn. A triangle that is anticlockwise on the
+/// screen or has no area is not drawn.
+/// @param area   within the targets
+/// @param depth  of the targets' size: samples that are not nearer are left alone; null: all are drawn
+void draw_triangle(const RasterTriangle& triangle, PlaneScale scale, std::span<const PlanePair> planes,
+                   const SampleArea& area, DepthPlane* depth);
 
 /// Whether the triangle faces the viewer (clockwise in the picture).
 [[nodiscard]] bool faces_viewer(const RasterTriangle& triangle);

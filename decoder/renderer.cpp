@@ -5,6 +5,15 @@
 namespace fbs {
 namespace {
 
+/// The planes of one scale and the part of them that may be drawn.
+struct Layer {
+  PlaneScale scale;
+  std::vector<PlanePair> planes;
+  SampleArea area;
+};
+
+SampleArea whole(const Plane& p) { return {0, 0, p.width, p.height}; }
+
 RasterTriangle corners(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
   RasterTriangle t;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -14,25 +23,26 @@ RasterTriangle corners(const std::array<std::int16_t, 3>& triangle, const Screen
   return t;
 }
 
-}  // namespace
-
-void Renderer::render(const Scene& scene, const State& state, Picture& out) {
-  const Pattern& pattern = scene.patterns.front();
-  out = pattern.picture;
-  if (!scene.geometry) return;
-  const ScreenMesh now = scene.geometry->project(state);
-  draw_surround(scene, pattern, now, out);
-  draw_head(pattern, now, out);
+/// Samples that the head can cover, within `limit`.
+SampleArea area_of_head(const ScreenMesh& now, PlaneScale scale, const SampleArea& limit) {
+  glm::ivec2 low(kMaxScreen), high(-kMaxScreen);
+  for (const glm::ivec3& p : now.head) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const int bits = static_cast<int>(scale);
+  return {std::clamp(low.x >> bits, limit.x0, limit.x1), std::clamp(low.y >> bits, limit.y0, limit.y1),
+          std::clamp((high.x >> bits) + 1, limit.x0, limit.x1), std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
-void Renderer::draw_surround(const Scene& scene, const Pattern& pattern, const ScreenMesh& now, Picture& out) {
-  const SurroundMap& map = scene.geometry->surround();
+/// The cells of the surround's grid, those that follow the head most last, over what stays.
+void draw_surround(const SurroundMap& map, const ScreenMesh& now, const ScreenMesh& seen, std::span<const Layer> layers) {
   const int stride = map.columns + 1;
   const auto corner = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    return RasterVertex{now.surround[i], pattern.seen.surround[i], 0};
+    return RasterVertex{now.surround[i], seen.surround[i], 0};
   };
-  // What follows the head most is drawn last, over what stays.
+  const auto still = [](const RasterVertex& v) { return v.screen == v.texture; };
   for (int follow = 1; follow <= 4 * kFollowOne; ++follow) {
     for (int r = 0; r < map.rows; ++r) {
       for (int c = 0; c < map.columns; ++c) {
@@ -42,28 +52,45 @@ void Renderer::draw_surround(const Scene& scene, const Pattern& pattern, const S
         for (const int i : at) sum += map.follow[static_cast<std::size_t>(i)];
         if (sum != follow) continue;
         const std::array<RasterVertex, 4> q = {corner(at[0]), corner(at[1]), corner(at[2]), corner(at[3])};
-        const auto still = [](const RasterVertex& v) { return v.screen == v.texture; };
-        if (std::all_of(q.begin(), q.end(), still)) continue;  // pattern 0 already shows it
-        for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}}) {
-          draw_triangle(t, pattern.picture.y, PlaneScale::kLuma, out.y, nullptr);
-          draw_triangle(t, pattern.picture.u, PlaneScale::kChroma, out.u, nullptr);
-          draw_triangle(t, pattern.picture.v, PlaneScale::kChroma, out.v, nullptr);
-        }
+        if (std::all_of(q.begin(), q.end(), still)) continue;  // the pattern already shows it
+        for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}})
+          for (const Layer& layer : layers) draw_triangle(t, layer.scale, layer.planes, layer.area, nullptr);
       }
     }
   }
 }
 
-void Renderer::draw_head(const Pattern& pattern, const ScreenMesh& now, Picture& out) {
-  luma_depth_.reset(out.y.width, out.y.height);
-  chroma_u_depth_.reset(out.u.width, out.u.height);
-  chroma_v_depth_.reset(out.v.width, out.v.height);
-  for (const auto& triangle : head_mesh().triangles) {
-    const RasterTriangle t = corners(triangle, now, pattern.seen);
-    draw_triangle(t, pattern.picture.y, PlaneScale::kLuma, out.y, &luma_depth_);
-    draw_triangle(t, pattern.picture.u, PlaneScale::kChroma, out.u, &chroma_u_depth_);
-    draw_triangle(t, pattern.picture.v, PlaneScale::kChroma, out.v, &chroma_v_depth_);
-  }
+void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer, DepthPlane& depth) {
+  const Plane& target = *layer.planes.front().target;
+  const SampleArea area = area_of_head(now, layer.scale, layer.area);
+  if (area.empty()) return;
+  depth.reset(target.width, target.height, area);
+  for (const auto& triangle : head_mesh().triangles)
+    draw_triangle(corners(triangle, now, seen), layer.scale, layer.planes, area, &depth);
+}
+
+}  // namespace
+
+void Renderer::render(const Scene& scene, const State& state, Picture& out) {
+  const Pattern& pattern = scene.patterns.front();
+  out = pattern.picture;
+  if (!scene.geometry) return;
+  const ScreenMesh now = scene.geometry->project(state);
+  const std::array<Layer, 2> layers = {
+      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y}}, whole(out.y)},
+      Layer{PlaneScale::kChroma, {{&pattern.picture.u, &out.u}, {&pattern.picture.v, &out.v}}, whole(out.u)}};
+  draw_surround(scene.geometry->surround(), now, pattern.seen, layers);
+  draw_head(now, pattern.seen, layers[0], luma_depth_);
+  draw_head(now, pattern.seen, layers[1], chroma_depth_);
+}
+
+void Renderer::render_head_luma(const Scene& scene, const State& state, const SampleArea& area, Plane& out) {
+  const Pattern& pattern = scene.patterns.front();
+  for (int y = area.y0; y < area.y1; ++y)
+    std::copy(pattern.picture.y.row(y) + area.x0, pattern.picture.y.row(y) + area.x1, out.row(y) + area.x0);
+  if (!scene.geometry) return;
+  const ScreenMesh now = scene.geometry->project(state);
+  draw_head(now, pattern.seen, {PlaneScale::kLuma, {{&pattern.picture.y, &out}}, area}, luma_depth_);
 }
 
 }  // namespace fbs

@@ -18,7 +18,7 @@ void take_part(State& state, const State& from, int part) {
 
 }  // namespace
 
-StateChoice::Region StateChoice::region_of(const Scene& scene, const State& a, const State& b) {
+SampleArea StateChoice::region_of(const Scene& scene, const State& a, const State& b) {
   glm::ivec2 low(kMaxScreen), high(-kMaxScreen);
   for (const State* s : {&a, &b}) {
     for (const glm::ivec3& p : scene.geometry->project_vertices(*s)) {
@@ -33,12 +33,13 @@ StateChoice::Region StateChoice::region_of(const Scene& scene, const State& a, c
           std::clamp(pixel(high.x) + kMargin, 0, w), std::clamp(pixel(high.y) + kMargin, 0, h)};
 }
 
-double StateChoice::cost(const Scene& scene, const Picture& source, const State& state, const Region& region,
+double StateChoice::cost(const Scene& scene, const Picture& source, const State& state, const SampleArea& region,
                          const MotionCounter& counter) {
-  renderer_.render(scene, state, drawn_);
+  if (drawn_.width != source.width() || drawn_.height != source.height()) drawn_ = Plane(source.width(), source.height());
+  renderer_.render_head_luma(scene, state, region, drawn_);
   std::int64_t squares = 0;
   for (int y = region.y0; y < region.y1; ++y) {
-    const std::uint8_t *a = source.y.row(y), *b = drawn_.y.row(y);
+    const std::uint8_t *a = source.y.row(y), *b = drawn_.row(y);
     for (int x = region.x0; x < region.x1; ++x) {
       const int d = a[x] - b[x];
       squares += d * d;
@@ -50,7 +51,7 @@ double StateChoice::cost(const Scene& scene, const Picture& source, const State&
 State StateChoice::choose(const Scene& scene, const Picture& source, const State& before, const State& tracked,
                           const MotionCounter& counter) {
   if (before == tracked) return before;
-  const Region region = region_of(scene, before, tracked);
+  const SampleArea region = region_of(scene, before, tracked);
   const auto judge = [&](const State& s) { return cost(scene, source, s, region, counter); };
   State best = tracked;
   double best_cost = judge(tracked);

@@ -19,16 +19,13 @@ class StateChoice {
                              const MotionCounter& counter);
 
  private:
-  struct Region {
-    int x0, y0, x1, y1;
-  };
-  [[nodiscard]] static Region region_of(const Scene& scene, const State& a, const State& b);
-  [[nodiscard]] double cost(const Scene& scene, const Picture& source, const State& state, const Region& region,
+  [[nodiscard]] static SampleArea region_of(const Scene& scene, const State& a, const State& b);
+  [[nodiscard]] double cost(const Scene& scene, const Picture& source, const State& state, const SampleArea& region,
                             const MotionCounter& counter);
 
   double lambda_;
   Renderer renderer_;
-  Picture drawn_;
+  Plane drawn_;
 };
 
 }  // namespace fbs
