@@ -9,6 +9,9 @@ namespace {
 /// Noise that every sample is taken to have, grey levels squared: keeps small patches from being over-explained.
 constexpr double kNoise[3] = {30, 6, 6};
 
+/// The map is cut off here: a dark open mouth is no more lip than lips are, and teeth are no less lip than skin is.
+constexpr float kLeast = -0.25F, kMost = 1.1F;
+
 struct Class {
   cv::Vec3d mean;
   cv::Matx33d covariance = cv::Matx33d::zeros();
@@ -64,7 +67,7 @@ cv::Mat1f FeatureMap::operator()(const std::array<cv::Mat, 3>& patch) const {
   for (int y = 0; y < out.rows; ++y) {
     const std::uint8_t *a = patch[0].ptr(y), *b = patch[1].ptr(y), *c = patch[2].ptr(y);
     for (int x = 0; x < out.cols; ++x)
-      out(y, x) = std::clamp(weight_[0] * a[x] + weight_[1] * b[x] + weight_[2] * c[x] + offset_, -1.0F, 2.0F);
+      out(y, x) = std::clamp(weight_[0] * a[x] + weight_[1] * b[x] + weight_[2] * c[x] + offset_, kLeast, kMost);
   }
   return out;
 }
