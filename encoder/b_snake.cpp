@@ -37,8 +37,8 @@ glm::dvec2 curve_point(const SplineBasis& basis, const std::vector<glm::dvec2>& 
   return combine(basis, basis.value, control);
 }
 
-SnakeCurve::SnakeCurve(bool is_closed, int controls, std::vector<SplineBasis> points, double ds)
-    : closed_(is_closed), controls_(controls), points_(std::move(points)), support_(static_cast<std::size_t>(controls)), ds_(ds) {
+SnakeCurve::SnakeCurve(bool is_closed, int controls, int pinned, std::vector<SplineBasis> points, double ds)
+    : closed_(is_closed), controls_(controls), pinned_(pinned), points_(std::move(points)), support_(static_cast<std::size_t>(controls)), ds_(ds) {
   for (std::size_t h = 0; h < points_.size(); ++h)
     for (std::size_t k = 0; k < 4; ++k)
       if (std::abs(points_[h].value[k]) > 1e-9)
@@ -49,14 +49,14 @@ SnakeCurve SnakeCurve::closed(int controls, int points) {
   std::vector<SplineBasis> basis;
   const double ds = static_cast<double>(controls) / points;
   for (int h = 0; h < points; ++h) basis.push_back(closed_basis(controls, h * ds));
-  return {true, controls, std::move(basis), ds};
+  return {true, controls, 0, std::move(basis), ds};
 }
 
-SnakeCurve SnakeCurve::clamped(int points) {
+SnakeCurve SnakeCurve::clamped(int points, bool free_ends) {
   std::vector<SplineBasis> basis;
   const double ds = 1.0 / (points - 1);
   for (int h = 0; h < points; ++h) basis.push_back(clamped_basis(true, h * ds));
-  return {false, 4, std::move(basis), ds};
+  return {false, 4, free_ends ? 0 : 1, std::move(basis), ds};
 }
 
 BSnake::BSnake(const SnakeCurve& curve, const SnakeImage& image, const SnakeWeights& weights,
@@ -138,7 +138,7 @@ SnakeOutcome BSnake::minimise(std::vector<glm::dvec2> start) const {
     double delta = kDelta0;
     const std::vector<glm::dvec2> descent_start = out.control;
     for (int q = 0; q < kMaxIterations; ++q, delta *= kSigma) {
-      for (int i = 0; i < curve_.controls(); ++i) {
+      for (int i = curve_.first_free(); i < curve_.end_free(); ++i) {
         glm::dvec2& c = out.control[static_cast<std::size_t>(i)];
         for (int axis = 0; axis < 2; ++axis) {
           const double here = c[axis];

@@ -39,9 +39,13 @@ class SnakeCurve {
   /// Closed curve with `controls` control points, sampled at `points` even steps of s.
   static SnakeCurve closed(int controls, int points);
   /// Clamped cubic with four control points.
-  static SnakeCurve clamped(int points);
+  /// @param free_ends  false: the first and the last control point are pinned where they are
+  static SnakeCurve clamped(int points, bool free_ends = true);
 
   [[nodiscard]] int controls() const { return controls_; }
+  /// The control points that may move: [first_free, end_free).
+  [[nodiscard]] int first_free() const { return pinned_; }
+  [[nodiscard]] int end_free() const { return controls_ - pinned_; }
   [[nodiscard]] const std::vector<SplineBasis>& points() const { return points_; }
   /// Indices of the points that control point i moves.
   [[nodiscard]] const std::vector<int>& support(int i) const { return support_[static_cast<std::size_t>(i)]; }
@@ -50,9 +54,10 @@ class SnakeCurve {
   [[nodiscard]] bool is_closed() const { return closed_; }
 
  private:
-  SnakeCurve(bool is_closed, int controls, std::vector<SplineBasis> points, double ds);
+  SnakeCurve(bool is_closed, int controls, int pinned, std::vector<SplineBasis> points, double ds);
   bool closed_;
   int controls_;
+  int pinned_;  ///< at each end
   std::vector<SplineBasis> points_;
   std::vector<std::vector<int>> support_;
   double ds_;

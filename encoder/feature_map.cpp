@@ -1,6 +1,7 @@
 #include "encoder/feature_map.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace fbs {
@@ -39,8 +40,8 @@ Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
 
 }  // namespace
 
-FeatureMap FeatureMap::learn(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside, const cv::Mat& outside,
-                             bool luma_only) {
+FeatureMap FeatureMap::discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside, const cv::Mat& outside,
+                                    bool luma_only) {
   FeatureMap map;
   const Class in = statistics(patch, inside), out = statistics(patch, outside);
   if (in.count < 8 || out.count < 8) return map;
@@ -62,12 +63,32 @@ FeatureMap FeatureMap::learn(const std::array<cv::Mat, 3>& patch, const cv::Mat&
   return map;
 }
 
+FeatureMap FeatureMap::likeness(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside) {
+  FeatureMap map;
+  map.is_likeness_ = true;
+  const Class in = statistics(patch, inside);
+  if (in.count < 8) return map;
+  // Lips change colour with light and stretch: three times the variance that one picture shows.
+  cv::Matx33d covariance = in.covariance * 3.0;
+  for (int k = 0; k < 3; ++k) covariance(k, k) += 4 * kNoise[k];
+  map.mean_ = in.mean;
+  map.inverse_covariance_ = covariance.inv();
+  return map;
+}
+
 cv::Mat1f FeatureMap::operator()(const std::array<cv::Mat, 3>& patch) const {
   cv::Mat1f out(patch[0].size());
   for (int y = 0; y < out.rows; ++y) {
     const std::uint8_t *a = patch[0].ptr(y), *b = patch[1].ptr(y), *c = patch[2].ptr(y);
-    for (int x = 0; x < out.cols; ++x)
-      out(y, x) = std::clamp(weight_[0] * a[x] + weight_[1] * b[x] + weight_[2] * c[x] + offset_, kLeast, kMost);
+    for (int x = 0; x < out.cols; ++x) {
+      const cv::Vec3f v(a[x], b[x], c[x]);
+      if (is_likeness_) {
+        const cv::Vec3f d = v - mean_;
+        out(y, x) = std::exp(-0.5F * d.dot(inverse_covariance_ * d));
+      } else {
+        out(y, x) = std::clamp(weight_.dot(v) + offset_, kLeast, kMost);
+      }
+    }
   }
   return out;
 }
