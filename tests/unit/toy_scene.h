@@ -1,0 +1,89 @@
+// A scene with a face made of the generic head and random paint: what the decoder's tests draw, no encoder needed.
+#pragma once
+
+#include <random>
+
+#include "decoder/renderer.h"
+
+namespace fbs {
+
+inline Plane noise_plane(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  Plane plane(width, height);
+  for (auto& s : plane.samples) s = static_cast<std::uint8_t>(random());
+  return plane;
+}
+
+inline Picture noise_picture(int width, int height, unsigned seed) {
+  Picture picture(width, height);
+  picture.y = noise_plane(width, height, seed);
+  picture.u = noise_plane(picture.u.width, picture.u.height, seed + 1);
+  picture.v = noise_plane(picture.v.width, picture.v.height, seed + 2);
+  return picture;
+}
+
+inline constexpr FeatureMask kAllFeatures = (1 << kFeatureCount) - 1;
+
+/// Finest steps, so that tests can say turns, pixels and head units.
+inline Setup toy_setup(int width = 160, int height = 128) {
+  Setup setup;
+  setup.format.width = width;
+  setup.format.height = height;
+  setup.steps = {1, 1, 1, 1};
+  setup.features = kAllFeatures;
+  return setup;
+}
+
+inline Geometry toy_geometry() {
+  Geometry geometry;
+  for (std::size_t v = 0; v < kVertexCount; ++v) geometry.positions[v] = generic_head().vertices[v].position;
+  return geometry;
+}
+
+/// Frontal, the eyes 32 pixels apart, at (x, y) pixels.
+inline State toy_state(int x = 80, int y = 54) {
+  State state;
+  state.pose[kShiftX] = x * 64;
+  state.pose[kShiftY] = y * 64;
+  state.pose[kLogScale] = 5 * 4096;
+  return state;
+}
+
+/// `follow` everywhere inside, nothing on the border.
+inline SurroundMap even_surround(int columns, int rows, int follow) {
+  SurroundMap map{columns, rows, {}};
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c <= columns; ++c)
+      map.follow.push_back(static_cast<std::uint8_t>(r == 0 || c == 0 || r == rows || c == columns ? 0 : follow));
+  return map;
+}
+
+/// A scene whose pattern is `picture`, seen in toy_state().
+inline Scene toy_scene(Picture picture, SurroundMap surround = even_surround(10, 8, 0)) {
+  Scene scene;
+  scene.setup = toy_setup(picture.width(), picture.height());
+  scene.geometry.emplace(scene.setup, toy_geometry(), std::move(surround), toy_state());
+  scene.patterns.push_back({std::move(picture), scene.geometry->project(toy_state())});
+  return scene;
+}
+
+/// Any state that a stream may hold.
+inline State random_state(std::mt19937& random, const QuantiserSteps& steps = {1, 1, 1, 1}) {
+  const auto within = [&](std::int32_t limit, std::int32_t step) {
+    const std::int32_t most = limit / step;
+    // Often the very limit.
+    switch (random() % 4) {
+      case 0: return most;
+      case 1: return -most;
+      default: return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
+    }
+  };
+  State state;
+  for (const int i : {kPitch, kYaw, kRoll}) state.pose[static_cast<std::size_t>(i)] = within(kMaxRotation, steps.rotation);
+  for (const int i : {kShiftX, kShiftY}) state.pose[static_cast<std::size_t>(i)] = within(kMaxTranslation, steps.translation);
+  state.pose[kLogScale] = static_cast<std::int32_t>(random() % static_cast<unsigned>(kMaxLogScale / steps.log_scale + 1));
+  for (glm::ivec2& c : state.control) c = {within(kMaxControl, steps.control), within(kMaxControl, steps.control)};
+  return state;
+}
+
+}  // namespace fbs
