@@ -10,6 +10,7 @@ namespace fbs {
 namespace {
 
 constexpr double kPointSpacing = 2.6;  // work pixels between surface points
+constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Vector6 = cv::Vec<double, 6>;
@@ -80,14 +81,48 @@ bool sample(const cv::Mat& m, double x, double y, double& value, double& gx, dou
   return true;
 }
 
+/// Brightness with the light taken out: less the local mean, over the local contrast; 8 bit about 128. A face that
+/// turns under a lamp changes its shading, but not its features.
+cv::Mat without_light(const cv::Mat& luma) {
+  constexpr double kReach = 0.22 * WorkFrame::kWorkEyeDistance;
+  constexpr double kLeastContrast = 6;  // grey levels; less is noise and stays flat
+  constexpr double kGain = 40;          // of one standard deviation
+  // Means over a large Gaussian, at a quarter of the size.
+  cv::Mat value, small, mean, variance;
+  luma.convertTo(value, CV_32F);
+  cv::GaussianBlur(value, value, {3, 3}, 0.8);
+  const auto smooth = [&](const cv::Mat& in, cv::Mat& out) {
+    cv::resize(in, small, {}, 0.25, 0.25, cv::INTER_AREA);
+    cv::GaussianBlur(small, small, {}, kReach / 4);
+    cv::resize(small, out, in.size(), 0, 0, cv::INTER_LINEAR);
+  };
+  smooth(value, mean);
+  value -= mean;
+  smooth(value.mul(value), variance);
+  variance += kLeastContrast * kLeastContrast;
+  cv::sqrt(variance, variance);
+  cv::Mat out;
+  cv::divide(value, variance, value, kGain);
+  value.convertTo(out, CV_8U, 1, 128);
+  return out;
+}
+
 std::vector<cv::Mat> pyramid_of(const cv::Mat& luma, int levels) {
   std::vector<cv::Mat> out(static_cast<std::size_t>(levels));
-  cv::GaussianBlur(luma, out[0], {3, 3}, 0.8);
+  out[0] = without_light(luma);
   for (std::size_t l = 1; l < out.size(); ++l) cv::pyrDown(out[l - 1], out[l]);
   return out;
 }
 
 glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
+
+/// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
+glm::dvec3 face_centre(const std::array<glm::dvec3, kVertexCount>& vertices) {
+  const auto at = [&](int ibug) {
+    return vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)])];
+  };
+  return (at(36) + at(45) + at(30)) / 3.0;
+}
 
 /// What moves by itself, and says less of the head: lips, eyes, brows, chin.
 float weight_of(const HeadTriangle& t) {
@@ -275,11 +310,24 @@ TrackedPose HeadTracker::track(const WorkFrame& now, const std::array<glm::dvec3
   const std::vector<glm::dvec3> points = surface(vertices);
 
   // The flow's guess and the pose before: the alignment starts from the one that explains the picture better.
+  const auto explains = [&](const Pose& p) { return correlation(pyramid[1], now, p, points); };
+  const auto settle = [&](Pose p) {
+    for (int level = kLevels - 1; level >= 0; --level) {
+      const Pose refined = align(pyramid, now, level, p, points);
+      if (explains(refined) >= explains(p) - 0.002) p = refined;
+    }
+    return p;
+  };
   const Pose guess = fit_flow(pose_, vertices);
-  Pose pose = correlation(pyramid[1], now, guess, points) >= correlation(pyramid[1], now, pose_, points) ? guess : pose_;
-  for (int level = kLevels - 1; level >= 0; --level) {
-    const Pose refined = align(pyramid, now, level, pose, points);
-    if (correlation(pyramid[1], now, refined, points) >= correlation(pyramid[1], now, pose, points) - 0.002) pose = refined;
+  Pose pose = settle(explains(guess) >= explains(pose_) ? guess : pose_);
+  if (explains(pose) < kDoubtBelow) {
+    // Perhaps caught in a turn that is none: the same place, seen from the front.
+    const glm::dvec3 centre = face_centre(vertices);
+    Pose frontal = pose;
+    frontal.pitch = frontal.yaw = 0;
+    frontal.shift += PoseProjection(pose)(centre) - PoseProjection(frontal)(centre);
+    frontal = settle(frontal);
+    if (explains(frontal) > explains(pose)) pose = frontal;
   }
   pose_ = pose;
   before_ = now;
