@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Makes what is made in docs/: talker.png, head.svg and the list of vertices in marks.md.
+
+    docs/make_pictures.py [BUILD]       BUILD holds the programs fbs and talker; build/release unless given
+
+Needs ffmpeg with drawtext and the font DejaVu Sans. The talker is rendered by samples/, nobody was filmed.
+"""
+
+import base64
+import json
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+
+DOCS = pathlib.Path(__file__).resolve().parent
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+SIZE, PICTURES, SHOWN = 480, 300, 145
+FEATURES = ["outer lips", "inner lips", "right brow", "left brow", "right upper lid", "left upper lid",
+            "right lower lid", "left lower lid", "right pupil", "left pupil"]
+
+
+def talker_picture(build, target):
+    """Original, mesh and decoded picture SHOWN side by side, with what the stream costs."""
+    with tempfile.TemporaryDirectory() as folder:
+        at = lambda name: str(pathlib.Path(folder) / name)
+        run = lambda *args: subprocess.run(args, check=True, capture_output=True, text=True).stdout
+        run(f"{build}/talker", at("a.y4m"), "--size", f"{SIZE}x{SIZE}", "--frames", str(PICTURES))
+        run(f"{build}/fbs", "encode", at("a.y4m"), at("a.fbs"), "--overlay", at("b.y4m"), "--quiet")
+        run(f"{build}/fbs", "decode", at("a.fbs"), at("c.y4m"), "--quiet")
+        seen = json.loads(run(f"{build}/fbs", "inspect", at("a.fbs"), "--json"))
+        total = seen["bytes"]["total"] * 8 / seen["seconds"] / 1000
+        bits = seen["bytes"]["motion"] * 8 / seen["frames"]
+        labels = [f"original, picture {SHOWN} of {PICTURES}", "mesh and snakes",
+                  f"decoded: {total:.1f} kbit/s in all, {bits:.0f} bits of motion a picture"]
+        chains = [f"[{i}:v]select=eq(n\\,{SHOWN}),scale={SIZE}:{SIZE},setsar=1,pad=iw:ih+34:0:34:white,"
+                  f"drawtext=fontfile={FONT}:text='{text.replace(':', chr(92) + ':')}':fontsize=17:x=8:y=9[v{i}]"
+                  for i, text in enumerate(labels)]
+        graph = ";".join(chains) + ";[v0][v1][v2]hstack=3"
+        run("ffmpeg", "-v", "error", "-y", "-i", at("a.y4m"), "-i", at("b.y4m"), "-i", at("c.y4m"),
+            "-filter_complex", graph, "-frames:v", "1", str(target))
+
+
+def head():
+    """Positions in eye distances (x to the picture's right, y down), triangles and vertices of the generic head."""
+    gltf = json.loads((DOCS.parent / "common/generic_head.gltf").read_text())
+    mesh = gltf["meshes"][0]
+    data = base64.b64decode(gltf["buffers"][0]["uri"].split(",")[1])
+    count = gltf["accessors"][1]["count"]
+    offsets = [view["byteOffset"] for view in gltf["bufferViews"]]
+    positions = [(x, -y, -z) for x, y, z in struct.iter_unpack("<3f", data[offsets[0]:offsets[0] + 105 * 12])]
+    corners = struct.unpack_from(f"<{count}H", data, offsets[1])
+    return positions, list(zip(*[iter(corners)] * 3)), mesh["extras"]["vertices"]
+
+
+def head_drawing(target):
+    """Front view with the vertices' numbers, and side view, as in the paper's Fig. 2."""
+    positions, triangles, vertices = head()
+    scale, top, middle, side = 620, 1.3, 1.2, 2.8
+    front = [((x + middle) * scale, (y + top) * scale) for x, y, z in positions]
+    profile = [((side - z) * scale, (y + top) * scale) for x, y, z in positions]
+    edges = sorted({tuple(sorted((t[i], t[(i + 1) % 3]))) for t in triangles for i in range(3)})
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {4.4 * scale:.0f} {3.3 * scale:.0f}">',
+           '<rect width="100%" height="100%" fill="white"/>']
+    for view in (front, profile):
+        path = "".join(f"M{view[a][0]:.0f} {view[a][1]:.0f}L{view[b][0]:.0f} {view[b][1]:.0f}" for a, b in edges)
+        out.append(f'<path d="{path}" stroke="#8ab" stroke-width="1.5" fill="none"/>')
+    out.append('<g font-family="sans-serif" font-size="19" text-anchor="middle">')
+    for v, (x, y) in enumerate(front):
+        colour = "#a00" if vertices[v]["feature"] >= 0 else "#000"
+        out.append(f'<text x="{x:.0f}" y="{y + 5:.0f}" fill="{colour}" stroke="white" stroke-width="4" '
+                   f'paint-order="stroke">{v}</text>')
+    target.write_text("\n".join(out + ["</g></svg>"]) + "\n")
+
+
+def vertex_list(target):
+    """Replaces the table in marks.md."""
+    positions, _, vertices = head()
+    rows = ["| vertex | name | iBUG-68 | on the curve of | x | y |", "|---|---|---|---|---|---|"]
+    for v, (vertex, p) in enumerate(zip(vertices, positions)):
+        landmark = vertex["landmark"] if vertex["landmark"] >= 0 else ""
+        feature = FEATURES[vertex["feature"]] if vertex["feature"] >= 0 else ""
+        rows.append(f"| {v} | `{vertex['name']}` | {landmark} | {feature} | {p[0]:.3f} | {p[1]:.3f} |")
+    text = target.read_text()
+    target.write_text(re.sub(r"\| vertex \|.*?\n\n", "\n".join(rows) + "\n\n", text, flags=re.S))
+
+
+if __name__ == "__main__":
+    head_drawing(DOCS / "head.svg")
+    vertex_list(DOCS / "marks.md")
+    talker_picture(sys.argv[1] if len(sys.argv) > 1 else DOCS.parent / "build/release", DOCS / "talker.png")
