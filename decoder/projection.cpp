@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-/// The ring lies this much farther from the head's axis than the outline, in 1/256.
+/// The ring lies this much farther from the head's axis than the outline in the seen pose, in 1/256.
 constexpr std::int32_t kRingGrowth = 36;
 
 /// Below this determinant (Q14) of the seen pose's upper-left 2 x 2 rotation the surround stays still: the head is
@@ -16,6 +16,19 @@ constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
 
 std::int32_t clamp_screen(std::int64_t v) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(v, -kMaxScreen, kMaxScreen));
+}
+
+/// Keeps the pupil's vertex between the lids, a quarter of the gap from either: a shutting eye would fold its
+/// triangles otherwise.
+void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId upper_lid, FeatureId lower_lid,
+                       FeatureId pupil) {
+  const auto y_of = [&](const FeatureVertex& v) { return vertices[static_cast<std::size_t>(v.vertex)].y; };
+  std::int32_t upper = INT32_MIN, lower = INT32_MAX;
+  for (const FeatureVertex& v : feature(upper_lid).vertices) upper = std::max(upper, y_of(v));
+  for (const FeatureVertex& v : feature(lower_lid).vertices) lower = std::min(lower, y_of(v));
+  std::int32_t& y = vertices[static_cast<std::size_t>(feature(pupil).vertices.front().vertex)].y;
+  const std::int32_t margin = (lower - upper) / 4;
+  y = lower > upper ? std::clamp(y, upper + margin, lower - margin) : upper + (lower - upper) / 2;
 }
 
 HeadMesh make_head_mesh() {
@@ -82,6 +95,8 @@ std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertex
     out[v].y += static_cast<std::int32_t>(round_shift(y * steps.control, 12));
   }
   static_assert(kSpreadOne == 1 << 12);
+  keep_between_lids(out, FeatureId::kUpperLidRight, FeatureId::kLowerLidRight, FeatureId::kPupilRight);
+  keep_between_lids(out, FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft, FeatureId::kPupilLeft);
   return out;
 }
 
@@ -96,7 +111,53 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
       height_(setup.format.height),
       geometry_(geometry),
       surround_(std::move(surround)),
-      seen_(dequantise_pose(seen, setup.steps)) {}
+      seen_(dequantise_pose(seen, setup.steps)) {
+  const HeadProjection projection(seen_);
+  for (const std::int16_t v : generic_head().outline) {
+    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(v)];
+    const glm::ivec3 at = projection({p.x + p.x * kRingGrowth / 256, p.y + p.y * kRingGrowth / 256, p.z});
+    ring_.push_back(place_ring_vertex({at.x, at.y}));
+  }
+}
+
+glm::ivec2 SceneGeometry::regular(int column, int row) const {
+  const auto share = [](int size, int k, int of) {
+    return static_cast<std::int32_t>((std::int64_t{size} << kScreenOneLog2) * k / of);
+  };
+  return {share(width_, column, surround_.columns), share(height_, row, surround_.rows)};
+}
+
+SceneGeometry::RingVertex SceneGeometry::place_ring_vertex(glm::ivec2 seen) const {
+  const glm::ivec2 last = regular(surround_.columns, surround_.rows);
+  const glm::ivec2 inside(std::clamp(seen.x, 0, last.x), std::clamp(seen.y, 0, last.y));
+  RingVertex r{seen, 0, 0, 0, 0};
+  while (r.column + 1 < surround_.columns && regular(r.column + 1, 0).x <= inside.x) ++r.column;
+  while (r.row + 1 < surround_.rows && regular(0, r.row + 1).y <= inside.y) ++r.row;
+  const glm::ivec2 low = regular(r.column, r.row), high = regular(r.column + 1, r.row + 1);
+  r.across = (inside.x - low.x) * 256 / (high.x - low.x);
+  r.down = (inside.y - low.y) * 256 / (high.y - low.y);
+  return r;
+}
+
+void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {
+  const int stride = surround_.columns + 1;
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    const RingVertex& r = ring_[i];
+    const auto moved = [&](int column, int row) {
+      return mesh.surround[static_cast<std::size_t>(row * stride + column)] - regular(column, row);
+    };
+    const glm::ivec2 a = moved(r.column, r.row), b = moved(r.column + 1, r.row);
+    const glm::ivec2 c = moved(r.column, r.row + 1), d = moved(r.column + 1, r.row + 1);
+    const auto blend = [&](std::int64_t va, std::int64_t vb, std::int64_t vc, std::int64_t vd) {
+      const std::int64_t top = va * (256 - r.across) + vb * r.across, bottom = vc * (256 - r.across) + vd * r.across;
+      return static_cast<std::int32_t>(round_shift(top * (256 - r.down) + bottom * r.down, 16));
+    };
+    // Its depth is the outline's: the ring lies beside the face, not behind it.
+    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(generic_head().outline[i])];
+    mesh.head.emplace_back(clamp_screen(r.seen.x + blend(a.x, b.x, c.x, d.x)),
+                           clamp_screen(r.seen.y + blend(a.y, b.y, c.y, d.y)), projection(p).z);
+  }
+}
 
 std::array<glm::ivec3, kVertexCount> SceneGeometry::project_vertices(const State& state) const {
   const HeadProjection projection(dequantise_pose(state, steps_));
@@ -111,12 +172,8 @@ ScreenMesh SceneGeometry::project(const State& state) const {
   ScreenMesh mesh;
   const auto vertices = project_vertices(state);
   mesh.head.assign(vertices.begin(), vertices.end());
-  for (const std::int16_t v : generic_head().outline) {
-    // Ring vertices follow the head as a whole, never its expression.
-    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(v)];
-    mesh.head.push_back(projection({p.x + p.x * kRingGrowth / 256, p.y + p.y * kRingGrowth / 256, 0}));
-  }
   project_surround(pose, mesh.surround);
+  project_ring(projection, mesh);
   return mesh;
 }
 
@@ -142,18 +199,16 @@ void SceneGeometry::project_surround(const HeadPose& pose, std::vector<glm::ivec
   out.resize(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1));
   std::size_t k = 0;
   for (int r = 0; r <= rows; ++r) {
-    const std::int32_t y = static_cast<std::int32_t>((std::int64_t{height_} << kScreenOneLog2) * r / rows);
     for (int c = 0; c <= columns; ++c, ++k) {
-      const std::int32_t x = static_cast<std::int32_t>((std::int64_t{width_} << kScreenOneLog2) * c / columns);
-      glm::ivec2 p(x, y);
+      glm::ivec2 p = regular(c, r);
       const int follow = surround_.follow[k];
       const bool border = r == 0 || c == 0 || r == rows || c == columns;
       if (moves && follow > 0 && !border) {
-        const std::int64_t dx = x - seen.shift.x, dy = y - seen.shift.y;
+        const std::int64_t dx = p.x - seen.shift.x, dy = p.y - seen.shift.y;
         const std::int64_t px = now.shift.x + round_shift(m[0][0] * dx + m[0][1] * dy, 16);
         const std::int64_t py = now.shift.y + round_shift(m[1][0] * dx + m[1][1] * dy, 16);
-        p.x = clamp_screen(x + (px - x) * follow / kFollowOne);
-        p.y = clamp_screen(y + (py - y) * follow / kFollowOne);
+        p.x = clamp_screen(p.x + (px - p.x) * follow / kFollowOne);
+        p.y = clamp_screen(p.y + (py - p.y) * follow / kFollowOne);
       }
       out[k] = p;
     }

@@ -47,8 +47,8 @@ struct HeadProjection {
 [[nodiscard]] std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
                                                           const State& state, const QuantiserSteps& steps);
 
-/// The 105 vertices and, behind them, the ring: one vertex per outline vertex, pushed outwards and back into the
-/// plane of the surround, so that the jaw can move against the neck without tearing.
+/// The 105 vertices and the ring round them: one vertex per outline vertex, pushed outwards, that goes with the
+/// surround under it. Between the two the jaw can move against the neck without tearing.
 struct HeadMesh {
   std::vector<std::array<std::int16_t, 3>> triangles;  ///< clockwise in the picture seen from the front
   int vertex_count = 0;                                ///< kVertexCount + ring
@@ -78,13 +78,24 @@ class SceneGeometry {
   [[nodiscard]] const QuantiserSteps& steps() const { return steps_; }
 
  private:
+  /// A ring vertex in the seen pose, and the cell of the grid that carries it.
+  struct RingVertex {
+    glm::ivec2 seen;      ///< 1/64 pixel
+    int column, row;      ///< of the cell
+    int across, down;     ///< place in the cell, 0..256
+  };
+
+  [[nodiscard]] glm::ivec2 regular(int column, int row) const;
+  [[nodiscard]] RingVertex place_ring_vertex(glm::ivec2 seen) const;
   void project_surround(const HeadPose& pose, std::vector<glm::ivec2>& out) const;
+  void project_ring(const HeadProjection& projection, ScreenMesh& mesh) const;
 
   QuantiserSteps steps_;
   int width_, height_;
   Geometry geometry_;
   SurroundMap surround_;
   HeadPose seen_;
+  std::vector<RingVertex> ring_;
 };
 
 }  // namespace fbs

@@ -57,7 +57,10 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   if (!geometry) return tl::unexpected<Error>(geometry.error());
   scene.geometry_bytes_ = std::move(geometry->payload);
   scene.seen_.pose = quantise(adapted->pose, point.steps);
-  scene.scene_.geometry.emplace(scene.scene_.setup, geometry->decoded, SurroundMap{1, 1, {0, 0, 0, 0}}, scene.seen_);
+  // Until pictures have shown better, the surround is a guess by distance from the face.
+  scene.scene_.geometry.emplace(scene.scene_.setup, geometry->decoded,
+                                fit_surround(scene.scene_.setup, geometry->decoded, {&first, scene.seen_}, {}),
+                                scene.seen_);
   const Pose seen_pose = dequantise(scene.seen_, point.steps);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
@@ -206,6 +209,9 @@ Result<void> SceneEncoder::start() {
     if (!surround) return tl::unexpected<Error>(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);
     write_packet(ready_, PacketType::kSurround, *surround);
+    const Geometry geometry = scene_.geometry->geometry();  // outlives the object that emplace destroys
+    scene_.geometry.emplace(scene_.setup, geometry, map, seen_);
+    scene_.patterns.front().seen = scene_.geometry->project(seen_);
   }
   write_packet(ready_, PacketType::kPattern, pattern_bytes_);
   ready_.insert(ready_.end(), held_back_.begin(), held_back_.end());

@@ -52,7 +52,7 @@ class SceneEncoder {
   int group_pictures_ = 30;
   int lookahead_ = 60;
 
-  Scene scene_;                            ///< as the decoder has it; the surround stays still in here
+  Scene scene_;                            ///< as the decoder has it; until start() the surround's map is a guess
   State seen_;                             ///< of pattern 0
   double eye_distance_px_ = 0;
   std::optional<HeadTracker> head_;
