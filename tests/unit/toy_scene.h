@@ -41,7 +41,7 @@ inline Geometry toy_geometry() {
 }
 
 /// Frontal, the eyes 32 pixels apart, at (x, y) pixels.
-inline State toy_state(int x = 80, int y = 54) {
+inline State toy_state(int x = 80, int y = 50) {
   State state;
   state.pose[kShiftX] = x * 64;
   state.pose[kShiftY] = y * 64;
