@@ -137,10 +137,11 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
   const Feature& f = feature(id);
   const Kind& kind = kind_of(id);
   FeatureSnake s{.id = id, .curve = curve_of(id), .weights = kind.weights};
+  s.below_vertices = is_brow(id) ? kBrowBelowMarks : 0;
   std::vector<glm::dvec2> target;
   for (const FeatureVertex& v : f.vertices) {
     const auto vertex = static_cast<std::size_t>(v.vertex);
-    target.push_back(on_head(geometry, vertex) + glm::dvec2(0, is_brow(id) ? kBrowBelowMarks : 0));
+    target.push_back(on_head(geometry, vertex) + glm::dvec2(0, s.below_vertices));
     s.depth += geometry.positions[vertex].z / static_cast<double>(f.vertices.size());
   }
   const auto corner = corners_of(id);

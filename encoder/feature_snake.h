@@ -28,6 +28,7 @@ struct FeatureSnake {
   FeatureMap map{};
   std::vector<glm::dvec2> rest{}, now{};  ///< control points with pinned ones, snake units
   std::vector<FacingPair> facing{};
+  double below_vertices = 0;          ///< the curve runs this far below the vertices it moves
   double lowest = 1e9;                ///< y that a lid's middle does not pass: just above the lower lid
   cv::Mat1f seen{};                     ///< feature map of the picture before
   int iterations = 0;                 ///< of the last descent

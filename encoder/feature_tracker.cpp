@@ -141,6 +141,17 @@ void FeatureTracker::set_offsets(const std::array<glm::dvec2, kControlCount>& of
   }
 }
 
+std::vector<std::pair<std::size_t, glm::dvec3>> FeatureTracker::vertices() const {
+  std::vector<std::pair<std::size_t, glm::dvec3>> out;
+  for (const FeatureSnake& s : snakes_) {
+    for (const FeatureVertex& fv : feature(s.id).vertices) {
+      const glm::dvec2 p = curve_point(basis_at(s.curve, static_cast<double>(fv.s)), s.now) - glm::dvec2(0, s.below_vertices);
+      out.emplace_back(static_cast<std::size_t>(fv.vertex), glm::dvec3(p * kHeadUnitsPerSnakeUnit, s.depth));
+    }
+  }
+  return out;
+}
+
 std::vector<glm::dvec3> FeatureTracker::outline(std::size_t snake) const {
   const FeatureSnake& s = snakes_[snake];
   std::vector<glm::dvec3> out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "encoder/feature_snake.h"
@@ -33,6 +34,10 @@ class FeatureTracker {
   /// The curve of a snake as points in the head frame, head units; for drawing and for marks.
   [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t snake) const;
   [[nodiscard]] bool is_closed(std::size_t snake) const { return snakes_[snake].curve.is_closed(); }
+
+  /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head frame
+  /// (head units).
+  [[nodiscard]] std::vector<std::pair<std::size_t, glm::dvec3>> vertices() const;
 
   [[nodiscard]] std::size_t count() const { return snakes_.size(); }
   /// Iterations that the last track() needed, per snake.

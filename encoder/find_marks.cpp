@@ -14,6 +14,7 @@ constexpr double kRes = 64;  // pixels per eye distance in the face's own frame
 constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // of that frame, eye distances
 
 /// The middle of the lids lies this far right of and below the eyes that the cascades give; median over ten faces.
+constexpr double kBrowHalfWidth = 0.056;  // eye distances
 constexpr double kEyeBiasX = 0.04, kEyeBiasY = 0.025;  // eye distances
 
 /// The face, eyes level at (-0.5, 0) and (0.5, 0) in eye distances, y down.
@@ -229,10 +230,12 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
     std::array<double, 5> xs{}, usual{};
     for (int i = 0; i < 5; ++i) {
       xs[static_cast<std::size_t>(i)] = generic_at(first + i).x;
-      usual[static_cast<std::size_t>(i)] = generic_at(first + i).y;
+      usual[static_cast<std::size_t>(i)] = generic_at(first + i).y + kBrowHalfWidth;
     }
     const auto ys = find_brow(f, xs, usual);
-    for (int i = 0; i < 5; ++i) set(first + i, {xs[static_cast<std::size_t>(i)], ys[static_cast<std::size_t>(i)]});
+    // What is found is the brow's middle; its landmarks lie on the upper border.
+    for (int i = 0; i < 5; ++i)
+      set(first + i, {xs[static_cast<std::size_t>(i)], ys[static_cast<std::size_t>(i)] - kBrowHalfWidth});
   }
 
   // The nose's base follows the mouth's height; nostrils and the shadow under the tip are dark.
