@@ -13,46 +13,6 @@ constexpr double kPointSpacing = 2.6;  // work pixels between surface points
 constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-using Vector6 = cv::Vec<double, 6>;
-
-Pose moved(const Pose& p, const Vector6& d) {
-  Pose out = p;
-  out.pitch += d[0];
-  out.yaw += d[1];
-  out.roll += d[2];
-  out.shift += glm::dvec2(d[3], d[4]);
-  out.log2_scale += d[5];
-  constexpr double kMaxTurn = 1.2;  // beyond this the face is not seen any more
-  out.pitch = std::clamp(out.pitch, -kMaxTurn, kMaxTurn);
-  out.yaw = std::clamp(out.yaw, -kMaxTurn, kMaxTurn);
-  out.roll = std::clamp(out.roll, -kMaxTurn, kMaxTurn);
-  return out;
-}
-
-/// Derivatives of a projected point by the six numbers of the pose: the matrices' by difference, the rest exact.
-class PoseJacobian {
- public:
-  explicit PoseJacobian(const Pose& pose) : projection_(pose) {
-    constexpr double kStep = 1e-4;
-    for (int k = 0; k < 3; ++k) {
-      Vector6 d;
-      d[k] = kStep;
-      by_angle_[static_cast<std::size_t>(k)] = (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
-    }
-  }
-  [[nodiscard]] const PoseProjection& projection() const { return projection_; }
-
-  /// Columns: pitch, yaw, roll, shift x, shift y, log2 scale; pixels.
-  [[nodiscard]] std::array<glm::dvec2, 6> at(glm::dvec3 p) const {
-    return {glm::dvec2(by_angle_[0] * p), glm::dvec2(by_angle_[1] * p), glm::dvec2(by_angle_[2] * p), {1, 0}, {0, 1},
-            std::log(2.0) * glm::dvec2(projection_.matrix * p)};
-  }
-
- private:
-  PoseProjection projection_;
-  std::array<glm::dmat3, 3> by_angle_;
-};
-
 /// How strongly the pose is held where it was guessed, per number, as standard deviations in eye distances of motion.
 /// Only what the picture does not determine feels it.
 cv::Matx66d prior(double eye_distance, double sigma_angle, double sigma_px) {
@@ -61,24 +21,6 @@ cv::Matx66d prior(double eye_distance, double sigma_angle, double sigma_px) {
   for (int k = 3; k < 5; ++k) p(k, k) = 1 / (sigma_px * sigma_px * eye_distance * eye_distance);
   p(5, 5) = 1 / (sigma_angle * sigma_angle);
   return p;
-}
-
-/// Bilinear value and central-difference gradient of an 8-bit picture; false outside.
-bool sample(const cv::Mat& m, double x, double y, double& value, double& gx, double& gy) {
-  if (!(x >= 1 && y >= 1 && x < m.cols - 2.001 && y < m.rows - 2.001)) return false;
-  const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const double fx = x - i, fy = y - j;
-  const std::uint8_t* r0 = m.ptr<std::uint8_t>(j - 1) + i;
-  const std::uint8_t* r1 = m.ptr<std::uint8_t>(j) + i;
-  const std::uint8_t* r2 = m.ptr<std::uint8_t>(j + 1) + i;
-  const std::uint8_t* r3 = m.ptr<std::uint8_t>(j + 2) + i;
-  const double a = r1[0], b = r1[1], c = r2[0], d = r2[1];
-  value = (a * (1 - fx) + b * fx) * (1 - fy) + (c * (1 - fx) + d * fx) * fy;
-  const double gx1 = ((b - r1[-1]) * (1 - fx) + (r1[2] - a) * fx) * 0.5, gx2 = ((d - r2[-1]) * (1 - fx) + (r2[2] - c) * fx) * 0.5;
-  gx = gx1 * (1 - fy) + gx2 * fy;
-  const double gy1 = ((c - r0[0]) * (1 - fy) + (r3[0] - a) * fy) * 0.5, gy2 = ((d - r0[1]) * (1 - fy) + (r3[1] - b) * fy) * 0.5;
-  gy = gy1 * (1 - fx) + gy2 * fx;
-  return true;
 }
 
 /// Brightness with the light taken out: less the local mean, over the local contrast; 8 bit about 128. A face that
@@ -117,7 +59,7 @@ std::vector<cv::Mat> pyramid_of(const cv::Mat& luma, int levels) {
 glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
 
 /// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
-glm::dvec3 face_centre(const std::array<glm::dvec3, kVertexCount>& vertices) {
+glm::dvec3 face_centre(const HeadVertices& vertices) {
   const auto at = [&](int ibug) {
     return vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)])];
   };
@@ -139,50 +81,32 @@ float weight_of(const HeadTriangle& t) {
 
 HeadTracker::HeadTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first)
     : pose_(pose), before_(first) {
-  std::array<glm::dvec3, kVertexCount> vertices;
+  HeadVertices vertices;
   for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(geometry.positions[v]);
   const PoseProjection projection(pose);
-  for (const HeadTriangle& t : generic_head().triangles) {
-    const auto corner = [&](int i) {
-      return projection(vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])]) * first.scale;
-    };
-    const glm::dvec2 a = corner(0), e = corner(1) - a, f = corner(2) - a;
-    const double area = std::abs(e.x * f.y - e.y * f.x) / 2;
-    // n x n cells of the triangle, a point in the middle of each
-    const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(2 * area) / kPointSpacing)));
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; i + j < n; ++j) {
-        const auto s = static_cast<float>((i + 1.0 / 3) / n), q = static_cast<float>((j + 1.0 / 3) / n);
-        points_.push_back({t, {1 - s - q, s, q}, weight_of(t)});
-      }
-    }
-  }
+  points_ = spread_over_mesh(vertices, projection, kPointSpacing / first.scale);
+  for (const SurfacePoint& p : points_) weight_.push_back(weight_of(p.corner));
   const auto pyramid = pyramid_of(first.luma, kLevels);
   const std::vector<glm::dvec3> points = surface(vertices);
   for (int level = 0; level < kLevels; ++level) {
     auto& seen = seen_[static_cast<std::size_t>(level)];
     for (const glm::dvec3& p : points) {
       const glm::dvec2 x = on_level(first.to_work(projection(p)), level);
-      double value = 0, gx = 0, gy = 0;
-      const bool inside = sample(pyramid[static_cast<std::size_t>(level)], x.x, x.y, value, gx, gy);
-      seen.push_back(inside ? static_cast<float>(value) : -1.0F);
+      Sample s;
+      const bool inside = sample_with_slope(pyramid[static_cast<std::size_t>(level)], x, s);
+      seen.push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
 }
 
-std::vector<glm::dvec3> HeadTracker::surface(const std::array<glm::dvec3, kVertexCount>& vertices) const {
+std::vector<glm::dvec3> HeadTracker::surface(const HeadVertices& vertices) const {
   std::vector<glm::dvec3> out;
   out.reserve(points_.size());
-  for (const SurfacePoint& p : points_) {
-    glm::dvec3 sum(0);
-    for (std::size_t k = 0; k < 3; ++k)
-      sum += static_cast<double>(p.barycentric[k]) * vertices[static_cast<std::size_t>(p.corner[k])];
-    out.push_back(sum);
-  }
+  for (const SurfacePoint& p : points_) out.push_back(p.on(vertices));
   return out;
 }
 
-void HeadTracker::follow_flow(const WorkFrame& now, const std::array<glm::dvec3, kVertexCount>& vertices) {
+void HeadTracker::follow_flow(const WorkFrame& now, const HeadVertices& vertices) {
   const PoseProjection projection(pose_);
   std::vector<cv::Point2f> from, to;
   for (const glm::dvec3& v : vertices) {
@@ -199,14 +123,14 @@ void HeadTracker::follow_flow(const WorkFrame& now, const std::array<glm::dvec3,
     flow_[v] = found[v] != 0 ? now.to_picture({to[v].x, to[v].y}) : glm::dvec2(kNan);
 }
 
-Pose HeadTracker::fit_flow(const Pose& start, const std::array<glm::dvec3, kVertexCount>& vertices) const {
+Pose HeadTracker::fit_flow(const Pose& start, const HeadVertices& vertices) const {
   Pose pose = start;
   const double eye = start.eye_distance_px();
   double sigma = 0.08 * eye;
   for (int iteration = 0; iteration < 8; ++iteration, sigma = std::max(0.02 * eye, 0.7 * sigma)) {
     const PoseJacobian jacobian(pose);
     cv::Matx66d a = prior(eye, 0.3, 0.5) * (0.02 * eye * eye * 0.02);
-    Vector6 b;
+    PoseStep b;
     for (std::size_t v = 0; v < kVertexCount; ++v) {
       if (std::isnan(flow_[v].x)) continue;
       const glm::dvec2 r = flow_[v] - jacobian.projection()(vertices[v]);
@@ -219,7 +143,7 @@ Pose HeadTracker::fit_flow(const Pose& start, const std::array<glm::dvec3, kVert
           a(static_cast<int>(m), static_cast<int>(n)) += w * (j[m].x * j[n].x + j[m].y * j[n].y);
       }
     }
-    Vector6 d;
+    PoseStep d;
     if (!cv::solve(a, b, d, cv::DECOMP_CHOLESKY)) break;
     pose = moved(pose, d);
   }
@@ -247,16 +171,16 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (seen[k] < 0) continue;
       const glm::dvec2 x = on_level(now.to_work(jacobian.projection()(points[k])), level);
-      double value = 0, gx = 0, gy = 0;
-      if (!sample(luma, x.x, x.y, value, gx, gy)) continue;
-      const double r = gain * static_cast<double>(seen[k]) + offset - value;
+      Sample s;
+      if (!sample_with_slope(luma, x, s)) continue;
+      const double r = gain * static_cast<double>(seen[k]) + offset - s.value;
       absolute += std::abs(r);
       ++count;
       const double q = r * r / (sigma * sigma);
-      const double w = static_cast<double>(points_[k].weight) / ((1 + q) * (1 + q)) / 25;  // 5 grey levels of noise
+      const double w = static_cast<double>(weight_[k]) / ((1 + q) * (1 + q)) / 25;  // 5 grey levels of noise
       const auto px = jacobian.at(points[k]);
       std::array<double, 8> j{};
-      for (std::size_t m = 0; m < 6; ++m) j[m] = to_level * (gx * px[m].x + gy * px[m].y);
+      for (std::size_t m = 0; m < 6; ++m) j[m] = to_level * (s.dx * px[m].x + s.dy * px[m].y);
       j[6] = -static_cast<double>(seen[k]);
       j[7] = -1;
       for (std::size_t m = 0; m < 8; ++m) {
@@ -288,9 +212,10 @@ double HeadTracker::correlation(const cv::Mat& luma, const WorkFrame& now, const
     const double x = static_cast<double>(seen_[1][k]);
     if (x < 0) continue;
     const glm::dvec2 at = on_level(now.to_work(projection(points[k])), 1);
-    double y = 0, gx = 0, gy = 0;
-    if (!sample(luma, at.x, at.y, y, gx, gy)) continue;
-    const double w = static_cast<double>(points_[k].weight);
+    Sample s;
+    if (!sample_with_slope(luma, at, s)) continue;
+    const double y = s.value;
+    const double w = static_cast<double>(weight_[k]);
     n += w;
     sx += w * x;
     sy += w * y;
@@ -304,7 +229,7 @@ double HeadTracker::correlation(const cv::Mat& luma, const WorkFrame& now, const
   return std::clamp((sxy - sx * sy / n) / std::sqrt(vx * vy), 0.0, 1.0);
 }
 
-TrackedPose HeadTracker::track(const WorkFrame& now, const std::array<glm::dvec3, kVertexCount>& vertices) {
+TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertices) {
   follow_flow(now, vertices);
   const auto pyramid = pyramid_of(now.luma, kLevels);
   const std::vector<glm::dvec3> points = surface(vertices);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bitstream/syntax.h"
-#include "encoder/pose.h"
+#include "encoder/image_alignment.h"
 #include "encoder/work_frame.h"
 
 namespace fbs {
@@ -28,7 +28,7 @@ class HeadTracker {
 
   /// @param now       the next picture's work frame, cut anywhere near the head
   /// @param vertices  head-frame positions with the expression of the picture before (head units)
-  TrackedPose track(const WorkFrame& now, const std::array<glm::dvec3, kVertexCount>& vertices);
+  TrackedPose track(const WorkFrame& now, const HeadVertices& vertices);
 
   /// Where the flow took each vertex of the mesh, pixels of the picture; nan where it was lost. Of the last track().
   [[nodiscard]] const std::array<glm::dvec2, kVertexCount>& flow() const { return flow_; }
@@ -39,23 +39,18 @@ class HeadTracker {
   [[nodiscard]] const Pose& pose() const { return pose_; }
 
  private:
-  /// A point fixed on a triangle and what the first picture shows there on each level of the pyramid.
-  struct SurfacePoint {
-    std::array<std::int16_t, 3> corner;
-    std::array<float, 3> barycentric;
-    float weight;
-  };
   static constexpr int kLevels = 3;
 
-  [[nodiscard]] Pose fit_flow(const Pose& start, const std::array<glm::dvec3, kVertexCount>& vertices) const;
-  void follow_flow(const WorkFrame& now, const std::array<glm::dvec3, kVertexCount>& vertices);
+  [[nodiscard]] Pose fit_flow(const Pose& start, const HeadVertices& vertices) const;
+  void follow_flow(const WorkFrame& now, const HeadVertices& vertices);
   [[nodiscard]] Pose align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level, const Pose& start,
                            const std::vector<glm::dvec3>& points) const;
   [[nodiscard]] double correlation(const cv::Mat& luma, const WorkFrame& now, const Pose& pose,
                                    const std::vector<glm::dvec3>& points) const;
-  [[nodiscard]] std::vector<glm::dvec3> surface(const std::array<glm::dvec3, kVertexCount>& vertices) const;
+  [[nodiscard]] std::vector<glm::dvec3> surface(const HeadVertices& vertices) const;
 
   std::vector<SurfacePoint> points_;
+  std::vector<float> weight_;                     ///< of each point
   std::array<std::vector<float>, kLevels> seen_;  ///< brightness at each point in picture 0
   Pose pose_;
   WorkFrame before_;
