@@ -22,7 +22,9 @@ OperatingPoint OperatingPoint::at(int quality, double eye_distance_px) {
   p.steps.rotation = step(turn * 65536);
   p.steps.log_scale = step(px / (1.3 * eye_distance_px) / std::numbers::ln2 * 4096);
   p.steps.control = step(2 * px / eye_distance_px * kUnitsPerEyeDistance);
-  p.lambda = 60 * std::exp2((50 - quality) / 12.0);
+  // A bit is worth the same change of PSNR on a face of any size: lambda goes with the face's area. Measured on the ten
+  // clips at quality 50: halving it adds 40 % of motion for 0.1 dB in the face, doubling it saves 30 % for 0.2 dB.
+  p.lambda = eye_distance_px * eye_distance_px * std::exp2((50 - quality) / 12.0);
   return p;
 }
 

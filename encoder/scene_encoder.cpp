@@ -83,10 +83,12 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   const Pose seen_pose = dequantise(scene.seen_, point.steps);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
-  scene.choice_.emplace(point.lambda);
+  scene.lambda_ = point.lambda;
   scene.state_ = scene.seen_;
   scene.first_ = first;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return tl::unexpected<Error>(added.error());
+  const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift, scene.eye_distance_px_, false);
+  scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
   scene.coder_.emplace(scene.scene_.setup);
   scene.counter_.emplace(*scene.coder_, true);
   return scene;
@@ -158,16 +160,26 @@ State SceneEncoder::analyse(const Picture& picture) {
     return wanted;
   }
   lost_pictures_ = 0;
-  wanted.pose = quantise(tracked.pose, steps);
+  Fit tracked_fit{tracked.pose, {}};
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());
-    const auto offsets = features_->offsets();
-    for (std::size_t i = 0; i < kControlCount; ++i) {
-      wanted.control[i] = {static_cast<int>(std::lround(offsets[i].x / steps.control)),
-                           static_cast<int>(std::lround(offsets[i].y / steps.control))};
-    }
+    tracked_fit.offsets = features_->offsets();
   }
-  return choice_->choose(scene_, picture, state_, wanted, *counter_);
+  fit_->look_at(frame);
+  const Fit refined = fit_->refine(tracked_fit);
+  const std::array<State, 3> candidates = {state_, quantised(tracked_fit.pose, tracked_fit.offsets),
+                                           quantised(refined.pose, refined.offsets)};
+  return choose_state(candidates, *fit_, *counter_, lambda_);
+}
+
+State SceneEncoder::quantised(const Pose& pose, const std::array<glm::dvec2, kControlCount>& offsets) const {
+  const QuantiserSteps& steps = scene_.setup.steps;
+  State state;
+  state.pose = quantise(pose, steps);
+  for (std::size_t i = 0; i < kControlCount; ++i)
+    state.control[i] = {static_cast<int>(std::lround(offsets[i].x / steps.control)),
+                        static_cast<int>(std::lround(offsets[i].y / steps.control))};
+  return state;
 }
 
 void SceneEncoder::report(const State& state) {

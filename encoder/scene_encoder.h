@@ -41,6 +41,7 @@ class SceneEncoder {
 
  private:
   SceneEncoder(const VideoFormat& format, const EncoderSettings& settings);
+  [[nodiscard]] State quantised(const Pose& pose, const std::array<glm::dvec2, kControlCount>& offsets) const;
   Result<void> add_pattern(const Picture& picture, int quantiser);
   State analyse(const Picture& picture);
   void report(const State& state);
@@ -57,7 +58,8 @@ class SceneEncoder {
   double eye_distance_px_ = 0;
   std::optional<HeadTracker> head_;
   std::optional<FeatureTracker> features_;
-  std::optional<StateChoice> choice_;
+  std::optional<PictureFit> fit_;
+  double lambda_ = 0;
   int lost_pictures_ = 0;
   State state_;
 

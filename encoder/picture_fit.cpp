@@ -1,0 +1,200 @@
+#include "encoder/picture_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace fbs {
+namespace {
+
+constexpr double kPointSpacing = 2.2;  // work pixels
+constexpr double kNoise = 6;           // grey levels: what differs by this much is as likely as not meant
+constexpr double kHuber = 24;          // grey levels; larger differences (teeth, shadows) pull with constant force
+// Standard deviations of what is believed before looking, as shares of the eye distance or radians.
+constexpr double kPoseNear = 0.03;     // of the tracked pose
+constexpr double kControlNear = 0.02;  // of the tracked control points
+constexpr double kControlRest = 0.12;  // of control points about rest
+constexpr int kSteps[] = {3, 2};       // per level, fine level first
+constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
+
+std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
+  std::array<cv::Mat, 2> out{luma, {}};
+  cv::pyrDown(luma, out[1]);
+  return out;
+}
+
+glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
+
+/// Work position without sub-pixel shift between levels: pyrDown keeps even samples.
+bool faces(const std::array<glm::dvec2, 3>& p) {
+  const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
+  return a.x * b.y - a.y * b.x > 0;
+}
+
+}  // namespace
+
+PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern, const State& seen)
+    : steps_(setup.steps), geometry_(geometry), column_(kControlCount, -1) {
+  const GenericHead& head = generic_head();
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    if ((setup.features >> f & 1U) == 0) continue;
+    for (int c = 0; c < head.features[f].control_count; ++c) {
+      column_[static_cast<std::size_t>(head.features[f].first_control + c)] = unknowns_;
+      unknowns_ += 2;
+    }
+  }
+  const Fit rest{dequantise(seen, steps_), {}};
+  const HeadVertices vertices = deformed(rest);
+  const PoseProjection projection(rest.pose);
+  const double spacing = kPointSpacing / pattern.scale;
+  points_ = spread_over_mesh(vertices, projection, spacing);
+  area_per_point_ = spacing * spacing;
+  for (const SurfacePoint& p : points_) {
+    std::array<double, kControlCount> sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(p.corner[k]);
+      for (std::size_t w = head.spread_begin[v]; w < head.spread_begin[v + 1]; ++w)
+        sum[static_cast<std::size_t>(head.spread[w].control)] += static_cast<double>(p.barycentric[k]) * head.spread[w].weight / kSpreadOne;
+    }
+    std::vector<Share> shares;
+    for (std::size_t c = 0; c < kControlCount; ++c)
+      if (column_[c] >= 0 && std::abs(sum[c]) > 0.01) shares.push_back({static_cast<std::int16_t>(c), static_cast<float>(sum[c])});
+    shares_.push_back(std::move(shares));
+  }
+  const auto luma = two_levels(pattern.luma);
+  for (int level = 0; level < kLevels; ++level) {
+    for (const SurfacePoint& p : points_) {
+      Sample s;
+      const glm::dvec2 at = on_level(pattern.to_work(projection(p.on(vertices))), level);
+      const bool inside = sample_with_slope(luma[static_cast<std::size_t>(level)], at, s);
+      pattern_luma_[static_cast<std::size_t>(level)].push_back(inside ? static_cast<float>(s.value) : -1.0F);
+    }
+  }
+}
+
+void PictureFit::look_at(const WorkFrame& picture) {
+  picture_ = picture;
+  luma_ = two_levels(picture.luma);
+}
+
+HeadVertices PictureFit::deformed(const Fit& fit) const {
+  const GenericHead& head = generic_head();
+  HeadVertices out;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    glm::dvec2 d(0);
+    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
+      d += static_cast<double>(head.spread[k].weight) * fit.offsets[static_cast<std::size_t>(head.spread[k].control)];
+    out[v] = glm::dvec3(geometry_.positions[v]) + glm::dvec3(d / static_cast<double>(kSpreadOne), 0);
+  }
+  return out;
+}
+
+bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
+  const auto n = static_cast<std::size_t>(unknowns_);
+  std::vector<double> a(n * n), b(n);
+  const double eye = fit.pose.eye_distance_px();
+  // Priors first: near the start, near rest.
+  const auto believe = [&](std::size_t k, double away, double sigma) {
+    a[k * n + k] += 1 / (sigma * sigma);
+    b[k] -= away / (sigma * sigma);
+  };
+  believe(0, fit.pose.pitch - start.pose.pitch, kPoseNear);
+  believe(1, fit.pose.yaw - start.pose.yaw, kPoseNear);
+  believe(2, fit.pose.roll - start.pose.roll, kPoseNear);
+  believe(3, fit.pose.shift.x - start.pose.shift.x, kPoseNear * eye);
+  believe(4, fit.pose.shift.y - start.pose.shift.y, kPoseNear * eye);
+  believe(5, fit.pose.log2_scale - start.pose.log2_scale, kPoseNear);
+  for (std::size_t c = 0; c < kControlCount; ++c) {
+    if (column_[c] < 0) continue;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto k = static_cast<std::size_t>(column_[c] + axis);
+      believe(k, fit.offsets[c][axis] - start.offsets[c][axis], kControlNear * kUnitsPerEyeDistance);
+      believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
+    }
+  }
+
+  const PoseJacobian jacobian(fit.pose);
+  const HeadVertices vertices = deformed(fit);
+  const glm::dvec2 ex(jacobian.projection().matrix[0]), ey(jacobian.projection().matrix[1]);
+  const double to_level = picture_.scale / (1 << level);
+  std::vector<std::pair<std::size_t, double>> row;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const double shown = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]);
+    if (shown < 0) continue;
+    const glm::dvec3 p = points_[k].on(vertices);
+    Sample s;
+    if (!sample_with_slope(luma_[static_cast<std::size_t>(level)],
+                           on_level(picture_.to_work(jacobian.projection()(p)), level), s))
+      continue;
+    const double r = shown - s.value;
+    const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
+    row.clear();
+    const auto by_pose = jacobian.at(p);
+    for (std::size_t m = 0; m < 6; ++m) row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
+    const double by_x = to_level * (s.dx * ex.x + s.dy * ex.y), by_y = to_level * (s.dx * ey.x + s.dy * ey.y);
+    for (const Share& share : shares_[k]) {
+      const auto column = static_cast<std::size_t>(column_[static_cast<std::size_t>(share.control)]);
+      row.emplace_back(column, static_cast<double>(share.weight) * by_x);
+      row.emplace_back(column + 1, static_cast<double>(share.weight) * by_y);
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const double wi = w * row[i].second;
+      b[row[i].first] += wi * r;
+      double* line = a.data() + row[i].first * n;
+      for (std::size_t j = i; j < row.size(); ++j) line[row[j].first] += wi * row[j].second;
+    }
+  }
+  cv::Mat1d normal(unknowns_, unknowns_, a.data()), right(unknowns_, 1, b.data()), x;
+  cv::completeSymm(normal);
+  if (!cv::solve(normal, right, x, cv::DECOMP_CHOLESKY)) return false;
+  fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
+  for (std::size_t c = 0; c < kControlCount; ++c) {
+    if (column_[c] < 0) continue;
+    for (int axis = 0; axis < 2; ++axis)
+      fit.offsets[c][axis] = std::clamp(fit.offsets[c][axis] + x(column_[c] + axis), -kMaxOffset, kMaxOffset);
+  }
+  return true;
+}
+
+Fit PictureFit::refine(const Fit& start) const {
+  Fit fit = start;
+  for (int level = kLevels - 1; level >= 0; --level)
+    for (int i = 0; i < kSteps[level]; ++i)
+      if (!step(level, start, fit)) return start;
+  return fit;
+}
+
+double PictureFit::distortion(const State& state) const {
+  const HeadProjection projection(dequantise_pose(state, steps_));
+  const auto vertices = deform(geometry_.positions, state, steps_);
+  std::array<glm::dvec2, kVertexCount> at;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    const glm::ivec3 screen = projection(vertices[v]);
+    at[v] = picture_.to_work(glm::dvec2(screen.x, screen.y) / static_cast<double>(1 << kScreenOneLog2));
+  }
+  double sum = 0;
+  std::int16_t triangle = -1;
+  bool visible = false;
+  const cv::Mat& luma = luma_[0];
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const SurfacePoint& p = points_[k];
+    const auto corner = [&](std::size_t i) { return at[static_cast<std::size_t>(p.corner[i])]; };
+    if (p.triangle != triangle) {
+      triangle = p.triangle;
+      visible = faces({corner(0), corner(1), corner(2)});
+    }
+    const double shown = static_cast<double>(pattern_luma_[0][k]);
+    if (!visible || shown < 0) continue;
+    const glm::dvec2 x = static_cast<double>(p.barycentric[0]) * corner(0) + static_cast<double>(p.barycentric[1]) * corner(1) +
+                         static_cast<double>(p.barycentric[2]) * corner(2);
+    if (!(x.x >= 0 && x.y >= 0 && x.x < luma.cols - 1.001 && x.y < luma.rows - 1.001)) continue;
+    const int i = static_cast<int>(x.x), j = static_cast<int>(x.y);
+    const double fx = x.x - i, fy = x.y - j;
+    const std::uint8_t *r0 = luma.ptr<std::uint8_t>(j) + i, *r1 = luma.ptr<std::uint8_t>(j + 1) + i;
+    const double seen = (r0[0] * (1 - fx) + r0[1] * fx) * (1 - fy) + (r1[0] * (1 - fx) + r1[1] * fx) * fy;
+    sum += (shown - seen) * (shown - seen);
+  }
+  return sum * area_per_point_;
+}
+
+}  // namespace fbs

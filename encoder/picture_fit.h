@@ -1,0 +1,62 @@
+// Fits the state to what the viewer will see: pattern against picture, at points spread over the mesh. Design section 6.
+#pragma once
+
+#include <vector>
+
+#include "decoder/projection.h"
+#include "encoder/image_alignment.h"
+#include "encoder/work_frame.h"
+
+namespace fbs {
+
+/// A pose and offsets of all control points (head units).
+struct Fit {
+  Pose pose;
+  std::array<glm::dvec2, kControlCount> offsets{};
+};
+
+/// Compares the pattern, smeared on the moved mesh, with a picture. Works at the work frame's size, whatever the size
+/// of the picture.
+class PictureFit {
+ public:
+  /// @param pattern  work frame of the decoded pattern, cut like those of the later pictures
+  /// @param seen     state of the pattern
+  /// The control points of setup.features may move.
+  PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern, const State& seen);
+
+  /// The picture that the next calls are about; its luma is shared.
+  void look_at(const WorkFrame& picture);
+
+  /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to fine,
+  /// held near `start` where the picture says nothing and near rest everywhere.
+  [[nodiscard]] Fit refine(const Fit& start) const;
+
+  /// Sum of squared luma differences over the face that the decoder would show in this state, estimated from the
+  /// points; in samples of the full picture.
+  [[nodiscard]] double distortion(const State& state) const;
+
+ private:
+  static constexpr int kLevels = 2;
+  /// One control point's share in a surface point.
+  struct Share {
+    std::int16_t control;
+    float weight;
+  };
+
+  /// One Gauss-Newton step on one level; false when it cannot be solved.
+  bool step(int level, const Fit& start, Fit& fit) const;
+  [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
+
+  QuantiserSteps steps_;
+  Geometry geometry_;
+  std::vector<SurfacePoint> points_;
+  std::vector<std::vector<Share>> shares_;                 ///< of each point, active control points only
+  std::array<std::vector<float>, kLevels> pattern_luma_;   ///< at each point; negative outside
+  std::vector<int> column_;                                ///< of a control point's x in the normal equations, or -1
+  int unknowns_ = 6;
+  double area_per_point_ = 1;                              ///< samples of the full picture
+  WorkFrame picture_;
+  std::array<cv::Mat, kLevels> luma_;
+};
+
+}  // namespace fbs
