@@ -1,5 +1,6 @@
 #include "decoder/stream_decoder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "bitstream/end_payload.h"
@@ -18,8 +19,10 @@ tl::unexpected<Error> at(const Packet& packet, Error error) {
 }
 
 std::uint32_t nominal_duration(const VideoFormat& format) {
-  return static_cast<std::uint32_t>((std::uint64_t{90000} * format.frame_rate.den + format.frame_rate.num / 2) /
-                                    format.frame_rate.num);
+  // SPEC 5.5
+  const std::uint64_t duration =
+      (std::uint64_t{90000} * format.frame_rate.den + format.frame_rate.num / 2) / format.frame_rate.num;
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(duration, 1, kMaxDuration));
 }
 
 }  // namespace
@@ -40,7 +43,8 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
-      if (!has_setup_ && !damaged_) return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
+      if (!has_setup_ && !damaged_ && !std::exchange(lack_of_setup_told_, true))
+        return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
       return DecodeStatus::kEnd;
     }
     damaged_ = false;
