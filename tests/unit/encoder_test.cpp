@@ -1,0 +1,309 @@
+// From pictures to stream to pictures: the whole codec on the generated talker.
+#include "encoder/encoder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "common/quality.h"
+#include "decoder/stream_decoder.h"
+#include "tests/unit/talker_clip.h"
+
+namespace fbs {
+namespace {
+
+using Pictures = std::vector<Picture>;
+
+Pictures pictures_of(TalkerClip clip) {
+  Pictures out;
+  for (int i = 0; i < clip.count(); ++i) out.push_back(clip[i]);
+  return out;
+}
+
+VideoFormat format_of(const Pictures& pictures, Rational rate = {30, 1}) {
+  VideoFormat f;
+  f.width = pictures[0].width();
+  f.height = pictures[0].height();
+  f.frame_rate = rate;
+  return f;
+}
+
+struct Coded {
+  std::vector<std::uint8_t> stream;
+  Pictures pictures;
+  std::vector<std::uint32_t> durations;
+  ByteCount bytes;
+  int scenes = 0;
+
+  [[nodiscard]] double psnr(const Pictures& source) const {
+    SquaredError e;
+    for (std::size_t i = 0; i < source.size(); ++i) e += squared_error(pictures[i].y, source[i].y);
+    return e.psnr();
+  }
+};
+
+Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFormat& format, const EncoderSettings& settings,
+                                          const std::vector<std::uint32_t>& durations = {}) {
+  auto encoder = Encoder::create(format, settings);
+  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  std::vector<std::uint8_t> stream;
+  const auto take = [&] {
+    const auto bytes = encoder->take();
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+  };
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (auto pushed = encoder->push(source[i], durations.empty() ? 0 : durations[i]); !pushed)
+      return tl::unexpected<Error>(pushed.error());
+    take();
+  }
+  if (auto finished = encoder->finish(); !finished) return tl::unexpected<Error>(finished.error());
+  take();
+  return stream;
+}
+
+Coded decoded(std::vector<std::uint8_t> stream) {
+  Coded out;
+  out.stream = std::move(stream);
+  StreamDecoder decoder;
+  decoder.feed(out.stream);
+  decoder.close();
+  for (;;) {
+    const auto status = decoder.next();
+    EXPECT_TRUE(status) << status.error().text;
+    if (!status || *status != DecodeStatus::kPicture) break;
+    out.pictures.emplace_back();
+    decoder.render(out.pictures.back());
+    out.durations.push_back(decoder.duration());
+  }
+  out.bytes = decoder.bytes();
+  EXPECT_EQ(decoder.announced_pictures(), out.pictures.size());
+  return out;
+}
+
+Coded coded(const Pictures& source, const EncoderSettings& settings = {}) {
+  auto stream = encoded(source, format_of(source), settings);
+  EXPECT_TRUE(stream) << stream.error().text;
+  return decoded(stream ? *stream : std::vector<std::uint8_t>{});
+}
+
+const Pictures& talking() {
+  static const Pictures p = pictures_of(TalkerClip(talker_settings(176, 144, 75)));  // more than the look-ahead
+  return p;
+}
+
+const Pictures& shortly() {
+  static const Pictures p(talking().begin(), talking().begin() + 12);
+  return p;
+}
+
+EncoderSettings quality(int q) {
+  EncoderSettings s;
+  s.quality = q;
+  return s;
+}
+
+TEST(Encoder, EveryPictureComesBack) {
+  const Coded c = coded(talking());
+  ASSERT_EQ(c.pictures.size(), talking().size());
+  for (const Picture& p : c.pictures) {
+    EXPECT_EQ(p.width(), 176);
+    EXPECT_EQ(p.height(), 144);
+  }
+  EXPECT_EQ(c.bytes.total, c.stream.size());
+  EXPECT_EQ(c.bytes.geometry + c.bytes.patterns + c.bytes.motion + c.bytes.index + c.bytes.other, c.bytes.total);
+}
+
+TEST(Encoder, ReachesItsFloorOfQuality) {
+  const Coded c = coded(talking());
+  EXPECT_GT(c.psnr(talking()), 30);
+  EXPECT_GT(squared_error(c.pictures[0].y, talking()[0].y).psnr(), 35) << "the first picture is its pattern";
+}
+
+// What the model is for: far better than the first picture held, for a few bytes a picture.
+TEST(Encoder, MotionBeatsTheFirstPictureHeld) {
+  const Coded c = coded(talking());
+  SquaredError held;
+  for (const Picture& p : talking()) held += squared_error(c.pictures[0].y, p.y);
+  EXPECT_GT(c.psnr(talking()), held.psnr() + 3);
+  EXPECT_LT(static_cast<double>(c.bytes.motion) / 75, 12) << "bytes a picture";
+}
+
+TEST(Encoder, QualityOrdersBytesAndPsnr) {
+  std::size_t bytes = 0;
+  double psnr = 0;
+  for (const int q : {10, 40, 70, 95}) {
+    const Coded c = coded(shortly(), quality(q));
+    EXPECT_GT(c.stream.size(), bytes) << q;
+    EXPECT_GT(c.psnr(shortly()), psnr) << q;
+    bytes = c.stream.size();
+    psnr = c.psnr(shortly());
+  }
+}
+
+TEST(Encoder, SameInputGivesTheSameBytes) {
+  EXPECT_EQ(coded(shortly()).stream, coded(shortly()).stream);
+}
+
+TEST(Encoder, TakesOddSizes) {
+  for (const auto& [w, h] : {std::pair{67, 65}, {64, 64}, {129, 97}}) {
+    const Pictures p = pictures_of(TalkerClip(talker_settings(w, h, 6)));
+    const Coded c = coded(p);
+    ASSERT_EQ(c.pictures.size(), 6u) << w << 'x' << h;
+    EXPECT_EQ(c.pictures[5].width(), w);
+    EXPECT_EQ(c.pictures[5].u.height, (h + 1) / 2);
+    EXPECT_GT(c.psnr(p), 28) << w << 'x' << h;
+  }
+}
+
+TEST(Encoder, CodesAClipOfOnePicture) {
+  const Pictures one(talking().begin(), talking().begin() + 1);
+  const Coded c = coded(one);
+  ASSERT_EQ(c.pictures.size(), 1u);
+  EXPECT_GT(c.psnr(one), 35);
+}
+
+TEST(Encoder, RefusesAClipWithoutAFace) {
+  const Pictures nobody(8, Picture(96, 96));
+  const auto stream = encoded(nobody, format_of(nobody), {});
+  ASSERT_FALSE(stream);
+  EXPECT_EQ(stream.error().code, ErrorCode::kNoFace);
+}
+
+TEST(Encoder, CodesAClipWithoutAFaceWhenAllowed) {
+  Picture ramp(96, 96);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) ramp.y.row(y)[x] = static_cast<std::uint8_t>(60 + x);
+  const Pictures nobody(8, ramp);
+  EncoderSettings settings;
+  settings.allow_no_face = true;
+  const Coded c = coded(nobody, settings);
+  ASSERT_EQ(c.pictures.size(), 8u);
+  EXPECT_GT(c.psnr(nobody), 35);
+  EXPECT_EQ(c.bytes.geometry, 0u);
+}
+
+TEST(Encoder, RefusesNoPicturesAtAll) {
+  VideoFormat format;
+  format.width = format.height = 64;
+  auto encoder = Encoder::create(format, {});
+  ASSERT_TRUE(encoder);
+  EXPECT_EQ(encoder->finish().error().code, ErrorCode::kInvalidArgument);
+}
+
+// A title before the talk: pictures until a face is found go as a scene without geometry.
+TEST(Encoder, FaceMayAppearLate) {
+  Pictures p(7, Picture(176, 144));
+  for (Picture& grey : p)
+    for (auto& s : grey.y.samples) s = 100;
+  p.insert(p.end(), talking().begin(), talking().begin() + 20);
+  const Coded c = coded(p);
+  ASSERT_EQ(c.pictures.size(), p.size());
+  EXPECT_GT(c.bytes.geometry, 0u);
+  EXPECT_GT(squared_error(c.pictures[0].y, p[0].y).psnr(), 40);
+  SquaredError late;
+  for (std::size_t i = 12; i < p.size(); ++i) late += squared_error(c.pictures[i].y, p[i].y);
+  EXPECT_GT(late.psnr(), 28);
+}
+
+// Something before the camera: the state is held, and the face found again.
+TEST(Encoder, FaceMayBeLostAndComeBack) {
+  Pictures p(talking().begin(), talking().begin() + 40);
+  for (std::size_t i = 12; i < 18; ++i)
+    for (int y = 20; y < 144; ++y) std::fill_n(p[i].y.row(y) + 30, 116, std::uint8_t{90});
+  const Coded c = coded(p);
+  ASSERT_EQ(c.pictures.size(), p.size());
+  SquaredError after;
+  for (std::size_t i = 30; i < 40; ++i) after += squared_error(c.pictures[i].y, p[i].y);
+  EXPECT_GT(after.psnr(), 27);
+  for (std::size_t i = 12; i < 18; ++i)
+    EXPECT_GT(squared_error(c.pictures[i].y, talking()[i].y).psnr(), 20) << "never a wild face: picture " << i;
+}
+
+TEST(Encoder, FollowsTheFaceMarkedByHand) {
+  TalkerClip clip(talker_settings(176, 144, 4));
+  EncoderSettings settings;
+  settings.marks = clip.marks(0);
+  auto encoder = Encoder::create(clip.format(), settings);
+  ASSERT_TRUE(encoder);
+  ASSERT_TRUE(encoder->push(clip[0]));
+  const PictureAnalysis& seen = encoder->analysis();
+  EXPECT_TRUE(seen.face);
+  EXPECT_FALSE(seen.snakes.empty());
+  EXPECT_EQ(seen.iterations.size(), seen.snakes.size());
+  for (int k = 0; k < kLandmarkCount; ++k) {
+    const glm::dvec2 mark = *settings.marks->landmark(k);
+    const glm::dvec2 vertex = seen.vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])];
+    EXPECT_LT(std::hypot(mark.x - vertex.x, mark.y - vertex.y), 0.04 * clip.pose(0).eye_distance_px()) << k;
+  }
+}
+
+TEST(Encoder, KeepsDurations) {
+  std::vector<std::uint32_t> durations;
+  for (std::size_t i = 0; i < shortly().size(); ++i) durations.push_back(i % 5 == 4 ? 6006 : 3003);
+  const auto stream = encoded(shortly(), format_of(shortly(), {30000, 1001}), {}, durations);
+  ASSERT_TRUE(stream);
+  EXPECT_EQ(decoded(*stream).durations, durations);
+}
+
+TEST(Encoder, GroupsHoldAsManyPicturesAsAsked) {
+  EncoderSettings settings;
+  for (const int group : {1, 5, 256}) {
+    settings.group_pictures = group;
+    const Coded c = coded(shortly(), settings);
+    EXPECT_EQ(c.pictures.size(), shortly().size()) << group;
+    PacketReader reader;
+    reader.feed(c.stream);
+    reader.close();
+    int motion = 0;
+    for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next())
+      motion += read->packet.type == PacketType::kMotion ? 1 : 0;
+    EXPECT_EQ(motion, (static_cast<int>(shortly().size()) + group - 1) / group);
+  }
+}
+
+TEST(Encoder, SnakesCanBeLeftOut) {
+  EncoderSettings settings;
+  settings.snakes = false;
+  const Coded c = coded(shortly(), settings);
+  EXPECT_EQ(c.pictures.size(), shortly().size());
+}
+
+TEST(Encoder, SurvivesNoise) {
+  std::mt19937 random(1);
+  Pictures p(talking().begin(), talking().begin() + 8);
+  for (std::size_t i = 3; i < 8; ++i)
+    for (auto& s : p[i].y.samples) s = static_cast<std::uint8_t>(random());
+  EXPECT_EQ(coded(p).pictures.size(), p.size());
+}
+
+TEST(Encoder, RefusesSettingsOutOfRange) {
+  const VideoFormat format = format_of(shortly());
+  const auto refusal = [&](const VideoFormat& f, const EncoderSettings& s) {
+    const auto encoder = Encoder::create(f, s);
+    return encoder ? ErrorCode::kInternal : encoder.error().code;
+  };
+  EncoderSettings settings;
+  EXPECT_EQ(refusal(format, quality(-1)), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(refusal(format, quality(101)), ErrorCode::kInvalidArgument);
+  settings.group_pictures = 257;
+  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  settings = {};
+  settings.face = -1;
+  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  VideoFormat small = format, large = format;
+  small.width = 63;
+  large.height = 8193;
+  EXPECT_EQ(refusal(small, {}), ErrorCode::kInvalidArgument);
+  EXPECT_NE(refusal(large, {}), ErrorCode::kInternal);
+}
+
+TEST(Encoder, RefusesAPictureOfAnotherSize) {
+  auto encoder = Encoder::create(format_of(shortly()), {});
+  ASSERT_TRUE(encoder);
+  ASSERT_TRUE(encoder->push(shortly()[0]));
+  EXPECT_EQ(encoder->push(Picture(176, 142)).error().code, ErrorCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace fbs
