@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Installs what packages.txt names and this machine lacks. With nothing missing it needs neither network nor root.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "not a Debian system: taking it that the likes of scripts/packages.txt are installed" >&2
+  exit 0
+fi
+
+missing=()
+for package in $(sed 's/#.*//' packages.txt); do
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "== installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" apt-get install -qy --no-install-recommends "${missing[@]}" </dev/null
