@@ -1,0 +1,175 @@
+"""What is wrong is said in one line, with exit code 2, and nothing is left behind."""
+import os
+import wave
+
+from harness import TALK_FBS, TALK_Y4M, ProgramTest, ffmpeg, flat_y4m, talker
+
+NO_FACE = "no face"
+NO_FILE = "No such file or directory"
+
+
+def marks(text):
+    return {"marks.json": text}
+
+
+def cut(end):
+    """A part of the talker's stream; made late, since the table is read before there is one."""
+    return lambda: TALK_FBS.read_bytes()[:end]
+
+
+# name: (files to make, arguments, words that the error line must hold)
+# A file's content is bytes, a function that returns them, or the name that a link leads to.
+TABLE = {
+    # INPUT of encode
+    "encode_missing_file":      ({}, "encode absent.mkv out.fbs", ["absent.mkv", NO_FILE]),
+    "encode_missing_y4m":       ({}, "encode absent.y4m out.fbs", ["absent.y4m", NO_FILE]),
+    "encode_missing_images":    ({}, "encode absent_%05d.png out.fbs", ["absent_%05d.png", "no such images"]),
+    "encode_folder_without_images": ({"folder/readme": b"hello"}, "encode folder out.fbs", ["folder", "no such images"]),
+    "encode_folder_named_y4m":  ({"folder.y4m/readme": b"hello"}, "encode folder.y4m out.fbs", ["folder.y4m"]),
+    "encode_text":              ({"text.mkv": b"not a video\n" * 100}, "encode text.mkv out.fbs", ["text.mkv", "not a video"]),
+    "encode_text_named_y4m":    ({"text.y4m": b"not a video\n" * 100}, "encode text.y4m out.fbs", ["text.y4m", "not a Y4M"]),
+    "encode_empty_file":        ({"empty.mkv": b""}, "encode empty.mkv out.fbs", ["empty.mkv"]),
+    "encode_empty_y4m":         ({"empty.y4m": b""}, "encode empty.y4m out.fbs", ["empty.y4m", "empty"]),
+    "encode_empty_standard_input": ({}, "encode - out.fbs", ["standard input"]),
+    "encode_no_picture":        ({"none.y4m": flat_y4m(128, 96, 0)}, "encode none.y4m out.fbs", ["none.y4m", "no picture"]),
+    "encode_flat_pictures":     ({"flat.y4m": flat_y4m(128, 96, 5)}, "encode flat.y4m out.fbs", ["flat.y4m", NO_FACE]),
+    "encode_gradient":          ({"ramp.y4m": flat_y4m(128, 96, 5, lambda x, y: x + y)}, "encode ramp.y4m out.fbs",
+                                 ["ramp.y4m", NO_FACE]),
+    "encode_small_pictures":    ({"small.y4m": flat_y4m(62, 62, 3)}, "encode small.y4m out.fbs", ["small.y4m", "62x62", "64"]),
+    "encode_cut_picture":       ({"cut.y4m": flat_y4m(128, 96, 3)[:-100]}, "encode cut.y4m out.fbs", ["cut.y4m"]),
+    "encode_damaged_y4m_header": ({"bad.y4m": b"YUV4MPEG2 W128 Hx F25:1\nFRAME\n"}, "encode bad.y4m out.fbs",
+                                  ["bad.y4m", "header"]),
+    "encode_unknown_chroma":    ({"bad.y4m": b"YUV4MPEG2 W128 H96 F25:1 C999\nFRAME\n"}, "encode bad.y4m out.fbs",
+                                 ["bad.y4m", "chroma", "999"]),
+    "encode_huge_y4m":          ({"huge.y4m": b"YUV4MPEG2 W999999999 H999999999 F25:1\nFRAME\n"}, "encode huge.y4m out.fbs",
+                                 ["huge.y4m", "8192"]),
+    "encode_no_camera":         ({}, "encode camera:77 out.fbs", ["camera:77"]),
+    "encode_camera_without_number": ({}, "encode camera:front out.fbs", ["camera:front"]),
+    # OUTPUT of encode
+    "encode_into_missing_folder": ({}, "encode TALK.y4m absent/out.fbs", ["absent/out.fbs", NO_FILE]),
+    "encode_onto_folder":       ({"out.fbs/readme": b"hello"}, "encode TALK.y4m out.fbs", ["out.fbs", "directory"]),
+    "encode_onto_full_disk":    ({}, "encode TALK.y4m /dev/full", ["/dev/full", "No space left"]),
+    "encode_overlay_into_missing_folder": ({}, "encode TALK.y4m out.fbs --overlay absent/see.mp4", ["absent/see.mp4", NO_FILE]),
+    "encode_overlay_of_unknown_kind": ({}, "encode TALK.y4m out.fbs --overlay see.docx", ["see.docx"]),
+    # --marks
+    "marks_missing":            ({}, "encode TALK.y4m out.fbs --marks absent.json", ["absent.json", NO_FILE]),
+    "marks_not_json":           (marks(b"{"), "encode TALK.y4m out.fbs --marks marks.json", ["marks.json"]),
+    "marks_not_an_object":      (marks(b"[1, 2]"), "encode TALK.y4m out.fbs --marks marks.json", ["marks.json"]),
+    "marks_empty":              (marks(b"{}"), "encode TALK.y4m out.fbs --marks marks.json", ["marks.json"]),
+    "marks_too_few_landmarks":  (marks(b'{"landmarks": [[1, 2], [3, 4]]}'), "encode TALK.y4m out.fbs --marks marks.json",
+                                 ["marks.json"]),
+    "marks_not_numbers":        (marks(b'{"nose_tip": ["a", "b"]}'), "encode TALK.y4m out.fbs --marks marks.json", ["marks.json"]),
+    "marks_infinite":           (marks(b'{"nose_tip": [1e999, 5]}'), "encode TALK.y4m out.fbs --marks marks.json", ["marks.json"]),
+    # streams
+    "decode_missing_file":      ({}, "decode absent.fbs out.y4m", ["absent.fbs", NO_FILE]),
+    "decode_folder":            ({"folder/readme": b"hello"}, "decode folder out.y4m", ["folder"]),
+    "decode_empty_file":        ({"empty.fbs": b""}, "decode empty.fbs out.y4m", ["empty.fbs", "not an fbs stream"]),
+    "decode_empty_standard_input": ({}, "decode - out.y4m", ["standard input", "not an fbs stream"]),
+    "decode_text":              ({"text.fbs": b"not a stream\n" * 100}, "decode text.fbs out.y4m", ["text.fbs", "not an fbs stream"]),
+    "decode_magic_alone":       ({"magic.fbs": cut(4)}, "decode magic.fbs out.y4m", ["magic.fbs"]),
+    "decode_cut_stream":        ({"cut.fbs": cut(-3)}, "decode cut.fbs out.y4m", ["cut.fbs", "ends inside a packet", "at byte"]),
+    "decode_cut_stream_to_mp4": ({"cut.fbs": cut(-3)}, "decode cut.fbs out.mp4", ["cut.fbs", "ends inside a packet"]),
+    "decode_cut_stream_to_images": ({"cut.fbs": cut(1000)}, "decode cut.fbs out_%03d.png", ["cut.fbs", "ends inside a packet"]),
+    "inspect_text":             ({"text.fbs": b"not a stream\n" * 100}, "inspect text.fbs", ["text.fbs", "not an fbs stream"]),
+    "inspect_cut_stream":       ({"cut.fbs": cut(-3)}, "inspect cut.fbs --json", ["cut.fbs", "at byte"]),
+    "export_cut_stream":        ({"cut.fbs": cut(-3)}, "export cut.fbs out.csv", ["cut.fbs", "at byte"]),
+    "evaluate_cut_stream":      ({"cut.fbs": cut(-3)}, "evaluate TALK.y4m cut.fbs --json", ["cut.fbs", "at byte"]),
+    "evaluate_missing_source":  ({}, "evaluate absent.mkv", ["absent.mkv", NO_FILE]),
+    "evaluate_flat_pictures":   ({"flat.y4m": flat_y4m(128, 96, 5)}, "evaluate flat.y4m", ["flat.y4m", NO_FACE]),
+    "evaluate_other_length":    ({"short.y4m": flat_y4m(176, 144, 5)}, "evaluate short.y4m TALK.fbs", ["TALK.fbs", "short.y4m", "more"]),
+    "evaluate_other_size":      ({"other.y4m": flat_y4m(128, 96, 120)}, "evaluate other.y4m TALK.fbs", ["TALK.fbs", "size"]),
+    "play_missing_file":        ({}, "play absent.fbs", ["absent.fbs", NO_FILE]),
+    # OUTPUT of decode and export
+    "decode_into_missing_folder": ({}, "decode TALK.fbs absent/out.y4m", ["absent/out.y4m", NO_FILE]),
+    "decode_mp4_into_missing_folder": ({}, "decode TALK.fbs absent/out.mp4", ["absent/out.mp4", NO_FILE]),
+    "decode_images_into_missing_folder": ({}, "decode TALK.fbs absent/out_%03d.png", ["absent/out_", NO_FILE]),
+    "decode_to_unknown_kind":   ({}, "decode TALK.fbs out.docx", ["out.docx"]),
+    "decode_sound_missing":     ({}, "decode TALK.fbs out.mkv --sound absent.wav", ["absent.wav", NO_FILE]),
+    "decode_sound_to_y4m":      ({}, "decode TALK.fbs out.y4m --sound TALK.y4m", ["out.y4m", "sound"]),
+    "export_to_unknown_kind":   ({}, "export TALK.fbs out.docx", ["out.docx"]),
+    "export_into_missing_folder": ({}, "export TALK.fbs absent/out.csv", ["absent/out.csv", NO_FILE]),
+    "export_onto_full_disk":    ({"out.csv": "/dev/full"}, "export TALK.fbs out.csv", ["out.csv", "No space left"]),
+    "decode_y4m_onto_full_disk": ({"out.y4m": "/dev/full"}, "decode TALK.fbs out.y4m", ["out.y4m", "No space left"]),
+    "decode_mkv_onto_full_disk": ({"out.mkv": "/dev/full"}, "decode TALK.fbs out.mkv", ["out.mkv", "No space left"]),
+    # the command line
+    "no_verb":                  ({}, "", ["--help"]),
+    "unknown_verb":             ({}, "transmogrify", ["--help"]),
+    "unknown_option":           ({}, "encode TALK.y4m out.fbs --colour", ["--colour"]),
+    "encode_without_output":    ({}, "encode TALK.y4m", ["OUTPUT"]),
+    "too_many_names":           ({}, "inspect TALK.fbs TALK.fbs TALK.fbs", ["--help"]),
+    "quality_too_high":         ({}, "encode TALK.y4m out.fbs --quality 101", ["--quality", "101"]),
+    "quality_negative":         ({}, "encode TALK.y4m out.fbs --quality -1", ["--quality", "-1"]),
+    "quality_not_a_number":     ({}, "encode TALK.y4m out.fbs --quality best", ["--quality", "best"]),
+    "quality_missing":          ({}, "encode TALK.y4m out.fbs --quality", ["--quality"]),
+    "face_negative":            ({}, "encode TALK.y4m out.fbs --face -1", ["--face", "-1"]),
+    "face_that_is_not_there":   ({}, "encode TALK.y4m out.fbs --face 3", ["TALK.y4m", "face"]),
+    "rate_zero":                ({}, "encode TALK.y4m out.fbs --rate 0", ["--rate"]),
+    "evaluate_quality_too_high": ({}, "evaluate TALK.y4m --quality 20 200", ["--quality", "200"]),
+}
+
+
+class BadInput(ProgramTest):
+    def row(self, files, arguments, says):
+        for name, source in (("TALK.y4m", TALK_Y4M), ("TALK.fbs", TALK_FBS)):
+            if name in arguments:
+                os.symlink(source, self.folder / name)
+        for name, content in files.items():
+            path = self.folder / name
+            path.parent.mkdir(exist_ok=True)
+            if isinstance(content, str):
+                os.symlink(content, path)
+            else:
+                path.write_bytes(content() if callable(content) else content)
+        self.fail_cleanly(*arguments.split(), says=says)
+
+    def test_encode_sound_alone(self):
+        with wave.open(str(self.folder / "sound.wav"), "wb") as sound:
+            sound.setparams((1, 2, 8000, 0, "NONE", ""))
+            sound.writeframes(bytes(16000))
+        self.fail_cleanly("encode", "sound.wav", "out.fbs", says=["sound.wav", "no video"])
+
+    def test_encode_images_of_different_sizes(self):
+        for name, size in (("1.png", "176x144"), ("2.png", "128x96")):
+            ffmpeg("-f", "lavfi", "-i", "testsrc=size=" + size, "-frames:v", "1", self.folder / name)
+        self.fail_cleanly("encode", "%d.png", "out.fbs", "--allow-no-face", says=["2.png", "128x96"])
+
+    def test_evaluate_shorter_stream(self):
+        talker(self.folder / "long.y4m", "--size", "176x144", "--frames", "125")
+        self.fail_cleanly("evaluate", "long.y4m", TALK_FBS, says=["long.y4m", "fewer"])
+
+    def test_failed_encode_keeps_the_old_file(self):
+        self.write("flat.y4m", flat_y4m(128, 96, 5))
+        self.write("out.fbs", b"as it was")
+        self.fail_cleanly("encode", "flat.y4m", "out.fbs", says=["flat.y4m", NO_FACE])
+
+    def test_failed_decode_keeps_the_old_file(self):
+        self.write("cut.fbs", cut(-3)())
+        self.write("out.y4m", b"as it was")
+        self.fail_cleanly("decode", "cut.fbs", "out.y4m", says=["cut.fbs"])
+
+    def test_disk_that_fills_leaves_no_y4m(self):
+        self.fail_cleanly("decode", TALK_FBS, "out.y4m", says=["out.y4m"], largest_file=100_000)
+
+    def test_disk_that_fills_leaves_no_mp4(self):
+        self.fail_cleanly("decode", TALK_FBS, "out.mp4", says=["out.mp4"], largest_file=2_000)
+
+    def test_disk_that_fills_leaves_no_image(self):
+        self.fail_cleanly("decode", TALK_FBS, "out_%03d.png", says=["out_001.png"], largest_file=2_000)
+
+    def test_disk_that_fills_leaves_no_stream(self):
+        self.fail_cleanly("encode", TALK_Y4M, "out.fbs", says=["out.fbs"], largest_file=1_000)
+
+    def test_disk_that_fills_leaves_no_table(self):
+        self.fail_cleanly("export", TALK_FBS, "out.csv", says=["out.csv"], largest_file=10_000)
+
+    def test_full_standard_output(self):
+        with open("/dev/full", "wb") as full:
+            self.fail_cleanly("decode", TALK_FBS, "-", says=["standard output", "No space left"], stdout=full)
+
+
+def add_rows():
+    for name, row in TABLE.items():
+        setattr(BadInput, "test_" + name, lambda self, row=row: self.row(*row))
+
+
+add_rows()

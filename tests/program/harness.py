@@ -1,0 +1,152 @@
+"""Runs fbs as a user does and reads what it wrote. Python's standard library only."""
+import json
+import math
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ.get("FBS_SOURCE", pathlib.Path(__file__).resolve().parents[2]))
+BUILD = pathlib.Path(os.environ.get("FBS_BUILD", SOURCE / "build/release"))
+SHARED = pathlib.Path(os.environ.get("FBS_SHARED") or SOURCE.parent / "shared")
+FBS, TALKER = BUILD / "fbs", BUILD / "talker"
+MATERIAL = BUILD / "tests/program/material"
+TALK_Y4M, TALK_FBS, TALK_TRUTH = (MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk.csv"))
+
+FAILED = 2             # exit code of fbs
+SECONDS_AT_MOST = 240  # of any one command
+
+
+def make_material():
+    """A talker of 120 QCIF pictures, what is true about it, and its stream."""
+    MATERIAL.mkdir(parents=True, exist_ok=True)
+    talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
+    subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
+
+
+def talker(*arguments):
+    subprocess.run([TALKER, *arguments], check=True, timeout=SECONDS_AT_MOST)
+
+
+def ffmpeg(*arguments):
+    subprocess.run(["ffmpeg", "-v", "error", "-nostdin", "-y", *arguments], check=True, timeout=SECONDS_AT_MOST)
+
+
+def ffprobe(path, entries, *options):
+    """The JSON that ffprobe prints about the video stream of `path`."""
+    done = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", entries, "-of", "json",
+                           *options, path], check=True, capture_output=True, timeout=SECONDS_AT_MOST)
+    return json.loads(done.stdout)
+
+
+class Y4m:
+    """A Y4M stream in memory: size, rate, and pictures as bytes of all planes. 8 bits, 4:2:0."""
+
+    def __init__(self, data):
+        head, _, rest = data.partition(b"\n")
+        tags = {tag[:1].decode(): tag[1:].decode() for tag in head.split(b" ")[1:]}
+        self.width, self.height = int(tags["W"]), int(tags["H"])
+        numerator, denominator = map(int, tags["F"].split(":"))
+        self.rate = numerator / denominator
+        size = self.width * self.height + 2 * ((self.width + 1) // 2) * ((self.height + 1) // 2)
+        step = len(b"FRAME\n") + size
+        assert head.startswith(b"YUV4MPEG2 ") and len(rest) % step == 0, "not whole pictures"
+        self.pictures = [rest[at + len(b"FRAME\n"):at + step] for at in range(0, len(rest), step)]
+
+    @property
+    def shape(self):
+        return self.width, self.height, len(self.pictures), round(self.rate, 3)
+
+    def luma_psnr(self, other, box=None):
+        """PSNR in dB of the luma of all pictures against another's, in box = left, top, right, bottom."""
+        left, top, right, bottom = box or (0, 0, self.width, self.height)
+        error = count = 0
+        for a, b in zip(self.pictures, other.pictures, strict=True):
+            for y in range(top, bottom):
+                row = slice(y * self.width + left, y * self.width + right)
+                error += sum((p - q) ** 2 for p, q in zip(a[row], b[row]))
+                count += right - left
+        return 10 * math.log10(255 ** 2 * count / max(error, 1e-6))
+
+
+def read_y4m(path):
+    return Y4m(pathlib.Path(path).read_bytes())
+
+
+def flat_y4m(width, height, pictures, luma=lambda x, y: 128):
+    """Bytes of a grey video without a face."""
+    plane = bytes(luma(x, y) & 255 for y in range(height) for x in range(width))
+    chroma = bytes([128]) * (2 * ((width + 1) // 2) * ((height + 1) // 2))
+    return b"YUV4MPEG2 W%d H%d F25:1 Ip C420jpeg\n" % (width, height) + pictures * (b"FRAME\n" + plane + chroma)
+
+
+def packets(stream):
+    """(type, begin, end) of each packet of a whole stream (SPEC 3.1), check included."""
+    at, found = 4, []
+    while at < len(stream):
+        begin, kind, length, shift = at, stream[at], 0, 0
+        at += 1
+        while True:
+            length |= (stream[at] & 127) << shift
+            shift += 7
+            at += 1
+            if stream[at - 1] < 128:
+                break
+        at += length + 2
+        found.append((kind, begin, at))
+    return found
+
+
+MOTION = 5  # packet type
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test has an empty folder, which is the working folder of what it runs."""
+
+    def setUp(self):
+        self._temporary = tempfile.TemporaryDirectory(prefix="fbs-test-")
+        self.addCleanup(self._temporary.cleanup)
+        self.folder = pathlib.Path(self._temporary.name)
+
+    def fbs(self, *arguments, stdin=b"", stdout=subprocess.PIPE, environment=None, largest_file=None):
+        """Runs fbs to its end, whatever the outcome. `largest_file`, bytes, stands for a disk that fills."""
+        def limit():
+            if largest_file is not None:
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
+        return subprocess.run([FBS, *map(str, arguments)], input=stdin, stdout=stdout, stderr=subprocess.PIPE,
+                              cwd=self.folder, timeout=SECONDS_AT_MOST, preexec_fn=limit, env=environment)
+
+    def succeed(self, *arguments, **keywords):
+        """Runs fbs, which must exit with 0; returns its standard output."""
+        done = self.fbs(*arguments, **keywords)
+        self.assertEqual(done.returncode, 0, done.stderr.decode(errors="replace"))
+        return done.stdout
+
+    def fail_cleanly(self, *arguments, says=(), **keywords):
+        """Runs fbs, which must fail as it promises: exit code 2, one line on standard error that holds the words of
+        `says`, nothing on standard output, and the folder as it was."""
+        before = self.files()
+        done = self.fbs(*arguments, **keywords)
+        error = done.stderr.decode(errors="replace")
+        self.assertEqual(done.returncode, FAILED, error)
+        self.assertRegex(error, r"\Afbs: [^\n]+\n\Z", "not exactly one line")
+        self.assertLess(len(error), 300)
+        for words in says:
+            self.assertIn(words, error)
+        self.assertFalse(done.stdout)
+        self.assertEqual(self.files(), before, "files were left or changed")
+
+    def files(self):
+        return {str(path.relative_to(self.folder)): path.read_bytes()
+                for path in sorted(self.folder.rglob("*")) if path.is_file()}
+
+    def write(self, name, data):
+        (self.folder / name).write_bytes(data)
+        return name
+
+    def decoded(self, stream=TALK_FBS):
+        return Y4m(self.succeed("decode", stream, "-"))

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Prints what the clips of clip_floors.txt measure now (FBS_BUILD says where fbs is, build/release without it).
+
+    measure_clips.py             the table
+    measure_clips.py --update    and writes it into clip_floors.txt, with the margins below
+"""
+import dataclasses
+import sys
+
+from clips import FLOORS, FLOORS_FILE, Row, measure
+from harness import ProgramTest
+
+PSNR_MARGIN = 0.3    # dB, for other compilers and OpenCV versions
+BYTES_MARGIN = 1.05
+
+
+def floor(row):
+    return dataclasses.replace(
+        row, face_db=row.face_db - PSNR_MARGIN, frame_db=row.frame_db - PSNR_MARGIN,
+        startup_bytes=round(row.startup_bytes * BYTES_MARGIN),
+        motion_kbps=row.motion_kbps * BYTES_MARGIN + 0.005, total_kbps=row.total_kbps * BYTES_MARGIN + 0.005)
+
+
+def main():
+    print(Row.heading())
+    measured = []
+    for wanted in FLOORS:
+        test = ProgramTest()
+        test.setUp()
+        measured.append(measure(test, wanted.clip, wanted.frames))
+        test.doCleanups()
+        print(measured[-1], flush=True)
+    if "--update" in sys.argv[1:]:
+        comments = [line for line in FLOORS_FILE.read_text().splitlines() if line.startswith("#")]
+        FLOORS_FILE.write_text("\n".join(comments + [str(floor(row)) for row in measured]) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Runs the whole-program tests.
+
+    run.py [NAME ...]          all, or those named; FBS_BUILD says where fbs is, build/release without it
+    run.py --list              the names
+    run.py --make-material     what the tests share; run.py alone makes it when it is missing
+"""
+import pathlib
+import sys
+import unittest
+
+import harness
+
+SKIPPED = 77
+
+
+def all_tests():
+    """{"bad_input.empty_file": test, ...}"""
+    def walk(suite):
+        for test in suite:
+            if isinstance(test, unittest.TestSuite):
+                yield from walk(test)
+            else:
+                module, _, method = test.id().split(".")
+                yield module.removesuffix("_test") + "." + method.removeprefix("test_"), test
+    return dict(walk(unittest.defaultTestLoader.discover(pathlib.Path(__file__).parent, "*_test.py")))
+
+
+def main(arguments):
+    tests = all_tests()
+    if arguments == ["--list"]:
+        print("\n".join(tests))
+        return 0
+    if arguments == ["--make-material"]:
+        harness.make_material()
+        return 0
+    if not harness.TALK_FBS.exists():
+        harness.make_material()
+    result = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(tests[name] for name in arguments or tests))
+    if not result.wasSuccessful():
+        return 1
+    return SKIPPED if len(result.skipped) == result.testsRun else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

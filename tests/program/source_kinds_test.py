@@ -1,0 +1,107 @@
+"""Sources other than plain 8-bit 4:2:0 at a constant rate: coded, with their timestamps."""
+from harness import TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, read_y4m
+
+
+class SourceKinds(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.short = self.folder / "short.y4m"
+        ffmpeg("-i", TALK_Y4M, "-frames:v", "20", self.short)
+
+    def comes_back(self, source, at_least=28):
+        """Encodes and decodes `source`; the pictures must be near those of short.y4m."""
+        self.succeed("encode", source, "out.fbs")
+        out, plain = self.decoded("out.fbs"), read_y4m(self.short)
+        self.assertEqual(out.shape, plain.shape)
+        self.assertGreater(out.luma_psnr(plain), at_least)
+        return out
+
+    def convert(self, name, *options):
+        ffmpeg("-i", self.short, *options, "-strict", "-1", self.folder / name)
+        return name
+
+    def test_y4m_422(self):
+        self.comes_back(self.convert("in.y4m", "-pix_fmt", "yuv422p"))
+
+    def test_y4m_444(self):
+        self.comes_back(self.convert("in.y4m", "-pix_fmt", "yuv444p"))
+
+    def test_y4m_10_bit(self):
+        self.comes_back(self.convert("in.y4m", "-pix_fmt", "yuv420p10le"))
+
+    def test_y4m_422_12_bit(self):
+        self.comes_back(self.convert("in.y4m", "-pix_fmt", "yuv422p12le"))
+
+    def test_y4m_grey(self):
+        out = self.comes_back(self.convert("in.y4m", "-pix_fmt", "gray"))
+        chroma = out.pictures[0][176 * 144:]
+        self.assertLess(max(abs(c - 128) for c in chroma), 12)
+
+    def test_mkv_422(self):
+        self.comes_back(self.convert("in.mkv", "-c:v", "ffv1", "-pix_fmt", "yuv422p"))
+
+    def test_mkv_10_bit(self):
+        self.comes_back(self.convert("in.mkv", "-c:v", "ffv1", "-pix_fmt", "yuv420p10le"))
+
+    def test_mkv_grey(self):
+        self.comes_back(self.convert("in.mkv", "-c:v", "ffv1", "-pix_fmt", "gray"))
+
+    def test_mkv_rgb(self):
+        self.comes_back(self.convert("in.mkv", "-c:v", "ffv1", "-pix_fmt", "bgr0"))
+
+    def test_mp4_h264(self):
+        self.comes_back(self.convert("in.mp4", "-c:v", "libx264", "-crf", "12", "-pix_fmt", "yuv420p"))
+
+    def test_avi_mjpeg(self):
+        self.comes_back(self.convert("in.avi", "-c:v", "mjpeg", "-q:v", "2", "-pix_fmt", "yuvj420p"), 26)
+
+    def test_webm_vp9(self):
+        self.comes_back(self.convert("in.webm", "-c:v", "libvpx-vp9", "-crf", "15", "-b:v", "0", "-deadline", "realtime"))
+
+    def test_rotated_mp4(self):
+        for degrees, turn in (("90", "clock"), ("270", "cclock"), ("180", "clock,transpose=clock")):
+            with self.subTest(degrees):
+                ffmpeg("-i", self.short, "-vf", "transpose=" + turn, "-c:v", "libx264", "-crf", "12", self.folder / "lying.mp4")
+                ffmpeg("-i", self.folder / "lying.mp4", "-c", "copy", "-metadata:s:v", "rotate=" + degrees,
+                       self.folder / "in.mp4")
+                ffmpeg("-i", self.folder / "in.mp4", self.folder / "upright.y4m")  # turns as the file asks for
+                upright = read_y4m(self.folder / "upright.y4m")
+                self.assertGreater(upright.luma_psnr(read_y4m(self.short)), 28, "the test's own video is wrong")
+                self.comes_back("in.mp4")
+
+    def test_variable_rate_keeps_its_timestamps(self):
+        ffmpeg("-i", TALK_Y4M, "-vf", "select='not(eq(mod(n,7),2)+between(n,40,55))'", "-fps_mode", "vfr",
+               "-c:v", "ffv1", self.folder / "in.mkv")
+        self.succeed("encode", "in.mkv", "out.fbs")
+        self.succeed("decode", "out.fbs", "out.mkv")
+        source, decoded = self.times("in.mkv"), self.times("out.mkv")
+        self.assertEqual(len(decoded), len(source))
+        self.assertGreater(len({round(b - a, 3) for a, b in zip(source, source[1:])}), 3, "the test's own video is regular")
+        for a, b in zip(source, decoded):
+            self.assertAlmostEqual(a - source[0], b - decoded[0], delta=0.0015)
+
+    def times(self, name):
+        packets = ffprobe(self.folder / name, "packet=pts_time")["packets"]
+        return sorted(float(packet["pts_time"]) for packet in packets)
+
+    def test_pixel_aspect_is_kept(self):
+        self.convert("in.mkv", "-c:v", "ffv1", "-vf", "setsar=128/117:max=1000")
+        self.succeed("encode", "in.mkv", "out.fbs")
+        self.assertIn(b" A128:117 ", self.succeed("decode", "out.fbs", "-").partition(b"\n")[0])
+        self.succeed("decode", "out.fbs", "out.mkv")
+        stream = ffprobe(self.folder / "out.mkv", "stream=sample_aspect_ratio")["streams"][0]
+        self.assertEqual(stream["sample_aspect_ratio"], "128:117")
+
+    def test_full_range_is_kept(self):
+        self.convert("in.mkv", "-c:v", "ffv1", "-vf", "scale=in_range=tv:out_range=pc", "-pix_fmt", "yuv420p", "-color_range", "pc")
+        self.succeed("encode", "in.mkv", "out.fbs")
+        self.assertIn(b"XCOLORRANGE=FULL", self.succeed("decode", "out.fbs", "-").partition(b"\n")[0])
+
+    def test_damaged_packets_are_passed_over(self):
+        self.convert("in.mkv", "-c:v", "ffv1", "-g", "1", "-slicecrc", "1")
+        self.assertEqual(Y4m(self.short.read_bytes()).shape, (176, 144, 20, 30.0))
+        data = bytearray((self.folder / "in.mkv").read_bytes())
+        data[len(data) // 2] ^= 0xFF
+        self.write("bad.mkv", bytes(data))
+        done = self.fbs("encode", "bad.mkv", "out.fbs")
+        self.assertIn(done.returncode, (0, 2), done.stderr)

@@ -1,0 +1,88 @@
+"""What the program says: help that teaches, a bar for people only, and nothing when told to be quiet."""
+import os
+import pty
+import subprocess
+import time
+import unittest
+
+from harness import FBS, TALK_FBS, TALK_Y4M, ProgramTest
+
+VERBS = ("encode", "decode", "play", "evaluate", "inspect", "export")
+
+
+class Terminal(ProgramTest):
+    def test_help_shows_every_verb_and_examples(self):
+        text = self.succeed("--help").decode()
+        for verb in VERBS:
+            self.assertRegex(text, rf"(?m)^ +{verb} +\S")
+            self.assertIn(f"fbs {verb} ", text.partition("Examples")[2])
+
+    def test_help_of_every_verb_teaches(self):
+        for verb in VERBS:
+            with self.subTest(verb):
+                text = self.succeed(verb, "--help").decode()
+                self.assertIn(f"fbs {verb} ", text)
+                self.assertIn("Examples", text)
+                self.assertIn("INPUT" if verb != "evaluate" else "SOURCE", text)
+
+    def test_hidden_switch_stays_hidden(self):
+        self.assertNotIn(b"snakes", self.succeed("encode", "--help").replace(b"mesh and snakes", b""))
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version").decode(), r"\Afbs \d+\.\d+\.\d+\n\Z")
+
+    def test_quiet_prints_nothing(self):
+        for arguments in (("encode", TALK_Y4M, "out.fbs"), ("decode", TALK_FBS, "out.y4m")):
+            done = self.fbs(*arguments, "--quiet")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, b"", b""), arguments)
+
+    def test_quiet_evaluate_prints_its_table_alone(self):
+        done = self.fbs("evaluate", TALK_Y4M, TALK_FBS, "--quiet")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertEqual(len(done.stdout.splitlines()), 2)
+
+    def test_no_control_characters_in_a_pipe(self):
+        for arguments in (("encode", TALK_Y4M, "out.fbs"), ("decode", TALK_FBS, "out.y4m"), ("evaluate", TALK_Y4M, TALK_FBS),
+                          ("inspect", TALK_FBS), ("export", TALK_FBS, "out.csv")):
+            done = self.fbs(*arguments)
+            text = (done.stdout + done.stderr).decode()
+            self.assertFalse([c for c in text if c < " " and c != "\n"], arguments)
+
+    def test_encode_closes_with_one_line(self):
+        done = self.fbs("encode", TALK_Y4M, "out.fbs")
+        size = os.path.getsize(self.folder / "out.fbs")
+        self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, [\d.]+ kbit/s .*PSNR face [\d.]+ dB,"
+                                               r" frame [\d.]+ dB\n\Z")
+
+    def test_bar_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        subprocess.run([FBS, "encode", TALK_Y4M, "out.fbs"], stderr=theirs, cwd=self.folder, check=True)
+        os.close(theirs)
+        text = os.read(ours, 1 << 16).decode()
+        os.close(ours)
+        self.assertRegex(text, r"encoding +\d+ %")
+        self.assertIn("\r", text)
+
+
+class Play(ProgramTest):
+    def without_display(self):
+        return {key: value for key, value in os.environ.items()
+                if key not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+
+    def test_play_without_display_fails_cleanly(self):
+        self.fail_cleanly("play", TALK_FBS, says=["window"], environment=self.without_display())
+
+    def test_play_of_something_else_opens_no_window(self):
+        self.fail_cleanly("play", TALK_Y4M, says=[TALK_Y4M.name, "not an fbs stream"],
+                          environment=self.without_display() | {"QT_QPA_PLATFORM": "offscreen"})
+
+    def test_play_runs_in_a_window(self):
+        player = subprocess.Popen([FBS, "play", TALK_FBS], stderr=subprocess.PIPE,
+                                  env=self.without_display() | {"QT_QPA_PLATFORM": "offscreen"})
+        time.sleep(3)
+        still_there = player.poll() is None
+        player.kill()
+        said = player.communicate()[1].decode(errors="replace")
+        if not still_there and "window" in said:
+            raise unittest.SkipTest("windows of this OpenCV cannot be drawn off screen: " + said)
+        self.assertTrue(still_there, said)
