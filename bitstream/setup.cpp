@@ -32,6 +32,16 @@ void write_rational(ByteWriter& writer, const Rational& ratio) {
   writer.varint(ratio.den);
 }
 
+void write_colour(ByteWriter& writer, const YuvColour& colour) {
+  for (const std::uint8_t component : {colour.y, colour.u, colour.v}) writer.u8(component);
+}
+
+YuvColour read_colour(ByteReader& reader) {
+  YuvColour colour;
+  for (std::uint8_t* component : {&colour.y, &colour.u, &colour.v}) *component = reader.u8();
+  return colour;
+}
+
 bool is_rate(const Rational& rate) {
   return rate.num > 0 && rate.den > 0 && rate.num <= std::uint64_t{kMaxPicturesPerSecond} * rate.den;
 }
@@ -82,6 +92,7 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
     writer.varint(static_cast<std::uint64_t>(step));
   }
   writer.varint(setup.features);
+  for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
   return payload;
 }
 
@@ -107,6 +118,8 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
     *step = to_int(reader.varint());
   }
   const std::uint64_t features = reader.varint();
+  setup.mouth.upper = read_colour(reader);
+  setup.mouth.lower = read_colour(reader);
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");

@@ -27,11 +27,25 @@ enum class PacketType : std::uint8_t {
   kEnd = 6,       ///< optional: number of pictures, and the index
 };
 
+/// A colour in the video's own range and matrix.
+struct YuvColour {
+  std::uint8_t y = 128, u = 128, v = 128;
+  friend bool operator==(const YuvColour&, const YuvColour&) = default;
+};
+
+/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at the lower
+/// (dark, tongue), and all between.
+struct MouthInterior {
+  YuvColour upper{70, 126, 138}, lower{45, 126, 138};
+  friend bool operator==(const MouthInterior&, const MouthInterior&) = default;
+};
+
 /// Begins a scene. All later packets are read in its terms.
 struct Setup {
   VideoFormat format;
   QuantiserSteps steps;
   FeatureMask features = 0;
+  MouthInterior mouth;
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 

@@ -10,6 +10,8 @@ namespace {
 /// The ring lies this much farther from the head's axis than the outline in the seen pose, in 1/256.
 constexpr std::int32_t kRingGrowth = 36;
 
+constexpr std::int32_t kRingBehind = kUnitsPerEyeDistance / 2;  // head units
+
 /// Below this determinant (Q14) of the seen pose's upper-left 2 x 2 rotation the surround stays still: the head is
 /// seen from the side and its plane cannot be inverted.
 constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
@@ -100,6 +102,28 @@ std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertex
   return out;
 }
 
+std::int32_t mouth_shade(std::int32_t gap_now, std::int32_t gap_seen) {
+  constexpr std::int32_t kPartedWholly = kUnitsPerEyeDistance / 16;
+  static_assert(kPartedWholly == 256);
+  return std::clamp(gap_now - gap_seen, 0, kPartedWholly);
+}
+
+std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices) {
+  const auto y_of = [&](std::size_t landmark) {
+    return vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])].y;
+  };
+  return y_of(66) - y_of(62);
+}
+
+bool is_inner_lip(std::int16_t vertex) {
+  return vertex < kVertexCount && generic_head().vertices[static_cast<std::size_t>(vertex)].landmark >= 60;
+}
+
+std::int32_t mouth_ramp(std::int16_t inner_lip_vertex) {
+  const int landmark = generic_head().vertices[static_cast<std::size_t>(inner_lip_vertex)].landmark;
+  return landmark == 60 || landmark == 64 ? 128 : landmark < 64 ? 0 : 256;
+}
+
 const HeadMesh& head_mesh() {
   static const HeadMesh mesh = make_head_mesh();
   return mesh;
@@ -152,8 +176,9 @@ void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& m
       const std::int64_t top = va * (256 - r.across) + vb * r.across, bottom = vc * (256 - r.across) + vd * r.across;
       return static_cast<std::int32_t>(round_shift(top * (256 - r.down) + bottom * r.down, 16));
     };
-    // Its depth is the outline's: the ring lies beside the face, not behind it.
-    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(generic_head().outline[i])];
+    // Behind the outline, so that the face hides it where the head has moved over it.
+    glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(generic_head().outline[i])];
+    p.z += kRingBehind;
     mesh.head.emplace_back(clamp_screen(r.seen.x + blend(a.x, b.x, c.x, d.x)),
                            clamp_screen(r.seen.y + blend(a.y, b.y, c.y, d.y)), projection(p).z);
   }
@@ -170,8 +195,9 @@ ScreenMesh SceneGeometry::project(const State& state) const {
   const HeadPose pose = dequantise_pose(state, steps_);
   const HeadProjection projection(pose);
   ScreenMesh mesh;
-  const auto vertices = project_vertices(state);
-  mesh.head.assign(vertices.begin(), vertices.end());
+  const auto vertices = deform(geometry_.positions, state, steps_);
+  for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
+  mesh.mouth_gap = mouth_gap(vertices);
   project_surround(pose, mesh.surround);
   project_ring(projection, mesh);
   return mesh;

@@ -53,6 +53,19 @@ struct HeadMesh {
   std::vector<std::array<std::int16_t, 3>> triangles;  ///< clockwise in the picture seen from the front
   int vertex_count = 0;                                ///< kVertexCount + ring
 };
+
+/// How much of the mouth's inside hides what the pattern had between the lips: 0 none, 256 all, once the lips have
+/// parted by a sixteenth of the eye distance more than in the pattern.
+[[nodiscard]] std::int32_t mouth_shade(std::int32_t gap_now, std::int32_t gap_seen);
+
+/// Between the middles of the inner lips of a head as deform() gives it, head units.
+[[nodiscard]] std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices);
+
+/// Whether the vertex lies on the inner lips; a triangle of three such is the inside of the mouth.
+[[nodiscard]] bool is_inner_lip(std::int16_t vertex);
+/// Upper inner lip 0, corners 128, lower inner lip 256.
+[[nodiscard]] std::int32_t mouth_ramp(std::int16_t inner_lip_vertex);
+
 [[nodiscard]] const HeadMesh& head_mesh();
 
 /// Where everything of a scene lies on the screen in one state. Also the texture coordinates of a pattern,
@@ -60,6 +73,7 @@ struct HeadMesh {
 struct ScreenMesh {
   std::vector<glm::ivec3> head;      ///< head_mesh().vertex_count; as HeadProjection gives
   std::vector<glm::ivec2> surround;  ///< (columns + 1) * (rows + 1), 1/64 pixel; empty without a face
+  std::int32_t mouth_gap = 0;        ///< between the middles of the inner lips, head units
 };
 
 /// What is fixed for a scene with a face: the adapted head, the surround and how pattern 0 saw them.

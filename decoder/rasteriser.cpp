@@ -137,6 +137,17 @@ struct Walk {
   }
 };
 
+/// Mixes a ramp of colours over samples [first, last] of a row.
+/// @param ramp  0..256 in Q16 at `first`  @param step  per sample
+void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int row, int64_t first, int64_t last) {
+  std::uint8_t* out = plane.target->row(row);
+  for (int64_t x = first; x <= last; ++x, ramp += step) {
+    const auto at = static_cast<int32_t>(std::clamp<int64_t>(ramp >> 16, 0, 256));
+    const int32_t colour = (plane.shade_low * (256 - at) + plane.shade_high * at + 128) >> 8;
+    out[x] = static_cast<std::uint8_t>((out[x] * (256 - amount) + colour * amount + 128) >> 8);
+  }
+}
+
 /// Calls draw(from, to) for each run of samples of [first, last] that are nearer than what is there, and notes them.
 /// @param z  depth at `first`  @param dz  per sample
 template <class Draw>
@@ -169,7 +180,7 @@ void DepthPlane::reset(int w, int height, const SampleArea& area) {
 bool faces_viewer(const RasterTriangle& triangle) { return twice_area(triangle) > 0; }
 
 void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const PlanePair> planes,
-                   const SampleArea& area_to_draw, DepthPlane* depth) {
+                   const SampleArea& area_to_draw, DepthPlane* depth, const Shade* shade) {
   const int64_t area = twice_area(t);
   if (area <= 0) return;
   const int bits = static_cast<int>(scale);
@@ -183,6 +194,8 @@ void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const Pl
   const Gradient u(t, {t[0].texture.x, t[1].texture.x, t[2].texture.x}, bits, area, bits);
   const Gradient v(t, {t[0].texture.y, t[1].texture.y, t[2].texture.y}, bits, area, bits);
   const Gradient z(t, {t[0].depth, t[1].depth, t[2].depth}, 16, area, bits);
+  const std::array<int32_t, 3> corners = shade != nullptr ? shade->ramp : std::array<int32_t, 3>{};
+  const Gradient ramp(t, {corners[0], corners[1], corners[2]}, 0, area, bits);
   const bool fast = u.exact && v.exact && reads_inside(t, shape, bits);
   const std::array<Edge, 3> edges = {Edge(t[0].screen, t[1].screen), Edge(t[1].screen, t[2].screen),
                                      Edge(t[2].screen, t[0].screen)};
@@ -200,7 +213,10 @@ void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const Pl
     } else {
       int32_t* nearest = depth->depth.data() + static_cast<std::ptrdiff_t>(row) * depth->width;
       for_each_nearer(nearest, first, last, z.at(dx, dy, bits), z.dx, [&](int64_t from, int64_t to) {
-        for (const PlanePair& p : planes) walk.from(from - first).fill(*p.pattern, p.target->row(row), from, to);
+        for (const PlanePair& p : planes) {
+          walk.from(from - first).fill(*p.pattern, p.target->row(row), from, to);
+          if (shade != nullptr) mix(p, shade->amount, ramp.at(dx, dy, bits) + (from - first) * ramp.dx, ramp.dx, row, from, to);
+        }
       });
     }
   }

@@ -42,6 +42,14 @@ enum class PlaneScale : std::uint8_t { kLuma = 6, kChroma = 7 };  ///< log2 of p
 struct PlanePair {
   const Plane* pattern;
   Plane* target;
+  std::uint8_t shade_low = 0, shade_high = 0;  ///< what Shade mixes in where its ramp is 0 and 256
+};
+
+/// A colour mixed over the pattern: `amount` / 256 of it, going from shade_low to shade_high with a ramp over the
+/// triangle.
+struct Shade {
+  std::array<std::int32_t, 3> ramp;  ///< at the corners, 0..256
+  std::int32_t amount = 0;           ///< 0..256
 };
 
 /// Draws the triangle's part of each pattern plane into its target; all of the same size and scale. Samples in
@@ -49,8 +57,9 @@ struct PlanePair {
 /// screen or has no area is not drawn.
 /// @param area   within the targets
 /// @param depth  of the targets' size: samples that are not nearer are left alone; null: all are drawn
+/// @param shade  mixed over what is drawn; null: nothing. Only with depth.
 void draw_triangle(const RasterTriangle& triangle, PlaneScale scale, std::span<const PlanePair> planes,
-                   const SampleArea& area, DepthPlane* depth);
+                   const SampleArea& area, DepthPlane* depth, const Shade* shade = nullptr);
 
 /// Whether the triangle faces the viewer (clockwise in the picture).
 [[nodiscard]] bool faces_viewer(const RasterTriangle& triangle);

@@ -65,8 +65,14 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
   const SampleArea area = area_of_head(now, layer.scale, layer.area);
   if (area.empty()) return;
   depth.reset(target.width, target.height, area);
-  for (const auto& triangle : head_mesh().triangles)
-    draw_triangle(corners(triangle, now, seen), layer.scale, layer.planes, area, &depth);
+  const std::int32_t shade_amount = mouth_shade(now.mouth_gap, seen.mouth_gap);
+  for (const auto& triangle : head_mesh().triangles) {
+    const bool inside_mouth = std::all_of(triangle.begin(), triangle.end(), is_inner_lip);
+    Shade shade{{}, shade_amount};
+    if (inside_mouth) std::transform(triangle.begin(), triangle.end(), shade.ramp.begin(), mouth_ramp);
+    draw_triangle(corners(triangle, now, seen), layer.scale, layer.planes, area, &depth,
+                  inside_mouth && shade_amount > 0 ? &shade : nullptr);
+  }
 }
 
 }  // namespace
@@ -76,21 +82,16 @@ void Renderer::render(const Scene& scene, const State& state, Picture& out) {
   out = pattern.picture;
   if (!scene.geometry) return;
   const ScreenMesh now = scene.geometry->project(state);
+  const MouthInterior& mouth = scene.setup.mouth;
   const std::array<Layer, 2> layers = {
-      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y}}, whole(out.y)},
-      Layer{PlaneScale::kChroma, {{&pattern.picture.u, &out.u}, {&pattern.picture.v, &out.v}}, whole(out.u)}};
+      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y, mouth.upper.y, mouth.lower.y}}, whole(out.y)},
+      Layer{PlaneScale::kChroma,
+            {{&pattern.picture.u, &out.u, mouth.upper.u, mouth.lower.u},
+             {&pattern.picture.v, &out.v, mouth.upper.v, mouth.lower.v}},
+            whole(out.u)}};
   draw_surround(scene.geometry->surround(), now, pattern.seen, layers);
   draw_head(now, pattern.seen, layers[0], luma_depth_);
   draw_head(now, pattern.seen, layers[1], chroma_depth_);
-}
-
-void Renderer::render_head_luma(const Scene& scene, const State& state, const SampleArea& area, Plane& out) {
-  const Pattern& pattern = scene.patterns.front();
-  for (int y = area.y0; y < area.y1; ++y)
-    std::copy(pattern.picture.y.row(y) + area.x0, pattern.picture.y.row(y) + area.x1, out.row(y) + area.x0);
-  if (!scene.geometry) return;
-  const ScreenMesh now = scene.geometry->project(state);
-  draw_head(now, pattern.seen, {PlaneScale::kLuma, {{&pattern.picture.y, &out}}, area}, luma_depth_);
 }
 
 }  // namespace fbs

@@ -29,11 +29,6 @@ class Renderer {
   /// Draws the picture of `state` into `out`, which takes the size of the scene.
   void render(const Scene& scene, const State& state, Picture& out);
 
-  /// Draws only the head (no surround) and only the luma samples in `area`, which start as the pattern's own: what an
-  /// encoder compares while it tries states. Samples outside `area` keep what they were.
-  /// @param out  of the scene's size
-  void render_head_luma(const Scene& scene, const State& state, const SampleArea& area, Plane& out);
-
  private:
   DepthPlane luma_depth_, chroma_depth_;
 };

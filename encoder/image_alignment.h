@@ -28,8 +28,9 @@ struct SurfacePoint {
 
 /// Points spread evenly over the mesh as `projection` sees it.
 /// @param spacing_px  between neighbours, pixels of the picture
+/// @param mouth_rows  points across each triangle of the mouth's inside at least, which may be a mere line now
 [[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices, const PoseProjection& projection,
-                                                         double spacing_px);
+                                                         double spacing_px, int mouth_rows = 1);
 
 /// Bilinear value and central-difference slope of an 8-bit picture.
 struct Sample {

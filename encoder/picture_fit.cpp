@@ -8,11 +8,13 @@ namespace fbs {
 namespace {
 
 constexpr double kPointSpacing = 2.2;  // work pixels
+constexpr int kMouthRows = 5;
 constexpr double kNoise = 6;           // grey levels: what differs by this much is as likely as not meant
 constexpr double kHuber = 24;          // grey levels; larger differences (teeth, shadows) pull with constant force
 // Standard deviations of what is believed before looking, as shares of the eye distance or radians.
 constexpr double kPoseNear = 0.03;     // of the tracked pose
 constexpr double kControlNear = 0.02;  // of the tracked control points
+constexpr double kInnerLipNear = 0.006;  // of the tracked inner lips: they show best where they are
 constexpr double kControlRest = 0.12;  // of control points about rest
 constexpr int kSteps[] = {3, 2};       // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
@@ -25,10 +27,10 @@ std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
 
 glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
 
-/// Work position without sub-pixel shift between levels: pyrDown keeps even samples.
-bool faces(const std::array<glm::dvec2, 3>& p) {
-  const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
-  return a.x * b.y - a.y * b.x > 0;
+/// Area of a triangle on the screen; zero when it faces away.
+double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
+  const glm::dvec2 a = q - p, b = r - p;
+  return std::max(0.0, 0.5 * (a.x * b.y - a.y * b.x));
 }
 
 }  // namespace
@@ -47,8 +49,19 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
   const HeadVertices vertices = deformed(rest);
   const PoseProjection projection(rest.pose);
   const double spacing = kPointSpacing / pattern.scale;
-  points_ = spread_over_mesh(vertices, projection, spacing);
-  area_per_point_ = spacing * spacing;
+  points_ = spread_over_mesh(vertices, projection, spacing, kMouthRows);
+  points_on_triangle_.assign(head.triangles.size(), 0);
+  for (const SurfacePoint& p : points_) {
+    ++points_on_triangle_[static_cast<std::size_t>(p.triangle)];
+    const bool inside_mouth = std::all_of(p.corner.begin(), p.corner.end(), is_inner_lip);
+    float ramp = -1;
+    if (inside_mouth) {
+      ramp = 0;
+      for (std::size_t k = 0; k < 3; ++k) ramp += p.barycentric[k] * static_cast<float>(mouth_ramp(p.corner[k])) / 256;
+    }
+    mouth_ramp_.push_back(ramp);
+  }
+  gap_seen_ = mouth_gap(deform(geometry_.positions, seen, steps_));
   for (const SurfacePoint& p : points_) {
     std::array<double, kControlCount> sum{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -72,7 +85,16 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
   }
 }
 
-void PictureFit::look_at(const WorkFrame& picture) {
+double PictureFit::shown(std::size_t point, int level, std::int32_t shade) const {
+  const double pattern = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][point]);
+  const double ramp = static_cast<double>(mouth_ramp_[point]);
+  if (ramp < 0 || pattern < 0 || shade == 0) return pattern;
+  const double inside = mouth_.upper.y * (1 - ramp) + mouth_.lower.y * ramp;
+  return (pattern * (256 - shade) + inside * shade) / 256;
+}
+
+void PictureFit::look_at(const WorkFrame& picture, const MouthInterior& mouth) {
+  mouth_ = mouth;
   picture_ = picture;
   luma_ = two_levels(picture.luma);
 }
@@ -106,9 +128,12 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   believe(5, fit.pose.log2_scale - start.pose.log2_scale, kPoseNear);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
+    const Feature& inner = feature(FeatureId::kMouthInner);
+    const int past_inner = inner.first_control + inner.control_count, index = static_cast<int>(c);
+    const double near = index >= inner.first_control && index < past_inner ? kInnerLipNear : kControlNear;
     for (int axis = 0; axis < 2; ++axis) {
       const auto k = static_cast<std::size_t>(column_[c] + axis);
-      believe(k, fit.offsets[c][axis] - start.offsets[c][axis], kControlNear * kUnitsPerEyeDistance);
+      believe(k, fit.offsets[c][axis] - start.offsets[c][axis], near * kUnitsPerEyeDistance);
       believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
     }
   }
@@ -117,16 +142,19 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   const HeadVertices vertices = deformed(fit);
   const glm::dvec2 ex(jacobian.projection().matrix[0]), ey(jacobian.projection().matrix[1]);
   const double to_level = picture_.scale / (1 << level);
+  std::array<glm::ivec3, kVertexCount> rounded;
+  for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
+  const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
   std::vector<std::pair<std::size_t, double>> row;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double shown = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]);
-    if (shown < 0) continue;
+    const double value = shown(k, level, shade);
+    if (value < 0) continue;
     const glm::dvec3 p = points_[k].on(vertices);
     Sample s;
     if (!sample_with_slope(luma_[static_cast<std::size_t>(level)],
                            on_level(picture_.to_work(jacobian.projection()(p)), level), s))
       continue;
-    const double r = shown - s.value;
+    const double r = value - s.value;
     const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
     row.clear();
     const auto by_pose = jacobian.at(p);
@@ -172,19 +200,19 @@ double PictureFit::distortion(const State& state) const {
     const glm::ivec3 screen = projection(vertices[v]);
     at[v] = picture_.to_work(glm::dvec2(screen.x, screen.y) / static_cast<double>(1 << kScreenOneLog2));
   }
-  double sum = 0;
+  const std::int32_t shade = mouth_shade(mouth_gap(vertices), gap_seen_);
+  double sum = 0, weight = 0;
   std::int16_t triangle = -1;
-  bool visible = false;
   const cv::Mat& luma = luma_[0];
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const SurfacePoint& p = points_[k];
     const auto corner = [&](std::size_t i) { return at[static_cast<std::size_t>(p.corner[i])]; };
     if (p.triangle != triangle) {
       triangle = p.triangle;
-      visible = faces({corner(0), corner(1), corner(2)});
+      weight = visible_area(corner(0), corner(1), corner(2)) / points_on_triangle_[static_cast<std::size_t>(triangle)];
     }
-    const double shown = static_cast<double>(pattern_luma_[0][k]);
-    if (!visible || shown < 0) continue;
+    const double value = shown(k, 0, shade);
+    if (weight <= 0 || value < 0) continue;
     const glm::dvec2 x = static_cast<double>(p.barycentric[0]) * corner(0) + static_cast<double>(p.barycentric[1]) * corner(1) +
                          static_cast<double>(p.barycentric[2]) * corner(2);
     if (!(x.x >= 0 && x.y >= 0 && x.x < luma.cols - 1.001 && x.y < luma.rows - 1.001)) continue;
@@ -192,9 +220,9 @@ double PictureFit::distortion(const State& state) const {
     const double fx = x.x - i, fy = x.y - j;
     const std::uint8_t *r0 = luma.ptr<std::uint8_t>(j) + i, *r1 = luma.ptr<std::uint8_t>(j + 1) + i;
     const double seen = (r0[0] * (1 - fx) + r0[1] * fx) * (1 - fy) + (r1[0] * (1 - fx) + r1[1] * fx) * fy;
-    sum += (shown - seen) * (shown - seen);
+    sum += weight * (value - seen) * (value - seen);
   }
-  return sum * area_per_point_;
+  return sum / (picture_.scale * picture_.scale);
 }
 
 }  // namespace fbs

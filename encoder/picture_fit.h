@@ -25,7 +25,8 @@ class PictureFit {
   PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern, const State& seen);
 
   /// The picture that the next calls are about; its luma is shared.
-  void look_at(const WorkFrame& picture);
+  /// @param mouth  luma that the decoder shows inside the mouth, as far as is known
+  void look_at(const WorkFrame& picture, const MouthInterior& mouth);
 
   /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to fine,
   /// held near `start` where the picture says nothing and near rest everywhere.
@@ -46,6 +47,8 @@ class PictureFit {
   /// One Gauss-Newton step on one level; false when it cannot be solved.
   bool step(int level, const Fit& start, Fit& fit) const;
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
+  /// What the decoder shows at a point: the pattern, or the mouth's inside by as much as the lips have parted.
+  [[nodiscard]] double shown(std::size_t point, int level, std::int32_t shade) const;
 
   QuantiserSteps steps_;
   Geometry geometry_;
@@ -54,8 +57,11 @@ class PictureFit {
   std::array<std::vector<float>, kLevels> pattern_luma_;   ///< at each point; negative outside
   std::vector<int> column_;                                ///< of a control point's x in the normal equations, or -1
   int unknowns_ = 6;
-  double area_per_point_ = 1;                              ///< samples of the full picture
+  std::vector<int> points_on_triangle_;
+  std::vector<float> mouth_ramp_;                          ///< of each point, 0 upper to 1 lower lip; negative: not inside
+  std::int32_t gap_seen_ = 0;                              ///< mouth_gap() of the pattern
   WorkFrame picture_;
+  MouthInterior mouth_;
   std::array<cv::Mat, kLevels> luma_;
 };
 

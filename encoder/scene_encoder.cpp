@@ -44,6 +44,10 @@ FeatureMask mask_of(bool snakes) {
   FeatureMask mask = 0;
   if (snakes)
     for (const FeatureId id : kSnakeFeatures) mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
+  // Pupils have no curve; the fit to the picture finds them.
+  if (snakes)
+    for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
+      mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
   return mask;
 }
 
@@ -164,8 +168,12 @@ State SceneEncoder::analyse(const Picture& picture) {
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());
     tracked_fit.offsets = features_->offsets();
+    for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft}) {
+      const auto c = static_cast<std::size_t>(feature(id).first_control);
+      tracked_fit.offsets[c] = glm::dvec2(state_.control[c] * steps.control);
+    }
   }
-  fit_->look_at(frame);
+  fit_->look_at(frame, started_ ? scene_.setup.mouth : mouth_colours_.colours());
   const Fit refined = fit_->refine(tracked_fit);
   const std::array<State, 3> candidates = {state_, quantised(tracked_fit.pose, tracked_fit.offsets),
                                            quantised(refined.pose, refined.offsets)};
@@ -203,6 +211,10 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     else analysis_.confidence = 1;
     report(state_);
     counter_->push(state_);
+    if (!started_) {
+      mouth_colours_.add(picture, scene_.geometry->project_vertices(state_),
+                         mouth_height(scene_.geometry->project_vertices(seen_)), eye_distance_px_);
+    }
     const auto every = static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
     if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state_);
   }
@@ -229,6 +241,7 @@ Result<void> SceneEncoder::end_group() {
 }
 
 Result<void> SceneEncoder::start() {
+  scene_.setup.mouth = mouth_colours_.colours();
   auto setup = encode_setup(scene_.setup);
   if (!setup) return tl::unexpected<Error>(setup.error());
   write_packet(ready_, PacketType::kSetup, *setup);

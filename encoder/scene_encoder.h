@@ -12,6 +12,7 @@
 #include "encoder/encoder.h"
 #include "encoder/feature_tracker.h"
 #include "encoder/head_tracker.h"
+#include "encoder/mouth_colours.h"
 #include "encoder/operating_point.h"
 #include "encoder/state_choice.h"
 
@@ -68,6 +69,7 @@ class SceneEncoder {
   MotionGroup group_;
   std::uint64_t pictures_ = 0;
 
+  MouthColours mouth_colours_;
   std::optional<Picture> first_;           ///< kept until the surround has been fitted
   std::vector<std::pair<Picture, State>> later_;
   std::vector<std::uint8_t> geometry_bytes_, pattern_bytes_;
