@@ -142,6 +142,24 @@ TEST(Deform, KeepsPupilsBetweenTheLids) {
   EXPECT_TRUE(shut > 20 && shut < 480) << "both cases must occur";
 }
 
+TEST(Mouth, ShadeGrowsAsTheLipsPart) {
+  EXPECT_EQ(mouth_shade(-500, 100), 0);
+  EXPECT_EQ(mouth_shade(100, 100), 0) << "as the pattern saw it";
+  EXPECT_EQ(mouth_shade(228, 100), 128);
+  EXPECT_EQ(mouth_shade(5000, 100), 256);
+}
+
+TEST(Mouth, GapIsThatOfTheInnerLips) {
+  State open;
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  const auto neutral = toy_geometry().positions;
+  for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(v.vertex));
+  for (int i = 0; i < inner.control_count; ++i)
+    open.control[static_cast<std::size_t>(inner.first_control + i)].y = i >= inner.control_count / 2 ? 800 : 0;
+  EXPECT_GT(mouth_gap(deform(neutral, open, {1, 1, 1, 1})), mouth_gap(neutral) + 400);
+  for (std::int16_t v = kVertexCount; v < head_mesh().vertex_count; ++v) EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
+}
+
 TEST(HeadMesh, FacesTheViewerFromTheFront) {
   const HeadMesh& mesh = head_mesh();
   EXPECT_EQ(mesh.vertex_count, kVertexCount + static_cast<int>(generic_head().outline.size()));
@@ -160,13 +178,13 @@ TEST(HeadMesh, FacesTheViewerFromTheFront) {
   }
 }
 
-TEST(SceneGeometry, RingLiesOutsideTheOutlineAtItsDepth) {
+TEST(SceneGeometry, RingLiesOutsideTheOutlineAndBehindIt) {
   const SceneGeometry geometry(toy_setup(), toy_geometry(), even_surround(2, 2, 0), toy_state());
   const ScreenMesh rest = geometry.project(toy_state());
   const auto outline = generic_head().outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const glm::ivec3 ring = rest.head[kVertexCount + i], edge = rest.head[static_cast<std::size_t>(outline[i])];
-    EXPECT_EQ(ring.z, edge.z);
+    EXPECT_GT(ring.z, edge.z) << "the face hides it";
     const glm::dvec2 centre = glm::dvec2(80, 50) * 64.0;
     const glm::dvec2 inner = glm::dvec2(edge) - centre, outer = glm::dvec2(ring) - centre;
     EXPECT_GT(std::hypot(outer.x, outer.y), 1.1 * std::hypot(inner.x, inner.y));

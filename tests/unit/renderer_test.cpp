@@ -214,21 +214,26 @@ TEST(Renderer, ShowsTheNearestTriangle) {
   EXPECT_GT(hidden, 50) << "the case must occur";
 }
 
-TEST(Renderer, HeadLumaAloneIsThatOfTheWholePicture) {
-  const Scene scene = toy_scene(noise_picture(160, 128, 9));
-  State state = toy_state(75, 53);
-  state.pose[kRoll] = 2000;
-  const Picture whole = rendered(scene, state);
-  Renderer renderer;
-  const SampleArea area{40, 20, 120, 101};
-  Plane out(160, 128, 7);
-  renderer.render_head_luma(scene, state, area, out);
-  for (int y = 0; y < 128; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      const bool inside = x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
-      ASSERT_EQ(out.row(y)[x], inside ? whole.y.row(y)[x] : 7);
-    }
-  }
+TEST(Renderer, ShowsTheMouthsInsideWhenTheLipsPart) {
+  Scene scene = toy_scene(noise_picture(160, 128, 9));
+  scene.setup.mouth = {{200, 90, 160}, {20, 90, 160}};
+  State state = toy_state(80, 56);
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  for (const int c : {4, 5, 6, 7})  // the lower half
+    state.control[static_cast<std::size_t>(inner.first_control + c)].y = 1200 / scene.setup.steps.control;
+  const Picture out = rendered(scene, state);
+  const auto vertices = scene.geometry->project_vertices(state);
+  const auto at = [&](std::size_t landmark) {
+    const glm::ivec3 p = vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])];
+    return glm::ivec2(p.x >> 6, p.y >> 6);
+  };
+  const glm::ivec2 top = at(62), bottom = at(66);
+  ASSERT_GT(bottom.y - top.y, 6) << "the case must occur";
+  EXPECT_GT(out.y.row(top.y + 1)[top.x], 150);
+  EXPECT_LT(out.y.row(bottom.y - 1)[bottom.x], 70);
+  const glm::ivec2 middle = (top + bottom) / 2;
+  EXPECT_EQ(out.u.row(middle.y / 2)[middle.x / 2], 90);
+  EXPECT_EQ(out.v.row(middle.y / 2)[middle.x / 2], 160);
 }
 
 TEST(Renderer, SurvivesEveryStateOfAStream) {

@@ -21,13 +21,14 @@ Setup sample_setup() {
   setup.format.matrix = ColourMatrix::kBt709;
   setup.steps = {300, 65535, 1, 77};
   setup.features = (1 << kFeatureCount) - 1;
+  setup.mouth = {{180, 120, 130}, {20, 110, 140}};
   return setup;
 }
 
 TEST(Setup, RoundTrips) {
   const auto payload = encode_setup(sample_setup());
   ASSERT_TRUE(payload);
-  EXPECT_LE(payload->size(), 24u);
+  EXPECT_LE(payload->size(), 30u);
   const auto read = decode_setup(*payload);
   ASSERT_TRUE(read);
   EXPECT_EQ(*read, sample_setup());
@@ -76,11 +77,12 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
   }
 }
 
-// Payload by hand: version, head, width, height, rate, aspect, colour, steps, features.
+// Payload by hand: version, head, width, height, rate, aspect, colour, steps, features, mouth.
 TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {1, 1, 64, 65, 25, 1, 1, 1, 0, 1, 2, 3, 4, 0};
+  const std::vector<std::uint8_t> good = {1, 1, 64, 65, 25, 1, 1, 1, 0, 1, 2, 3, 4, 0, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
+  EXPECT_EQ(decode_setup(good)->mouth, (MouthInterior{{70, 126, 138}, {45, 126, 139}}));
   const auto code_with = [&](std::size_t place, std::uint8_t value) {
     auto bytes = good;
     bytes[place] = value;

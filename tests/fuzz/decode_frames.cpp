@@ -1,0 +1,61 @@
+// Bytes to pictures. No engine guesses a CRC, so the checks of whole packets are put right first; then what is inside
+// them is fuzzed too.
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "bitstream/byte_io.h"
+#include "bitstream/crc16.h"
+#include "decoder/stream_decoder.h"
+#include "tests/fuzz/fuzz_target.h"
+
+const std::uint8_t kSeedPacket = 0;
+
+namespace {
+
+constexpr int kLargest = 160;     // a side; what a larger picture would show, a small one shows sooner
+constexpr int kMostPictures = 60;
+
+void put_checks_right(std::vector<std::uint8_t>& bytes) {
+  std::copy_n(fbs::kSignature.begin(), std::min(fbs::kSignature.size(), bytes.size()), bytes.begin());
+  std::size_t begin = fbs::kSignature.size();
+  while (begin < bytes.size()) {
+    fbs::ByteReader reader(std::span<const std::uint8_t>(bytes).subspan(begin));
+    (void)reader.u8();
+    const auto size = reader.varint();
+    (void)reader.bytes(static_cast<std::size_t>(size));
+    if (!reader.ok() || reader.remaining() < 2) return;
+    const std::uint16_t check = fbs::crc16(std::span<const std::uint8_t>(bytes).subspan(begin, reader.offset()));
+    begin += reader.offset();
+    bytes[begin++] = static_cast<std::uint8_t>(check >> 8);
+    bytes[begin++] = static_cast<std::uint8_t>(check);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::uint8_t> bytes(data, data + size);
+  put_checks_right(bytes);
+  fbs::StreamDecoder decoder;
+  decoder.feed(bytes);
+  decoder.close();
+  fbs::Picture picture;
+  for (std::size_t steps = 0, drawn = 0; drawn < kMostPictures; ++steps) {
+    require(steps < 300 * size + 16, "the decoder does not come to an end");
+    const auto status = decoder.next();
+    if (!status) {
+      require(status.error().code != fbs::ErrorCode::kInternal, "internal error");
+      continue;
+    }
+    if (*status == fbs::DecodeStatus::kEnd) break;
+    require(*status == fbs::DecodeStatus::kPicture, "a closed stream asks for more");
+    if (std::max(decoder.format().width, decoder.format().height) > kLargest) break;
+    decoder.render(picture);
+    ++drawn;
+    require(picture.width() == decoder.format().width && picture.height() == decoder.format().height, "a picture of another size");
+  }
+  const fbs::ByteCount& b = decoder.bytes();
+  require(b.geometry + b.patterns + b.motion + b.index + b.other == b.total, "bytes do not sum up");
+  return 0;
+}

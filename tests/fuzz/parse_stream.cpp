@@ -1,0 +1,34 @@
+// Bytes to packets: whatever arrives in whatever pieces, every packet lies in what was fed, and the end comes.
+#include "bitstream/packet.h"
+#include "tests/fuzz/fuzz_target.h"
+
+const std::uint8_t kSeedPacket = 0;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span<const std::uint8_t> bytes(data, size);
+  const std::size_t piece = size == 0 ? 1 : 1 + bytes.back() * std::size_t{7};
+  fbs::PacketReader reader;
+  bool lost = false;
+  std::uint64_t behind = 0;
+  for (std::size_t fed = 0, steps = 0;; ++steps) {
+    require(steps < 4 * size + 16, "the reader does not come to an end");
+    const auto read = lost ? reader.resync() : reader.next();
+    if (!read) {
+      require(read.error().code != fbs::ErrorCode::kInternal, "internal error");
+      lost = true;
+    } else if (read->status == fbs::ReadStatus::kEnd) {
+      return 0;
+    } else if (read->status == fbs::ReadStatus::kPacket) {
+      lost = false;
+      require(read->packet.offset >= behind, "packets overlap");
+      behind = read->packet.offset + read->packet.size;
+      require(behind <= fed, "a packet of bytes that have not come");
+    } else if (fed < size) {
+      const std::size_t n = piece < size - fed ? piece : size - fed;
+      reader.feed(bytes.subspan(fed, n));
+      fed += n;
+    } else {
+      reader.close();
+    }
+  }
+}
