@@ -65,16 +65,11 @@ PredictionChoice best_choice(const StateLimits& limits, const MotionMemory& memo
   return best;
 }
 
-MotionMemory fresh_memory(std::uint32_t nominal_duration) {
+MotionMemory fresh_memory(std::uint32_t duration) {
   MotionMemory memory;
-  memory.history.duration = nominal_duration;
-  memory.history.older_duration = nominal_duration;
+  memory.history.duration = duration;
+  memory.history.older_duration = duration;
   return memory;
-}
-
-std::uint32_t nominal_duration_of(const Rational& rate) {
-  const std::uint64_t duration = (std::uint64_t{90000} * rate.den + rate.num / 2) / rate.num;
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(duration, 1, kMaxDuration));
 }
 
 Result<void> check_group(const MotionGroup& group, const StateLimits& limits) {
@@ -99,7 +94,7 @@ Result<void> check_group(const MotionGroup& group, const StateLimits& limits) {
 
 MotionCoder::MotionCoder(const Setup& setup)
     : limits_(setup),
-      nominal_duration_(nominal_duration_of(setup.format.frame_rate)),
+      nominal_duration_(nominal_duration(setup.format.frame_rate)),
       memory_(fresh_memory(nominal_duration_)) {
   assert(check_setup(setup));
 }

@@ -16,6 +16,14 @@ inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one 
 inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
 inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 90000 * 60;  ///< of one picture, 1/90000 s
+
+/// Duration of a picture when nothing else is said, 1..kMaxDuration in 1/90000 s.
+/// @param rate  pictures per second; not zero
+[[nodiscard]] constexpr std::uint32_t nominal_duration(const Rational& rate) {
+  const std::uint64_t duration = (std::uint64_t{90000} * rate.den + rate.num / 2) / rate.num;
+  return static_cast<std::uint32_t>(duration < 1 ? 1 : duration > kMaxDuration ? kMaxDuration : duration);
+}
+
 inline constexpr int kFollowOne = 4;  ///< a surround point that moves wholly with the head
 
 enum class PacketType : std::uint8_t {

@@ -7,10 +7,6 @@
 namespace fbs::cli {
 namespace {
 
-std::uint32_t nominal_duration(const VideoFormat& f) {
-  return static_cast<std::uint32_t>(90000.0 * f.frame_rate.den / f.frame_rate.num + 0.5);
-}
-
 /// Durations as the encoder wants them: 0 where pictures come as the frame rate says, to a tick or two.
 std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t nominal) {
   const std::int64_t d = next_pts - pts, difference = d - nominal;
@@ -44,7 +40,7 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
     }
   };
 
-  const std::uint32_t nominal = nominal_duration(source.format());
+  const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
   std::int64_t done = 0;
   auto current = source.next();
   while (current && *current) {

@@ -45,7 +45,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--marks", a.marks,
                    "JSON file of points on the first picture, {\"nose_tip\": [x, y], ...} or {\"landmarks\": [68 points]}; "
                    "found automatically otherwise");
-  verb->add_option("--face", a.face, "Which face to follow; 0 is the largest")->capture_default_str()->check(CLI::NonNegativeNumber);
+  verb->add_option("--face", a.face, "Which face to follow; 0 is the largest")->capture_default_str()->check(CLI::Range(0, 99));
   verb->add_option("--overlay", a.overlay, "Also write the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
   verb->add_option("--rate", a.sequence_rate, "Pictures per second of an image sequence")->capture_default_str()->check(CLI::Range(0.01, 1000.0));
   verb->add_flag("--allow-no-face", a.allow_no_face, "Code a video without a face as a still picture instead of failing");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -15,6 +16,14 @@ namespace {
 
 constexpr const char* kKeys = "space pause   . step   r again   q quit";
 constexpr int kWantedHeight = 576;
+
+bool has_display() {
+  const auto set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  return set("DISPLAY") || set("WAYLAND_DISPLAY") || set("QT_QPA_PLATFORM");
+}
 
 enum class Leave : std::uint8_t { kQuit, kAgain };
 
@@ -63,7 +72,11 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
 
 Result<void> play(const PlayArguments& arguments) {
   // The stream is looked at first, so that a bad one gives its error and no window.
-  if (auto probe = StreamFile::open(arguments.input); !probe) return tl::unexpected<Error>(probe.error());
+  auto probe = StreamFile::open(arguments.input);
+  if (!probe) return tl::unexpected<Error>(probe.error());
+  if (auto first = probe->next(); !first) return tl::unexpected<Error>(first.error());
+  // The window's library aborts the program where there is no display.
+  if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: there is no display");
   try {
     const std::string window = "fbs: " + arguments.input;
     cv::namedWindow(window, cv::WINDOW_AUTOSIZE);

@@ -1,6 +1,8 @@
 #include "cli/stream_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -8,16 +10,16 @@
 
 namespace fbs::cli {
 
-void StreamFile::Closer::operator()(std::FILE* f) const {
-  if (f != stdin) std::fclose(f);
+StreamFile::Descriptor::~Descriptor() {
+  if (number_ > STDIN_FILENO) ::close(number_);
 }
 
 Result<StreamFile> StreamFile::open(const std::string& name) {
-  if (name == "-") return StreamFile("standard input", std::unique_ptr<std::FILE, Closer>(stdin));
-  std::unique_ptr<std::FILE, Closer> file(std::fopen(name.c_str(), "rb"));
-  if (!file) return fail(ErrorCode::kIo, name + ": cannot open: " + std::strerror(errno));
+  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO));
+  Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) return fail(ErrorCode::kIo, name + ": cannot open: " + std::strerror(errno));
   struct stat status {};
-  if (fstat(fileno(file.get()), &status) == 0 && S_ISDIR(status.st_mode))
+  if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     return fail(ErrorCode::kIo, name + ": cannot read: it is a folder");
   return StreamFile(name, std::move(file));
 }
@@ -28,10 +30,10 @@ Result<DecodeStatus> StreamFile::next() {
     if (!status) return tl::unexpected<Error>(about_file(name_, status.error()));
     if (*status != DecodeStatus::kNeedMore) return status;
     std::array<std::uint8_t, 1 << 16> buffer;
-    const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file_.get());
-    if (n > 0) decoder_.feed(std::span(buffer.data(), n));
-    else if (std::ferror(file_.get()) != 0) return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::strerror(errno));
-    else decoder_.close();
+    const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
+    if (n > 0) decoder_.feed(std::span(buffer.data(), static_cast<std::size_t>(n)));
+    else if (n == 0) decoder_.close();
+    else if (errno != EINTR) return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::strerror(errno));
   }
 }
 

@@ -1,9 +1,8 @@
 // A stream read from a file or a pipe, a piece at a time.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <string>
+#include <utility>
 
 #include "decoder/stream_decoder.h"
 
@@ -22,13 +21,22 @@ class StreamFile {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* f) const;
+  /// A file descriptor that is closed in the end, but for standard input's.
+  class Descriptor {
+   public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor();
+    [[nodiscard]] int number() const { return number_; }
+
+   private:
+    int number_;
   };
-  StreamFile(std::string name, std::unique_ptr<std::FILE, Closer> file) : name_(std::move(name)), file_(std::move(file)) {}
+  StreamFile(std::string name, Descriptor file) : name_(std::move(name)), file_(std::move(file)) {}
 
   std::string name_;
-  std::unique_ptr<std::FILE, Closer> file_;
+  Descriptor file_;  ///< not a FILE: what a pipe has is taken at once, and not only when a buffer is full
   StreamDecoder decoder_;
 };
 

@@ -18,13 +18,6 @@ tl::unexpected<Error> at(const Packet& packet, Error error) {
   return tl::unexpected<Error>(std::move(error));
 }
 
-std::uint32_t nominal_duration(const VideoFormat& format) {
-  // SPEC 5.5
-  const std::uint64_t duration =
-      (std::uint64_t{90000} * format.frame_rate.den + format.frame_rate.num / 2) / format.frame_rate.num;
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(duration, 1, kMaxDuration));
-}
-
 }  // namespace
 
 StreamDecoder::StreamDecoder() { bytes_.other = bytes_.total = kSignature.size(); }
@@ -149,7 +142,7 @@ Result<void> StreamDecoder::take_motion(const Packet& packet) {
   if (!group) return at(packet, group.error());
   waiting_.assign(group->states.begin(), group->states.end());
   if (group->durations.empty())
-    durations_.assign(group->states.size(), nominal_duration(scene_.setup.format));
+    durations_.assign(group->states.size(), nominal_duration(scene_.setup.format.frame_rate));
   else
     durations_.assign(group->durations.begin(), group->durations.end());
   return {};

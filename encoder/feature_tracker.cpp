@@ -32,6 +32,8 @@ const std::vector<std::vector<double>>& inner_lip_follow() {
   return table;
 }
 
+constexpr int kSettlingRounds = 8;  // on the first picture, until a descent finds nothing better
+
 bool is_lid(FeatureId id) { return id == FeatureId::kUpperLidRight || id == FeatureId::kUpperLidLeft; }
 
 /// The eye shut: far below, brought back to the limit.
@@ -52,9 +54,13 @@ FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const
     s.learn(seen);
     const SnakeImage image = s.look(seen);
     // The rest shape is where the snake settles, so that its own pull on the curve cancels out of all offsets.
-    const SnakeOutcome settled = BSnake(s.curve, image, s.weights, s.rest, s.rest, s.facing).minimise(s.rest);
-    s.rest = s.now = settled.control;
-    s.iterations = settled.iterations;
+    for (int round = 0; round < kSettlingRounds; ++round) {
+      const BSnake snake(s.curve, image, s.weights, s.rest, s.rest, s.facing);
+      const SnakeOutcome settled = snake.minimise(s.rest);
+      s.iterations = settled.iterations;
+      if (settled.control == s.rest) break;
+      s.rest = s.now = settled.control;
+    }
     snakes_.push_back(std::move(s));
   }
 }

@@ -1,6 +1,8 @@
 #include "encoder/marks.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -55,7 +57,7 @@ std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
 
 Result<Marks> read_marks(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return fail(ErrorCode::kIo, "cannot read");
+  if (!file) return fail(ErrorCode::kIo, "cannot read: " + std::string(std::strerror(errno)));
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   if (!json.is_object()) return fail(ErrorCode::kInvalidArgument, "not a JSON object of marks");
   Marks marks;

@@ -232,6 +232,8 @@ Result<void> SceneEncoder::end_group() {
   group_.key = coder_->needs_key();
   const bool constant = std::all_of(group_.durations.begin(), group_.durations.end(), [](std::uint32_t d) { return d == 0; });
   if (constant) group_.durations.clear();
+  for (std::uint32_t& d : group_.durations)
+    if (d == 0) d = nominal_duration(scene_.setup.format.frame_rate);
   auto payload = coder_->encode(group_);
   if (!payload) return tl::unexpected<Error>(payload.error());
   write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, *payload);
