@@ -227,7 +227,7 @@ double plain_texel(const RasterTriangle& t, const Plane& pattern, PlaneScale sca
 }
 
 /// Grey levels that change by at most 12 from sample to sample, so that 1/256 of a sample is nothing.
-Plane smooth_plane(int width, int height) {
+Plane wavy_plane(int width, int height) {
   Plane plane(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -237,7 +237,7 @@ Plane smooth_plane(int width, int height) {
 
 TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
   std::mt19937 random(9);
-  const Plane pattern = smooth_plane(60, 50);
+  const Plane pattern = wavy_plane(60, 50);
   int compared = 0;
   for (int i = 0; i < 1500; ++i) {
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/toy_scene.h"
@@ -11,25 +12,9 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-/// Smooth noise: blocks can be told apart, and a shift by a pixel does not destroy them.
-Plane texture(unsigned seed) {
-  const Plane coarse = noise_plane(kWidth / 6 + 2, kHeight / 6 + 2, seed);
-  Plane out(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const int i = x / 6, j = y / 6;
-      const double fx = x % 6 / 6.0, fy = y % 6 / 6.0;
-      const auto at = [&](int a, int b) { return static_cast<double>(coarse.row(b)[a]); };
-      out.row(y)[x] = static_cast<std::uint8_t>((at(i, j) * (1 - fx) + at(i + 1, j) * fx) * (1 - fy) +
-                                                (at(i, j + 1) * (1 - fx) + at(i + 1, j + 1) * fx) * fy);
-    }
-  }
-  return out;
-}
-
 /// A head with hair, an ellipse of its own texture, before a still ground; the head has moved by (dx, dy) pixels.
 Picture head_before_ground(int dx, int dy) {
-  static const Plane ground = texture(1), head = texture(2);
+  static const Plane ground = smooth_plane(kWidth, kHeight, 1), head = smooth_plane(kWidth, kHeight, 2);
   Picture out(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {

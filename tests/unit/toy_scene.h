@@ -22,6 +22,22 @@ inline Picture noise_picture(int width, int height, unsigned seed) {
   return picture;
 }
 
+/// Noise that changes over six samples: places can be told apart, and a shift by a pixel does not destroy them.
+inline Plane smooth_plane(int width, int height, unsigned seed) {
+  constexpr int kGrid = 6;
+  const Plane coarse = noise_plane(width / kGrid + 2, height / kGrid + 2, seed);
+  Plane out(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double fx = x % kGrid / (1.0 * kGrid), fy = y % kGrid / (1.0 * kGrid);
+      const auto at = [&](int i, int j) { return static_cast<double>(coarse.row(y / kGrid + j)[x / kGrid + i]); };
+      out.row(y)[x] = static_cast<std::uint8_t>((at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) +
+                                                (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy);
+    }
+  }
+  return out;
+}
+
 inline constexpr FeatureMask kAllFeatures = (1 << kFeatureCount) - 1;
 
 /// Finest steps, so that tests can say turns, pixels and head units.
