@@ -32,7 +32,7 @@ enum class PacketType : std::uint8_t {
   kSurround = 3,  ///< how the picture round the face follows the head
   kPattern = 4,   ///< one coded picture and the state in which it was seen
   kMotion = 5,    ///< the states of a group of pictures
-  kEnd = 6,       ///< optional: number of pictures, and the index
+  kEnd = 6,       ///< optional: number of pictures
 };
 
 /// A colour in the video's own range and matrix.

@@ -25,7 +25,7 @@ inline constexpr int kUnitsPerEyeDistance = 4096;
 inline constexpr int kControlCount = 36;  ///< control points of all features together
 inline constexpr int kSpreadOne = 4096;   ///< a weight of one in the spread tables
 
-/// What a control point belongs to. Order is that of the stream (SPEC.md, "State").
+/// What a control point belongs to. Order is that of the stream (SPEC 5.1).
 enum class FeatureId : std::uint8_t {
   kMouthOuter,     ///< closed cubic B-spline, 10 control points
   kMouthInner,     ///< closed cubic B-spline, 8 control points

@@ -1,4 +1,4 @@
-// The state of a picture: all that changes from picture to picture, as integers. SPEC.md, "State".
+// The state of a picture: all that changes from picture to picture, as integers. SPEC 5.1.
 #pragma once
 
 #include <array>

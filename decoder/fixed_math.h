@@ -1,4 +1,4 @@
-// Sine and power of two in integers, so that every machine draws the same picture. SPEC, "Tables".
+// Sine and power of two in integers, so that every machine draws the same picture. SPEC 9.1.
 #pragma once
 
 #include <array>

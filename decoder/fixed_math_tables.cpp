@@ -1,4 +1,4 @@
-// Made by the two lines in the comments below, in Python; part of the format (SPEC 9, "Tables").
+// Made by the two lines in the comments below, in Python; part of the format (SPEC 9.1).
 #include "decoder/fixed_math.h"
 
 namespace fbs {

@@ -1,4 +1,4 @@
-// Patterns are one low-delay AV1 sequence, one temporal unit each. SPEC, "Pattern".
+// Patterns are one low-delay AV1 sequence, one temporal unit each. SPEC 4.4.
 #pragma once
 
 #include <cstdint>

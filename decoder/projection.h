@@ -1,5 +1,5 @@
 // State to screen: the head turned, shifted, scaled and deformed, and the surround that goes with it.
-// SPEC, "State to picture". Integers only.
+// SPEC 8 and 10.1. Integers only.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Draws textured triangles into a plane: paper section 2.1, "smearing" the pattern and removing hidden surfaces.
-// SPEC, "Surround and rendering". Integers only; no state between calls.
+// SPEC 10. Integers only; no state between calls.
 #pragma once
 
 #include <array>

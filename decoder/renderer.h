@@ -1,4 +1,4 @@
-// A picture is a function of (scene, state): this is the function. SPEC, "Surround and rendering".
+// A picture is a function of (scene, state): this is the function. SPEC 10.
 #pragma once
 
 #include <optional>

@@ -78,7 +78,7 @@ Result<void> StreamDecoder::take(const Packet& packet) {
   }
   const bool known = packet.type == PacketType::kGeometry || packet.type == PacketType::kSurround ||
                      packet.type == PacketType::kPattern || packet.type == PacketType::kMotion;
-  if (!known) return {};  // SPEC 3: skipped
+  if (!known) return {};  // SPEC 3.1: skipped
   if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
   switch (packet.type) {
     case PacketType::kGeometry: {

@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// Weights of the energies, constant along the curve. The first four belong to E_int, the last two to E_img.
+/// Weights of the energies, constant along the curve. The first five belong to E_int, the last two to E_img.
 /// Lengths are in snake units (1/32 eye distance), contrast in units of the feature's own contrast.
 struct SnakeWeights {
   double tension = 0;     ///< alpha, eq. 3

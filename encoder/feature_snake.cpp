@@ -227,6 +227,8 @@ void FeatureSnake::learn(const FeaturePatch& first) {
       around = inside.clone();
       cv::polylines(inside, shifted(1), false, 255, thick);
       cv::polylines(around, shifted(-2), false, 255, thick);
+      // Dark lashes are below the edge, but below the lower lid's lashes too; skin of the lid is above this one only.
+      skin = FeatureMap::likeness(first, around);
       grown = cv::Mat::zeros(inside.size(), CV_8UC1);
       break;
     }
@@ -237,6 +239,7 @@ void FeatureSnake::learn(const FeaturePatch& first) {
 SnakeImage FeatureSnake::look(const FeaturePatch& patch) {
   const Kind& kind = kind_of(id);
   cv::Mat1f values = map(patch);
+  if (skin) values = 0.5 * (values - (*skin)(patch));
   cv::GaussianBlur(values, values, {}, kind.blur * kPxPerUnit);
   SnakeImage image;
   image.origin = {region.x, region.y};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "bitstream/syntax.h"
@@ -26,6 +27,7 @@ struct FeatureSnake {
   cv::Rect2d region{};                ///< of the patch it looks at, snake units of the head frame
   double depth = 0;                   ///< z of the feature's plane, head units
   FeatureMap map{};
+  std::optional<FeatureMap> skin{};   ///< of a lid: likeness to its own skin, which lies above the edge
   std::vector<glm::dvec2> rest{}, now{};  ///< control points with pinned ones, snake units
   std::vector<FacingPair> facing{};
   double below_vertices = 0;          ///< the curve runs this far below the vertices it moves

@@ -32,8 +32,6 @@ const std::vector<std::vector<double>>& inner_lip_follow() {
   return table;
 }
 
-constexpr int kSettlingRounds = 8;  // on the first picture, until a descent finds nothing better
-
 bool is_lid(FeatureId id) { return id == FeatureId::kUpperLidRight || id == FeatureId::kUpperLidLeft; }
 
 /// The eye shut: far below, brought back to the limit.
@@ -54,13 +52,9 @@ FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const
     s.learn(seen);
     const SnakeImage image = s.look(seen);
     // The rest shape is where the snake settles, so that its own pull on the curve cancels out of all offsets.
-    for (int round = 0; round < kSettlingRounds; ++round) {
-      const BSnake snake(s.curve, image, s.weights, s.rest, s.rest, s.facing);
-      const SnakeOutcome settled = snake.minimise(s.rest);
-      s.iterations = settled.iterations;
-      if (settled.control == s.rest) break;
-      s.rest = s.now = settled.control;
-    }
+    const SnakeOutcome settled = BSnake(s.curve, image, s.weights, s.rest, s.rest, s.facing).minimise(s.rest);
+    s.rest = s.now = settled.control;
+    s.iterations = settled.iterations;
     snakes_.push_back(std::move(s));
   }
 }

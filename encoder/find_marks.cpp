@@ -14,8 +14,9 @@ constexpr double kRes = 64;  // pixels per eye distance in the face's own frame
 constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // of that frame, eye distances
 
 /// The middle of the lids lies this far right of and below the eyes that the cascades give; median over ten faces.
-constexpr double kBrowHalfWidth = 0.056;  // eye distances
 constexpr double kEyeBiasX = 0.04, kEyeBiasY = 0.025;  // eye distances
+
+constexpr double kBrowHalfWidth = 0.056;  // eye distances
 
 /// The face, eyes level at (-0.5, 0) and (0.5, 0) in eye distances, y down.
 struct OwnFrame {

@@ -1,4 +1,4 @@
-// Codes patterns as one low-delay AV1 sequence with libaom. SPEC, "Pattern".
+// Codes patterns as one low-delay AV1 sequence with libaom. SPEC 4.4.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which of the tracked changes are worth their bits: judged by the decoder's own picture.
+// Which of the tracked changes are worth their bits: judged at PictureFit's points by what the decoder will show.
 #pragma once
 
 #include <span>

@@ -86,7 +86,7 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
     for (int r = 0; r <= map.rows; ++r) {
       for (int c = 0; c <= map.columns; ++c) {
         const auto k = static_cast<std::size_t>(r * stride + c);
-        if (border(r, c)) {  // the picture's border stays: SPEC, "Surround"
+        if (border(r, c)) {  // the picture's border stays: SPEC 10.1
           map.follow[k] = 0;
           continue;
         }
