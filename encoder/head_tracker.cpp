@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kPointSpacing = 2.6;  // work pixels between surface points
+constexpr double kPointSpacing = 3.0;  // work pixels between surface points
 constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kPointSpacing = 2.2;  // work pixels
+constexpr double kPointSpacing = 2.5;  // work pixels
 constexpr int kMouthRows = 5;
 constexpr double kNoise = 6;           // grey levels: what differs by this much is as likely as not meant
 constexpr double kHuber = 24;          // grey levels; larger differences (teeth, shadows) pull with constant force
