@@ -21,7 +21,8 @@ Result<void> run_decode(const DecodeArguments& arguments) {
   for (;;) {
     auto status = file->next();
     if (!status) {
-      if (!arguments.keep_going || status.error().code == ErrorCode::kIo || status.error().code == ErrorCode::kNotFbs)
+      if (!arguments.keep_going || status.error().code == ErrorCode::kIo ||
+          status.error().code == ErrorCode::kNotFbs)
         return tl::unexpected<Error>(status.error());
       progress.finish();
       std::fprintf(stderr, "fbs: %s; going on\n", status.error().text.c_str());

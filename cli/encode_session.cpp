@@ -32,9 +32,11 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
     decoder.feed(bytes);
     for (;;) {
       auto status = decoder.next();
-      if (!status) return fail(ErrorCode::kInternal, "our own stream does not decode: " + status.error().text);
+      if (!status)
+        return fail(ErrorCode::kInternal, "our own stream does not decode: " + status.error().text);
       if (*status != DecodeStatus::kPicture) return {};
-      if (waiting.empty()) return fail(ErrorCode::kInternal, "our own stream has more pictures than its source");
+      if (waiting.empty())
+        return fail(ErrorCode::kInternal, "our own stream has more pictures than its source");
       meter.compare(waiting.front());
       waiting.pop_front();
     }
@@ -48,7 +50,8 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
     if (!next) return tl::unexpected<Error>(next.error());
     const TimedPicture& now = **current;
     const std::uint32_t duration = *next ? duration_of(now.pts, (*next)->pts, nominal) : 0;
-    if (auto pushed = encoder->push(now.picture, duration); !pushed) return tl::unexpected<Error>(pushed.error());
+    if (auto pushed = encoder->push(now.picture, duration); !pushed)
+      return tl::unexpected<Error>(pushed.error());
     if (see)
       if (auto seen = see(now, encoder->analysis()); !seen) return tl::unexpected<Error>(seen.error());
     waiting.push_back(std::move((*current)->picture));
@@ -59,7 +62,8 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
   if (!current) return tl::unexpected<Error>(current.error());
   if (auto finished = encoder->finish(); !finished) return tl::unexpected<Error>(finished.error());
   if (auto passed = pass_on(); !passed) return tl::unexpected<Error>(passed.error());
-  if (!waiting.empty()) return fail(ErrorCode::kInternal, "our own stream has fewer pictures than its source");
+  if (!waiting.empty())
+    return fail(ErrorCode::kInternal, "our own stream has fewer pictures than its source");
   return meter.result();
 }
 

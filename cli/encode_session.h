@@ -16,7 +16,8 @@ using SeePicture = std::function<Result<void>(const TimedPicture&, const Picture
 /// Encodes all of `source`, hands every piece of the stream to `take` and measures it against the source.
 /// @param see        called with every picture after its analysis; may be empty
 /// @param with_ssim  SSIM costs more than encoding does
-[[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
-                                            const SeePicture& see, bool with_ssim, bool quiet);
+[[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings,
+                                            const TakeBytes& take, const SeePicture& see, bool with_ssim,
+                                            bool quiet);
 
 }  // namespace fbs::cli

@@ -13,8 +13,8 @@ namespace {
 
 void print_closing_line(const std::string& output, const Measure& m) {
   std::fprintf(stderr, "%s: %llu pictures, %llu bytes, %.2f kbit/s (motion %.2f)", output.c_str(),
-               static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total), m.kbps(),
-               m.rate(m.bytes.motion));
+               static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total),
+               m.kbps(), m.rate(m.bytes.motion));
   if (m.face.count > 0) std::fprintf(stderr, ", PSNR face %.2f dB", m.face.psnr());
   std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
 }
@@ -42,14 +42,18 @@ Result<void> encode(const EncodeArguments& arguments) {
     auto created = Overlay::create(arguments.overlay, (*source)->format());
     if (!created) return tl::unexpected<Error>(created.error());
     overlay.emplace(std::move(*created));
-    see = [&](const TimedPicture& p, const PictureAnalysis& a) { return overlay->write(p.picture, p.pts, a); };
+    see = [&](const TimedPicture& p, const PictureAnalysis& a) {
+      return overlay->write(p.picture, p.pts, a);
+    };
   }
   auto measure = encode_source(
-      **source, settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see, false, arguments.quiet);
+      **source, settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see, false,
+      arguments.quiet);
   if (!measure) {
     Error error = measure.error();
     // Errors of files name their file already; those of the codec are about the input.
-    if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input)) error.text = arguments.input + ": " + error.text;
+    if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input))
+      error.text = arguments.input + ": " + error.text;
     return tl::unexpected<Error>(std::move(error));
   }
   if (overlay)

@@ -34,7 +34,8 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
                                                    " pictures than " + arguments.source);
     const VideoFormat &a = file->decoder().format(), &b = (*source)->format();
     if (a.width != b.width || a.height != b.height)
-      return fail(ErrorCode::kInvalidArgument, arguments.stream + ": its pictures are not of the size of " + arguments.source);
+      return fail(ErrorCode::kInvalidArgument,
+                  arguments.stream + ": its pictures are not of the size of " + arguments.source);
     meter.compare((*picture)->picture);
     progress.update(n);
   }
@@ -46,7 +47,8 @@ Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality
   EncoderSettings settings;
   settings.quality = quality;
   auto measure = encode_source(
-      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, true, arguments.quiet);
+      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, true,
+      arguments.quiet);
   if (!measure) {
     Error error = measure.error();
     error.text = arguments.source + ": " + error.text;
@@ -79,14 +81,15 @@ nlohmann::json to_json(const Point& p) {
 }
 
 void print(const std::vector<Point>& points) {
-  std::printf("%-20s %9s %9s %9s %9s %9s %9s %8s %8s %8s %8s\n", "", "kbit/s", "motion", "startup B", "geometry", "patterns",
-              "total B", "face dB", "SSIM", "frame dB", "SSIM");
+  std::printf("%-20s %9s %9s %9s %9s %9s %9s %8s %8s %8s %8s\n", "", "kbit/s", "motion", "startup B",
+              "geometry", "patterns", "total B", "face dB", "SSIM", "frame dB", "SSIM");
   for (const Point& p : points) {
     const Measure& m = p.measure;
     const auto b = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
-    std::printf("%-20s %9.3f %9.3f %9llu %9llu %9llu %9llu %8.2f %8.4f %8.2f %8.4f\n", p.label.c_str(), m.kbps(),
-                m.rate(m.bytes.motion), b(m.bytes.startup), b(m.bytes.geometry), b(m.bytes.patterns), b(m.bytes.total),
-                m.face.psnr(), m.ssim_face, m.frame.psnr(), m.ssim_frame);
+    std::printf("%-20s %9.3f %9.3f %9llu %9llu %9llu %9llu %8.2f %8.4f %8.2f %8.4f\n", p.label.c_str(),
+                m.kbps(), m.rate(m.bytes.motion), b(m.bytes.startup), b(m.bytes.geometry),
+                b(m.bytes.patterns), b(m.bytes.total), m.face.psnr(), m.ssim_face, m.frame.psnr(),
+                m.ssim_frame);
   }
 }
 
@@ -116,6 +119,7 @@ Result<void> evaluate(const EvaluateArguments& arguments) {
 }  // namespace
 }  // namespace fbs::cli
 
-FBS_MODULE_EXPORT void fbs_run_evaluate(const fbs::cli::EvaluateArguments& arguments, fbs::Result<void>& result) {
+FBS_MODULE_EXPORT void fbs_run_evaluate(const fbs::cli::EvaluateArguments& arguments,
+                                        fbs::Result<void>& result) {
   result = fbs::cli::evaluate(arguments);
 }

@@ -30,7 +30,8 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
   }
   const HeadPose pose = dequantise_pose(decoder.state(), decoder.scene().setup.steps);
   for (const std::int32_t angle : {pose.pitch, pose.yaw, pose.roll}) line += number(angle * 360.0 / 65536);
-  line += number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
+  line +=
+      number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
   const auto vertices = geometry->project_vertices(decoder.state());
   for (const std::int16_t v : generic_head().landmark_vertex) {
     const glm::ivec3 p = vertices[static_cast<std::size_t>(v)];

@@ -45,12 +45,16 @@ nlohmann::json to_json(const Summary& s) {
 
 void print(const std::string& name, const Summary& s) {
   const ByteCount& b = s.bytes;
-  const auto kbps = [&](std::uint64_t bytes) { return s.seconds > 0 ? 8e-3 * static_cast<double>(bytes) / s.seconds : 0; };
-  const auto line = [&](const char* part, std::uint64_t bytes) {
-    std::printf("  %-9s %9llu bytes %9.3f kbit/s\n", part, static_cast<unsigned long long>(bytes), kbps(bytes));
+  const auto kbps = [&](std::uint64_t bytes) {
+    return s.seconds > 0 ? 8e-3 * static_cast<double>(bytes) / s.seconds : 0;
   };
-  std::printf("%s: %d x %d, %.3f pictures/s, %llu pictures, %.2f s, %zu pattern%s%s\n", name.c_str(), s.format.width,
-              s.format.height, static_cast<double>(s.format.frame_rate.num) / s.format.frame_rate.den,
+  const auto line = [&](const char* part, std::uint64_t bytes) {
+    std::printf("  %-9s %9llu bytes %9.3f kbit/s\n", part, static_cast<unsigned long long>(bytes),
+                kbps(bytes));
+  };
+  std::printf("%s: %d x %d, %.3f pictures/s, %llu pictures, %.2f s, %zu pattern%s%s\n", name.c_str(),
+              s.format.width, s.format.height,
+              static_cast<double>(s.format.frame_rate.num) / s.format.frame_rate.den,
               static_cast<unsigned long long>(s.pictures), s.seconds, s.patterns, s.patterns == 1 ? "" : "s",
               s.face ? "" : ", no face");
   line("geometry", b.geometry);
@@ -60,9 +64,11 @@ void print(const std::string& name, const Summary& s) {
   line("other", b.other);
   line("total", b.total);
   std::printf("  before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
-  std::printf("  steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of the eye distance\n",
-              s.steps.rotation * 360.0 / 65536, s.steps.translation / 64.0, s.steps.log_scale * 69.3 / 4096,
-              s.steps.control * 100.0 / kUnitsPerEyeDistance);
+  std::printf(
+      "  steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of the eye "
+      "distance\n",
+      s.steps.rotation * 360.0 / 65536, s.steps.translation / 64.0, s.steps.log_scale * 69.3 / 4096,
+      s.steps.control * 100.0 / kUnitsPerEyeDistance);
 }
 
 }  // namespace
@@ -84,8 +90,10 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   s.patterns = decoder.scene().patterns.size();
   s.face = decoder.scene().geometry.has_value();
   s.steps = decoder.scene().setup.steps;
-  if (arguments.json) std::printf("%s\n", to_json(s).dump(1).c_str());
-  else print(file->name(), s);
+  if (arguments.json)
+    std::printf("%s\n", to_json(s).dump(1).c_str());
+  else
+    print(file->name(), s);
   return {};
 }
 

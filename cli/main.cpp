@@ -37,18 +37,28 @@ using Run = std::function<fbs::Result<void>()>;
 
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("encode", "Encode a video");
-  verb->add_option("INPUT", a.input,
-                   "Video file, .y4m, - (Y4M on standard input), camera:0, or images (frame_%05d.png, a folder)")
+  verb->add_option(
+          "INPUT", a.input,
+          "Video file, .y4m, - (Y4M on standard input), camera:0, or images (frame_%05d.png, a folder)")
       ->required();
   verb->add_option("OUTPUT", a.output, "The stream to write, .fbs")->required();
-  verb->add_option("--quality", a.quality, "0 (smallest) to 100 (best)")->capture_default_str()->check(CLI::Range(0, 100));
+  verb->add_option("--quality", a.quality, "0 (smallest) to 100 (best)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
   verb->add_option("--marks", a.marks,
-                   "JSON file of points on the first picture, {\"nose_tip\": [x, y], ...} or {\"landmarks\": [68 points]}; "
+                   "JSON file of points on the first picture, {\"nose_tip\": [x, y], ...} or {\"landmarks\": "
+                   "[68 points]}; "
                    "found automatically otherwise");
-  verb->add_option("--face", a.face, "Which face to follow; 0 is the largest")->capture_default_str()->check(CLI::Range(0, 99));
-  verb->add_option("--overlay", a.overlay, "Also write the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
-  verb->add_option("--rate", a.sequence_rate, "Pictures per second of an image sequence")->capture_default_str()->check(CLI::Range(0.01, 1000.0));
-  verb->add_flag("--allow-no-face", a.allow_no_face, "Code a video without a face as a still picture instead of failing");
+  verb->add_option("--face", a.face, "Which face to follow; 0 is the largest")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  verb->add_option("--overlay", a.overlay,
+                   "Also write the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second of an image sequence")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1000.0));
+  verb->add_flag("--allow-no-face", a.allow_no_face,
+                 "Code a video without a face as a still picture instead of failing");
   verb->add_flag("--quiet", a.quiet, "No progress bar, no closing line");
   verb->add_flag("!--no-snakes", a.snakes)->group("");
   verb->callback([&] { run = [&] { return run_encode(a); }; });
@@ -57,7 +67,9 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
 void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("decode", "Decode a stream into pictures");
   verb->add_option("INPUT", a.input, "The stream, or - for standard input")->required();
-  verb->add_option("OUTPUT", a.output, ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null:")->required();
+  verb->add_option("OUTPUT", a.output,
+                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null:")
+      ->required();
   verb->add_option("--sound", a.sound, "Put the sound of this file beside the pictures (.mp4, .mkv)");
   verb->add_flag("--keep-going", a.keep_going, "Write what can be decoded of a damaged or truncated stream");
   verb->add_flag("--quiet", a.quiet, "No progress bar");
@@ -66,15 +78,19 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
 
 void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate, InspectArguments& inspect,
                 ExportArguments& table, Run& run) {
-  CLI::App* verb = app.add_subcommand("play", "Show a stream in a window (space pauses, . steps, r again, q quits)");
+  CLI::App* verb =
+      app.add_subcommand("play", "Show a stream in a window (space pauses, . steps, r again, q quits)");
   verb->add_option("INPUT", play.input, "The stream")->required();
   verb->callback([&] { run = [&] { return run_play(play); }; });
 
   verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
   verb->add_option("SOURCE", evaluate.source, "The source video")->required();
-  verb->add_option("STREAM", evaluate.stream, "The stream to measure; without it the source is encoded first");
+  verb->add_option("STREAM", evaluate.stream,
+                   "The stream to measure; without it the source is encoded first");
   verb->add_option("--quality", evaluate.qualities, "Qualities to encode with, one or several")
-      ->capture_default_str()->check(CLI::Range(0, 100))->expected(1, 16);
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100))
+      ->expected(1, 16);
   verb->add_flag("--json", evaluate.json, "Print JSON");
   verb->add_flag("--quiet", evaluate.quiet, "No progress bar");
   verb->callback([&] { run = [&] { return run_evaluate(evaluate); }; });

@@ -1,5 +1,5 @@
-// The verbs that need OpenCV: loaded only when asked for, since its libraries take longer to load than most streams
-// take to decode.
+// The verbs that need OpenCV: loaded only when asked for, since its libraries take longer to load than most
+// streams take to decode.
 #include "cli/module.h"
 #include "cli/verbs.h"
 
@@ -17,8 +17,14 @@ Result<void> run(const char* module, const char* symbol, const Arguments& argume
 
 }  // namespace
 
-Result<void> run_encode(const EncodeArguments& arguments) { return run(kEncoderModule, kEncodeSymbol, arguments); }
-Result<void> run_evaluate(const EvaluateArguments& arguments) { return run(kEncoderModule, kEvaluateSymbol, arguments); }
-Result<void> run_play(const PlayArguments& arguments) { return run(kPlayerModule, kPlaySymbol, arguments); }
+Result<void> run_encode(const EncodeArguments& arguments) {
+  return run(kEncoderModule, kEncodeSymbol, arguments);
+}
+Result<void> run_evaluate(const EvaluateArguments& arguments) {
+  return run(kEncoderModule, kEvaluateSymbol, arguments);
+}
+Result<void> run_play(const PlayArguments& arguments) {
+  return run(kPlayerModule, kPlaySymbol, arguments);
+}
 
 }  // namespace fbs::cli

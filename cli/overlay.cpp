@@ -39,7 +39,8 @@ Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const Pict
     for (const HeadTriangle& t : generic_head().triangles)
       for (std::size_t i = 0; i < 3; ++i)
         cv::line(large, fixed(analysis.vertices[static_cast<std::size_t>(t[i])], zoom_),
-                 fixed(analysis.vertices[static_cast<std::size_t>(t[(i + 1) % 3])], zoom_), kMeshColour, 1, cv::LINE_AA, kShift);
+                 fixed(analysis.vertices[static_cast<std::size_t>(t[(i + 1) % 3])], zoom_), kMeshColour, 1,
+                 cv::LINE_AA, kShift);
     for (const auto& snake : analysis.snakes) {
       std::vector<cv::Point> points;
       for (const glm::dvec2 p : snake) points.push_back(fixed(p, zoom_));
@@ -48,7 +49,8 @@ Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const Pict
     }
     char text[64];
     std::snprintf(text, sizeof text, "confidence %.2f", analysis.confidence);
-    cv::putText(large, text, {8, large.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {255, 255, 255}, 1, cv::LINE_AA);
+    cv::putText(large, text, {8, large.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {255, 255, 255}, 1,
+                cv::LINE_AA);
   }
   return sink_->write(picture_from_rgb({large.data, large.total() * 3}, large.cols, large.rows, format_.range,
                                        format_.matrix, ChannelOrder::kBgr),

@@ -9,8 +9,8 @@
 
 namespace fbs::cli {
 
-/// Writes a video of the source, enlarged when small, with the projected mesh (thin), the snakes (thick) and the
-/// tracker's confidence.
+/// Writes a video of the source, enlarged when small, with the projected mesh (thin), the snakes (thick) and
+/// the tracker's confidence.
 class Overlay {
  public:
   static Result<Overlay> create(const std::string& name, const VideoFormat& format);

@@ -40,7 +40,8 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
     auto status = file->next();
     if (!status) return tl::unexpected<Error>(status.error());
     const bool ended = *status == DecodeStatus::kEnd;
-    if (ended && decoder.pictures() == 0) return fail(ErrorCode::kInvalidStream, arguments.input + ": holds no picture");
+    if (ended && decoder.pictures() == 0)
+      return fail(ErrorCode::kInvalidStream, arguments.input + ": holds no picture");
     if (!ended) {
       decoder.render(picture);
       const VideoFormat& f = decoder.format();
@@ -55,7 +56,8 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(due - Clock::now()).count();
       const bool waiting = paused || ended;
       const int key = cv::waitKey(waiting ? 50 : static_cast<int>(std::clamp<long long>(left, 1, 1000)));
-      if (key == 'q' || key == 27 || cv::getWindowProperty(window, cv::WND_PROP_VISIBLE) < 1) return Leave::kQuit;
+      if (key == 'q' || key == 27 || cv::getWindowProperty(window, cv::WND_PROP_VISIBLE) < 1)
+        return Leave::kQuit;
       if (key == 'r') return Leave::kAgain;
       if (key == ' ') {
         paused = !paused;

@@ -31,9 +31,12 @@ Result<DecodeStatus> StreamFile::next() {
     if (*status != DecodeStatus::kNeedMore) return status;
     std::array<std::uint8_t, 1 << 16> buffer;
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
-    if (n > 0) decoder_.feed(std::span(buffer.data(), static_cast<std::size_t>(n)));
-    else if (n == 0) decoder_.close();
-    else if (errno != EINTR) return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::strerror(errno));
+    if (n > 0)
+      decoder_.feed(std::span(buffer.data(), static_cast<std::size_t>(n)));
+    else if (n == 0)
+      decoder_.close();
+    else if (errno != EINTR)
+      return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::strerror(errno));
   }
 }
 

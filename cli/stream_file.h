@@ -8,8 +8,8 @@
 
 namespace fbs::cli {
 
-/// Reads `name` (`-`: standard input) into a decoder as the decoder asks for it. Errors name the file and, where the
-/// stream is damaged, the byte.
+/// Reads `name` (`-`: standard input) into a decoder as the decoder asks for it. Errors name the file and,
+/// where the stream is damaged, the byte.
 class StreamFile {
  public:
   static Result<StreamFile> open(const std::string& name);

@@ -17,7 +17,7 @@ struct Measure {
   std::uint64_t pictures = 0;
   double seconds = 0;
   ByteCount bytes;
-  SquaredError frame, face;  ///< luma; the face is the area of the decoded mesh
+  SquaredError frame, face;              ///< luma; the face is the area of the decoded mesh
   double ssim_frame = 0, ssim_face = 0;  ///< means over the pictures; 0 unless asked for
 
   [[nodiscard]] double kbps() const { return rate(bytes.total); }

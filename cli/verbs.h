@@ -40,7 +40,7 @@ struct ExportArguments {
 
 struct EvaluateArguments {
   std::string source;
-  std::string stream;             ///< empty: encode the source first
+  std::string stream;              ///< empty: encode the source first
   std::vector<int> qualities{50};  ///< to encode with, without a stream
   bool json = false;
   bool quiet = false;

@@ -40,7 +40,9 @@ struct Picture {
 
   Picture() = default;
   Picture(int width, int height)
-      : y(width, height), u((width + 1) / 2, (height + 1) / 2, 128), v((width + 1) / 2, (height + 1) / 2, 128) {}
+      : y(width, height),
+        u((width + 1) / 2, (height + 1) / 2, 128),
+        v((width + 1) / 2, (height + 1) / 2, 128) {}
 
   [[nodiscard]] int width() const { return y.width; }
   [[nodiscard]] int height() const { return y.height; }
@@ -59,10 +61,10 @@ enum class ColourMatrix : std::uint8_t { kUnspecified = 0, kBt601 = 1, kBt709 = 
 
 /// What stays the same for every picture of a video.
 struct VideoFormat {
-  int width = 0;              ///< pixels, kMinPictureSize..kMaxPictureSize
-  int height = 0;             ///< pixels, kMinPictureSize..kMaxPictureSize
-  Rational frame_rate{25, 1};    ///< pictures per second
-  Rational pixel_aspect{1, 1};   ///< width of a pixel over its height; 0/1 when unknown
+  int width = 0;                ///< pixels, kMinPictureSize..kMaxPictureSize
+  int height = 0;               ///< pixels, kMinPictureSize..kMaxPictureSize
+  Rational frame_rate{25, 1};   ///< pictures per second
+  Rational pixel_aspect{1, 1};  ///< width of a pixel over its height; 0/1 when unknown
   ColourRange range = ColourRange::kLimited;
   ColourMatrix matrix = ColourMatrix::kUnspecified;
   friend bool operator==(const VideoFormat&, const VideoFormat&) = default;

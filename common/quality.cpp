@@ -20,7 +20,8 @@ std::array<float, 2 * kRadius + 1> gaussian() {
   double sum = 0;
   for (int i = -kRadius; i <= kRadius; ++i) sum += std::exp(-i * i / (2 * kSigma * kSigma));
   for (int i = -kRadius; i <= kRadius; ++i)
-    k[static_cast<std::size_t>(i + kRadius)] = static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)) / sum);
+    k[static_cast<std::size_t>(i + kRadius)] =
+        static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)) / sum);
   return k;
 }
 
@@ -39,7 +40,8 @@ Image blurred(const Image& in, int w, int h) {
     float* to = rows.data() + static_cast<std::ptrdiff_t>(y) * w;
     for (int x = 0; x < w; ++x) {
       float sum = 0;
-      for (int k = -kRadius; k <= kRadius; ++k) sum += kernel[static_cast<std::size_t>(k + kRadius)] * from[reflected(x + k, w)];
+      for (int k = -kRadius; k <= kRadius; ++k)
+        sum += kernel[static_cast<std::size_t>(k + kRadius)] * from[reflected(x + k, w)];
       to[x] = sum;
     }
   }
@@ -65,7 +67,8 @@ Image product(const Plane& a, const Plane& b) {
 double SquaredError::psnr() const {
   if (count == 0) return 0;
   if (sum == 0) return 99;
-  return std::min(99.0, 10 * std::log10(255.0 * 255.0 * static_cast<double>(count) / static_cast<double>(sum)));
+  return std::min(99.0,
+                  10 * std::log10(255.0 * 255.0 * static_cast<double>(count) / static_cast<double>(sum)));
 }
 
 SquaredError squared_error(const Plane& a, const Plane& b) {
@@ -90,8 +93,10 @@ SquaredError squared_error(const Plane& a, const Plane& b, const Plane& mask) {
 double ssim(const Plane& a, const Plane& b) {
   assert(a.width == b.width && a.height == b.height);
   const int w = a.width, h = a.height;
-  const Image ma = blurred({a.samples.begin(), a.samples.end()}, w, h), mb = blurred({b.samples.begin(), b.samples.end()}, w, h);
-  const Image aa = blurred(product(a, a), w, h), bb = blurred(product(b, b), w, h), ab = blurred(product(a, b), w, h);
+  const Image ma = blurred({a.samples.begin(), a.samples.end()}, w, h),
+              mb = blurred({b.samples.begin(), b.samples.end()}, w, h);
+  const Image aa = blurred(product(a, a), w, h), bb = blurred(product(b, b), w, h),
+              ab = blurred(product(a, b), w, h);
   double sum = 0;
   for (std::size_t i = 0; i < ma.size(); ++i) {
     const double x = static_cast<double>(ma[i]), y = static_cast<double>(mb[i]);

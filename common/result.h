@@ -23,7 +23,7 @@ enum class ErrorCode : std::uint8_t {
 
 struct [[nodiscard]] Error {
   ErrorCode code;
-  std::string text;              ///< one line, no final stop, no file name
+  std::string text;               ///< one line, no final stop, no file name
   std::uint64_t byte_offset = 0;  ///< where in the stream, when the error is about a stream
 };
 
@@ -31,7 +31,8 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Shorthand for `return fail(ErrorCode::kIo, "cannot open")` in a function that returns Result<T>.
-[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string text, std::uint64_t byte_offset = 0) {
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string text,
+                                                std::uint64_t byte_offset = 0) {
   return tl::unexpected<Error>(Error{code, std::move(text), byte_offset});
 }
 

@@ -33,9 +33,9 @@ struct QuantiserSteps {
 };
 
 /// Limits of a state's numbers after multiplication with their steps; a stream that leaves them is invalid.
-inline constexpr std::int32_t kMaxRotation = 1 << 14;                ///< a quarter turn either way
-inline constexpr std::int32_t kMaxTranslation = 2 * 8192 * 64;       ///< two of the largest pictures
-inline constexpr std::int32_t kMaxLogScale = 13 << 12;               ///< 0..8192 pixels of eye distance
+inline constexpr std::int32_t kMaxRotation = 1 << 14;           ///< a quarter turn either way
+inline constexpr std::int32_t kMaxTranslation = 2 * 8192 * 64;  ///< two of the largest pictures
+inline constexpr std::int32_t kMaxLogScale = 13 << 12;          ///< 0..8192 pixels of eye distance
 inline constexpr std::int32_t kMaxControl = 2 * kUnitsPerEyeDistance;
 
 /// Which features a stream sends, bit i for FeatureId i; the control points of the others stay zero.

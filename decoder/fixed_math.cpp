@@ -25,14 +25,20 @@ std::int32_t sine(std::int32_t angle) {
   const std::int32_t a = angle & 0xffff;
   const std::int32_t within = a & (kQuarterTurn - 1);
   switch (a >> 14) {
-    case 0: return interpolate(kSineTable, within, 6);
-    case 1: return interpolate(kSineTable, kQuarterTurn - within, 6);
-    case 2: return -interpolate(kSineTable, within, 6);
-    default: return -interpolate(kSineTable, kQuarterTurn - within, 6);
+    case 0:
+      return interpolate(kSineTable, within, 6);
+    case 1:
+      return interpolate(kSineTable, kQuarterTurn - within, 6);
+    case 2:
+      return -interpolate(kSineTable, within, 6);
+    default:
+      return -interpolate(kSineTable, kQuarterTurn - within, 6);
   }
 }
 
-std::int32_t cosine(std::int32_t angle) { return sine((angle & 0xffff) + kQuarterTurn); }
+std::int32_t cosine(std::int32_t angle) {
+  return sine((angle & 0xffff) + kQuarterTurn);
+}
 
 std::int64_t exp2_q16(std::int32_t exponent) {
   const std::int32_t e = std::clamp(exponent, 0, kMaxLogScale);

@@ -77,7 +77,8 @@ Result<Picture> PatternDecoder::decode(std::span<const std::uint8_t> av1) {
   if (!got && dav1d_get_picture(context_->dav1d, &guard.picture) < 0) return damaged();
 
   const Dav1dPicture& p = guard.picture;
-  if (p.p.w != context_->width || p.p.h != context_->height || p.p.bpc != 8 || p.p.layout != DAV1D_PIXEL_LAYOUT_I420)
+  if (p.p.w != context_->width || p.p.h != context_->height || p.p.bpc != 8 ||
+      p.p.layout != DAV1D_PIXEL_LAYOUT_I420)
     return fail(ErrorCode::kInvalidStream, "a pattern is not an 8-bit 4:2:0 picture of the stream's size");
   Picture out(p.p.w, p.p.h);
   copy_plane(p, 0, out.y);

@@ -13,7 +13,8 @@ namespace fbs {
 /// Decodes patterns in the order they were coded, with dav1d on the calling thread.
 class PatternDecoder {
  public:
-  /// @param width, height  pixels; a pattern of another size is an error, and no more memory than for one of this
+  /// @param width, height  pixels; a pattern of another size is an error, and no more memory than for one of
+  /// this
   ///                       size is taken
   static Result<PatternDecoder> create(int width, int height);
 

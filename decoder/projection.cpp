@@ -12,8 +12,8 @@ constexpr std::int32_t kRingGrowth = 36;
 
 constexpr std::int32_t kRingBehind = kUnitsPerEyeDistance / 2;  // head units
 
-/// Below this determinant (Q14) of the seen pose's upper-left 2 x 2 rotation the surround stays still: the head is
-/// seen from the side and its plane cannot be inverted.
+/// Below this determinant (Q14) of the seen pose's upper-left 2 x 2 rotation the surround stays still: the
+/// head is seen from the side and its plane cannot be inverted.
 constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
 
 std::int32_t clamp_screen(std::int64_t v) {
@@ -22,8 +22,8 @@ std::int32_t clamp_screen(std::int64_t v) {
 
 /// Keeps the pupil's vertex between the lids, a quarter of the gap from either: a shutting eye would fold its
 /// triangles otherwise.
-void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId upper_lid, FeatureId lower_lid,
-                       FeatureId pupil) {
+void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId upper_lid,
+                       FeatureId lower_lid, FeatureId pupil) {
   const auto y_of = [&](const FeatureVertex& v) { return vertices[static_cast<std::size_t>(v.vertex)].y; };
   std::int32_t upper = INT32_MIN, lower = INT32_MAX;
   for (const FeatureVertex& v : feature(upper_lid).vertices) upper = std::max(upper, y_of(v));
@@ -53,8 +53,8 @@ HeadMesh make_head_mesh() {
 }  // namespace
 
 HeadPose dequantise_pose(const State& state, const QuantiserSteps& steps) {
-  return {state.pose[kPitch] * steps.rotation,      state.pose[kYaw] * steps.rotation,
-          state.pose[kRoll] * steps.rotation,       state.pose[kShiftX] * steps.translation,
+  return {state.pose[kPitch] * steps.rotation,     state.pose[kYaw] * steps.rotation,
+          state.pose[kRoll] * steps.rotation,      state.pose[kShiftX] * steps.translation,
           state.pose[kShiftY] * steps.translation, state.pose[kLogScale] * steps.log_scale};
 }
 
@@ -82,8 +82,8 @@ glm::ivec3 HeadProjection::operator()(glm::ivec3 p) const {
           static_cast<std::int32_t>(turned(rotation[2]))};
 }
 
-std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral, const State& state,
-                                            const QuantiserSteps& steps) {
+std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
+                                            const State& state, const QuantiserSteps& steps) {
   const GenericHead& head = generic_head();
   std::array<glm::ivec3, kVertexCount> out = neutral;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
@@ -129,7 +129,8 @@ const HeadMesh& head_mesh() {
   return mesh;
 }
 
-SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap surround, const State& seen)
+SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap surround,
+                             const State& seen)
     : steps_(setup.steps),
       width_(setup.format.width),
       height_(setup.format.height),
@@ -173,7 +174,8 @@ void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& m
     const glm::ivec2 a = moved(r.column, r.row), b = moved(r.column + 1, r.row);
     const glm::ivec2 c = moved(r.column, r.row + 1), d = moved(r.column + 1, r.row + 1);
     const auto blend = [&](std::int64_t va, std::int64_t vb, std::int64_t vc, std::int64_t vd) {
-      const std::int64_t top = va * (256 - r.across) + vb * r.across, bottom = vc * (256 - r.across) + vd * r.across;
+      const std::int64_t top = va * (256 - r.across) + vb * r.across,
+                         bottom = vc * (256 - r.across) + vd * r.across;
       return static_cast<std::int32_t>(round_shift(top * (256 - r.down) + bottom * r.down, 16));
     };
     // Behind the outline, so that the face hides it where the head has moved over it.
@@ -204,8 +206,9 @@ ScreenMesh SceneGeometry::project(const State& state) const {
 }
 
 void SceneGeometry::project_surround(const HeadPose& pose, std::vector<glm::ivec2>& out) const {
-  // A point of the surround lies in the head frame's plane z = 0. There the way from the seen pose to this one is
-  // affine: p -> m (p - seen.shift) + shift, with m = now * seen^-1, both scale * upper-left 2 x 2 of the rotation.
+  // A point of the surround lies in the head frame's plane z = 0. There the way from the seen pose to this
+  // one is affine: p -> m (p - seen.shift) + shift, with m = now * seen^-1, both scale * upper-left 2 x 2 of
+  // the rotation.
   const HeadProjection seen(seen_), now(pose);
   const auto& a = now.rotation;
   const auto& b = seen.rotation;
@@ -213,7 +216,7 @@ void SceneGeometry::project_surround(const HeadPose& pose, std::vector<glm::ivec
   const bool moves = det >= kMinSeenDeterminant && !(pose == seen_);
   std::int64_t m[2][2] = {{1 << 16, 0}, {0, 1 << 16}};  // Q16
   if (moves) {
-    const std::int64_t ratio = (now.scale << 16) / seen.scale;  // Q16
+    const std::int64_t ratio = (now.scale << 16) / seen.scale;                      // Q16
     const std::int64_t inverse[2][2] = {{b[1][1], -b[0][1]}, {-b[1][0], b[0][0]}};  // times 1 / det
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {

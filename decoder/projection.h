@@ -13,16 +13,16 @@
 
 namespace fbs {
 
-inline constexpr int kScreenOneLog2 = 6;                     ///< screen positions count 1/64 pixel
-inline constexpr std::int32_t kMaxScreen = 1 << 21;          ///< screen positions are clamped to +- this
+inline constexpr int kScreenOneLog2 = 6;             ///< screen positions count 1/64 pixel
+inline constexpr std::int32_t kMaxScreen = 1 << 21;  ///< screen positions are clamped to +- this
 
 /// Head pose after dequantisation. x right, y down, z away from the viewer, right-handed;
 /// rotation is roll * yaw * pitch, pitch first; projection is weak perspective (scaled orthographic).
 struct HeadPose {
-  std::int32_t pitch = 0;      ///< about x, 2^-16 turn; positive: the face looks down
-  std::int32_t yaw = 0;        ///< about y, 2^-16 turn; positive turns the face to the picture's left
-  std::int32_t roll = 0;       ///< about z, 2^-16 turn; positive turns clockwise in the picture
-  std::int32_t shift_x = 0;    ///< screen position of the head frame's origin, 1/64 pixel
+  std::int32_t pitch = 0;    ///< about x, 2^-16 turn; positive: the face looks down
+  std::int32_t yaw = 0;      ///< about y, 2^-16 turn; positive turns the face to the picture's left
+  std::int32_t roll = 0;     ///< about z, 2^-16 turn; positive turns clockwise in the picture
+  std::int32_t shift_x = 0;  ///< screen position of the head frame's origin, 1/64 pixel
   std::int32_t shift_y = 0;
   std::int32_t log_scale = 0;  ///< eye distance in pixels is 2^(log_scale / 4096)
   friend bool operator==(const HeadPose&, const HeadPose&) = default;
@@ -47,15 +47,15 @@ struct HeadProjection {
 [[nodiscard]] std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
                                                           const State& state, const QuantiserSteps& steps);
 
-/// The 105 vertices and the ring round them: one vertex per outline vertex, pushed outwards, that goes with the
-/// surround under it. Between the two the jaw can move against the neck without tearing.
+/// The 105 vertices and the ring round them: one vertex per outline vertex, pushed outwards, that goes with
+/// the surround under it. Between the two the jaw can move against the neck without tearing.
 struct HeadMesh {
   std::vector<std::array<std::int16_t, 3>> triangles;  ///< clockwise in the picture seen from the front
   int vertex_count = 0;                                ///< kVertexCount + ring
 };
 
-/// How much of the mouth's inside hides what the pattern had between the lips: 0 none, 256 all, once the lips have
-/// parted by a sixteenth of the eye distance more than in the pattern.
+/// How much of the mouth's inside hides what the pattern had between the lips: 0 none, 256 all, once the lips
+/// have parted by a sixteenth of the eye distance more than in the pattern.
 [[nodiscard]] std::int32_t mouth_shade(std::int32_t gap_now, std::int32_t gap_seen);
 
 /// Between the middles of the inner lips of a head as deform() gives it, head units.
@@ -94,9 +94,9 @@ class SceneGeometry {
  private:
   /// A ring vertex in the seen pose, and the cell of the grid that carries it.
   struct RingVertex {
-    glm::ivec2 seen;      ///< 1/64 pixel
-    int column, row;      ///< of the cell
-    int across, down;     ///< place in the cell, 0..256
+    glm::ivec2 seen;   ///< 1/64 pixel
+    int column, row;   ///< of the cell
+    int across, down;  ///< place in the cell, 0..256
   };
 
   [[nodiscard]] glm::ivec2 regular(int column, int row) const;

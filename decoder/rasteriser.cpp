@@ -29,7 +29,8 @@ struct Gradient {
   bool exact = true;
 
   /// @param value  at the corners, in units of which `1 << bits` make 1
-  Gradient(const RasterTriangle& t, const std::array<int64_t, 3>& value, int bits, int64_t area, int position_bits) {
+  Gradient(const RasterTriangle& t, const std::array<int64_t, 3>& value, int bits, int64_t area,
+           int position_bits) {
     const int64_t ax = t[1].screen.x - t[0].screen.x, ay = t[1].screen.y - t[0].screen.y;
     const int64_t bx = t[2].screen.x - t[0].screen.x, by = t[2].screen.y - t[0].screen.y;
     const int64_t va = value[1] - value[0], vb = value[2] - value[0];
@@ -60,8 +61,8 @@ struct Edge {
     a = int64_t{from.y} - to.y;
     b = int64_t{to.x} - from.x;
     c = -(a * from.x + b * from.y);
-    const bool left = a > 0;              // the edge goes up: the inside is to its right
-    const bool top = a == 0 && b > 0;     // the edge goes right: the inside is below
+    const bool left = a > 0;           // the edge goes up: the inside is to its right
+    const bool top = a == 0 && b > 0;  // the edge goes right: the inside is below
     if (!left && !top) c -= 1;
   }
 
@@ -109,7 +110,8 @@ std::uint8_t sample_inside(const std::uint8_t* samples, int stride, int32_t u, i
 /// Whether every sample the triangle can ask for lies a whole sample inside the pattern.
 bool reads_inside(const RasterTriangle& t, const Plane& pattern, int position_bits) {
   const int margin = 2 << position_bits;
-  const int max_x = (pattern.width << position_bits) - margin, max_y = (pattern.height << position_bits) - margin;
+  const int max_x = (pattern.width << position_bits) - margin,
+            max_y = (pattern.height << position_bits) - margin;
   return std::all_of(t.begin(), t.end(), [&](const RasterVertex& v) {
     return v.texture.x >= margin && v.texture.x <= max_x && v.texture.y >= margin && v.texture.y <= max_y;
   });
@@ -129,7 +131,8 @@ struct Walk {
       const auto step_u = static_cast<int32_t>(du), step_v = static_cast<int32_t>(dv);
       const std::uint8_t* samples = pattern.samples.data();
       const int stride = pattern.width;
-      for (int64_t x = first; x <= last; ++x, iu += step_u, iv += step_v) out[x] = sample_inside(samples, stride, iu, iv);
+      for (int64_t x = first; x <= last; ++x, iu += step_u, iv += step_v)
+        out[x] = sample_inside(samples, stride, iu, iv);
     } else {
       int64_t su = u, sv = v;
       for (int64_t x = first; x <= last; ++x, su += du, sv += dv) out[x] = sample_clamped(pattern, su, sv);
@@ -139,7 +142,8 @@ struct Walk {
 
 /// Mixes a ramp of colours over samples [first, last] of a row.
 /// @param ramp  0..256 in Q16 at `first`  @param step  per sample
-void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int row, int64_t first, int64_t last) {
+void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int row, int64_t first,
+         int64_t last) {
   std::uint8_t* out = plane.target->row(row);
   for (int64_t x = first; x <= last; ++x, ramp += step) {
     const auto at = static_cast<int32_t>(std::clamp<int64_t>(ramp >> 16, 0, 256));
@@ -148,7 +152,8 @@ void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int
   }
 }
 
-/// Calls draw(from, to) for each run of samples of [first, last] that are nearer than what is there, and notes them.
+/// Calls draw(from, to) for each run of samples of [first, last] that are nearer than what is there, and
+/// notes them.
 /// @param z  depth at `first`  @param dz  per sample
 template <class Draw>
 void for_each_nearer(int32_t* nearest, int64_t first, int64_t last, int64_t z, int64_t dz, Draw&& draw) {
@@ -177,7 +182,9 @@ void DepthPlane::reset(int w, int height, const SampleArea& area) {
   }
 }
 
-bool faces_viewer(const RasterTriangle& triangle) { return twice_area(triangle) > 0; }
+bool faces_viewer(const RasterTriangle& triangle) {
+  return twice_area(triangle) > 0;
+}
 
 void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const PlanePair> planes,
                    const SampleArea& area_to_draw, DepthPlane* depth, const Shade* shade) {
@@ -215,7 +222,8 @@ void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const Pl
       for_each_nearer(nearest, first, last, z.at(dx, dy, bits), z.dx, [&](int64_t from, int64_t to) {
         for (const PlanePair& p : planes) {
           walk.from(from - first).fill(*p.pattern, p.target->row(row), from, to);
-          if (shade != nullptr) mix(p, shade->amount, ramp.at(dx, dy, bits) + (from - first) * ramp.dx, ramp.dx, row, from, to);
+          if (shade != nullptr)
+            mix(p, shade->amount, ramp.at(dx, dy, bits) + (from - first) * ramp.dx, ramp.dx, row, from, to);
         }
       });
     }

@@ -1,5 +1,5 @@
-// Draws textured triangles into a plane: paper section 2.1, "smearing" the pattern and removing hidden surfaces.
-// SPEC 10. Integers only; no state between calls.
+// Draws textured triangles into a plane: paper section 2.1, "smearing" the pattern and removing hidden
+// surfaces. SPEC 10. Integers only; no state between calls.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace fbs {
 
-/// A corner of a triangle on the screen and in the pattern, both in 1/64 luma pixel from the top left corner of the
-/// picture (the centre of the first pixel is at 32, 32).
+/// A corner of a triangle on the screen and in the pattern, both in 1/64 luma pixel from the top left corner
+/// of the picture (the centre of the first pixel is at 32, 32).
 struct RasterVertex {
   glm::ivec2 screen;
   glm::ivec2 texture;
@@ -45,16 +45,16 @@ struct PlanePair {
   std::uint8_t shade_low = 0, shade_high = 0;  ///< what Shade mixes in where its ramp is 0 and 256
 };
 
-/// A colour mixed over the pattern: `amount` / 256 of it, going from shade_low to shade_high with a ramp over the
-/// triangle.
+/// A colour mixed over the pattern: `amount` / 256 of it, going from shade_low to shade_high with a ramp over
+/// the triangle.
 struct Shade {
   std::array<std::int32_t, 3> ramp;  ///< at the corners, 0..256
   std::int32_t amount = 0;           ///< 0..256
 };
 
-/// Draws the triangle's part of each pattern plane into its target; all of the same size and scale. Samples in
-/// `area` whose centre is inside the triangle (top-left rule) are drawn. A triangle that is anticlockwise on the
-/// screen or has no area is not drawn.
+/// Draws the triangle's part of each pattern plane into its target; all of the same size and scale. Samples
+/// in `area` whose centre is inside the triangle (top-left rule) are drawn. A triangle that is anticlockwise
+/// on the screen or has no area is not drawn.
 /// @param area   within the targets
 /// @param depth  of the targets' size: samples that are not nearer are left alone; null: all are drawn
 /// @param shade  mixed over what is drawn; null: nothing. Only with depth.

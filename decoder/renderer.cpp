@@ -12,9 +12,12 @@ struct Layer {
   SampleArea area;
 };
 
-SampleArea whole(const Plane& p) { return {0, 0, p.width, p.height}; }
+SampleArea whole(const Plane& p) {
+  return {0, 0, p.width, p.height};
+}
 
-RasterTriangle corners(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
+RasterTriangle corners(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now,
+                       const ScreenMesh& seen) {
   RasterTriangle t;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto v = static_cast<std::size_t>(triangle[i]);
@@ -32,11 +35,13 @@ SampleArea area_of_head(const ScreenMesh& now, PlaneScale scale, const SampleAre
   }
   const int bits = static_cast<int>(scale);
   return {std::clamp(low.x >> bits, limit.x0, limit.x1), std::clamp(low.y >> bits, limit.y0, limit.y1),
-          std::clamp((high.x >> bits) + 1, limit.x0, limit.x1), std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
+          std::clamp((high.x >> bits) + 1, limit.x0, limit.x1),
+          std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
 /// The cells of the surround's grid, those that follow the head most last, over what stays.
-void draw_surround(const SurroundMap& map, const ScreenMesh& now, const ScreenMesh& seen, std::span<const Layer> layers) {
+void draw_surround(const SurroundMap& map, const ScreenMesh& now, const ScreenMesh& seen,
+                   std::span<const Layer> layers) {
   const int stride = map.columns + 1;
   const auto corner = [&](int k) {
     const auto i = static_cast<std::size_t>(k);

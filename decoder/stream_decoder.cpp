@@ -20,11 +20,17 @@ tl::unexpected<Error> at(const Packet& packet, Error error) {
 
 }  // namespace
 
-StreamDecoder::StreamDecoder() { bytes_.other = bytes_.total = kSignature.size(); }
+StreamDecoder::StreamDecoder() {
+  bytes_.other = bytes_.total = kSignature.size();
+}
 
-void StreamDecoder::feed(std::span<const std::uint8_t> bytes) { reader_.feed(bytes); }
+void StreamDecoder::feed(std::span<const std::uint8_t> bytes) {
+  reader_.feed(bytes);
+}
 
-void StreamDecoder::close() { reader_.close(); }
+void StreamDecoder::close() {
+  reader_.close();
+}
 
 Result<DecodeStatus> StreamDecoder::next() {
   while (waiting_.empty()) {
@@ -52,7 +58,9 @@ Result<DecodeStatus> StreamDecoder::next() {
   return DecodeStatus::kPicture;
 }
 
-void StreamDecoder::render(Picture& out) { renderer_.render(scene_, state_, out); }
+void StreamDecoder::render(Picture& out) {
+  renderer_.render(scene_, state_, out);
+}
 
 void StreamDecoder::count(const Packet& packet) {
   // Damage between the last packet and this one is nobody's.
@@ -60,10 +68,18 @@ void StreamDecoder::count(const Packet& packet) {
   bytes_.total = packet.offset + packet.size;
   switch (packet.type) {
     case PacketType::kGeometry:
-    case PacketType::kSurround: bytes_.geometry += packet.size; break;
-    case PacketType::kPattern: bytes_.patterns += packet.size; break;
-    case PacketType::kMotion: bytes_.motion += packet.size; break;
-    default: bytes_.other += packet.size; break;
+    case PacketType::kSurround:
+      bytes_.geometry += packet.size;
+      break;
+    case PacketType::kPattern:
+      bytes_.patterns += packet.size;
+      break;
+    case PacketType::kMotion:
+      bytes_.motion += packet.size;
+      break;
+    default:
+      bytes_.other += packet.size;
+      break;
   }
   if (packet.type == PacketType::kMotion && bytes_.startup == 0) bytes_.startup = bytes_.total;
 }
@@ -93,8 +109,10 @@ Result<void> StreamDecoder::take(const Packet& packet) {
       surround_ = std::move(*surround);
       return {};
     }
-    case PacketType::kPattern: return take_pattern(packet);
-    default: return take_motion(packet);
+    case PacketType::kPattern:
+      return take_pattern(packet);
+    default:
+      return take_motion(packet);
   }
 }
 
@@ -118,7 +136,8 @@ Result<void> StreamDecoder::begin_geometry(const State& seen) {
   if (!geometry_) return {};
   // Without a map of its own the surround stays where it is.
   SurroundMap still{1, 1, {0, 0, 0, 0}};
-  scene_.geometry.emplace(scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still), seen);
+  scene_.geometry.emplace(scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still),
+                          seen);
   return {};
 }
 
@@ -137,7 +156,8 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
 }
 
 Result<void> StreamDecoder::take_motion(const Packet& packet) {
-  if (scene_.patterns.empty()) return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
+  if (scene_.patterns.empty())
+    return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
   auto group = motion_->decode(packet.payload);
   if (!group) return at(packet, group.error());
   waiting_.assign(group->states.begin(), group->states.end());

@@ -50,17 +50,17 @@ class StreamDecoder {
   /// No more bytes will come.
   void close();
 
-  /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset of the
-  /// packet; kTruncated when the stream ends inside a packet or before its setup.
+  /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
+  /// of the packet; kTruncated when the stream ends inside a packet or before its setup.
   Result<DecodeStatus> next();
 
   /// Draws the picture that next() announced; `out` takes the format's size.
   void render(Picture& out);
 
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const Scene& scene() const { return scene_; }          ///< valid from the first picture on
+  [[nodiscard]] const Scene& scene() const { return scene_; }  ///< valid from the first picture on
   [[nodiscard]] const VideoFormat& format() const { return scene_.setup.format; }
-  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }   ///< announced so far
+  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }  ///< announced so far
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
   /// Duration of the announced picture in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return duration_; }

@@ -29,7 +29,8 @@ bool folds(const Points& now, const Points& scaled) {
 }
 
 /// Scale of one axis that brings the generic positions nearest to the marked ones, within anatomical limits.
-double axis_scale(const Points& generic, const std::array<std::optional<glm::dvec2>, kVertexCount>& target, int axis) {
+double axis_scale(const Points& generic, const std::array<std::optional<glm::dvec2>, kVertexCount>& target,
+                  int axis) {
   double num = 0, den = 0;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     if (!target[v]) continue;
@@ -39,9 +40,10 @@ double axis_scale(const Points& generic, const std::array<std::optional<glm::dve
   return den > 0 ? std::clamp(num / den, 0.7, 1.4) : 1.0;
 }
 
-/// One elastic iteration: every vertex moves by the mean of the forces, each weighted with the Gaussian of its edge
-/// distance; far from all marks the motion fades out.
-Points pull(const Points& now, const std::array<std::optional<glm::dvec2>, kVertexCount>& target, double sigma) {
+/// One elastic iteration: every vertex moves by the mean of the forces, each weighted with the Gaussian of
+/// its edge distance; far from all marks the motion fades out.
+Points pull(const Points& now, const std::array<std::optional<glm::dvec2>, kVertexCount>& target,
+            double sigma) {
   const std::vector<float>& distance = edge_distances();
   Points moved = now;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
@@ -84,7 +86,8 @@ const std::vector<float>& edge_distances() {
     }
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) d[i * n + j] = std::min(d[i * n + j], d[i * n + k] + d[k * n + j]);
+        for (std::size_t j = 0; j < n; ++j)
+          d[i * n + j] = std::min(d[i * n + j], d[i * n + k] + d[k * n + j]);
     return d;
   }();
   return table;
@@ -102,7 +105,8 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   out.pose.log2_scale = std::log2(eye_distance);
   out.pose.shift = 0.5 * ((*eyes)[0] + (*eyes)[1]);
 
-  // Marks in the head frame, eye distances; the pose has neither pitch nor yaw, so a rotation by -roll undoes it.
+  // Marks in the head frame, eye distances; the pose has neither pitch nor yaw, so a rotation by -roll undoes
+  // it.
   const double c = std::cos(out.pose.roll) / eye_distance, s = std::sin(out.pose.roll) / eye_distance;
   std::array<std::optional<glm::dvec2>, kVertexCount> target;
   Points generic;

@@ -10,9 +10,9 @@ constexpr double kDelta0 = 1.0;  // snake units
 constexpr double kSigma = 0.75;
 constexpr int kMaxIterations = 15;
 constexpr int kMaxRestarts = 2;
-constexpr double kStopChange = 2e-4;  // of the energy, from iteration to iteration
+constexpr double kStopChange = 2e-4;      // of the energy, from iteration to iteration
 constexpr double kNearlyFullReach = 3.0;  // snake units; the steps sum to delta_0 / (1 - sigma) = 4
-constexpr double kProbe = 0.25;       // snake units either way, for the sign of the derivative
+constexpr double kProbe = 0.25;           // snake units either way, for the sign of the derivative
 
 double bilinear(const cv::Mat1f& m, double u, double v) {
   const double cu = std::clamp(u, 0.0, m.cols - 1.001), cv_ = std::clamp(v, 0.0, m.rows - 1.001);
@@ -23,13 +23,16 @@ double bilinear(const cv::Mat1f& m, double u, double v) {
   return (a[0] * (1 - fu) + a[1] * fu) * (1 - fv) + (b[0] * (1 - fu) + b[1] * fu) * fv;
 }
 
-glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight, const std::vector<glm::dvec2>& control) {
+glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight,
+                   const std::vector<glm::dvec2>& control) {
   glm::dvec2 sum(0);
   for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * control[static_cast<std::size_t>(b.control[k])];
   return sum;
 }
 
-double squared(glm::dvec2 v) { return v.x * v.x + v.y * v.y; }
+double squared(glm::dvec2 v) {
+  return v.x * v.x + v.y * v.y;
+}
 
 }  // namespace
 
@@ -38,7 +41,12 @@ glm::dvec2 curve_point(const SplineBasis& basis, const std::vector<glm::dvec2>& 
 }
 
 SnakeCurve::SnakeCurve(bool is_closed, int controls, int pinned, std::vector<SplineBasis> points, double ds)
-    : closed_(is_closed), controls_(controls), pinned_(pinned), points_(std::move(points)), support_(static_cast<std::size_t>(controls)), ds_(ds) {
+    : closed_(is_closed),
+      controls_(controls),
+      pinned_(pinned),
+      points_(std::move(points)),
+      support_(static_cast<std::size_t>(controls)),
+      ds_(ds) {
   for (std::size_t h = 0; h < points_.size(); ++h)
     for (std::size_t k = 0; k < 4; ++k)
       if (std::abs(points_[h].value[k]) > 1e-9)
@@ -93,21 +101,22 @@ double BSnake::point_energy(int point, const std::vector<glm::dvec2>& control) c
   const glm::dvec2 at = (v - image_.origin) * image_.px_per_unit;
   double h = 0;
   if (image_.ridge.empty()) {
-    // The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high inside: the
-    // contrast that shows the contour is its fall along the normal.
+    // The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high
+    // inside: the contrast that shows the contour is its fall along the normal.
     const double length = std::sqrt(squared(vs)) + 1e-9;
-    h = (bilinear(image_.contrast_y, at.x, at.y) * vs.x - bilinear(image_.contrast_x, at.x, at.y) * vs.y) / length;
+    h = (bilinear(image_.contrast_y, at.x, at.y) * vs.x - bilinear(image_.contrast_x, at.x, at.y) * vs.y) /
+        length;
   } else {
     h = bilinear(image_.ridge, at.x, at.y);
   }
-  double external = weights_.contrast * h;  // eq. 7
+  double external = weights_.contrast * h;                                                      // eq. 7
   if (weights_.change != 0) external += weights_.change * bilinear(image_.change, at.x, at.y);  // eq. 8
   return internal - external;
 }
 
 double BSnake::repulsion(const FacingPair& pair, const std::vector<glm::dvec2>& control) const {
-  // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have crossed are
-  // driven apart again and not farther through each other.
+  // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have
+  // crossed are driven apart again and not farther through each other.
   const glm::dvec2 gap = curve_point(curve_.points()[static_cast<std::size_t>(pair.to)], control) -
                          curve_point(curve_.points()[static_cast<std::size_t>(pair.from)], control);
   const double lacks = std::max(0.0, pair.least_gap - (gap.x * pair.direction.x + gap.y * pair.direction.y));

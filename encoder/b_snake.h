@@ -1,4 +1,5 @@
-// The spatio-temporal B-snake of the paper: energies of eq. 1-8, control points as unknowns (eq. 9), sign descent.
+// The spatio-temporal B-snake of the paper: energies of eq. 1-8, control points as unknowns (eq. 9), sign
+// descent.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,23 +14,24 @@ namespace fbs {
 /// Weights of the energies, constant along the curve. The first five belong to E_int, the last two to E_img.
 /// Lengths are in snake units (1/32 eye distance), contrast in units of the feature's own contrast.
 struct SnakeWeights {
-  double tension = 0;     ///< alpha, eq. 3
-  double rigidity = 0;    ///< beta, eq. 4
-  double temporal = 0;    ///< tau, eq. 5
-  double shape = 0;       ///< of |v_s - r_s|^2, with r the curve at rest: not in the paper. Contrast sees motion across
-                          ///< the curve only; this keeps points from sliding along it, which would tear the texture
-  double repulsion = 0;   ///< between facing points; the paper gives no formula, see FacingPair
-  double contrast = 0;    ///< rho, eq. 7
-  double change = 0;      ///< gamma, eq. 8
+  double tension = 0;   ///< alpha, eq. 3
+  double rigidity = 0;  ///< beta, eq. 4
+  double temporal = 0;  ///< tau, eq. 5
+  double shape =
+      0;  ///< of |v_s - r_s|^2, with r the curve at rest: not in the paper. Contrast sees motion across
+          ///< the curve only; this keeps points from sliding along it, which would tear the texture
+  double repulsion = 0;  ///< between facing points; the paper gives no formula, see FacingPair
+  double contrast = 0;   ///< rho, eq. 7
+  double change = 0;     ///< gamma, eq. 8
 };
 
 /// What the snake sees: a picture patch in the head's own frame, as maps of forces' potentials.
 struct SnakeImage {
   cv::Mat1f contrast_x, contrast_y;  ///< gradient of the feature map; H is its part along the curve's normal
-  cv::Mat1f ridge;                   ///< instead: H itself, for a curve that runs along the middle of a dark band
-  cv::Mat1f change;                  ///< |I_t|: eq. 8 is signed, but a contour that moves brightens one side and
-                                     ///< darkens the other, so that the sign says nothing about where it went
-  glm::dvec2 origin{0, 0};           ///< snake units of the centre of pixel (0, 0)
+  cv::Mat1f ridge;          ///< instead: H itself, for a curve that runs along the middle of a dark band
+  cv::Mat1f change;         ///< |I_t|: eq. 8 is signed, but a contour that moves brightens one side and
+                            ///< darkens the other, so that the sign says nothing about where it went
+  glm::dvec2 origin{0, 0};  ///< snake units of the centre of pixel (0, 0)
   double px_per_unit = 1;
 };
 
@@ -66,8 +68,9 @@ class SnakeCurve {
 /// v(s) of control points.
 [[nodiscard]] glm::dvec2 curve_point(const SplineBasis& basis, const std::vector<glm::dvec2>& control);
 
-/// Two points of the curve that repel each other: upper and lower lip, or the two ends of a brow, whose length the
-/// paper takes as constant. No force acts while the gap from one to the other along `direction` is large enough.
+/// Two points of the curve that repel each other: upper and lower lip, or the two ends of a brow, whose
+/// length the paper takes as constant. No force acts while the gap from one to the other along `direction` is
+/// large enough.
 struct FacingPair {
   int from, to;          ///< indices into SnakeCurve::points()
   glm::dvec2 direction;  ///< unit vector: down for lips, along the brow for brows
@@ -94,10 +97,11 @@ class BSnake {
   /// E_tot = E_int - E_img (eq. 1) of the whole curve.
   [[nodiscard]] double energy(const std::vector<glm::dvec2>& control) const;
 
-  /// Sign descent: the sign of dE/dX_i and dE/dY_i of all control points, then all move by delta_q against it;
-  /// delta_q = delta_0 sigma^q with delta_0 = 1 snake unit and sigma = 0.75. Stops when the energy changes by less
-  /// than a threshold from one iteration to the next, at 15 iterations at the latest. A descent that still falls
-  /// steeply when its steps have become small starts again from where it is (the steps sum to 4 units at most).
+  /// Sign descent: the sign of dE/dX_i and dE/dY_i of all control points, then all move by delta_q against
+  /// it; delta_q = delta_0 sigma^q with delta_0 = 1 snake unit and sigma = 0.75. Stops when the energy
+  /// changes by less than a threshold from one iteration to the next, at 15 iterations at the latest. A
+  /// descent that still falls steeply when its steps have become small starts again from where it is (the
+  /// steps sum to 4 units at most).
   [[nodiscard]] SnakeOutcome minimise(std::vector<glm::dvec2> start) const;
 
  private:
@@ -109,8 +113,8 @@ class BSnake {
   const SnakeImage& image_;
   const SnakeWeights& weights_;
   const std::vector<FacingPair>& facing_;
-  std::vector<glm::dvec2> rest_slope_;            ///< r_s at each point
-  std::vector<glm::dvec2> before_;                ///< v(s, t - 1) at each point
+  std::vector<glm::dvec2> rest_slope_;              ///< r_s at each point
+  std::vector<glm::dvec2> before_;                  ///< v(s, t - 1) at each point
   std::vector<std::vector<int>> pairs_of_control_;  ///< facing pairs that control point i moves
 };
 

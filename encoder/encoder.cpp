@@ -57,7 +57,8 @@ Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 Encoder::~Encoder() = default;
 
 Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings& settings) {
-  if (settings.quality < 0 || settings.quality > 100) return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
+  if (settings.quality < 0 || settings.quality > 100)
+    return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
   if (settings.group_pictures < 0 || settings.group_pictures > kMaxGroupPictures)
     return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
@@ -89,14 +90,17 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
 Result<void> Encoder::finish() {
   Impl& i = *impl_;
   if (i.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
-  if (!i.face_seen && !i.settings.allow_no_face) return fail(ErrorCode::kNoFace, "no face found in any picture");
+  if (!i.face_seen && !i.settings.allow_no_face)
+    return fail(ErrorCode::kNoFace, "no face found in any picture");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
   write_packet(i.ready, PacketType::kEnd, encode_end({i.pictures}));
   return {};
 }
 
-std::vector<std::uint8_t> Encoder::take() { return std::exchange(impl_->ready, {}); }
+std::vector<std::uint8_t> Encoder::take() {
+  return std::exchange(impl_->ready, {});
+}
 
 const PictureAnalysis& Encoder::analysis() const {
   return impl_->scene ? impl_->scene->analysis() : impl_->nothing;

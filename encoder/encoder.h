@@ -13,21 +13,21 @@
 namespace fbs {
 
 struct EncoderSettings {
-  int quality = 50;               ///< 0..100; moves the pattern's quantiser, the steps and lambda together
-  int face = 0;                   ///< which face to follow, the largest being 0
-  std::optional<Marks> marks;     ///< by hand, for the first picture; automatic otherwise
-  bool allow_no_face = false;     ///< code a video without any face as one still pattern instead of failing
-  bool snakes = true;             ///< follow mouth and brows; off only to see what they are worth
-  int group_pictures = 0;         ///< pictures in a motion packet, 1..256; 0: one second's
+  int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
+  int face = 0;                ///< which face to follow, the largest being 0
+  std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
+  bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
+  bool snakes = true;          ///< follow mouth and brows; off only to see what they are worth
+  int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
 /// What the analysis saw in the picture pushed last; for overlays. Positions in pixels of the picture.
 struct PictureAnalysis {
   bool face = false;
-  double confidence = 0;                         ///< 0..1
+  double confidence = 0;                            ///< 0..1
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as the decoder will have them
-  std::vector<std::vector<glm::dvec2>> snakes;   ///< each curve as points, as tracked
-  std::vector<int> iterations;                   ///< of each snake
+  std::vector<std::vector<glm::dvec2>> snakes;      ///< each curve as points, as tracked
+  std::vector<int> iterations;                      ///< of each snake
 };
 
 /// Encodes one video.

@@ -16,15 +16,17 @@ constexpr int kSearchRows = 480;
 // Where eyes lie in the detector's square, measured as the median over the faces it finds.
 constexpr double kEyeX = 0.19, kEyeY = -0.115;
 
-
-glm::dvec2 centre_of(const cv::Rect& r) { return {r.x + r.width / 2.0, r.y + r.height / 2.0}; }
+glm::dvec2 centre_of(const cv::Rect& r) {
+  return {r.x + r.width / 2.0, r.y + r.height / 2.0};
+}
 
 /// A pair of detections that could be this face's eyes: level within 20 degrees, each in its own half, at a
 /// plausible distance. The most probable by its distance to where eyes usually are.
 bool choose_eyes(const std::vector<cv::Rect>& found, cv::Rect face, glm::dvec2& right, glm::dvec2& left) {
   const glm::dvec2 c = centre_of(face);
   const double size = face.width;
-  const glm::dvec2 usual_right = c + glm::dvec2(-kEyeX, kEyeY) * size, usual_left = c + glm::dvec2(kEyeX, kEyeY) * size;
+  const glm::dvec2 usual_right = c + glm::dvec2(-kEyeX, kEyeY) * size,
+                   usual_left = c + glm::dvec2(kEyeX, kEyeY) * size;
   double best = 0.25;  // of the face's size, both distances together
   bool got = false;
   for (const cv::Rect& a : found) {
@@ -50,7 +52,9 @@ struct FaceFinder::Cascades {
   mutable cv::CascadeClassifier face, eye, eye_glasses;
 };
 
-void FaceFinder::Deleter::operator()(Cascades* c) const { delete c; }
+void FaceFinder::Deleter::operator()(Cascades* c) const {
+  delete c;
+}
 
 Result<FaceFinder> FaceFinder::create() {
   const char* set = std::getenv("FBS_CASCADES");
@@ -82,7 +86,8 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture) const {
     cascades_->face.detectMultiScale(*image, faces, 1.1, 3, 0, {smallest, smallest});
     if (!faces.empty()) break;
   }
-  std::sort(faces.begin(), faces.end(), [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
+  std::sort(faces.begin(), faces.end(),
+            [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
 
   std::vector<FoundFace> out;
   for (const cv::Rect& f : faces) {

@@ -11,10 +11,10 @@
 namespace fbs {
 
 struct FoundFace {
-  glm::dvec2 centre;             ///< of the detector's square, pixels
-  double size = 0;               ///< its side, pixels
+  glm::dvec2 centre;               ///< of the detector's square, pixels
+  double size = 0;                 ///< its side, pixels
   glm::dvec2 right_eye, left_eye;  ///< eye centres, pixels; right_eye is the subject's, at smaller x
-  bool eyes_seen = false;        ///< both eyes were detected; otherwise they are placed by proportion
+  bool eyes_seen = false;          ///< both eyes were detected; otherwise they are placed by proportion
 };
 
 class FaceFinder {
@@ -22,7 +22,8 @@ class FaceFinder {
   /// kIo when the cascades (Debian's opencv-data) are not found; the folder can be set with FBS_CASCADES.
   static Result<FaceFinder> create();
 
-  /// Upright faces, the largest first. The picture is scaled to 480 rows or more first, where the cascades work.
+  /// Upright faces, the largest first. The picture is scaled to 480 rows or more first, where the cascades
+  /// work.
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture) const;
 
  private:

@@ -7,10 +7,12 @@
 namespace fbs {
 namespace {
 
-/// Noise that every sample is taken to have, grey levels squared: keeps small patches from being over-explained.
+/// Noise that every sample is taken to have, grey levels squared: keeps small patches from being
+/// over-explained.
 constexpr double kNoise[3] = {30, 6, 6};
 
-/// The map is cut off here: a dark open mouth is no more lip than lips are, and teeth are no less lip than skin is.
+/// The map is cut off here: a dark open mouth is no more lip than lips are, and teeth are no less lip than
+/// skin is.
 constexpr float kLeast = -0.25F, kMost = 1.1F;
 
 struct Class {
@@ -26,7 +28,8 @@ Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
   for (int y = 0; y < mask.rows; ++y) {
     for (int x = 0; x < mask.cols; ++x) {
       if (mask.at<std::uint8_t>(y, x) == 0) continue;
-      const cv::Vec3d v(patch[0].at<std::uint8_t>(y, x), patch[1].at<std::uint8_t>(y, x), patch[2].at<std::uint8_t>(y, x));
+      const cv::Vec3d v(patch[0].at<std::uint8_t>(y, x), patch[1].at<std::uint8_t>(y, x),
+                        patch[2].at<std::uint8_t>(y, x));
       sum += v;
       product += v * v.t();
       ++c.count;
@@ -40,8 +43,8 @@ Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
 
 }  // namespace
 
-FeatureMap FeatureMap::discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside, const cv::Mat& outside,
-                                    bool luma_only) {
+FeatureMap FeatureMap::discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,
+                                    const cv::Mat& outside, bool luma_only) {
   FeatureMap map;
   const Class in = statistics(patch, inside), out = statistics(patch, outside);
   if (in.count < 8 || out.count < 8) return map;

@@ -1,5 +1,5 @@
-// H of the paper's eq. 7, per feature and per person: what tells a lip from the skin round it, learned on the first
-// picture where the marks say which is which.
+// H of the paper's eq. 7, per feature and per person: what tells a lip from the skin round it, learned on the
+// first picture where the marks say which is which.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@ namespace fbs {
 /// A picture patch in which the feature is about 1 and its surroundings about 0.
 class FeatureMap {
  public:
-  /// A linear mix of luma and both chroma components: Fisher's linear discriminant with the two classes' covariances
-  /// pooled and regularised.
+  /// A linear mix of luma and both chroma components: Fisher's linear discriminant with the two classes'
+  /// covariances pooled and regularised.
   /// @param patch    8-bit Y, U, V planes of one size
   /// @param inside   8-bit mask of the feature, nonzero where it is
   /// @param outside  8-bit mask of the skin round it
   /// @param luma_only  for brows and lids: hair differs from skin in brightness, and chroma only adds noise
-  static FeatureMap discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside, const cv::Mat& outside,
-                                 bool luma_only);
+  static FeatureMap discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,
+                                 const cv::Mat& outside, bool luma_only);
 
-  /// How near a colour is to the feature's own: exp(-d^2 / 2) of a widened Mahalanobis distance. For lips seen from
-  /// inside, where teeth, tongue and dark are all other than lip.
+  /// How near a colour is to the feature's own: exp(-d^2 / 2) of a widened Mahalanobis distance. For lips
+  /// seen from inside, where teeth, tongue and dark are all other than lip.
   static FeatureMap likeness(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside);
 
   [[nodiscard]] cv::Mat1f operator()(const std::array<cv::Mat, 3>& patch) const;

@@ -12,24 +12,60 @@ constexpr double kPxPerUnit = 1.5;  // patch resolution: WorkFrame's 48 pixels p
 /// How a kind of feature is followed. Lengths in snake units.
 struct Kind {
   SnakeWeights weights;
-  int points;                      // p + 1 of the curve
-  double blur;                     // of the feature map
-  double above, below, aside;      // of the patch beyond the feature at rest
+  int points;                  // p + 1 of the curve
+  double blur;                 // of the feature map
+  double above, below, aside;  // of the patch beyond the feature at rest
 };
 
 // Found by looking at where the contours settle on the clips and on the talker; the contrast sets the scale.
-constexpr Kind kOuterLips = {
-    {.tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .repulsion = 0.10, .contrast = 1, .change = 0.05},
-    40, 1.2, 9, 16, 9};
-constexpr Kind kInnerLips = {
-    {.tension = 0.0008, .rigidity = 0.002, .temporal = 0.004, .shape = 0.02, .repulsion = 0.30, .contrast = 1, .change = 0},
-    32, 0.9, 8, 16, 6};
-constexpr Kind kBrow = {
-    {.tension = 2e-5, .rigidity = 4e-5, .temporal = 0.02, .shape = 4e-4, .repulsion = 0.05, .contrast = 1, .change = 0},
-    13, 1.2, 10, 7, 6};
-constexpr Kind kUpperLid = {
-    {.tension = 2e-4, .rigidity = 2e-4, .temporal = 0.004, .shape = 8e-4, .repulsion = 0, .contrast = 1, .change = 0.05},
-    11, 0.8, 6, 8, 4};
+constexpr Kind kOuterLips = {{.tension = 0.0012,
+                              .rigidity = 0.002,
+                              .temporal = 0.004,
+                              .shape = 0.012,
+                              .repulsion = 0.10,
+                              .contrast = 1,
+                              .change = 0.05},
+                             40,
+                             1.2,
+                             9,
+                             16,
+                             9};
+constexpr Kind kInnerLips = {{.tension = 0.0008,
+                              .rigidity = 0.002,
+                              .temporal = 0.004,
+                              .shape = 0.02,
+                              .repulsion = 0.30,
+                              .contrast = 1,
+                              .change = 0},
+                             32,
+                             0.9,
+                             8,
+                             16,
+                             6};
+constexpr Kind kBrow = {{.tension = 2e-5,
+                         .rigidity = 4e-5,
+                         .temporal = 0.02,
+                         .shape = 4e-4,
+                         .repulsion = 0.05,
+                         .contrast = 1,
+                         .change = 0},
+                        13,
+                        1.2,
+                        10,
+                        7,
+                        6};
+constexpr Kind kUpperLid = {{.tension = 2e-4,
+                             .rigidity = 2e-4,
+                             .temporal = 0.004,
+                             .shape = 8e-4,
+                             .repulsion = 0,
+                             .contrast = 1,
+                             .change = 0.05},
+                            11,
+                            0.8,
+                            6,
+                            8,
+                            4};
 
 constexpr double kLipLeastGap = 0.8, kMouthLeastWidth = 0.7, kBrowLeastLength = 0.97;  // of the gap at rest
 constexpr double kLidsApart = 0.45;      // shut eyes keep a line of lashes
@@ -38,15 +74,21 @@ constexpr double kBrowBelowMarks = 1.8;  // iBUG marks a brow's upper border; it
 
 const Kind& kind_of(FeatureId id) {
   switch (id) {
-    case FeatureId::kMouthOuter: return kOuterLips;
-    case FeatureId::kMouthInner: return kInnerLips;
+    case FeatureId::kMouthOuter:
+      return kOuterLips;
+    case FeatureId::kMouthInner:
+      return kInnerLips;
     case FeatureId::kBrowRight:
-    case FeatureId::kBrowLeft: return kBrow;
-    default: return kUpperLid;
+    case FeatureId::kBrowLeft:
+      return kBrow;
+    default:
+      return kUpperLid;
   }
 }
 
-bool is_brow(FeatureId id) { return id == FeatureId::kBrowRight || id == FeatureId::kBrowLeft; }
+bool is_brow(FeatureId id) {
+  return id == FeatureId::kBrowRight || id == FeatureId::kBrowLeft;
+}
 
 SnakeCurve curve_of(FeatureId id) {
   const Feature& f = feature(id);
@@ -101,11 +143,13 @@ SplineBasis basis_at(const SnakeCurve& curve, double s) {
   return curve.is_closed() ? closed_basis(curve.controls(), s) : clamped_basis(true, s);
 }
 
-std::vector<glm::dvec2> fit_control(const Feature& f, const SnakeCurve& curve, const std::vector<glm::dvec2>& target,
+std::vector<glm::dvec2> fit_control(const Feature& f, const SnakeCurve& curve,
+                                    const std::vector<glm::dvec2>& target,
                                     const std::array<glm::dvec2, 2>& ends) {
   const int n = curve.controls();
   cv::Mat1d a = cv::Mat1d::zeros(n, n), b = cv::Mat1d::zeros(n, 2);
-  const auto add = [&](const SplineBasis& basis, const std::array<double, 4>& weight, double w, glm::dvec2 value) {
+  const auto add = [&](const SplineBasis& basis, const std::array<double, 4>& weight, double w,
+                       glm::dvec2 value) {
     for (std::size_t i = 0; i < 4; ++i) {
       b(basis.control[i], 0) += w * weight[i] * value.x;
       b(basis.control[i], 1) += w * weight[i] * value.y;
@@ -147,13 +191,16 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
   const auto corner = corners_of(id);
   std::array<glm::dvec2, 2> ends{};
   for (std::size_t k = 0; k < 2; ++k)
-    ends[k] = on_head(geometry, static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(corner[k])]));
+    ends[k] = on_head(geometry, static_cast<std::size_t>(
+                                    generic_head().landmark_vertex[static_cast<std::size_t>(corner[k])]));
   s.rest = s.now = fit_control(f, s.curve, target, ends);
 
   std::vector<glm::dvec2> extent = target;
   if (s.curve.first_free() > 0) extent.insert(extent.end(), ends.begin(), ends.end());
-  const auto [x0, x1] = std::minmax_element(extent.begin(), extent.end(), [](auto a, auto b) { return a.x < b.x; });
-  const auto [y0, y1] = std::minmax_element(extent.begin(), extent.end(), [](auto a, auto b) { return a.y < b.y; });
+  const auto [x0, x1] =
+      std::minmax_element(extent.begin(), extent.end(), [](auto a, auto b) { return a.x < b.x; });
+  const auto [y0, y1] =
+      std::minmax_element(extent.begin(), extent.end(), [](auto a, auto b) { return a.y < b.y; });
   s.region = {x0->x - kind.aside, y0->y - kind.above, x1->x - x0->x + 2 * kind.aside,
               y1->y - y0->y + kind.above + kind.below};
   if (f.closed) add_facing_lips(s, id == FeatureId::kMouthInner);
@@ -161,7 +208,11 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
     const int lower = id == FeatureId::kUpperLidLeft ? 46 : 40;
     s.lowest = -kLidsApart;
     for (const int k : {lower, lower + 1})
-      s.lowest += on_head(geometry, static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])).y / 2;
+      s.lowest +=
+          on_head(geometry,
+                  static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)]))
+              .y /
+          2;
   }
   if (is_brow(id)) add_pair(s, 0, kind.points - 1, {1, 0}, kBrowLeastLength);
   return s;
@@ -171,7 +222,8 @@ void FeatureSnake::limit(std::vector<glm::dvec2>& control) const {
   // The middle of a clamped cubic moves by 3/4 of what both inner control points do.
   const double beyond = curve_point(clamped_basis(true, 0.5), control).y - lowest;
   if (beyond <= 0) return;
-  for (int i = curve.first_free(); i < curve.end_free(); ++i) control[static_cast<std::size_t>(i)].y -= beyond / 0.75;
+  for (int i = curve.first_free(); i < curve.end_free(); ++i)
+    control[static_cast<std::size_t>(i)].y -= beyond / 0.75;
 }
 
 FeaturePatch FeatureSnake::patch(const WorkFrame& frame, const Pose& pose) const {
@@ -183,11 +235,13 @@ FeaturePatch FeatureSnake::patch(const WorkFrame& frame, const Pose& pose) const
   const glm::dvec2 o = work(corner), ex = work(corner + glm::dvec2(1 / kPxPerUnit, 0)) - o,
                    ey = work(corner + glm::dvec2(0, 1 / kPxPerUnit)) - o;
   const cv::Matx23d m(ex.x, ey.x, o.x, ex.y, ey.y, o.y);
-  const cv::Size size(static_cast<int>(region.width * kPxPerUnit), static_cast<int>(region.height * kPxPerUnit));
+  const cv::Size size(static_cast<int>(region.width * kPxPerUnit),
+                      static_cast<int>(region.height * kPxPerUnit));
   FeaturePatch out;
   const std::array<const cv::Mat*, 3> source = {&frame.luma, &frame.u, &frame.v};
   for (std::size_t k = 0; k < 3; ++k)
-    cv::warpAffine(*source[k], out[k], m, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+    cv::warpAffine(*source[k], out[k], m, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                   cv::BORDER_REPLICATE);
   return out;
 }
 
@@ -227,7 +281,8 @@ void FeatureSnake::learn(const FeaturePatch& first) {
       around = inside.clone();
       cv::polylines(inside, shifted(1), false, 255, thick);
       cv::polylines(around, shifted(-2), false, 255, thick);
-      // Dark lashes are below the edge, but below the lower lid's lashes too; skin of the lid is above this one only.
+      // Dark lashes are below the edge, but below the lower lid's lashes too; skin of the lid is above this
+      // one only.
       skin = FeatureMap::likeness(first, around);
       grown = cv::Mat::zeros(inside.size(), CV_8UC1);
       break;
@@ -255,7 +310,8 @@ SnakeImage FeatureSnake::look(const FeaturePatch& patch) {
     cv::filter2D(values, image.contrast_x, CV_32F, cv::Matx13f(-one, 0, one));
     cv::filter2D(values, image.contrast_y, CV_32F, cv::Matx31f(-one, 0, one));
   }
-  image.change = seen.empty() ? cv::Mat1f(cv::Mat1f::zeros(values.size())) : cv::Mat1f(cv::abs(values - seen));
+  image.change =
+      seen.empty() ? cv::Mat1f(cv::Mat1f::zeros(values.size())) : cv::Mat1f(cv::abs(values - seen));
   seen = values;
   return image;
 }

@@ -9,10 +9,11 @@
 
 namespace fbs {
 
-/// The features that have a snake, in the order in which they are followed. Inner lips and lids go past the paper.
-inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {FeatureId::kMouthOuter,    FeatureId::kMouthInner,
-                                                            FeatureId::kBrowRight,     FeatureId::kBrowLeft,
-                                                            FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
+/// The features that have a snake, in the order in which they are followed. Inner lips and lids go past the
+/// paper.
+inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {
+    FeatureId::kMouthOuter, FeatureId::kMouthInner,    FeatureId::kBrowRight,
+    FeatureId::kBrowLeft,   FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
 
 class FeatureTracker {
  public:
@@ -21,11 +22,13 @@ class FeatureTracker {
   FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first);
 
   /// @param now   with colour
-  /// @param flow  where the optical flow took each vertex (pixels of the picture, nan where lost): moves the curves
+  /// @param flow  where the optical flow took each vertex (pixels of the picture, nan where lost): moves the
+  /// curves
   ///              first, as does the pose
   void track(const WorkFrame& now, const Pose& pose, const std::array<glm::dvec2, kVertexCount>& flow);
 
-  /// Offsets of all control points from rest, head units; those of the inner lips from where the outer lips take them.
+  /// Offsets of all control points from rest, head units; those of the inner lips from where the outer lips
+  /// take them.
   [[nodiscard]] std::array<glm::dvec2, kControlCount> offsets() const;
 
   /// Moves every snake to where `offsets` (head units) has it.
@@ -35,8 +38,8 @@ class FeatureTracker {
   [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t snake) const;
   [[nodiscard]] bool is_closed(std::size_t snake) const { return snakes_[snake].curve.is_closed(); }
 
-  /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head frame
-  /// (head units).
+  /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head
+  /// frame (head units).
   [[nodiscard]] std::vector<std::pair<std::size_t, glm::dvec3>> vertices() const;
 
   [[nodiscard]] std::size_t count() const { return snakes_.size(); }

@@ -13,14 +13,15 @@ namespace {
 constexpr double kRes = 64;  // pixels per eye distance in the face's own frame
 constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // of that frame, eye distances
 
-/// The middle of the lids lies this far right of and below the eyes that the cascades give; median over ten faces.
+/// The middle of the lids lies this far right of and below the eyes that the cascades give; median over ten
+/// faces.
 constexpr double kEyeBiasX = 0.04, kEyeBiasY = 0.025;  // eye distances
 
 constexpr double kBrowHalfWidth = 0.056;  // eye distances
 
 /// The face, eyes level at (-0.5, 0) and (0.5, 0) in eye distances, y down.
 struct OwnFrame {
-  cv::Mat luma, cr;  // float
+  cv::Mat luma, cr;           // float
   glm::dvec2 origin, x_axis;  // pixels per eye distance in the picture
 
   OwnFrame(const Picture& picture, glm::dvec2 right, glm::dvec2 left)
@@ -66,7 +67,8 @@ struct OwnFrame {
 
 /// The place in [from, to] where `evidence` less a penalty for distance from `usual` is largest.
 /// @param spread  distance from the usual place that costs as much as `evidence` of one
-double search(double from, double to, double usual, double spread, const std::function<double(double)>& evidence) {
+double search(double from, double to, double usual, double spread,
+              const std::function<double(double)>& evidence) {
   constexpr double kStep = 1.0 / 128;
   double best = usual, best_score = -1e30;
   for (double p = from; p <= to; p += kStep) {
@@ -94,10 +96,10 @@ double mean_over(double cx, double half, const std::function<double(double)>& va
 }
 
 struct MouthMarks {
-  double line = 1.12;                 // y of the line between the lips
-  double right = -0.4, left = 0.4;    // x of the corners
+  double line = 1.12;               // y of the line between the lips
+  double right = -0.4, left = 0.4;  // x of the corners
   double right_y = 1.12, left_y = 1.12;
-  double top = 1.0, bottom = 1.28;    // y of the lips' outer borders on the midline
+  double top = 1.0, bottom = 1.28;  // y of the lips' outer borders on the midline
 };
 
 MouthMarks find_mouth(const OwnFrame& f) {
@@ -106,14 +108,16 @@ MouthMarks find_mouth(const OwnFrame& f) {
   m.line = search(0.88, 1.4, 1.10, 0.10, [&](double y) {
     const double dark = mean_over(0, 0.22, [&](double x) { return valley(f, x, y, 0.09); });
     const double red = mean_over(0, 0.2, [&](double x) {
-      return 0.5 * (f.red(x, y - 0.06) + f.red(x, y + 0.08)) - 0.5 * (f.red(x, y - 0.26) + f.red(x, y + 0.34));
+      return 0.5 * (f.red(x, y - 0.06) + f.red(x, y + 0.08)) -
+             0.5 * (f.red(x, y - 0.26) + f.red(x, y + 0.34));
     });
     return dark / 8 + red / 5;
   });
   // Each corner: where the line, followed outwards, stops being a valley.
   for (const int side : {-1, 1}) {
     double y = m.line, reached = 0.26;
-    const double start = std::max(4.0, mean_over(side * 0.15, 0.1, [&](double x) { return valley(f, x, m.line, 0.07); }));
+    const double start =
+        std::max(4.0, mean_over(side * 0.15, 0.1, [&](double x) { return valley(f, x, m.line, 0.07); }));
     for (double x = 0.1; x <= 0.56; x += 1.0 / 64) {
       y = search(y - 0.02, y + 0.02, y, 0.02, [&](double v) { return valley(f, side * x, v, 0.06) / 4; });
       y = std::clamp(y, m.line - 0.10, m.line + 0.10);
@@ -138,9 +142,10 @@ MouthMarks find_mouth(const OwnFrame& f) {
   return m;
 }
 
-/// y of the brow's dark ridge above each of five places, outer to inner or inner to outer as x says, smoothed by a
-/// parabola.
-std::array<double, 5> find_brow(const OwnFrame& f, const std::array<double, 5>& xs, const std::array<double, 5>& usual) {
+/// y of the brow's dark ridge above each of five places, outer to inner or inner to outer as x says, smoothed
+/// by a parabola.
+std::array<double, 5> find_brow(const OwnFrame& f, const std::array<double, 5>& xs,
+                                const std::array<double, 5>& usual) {
   // First the brow as a whole, then each place.
   const double lift = search(-0.16, 0.14, 0, 0.09, [&](double d) {
     double sum = 0;
@@ -174,24 +179,28 @@ std::array<double, 5> find_brow(const OwnFrame& f, const std::array<double, 5>& 
 double find_side(const OwnFrame& f, int side, double y, double usual) {
   const double skin = f.y(side * 0.55, 0.55), skin_red = f.red(side * 0.55, 0.55);
   return side * search(usual - 0.22, usual + 0.22, usual, 0.14, [&](double x) {
-    const double step_y = std::abs(f.y(side * (x - 0.06), y) - f.y(side * (x + 0.06), y));
-    const double step_red = std::abs(f.red(side * (x - 0.08), y) - f.red(side * (x + 0.08), y));
-    const double inside = std::abs(f.y(side * (x - 0.10), y) - skin) / 40 + std::abs(f.red(side * (x - 0.10), y) - skin_red) / 10;
-    return std::min(3.0, step_y / 15 + step_red / 5) - 0.5 * std::min(2.0, inside);
-  });
+           const double step_y = std::abs(f.y(side * (x - 0.06), y) - f.y(side * (x + 0.06), y));
+           const double step_red = std::abs(f.red(side * (x - 0.08), y) - f.red(side * (x + 0.08), y));
+           const double inside = std::abs(f.y(side * (x - 0.10), y) - skin) / 40 +
+                                 std::abs(f.red(side * (x - 0.10), y) - skin_red) / 10;
+           return std::min(3.0, step_y / 15 + step_red / 5) - 0.5 * std::min(2.0, inside);
+         });
 }
 
 double find_chin(const OwnFrame& f, double mouth_line) {
   const double usual = mouth_line + 0.72;
   return search(usual - 0.22, usual + 0.24, usual, 0.12, [&](double y) {
-    const double edge = mean_over(0, 0.2, [&](double x) { return std::abs(f.y(x, y - 0.05) - f.y(x, y + 0.05)); });
+    const double edge =
+        mean_over(0, 0.2, [&](double x) { return std::abs(f.y(x, y - 0.05) - f.y(x, y + 0.05)); });
     return std::min(2.5, edge / 12);
   });
 }
 
 glm::dvec2 generic_at(int ibug) {
-  const glm::ivec3 p = generic_head().vertices[static_cast<std::size_t>(
-      generic_head().landmark_vertex[static_cast<std::size_t>(ibug)])].position;
+  const glm::ivec3 p =
+      generic_head()
+          .vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)])]
+          .position;
   return glm::dvec2(p.x, p.y) / static_cast<double>(kUnitsPerEyeDistance);
 }
 
@@ -202,7 +211,8 @@ glm::dvec2 place_lip(const MouthMarks& m, int ibug) {
   const double t = 0.5 * (g.x / half + 1);  // 0 at the right corner, 1 at the left
   const double x = m.right + (m.left - m.right) * t;
   const double corners_y = m.right_y + (m.left_y - m.right_y) * t;
-  const double bow = 4 * t * (1 - t);  // the line passes through the corners and through the middle of the mouth
+  const double bow =
+      4 * t * (1 - t);  // the line passes through the corners and through the middle of the mouth
   const double line = corners_y + (m.line - 0.5 * (m.right_y + m.left_y)) * bow;
   const double generic_line = 0.5 * (generic_at(62).y + generic_at(66).y);
   const double corner_line = generic_at(48).y + (generic_line - generic_at(48).y) * bow;

@@ -13,8 +13,8 @@ constexpr double kPointSpacing = 3.0;  // work pixels between surface points
 constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// How strongly the pose is held where it was guessed, per number, as standard deviations in eye distances of motion.
-/// Only what the picture does not determine feels it.
+/// How strongly the pose is held where it was guessed, per number, as standard deviations in eye distances of
+/// motion. Only what the picture does not determine feels it.
 cv::Matx66d prior(double eye_distance, double sigma_angle, double sigma_px) {
   cv::Matx66d p = cv::Matx66d::zeros();
   for (int k = 0; k < 3; ++k) p(k, k) = 1 / (sigma_angle * sigma_angle);
@@ -23,8 +23,8 @@ cv::Matx66d prior(double eye_distance, double sigma_angle, double sigma_px) {
   return p;
 }
 
-/// Brightness with the light taken out: less the local mean, over the local contrast; 8 bit about 128. A face that
-/// turns under a lamp changes its shading, but not its features.
+/// Brightness with the light taken out: less the local mean, over the local contrast; 8 bit about 128. A face
+/// that turns under a lamp changes its shading, but not its features.
 cv::Mat without_light(const cv::Mat& luma) {
   constexpr double kReach = 0.22 * WorkFrame::kWorkEyeDistance;
   constexpr double kLeastContrast = 6;  // grey levels; less is noise and stays flat
@@ -56,7 +56,9 @@ std::vector<cv::Mat> pyramid_of(const cv::Mat& luma, int levels) {
   return out;
 }
 
-glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
+glm::dvec2 on_level(glm::dvec2 work, int level) {
+  return work / static_cast<double>(1 << level);
+}
 
 /// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
 glm::dvec3 face_centre(const HeadVertices& vertices) {
@@ -71,7 +73,8 @@ float weight_of(const HeadTriangle& t) {
   float least = 1;
   for (const std::int16_t v : t) {
     const HeadVertex& vertex = generic_head().vertices[static_cast<std::size_t>(v)];
-    if (vertex.feature >= 0 || (vertex.landmark >= 36 && vertex.landmark < 48)) least = std::min(least, 0.35F);
+    if (vertex.feature >= 0 || (vertex.landmark >= 36 && vertex.landmark < 48))
+      least = std::min(least, 0.35F);
     if (vertex.landmark >= 4 && vertex.landmark <= 12) least = std::min(least, 0.35F);
   }
   return least;
@@ -118,7 +121,8 @@ void HeadTracker::follow_flow(const WorkFrame& now, const HeadVertices& vertices
   std::vector<std::uint8_t> found;
   std::vector<float> error;
   cv::calcOpticalFlowPyrLK(before_.luma, now.luma, from, to, found, error, {13, 13}, 3,
-                           {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 12, 0.02}, cv::OPTFLOW_USE_INITIAL_FLOW);
+                           {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 12, 0.02},
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
   for (std::size_t v = 0; v < kVertexCount; ++v)
     flow_[v] = found[v] != 0 ? now.to_picture({to[v].x, to[v].y}) : glm::dvec2(kNan);
 }
@@ -150,8 +154,8 @@ Pose HeadTracker::fit_flow(const Pose& start, const HeadVertices& vertices) cons
   return pose;
 }
 
-Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level, const Pose& start,
-                        const std::vector<glm::dvec3>& points) const {
+Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level,
+                        const Pose& start, const std::vector<glm::dvec3>& points) const {
   const cv::Mat& luma = pyramid[static_cast<std::size_t>(level)];
   const std::vector<float>& seen = seen_[static_cast<std::size_t>(level)];
   const double to_level = now.scale / (1 << level);
@@ -198,7 +202,8 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
     gain = std::clamp(gain + d[6], 0.5, 2.0);
     offset = std::clamp(offset + d[7], -80.0, 80.0);
     sigma = std::clamp(2 * 1.25 * absolute / count, 6.0, 30.0);
-    const double step = std::hypot(d[3], d[4]) / eye + std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) + std::abs(d[5]);
+    const double step =
+        std::hypot(d[3], d[4]) / eye + std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) + std::abs(d[5]);
     if (step < 5e-4) break;
   }
   return pose;

@@ -1,9 +1,10 @@
 // Global motion: six numbers of head pose per picture. The paper leaves this to "traditional techniques".
 //
-// First guess: pyramidal Lucas-Kanade flow of mesh points from picture to picture and a robust fit of the pose.
-// Then the guess is brought back to the truth of the first picture: the pose minimises the robust difference between
-// the present picture and the first picture's brightness at points fixed on the mesh (direct alignment, as in
-// Baker & Matthews 2004 but additive, since the pose is no group under weak perspective). So nothing drifts.
+// First guess: pyramidal Lucas-Kanade flow of mesh points from picture to picture and a robust fit of the
+// pose. Then the guess is brought back to the truth of the first picture: the pose minimises the robust
+// difference between the present picture and the first picture's brightness at points fixed on the mesh
+// (direct alignment, as in Baker & Matthews 2004 but additive, since the pose is no group under weak
+// perspective). So nothing drifts.
 #pragma once
 
 #include <array>
@@ -30,7 +31,8 @@ class HeadTracker {
   /// @param vertices  head-frame positions with the expression of the picture before (head units)
   TrackedPose track(const WorkFrame& now, const HeadVertices& vertices);
 
-  /// Where the flow took each vertex of the mesh, pixels of the picture; nan where it was lost. Of the last track().
+  /// Where the flow took each vertex of the mesh, pixels of the picture; nan where it was lost. Of the last
+  /// track().
   [[nodiscard]] const std::array<glm::dvec2, kVertexCount>& flow() const { return flow_; }
 
   /// Takes `pose` as that of the picture before: after a search for a lost face.
@@ -43,8 +45,8 @@ class HeadTracker {
 
   [[nodiscard]] Pose fit_flow(const Pose& start, const HeadVertices& vertices) const;
   void follow_flow(const WorkFrame& now, const HeadVertices& vertices);
-  [[nodiscard]] Pose align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level, const Pose& start,
-                           const std::vector<glm::dvec3>& points) const;
+  [[nodiscard]] Pose align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level,
+                           const Pose& start, const std::vector<glm::dvec3>& points) const;
   [[nodiscard]] double correlation(const cv::Mat& luma, const WorkFrame& now, const Pose& pose,
                                    const std::vector<glm::dvec3>& points) const;
   [[nodiscard]] std::vector<glm::dvec3> surface(const HeadVertices& vertices) const;

@@ -65,12 +65,17 @@ PoseJacobian::PoseJacobian(const Pose& pose) : projection_(pose) {
   for (int k = 0; k < 3; ++k) {
     PoseStep d;
     d[k] = kStep;
-    by_angle_[static_cast<std::size_t>(k)] = (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
+    by_angle_[static_cast<std::size_t>(k)] =
+        (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
   }
 }
 
 std::array<glm::dvec2, 6> PoseJacobian::at(glm::dvec3 p) const {
-  return {glm::dvec2(by_angle_[0] * p), glm::dvec2(by_angle_[1] * p), glm::dvec2(by_angle_[2] * p), {1, 0}, {0, 1},
+  return {glm::dvec2(by_angle_[0] * p),
+          glm::dvec2(by_angle_[1] * p),
+          glm::dvec2(by_angle_[2] * p),
+          {1, 0},
+          {0, 1},
           std::log(2.0) * glm::dvec2(projection_.matrix * p)};
 }
 

@@ -1,5 +1,5 @@
-// What aligning the head's surface with a picture needs, whoever does it: points on the mesh, the picture's value and
-// slope, and how a projected point moves with the pose.
+// What aligning the head's surface with a picture needs, whoever does it: points on the mesh, the picture's
+// value and slope, and how a projected point moves with the pose.
 #pragma once
 
 #include <array>
@@ -28,9 +28,11 @@ struct SurfacePoint {
 
 /// Points spread evenly over the mesh as `projection` sees it.
 /// @param spacing_px  between neighbours, pixels of the picture
-/// @param mouth_rows  points across each triangle of the mouth's inside at least, which may be a mere line now
-[[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices, const PoseProjection& projection,
-                                                         double spacing_px, int mouth_rows = 1);
+/// @param mouth_rows  points across each triangle of the mouth's inside at least, which may be a mere line
+/// now
+[[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices,
+                                                         const PoseProjection& projection, double spacing_px,
+                                                         int mouth_rows = 1);
 
 /// Bilinear value and central-difference slope of an 8-bit picture.
 struct Sample {
@@ -39,12 +41,13 @@ struct Sample {
 /// @return false within two pixels of the border and outside
 [[nodiscard]] bool sample_with_slope(const cv::Mat& picture, glm::dvec2 at, Sample& out);
 
-/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; turns are kept within what
-/// still shows a face.
+/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; turns are kept within
+/// what still shows a face.
 using PoseStep = cv::Vec<double, 6>;
 [[nodiscard]] Pose moved(const Pose& pose, const PoseStep& step);
 
-/// Derivatives of a projected point by the six numbers of PoseStep: the rotations' by difference, the rest exact.
+/// Derivatives of a projected point by the six numbers of PoseStep: the rotations' by difference, the rest
+/// exact.
 class PoseJacobian {
  public:
   explicit PoseJacobian(const Pose& pose);

@@ -34,9 +34,13 @@ Result<Marks> landmarks_of(const nlohmann::json& list) {
 
 }  // namespace
 
-std::optional<glm::dvec2> Marks::landmark(int ibug) const { return vertex[vertex_of(ibug)]; }
+std::optional<glm::dvec2> Marks::landmark(int ibug) const {
+  return vertex[vertex_of(ibug)];
+}
 
-void Marks::set_landmark(int ibug, glm::dvec2 p) { vertex[vertex_of(ibug)] = p; }
+void Marks::set_landmark(int ibug, glm::dvec2 p) {
+  vertex[vertex_of(ibug)] = p;
+}
 
 std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
   std::array<glm::dvec2, 2> centre{};
@@ -71,7 +75,8 @@ Result<Marks> read_marks(const std::string& path) {
     const auto vertices = generic_head().vertices;
     const auto found =
         std::find_if(vertices.begin(), vertices.end(), [&](const HeadVertex& v) { return v.name == name; });
-    if (found == vertices.end()) return fail(ErrorCode::kInvalidArgument, "no vertex is named \"" + name + "\"");
+    if (found == vertices.end())
+      return fail(ErrorCode::kInvalidArgument, "no vertex is named \"" + name + "\"");
     const auto p = point_of(value);
     if (!p) return fail(ErrorCode::kInvalidArgument, "\"" + name + "\" is not [x, y]");
     marks.vertex[static_cast<std::size_t>(found - vertices.begin())] = *p;

@@ -13,8 +13,8 @@
 
 namespace fbs {
 
-/// Where vertices of the generic head are seen, pixels (the first pixel's centre is 0.5, 0.5). Not all need a mark,
-/// but both eyes (any lid point or corner of each) must have one.
+/// Where vertices of the generic head are seen, pixels (the first pixel's centre is 0.5, 0.5). Not all need a
+/// mark, but both eyes (any lid point or corner of each) must have one.
 struct Marks {
   std::array<std::optional<glm::dvec2>, kVertexCount> vertex;
 
@@ -29,9 +29,9 @@ struct Marks {
 /// {"landmarks": [[x, y] x 68]} in iBUG-68 order. Unknown names are an error.
 [[nodiscard]] Result<Marks> read_marks(const std::string& path);
 
-/// Marks a found face from image evidence: eyes and pupils, brows, nose base, mouth line, corners and lips, chin,
-/// face sides. Each point is searched near where the generic head has it and stays within anatomical limits; where
-/// the picture says nothing, the proportion is kept.
+/// Marks a found face from image evidence: eyes and pupils, brows, nose base, mouth line, corners and lips,
+/// chin, face sides. Each point is searched near where the generic head has it and stays within anatomical
+/// limits; where the picture says nothing, the proportion is kept.
 [[nodiscard]] Marks find_marks(const Picture& picture, const FoundFace& face);
 
 }  // namespace fbs

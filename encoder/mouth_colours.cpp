@@ -54,7 +54,9 @@ MouthInterior MouthColours::colours() const {
   MouthInterior mouth;
   const auto mean = [](const Sum& s, YuvColour& c) {
     if (s.count < kEnough) return;
-    const auto of = [&](std::size_t k) { return static_cast<std::uint8_t>((s.yuv[k] + s.count / 2) / s.count); };
+    const auto of = [&](std::size_t k) {
+      return static_cast<std::uint8_t>((s.yuv[k] + s.count / 2) / s.count);
+    };
     c = {of(0), of(1), of(2)};
   };
   mean(upper_, mouth.upper);

@@ -11,13 +11,14 @@ namespace fbs {
 
 class MouthColours {
  public:
-  /// Adds what a picture shows between parted lips: the darkest place on the mouth's middle line, and what lies half way
-  /// from there to the upper inner lip, where teeth are. Only the outer lips are trusted to say that the mouth is open.
+  /// Adds what a picture shows between parted lips: the darkest place on the mouth's middle line, and what
+  /// lies half way from there to the upper inner lip, where teeth are. Only the outer lips are trusted to say
+  /// that the mouth is open.
   /// @param vertices  where the head's vertices are seen, 1/64 pixel
   /// @param rest_height  between the outer lips' middles in the pattern, 1/64 pixel
   /// @param eye_distance_px  of the head as it is seen
-  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices, std::int32_t rest_height,
-           double eye_distance_px);
+  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices,
+           std::int32_t rest_height, double eye_distance_px);
 
   /// Means at the upper and at the lower lip; MouthInterior's defaults until enough has been seen.
   [[nodiscard]] MouthInterior colours() const;

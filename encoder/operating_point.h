@@ -6,9 +6,9 @@
 namespace fbs {
 
 struct OperatingPoint {
-  int pattern_quantiser;   ///< libaom's scale, 0..63
+  int pattern_quantiser;  ///< libaom's scale, 0..63
   QuantiserSteps steps;
-  double lambda;           ///< squared luma levels per bit of motion
+  double lambda;  ///< squared luma levels per bit of motion
 
   /// @param quality          0..100
   /// @param eye_distance_px  in the scene's first picture: steps are a share of a pixel where it matters

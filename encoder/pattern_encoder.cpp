@@ -16,9 +16,12 @@ void copy_plane(const Plane& from, aom_image_t& image, int plane) {
 
 aom_matrix_coefficients_t matrix_of(ColourMatrix m) {
   switch (m) {
-    case ColourMatrix::kBt601: return AOM_CICP_MC_BT_601;
-    case ColourMatrix::kBt709: return AOM_CICP_MC_BT_709;
-    case ColourMatrix::kUnspecified: break;
+    case ColourMatrix::kBt601:
+      return AOM_CICP_MC_BT_601;
+    case ColourMatrix::kBt709:
+      return AOM_CICP_MC_BT_709;
+    case ColourMatrix::kUnspecified:
+      break;
   }
   return AOM_CICP_MC_UNSPECIFIED;
 }
@@ -69,11 +72,11 @@ Result<PatternEncoder> PatternEncoder::create(const VideoFormat& format, int qua
   const auto set = [&](int key, int value) {
     return aom_codec_control(&context->codec, key, value) == AOM_CODEC_OK;
   };
-  const bool configured =
-      set(AOME_SET_CPUUSED, 2) && set(AOME_SET_CQ_LEVEL, quantiser) && set(AV1E_SET_ROW_MT, 0) &&
-      set(AV1E_SET_ENABLE_ORDER_HINT, 0) &&
-      set(AV1E_SET_COLOR_RANGE, format.range == ColourRange::kFull ? AOM_CR_FULL_RANGE : AOM_CR_STUDIO_RANGE) &&
-      set(AV1E_SET_MATRIX_COEFFICIENTS, matrix_of(format.matrix));
+  const bool configured = set(AOME_SET_CPUUSED, 2) && set(AOME_SET_CQ_LEVEL, quantiser) &&
+                          set(AV1E_SET_ROW_MT, 0) && set(AV1E_SET_ENABLE_ORDER_HINT, 0) &&
+                          set(AV1E_SET_COLOR_RANGE,
+                              format.range == ColourRange::kFull ? AOM_CR_FULL_RANGE : AOM_CR_STUDIO_RANGE) &&
+                          set(AV1E_SET_MATRIX_COEFFICIENTS, matrix_of(format.matrix));
   if (!configured) return fail(ErrorCode::kInternal, "libaom refuses a setting");
   if (aom_img_alloc(&context->image, AOM_IMG_FMT_I420, config.g_w, config.g_h, 32) == nullptr)
     return fail(ErrorCode::kInternal, "out of memory");
@@ -93,8 +96,8 @@ Result<std::vector<std::uint8_t>> PatternEncoder::encode(const Picture& picture)
   aom_codec_iter_t iterator = nullptr;
   while (const aom_codec_cx_pkt_t* packet = aom_codec_get_cx_data(&c.codec, &iterator)) {
     if (packet->kind != AOM_CODEC_CX_FRAME_PKT) continue;
-    const auto unit = without_delimiter(
-        {static_cast<const std::uint8_t*>(packet->data.frame.buf), packet->data.frame.sz});
+    const auto unit =
+        without_delimiter({static_cast<const std::uint8_t*>(packet->data.frame.buf), packet->data.frame.sz});
     out.insert(out.end(), unit.begin(), unit.end());
   }
   if (out.empty()) return fail(ErrorCode::kInternal, "libaom kept a pattern back");

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kPointSpacing = 2.5;  // work pixels
 constexpr int kMouthRows = 5;
-constexpr double kNoise = 6;           // grey levels: what differs by this much is as likely as not meant
-constexpr double kHuber = 24;          // grey levels; larger differences (teeth, shadows) pull with constant force
+constexpr double kNoise = 6;   // grey levels: what differs by this much is as likely as not meant
+constexpr double kHuber = 24;  // grey levels; larger differences (teeth, shadows) pull with constant force
 // Standard deviations of what is believed before looking, as shares of the eye distance or radians.
-constexpr double kPoseNear = 0.03;     // of the tracked pose
-constexpr double kControlNear = 0.02;  // of the tracked control points
+constexpr double kPoseNear = 0.03;       // of the tracked pose
+constexpr double kControlNear = 0.02;    // of the tracked control points
 constexpr double kInnerLipNear = 0.006;  // of the tracked inner lips: they show best where they are
-constexpr double kControlRest = 0.12;  // of control points about rest
-constexpr int kSteps[] = {3, 2};       // per level, fine level first
+constexpr double kControlRest = 0.12;    // of control points about rest
+constexpr int kSteps[] = {3, 2};         // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 
 std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
@@ -25,7 +25,9 @@ std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
   return out;
 }
 
-glm::dvec2 on_level(glm::dvec2 work, int level) { return work / static_cast<double>(1 << level); }
+glm::dvec2 on_level(glm::dvec2 work, int level) {
+  return work / static_cast<double>(1 << level);
+}
 
 /// Area of a triangle on the screen; zero when it faces away.
 double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
@@ -35,7 +37,8 @@ double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
 
 }  // namespace
 
-PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern, const State& seen)
+PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern,
+                       const State& seen)
     : steps_(setup.steps), geometry_(geometry), column_(kControlCount, -1) {
   const GenericHead& head = generic_head();
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
@@ -57,7 +60,8 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
     float ramp = -1;
     if (inside_mouth) {
       ramp = 0;
-      for (std::size_t k = 0; k < 3; ++k) ramp += p.barycentric[k] * static_cast<float>(mouth_ramp(p.corner[k])) / 256;
+      for (std::size_t k = 0; k < 3; ++k)
+        ramp += p.barycentric[k] * static_cast<float>(mouth_ramp(p.corner[k])) / 256;
     }
     mouth_ramp_.push_back(ramp);
   }
@@ -67,11 +71,13 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(p.corner[k]);
       for (std::size_t w = head.spread_begin[v]; w < head.spread_begin[v + 1]; ++w)
-        sum[static_cast<std::size_t>(head.spread[w].control)] += static_cast<double>(p.barycentric[k]) * head.spread[w].weight / kSpreadOne;
+        sum[static_cast<std::size_t>(head.spread[w].control)] +=
+            static_cast<double>(p.barycentric[k]) * head.spread[w].weight / kSpreadOne;
     }
     std::vector<Share> shares;
     for (std::size_t c = 0; c < kControlCount; ++c)
-      if (column_[c] >= 0 && std::abs(sum[c]) > 0.01) shares.push_back({static_cast<std::int16_t>(c), static_cast<float>(sum[c])});
+      if (column_[c] >= 0 && std::abs(sum[c]) > 0.01)
+        shares.push_back({static_cast<std::int16_t>(c), static_cast<float>(sum[c])});
     shares_.push_back(std::move(shares));
   }
   const auto luma = two_levels(pattern.luma);
@@ -105,7 +111,8 @@ HeadVertices PictureFit::deformed(const Fit& fit) const {
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     glm::dvec2 d(0);
     for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-      d += static_cast<double>(head.spread[k].weight) * fit.offsets[static_cast<std::size_t>(head.spread[k].control)];
+      d += static_cast<double>(head.spread[k].weight) *
+           fit.offsets[static_cast<std::size_t>(head.spread[k].control)];
     out[v] = glm::dvec3(geometry_.positions[v]) + glm::dvec3(d / static_cast<double>(kSpreadOne), 0);
   }
   return out;
@@ -158,7 +165,8 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
     const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
     row.clear();
     const auto by_pose = jacobian.at(p);
-    for (std::size_t m = 0; m < 6; ++m) row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
+    for (std::size_t m = 0; m < 6; ++m)
+      row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
     const double by_x = to_level * (s.dx * ex.x + s.dy * ex.y), by_y = to_level * (s.dx * ey.x + s.dy * ey.y);
     for (const Share& share : shares_[k]) {
       const auto column = static_cast<std::size_t>(column_[static_cast<std::size_t>(share.control)]);
@@ -209,11 +217,13 @@ double PictureFit::distortion(const State& state) const {
     const auto corner = [&](std::size_t i) { return at[static_cast<std::size_t>(p.corner[i])]; };
     if (p.triangle != triangle) {
       triangle = p.triangle;
-      weight = visible_area(corner(0), corner(1), corner(2)) / points_on_triangle_[static_cast<std::size_t>(triangle)];
+      weight = visible_area(corner(0), corner(1), corner(2)) /
+               points_on_triangle_[static_cast<std::size_t>(triangle)];
     }
     const double value = shown(k, 0, shade);
     if (weight <= 0 || value < 0) continue;
-    const glm::dvec2 x = static_cast<double>(p.barycentric[0]) * corner(0) + static_cast<double>(p.barycentric[1]) * corner(1) +
+    const glm::dvec2 x = static_cast<double>(p.barycentric[0]) * corner(0) +
+                         static_cast<double>(p.barycentric[1]) * corner(1) +
                          static_cast<double>(p.barycentric[2]) * corner(2);
     if (!(x.x >= 0 && x.y >= 0 && x.x < luma.cols - 1.001 && x.y < luma.rows - 1.001)) continue;
     const int i = static_cast<int>(x.x), j = static_cast<int>(x.y);

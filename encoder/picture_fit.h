@@ -1,4 +1,5 @@
-// Fits the state to what the viewer will see: pattern against picture, at points spread over the mesh. Design section 6.
+// Fits the state to what the viewer will see: pattern against picture, at points spread over the mesh. Design
+// section 6.
 #pragma once
 
 #include <vector>
@@ -15,8 +16,8 @@ struct Fit {
   std::array<glm::dvec2, kControlCount> offsets{};
 };
 
-/// Compares the pattern, smeared on the moved mesh, with a picture. Works at the work frame's size, whatever the size
-/// of the picture.
+/// Compares the pattern, smeared on the moved mesh, with a picture. Works at the work frame's size, whatever
+/// the size of the picture.
 class PictureFit {
  public:
   /// @param pattern  work frame of the decoded pattern, cut like those of the later pictures
@@ -28,12 +29,12 @@ class PictureFit {
   /// @param mouth  luma that the decoder shows inside the mouth, as far as is known
   void look_at(const WorkFrame& picture, const MouthInterior& mouth);
 
-  /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to fine,
-  /// held near `start` where the picture says nothing and near rest everywhere.
+  /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to
+  /// fine, held near `start` where the picture says nothing and near rest everywhere.
   [[nodiscard]] Fit refine(const Fit& start) const;
 
-  /// Sum of squared luma differences over the face that the decoder would show in this state, estimated from the
-  /// points; in samples of the full picture.
+  /// Sum of squared luma differences over the face that the decoder would show in this state, estimated from
+  /// the points; in samples of the full picture.
   [[nodiscard]] double distortion(const State& state) const;
 
  private:
@@ -47,19 +48,20 @@ class PictureFit {
   /// One Gauss-Newton step on one level; false when it cannot be solved.
   bool step(int level, const Fit& start, Fit& fit) const;
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
-  /// What the decoder shows at a point: the pattern, or the mouth's inside by as much as the lips have parted.
+  /// What the decoder shows at a point: the pattern, or the mouth's inside by as much as the lips have
+  /// parted.
   [[nodiscard]] double shown(std::size_t point, int level, std::int32_t shade) const;
 
   QuantiserSteps steps_;
   Geometry geometry_;
   std::vector<SurfacePoint> points_;
-  std::vector<std::vector<Share>> shares_;                 ///< of each point, active control points only
-  std::array<std::vector<float>, kLevels> pattern_luma_;   ///< at each point; negative outside
-  std::vector<int> column_;                                ///< of a control point's x in the normal equations, or -1
+  std::vector<std::vector<Share>> shares_;                ///< of each point, active control points only
+  std::array<std::vector<float>, kLevels> pattern_luma_;  ///< at each point; negative outside
+  std::vector<int> column_;  ///< of a control point's x in the normal equations, or -1
   int unknowns_ = 6;
   std::vector<int> points_on_triangle_;
-  std::vector<float> mouth_ramp_;                          ///< of each point, 0 upper to 1 lower lip; negative: not inside
-  std::int32_t gap_seen_ = 0;                              ///< mouth_gap() of the pattern
+  std::vector<float> mouth_ramp_;  ///< of each point, 0 upper to 1 lower lip; negative: not inside
+  std::int32_t gap_seen_ = 0;      ///< mouth_gap() of the pattern
   WorkFrame picture_;
   MouthInterior mouth_;
   std::array<cv::Mat, kLevels> luma_;

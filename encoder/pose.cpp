@@ -14,7 +14,9 @@ std::int32_t to_steps(double value, double unit, std::int32_t step) {
 
 }  // namespace
 
-double Pose::eye_distance_px() const { return std::exp2(log2_scale); }
+double Pose::eye_distance_px() const {
+  return std::exp2(log2_scale);
+}
 
 PoseProjection::PoseProjection(const Pose& pose) : shift(pose.shift) {
   const double sp = std::sin(pose.pitch), cp = std::cos(pose.pitch);
@@ -22,13 +24,15 @@ PoseProjection::PoseProjection(const Pose& pose) : shift(pose.shift) {
   const double sr = std::sin(pose.roll), cr = std::cos(pose.roll);
   const double s = pose.eye_distance_px() / kUnitsPerEyeDistance;
   // glm is column-major: each constructor row below is one column of the matrix.
-  matrix = glm::dmat3(cr * cy, sr * cy, -sy,                                      //
+  matrix = glm::dmat3(cr * cy, sr * cy, -sy,                                    //
                       cr * sy * sp - sr * cp, sr * sy * sp + cr * cp, cy * sp,  //
                       cr * sy * cp + sr * sp, sr * sy * cp - cr * sp, cy * cp) *
            s;
 }
 
-glm::dvec2 PoseProjection::operator()(glm::dvec3 p) const { return glm::dvec2(matrix * p) + shift; }
+glm::dvec2 PoseProjection::operator()(glm::dvec3 p) const {
+  return glm::dvec2(matrix * p) + shift;
+}
 
 std::array<std::int32_t, kPoseCount> quantise(const Pose& pose, const QuantiserSteps& steps) {
   std::array<std::int32_t, kPoseCount> q{};

@@ -1,4 +1,5 @@
-// Head pose as the analysis sees it: continuous, radians and pixels. The stream's integers are HeadPose and State.
+// Head pose as the analysis sees it: continuous, radians and pixels. The stream's integers are HeadPose and
+// State.
 #pragma once
 
 #include <glm/mat3x3.hpp>

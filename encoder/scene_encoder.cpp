@@ -17,13 +17,14 @@ namespace {
 
 constexpr double kLookaheadSeconds = 2;  // that the surround's map is learned from
 constexpr std::size_t kSurroundPictures = 12;
-constexpr double kLostBelow = 0.55;       // correlation under which a pose is not believed
-constexpr int kSearchEvery = 5;           // pictures, while the face is lost
-constexpr double kRelax = 0.85;           // what remains of the expression per picture while the face is lost
+constexpr double kLostBelow = 0.55;  // correlation under which a pose is not believed
+constexpr int kSearchEvery = 5;      // pictures, while the face is lost
+constexpr double kRelax = 0.85;      // what remains of the expression per picture while the face is lost
 
-/// Marks that the snakes have corrected: where the curves came to rest on the first picture, lips and lids get new
-/// marks, unless a curve has strayed. Then the head is adapted again. Brows keep theirs: a brow's snake on a small
-/// face may settle on the lid or the hair (claire: brow error 19 % -> 33 % of the eye distance).
+/// Marks that the snakes have corrected: where the curves came to rest on the first picture, lips and lids
+/// get new marks, unless a curve has strayed. Then the head is adapted again. Brows keep theirs: a brow's
+/// snake on a small face may settle on the lid or the hair (claire: brow error 19 % -> 33 % of the eye
+/// distance).
 Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
   constexpr double kStrayed = 0.12;  // eye distances
   auto adapted = adapt_head(marks);
@@ -33,8 +34,10 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
   const PoseProjection projection(adapted->pose);
   for (const auto& [vertex, place] : FeatureTracker(adapted->geometry, adapted->pose, frame).vertices()) {
     const int on = generic_head().vertices[vertex].feature;
-    if (on == static_cast<int>(FeatureId::kBrowRight) || on == static_cast<int>(FeatureId::kBrowLeft)) continue;
-    const glm::dvec2 seen = projection(place), was = projection(glm::dvec3(adapted->geometry.positions[vertex]));
+    if (on == static_cast<int>(FeatureId::kBrowRight) || on == static_cast<int>(FeatureId::kBrowLeft))
+      continue;
+    const glm::dvec2 seen = projection(place),
+                     was = projection(glm::dvec3(adapted->geometry.positions[vertex]));
     if (std::hypot(seen.x - was.x, seen.y - was.y) < kStrayed * eye) marks.vertex[vertex] = seen;
   }
   return adapt_head(marks);
@@ -43,7 +46,8 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
 FeatureMask mask_of(bool snakes) {
   FeatureMask mask = 0;
   if (snakes)
-    for (const FeatureId id : kSnakeFeatures) mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
+    for (const FeatureId id : kSnakeFeatures)
+      mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
   // Pupils have no curve; the fit to the picture finds them.
   if (snakes)
     for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
@@ -59,7 +63,9 @@ double pictures_per_second(const VideoFormat& f) {
 
 SceneEncoder::SceneEncoder(const VideoFormat& format, const EncoderSettings& settings) : settings_(settings) {
   const double fps = pictures_per_second(format);
-  group_pictures_ = settings.group_pictures > 0 ? settings.group_pictures : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
+  group_pictures_ = settings.group_pictures > 0
+                        ? settings.group_pictures
+                        : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
   lookahead_ = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
   scene_.setup.format = format;
 }
@@ -81,29 +87,32 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.geometry_bytes_ = std::move(geometry->payload);
   scene.seen_.pose = quantise(adapted->pose, point.steps);
   // Until pictures have shown better, the surround is a guess by distance from the face.
-  scene.scene_.geometry.emplace(scene.scene_.setup, geometry->decoded,
-                                fit_surround(scene.scene_.setup, geometry->decoded, {&first, scene.seen_}, {}),
-                                scene.seen_);
+  scene.scene_.geometry.emplace(
+      scene.scene_.setup, geometry->decoded,
+      fit_surround(scene.scene_.setup, geometry->decoded, {&first, scene.seen_}, {}), scene.seen_);
   const Pose seen_pose = dequantise(scene.seen_, point.steps);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
   scene.lambda_ = point.lambda;
   scene.state_ = scene.seen_;
   scene.first_ = first;
-  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return tl::unexpected<Error>(added.error());
-  const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift, scene.eye_distance_px_, false);
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
+    return tl::unexpected<Error>(added.error());
+  const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
+                                           scene.eye_distance_px_, false);
   scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
   scene.coder_.emplace(scene.scene_.setup);
   scene.counter_.emplace(*scene.coder_, true);
   return scene;
 }
 
-Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format, const EncoderSettings& settings,
-                                                      const Picture& first) {
+Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format,
+                                                      const EncoderSettings& settings, const Picture& first) {
   SceneEncoder scene(format, settings);
   const OperatingPoint point = OperatingPoint::at(settings.quality, 64);
   scene.scene_.setup.steps = point.steps;
-  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return tl::unexpected<Error>(added.error());
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
+    return tl::unexpected<Error>(added.error());
   scene.coder_.emplace(scene.scene_.setup);
   return scene;
 }
@@ -121,7 +130,8 @@ Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   auto payload = encode_pattern({0, seen_, std::move(*av1)}, scene_.setup);
   if (!payload) return tl::unexpected<Error>(payload.error());
   pattern_bytes_ = std::move(*payload);
-  scene_.patterns.push_back({std::move(*decoded), scene_.geometry ? scene_.geometry->project(seen_) : ScreenMesh{}});
+  scene_.patterns.push_back(
+      {std::move(*decoded), scene_.geometry ? scene_.geometry->project(seen_) : ScreenMesh{}});
   return {};
 }
 
@@ -159,7 +169,8 @@ State SceneEncoder::analyse(const Picture& picture) {
     for (glm::ivec2& c : wanted.control)
       c = {static_cast<int>(std::lround(c.x * kRelax)), static_cast<int>(std::lround(c.y * kRelax))};
     std::array<glm::dvec2, kControlCount> offsets;
-    for (std::size_t i = 0; i < kControlCount; ++i) offsets[i] = glm::dvec2(wanted.control[i] * steps.control);
+    for (std::size_t i = 0; i < kControlCount; ++i)
+      offsets[i] = glm::dvec2(wanted.control[i] * steps.control);
     features_->set_offsets(offsets);
     return wanted;
   }
@@ -193,7 +204,8 @@ State SceneEncoder::quantised(const Pose& pose, const std::array<glm::dvec2, kCo
 void SceneEncoder::report(const State& state) {
   analysis_.face = true;
   const auto points = scene_.geometry->project_vertices(state);
-  for (std::size_t v = 0; v < kVertexCount; ++v) analysis_.vertices[v] = glm::dvec2(points[v].x, points[v].y) / 64.0;
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    analysis_.vertices[v] = glm::dvec2(points[v].x, points[v].y) / 64.0;
   const PoseProjection projection(head_->pose());
   analysis_.snakes.clear();
   analysis_.iterations.clear();
@@ -207,15 +219,18 @@ void SceneEncoder::report(const State& state) {
 
 Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) {
   if (scene_.geometry) {
-    if (pictures_ > 0) state_ = analyse(picture);
-    else analysis_.confidence = 1;
+    if (pictures_ > 0)
+      state_ = analyse(picture);
+    else
+      analysis_.confidence = 1;
     report(state_);
     counter_->push(state_);
     if (!started_) {
       mouth_colours_.add(picture, scene_.geometry->project_vertices(state_),
                          mouth_height(scene_.geometry->project_vertices(seen_)), eye_distance_px_);
     }
-    const auto every = static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
+    const auto every =
+        static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
     if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state_);
   }
   group_.states.push_back(state_);
@@ -230,7 +245,8 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
 Result<void> SceneEncoder::end_group() {
   if (group_.states.empty()) return {};
   group_.key = coder_->needs_key();
-  const bool constant = std::all_of(group_.durations.begin(), group_.durations.end(), [](std::uint32_t d) { return d == 0; });
+  const bool constant =
+      std::all_of(group_.durations.begin(), group_.durations.end(), [](std::uint32_t d) { return d == 0; });
   if (constant) group_.durations.clear();
   for (std::uint32_t& d : group_.durations)
     if (d == 0) d = nominal_duration(scene_.setup.format.frame_rate);
@@ -273,6 +289,8 @@ Result<void> SceneEncoder::finish() {
   return started_ ? Result<void>{} : start();
 }
 
-std::vector<std::uint8_t> SceneEncoder::take() { return std::exchange(ready_, {}); }
+std::vector<std::uint8_t> SceneEncoder::take() {
+  return std::exchange(ready_, {});
+}
 
 }  // namespace fbs

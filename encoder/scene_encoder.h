@@ -22,8 +22,8 @@ class SceneEncoder {
  public:
   /// A scene that begins with a face.
   /// @param finder  used again when the face is lost; must outlive the object
-  static Result<SceneEncoder> begin(const VideoFormat& format, const EncoderSettings& settings, const FaceFinder& finder,
-                                    const Picture& first, const Marks& marks);
+  static Result<SceneEncoder> begin(const VideoFormat& format, const EncoderSettings& settings,
+                                    const FaceFinder& finder, const Picture& first, const Marks& marks);
 
   /// A scene without a face: the picture is shown as it is as long as it lasts.
   static Result<SceneEncoder> begin_without_face(const VideoFormat& format, const EncoderSettings& settings,
@@ -54,8 +54,8 @@ class SceneEncoder {
   int group_pictures_ = 30;
   int lookahead_ = 60;
 
-  Scene scene_;                            ///< as the decoder has it; until start() the surround's map is a guess
-  State seen_;                             ///< of pattern 0
+  Scene scene_;  ///< as the decoder has it; until start() the surround's map is a guess
+  State seen_;   ///< of pattern 0
   double eye_distance_px_ = 0;
   std::optional<HeadTracker> head_;
   std::optional<FeatureTracker> features_;
@@ -70,10 +70,10 @@ class SceneEncoder {
   std::uint64_t pictures_ = 0;
 
   MouthColours mouth_colours_;
-  std::optional<Picture> first_;           ///< kept until the surround has been fitted
+  std::optional<Picture> first_;  ///< kept until the surround has been fitted
   std::vector<std::pair<Picture, State>> later_;
   std::vector<std::uint8_t> geometry_bytes_, pattern_bytes_;
-  std::vector<std::uint8_t> held_back_;    ///< motion packets that wait for the scene's start
+  std::vector<std::uint8_t> held_back_;  ///< motion packets that wait for the scene's start
   std::vector<std::uint8_t> ready_;
   bool started_ = false;
   PictureAnalysis analysis_;

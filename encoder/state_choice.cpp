@@ -18,7 +18,8 @@ void take_part(State& state, const State& from, int part) {
 
 }  // namespace
 
-State choose_state(std::span<const State> candidates, const PictureFit& fit, const MotionCounter& counter, double lambda) {
+State choose_state(std::span<const State> candidates, const PictureFit& fit, const MotionCounter& counter,
+                   double lambda) {
   const auto judge = [&](const State& s) { return fit.distortion(s) + lambda * counter.cost(s) / 256; };
   State best = candidates.front();
   double best_cost = judge(best);

@@ -12,14 +12,17 @@ namespace fbs {
 namespace {
 
 constexpr int kCellsAlongLongSide = 22;
-constexpr double kMaxDifference = 45;  // grey levels; what differs more is something else that has come into view
-constexpr int kSamplesAcross = 9;      // of a block, each way
+constexpr double kMaxDifference =
+    45;                            // grey levels; what differs more is something else that has come into view
+constexpr int kSamplesAcross = 9;  // of a block, each way
 constexpr int kLevels = kFollowOne + 1;
-constexpr double kSmooth = 12;  // cost of one level between neighbours, in mean squared grey levels of a block
-constexpr double kPrior = 4;    // cost of one level away from the guess by distance
+constexpr double kSmooth =
+    12;                       // cost of one level between neighbours, in mean squared grey levels of a block
+constexpr double kPrior = 4;  // cost of one level away from the guess by distance
 
 double at(const Plane& p, double x, double y) {
-  const double cx = std::clamp(x - 0.5, 0.0, p.width - 1.001), cy = std::clamp(y - 0.5, 0.0, p.height - 1.001);
+  const double cx = std::clamp(x - 0.5, 0.0, p.width - 1.001),
+               cy = std::clamp(y - 0.5, 0.0, p.height - 1.001);
   const int i = static_cast<int>(cx), j = static_cast<int>(cy);
   const double fx = cx - i, fy = cy - j;
   const std::uint8_t *a = p.row(j) + i, *b = p.row(j + 1) + i;
@@ -28,7 +31,8 @@ double at(const Plane& p, double x, double y) {
 
 using Costs = std::array<double, kLevels>;
 
-/// By distance alone: inside an ellipse that holds face and hair all follows, beyond twice its size nothing does.
+/// By distance alone: inside an ellipse that holds face and hair all follows, beyond twice its size nothing
+/// does.
 double guess(const Pose& seen, glm::dvec2 p) {
   const double e = seen.eye_distance_px(), c = std::cos(seen.roll), s = std::sin(seen.roll);
   const glm::dvec2 d = (p - seen.shift) / e;
@@ -66,8 +70,10 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
           const double was = at(first.picture->y, x, y);
           for (int level = 0; level < kLevels; ++level) {
             const double share = level / static_cast<double>(kFollowOne);
-            const double r = std::min(kMaxDifference, std::abs(at(seen.picture->y, x + share * d.x, y + share * d.y) - was));
-            data[k][static_cast<std::size_t>(level)] += r * r / (kSamplesAcross * kSamplesAcross * static_cast<double>(later.size()));
+            const double r = std::min(kMaxDifference,
+                                      std::abs(at(seen.picture->y, x + share * d.x, y + share * d.y) - was));
+            data[k][static_cast<std::size_t>(level)] +=
+                r * r / (kSamplesAcross * kSamplesAcross * static_cast<double>(later.size()));
           }
         }
       }
@@ -79,7 +85,8 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
     const double g = guess(seen_pose, glm::dvec2(regular[k]) / 64.0);
     for (int level = 0; level < kLevels; ++level)
       data[k][static_cast<std::size_t>(level)] += kPrior * std::abs(level - g);
-    map.follow[k] = static_cast<std::uint8_t>(std::min_element(data[k].begin(), data[k].end()) - data[k].begin());
+    map.follow[k] =
+        static_cast<std::uint8_t>(std::min_element(data[k].begin(), data[k].end()) - data[k].begin());
   }
   const auto border = [&](int r, int c) { return r == 0 || c == 0 || r == map.rows || c == map.columns; };
   for (int sweep = 0; sweep < 6; ++sweep) {

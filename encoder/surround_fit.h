@@ -14,9 +14,10 @@ struct SeenPicture {
   State state;
 };
 
-/// For each point of the grid, which share of the head's motion explains best where the first picture's surroundings
-/// of that point are found in the later pictures; smoothed so that neighbours agree, and by distance from the face
-/// where nothing tells. Method: iterated conditional modes (Besag 1986) on the blocks' truncated squared differences.
+/// For each point of the grid, which share of the head's motion explains best where the first picture's
+/// surroundings of that point are found in the later pictures; smoothed so that neighbours agree, and by
+/// distance from the face where nothing tells. Method: iterated conditional modes (Besag 1986) on the blocks'
+/// truncated squared differences.
 /// @param first   the first picture and its state
 /// @param later   pictures to learn from; a dozen is enough; none: the guess by distance alone
 [[nodiscard]] SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const SeenPicture& first,

@@ -9,10 +9,12 @@
 namespace fbs {
 namespace {
 
-/// Half width and half height of the crop, eye distances; the centre is between the eyes, moved down by kDown.
+/// Half width and half height of the crop, eye distances; the centre is between the eyes, moved down by
+/// kDown.
 constexpr double kHalfWidth = 2.1, kHalfHeight = 2.5, kDown = 0.6;
 
-/// Cuts [x0, x0 + w) x [y0, y0 + h) (plane samples, whole) out of a plane, repeating its border, and resizes it.
+/// Cuts [x0, x0 + w) x [y0, y0 + h) (plane samples, whole) out of a plane, repeating its border, and resizes
+/// it.
 cv::Mat resized_crop(const Plane& plane, int x0, int y0, int w, int h, cv::Size size) {
   const cv::Mat whole = view(plane);
   const cv::Rect wanted(x0, y0, w, h), inside = wanted & cv::Rect(0, 0, plane.width, plane.height);
@@ -32,7 +34,8 @@ cv::Mat resized_crop(const Plane& plane, int x0, int y0, int w, int h, cv::Size 
 
 }  // namespace
 
-WorkFrame WorkFrame::cut(const Picture& picture, glm::dvec2 centre, double eye_distance_px, bool with_colour) {
+WorkFrame WorkFrame::cut(const Picture& picture, glm::dvec2 centre, double eye_distance_px,
+                         bool with_colour) {
   // Whole even samples, so that luma and chroma cover the same area exactly.
   const auto even = [](double v) { return 2 * static_cast<int>(std::lround(v / 2)); };
   const int w = std::max(16, even(2 * kHalfWidth * eye_distance_px));
