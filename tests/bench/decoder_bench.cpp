@@ -105,7 +105,8 @@ void PatternDecode(benchmark::State& state) {
   reader.feed(stream);
   Setup setup;
   std::vector<std::uint8_t> av1;
-  for (auto read = reader.next(); read && read->status == ReadStatus::kPacket && av1.empty(); read = reader.next()) {
+  for (auto read = reader.next(); read && read->status == ReadStatus::kPacket && av1.empty();
+       read = reader.next()) {
     if (read->packet.type == PacketType::kSetup) setup = *decode_setup(read->packet.payload);
     if (read->packet.type == PacketType::kPattern) av1 = decode_pattern(read->packet.payload, setup)->av1;
   }

@@ -26,7 +26,8 @@ void SnakeMinimise(benchmark::State& state) {
     }
   }
   const SnakeCurve curve = SnakeCurve::closed(10, 40);
-  const SnakeWeights weights{.tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .contrast = 1, .change = 0.05};
+  const SnakeWeights weights{
+      .tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .contrast = 1, .change = 0.05};
   std::vector<glm::dvec2> start;
   for (int i = 0; i < 10; ++i) {
     const double a = 2 * std::numbers::pi * i / 10;
@@ -47,7 +48,8 @@ void HeadTrack(benchmark::State& state) {
   std::array<glm::dvec3, kVertexCount> neutral;
   for (std::size_t v = 0; v < kVertexCount; ++v) neutral[v] = glm::dvec3(head.geometry.positions[v]);
   std::vector<WorkFrame> frames;
-  for (int i = 0; i < clip.count(); ++i) frames.push_back(WorkFrame::cut(clip[i], head.pose.shift, eye, false));
+  for (int i = 0; i < clip.count(); ++i)
+    frames.push_back(WorkFrame::cut(clip[i], head.pose.shift, eye, false));
   HeadTracker tracker(head.geometry, head.pose, frames[0]);
   int i = 0, step = 1;
   for (auto _ : state) {  // to and fro, so that each picture follows its neighbour

@@ -29,7 +29,8 @@ std::vector<MotionGroup> groups(const Setup& setup, int count) {
     MotionGroup group{g == 0, {}, {}};
     for (std::size_t t = 0; t < kGroup; ++t) {
       for (std::size_t i = 0; i < kParameterCount; ++i)
-        if (random() % 8 == 0) flat[i] = std::clamp(flat[i] + static_cast<int>(random() % 5) - 2, limits.least[i], limits.most[i]);
+        if (random() % 8 == 0)
+          flat[i] = std::clamp(flat[i] + static_cast<int>(random() % 5) - 2, limits.least[i], limits.most[i]);
       group.states.push_back(unflatten(flat));
     }
     out.push_back(group);

@@ -1,5 +1,5 @@
-// Bytes to pictures. No engine guesses a CRC, so the checks of whole packets are put right first; then what is inside
-// them is fuzzed too.
+// Bytes to pictures. No engine guesses a CRC, so the checks of whole packets are put right first; then what
+// is inside them is fuzzed too.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -13,7 +13,7 @@ const std::uint8_t kSeedPacket = 0;
 
 namespace {
 
-constexpr int kLargest = 160;     // a side; what a larger picture would show, a small one shows sooner
+constexpr int kLargest = 160;  // a side; what a larger picture would show, a small one shows sooner
 constexpr int kMostPictures = 60;
 
 void put_checks_right(std::vector<std::uint8_t>& bytes) {
@@ -25,7 +25,8 @@ void put_checks_right(std::vector<std::uint8_t>& bytes) {
     const auto size = reader.varint();
     (void)reader.bytes(static_cast<std::size_t>(size));
     if (!reader.ok() || reader.remaining() < 2) return;
-    const std::uint16_t check = fbs::crc16(std::span<const std::uint8_t>(bytes).subspan(begin, reader.offset()));
+    const std::uint16_t check =
+        fbs::crc16(std::span<const std::uint8_t>(bytes).subspan(begin, reader.offset()));
     begin += reader.offset();
     bytes[begin++] = static_cast<std::uint8_t>(check >> 8);
     bytes[begin++] = static_cast<std::uint8_t>(check);
@@ -53,7 +54,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (std::max(decoder.format().width, decoder.format().height) > kLargest) break;
     decoder.render(picture);
     ++drawn;
-    require(picture.width() == decoder.format().width && picture.height() == decoder.format().height, "a picture of another size");
+    require(picture.width() == decoder.format().width && picture.height() == decoder.format().height,
+            "a picture of another size");
   }
   const fbs::ByteCount& b = decoder.bytes();
   require(b.geometry + b.patterns + b.motion + b.index + b.other == b.total, "bytes do not sum up");

@@ -15,9 +15,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const glm::ivec3& p : geometry->positions)
-    require(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= fbs::kMaxCoordinate, "a vertex beyond its limits");
+    require(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= fbs::kMaxCoordinate,
+            "a vertex beyond its limits");
   const auto coded = fbs::encode_geometry(*geometry, 1);
   require(coded.has_value(), "a head that was read cannot be written");
-  require(coded->payload.size() > fbs::kMaxGeometryPayload || *fbs::decode_geometry(coded->payload) == *geometry, "round trip");
+  require(
+      coded->payload.size() > fbs::kMaxGeometryPayload || *fbs::decode_geometry(coded->payload) == *geometry,
+      "round trip");
   return 0;
 }

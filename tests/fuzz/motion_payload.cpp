@@ -1,5 +1,6 @@
 // Bytes to states: what decodes is within the limits, and coded again it decodes to the same.
 #include "bitstream/motion_payload.h"
+
 #include "tests/fuzz/fuzz_target.h"
 
 const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kMotion);
@@ -17,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(read.error().code != fbs::ErrorCode::kInternal, "internal error");
         break;
       }
-      for (const fbs::State& s : read->states) require(reader.limits().hold(fbs::flatten(s)), "a state beyond its limits");
+      for (const fbs::State& s : read->states)
+        require(reader.limits().hold(fbs::flatten(s)), "a state beyond its limits");
       const auto written = writer.encode(*read);
       require(written.has_value(), "a group that was read cannot be written");
       require(*again.decode(*written) == *read, "round trip");

@@ -1,4 +1,5 @@
-// Bytes to packets: whatever arrives in whatever pieces, every packet lies in what was fed, and the end comes.
+// Bytes to packets: whatever arrives in whatever pieces, every packet lies in what was fed, and the end
+// comes.
 #include "bitstream/packet.h"
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,5 +1,6 @@
-// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] tries every .fbs file of the folder and ROUNDS mutations
-// of each with fixed seeds; TARGET --seeds FOLDER OUT writes the target's seeds as files, to begin a real corpus with.
+// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] tries every .fbs file of the folder and ROUNDS
+// mutations of each with fixed seeds; TARGET --seeds FOLDER OUT writes the target's seeds as files, to begin
+// a real corpus with.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -46,13 +47,25 @@ void mutate(Bytes& bytes, std::mt19937& random) {
     const std::size_t at = random() % bytes.size();
     const auto there = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     switch (random() % 6) {
-      case 0: bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1U << random() % 8); break;
-      case 1: bytes[at] = static_cast<std::uint8_t>(random()); break;
-      case 2: bytes[at] = random() % 2 == 0 ? 0x00 : 0xFF; break;
-      case 3: bytes.insert(there, static_cast<std::uint8_t>(random())); break;
-      case 4: bytes.erase(there, there + static_cast<std::ptrdiff_t>(std::min<std::size_t>(1 + random() % 4, bytes.size() - at))); break;
+      case 0:
+        bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1U << random() % 8);
+        break;
+      case 1:
+        bytes[at] = static_cast<std::uint8_t>(random());
+        break;
+      case 2:
+        bytes[at] = random() % 2 == 0 ? 0x00 : 0xFF;
+        break;
+      case 3:
+        bytes.insert(there, static_cast<std::uint8_t>(random()));
+        break;
+      case 4:
+        bytes.erase(there, there + static_cast<std::ptrdiff_t>(
+                                       std::min<std::size_t>(1 + random() % 4, bytes.size() - at)));
+        break;
       default: {
-        const std::size_t from = random() % bytes.size(), count = std::min<std::size_t>(random() % 16, bytes.size() - std::max(from, at));
+        const std::size_t from = random() % bytes.size(),
+                          count = std::min<std::size_t>(random() % 16, bytes.size() - std::max(from, at));
         std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count, there);
         break;
       }

@@ -22,7 +22,8 @@ Marks marks_of(const Pose& pose, Change&& change) {
   const PoseProjection projection(pose);
   Marks marks;
   for (std::size_t v = 0; v < kVertexCount; ++v)
-    if (generic_head().vertices[v].landmark >= 0) marks.vertex[v] = projection(glm::dvec3(change(v, generic(v)), 0));
+    if (generic_head().vertices[v].landmark >= 0)
+      marks.vertex[v] = projection(glm::dvec3(change(v, generic(v)), 0));
   return marks;
 }
 
@@ -38,7 +39,9 @@ Pose seen_at(double x, double y, double eye_distance, double roll = 0) {
   return pose;
 }
 
-double distance(glm::dvec2 a, glm::dvec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double distance(glm::dvec2 a, glm::dvec2 b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 /// Largest distance from a mark to its vertex, eye distances.
 double worst_mark(const Marks& marks, const AdaptedHead& head) {
@@ -53,7 +56,9 @@ double worst_mark(const Marks& marks, const AdaptedHead& head) {
 int folded_triangles(const Geometry& geometry) {
   int folded = 0;
   for (const HeadTriangle& t : generic_head().triangles) {
-    const auto at = [&](std::size_t i) { return glm::ivec2(geometry.positions[static_cast<std::size_t>(t[i])]); };
+    const auto at = [&](std::size_t i) {
+      return glm::ivec2(geometry.positions[static_cast<std::size_t>(t[i])]);
+    };
     const glm::ivec2 a = at(1) - at(0), b = at(2) - at(0);
     if (std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x <= 0) ++folded;
   }
@@ -77,7 +82,8 @@ TEST(EdgeDistances, AreAMetricOverTheMesh) {
 TEST(EdgeDistances, AreNoShorterThanTheStraightWay) {
   for (std::size_t a = 0; a < kVertexCount; ++a) {
     for (std::size_t b = 0; b < kVertexCount; ++b) {
-      const glm::dvec3 e = glm::dvec3(generic_head().vertices[a].position - generic_head().vertices[b].position) / 4096.0;
+      const glm::dvec3 e =
+          glm::dvec3(generic_head().vertices[a].position - generic_head().vertices[b].position) / 4096.0;
       ASSERT_GE(edge_distances()[a * kVertexCount + b], std::sqrt(e.x * e.x + e.y * e.y + e.z * e.z) - 1e-4);
     }
   }
@@ -142,7 +148,8 @@ TEST(AdaptHead, ReachesTheTalkersPoints) {
 TEST(AdaptHead, SpreadsAMarksForceOverItsNeighbourhood) {
   const auto mouth = static_cast<std::size_t>(generic_head().landmark_vertex[57]);  // middle of the lower lip
   const Marks marks = marks_of(seen_at(100, 80, 40), [&](std::size_t v, glm::dvec2 p) {
-    return p + glm::dvec2(0, generic_head().vertices[v].landmark >= 48 && p.y > generic(mouth).y - 600 ? 400 : 0);
+    return p +
+           glm::dvec2(0, generic_head().vertices[v].landmark >= 48 && p.y > generic(mouth).y - 600 ? 400 : 0);
   });
   Marks eyes_and_lip;
   for (int k = 36; k < 60; ++k)
@@ -188,7 +195,8 @@ TEST(AdaptHead, AbsurdMarksFoldNoTriangle) {
 TEST(AdaptHead, RefusesMarksWithoutAnEye) {
   Marks marks = plain_marks(seen_at(100, 80, 40));
   for (int k = 36; k < 42; ++k)
-    marks.vertex[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])].reset();
+    marks.vertex[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])]
+        .reset();
   EXPECT_EQ(adapt_head(marks).error().code, ErrorCode::kDegenerateInput);
   EXPECT_EQ(adapt_head(plain_marks(seen_at(100, 80, 3))).error().code, ErrorCode::kDegenerateInput);
 }

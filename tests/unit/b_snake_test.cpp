@@ -16,7 +16,9 @@ using Control = std::vector<glm::dvec2>;
 constexpr int kControls = 10, kPoints = 40;
 constexpr int kMostIterations = 15;  // of one descent
 
-double length(glm::dvec2 v) { return std::hypot(v.x, v.y); }
+double length(glm::dvec2 v) {
+  return std::hypot(v.x, v.y);
+}
 
 /// Control points of a closed curve that runs clockwise in the picture along an ellipse about `centre`.
 Control ellipse(glm::dvec2 radius, glm::dvec2 centre = {0, 0}) {
@@ -28,7 +30,9 @@ Control ellipse(glm::dvec2 radius, glm::dvec2 centre = {0, 0}) {
   return out;
 }
 
-Control circle(double radius, glm::dvec2 centre = {0, 0}) { return ellipse(glm::dvec2(radius), centre); }
+Control circle(double radius, glm::dvec2 centre = {0, 0}) {
+  return ellipse(glm::dvec2(radius), centre);
+}
 
 Control moved(Control c, glm::dvec2 by) {
   for (glm::dvec2& p : c) p += by;
@@ -59,13 +63,19 @@ SnakeImage blank() {
 SnakeImage contrast_of(const std::function<double(glm::dvec2)>& feature) {
   SnakeImage image = blank();
   constexpr double h = 0.25;
-  image.contrast_x = painted([&](glm::dvec2 p) { return (feature(p + glm::dvec2(h, 0)) - feature(p - glm::dvec2(h, 0))) / (2 * h); });
-  image.contrast_y = painted([&](glm::dvec2 p) { return (feature(p + glm::dvec2(0, h)) - feature(p - glm::dvec2(0, h))) / (2 * h); });
+  image.contrast_x = painted([&](glm::dvec2 p) {
+    return (feature(p + glm::dvec2(h, 0)) - feature(p - glm::dvec2(h, 0))) / (2 * h);
+  });
+  image.contrast_y = painted([&](glm::dvec2 p) {
+    return (feature(p + glm::dvec2(0, h)) - feature(p - glm::dvec2(0, h))) / (2 * h);
+  });
   return image;
 }
 
 /// From 1 to 0 across a border at distance 0, over about three units either way.
-double soft_step(double distance) { return 1 / (1 + std::exp(distance)); }
+double soft_step(double distance) {
+  return 1 / (1 + std::exp(distance));
+}
 
 std::vector<glm::dvec2> curve_of(const SnakeCurve& curve, const Control& control) {
   std::vector<glm::dvec2> out;
@@ -79,7 +89,9 @@ double mean(const std::vector<glm::dvec2>& points, const std::function<double(gl
   return sum / static_cast<double>(points.size());
 }
 
-double mean_radius(const std::vector<glm::dvec2>& points) { return mean(points, length); }
+double mean_radius(const std::vector<glm::dvec2>& points) {
+  return mean(points, length);
+}
 
 /// Everything a snake refers to, with one weight set at a time.
 struct Bench {
@@ -91,7 +103,9 @@ struct Bench {
 
   [[nodiscard]] BSnake snake() const { return {curve, image, weights, rest, before, facing}; }
   [[nodiscard]] SnakeOutcome minimise(const Control& start) const { return snake().minimise(start); }
-  [[nodiscard]] std::vector<glm::dvec2> settled(const Control& start) const { return curve_of(curve, minimise(start).control); }
+  [[nodiscard]] std::vector<glm::dvec2> settled(const Control& start) const {
+    return curve_of(curve, minimise(start).control);
+  }
 };
 
 TEST(SnakeCurve, SupportIsWhereAControlPointMovesTheCurve) {
@@ -139,7 +153,9 @@ TEST(BSnake, RigidityStraightensTheCurve) {
   b.rest = b.before = Control(4);
   b.weights.rigidity = 1;
   const Control bent = {{-6, 0}, {-2, 4}, {2, -4}, {6, 0}};
-  const auto bend = [](const Control& c) { return length(c[0] - 2.0 * c[1] + c[2]) + length(c[1] - 2.0 * c[2] + c[3]); };
+  const auto bend = [](const Control& c) {
+    return length(c[0] - 2.0 * c[1] + c[2]) + length(c[1] - 2.0 * c[2] + c[3]);
+  };
   EXPECT_LT(bend(b.minimise(bent).control), 0.1 * bend(bent));
 }
 
@@ -195,9 +211,10 @@ TEST(BSnake, ChangeOfTheContrastAttracts) {
   for (const glm::dvec2 p : b.settled(circle(12))) EXPECT_NEAR(length(p), 12, 0.6);
 }
 
-// Paper, Fig. 1. Dark lips (feature 1) in which an opening shows bright teeth (-1: farther from the lips' colour than
-// skin is). The upper contour's prediction has failed and lies on the teeth, from where the lower lip's inner border
-// is in reach: it falls from lip to teeth just as a lip's outer border falls from lip to skin, and more steeply.
+// Paper, Fig. 1. Dark lips (feature 1) in which an opening shows bright teeth (-1: farther from the lips'
+// colour than skin is). The upper contour's prediction has failed and lies on the teeth, from where the lower
+// lip's inner border is in reach: it falls from lip to teeth just as a lip's outer border falls from lip to
+// skin, and more steeply.
 struct Teeth {
   Bench bench;
   Control start = ellipse({15, 7.6});
@@ -205,7 +222,9 @@ struct Teeth {
 
   explicit Teeth(double least_gap, double repulsion) {
     bench.image = contrast_of([](glm::dvec2 p) {
-      const auto inside = [&](glm::dvec2 radius) { return soft_step((length(p / radius) - 1) * 2.5 * radius.y); };
+      const auto inside = [&](glm::dvec2 radius) {
+        return soft_step((length(p / radius) - 1) * 2.5 * radius.y);
+      };
       return inside({14, kOuter}) - 2 * inside({10, kInner});
     });
     bench.weights = {.tension = 0.0012, .rigidity = 0.002, .repulsion = repulsion, .contrast = 1};
@@ -257,8 +276,8 @@ TEST(BSnake, RepulsionIsSilentWhileTheGapIsWide) {
   EXPECT_GT(b.snake().energy(ellipse({15, 3})), 0);
 }
 
-// delta_q = 0.75^q over 15 iterations, three descents: what draws the curve lies out of reach, so that every control
-// point makes every step.
+// delta_q = 0.75^q over 15 iterations, three descents: what draws the curve lies out of reach, so that every
+// control point makes every step.
 TEST(BSnake, StepsFollowThePapersSchedule) {
   Bench b;
   b.weights.temporal = 1;
@@ -318,7 +337,8 @@ TEST(BSnake, CurvesThatLeaveThePictureAreHarmless) {
   Bench b;
   b.image = contrast_of([](glm::dvec2 p) { return soft_step(length(p) - 12); });
   b.weights = {.tension = 0.001, .contrast = 1, .change = 1};
-  for (const glm::dvec2 p : b.settled(circle(10, {500, -900}))) EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+  for (const glm::dvec2 p : b.settled(circle(10, {500, -900})))
+    EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
 }
 
 }  // namespace

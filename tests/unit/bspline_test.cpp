@@ -7,7 +7,9 @@
 namespace fbs {
 namespace {
 
-double sum(const std::array<double, 4>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+double sum(const std::array<double, 4>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0);
+}
 
 /// What control point i contributes at s.
 double weight_of(const SplineBasis& b, int i) {
@@ -64,7 +66,8 @@ TEST(Bspline, ClosedBasisTakesParametersAHairBelowZero) {
 }
 
 /// The curve's x when control point i lies at position[i].
-double curve(const SplineBasis& b, const std::array<double, 4>& weight, const std::array<double, 10>& position) {
+double curve(const SplineBasis& b, const std::array<double, 4>& weight,
+             const std::array<double, 10>& position) {
   double x = 0;
   for (std::size_t k = 0; k < 4; ++k) x += weight[k] * position[static_cast<std::size_t>(b.control[k])];
   return x;
@@ -75,14 +78,16 @@ constexpr std::array<double, 10> kPositions = {3, -1, 4, 1, -5, 9, -2, 6, 5, -3}
 TEST(Bspline, DerivativesAreThoseByDifference) {
   constexpr double h = 1e-4;
   for (double s = 0.013; s < 10; s += 0.1) {
-    const SplineBasis before = closed_basis(10, s - h), b = closed_basis(10, s), after = closed_basis(10, s + h);
+    const SplineBasis before = closed_basis(10, s - h), b = closed_basis(10, s),
+                      after = closed_basis(10, s + h);
     const double x0 = curve(before, before.value, kPositions), x1 = curve(b, b.value, kPositions),
                  x2 = curve(after, after.value, kPositions);
     ASSERT_NEAR(curve(b, b.d1, kPositions), (x2 - x0) / (2 * h), 1e-5) << s;
     ASSERT_NEAR(curve(b, b.d2, kPositions), (x2 - 2 * x1 + x0) / (h * h), 1e-2) << s;
   }
   for (double s = 0.05; s < 0.95; s += 0.1) {
-    const SplineBasis before = clamped_basis(true, s - h), b = clamped_basis(true, s), after = clamped_basis(true, s + h);
+    const SplineBasis before = clamped_basis(true, s - h), b = clamped_basis(true, s),
+                      after = clamped_basis(true, s + h);
     for (std::size_t k = 0; k < 4; ++k) {
       ASSERT_NEAR(b.d1[k], (after.value[k] - before.value[k]) / (2 * h), 1e-6);
       ASSERT_NEAR(b.d2[k], (after.value[k] - 2 * b.value[k] + before.value[k]) / (h * h), 1e-5);

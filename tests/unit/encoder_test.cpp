@@ -21,7 +21,7 @@ Pictures pictures_of(TalkerClip clip) {
   return out;
 }
 
-VideoFormat format_of(const Pictures& pictures, Rational rate = {30, 1}) {
+VideoFormat format_of(const Pictures& pictures, Rational rate = {15, 1}) {
   VideoFormat f;
   f.width = pictures[0].width();
   f.height = pictures[0].height();
@@ -43,7 +43,8 @@ struct Coded {
   }
 };
 
-Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFormat& format, const EncoderSettings& settings,
+Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFormat& format,
+                                          const EncoderSettings& settings,
                                           const std::vector<std::uint32_t>& durations = {}) {
   auto encoder = Encoder::create(format, settings);
   if (!encoder) return tl::unexpected<Error>(encoder.error());
@@ -87,14 +88,26 @@ Coded coded(const Pictures& source, const EncoderSettings& settings = {}) {
   return decoded(stream ? *stream : std::vector<std::uint8_t>{});
 }
 
+constexpr Rational kRate{15, 1};
+
 const Pictures& talking() {
-  static const Pictures p = pictures_of(TalkerClip(talker_settings(176, 144, 75)));  // more than the look-ahead
+  static const Pictures p = [] {
+    auto settings = talker_settings(128, 96, 45);  // more than the encoder looks ahead
+    settings.frame_rate = kRate;
+    settings.eye_distance = 0.2F;
+    return pictures_of(TalkerClip(settings));
+  }();
   return p;
 }
 
 const Pictures& shortly() {
-  static const Pictures p(talking().begin(), talking().begin() + 12);
+  static const Pictures p(talking().begin(), talking().begin() + 10);
   return p;
+}
+
+const Coded& coded_talk() {
+  static const Coded c = coded(talking());
+  return c;
 }
 
 EncoderSettings quality(int q) {
@@ -104,35 +117,36 @@ EncoderSettings quality(int q) {
 }
 
 TEST(Encoder, EveryPictureComesBack) {
-  const Coded c = coded(talking());
+  const Coded& c = coded_talk();
   ASSERT_EQ(c.pictures.size(), talking().size());
   for (const Picture& p : c.pictures) {
-    EXPECT_EQ(p.width(), 176);
-    EXPECT_EQ(p.height(), 144);
+    EXPECT_EQ(p.width(), 128);
+    EXPECT_EQ(p.height(), 96);
   }
   EXPECT_EQ(c.bytes.total, c.stream.size());
-  EXPECT_EQ(c.bytes.geometry + c.bytes.patterns + c.bytes.motion + c.bytes.index + c.bytes.other, c.bytes.total);
+  EXPECT_EQ(c.bytes.geometry + c.bytes.patterns + c.bytes.motion + c.bytes.index + c.bytes.other,
+            c.bytes.total);
 }
 
 TEST(Encoder, ReachesItsFloorOfQuality) {
-  const Coded c = coded(talking());
+  const Coded& c = coded_talk();
   EXPECT_GT(c.psnr(talking()), 30);
   EXPECT_GT(squared_error(c.pictures[0].y, talking()[0].y).psnr(), 35) << "the first picture is its pattern";
 }
 
 // What the model is for: far better than the first picture held, for a few bytes a picture.
 TEST(Encoder, MotionBeatsTheFirstPictureHeld) {
-  const Coded c = coded(talking());
+  const Coded& c = coded_talk();
   SquaredError held;
   for (const Picture& p : talking()) held += squared_error(c.pictures[0].y, p.y);
   EXPECT_GT(c.psnr(talking()), held.psnr() + 3);
-  EXPECT_LT(static_cast<double>(c.bytes.motion) / 75, 12) << "bytes a picture";
+  EXPECT_LT(static_cast<double>(c.bytes.motion) / 45, 15) << "bytes a picture";
 }
 
 TEST(Encoder, QualityOrdersBytesAndPsnr) {
   std::size_t bytes = 0;
   double psnr = 0;
-  for (const int q : {10, 40, 70, 95}) {
+  for (const int q : {10, 50, 90}) {
     const Coded c = coded(shortly(), quality(q));
     EXPECT_GT(c.stream.size(), bytes) << q;
     EXPECT_GT(c.psnr(shortly()), psnr) << q;
@@ -142,16 +156,16 @@ TEST(Encoder, QualityOrdersBytesAndPsnr) {
 }
 
 TEST(Encoder, SameInputGivesTheSameBytes) {
-  EXPECT_EQ(coded(shortly()).stream, coded(shortly()).stream);
+  EXPECT_EQ(*encoded(shortly(), format_of(shortly()), {}), *encoded(shortly(), format_of(shortly()), {}));
 }
 
 TEST(Encoder, TakesOddSizes) {
   for (const auto& [w, h] : {std::pair{67, 65}, {64, 64}, {129, 97}}) {
-    const Pictures p = pictures_of(TalkerClip(talker_settings(w, h, 6)));
+    const Pictures p = pictures_of(TalkerClip(talker_settings(w, h, 4)));
     const Coded c = coded(p);
-    ASSERT_EQ(c.pictures.size(), 6u) << w << 'x' << h;
-    EXPECT_EQ(c.pictures[5].width(), w);
-    EXPECT_EQ(c.pictures[5].u.height, (h + 1) / 2);
+    ASSERT_EQ(c.pictures.size(), 4u) << w << 'x' << h;
+    EXPECT_EQ(c.pictures[3].width(), w);
+    EXPECT_EQ(c.pictures[3].u.height, (h + 1) / 2);
     EXPECT_GT(c.psnr(p), 28) << w << 'x' << h;
   }
 }
@@ -193,10 +207,10 @@ TEST(Encoder, RefusesNoPicturesAtAll) {
 
 // A title before the talk: pictures until a face is found go as a scene without geometry.
 TEST(Encoder, FaceMayAppearLate) {
-  Pictures p(7, Picture(176, 144));
+  Pictures p(7, Picture(128, 96));
   for (Picture& grey : p)
     for (auto& s : grey.y.samples) s = 100;
-  p.insert(p.end(), talking().begin(), talking().begin() + 20);
+  p.insert(p.end(), talking().begin(), talking().begin() + 12);
   const Coded c = coded(p);
   ASSERT_EQ(c.pictures.size(), p.size());
   EXPECT_GT(c.bytes.geometry, 0u);
@@ -208,20 +222,21 @@ TEST(Encoder, FaceMayAppearLate) {
 
 // Something before the camera: the state is held, and the face found again.
 TEST(Encoder, FaceMayBeLostAndComeBack) {
-  Pictures p(talking().begin(), talking().begin() + 40);
-  for (std::size_t i = 12; i < 18; ++i)
-    for (int y = 20; y < 144; ++y) std::fill_n(p[i].y.row(y) + 30, 116, std::uint8_t{90});
+  Pictures p(talking().begin(), talking().begin() + 30);
+  for (std::size_t i = 10; i < 15; ++i)
+    for (int y = 10; y < 96; ++y) std::fill_n(p[i].y.row(y) + 20, 88, std::uint8_t{90});
   const Coded c = coded(p);
   ASSERT_EQ(c.pictures.size(), p.size());
   SquaredError after;
-  for (std::size_t i = 30; i < 40; ++i) after += squared_error(c.pictures[i].y, p[i].y);
+  for (std::size_t i = 22; i < 30; ++i) after += squared_error(c.pictures[i].y, p[i].y);
   EXPECT_GT(after.psnr(), 27);
-  for (std::size_t i = 12; i < 18; ++i)
-    EXPECT_GT(squared_error(c.pictures[i].y, talking()[i].y).psnr(), 20) << "never a wild face: picture " << i;
+  for (std::size_t i = 10; i < 15; ++i)
+    EXPECT_GT(squared_error(c.pictures[i].y, talking()[i].y).psnr(), 20)
+        << "never a wild face: picture " << i;
 }
 
 TEST(Encoder, FollowsTheFaceMarkedByHand) {
-  TalkerClip clip(talker_settings(176, 144, 4));
+  TalkerClip clip(talker_settings(128, 96, 1));
   EncoderSettings settings;
   settings.marks = clip.marks(0);
   auto encoder = Encoder::create(clip.format(), settings);
@@ -233,7 +248,8 @@ TEST(Encoder, FollowsTheFaceMarkedByHand) {
   EXPECT_EQ(seen.iterations.size(), seen.snakes.size());
   for (int k = 0; k < kLandmarkCount; ++k) {
     const glm::dvec2 mark = *settings.marks->landmark(k);
-    const glm::dvec2 vertex = seen.vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])];
+    const glm::dvec2 vertex =
+        seen.vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])];
     EXPECT_LT(std::hypot(mark.x - vertex.x, mark.y - vertex.y), 0.04 * clip.pose(0).eye_distance_px()) << k;
   }
 }
@@ -248,7 +264,7 @@ TEST(Encoder, KeepsDurations) {
 
 TEST(Encoder, GroupsHoldAsManyPicturesAsAsked) {
   EncoderSettings settings;
-  for (const int group : {1, 5, 256}) {
+  for (const int group : {1, 4, 256}) {
     settings.group_pictures = group;
     const Coded c = coded(shortly(), settings);
     EXPECT_EQ(c.pictures.size(), shortly().size()) << group;
@@ -302,7 +318,7 @@ TEST(Encoder, RefusesAPictureOfAnotherSize) {
   auto encoder = Encoder::create(format_of(shortly()), {});
   ASSERT_TRUE(encoder);
   ASSERT_TRUE(encoder->push(shortly()[0]));
-  EXPECT_EQ(encoder->push(Picture(176, 142)).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(encoder->push(Picture(128, 94)).error().code, ErrorCode::kInvalidArgument);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ const FaceFinder& finder() {
   return *f;
 }
 
-double distance(glm::dvec2 a, glm::dvec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double distance(glm::dvec2 a, glm::dvec2 b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 // Design, section 12: eye centres within 2-8 % of the eye distance on the clips; the talker may add a little.
 TEST(FaceFinder, FindsTheTalkersEyesAtEverySize) {

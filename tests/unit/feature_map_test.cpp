@@ -32,7 +32,8 @@ struct TwoHalves {
 TEST(FeatureMap, IsOneOnTheFeatureAndZeroRoundIt) {
   const TwoHalves halves({90, 110, 165}, {140, 112, 145}, 5);
   for (const bool luma_only : {false, true}) {
-    const cv::Mat1f map = FeatureMap::discriminant(halves.patch, halves.left, halves.right, luma_only)(halves.patch);
+    const cv::Mat1f map =
+        FeatureMap::discriminant(halves.patch, halves.left, halves.right, luma_only)(halves.patch);
     EXPECT_NEAR(cv::mean(map, halves.left)[0], 1, 0.1);
     EXPECT_NEAR(cv::mean(map, halves.right)[0], 0, 0.1);
   }
@@ -41,7 +42,8 @@ TEST(FeatureMap, IsOneOnTheFeatureAndZeroRoundIt) {
 // Lips that are as bright as the skin round them are redder all the same.
 TEST(FeatureMap, TellsByColourWhatBrightnessDoesNot) {
   const TwoHalves halves({120, 110, 165}, {120, 112, 145}, 4);
-  const cv::Mat1f map = FeatureMap::discriminant(halves.patch, halves.left, halves.right, false)(halves.patch);
+  const cv::Mat1f map =
+      FeatureMap::discriminant(halves.patch, halves.left, halves.right, false)(halves.patch);
   EXPECT_GT(cv::mean(map, halves.left)[0] - cv::mean(map, halves.right)[0], 0.8);
 }
 
@@ -57,9 +59,10 @@ TEST(FeatureMap, LikenessIsHighForTheFeaturesColourAlone) {
 TEST(FeatureMap, EmptyMasksAndFlatPatchesAreHarmless) {
   const TwoHalves flat({120, 128, 128}, {120, 128, 128}, 0);
   const cv::Mat nothing = cv::Mat::zeros(40, 60, CV_8UC1);
-  for (const FeatureMap& map : {FeatureMap::discriminant(flat.patch, nothing, nothing, false),
-                                FeatureMap::discriminant(flat.patch, flat.left, flat.right, false),
-                                FeatureMap::likeness(flat.patch, nothing), FeatureMap::likeness(flat.patch, flat.left)}) {
+  for (const FeatureMap& map :
+       {FeatureMap::discriminant(flat.patch, nothing, nothing, false),
+        FeatureMap::discriminant(flat.patch, flat.left, flat.right, false),
+        FeatureMap::likeness(flat.patch, nothing), FeatureMap::likeness(flat.patch, flat.left)}) {
     const cv::Mat1f seen = map(flat.patch);
     ASSERT_EQ(seen.size(), flat.left.size());
     EXPECT_TRUE(cv::checkRange(seen));

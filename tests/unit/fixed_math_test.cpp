@@ -24,7 +24,8 @@ TEST(RoundShift, RoundsToNearestAndHalvesUpwards) {
 
 TEST(SineTable, IsTheRoundedSineOfTheFirstQuarter) {
   for (std::size_t i = 0; i < kSineTable.size(); ++i)
-    EXPECT_EQ(kSineTable[i], std::lround(std::sin(static_cast<double>(i) * 64 * kTurn) * (1 << kRotationOneLog2)));
+    EXPECT_EQ(kSineTable[i],
+              std::lround(std::sin(static_cast<double>(i) * 64 * kTurn) * (1 << kRotationOneLog2)));
 }
 
 TEST(Exp2Table, IsTheRoundedPowerOverOneOctave) {
@@ -60,7 +61,8 @@ TEST(Sine, RepeatsEveryTurnForAnyAngle) {
 
 TEST(Exp2, IsWithin1Point2UnitsOfItsOctave) {
   for (std::int32_t e = 0; e <= kMaxLogScale; ++e)
-    ASSERT_NEAR(static_cast<double>(exp2_q16(e)), std::exp2(e / 4096.0) * 65536, 1.2 * std::exp2(e >> 12)) << e;
+    ASSERT_NEAR(static_cast<double>(exp2_q16(e)), std::exp2(e / 4096.0) * 65536, 1.2 * std::exp2(e >> 12))
+        << e;
 }
 
 TEST(Exp2, RisesAndDoublesEveryOctave) {

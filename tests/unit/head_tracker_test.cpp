@@ -17,7 +17,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 class Track {
  public:
   explicit Track(TalkerClip& clip)
-      : clip_(clip), head_(*adapt_head(clip.marks(0))), eye_(head_.pose.eye_distance_px()),
+      : clip_(clip),
+        head_(*adapt_head(clip.marks(0))),
+        eye_(head_.pose.eye_distance_px()),
         tracker_(head_.geometry, head_.pose, cut(0, head_.pose.shift)) {
     for (std::size_t v = 0; v < kVertexCount; ++v) neutral_[v] = glm::dvec3(head_.geometry.positions[v]);
   }
@@ -67,7 +69,8 @@ PoseError worst_error(const talker::Settings& settings, int step = 1) {
   return worst;
 }
 
-// Head frames of talker and generic head differ in depth, which a turn mixes with shift: hence the looser bound there.
+// Head frames of talker and generic head differ in depth, which a turn mixes with shift: hence the looser
+// bound there.
 TEST(HeadTracker, FollowsATalkingHead) {
   const PoseError e = worst_error(talker_settings(352, 288, 40));
   EXPECT_LT(e.yaw_deg, 2.5);

@@ -30,7 +30,8 @@ class MarksFile : public ::testing::Test {
 
  private:
   std::string path_ =
-      (std::filesystem::temp_directory_path() / ("fbs_marks_test_" + std::to_string(getpid()) + ".json")).string();
+      (std::filesystem::temp_directory_path() / ("fbs_marks_test_" + std::to_string(getpid()) + ".json"))
+          .string();
 };
 
 std::string sixty_eight(int count, const std::string& last = "[1, 2]") {
@@ -132,7 +133,9 @@ TEST(Marks, EyesAreTheMeansOfWhatIsMarked) {
   EXPECT_EQ((*eyes)[1], glm::dvec2(30, 21));
 }
 
-double distance(glm::dvec2 a, glm::dvec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double distance(glm::dvec2 a, glm::dvec2 b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 /// Mean distance from the truth over landmarks [first, end), eye distances.
 double error_of(const Marks& marks, const TalkerClip& clip, int first, int end) {
@@ -174,7 +177,8 @@ TEST(FindMarks, FlatPictureKeepsTheProportionsOfTheGenericHead) {
     ASSERT_TRUE(marks.landmark(k)) << k;
     const auto v = static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)]);
     const glm::ivec3 p = generic_head().vertices[v].position;
-    EXPECT_LT(distance(*marks.landmark(k), glm::dvec2(100, 60) + glm::dvec2(p.x, p.y) * (40.0 / 4096)), 8) << k;
+    EXPECT_LT(distance(*marks.landmark(k), glm::dvec2(100, 60) + glm::dvec2(p.x, p.y) * (40.0 / 4096)), 8)
+        << k;
   }
 }
 
@@ -186,7 +190,8 @@ TEST(FindMarks, FaceAtThePicturesBorderIsHarmless) {
   face.centre = {3, 10};
   face.size = 60;
   const Marks marks = find_marks(Picture(64, 64), face);
-  for (int k = 0; k < kLandmarkCount; ++k) EXPECT_TRUE(std::isfinite(marks.landmark(k)->x) && std::isfinite(marks.landmark(k)->y));
+  for (int k = 0; k < kLandmarkCount; ++k)
+    EXPECT_TRUE(std::isfinite(marks.landmark(k)->x) && std::isfinite(marks.landmark(k)->y));
 }
 
 }  // namespace

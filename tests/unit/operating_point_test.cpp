@@ -10,7 +10,8 @@ namespace {
 TEST(OperatingPoint, MovesEverythingTheSameWayWithQuality) {
   for (const double eye : {10.0, 34.0, 80.0, 400.0}) {
     for (int quality = 1; quality <= 100; ++quality) {
-      const OperatingPoint worse = OperatingPoint::at(quality - 1, eye), better = OperatingPoint::at(quality, eye);
+      const OperatingPoint worse = OperatingPoint::at(quality - 1, eye),
+                           better = OperatingPoint::at(quality, eye);
       EXPECT_LE(better.pattern_quantiser, worse.pattern_quantiser);
       EXPECT_LE(better.steps.rotation, worse.steps.rotation);
       EXPECT_LE(better.steps.translation, worse.steps.translation);

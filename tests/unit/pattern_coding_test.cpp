@@ -94,7 +94,8 @@ TEST(PatternCoding, RangeAndMatrixChangeNoSample) {
   VideoFormat f = format_of(64, 64);
   const Picture plain = *PatternDecoder::create(64, 64)->decode(coded(picture));
   for (const ColourRange range : {ColourRange::kLimited, ColourRange::kFull}) {
-    for (const ColourMatrix matrix : {ColourMatrix::kUnspecified, ColourMatrix::kBt601, ColourMatrix::kBt709}) {
+    for (const ColourMatrix matrix :
+         {ColourMatrix::kUnspecified, ColourMatrix::kBt601, ColourMatrix::kBt709}) {
       f.range = range;
       f.matrix = matrix;
       const auto av1 = PatternEncoder::create(f, 25)->encode(picture);
@@ -123,7 +124,8 @@ TEST(PatternDecoder, DamagedDataIsAnErrorOrAPictureButNoCrash) {
   int refused = 0;
   for (int i = 0; i < 400; ++i) {
     auto bytes = good;
-    for (unsigned k = 1 + random() % 6; k > 0; --k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    for (unsigned k = 1 + random() % 6; k > 0; --k)
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     if (i % 4 == 0) bytes.resize(1 + random() % bytes.size());
     auto decoder = PatternDecoder::create(128, 96);
     const auto picture = decoder->decode(bytes);
@@ -161,7 +163,8 @@ TEST(PatternDecoder, DecodesAfterDamage) {
 TEST(PatternEncoder, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(PatternEncoder::create(format_of(64, 64), -1).error().code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(PatternEncoder::create(format_of(64, 64), 64).error().code, ErrorCode::kInvalidArgument);
-  EXPECT_EQ(PatternEncoder::create(format_of(64, 64), 30)->encode(Picture(64, 66)).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(PatternEncoder::create(format_of(64, 64), 30)->encode(Picture(64, 66)).error().code,
+            ErrorCode::kInvalidArgument);
 }
 
 }  // namespace

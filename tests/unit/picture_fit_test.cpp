@@ -32,8 +32,12 @@ TEST(PictureFit, TrueStateHasTheLeastDistortion) {
   s.look_at(truth);
   const double least = s.fit.distortion(truth);
   EXPECT_LT(least, 0.1 * s.fit.distortion(s.seen));
-  for (const auto& [index, step] : {std::pair{kPitch, 4 * kDegree}, {kYaw, 4 * kDegree}, {kRoll, 2 * kDegree},
-                                    {kShiftX, 96}, {kShiftY, 96}, {kLogScale, 200}}) {
+  for (const auto& [index, step] : {std::pair{kPitch, 4 * kDegree},
+                                    {kYaw, 4 * kDegree},
+                                    {kRoll, 2 * kDegree},
+                                    {kShiftX, 96},
+                                    {kShiftY, 96},
+                                    {kLogScale, 200}}) {
     for (const int side : {-1, 1}) {
       State wrong = truth;
       wrong.pose[index] += side * step;
@@ -75,10 +79,12 @@ TEST(PictureFit, RefineFindsPoseAndExpression) {
   State state;
   state.pose = quantise(found.pose, s.setup.steps);
   for (std::size_t i = 0; i < kControlCount; ++i)
-    state.control[i] = {static_cast<int>(std::lround(found.offsets[i].x)), static_cast<int>(std::lround(found.offsets[i].y))};
+    state.control[i] = {static_cast<int>(std::lround(found.offsets[i].x)),
+                        static_cast<int>(std::lround(found.offsets[i].y))};
   EXPECT_LT(s.fit.distortion(state), 0.35 * s.fit.distortion(s.seen));
   double brow = 0;
-  for (int i = 0; i < 4; ++i) brow += found.offsets[static_cast<std::size_t>(feature(FeatureId::kBrowRight).first_control + i)].y / 4;
+  for (int i = 0; i < 4; ++i)
+    brow += found.offsets[static_cast<std::size_t>(feature(FeatureId::kBrowRight).first_control + i)].y / 4;
   EXPECT_LT(brow, -100) << "raised";
 }
 
@@ -97,7 +103,8 @@ TEST(PictureFit, FeaturesThatAreNotSentDoNotMove) {
   FittedScene s;
   fbs::Setup few = s.setup;
   few.features = 1U << static_cast<unsigned>(FeatureId::kBrowRight);
-  PictureFit fit(few, toy_geometry(), WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true), s.seen);
+  PictureFit fit(few, toy_geometry(), WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true),
+                 s.seen);
   fit.look_at(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
   const Fit found = fit.refine({dequantise(s.seen, few.steps), {}});
   const Feature& brow = feature(FeatureId::kBrowRight);

@@ -12,7 +12,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 Pose random_pose(std::mt19937& random) {
-  const auto within = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const auto within = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
   return {within(-80, 80) * kDegree,
           within(-80, 80) * kDegree,
           within(-80, 80) * kDegree,
@@ -22,7 +24,8 @@ Pose random_pose(std::mt19937& random) {
 
 TEST(Pose, SurvivesQuantisingWithinHalfAStep) {
   std::mt19937 random(1);
-  for (const QuantiserSteps steps : {QuantiserSteps{1, 1, 1, 1}, QuantiserSteps{}, QuantiserSteps{700, 55, 90, 300}}) {
+  for (const QuantiserSteps steps :
+       {QuantiserSteps{1, 1, 1, 1}, QuantiserSteps{}, QuantiserSteps{700, 55, 90, 300}}) {
     for (int i = 0; i < 200; ++i) {
       const Pose pose = random_pose(random);
       State state;

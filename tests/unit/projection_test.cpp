@@ -44,11 +44,12 @@ struct PlainProjection {
 HeadPose random_pose(std::mt19937& random) {
   const auto within = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
   const int turn = kMaxRotation;
-  return {within(-turn, turn),  within(-turn, turn),  within(-turn, turn),
+  return {within(-turn, turn), within(-turn, turn), within(-turn, turn),
           within(0, 400 * 64), within(0, 300 * 64), within(3 * 4096, kMaxLogScale)};
 }
 
-// The rotation is in Q14: its share of the error grows with the head and is 1/32 pixel at 80 pixels between the eyes.
+// The rotation is in Q14: its share of the error grows with the head and is 1/32 pixel at 80 pixels between
+// the eyes.
 TEST(HeadProjection, IsWithinA32thOfAPixelOfThePlainOne) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
@@ -86,7 +87,8 @@ TEST(HeadProjection, ScreenPositionsAreClamped) {
   pose.shift_x = kMaxTranslation;
   pose.shift_y = -kMaxTranslation;
   const HeadProjection projection(pose);
-  EXPECT_EQ(glm::ivec2(projection({kMaxCoordinate, -kMaxCoordinate, 0})), glm::ivec2(kMaxScreen, -kMaxScreen));
+  EXPECT_EQ(glm::ivec2(projection({kMaxCoordinate, -kMaxCoordinate, 0})),
+            glm::ivec2(kMaxScreen, -kMaxScreen));
 }
 
 TEST(DequantisePose, MultipliesWithTheSteps) {
@@ -104,12 +106,14 @@ TEST(Deform, AddsEachControlPointByItsWeight) {
   std::mt19937 random(3);
   const auto neutral = toy_geometry().positions;
   State state;
-  for (glm::ivec2& c : state.control) c = {static_cast<int>(random() % 41) - 20, static_cast<int>(random() % 41) - 20};
+  for (glm::ivec2& c : state.control)
+    c = {static_cast<int>(random() % 41) - 20, static_cast<int>(random() % 41) - 20};
   const QuantiserSteps steps{1, 1, 1, 37};
   const auto moved = deform(neutral, state, steps);
   const GenericHead& head = generic_head();
   for (std::size_t v = 0; v < kVertexCount; ++v) {
-    if (head.vertices[v].feature >= static_cast<int>(FeatureId::kPupilRight)) continue;  // kept between the lids
+    if (head.vertices[v].feature >= static_cast<int>(FeatureId::kPupilRight))
+      continue;  // kept between the lids
     glm::dvec2 offset(0);
     for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
       offset += glm::dvec2(state.control[static_cast<std::size_t>(head.spread[k].control)]) * 37.0 *
@@ -130,11 +134,13 @@ TEST(Deform, KeepsPupilsBetweenTheLids) {
     const auto vertices = deform(toy_geometry().positions, state, {1, 1, 1, 1});
     const auto y_of = [&](FeatureId id) {
       std::vector<int> y;
-      for (const FeatureVertex& v : feature(id).vertices) y.push_back(vertices[static_cast<std::size_t>(v.vertex)].y);
+      for (const FeatureVertex& v : feature(id).vertices)
+        y.push_back(vertices[static_cast<std::size_t>(v.vertex)].y);
       return y;
     };
     const auto upper = y_of(FeatureId::kUpperLidLeft), lower = y_of(FeatureId::kLowerLidLeft);
-    const int low = *std::max_element(upper.begin(), upper.end()), high = *std::min_element(lower.begin(), lower.end());
+    const int low = *std::max_element(upper.begin(), upper.end()),
+              high = *std::min_element(lower.begin(), lower.end());
     const int pupil = y_of(FeatureId::kPupilLeft).front();
     if (low >= high) ++shut;
     ASSERT_TRUE(pupil >= std::min(low, high) && pupil <= std::max(low, high)) << i;
@@ -155,9 +161,11 @@ TEST(Mouth, GapIsThatOfTheInnerLips) {
   const auto neutral = toy_geometry().positions;
   for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(v.vertex));
   for (int i = 0; i < inner.control_count; ++i)
-    open.control[static_cast<std::size_t>(inner.first_control + i)].y = i >= inner.control_count / 2 ? 800 : 0;
+    open.control[static_cast<std::size_t>(inner.first_control + i)].y =
+        i >= inner.control_count / 2 ? 800 : 0;
   EXPECT_GT(mouth_gap(deform(neutral, open, {1, 1, 1, 1})), mouth_gap(neutral) + 400);
-  for (std::int16_t v = kVertexCount; v < head_mesh().vertex_count; ++v) EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
+  for (std::int16_t v = kVertexCount; v < head_mesh().vertex_count; ++v)
+    EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
 }
 
 TEST(HeadMesh, FacesTheViewerFromTheFront) {
@@ -183,7 +191,8 @@ TEST(SceneGeometry, RingLiesOutsideTheOutlineAndBehindIt) {
   const ScreenMesh rest = geometry.project(toy_state());
   const auto outline = generic_head().outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::ivec3 ring = rest.head[kVertexCount + i], edge = rest.head[static_cast<std::size_t>(outline[i])];
+    const glm::ivec3 ring = rest.head[kVertexCount + i],
+                     edge = rest.head[static_cast<std::size_t>(outline[i])];
     EXPECT_GT(ring.z, edge.z) << "the face hides it";
     const glm::dvec2 centre = glm::dvec2(80, 50) * 64.0;
     const glm::dvec2 inner = glm::dvec2(edge) - centre, outer = glm::dvec2(ring) - centre;
@@ -203,7 +212,8 @@ TEST(SceneGeometry, RingGoesWithTheSurround) {
   EXPECT_EQ(ring_of(still.project(moved)), ring_of(still.project(toy_state())));
   const SceneGeometry following(toy_setup(), toy_geometry(), even_surround(32, 32, kFollowOne), toy_state());
   const auto before = ring_of(following.project(toy_state())), after = ring_of(following.project(moved));
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i] - before[i], glm::ivec2(4 * 64, -5 * 64)) << i;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ(after[i] - before[i], glm::ivec2(4 * 64, -5 * 64)) << i;
 }
 
 TEST(SceneGeometry, SeenStateGivesTheRegularGrid) {
@@ -221,7 +231,8 @@ TEST(SceneGeometry, SeenStateGivesTheRegularGrid) {
 TEST(SceneGeometry, SurroundFollowsAShiftByItsShare) {
   for (int follow = 0; follow <= kFollowOne; ++follow) {
     const SceneGeometry geometry(toy_setup(), toy_geometry(), even_surround(8, 8, follow), toy_state());
-    const auto before = geometry.project(toy_state()).surround, after = geometry.project(toy_state(88, 46)).surround;
+    const auto before = geometry.project(toy_state()).surround,
+               after = geometry.project(toy_state(88, 46)).surround;
     for (int r = 0; r <= 8; ++r) {
       for (int c = 0; c <= 8; ++c) {
         const auto k = static_cast<std::size_t>(r * 9 + c);
@@ -237,7 +248,8 @@ TEST(SceneGeometry, BorderStaysWhateverTheMapSays) {
   SurroundMap map = even_surround(4, 4, kFollowOne);
   map.follow.assign(map.follow.size(), kFollowOne);
   const SceneGeometry geometry(toy_setup(), toy_geometry(), map, toy_state());
-  const auto before = geometry.project(toy_state()).surround, after = geometry.project(toy_state(100, 70)).surround;
+  const auto before = geometry.project(toy_state()).surround,
+             after = geometry.project(toy_state(100, 70)).surround;
   for (std::size_t k = 0; k < 25; ++k) {
     const bool border = k < 5 || k >= 20 || k % 5 == 0 || k % 5 == 4;
     EXPECT_EQ(before[k] == after[k], border) << k;
@@ -288,7 +300,8 @@ TEST(SceneGeometry, StaysInRangeForEveryStateOfAStream) {
   }
   for (int i = 0; i < 300; ++i) {
     const State seen = random_state(random);
-    const SceneGeometry geometry(toy_setup(8191, 64), i % 2 == 0 ? largest : toy_geometry(), even_surround(5, 5, 4), seen);
+    const SceneGeometry geometry(toy_setup(8191, 64), i % 2 == 0 ? largest : toy_geometry(),
+                                 even_surround(5, 5, 4), seen);
     const ScreenMesh mesh = geometry.project(random_state(random));
     const auto inside = [](std::int32_t v) { return std::abs(v) <= kMaxScreen; };
     for (const glm::ivec3& p : mesh.head) ASSERT_TRUE(inside(p.x) && inside(p.y));

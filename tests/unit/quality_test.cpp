@@ -71,7 +71,8 @@ TEST(Psnr, OfSeveralPicturesIsThatOfTheirMeanError) {
 TEST(SquaredError, CountsWhereTheMaskIsNotZero) {
   const Plane a = noise(13, 7, 2), b = noise(13, 7, 3);
   Plane mask(13, 7), rest(13, 7);
-  for (std::size_t i = 0; i < mask.samples.size(); ++i) (i % 3 == 0 ? mask : rest).samples[i] = i % 2 == 0 ? 1 : 255;
+  for (std::size_t i = 0; i < mask.samples.size(); ++i)
+    (i % 3 == 0 ? mask : rest).samples[i] = i % 2 == 0 ? 1 : 255;
   SquaredError parts = squared_error(a, b, mask);
   EXPECT_EQ(parts.count, 31u);
   parts += squared_error(a, b, rest);
@@ -86,16 +87,19 @@ TEST(Ssim, IsOneForIdenticalPictures) {
 
 TEST(Ssim, OfFlatPicturesIsTheLumaTermAlone) {
   constexpr double c1 = 6.5025;
-  EXPECT_NEAR(ssim(Plane(20, 20, 100), Plane(20, 20, 120)), (2 * 100 * 120 + c1) / (100 * 100 + 120 * 120 + c1), 1e-4);
+  EXPECT_NEAR(ssim(Plane(20, 20, 100), Plane(20, 20, 120)),
+              (2 * 100 * 120 + c1) / (100 * 100 + 120 * 120 + c1), 1e-4);
 }
 
 TEST(Ssim, AgreesWithThePlainImplementation) {
   const Plane a = noise(23, 14, 5);
   Plane near_by = a, inverted = a;
   std::mt19937 random(6);
-  for (auto& s : near_by.samples) s = static_cast<std::uint8_t>(std::abs(s - static_cast<int>(random() % 30)));
+  for (auto& s : near_by.samples)
+    s = static_cast<std::uint8_t>(std::abs(s - static_cast<int>(random() % 30)));
   for (auto& s : inverted.samples) s = static_cast<std::uint8_t>(255 - s);
-  for (const Plane& b : {near_by, inverted, noise(23, 14, 7)}) EXPECT_NEAR(ssim(a, b), plain_ssim(a, b), 2e-4);
+  for (const Plane& b : {near_by, inverted, noise(23, 14, 7)})
+    EXPECT_NEAR(ssim(a, b), plain_ssim(a, b), 2e-4);
   EXPECT_LT(ssim(a, inverted), 0);
 }
 

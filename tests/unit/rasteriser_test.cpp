@@ -15,17 +15,23 @@ using std::int64_t;
 
 constexpr int kMostScreen = 1 << 21;
 
-SampleArea whole(const Plane& p) { return {0, 0, p.width, p.height}; }
+SampleArea whole(const Plane& p) {
+  return {0, 0, p.width, p.height};
+}
 
-void draw(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target, DepthPlane* depth = nullptr) {
+void draw(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
+          DepthPlane* depth = nullptr) {
   const PlanePair pair{&pattern, &target};
   draw_triangle(t, scale, {&pair, 1}, whole(target), depth);
 }
 
 /// A triangle whose texture lies where it is on the screen.
-RasterTriangle in_place(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) { return {{{a, a}, {b, b}, {c, c}}}; }
+RasterTriangle in_place(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
+  return {{{a, a}, {b, b}, {c, c}}};
+}
 
-/// The rules as text: a sample is covered when its centre is inside, or on an edge that is a top or a left one.
+/// The rules as text: a sample is covered when its centre is inside, or on an edge that is a top or a left
+/// one.
 bool covers(const RasterTriangle& t, PlaneScale scale, int x, int y) {
   const int bits = static_cast<int>(scale);
   const int64_t px = (int64_t{x} << bits) + (1 << (bits - 1)), py = (int64_t{y} << bits) + (1 << (bits - 1));
@@ -41,7 +47,9 @@ bool covers(const RasterTriangle& t, PlaneScale scale, int x, int y) {
 }
 
 glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
-  const auto within = [&](int n) { return (static_cast<int>(random() % static_cast<unsigned>(n + 16)) - 8) * unit; };
+  const auto within = [&](int n) {
+    return (static_cast<int>(random() % static_cast<unsigned>(n + 16)) - 8) * unit;
+  };
   return {within(width * 64 / unit), within(height * 64 / unit)};
 }
 
@@ -57,7 +65,8 @@ TEST(Rasteriser, CoversWhatThePlainRuleSays) {
     Plane target(24, 20);
     draw(t, scale, white, target);
     for (int y = 0; y < 20; ++y)
-      for (int x = 0; x < 24; ++x) ASSERT_EQ(target.row(y)[x] != 0, covers(t, scale, x, y)) << i << ": " << x << ',' << y;
+      for (int x = 0; x < 24; ++x)
+        ASSERT_EQ(target.row(y)[x] != 0, covers(t, scale, x, y)) << i << ": " << x << ',' << y;
   }
 }
 
@@ -65,7 +74,8 @@ TEST(Rasteriser, DrawsOnlyInsideTheArea) {
   std::mt19937 random(2);
   const Plane white(24, 20, 255);
   for (int i = 0; i < 500; ++i) {
-    const RasterTriangle t = in_place(random_point(random, 24, 20, 1), random_point(random, 24, 20, 1), random_point(random, 24, 20, 1));
+    const RasterTriangle t = in_place(random_point(random, 24, 20, 1), random_point(random, 24, 20, 1),
+                                      random_point(random, 24, 20, 1));
     const int x0 = static_cast<int>(random() % 24), y0 = static_cast<int>(random() % 20);
     const SampleArea area{x0, y0, x0 + static_cast<int>(random() % static_cast<unsigned>(25 - x0)),
                           y0 + static_cast<int>(random() % static_cast<unsigned>(21 - y0))};
@@ -90,7 +100,8 @@ TEST(Rasteriser, AnticlockwiseAndFlatTrianglesAreNotDrawn) {
   EXPECT_EQ(target, Plane(8, 8));
 }
 
-// The diagonal passes through the centres of the samples on it: they belong to the triangle to whose left edge it is.
+// The diagonal passes through the centres of the samples on it: they belong to the triangle to whose left
+// edge it is.
 TEST(Rasteriser, SampleOnAnEdgeBelongsToTheTopOrLeftTriangle) {
   const Plane white(4, 4, 255);
   Plane upper(4, 4), lower(4, 4);
@@ -103,7 +114,8 @@ TEST(Rasteriser, SampleOnAnEdgeBelongsToTheTopOrLeftTriangle) {
 }
 
 /// How often each sample is drawn by a mesh of triangles.
-std::vector<int> times_drawn(const std::vector<RasterTriangle>& mesh, PlaneScale scale, int width, int height) {
+std::vector<int> times_drawn(const std::vector<RasterTriangle>& mesh, PlaneScale scale, int width,
+                             int height) {
   const Plane one(width, height, 1);
   std::vector<int> times(one.samples.size());
   for (const RasterTriangle& t : mesh) {
@@ -121,8 +133,8 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
     const int sample = 1 << static_cast<int>(scale);
     constexpr int kCells = 8, kSamples = 32;
     const int cell = kSamples * sample / kCells;
-    // Points move by a fifth of a cell at most, so that no triangle turns over; in some rounds by half samples or not
-    // at all, so that edges meet in centres.
+    // Points move by a fifth of a cell at most, so that no triangle turns over; in some rounds by half
+    // samples or not at all, so that edges meet in centres.
     const auto jitter = [&] {
       const int unit = round % 3 == 0 ? sample / 2 : 1, most = round % 5 == 0 ? 0 : cell / unit / 5;
       return (static_cast<int>(random() % static_cast<unsigned>(2 * most + 1)) - most) * unit;
@@ -136,7 +148,9 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
     std::vector<RasterTriangle> mesh;
     for (int r = 0; r < kCells; ++r) {
       for (int c = 0; c < kCells; ++c) {
-        const auto at = [&](int i, int j) { return p[static_cast<std::size_t>((r + j) * (kCells + 1) + c + i)]; };
+        const auto at = [&](int i, int j) {
+          return p[static_cast<std::size_t>((r + j) * (kCells + 1) + c + i)];
+        };
         mesh.push_back(in_place(at(0, 0), at(1, 0), at(1, 1)));
         mesh.push_back(in_place(at(0, 0), at(1, 1), at(0, 1)));
       }
@@ -174,7 +188,8 @@ TEST(Rasteriser, TextureInItsPlaceReproducesThePatternBitForBit) {
     depth.reset(40, 30, whole(target));
     draw(t, scale, pattern, target, i % 3 == 0 ? &depth : nullptr);
     for (int y = 0; y < 30; ++y)
-      for (int x = 0; x < 40; ++x) ASSERT_EQ(target.row(y)[x], covers(t, scale, x, y) ? pattern.row(y)[x] : 0) << i;
+      for (int x = 0; x < 40; ++x)
+        ASSERT_EQ(target.row(y)[x], covers(t, scale, x, y) ? pattern.row(y)[x] : 0) << i;
   }
 }
 
@@ -198,7 +213,8 @@ TEST(Rasteriser, ShiftByHalfASampleAverages) {
   Plane target(24, 20);
   draw(shifted_texture(kLarge, {32, 0}), PlaneScale::kLuma, pattern, target);
   for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 23; ++x) ASSERT_EQ(target.row(y)[x], (pattern.row(y)[x] + pattern.row(y)[x + 1] + 1) / 2);
+    for (int x = 0; x < 23; ++x)
+      ASSERT_EQ(target.row(y)[x], (pattern.row(y)[x] + pattern.row(y)[x + 1] + 1) / 2);
 }
 
 TEST(Rasteriser, ReadingOutsideRepeatsTheBorder) {
@@ -218,9 +234,12 @@ double plain_texel(const RasterTriangle& t, const Plane& pattern, PlaneScale sca
   const glm::dvec2 a(t[0].screen), b(t[1].screen), c(t[2].screen);
   const double area = cross(b - a, c - a);
   const double wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
-  const glm::dvec2 at = glm::dvec2(t[0].texture) * (1 - wb - wc) + glm::dvec2(t[1].texture) * wb + glm::dvec2(t[2].texture) * wc;
-  const double u = std::clamp(at.x / unit - 0.5, 0.0, pattern.width - 1.0), v = std::clamp(at.y / unit - 0.5, 0.0, pattern.height - 1.0);
-  const int i = std::min(static_cast<int>(u), pattern.width - 2), j = std::min(static_cast<int>(v), pattern.height - 2);
+  const glm::dvec2 at = glm::dvec2(t[0].texture) * (1 - wb - wc) + glm::dvec2(t[1].texture) * wb +
+                        glm::dvec2(t[2].texture) * wc;
+  const double u = std::clamp(at.x / unit - 0.5, 0.0, pattern.width - 1.0),
+               v = std::clamp(at.y / unit - 0.5, 0.0, pattern.height - 1.0);
+  const int i = std::min(static_cast<int>(u), pattern.width - 2),
+            j = std::min(static_cast<int>(v), pattern.height - 2);
   const double fu = u - i, fv = v - j;
   const std::uint8_t *top = pattern.row(j), *bottom = pattern.row(j + 1);
   return (top[i] * (1 - fu) + top[i + 1] * fu) * (1 - fv) + (bottom[i] * (1 - fu) + bottom[i + 1] * fu) * fv;
@@ -231,7 +250,8 @@ Plane wavy_plane(int width, int height) {
   Plane plane(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      plane.row(y)[x] = static_cast<std::uint8_t>(128 + 60 * std::sin(x * 0.1) + 60 * std::cos(y * 0.13 + x * 0.05));
+      plane.row(y)[x] =
+          static_cast<std::uint8_t>(128 + 60 * std::sin(x * 0.1) + 60 * std::cos(y * 0.13 + x * 0.05));
   return plane;
 }
 
@@ -244,7 +264,8 @@ TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
     const int bits = static_cast<int>(scale) - 6;
     RasterTriangle t;
     for (RasterVertex& v : t)
-      v = {random_point(random, 30 << bits, 30 << bits, 1), random_point(random, 60 << bits, 50 << bits, 1), 0};
+      v = {random_point(random, 30 << bits, 30 << bits, 1), random_point(random, 60 << bits, 50 << bits, 1),
+           0};
     Plane target(30, 30);
     draw(t, scale, pattern, target);
     for (int y = 0; y < 30; ++y) {
@@ -259,8 +280,8 @@ TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
   EXPECT_GT(compared, 50000);
 }
 
-// Two ways of reading: with and without a check at the border. The same texture, once at the pattern's border and
-// once inside a larger pattern whose margin repeats it.
+// Two ways of reading: with and without a check at the border. The same texture, once at the pattern's border
+// and once inside a larger pattern whose margin repeats it.
 TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
   std::mt19937 random(10);
   const Plane pattern = noise_plane(20, 20, 11);
@@ -295,8 +316,10 @@ TEST(Rasteriser, NearerHidesFartherInEitherOrder) {
     DepthPlane depth;
     depth.reset(24, 20, whole(target[order]));
     for (std::size_t k = 0; k < 2; ++k) {
-      if (k == order) draw(near_one, PlaneScale::kLuma, near_paint, target[order], &depth);
-      else draw(far_one, PlaneScale::kLuma, far_paint, target[order], &depth);
+      if (k == order)
+        draw(near_one, PlaneScale::kLuma, near_paint, target[order], &depth);
+      else
+        draw(far_one, PlaneScale::kLuma, far_paint, target[order], &depth);
     }
   }
   EXPECT_EQ(target[0], target[1]);
@@ -351,8 +374,8 @@ TEST(Rasteriser, DrawsAllPlanesAlike) {
 }
 
 /// Draws over the whole target with a shade.
-void draw_shaded(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target, const Shade& shade,
-                 std::uint8_t low, std::uint8_t high) {
+void draw_shaded(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
+                 const Shade& shade, std::uint8_t low, std::uint8_t high) {
   DepthPlane depth;
   depth.reset(target.width, target.height, whole(target));
   const PlanePair pair{&pattern, &target, low, high};
@@ -393,24 +416,30 @@ TEST(Rasteriser, ShadeOfNothingIsThePatternAndOfAllIsTheColour) {
   EXPECT_EQ(target, Plane(24, 20, 99));
 }
 
-// Positions at the limits of what projection gives and depths at the limits of their type. What counts is that
-// nothing overflows (sanitizers) and that coverage stays exact.
+// Positions at the limits of what projection gives and depths at the limits of their type. What counts is
+// that nothing overflows (sanitizers) and that coverage stays exact.
 TEST(Rasteriser, HostileCoordinatesStayExact) {
   std::mt19937 random(14);
   const Plane pattern = noise_plane(32, 24, 15);
   const auto wild = [&] {
     switch (random() % 4) {
-      case 0: return kMostScreen;
-      case 1: return -kMostScreen;
-      case 2: return static_cast<int>(random() % 2048);
-      default: return static_cast<int>(random() % (2 * kMostScreen)) - kMostScreen;
+      case 0:
+        return kMostScreen;
+      case 1:
+        return -kMostScreen;
+      case 2:
+        return static_cast<int>(random() % 2048);
+      default:
+        return static_cast<int>(random() % (2 * kMostScreen)) - kMostScreen;
     }
   };
   for (int i = 0; i < 4000; ++i) {
     RasterTriangle t;
     for (RasterVertex& v : t) {
       v = {{wild(), wild()}, {wild(), wild()}, static_cast<std::int32_t>(random())};
-      if (random() % 3 == 0) v.depth = random() % 2 == 0 ? std::numeric_limits<std::int32_t>::max() : std::numeric_limits<std::int32_t>::min();
+      if (random() % 3 == 0)
+        v.depth = random() % 2 == 0 ? std::numeric_limits<std::int32_t>::max()
+                                    : std::numeric_limits<std::int32_t>::min();
     }
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
     const Plane white(32, 24, 255);
@@ -425,21 +454,25 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
   }
 }
 
-// A triangle that is thinner than a unit may still hold a sample's centre; its gradients are as large as they get.
+// A triangle that is thinner than a unit may still hold a sample's centre; its gradients are as large as they
+// get.
 TEST(Rasteriser, SliversReadInsideThePattern) {
   std::mt19937 random(16);
   const Plane pattern = noise_plane(8192, 4, 17);
   int drawn = 0;
   for (int i = 0; i < 4000; ++i) {
-    const int x = static_cast<int>(random() % 64) * 64 + 30, far = kMostScreen - static_cast<int>(random() % 1000);
+    const int x = static_cast<int>(random() % 64) * 64 + 30,
+              far = kMostScreen - static_cast<int>(random() % 1000);
     RasterTriangle t;
     t[0].screen = {x, -far};
     t[1].screen = {x + 1 + static_cast<int>(random() % 6), far};
     t[2].screen = {x, far};
-    for (RasterVertex& v : t) v.texture = {static_cast<int>(random() % (8190 * 64)), static_cast<int>(random() % 256)};
+    for (RasterVertex& v : t)
+      v.texture = {static_cast<int>(random() % (8190 * 64)), static_cast<int>(random() % 256)};
     Plane target(64, 48);
     draw(t, PlaneScale::kLuma, pattern, target);
-    drawn += static_cast<int>(std::count_if(target.samples.begin(), target.samples.end(), [](auto s) { return s != 0; }));
+    drawn += static_cast<int>(
+        std::count_if(target.samples.begin(), target.samples.end(), [](auto s) { return s != 0; }));
   }
   EXPECT_GT(drawn, 50000);
 }

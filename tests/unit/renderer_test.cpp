@@ -31,8 +31,10 @@ TEST(Renderer, StateOfThePatternReproducesItWhateverThePoseWas) {
   Renderer renderer;
   for (int i = 0; i < 40; ++i) {
     State seen = toy_state();
-    for (const int k : {kPitch, kYaw, kRoll}) seen.pose[static_cast<std::size_t>(k)] = static_cast<int>(random() % 12000) - 6000;
-    for (glm::ivec2& c : seen.control) c = {static_cast<int>(random() % 801) - 400, static_cast<int>(random() % 801) - 400};
+    for (const int k : {kPitch, kYaw, kRoll})
+      seen.pose[static_cast<std::size_t>(k)] = static_cast<int>(random() % 12000) - 6000;
+    for (glm::ivec2& c : seen.control)
+      c = {static_cast<int>(random() % 801) - 400, static_cast<int>(random() % 801) - 400};
     Scene scene;
     scene.setup = toy_setup();
     scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(6, 6, 3), seen);
@@ -78,11 +80,14 @@ int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
 
 std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
   std::vector<glm::ivec2> out;
-  for (const std::int16_t v : generic_head().outline) out.emplace_back(mesh.head[static_cast<std::size_t>(v)]);
+  for (const std::int16_t v : generic_head().outline)
+    out.emplace_back(mesh.head[static_cast<std::size_t>(v)]);
   return out;
 }
 
-std::vector<glm::ivec2> ring_of(const ScreenMesh& mesh) { return {mesh.head.begin() + kVertexCount, mesh.head.end()}; }
+std::vector<glm::ivec2> ring_of(const ScreenMesh& mesh) {
+  return {mesh.head.begin() + kVertexCount, mesh.head.end()};
+}
 
 /// Bright where head and ring are in toy_state() and `reach` pixels round them, dark elsewhere.
 Picture bright_head(int reach) {
@@ -108,8 +113,8 @@ State random_look(std::mt19937& random) {
   return state;
 }
 
-// Outline and ring close the mesh: wherever such a polygon goes round a sample, some triangle that faces the viewer
-// lies there, and what it shows comes from the head. A crack would show the dark ground.
+// Outline and ring close the mesh: wherever such a polygon goes round a sample, some triangle that faces the
+// viewer lies there, and what it shows comes from the head. A crack would show the dark ground.
 TEST(Renderer, MovedHeadShowsNoUncoveredPixel) {
   std::mt19937 random(6);
   const Picture bright = bright_head(2);
@@ -146,7 +151,9 @@ TEST(Renderer, StillGroundStaysWhereTheHeadIsNot) {
     int compared = 0;
     for (int y = 0; y < 128; ++y) {
       for (int x = 0; x < 160; ++x) {
-        if (std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) { return winding(t, x, y) > 0; })) continue;
+        if (std::any_of(triangles.begin(), triangles.end(),
+                        [&](const auto& t) { return winding(t, x, y) > 0; }))
+          continue;
         ++compared;
         ASSERT_EQ(out.y.row(y)[x], scene.patterns[0].picture.y.row(y)[x]);
       }
@@ -188,7 +195,9 @@ TEST(Renderer, ShowsTheNearestTriangle) {
       int layers = 0;
       bool on_edge = false;
       for (const auto& t : head_mesh().triangles) {
-        const auto corner = [&](const ScreenMesh& m, std::size_t i) { return m.head[static_cast<std::size_t>(t[i])]; };
+        const auto corner = [&](const ScreenMesh& m, std::size_t i) {
+          return m.head[static_cast<std::size_t>(t[i])];
+        };
         const glm::dvec2 a(corner(now, 0)), b(corner(now, 1)), c(corner(now, 2));
         const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };
         const double area = cross(b - a, c - a);
@@ -201,7 +210,8 @@ TEST(Renderer, ShowsTheNearestTriangle) {
         if (z >= nearest) continue;
         nearest = z;
         const glm::dvec2 texture = (wa * glm::dvec2(corner(seen, 0)) + wb * glm::dvec2(corner(seen, 1)) +
-                                    wc * glm::dvec2(corner(seen, 2))) / 64.0;
+                                    wc * glm::dvec2(corner(seen, 2))) /
+                                   64.0;
         grey = texture.x - 0.5 + (texture.y - 0.5) / 2;
       }
       if (layers == 0 || on_edge) continue;
@@ -244,7 +254,8 @@ TEST(Renderer, SurvivesEveryStateOfAStream) {
     Scene scene;
     scene.setup = toy_setup(65, 64);
     const State seen = random_state(random);
-    scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(4, 3, static_cast<int>(random() % 5)), seen);
+    scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(4, 3, static_cast<int>(random() % 5)),
+                           seen);
     scene.patterns.push_back({noise_picture(65, 64, 11), scene.geometry->project(seen)});
     renderer.render(scene, random_state(random), out);
     ASSERT_EQ(out.width(), 65);

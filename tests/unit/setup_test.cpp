@@ -79,7 +79,8 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
 
 // Payload by hand: version, head, width, height, rate, aspect, colour, steps, features, mouth.
 TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {1, 1, 64, 65, 25, 1, 1, 1, 0, 1, 2, 3, 4, 0, 70, 126, 138, 45, 126, 139};
+  const std::vector<std::uint8_t> good = {1, 1, 64, 65, 25, 1,   1,   1,  0,   1,
+                                          2, 3, 4,  0,  70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
   EXPECT_EQ(decode_setup(good)->mouth, (MouthInterior{{70, 126, 138}, {45, 126, 139}}));

@@ -40,7 +40,8 @@ Picture face_picture(int seed) {
   Picture p(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      p.y.row(y)[x] = static_cast<std::uint8_t>(120 + 50 * std::sin(x * 0.2 + seed) + 50 * std::cos(y * 0.17));
+      p.y.row(y)[x] =
+          static_cast<std::uint8_t>(120 + 50 * std::sin(x * 0.2 + seed) + 50 * std::cos(y * 0.17));
   return p;
 }
 
@@ -63,7 +64,9 @@ class Writer {
     return packet(PacketType::kSetup, encode_setup(s));
   }
   Writer& geometry() { return packet(PacketType::kGeometry, encode_geometry(toy_geometry())->payload); }
-  Writer& surround(int follow = 2) { return packet(PacketType::kSurround, encode_surround(even_surround(6, 5, follow))); }
+  Writer& surround(int follow = 2) {
+    return packet(PacketType::kSurround, encode_surround(even_surround(6, 5, follow)));
+  }
   Writer& pattern(const Picture& picture = face_picture(0)) {
     const PatternSyntax syntax{patterns_++, state_of(0), *av1_->encode(picture)};
     return packet(PacketType::kPattern, encode_pattern(syntax, setup_));
@@ -136,7 +139,9 @@ Told played(std::span<const std::uint8_t> bytes) {
   return told;
 }
 
-std::uint64_t sum_of(const ByteCount& b) { return b.geometry + b.patterns + b.motion + b.index + b.other; }
+std::uint64_t sum_of(const ByteCount& b) {
+  return b.geometry + b.patterns + b.motion + b.index + b.other;
+}
 
 TEST(StreamDecoder, PlaysEveryPicture) {
   const Told told = played(sample().bytes);
@@ -188,7 +193,8 @@ TEST(StreamDecoder, StreamMayBeCutAnywhere) {
   for (std::size_t size = 0; size < sample().bytes.size(); size += 37) {
     const Told told = played(std::span(sample().bytes).first(size));
     ASSERT_LE(told.errors.size(), 1u) << size;
-    const bool at_packet = std::find(sample().begins.begin() + 1, sample().begins.end(), size) != sample().begins.end();
+    const bool at_packet =
+        std::find(sample().begins.begin() + 1, sample().begins.end(), size) != sample().begins.end();
     EXPECT_EQ(told.errors.empty(), at_packet) << size;
     if (!told.errors.empty()) {
       EXPECT_EQ(told.errors[0].code, size == 0 ? ErrorCode::kNotFbs : ErrorCode::kTruncated) << size;
@@ -213,7 +219,8 @@ TEST(StreamDecoder, GoesOnBehindAFlippedBit) {
     if (bit / 8 >= sample().begins[4] && bit / 8 < sample().begins[8]) {
       EXPECT_GE(told.pictures.size(), 10u) << bit;
       for (const Picture& p : told.pictures)
-        EXPECT_NE(std::find(whole.pictures.begin(), whole.pictures.end(), p), whole.pictures.end()) << "a wild picture";
+        EXPECT_NE(std::find(whole.pictures.begin(), whole.pictures.end(), p), whole.pictures.end())
+            << "a wild picture";
     }
   }
 }
@@ -228,7 +235,9 @@ TEST(StreamDecoder, ErrorsNameTheByteOfTheirPacket) {
 
 TEST(StreamDecoder, LostGroupCostsThePicturesUpToTheNextKeyGroup) {
   Bytes bytes = sample().bytes;
-  const auto at = [&](std::size_t packet) { return bytes.begin() + static_cast<std::ptrdiff_t>(sample().begins[packet]); };
+  const auto at = [&](std::size_t packet) {
+    return bytes.begin() + static_cast<std::ptrdiff_t>(sample().begins[packet]);
+  };
   bytes.erase(at(4), at(5));  // the first group, key: the second cannot be read
   const Told told = played(bytes), whole = played(sample().bytes);
   ASSERT_EQ(told.errors.size(), 1u);
@@ -246,20 +255,25 @@ ErrorCode first_error(const Writer& w) {
 
 TEST(StreamDecoder, OrderOfPacketsIsChecked) {
   EXPECT_EQ(first_error(Writer().packet(PacketType::kGeometry, encode_geometry(toy_geometry())->payload)),
-            ErrorCode::kInvalidStream) << "before the setup";
+            ErrorCode::kInvalidStream)
+      << "before the setup";
   EXPECT_EQ(first_error(Writer().packet(PacketType::kMotion, Bytes{1})), ErrorCode::kInvalidStream);
-  EXPECT_EQ(first_error(Writer().setup().geometry().motion(0, 3, true)), ErrorCode::kInvalidStream) << "no pattern";
+  EXPECT_EQ(first_error(Writer().setup().geometry().motion(0, 3, true)), ErrorCode::kInvalidStream)
+      << "no pattern";
   Writer late;
   late.setup();
-  const PatternSyntax one{1, state_of(0), *PatternEncoder::create(setup_of().format, 50)->encode(face_picture(0))};
-  EXPECT_EQ(first_error(late.packet(PacketType::kPattern, encode_pattern(one, setup_of()))), ErrorCode::kInvalidStream)
+  const PatternSyntax one{1, state_of(0),
+                          *PatternEncoder::create(setup_of().format, 50)->encode(face_picture(0))};
+  EXPECT_EQ(first_error(late.packet(PacketType::kPattern, encode_pattern(one, setup_of()))),
+            ErrorCode::kInvalidStream)
       << "pattern 1 comes first";
 }
 
 TEST(StreamDecoder, EmptyAndUnfinishedStreamsAreErrors) {
   EXPECT_EQ(played({}).errors.at(0).code, ErrorCode::kNotFbs);
   EXPECT_EQ(played(Writer().bytes).errors.at(0).code, ErrorCode::kTruncated) << "a signature alone";
-  EXPECT_TRUE(played(Writer().setup().geometry().surround().pattern().bytes).errors.empty()) << "no picture is no fault";
+  EXPECT_TRUE(played(Writer().setup().geometry().surround().pattern().bytes).errors.empty())
+      << "no picture is no fault";
 }
 
 TEST(StreamDecoder, AnotherSizeInsideAStreamIsUnsupported) {
@@ -275,7 +289,10 @@ TEST(StreamDecoder, AnotherSizeInsideAStreamIsUnsupported) {
 
 TEST(StreamDecoder, UnknownPacketsAreSkipped) {
   Writer w;
-  w.packet(static_cast<PacketType>(77), Bytes{1, 2, 3}).setup().geometry().packet(static_cast<PacketType>(200), Bytes(300));
+  w.packet(static_cast<PacketType>(77), Bytes{1, 2, 3})
+      .setup()
+      .geometry()
+      .packet(static_cast<PacketType>(200), Bytes(300));
   w.surround().pattern().motion(0, 5, true).packet(static_cast<PacketType>(0), Bytes{});
   w.motion(5, 10);
   const Told told = played(w.bytes), whole = played(sample().bytes);
@@ -329,7 +346,14 @@ TEST(StreamDecoder, PatternZeroSettlesTheScene) {
 
 TEST(StreamDecoder, LaterPatternsAreDecodedAndNotDrawn) {
   Writer w;
-  w.setup().geometry().surround().pattern().pattern(face_picture(1)).motion(0, 5, true).pattern(face_picture(2)).motion(5, 10);
+  w.setup()
+      .geometry()
+      .surround()
+      .pattern()
+      .pattern(face_picture(1))
+      .motion(0, 5, true)
+      .pattern(face_picture(2))
+      .motion(5, 10);
   const Told told = played(w.bytes), whole = played(sample().bytes);
   EXPECT_TRUE(told.errors.empty());
   ASSERT_EQ(told.pictures.size(), 10u);
@@ -392,7 +416,8 @@ TEST(StreamDecoder, SurvivesPayloadsThatLieWithRightChecks) {
       ASSERT_TRUE(packet.has_value());
       Bytes payload(packet->packet.payload.begin(), packet->packet.payload.end());
       if (random() % 4 == 0 && !payload.empty())
-        for (unsigned n = random() % 3; n < 3; ++n) payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
+        for (unsigned n = random() % 3; n < 3; ++n)
+          payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
       write_packet(bytes, packet->packet.type, payload);
     }
     const Told told = played(bytes);
@@ -405,7 +430,8 @@ TEST(StreamDecoder, SurvivesRandomBytesBehindTheSignature) {
   for (int i = 0; i < 200; ++i) {
     Bytes bytes;
     write_signature(bytes);
-    for (unsigned n = random() % 600; n > 0; --n) bytes.push_back(static_cast<std::uint8_t>(random() % (i % 2 == 0 ? 256 : 8)));
+    for (unsigned n = random() % 600; n > 0; --n)
+      bytes.push_back(static_cast<std::uint8_t>(random() % (i % 2 == 0 ? 256 : 8)));
     EXPECT_TRUE(played(bytes).pictures.empty());
   }
 }

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-/// A head with hair, an ellipse of its own texture, before a still ground; the head has moved by (dx, dy) pixels.
+/// A head with hair, an ellipse of its own texture, before a still ground; the head has moved by (dx, dy)
+/// pixels.
 Picture head_before_ground(int dx, int dy) {
   static const Plane ground = smooth_plane(kWidth, kHeight, 1), head = smooth_plane(kWidth, kHeight, 2);
   Picture out(kWidth, kHeight);
@@ -50,7 +51,8 @@ TEST(FitSurround, HairFollowsTheHeadAndTheGroundStays) {
   double followed = 0, stayed = 0;
   for (int r = 1; r < map.rows; ++r) {
     for (int c = 1; c < map.columns; ++c) {
-      const double x = kWidth * c / static_cast<double>(map.columns), y = kHeight * r / static_cast<double>(map.rows);
+      const double x = kWidth * c / static_cast<double>(map.columns),
+                   y = kHeight * r / static_cast<double>(map.rows);
       const double distance = std::hypot((x - 160) / 62, (y - 118) / 82);
       const int follow = map.follow[static_cast<std::size_t>(r * (map.columns + 1) + c)];
       if (distance < 0.75) {
@@ -84,7 +86,8 @@ TEST(FitSurround, GuessesByDistanceWithoutLaterPictures) {
   const Picture seen = head_before_ground(0, 0);
   const SurroundMap map = fit_surround(toy_setup(kWidth, kHeight), toy_geometry(), {&seen, first}, {});
   const auto at = [&](double x, double y) {
-    const int c = static_cast<int>(std::lround(x * map.columns / kWidth)), r = static_cast<int>(std::lround(y * map.rows / kHeight));
+    const int c = static_cast<int>(std::lround(x * map.columns / kWidth)),
+              r = static_cast<int>(std::lround(y * map.rows / kHeight));
     return map.follow[static_cast<std::size_t>(r * (map.columns + 1) + c)];
   };
   EXPECT_EQ(at(160, 105), kFollowOne);

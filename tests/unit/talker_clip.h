@@ -1,4 +1,5 @@
-// The generated talker as the encoder's tests use it: pictures drawn once, truth in the encoder's conventions.
+// The generated talker as the encoder's tests use it: pictures drawn once, truth in the encoder's
+// conventions.
 #pragma once
 
 #include <cmath>
@@ -32,15 +33,18 @@ class TalkerClip {
     return f;
   }
 
-  /// The 68 points where they are seen; the talker counts from the first pixel's centre, marks from its corner.
+  /// The 68 points where they are seen; the talker counts from the first pixel's centre, marks from its
+  /// corner.
   [[nodiscard]] Marks marks(int frame) const {
     Marks m;
     const auto points = talker_.points(frame);
-    for (int k = 0; k < kLandmarkCount; ++k) m.set_landmark(k, glm::dvec2(points[static_cast<std::size_t>(k)]) + 0.5);
+    for (int k = 0; k < kLandmarkCount; ++k)
+      m.set_landmark(k, glm::dvec2(points[static_cast<std::size_t>(k)]) + 0.5);
     return m;
   }
 
-  /// Head frames differ by where their origin lies, so that only turns, scale and how the pose changes compare.
+  /// Head frames differ by where their origin lies, so that only turns, scale and how the pose changes
+  /// compare.
   [[nodiscard]] Pose pose(int frame) const {
     constexpr double kDegree = std::numbers::pi / 180;
     const talker::Pose p = talker_.truth(frame).pose;

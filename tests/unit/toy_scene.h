@@ -1,4 +1,5 @@
-// A scene with a face made of the generic head and random paint: what the decoder's tests draw, no encoder needed.
+// A scene with a face made of the generic head and random paint: what the decoder's tests draw, no encoder
+// needed.
 #pragma once
 
 #include <random>
@@ -22,7 +23,8 @@ inline Picture noise_picture(int width, int height, unsigned seed) {
   return picture;
 }
 
-/// Noise that changes over six samples: places can be told apart, and a shift by a pixel does not destroy them.
+/// Noise that changes over six samples: places can be told apart, and a shift by a pixel does not destroy
+/// them.
 inline Plane smooth_plane(int width, int height, unsigned seed) {
   constexpr int kGrid = 6;
   const Plane coarse = noise_plane(width / kGrid + 2, height / kGrid + 2, seed);
@@ -30,7 +32,9 @@ inline Plane smooth_plane(int width, int height, unsigned seed) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double fx = x % kGrid / (1.0 * kGrid), fy = y % kGrid / (1.0 * kGrid);
-      const auto at = [&](int i, int j) { return static_cast<double>(coarse.row(y / kGrid + j)[x / kGrid + i]); };
+      const auto at = [&](int i, int j) {
+        return static_cast<double>(coarse.row(y / kGrid + j)[x / kGrid + i]);
+      };
       out.row(y)[x] = static_cast<std::uint8_t>((at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) +
                                                 (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy);
     }
@@ -70,7 +74,8 @@ inline SurroundMap even_surround(int columns, int rows, int follow) {
   SurroundMap map{columns, rows, {}};
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c <= columns; ++c)
-      map.follow.push_back(static_cast<std::uint8_t>(r == 0 || c == 0 || r == rows || c == columns ? 0 : follow));
+      map.follow.push_back(
+          static_cast<std::uint8_t>(r == 0 || c == 0 || r == rows || c == columns ? 0 : follow));
   return map;
 }
 
@@ -89,16 +94,23 @@ inline State random_state(std::mt19937& random, const QuantiserSteps& steps = {1
     const std::int32_t most = limit / step;
     // Often the very limit.
     switch (random() % 4) {
-      case 0: return most;
-      case 1: return -most;
-      default: return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
+      case 0:
+        return most;
+      case 1:
+        return -most;
+      default:
+        return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
     }
   };
   State state;
-  for (const int i : {kPitch, kYaw, kRoll}) state.pose[static_cast<std::size_t>(i)] = within(kMaxRotation, steps.rotation);
-  for (const int i : {kShiftX, kShiftY}) state.pose[static_cast<std::size_t>(i)] = within(kMaxTranslation, steps.translation);
-  state.pose[kLogScale] = static_cast<std::int32_t>(random() % static_cast<unsigned>(kMaxLogScale / steps.log_scale + 1));
-  for (glm::ivec2& c : state.control) c = {within(kMaxControl, steps.control), within(kMaxControl, steps.control)};
+  for (const int i : {kPitch, kYaw, kRoll})
+    state.pose[static_cast<std::size_t>(i)] = within(kMaxRotation, steps.rotation);
+  for (const int i : {kShiftX, kShiftY})
+    state.pose[static_cast<std::size_t>(i)] = within(kMaxTranslation, steps.translation);
+  state.pose[kLogScale] =
+      static_cast<std::int32_t>(random() % static_cast<unsigned>(kMaxLogScale / steps.log_scale + 1));
+  for (glm::ivec2& c : state.control)
+    c = {within(kMaxControl, steps.control), within(kMaxControl, steps.control)};
   return state;
 }
 

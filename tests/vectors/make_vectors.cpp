@@ -1,5 +1,5 @@
-// make_vectors FOLDER: writes all test vectors and their table. Everything in them is generated: the talker, and
-// states from a fixed seed. See make.sh and README.md.
+// make_vectors FOLDER: writes all test vectors and their table. Everything in them is generated: the talker,
+// and states from a fixed seed. See make.sh and README.md.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -53,14 +53,16 @@ std::vector<Picture> pictures_of(const talker::Settings& settings) {
   return out;
 }
 
-Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& settings, const std::vector<std::uint32_t>& durations = {}) {
+Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& settings,
+              const std::vector<std::uint32_t>& durations = {}) {
   VideoFormat format;
   format.width = pictures[0].width();
   format.height = pictures[0].height();
   format.frame_rate = {30, 1};
   auto encoder = must(Encoder::create(format, settings));
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    if (auto pushed = encoder.push(pictures[i], durations.empty() ? 0 : durations[i]); !pushed) give_up(pushed.error().text);
+    if (auto pushed = encoder.push(pictures[i], durations.empty() ? 0 : durations[i]); !pushed)
+      give_up(pushed.error().text);
   if (auto finished = encoder.finish(); !finished) give_up(finished.error().text);
   return encoder.take();
 }
@@ -100,7 +102,8 @@ std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   return joined(pieces).size();
 }
 
-/// Every part of the state at and between its limits: what an encoder never writes, and a decoder must draw alike.
+/// Every part of the state at and between its limits: what an encoder never writes, and a decoder must draw
+/// alike.
 Bytes limits_stream() {
   Setup setup;
   setup.format.width = 65;
@@ -114,24 +117,28 @@ Bytes limits_stream() {
     FlatState flat{};
     for (std::size_t i = 0; i < kParameterCount; ++i) {
       const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
-      flat[i] = random() % 6 == 0 ? limits.most[i] : random() % 6 == 0 ? limits.least[i] : limits.least[i] + static_cast<int>(random() % range);
+      flat[i] = random() % 6 == 0   ? limits.most[i]
+                : random() % 6 == 0 ? limits.least[i]
+                                    : limits.least[i] + static_cast<int>(random() % range);
     }
     return unflatten(flat);
   };
   Geometry geometry;
   for (std::size_t v = 0; v < kVertexCount; ++v) geometry.positions[v] = generic_head().vertices[v].position;
   SurroundMap surround{7, 5, {}};
-  for (int k = 0; k < 8 * 6; ++k) surround.follow.push_back(static_cast<std::uint8_t>(random() % (kFollowOne + 1)));
+  for (int k = 0; k < 8 * 6; ++k)
+    surround.follow.push_back(static_cast<std::uint8_t>(random() % (kFollowOne + 1)));
   State seen;
   seen.pose[kShiftX] = 32 * 64 / setup.steps.translation;
   seen.pose[kLogScale] = 4 * 4096 / setup.steps.log_scale;
   auto av1 = must(PatternEncoder::create(setup.format, 40));
   const Picture picture = pictures_of(talker_settings(65, 64, 1))[0];
 
-  std::vector<Piece> pieces = {{PacketType::kSetup, must(encode_setup(setup))},
-                               {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
-                               {PacketType::kSurround, must(encode_surround(surround))},
-                               {PacketType::kPattern, must(encode_pattern({0, seen, must(av1.encode(picture))}, setup))}};
+  std::vector<Piece> pieces = {
+      {PacketType::kSetup, must(encode_setup(setup))},
+      {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
+      {PacketType::kSurround, must(encode_surround(surround))},
+      {PacketType::kPattern, must(encode_pattern({0, seen, must(av1.encode(picture))}, setup))}};
   MotionCoder coder(setup);
   for (int group = 0; group < 2; ++group) {
     MotionGroup g{group == 0, {}, {}};
@@ -144,11 +151,13 @@ Bytes limits_stream() {
 class Folder {
  public:
   explicit Folder(std::string path) : path_(std::move(path)), table_(path_ + "/vectors.txt") {
-    table_ << "# Written by make_vectors. File, first error, pictures, MD5 over the planes of all pictures.\n";
+    table_
+        << "# Written by make_vectors. File, first error, pictures, MD5 over the planes of all pictures.\n";
   }
 
   /// Writes a vector after making sure that it decodes to what its name promises.
-  void add(const std::string& file, const Bytes& bytes, std::uint64_t pictures, std::string_view error = "-") {
+  void add(const std::string& file, const Bytes& bytes, std::uint64_t pictures,
+           std::string_view error = "-") {
     const StreamDigest d = digest_of(bytes);
     if (d.error != error || d.pictures != pictures)
       give_up(file + " gives " + d.error + " and " + std::to_string(d.pictures) + " pictures");
@@ -196,7 +205,8 @@ void add_good(Folder& folder, const Bytes& talk) {
 void add_broken(Folder& folder, const Bytes& talk) {
   const auto pieces = pieces_of(talk);
   const std::size_t third_motion = offset_of(pieces, place_of(pieces, PacketType::kMotion, 2));
-  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)}, 10, "kTruncated");
+  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)},
+             10, "kTruncated");
   Bytes flipped = talk;
   flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
   folder.add("flipped_bit.fbs", flipped, 5, "kInvalidStream");
@@ -215,7 +225,8 @@ void add_broken(Folder& folder, const Bytes& talk) {
   oversized.insert(oversized.end(), pieces[0].payload.begin() + 5, pieces[0].payload.end());
   folder.add("oversized.fbs", with(PacketType::kSetup, oversized), 0, "kTooLarge");
   Bytes long_packet = joined({pieces[0]});
-  long_packet.insert(long_packet.end(), {static_cast<std::uint8_t>(PacketType::kPattern), 0xFF, 0xFF, 0xFF, 0xFF, 0x0F});
+  long_packet.insert(long_packet.end(),
+                     {static_cast<std::uint8_t>(PacketType::kPattern), 0xFF, 0xFF, 0xFF, 0xFF, 0x0F});
   folder.add("long_packet.fbs", long_packet, 0, "kTooLarge");
 
   auto no_setup = pieces;
@@ -228,14 +239,18 @@ void add_broken(Folder& folder, const Bytes& talk) {
   lost_key.erase(lost_key.begin() + static_cast<std::ptrdiff_t>(place_of(pieces, PacketType::kMotion)));
   folder.add("lost_key.fbs", joined(lost_key), 0, "kInvalidStream");
   const Setup setup = must(decode_setup(pieces[0].payload));
-  const PatternSyntax pattern = must(decode_pattern(pieces[place_of(pieces, PacketType::kPattern)].payload, setup));
+  const PatternSyntax pattern =
+      must(decode_pattern(pieces[place_of(pieces, PacketType::kPattern)].payload, setup));
   PatternSyntax bad_av1 = pattern, wrong_size = pattern;
   bad_av1.av1.resize(pattern.av1.size() / 2);
-  folder.add("bad_av1.fbs", with(PacketType::kPattern, must(encode_pattern(bad_av1, setup))), 0, "kInvalidStream");
+  folder.add("bad_av1.fbs", with(PacketType::kPattern, must(encode_pattern(bad_av1, setup))), 0,
+             "kInvalidStream");
   VideoFormat smaller = setup.format;
   smaller.width -= 2;
-  wrong_size.av1 = must(must(PatternEncoder::create(smaller, 60)).encode(Picture(smaller.width, smaller.height)));
-  folder.add("wrong_size.fbs", with(PacketType::kPattern, must(encode_pattern(wrong_size, setup))), 0, "kInvalidStream");
+  wrong_size.av1 =
+      must(must(PatternEncoder::create(smaller, 60)).encode(Picture(smaller.width, smaller.height)));
+  folder.add("wrong_size.fbs", with(PacketType::kPattern, must(encode_pattern(wrong_size, setup))), 0,
+             "kInvalidStream");
 }
 
 }  // namespace
@@ -244,7 +259,8 @@ void add_broken(Folder& folder, const Bytes& talk) {
 int main(int argc, char** argv) {
   if (argc != 2) fbs::give_up("which folder?");
   fbs::Folder folder(argv[1]);
-  const fbs::Bytes talk = fbs::encoded(fbs::pictures_of(fbs::talker_settings(128, 96, 20)), fbs::groups_of(5));
+  const fbs::Bytes talk =
+      fbs::encoded(fbs::pictures_of(fbs::talker_settings(128, 96, 20)), fbs::groups_of(5));
   fbs::add_good(folder, talk);
   fbs::add_broken(folder, talk);
   return 0;

@@ -27,12 +27,19 @@ constexpr std::array<std::uint32_t, 64> kSines = {
 void Md5::block(const std::uint8_t* bytes) {
   std::array<std::uint32_t, 16> word;
   for (std::size_t i = 0; i < 16; ++i)
-    word[i] = bytes[4 * i] | bytes[4 * i + 1] << 8 | bytes[4 * i + 2] << 16 | std::uint32_t{bytes[4 * i + 3]} << 24;
+    word[i] =
+        bytes[4 * i] | bytes[4 * i + 1] << 8 | bytes[4 * i + 2] << 16 | std::uint32_t{bytes[4 * i + 3]} << 24;
   auto [a, b, c, d] = state_;
   for (std::size_t i = 0; i < 64; ++i) {
     const std::size_t round = i / 16;
-    const std::uint32_t f = round == 0 ? (b & c) | (~b & d) : round == 1 ? (d & b) | (~d & c) : round == 2 ? b ^ c ^ d : c ^ (b | ~d);
-    const std::size_t place = round == 0 ? i : round == 1 ? (5 * i + 1) % 16 : round == 2 ? (3 * i + 5) % 16 : 7 * i % 16;
+    const std::uint32_t f = round == 0   ? (b & c) | (~b & d)
+                            : round == 1 ? (d & b) | (~d & c)
+                            : round == 2 ? b ^ c ^ d
+                                         : c ^ (b | ~d);
+    const std::size_t place = round == 0   ? i
+                              : round == 1 ? (5 * i + 1) % 16
+                              : round == 2 ? (3 * i + 5) % 16
+                                           : 7 * i % 16;
     const std::uint32_t turned = std::rotl(a + f + kSines[i] + word[place], kShifts[4 * round + i % 4]);
     a = d;
     d = c;

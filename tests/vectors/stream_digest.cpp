@@ -11,16 +11,26 @@ namespace fbs {
 
 std::string_view name_of(ErrorCode code) {
   switch (code) {
-    case ErrorCode::kInvalidArgument: return "kInvalidArgument";
-    case ErrorCode::kNotFbs: return "kNotFbs";
-    case ErrorCode::kTruncated: return "kTruncated";
-    case ErrorCode::kInvalidStream: return "kInvalidStream";
-    case ErrorCode::kUnsupported: return "kUnsupported";
-    case ErrorCode::kTooLarge: return "kTooLarge";
-    case ErrorCode::kDegenerateInput: return "kDegenerateInput";
-    case ErrorCode::kNoFace: return "kNoFace";
-    case ErrorCode::kIo: return "kIo";
-    case ErrorCode::kInternal: return "kInternal";
+    case ErrorCode::kInvalidArgument:
+      return "kInvalidArgument";
+    case ErrorCode::kNotFbs:
+      return "kNotFbs";
+    case ErrorCode::kTruncated:
+      return "kTruncated";
+    case ErrorCode::kInvalidStream:
+      return "kInvalidStream";
+    case ErrorCode::kUnsupported:
+      return "kUnsupported";
+    case ErrorCode::kTooLarge:
+      return "kTooLarge";
+    case ErrorCode::kDegenerateInput:
+      return "kDegenerateInput";
+    case ErrorCode::kNoFace:
+      return "kNoFace";
+    case ErrorCode::kIo:
+      return "kIo";
+    case ErrorCode::kInternal:
+      return "kInternal";
   }
   return "?";
 }

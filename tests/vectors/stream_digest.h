@@ -1,4 +1,5 @@
-// What a stream decodes to, in one line: the first error, the number of pictures, the MD5 of all their samples.
+// What a stream decodes to, in one line: the first error, the number of pictures, the MD5 of all their
+// samples.
 #pragma once
 
 #include <cstdint>

@@ -30,6 +30,7 @@ int check(const std::string& folder) {
 int main(int argc, char** argv) {
   if (argc == 2 && std::filesystem::is_directory(argv[1])) return check(argv[1]);
   for (int i = 1; i < argc; ++i)
-    std::cout << std::filesystem::path(argv[i]).filename().string() << ' ' << fbs::digest_of(fbs::read_bytes(argv[i])) << '\n';
+    std::cout << std::filesystem::path(argv[i]).filename().string() << ' '
+              << fbs::digest_of(fbs::read_bytes(argv[i])) << '\n';
   return 0;
 }

@@ -49,7 +49,8 @@ TEST(Vectors, TableReadmeAndFolderAgree) {
   std::set<std::string> listed;
   for (const Vector& v : read_vectors(kFolder)) {
     listed.insert(v.file);
-    EXPECT_NE(readme.str().find("`" + v.file + "` |"), std::string::npos) << v.file << " has no line in README.md";
+    EXPECT_NE(readme.str().find("`" + v.file + "` |"), std::string::npos)
+        << v.file << " has no line in README.md";
   }
   std::set<std::string> present;
   for (const auto& entry : fs::directory_iterator(kFolder))
@@ -58,12 +59,14 @@ TEST(Vectors, TableReadmeAndFolderAgree) {
 }
 
 TEST(Vectors, AreSmall) {
-  for (const Vector& v : read_vectors(kFolder)) EXPECT_LT(fs::file_size(kFolder + "/" + v.file), 8192u) << v.file;
+  for (const Vector& v : read_vectors(kFolder))
+    EXPECT_LT(fs::file_size(kFolder + "/" + v.file), 8192u) << v.file;
 }
 
 // An old reader on the stream of a later writer.
 TEST(Vectors, WhatALaterWriterAddsChangesNoPicture) {
-  EXPECT_EQ(digest_of(read_bytes(kFolder + "/later_writer.fbs")), digest_of(read_bytes(kFolder + "/talk.fbs")));
+  EXPECT_EQ(digest_of(read_bytes(kFolder + "/later_writer.fbs")),
+            digest_of(read_bytes(kFolder + "/talk.fbs")));
 }
 
 }  // namespace
