@@ -19,6 +19,7 @@ test_preset() {
   echo "== $preset: tests"
   rm -f "build/$preset/tests.xml"
   ctest --preset "$preset" --parallel "$jobs" --no-tests=error --output-junit tests.xml "$@" || status=1
+  [ -s "build/$preset/tests.xml" ] || { echo "$preset: ctest did not end as it should"; exit 1; }
 }
 
 # count NAME: the sum of this attribute of both reports
