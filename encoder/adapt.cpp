@@ -10,11 +10,26 @@ namespace {
 using Points = std::array<glm::dvec2, kVertexCount>;
 
 constexpr double kUnits = kUnitsPerEyeDistance;
-constexpr int kMaxIterations = 60;
-constexpr double kFirstSigma = 0.55, kLastSigma = 0.09;  // eye distances
+constexpr int kMaxIterations = 80;
+constexpr double kFirstSigma = 0.55, kLastSigma = 0.035;  // eye distances
 constexpr double kSigmaDecay = 0.93;
 constexpr double kAtRest = 1.0 / 512;  // largest force that counts as rest, eye distances
+constexpr double kMostTurn = 0.6;      // tangent of the yaw that marks may show
 constexpr double kLeastArea = 0.05;    // of a triangle's own area on the scaled head
+
+/// Depth of the generic head's eyes, and how far a vertex lies behind them, eye distances.
+double eye_depth() {
+  static const double depth = [] {
+    double sum = 0;
+    for (std::size_t k = 36; k < 48; ++k)
+      sum += generic_head().vertices[static_cast<std::size_t>(generic_head().landmark_vertex[k])].position.z;
+    return sum / 12 / kUnits;
+  }();
+  return depth;
+}
+double behind_eyes(std::size_t v) {
+  return generic_head().vertices[v].position.z / kUnits - eye_depth();
+}
 
 double area(const Points& p, const HeadTriangle& t) {
   const auto at = [&](int i) { return p[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])]; };
@@ -26,6 +41,34 @@ bool folds(const Points& now, const Points& scaled) {
   for (const HeadTriangle& t : generic_head().triangles)
     if (area(now, t) < kLeastArea * area(scaled, t)) return true;
   return false;
+}
+
+/// The turn that the marks show: tangent of the yaw, positive towards the picture's left, and width, by robust
+/// least squares of x = width * generic x + tangent * depth behind the eyes.
+struct Turn {
+  double tangent = 0, width = 1;
+};
+Turn turn_of(const std::array<std::optional<glm::dvec2>, kVertexCount>& target) {
+  constexpr double kSigma = 0.06, kUsual = 0.6;  // eye distances of a mark; of the tangent before looking
+  Turn turn;
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    double xx = 1, xz = 0, zz = kSigma * kSigma / (kUsual * kUsual), xt = 1, zt = 0;
+    for (std::size_t v = 0; v < kVertexCount; ++v) {
+      if (!target[v]) continue;
+      const double x = generic_head().vertices[v].position.x / kUnits, z = behind_eyes(v);
+      const double r = (target[v]->x - turn.width * x - turn.tangent * z) / kSigma;
+      const double w = 1 / (1 + r * r);
+      xx += w * x * x;
+      xz += w * x * z;
+      zz += w * z * z;
+      xt += w * x * target[v]->x;
+      zt += w * z * target[v]->x;
+    }
+    const double det = xx * zz - xz * xz;
+    turn.width = std::clamp((zz * xt - xz * zt) / det, 0.7, 1.4);
+    turn.tangent = std::clamp((xx * zt - xz * xt) / det, -kMostTurn, kMostTurn);
+  }
+  return turn;
 }
 
 /// Scale of one axis that brings the generic positions nearest to the marked ones, within anatomical limits.
@@ -105,8 +148,7 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   out.pose.log2_scale = std::log2(eye_distance);
   out.pose.shift = 0.5 * ((*eyes)[0] + (*eyes)[1]);
 
-  // Marks in the head frame, eye distances; the pose has neither pitch nor yaw, so a rotation by -roll undoes
-  // it.
+  // Marks seen from the front, eye distances: a rotation by -roll, then the turn is undone.
   const double c = std::cos(out.pose.roll) / eye_distance, s = std::sin(out.pose.roll) / eye_distance;
   std::array<std::optional<glm::dvec2>, kVertexCount> target;
   Points generic;
@@ -117,6 +159,18 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
     const glm::dvec2 d = *marks.vertex[v] - out.pose.shift;
     target[v] = glm::dvec2(c * d.x + s * d.y, -s * d.x + c * d.y);
   }
+  // A turn by a yaw narrows x to its cosine, the distance between the eyes with it, so that seen in eye distances
+  // x keeps its size, depth adds to it by the tangent and y grows. The head turns about its own axis, and the
+  // eyes stay where they are seen.
+  const Turn turn = turn_of(target);
+  const double depth = turn.width;  // is scaled with the width
+  out.pose.yaw = std::atan(turn.tangent / depth);
+  const double cosine = std::cos(out.pose.yaw);
+  out.pose.log2_scale -= std::log2(cosine);
+  const double aside = eye_distance * turn.tangent * eye_depth();
+  out.pose.shift -= aside * glm::dvec2(std::cos(out.pose.roll), std::sin(out.pose.roll));
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    if (target[v]) *target[v] = {target[v]->x - turn.tangent * behind_eyes(v), target[v]->y * cosine};
   const double sx = axis_scale(generic, target, 0), sy = axis_scale(generic, target, 1);
   Points now;
   for (std::size_t v = 0; v < kVertexCount; ++v) now[v] = generic[v] * glm::dvec2(sx, sy);
@@ -136,10 +190,9 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
     sigma = std::max(kLastSigma, sigma * kSigmaDecay);
   }
 
-  const double sz = 0.5 * (sx + sy);
   for (std::size_t v = 0; v < kVertexCount; ++v)
     out.geometry.positions[v] = glm::ivec3(std::lround(now[v].x * kUnits), std::lround(now[v].y * kUnits),
-                                           std::lround(generic_head().vertices[v].position.z * sz));
+                                           std::lround(generic_head().vertices[v].position.z * depth));
   return out;
 }
 
