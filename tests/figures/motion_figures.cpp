@@ -79,7 +79,7 @@ Result<cv::Mat3b> brow_figure(const Footage& footage, const Followed& followed) 
   auto numbers = rising(measure(footage, followed, &FaceMotion::brow_raise), 3);
   numbers.push_back(lowest(measure(footage, followed, &FaceMotion::eye_open)));
   std::vector<std::string> captions = {numbered("brows at rest", numbers[0]), numbered("rising", numbers[1]),
-                                       numbered("raised", numbers[2]), numbered("eyes shut", numbers[3])};
+                                       numbered("raised", numbers[2]), numbered("lids lowest", numbers[3])};
   return pairs(footage, followed, numbers, captions);
 }
 

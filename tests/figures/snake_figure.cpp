@@ -51,8 +51,10 @@ std::vector<double> true_heights(const Footage& footage, const RepulsionRun& run
 SnakeFigure snake_figure(const Footage& footage, const Followed& followed) {
   const auto mouth = rising(measure(footage, followed, &FaceMotion::mouth_height), 2);
   const auto brow = rising(measure(footage, followed, &FaceMotion::brow_raise), 2);
-  const std::vector<Panel> snakes = {mouth_panel(footage, followed, mouth.front(), "(a) mouth closed"),
-                                     mouth_panel(footage, followed, mouth.back(), "(b) mouth opened"),
+  // Where nobody knows the truth, a mouth that the snake has lost may count as closed.
+  const std::string tracked = footage.truth.empty() ? " as tracked" : "";
+  const std::vector<Panel> snakes = {mouth_panel(footage, followed, mouth.front(), "(a) closed" + tracked),
+                                     mouth_panel(footage, followed, mouth.back(), "(b) opened" + tracked),
                                      brow_panel(footage, followed, brow.back())};
 
   const RepulsionRun run = run_at_papers_rate(footage, followed);
