@@ -1,0 +1,55 @@
+#include "encoder/adapt.h"
+#include "encoder/face_finder.h"
+#include "encoder/marks.h"
+#include "tests/figures/canvas.h"
+#include "tests/figures/figures.h"
+#include "tests/figures/sheet.h"
+
+namespace fbs::figures {
+namespace {
+
+constexpr int kPanelWidth = 300;  // pixels
+
+/// The generic head where the eyes say it is and as large as they say.
+std::vector<glm::dvec2> scaled_head(const Pose& pose) {
+  const PoseProjection projection(pose);
+  std::vector<glm::dvec2> out;
+  for (const HeadVertex& v : generic_head().vertices) out.push_back(projection(glm::dvec3(v.position)));
+  return out;
+}
+
+/// The whole head with some of what is round it.
+cv::Rect2d head_part(const Pose& pose) {
+  const double eye = pose.eye_distance_px();
+  return {pose.shift.x - 1.9 * eye, pose.shift.y - 1.9 * eye, 3.8 * eye, 4.4 * eye};
+}
+
+}  // namespace
+
+Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& followed) {
+  const Picture& picture = footage.pictures.front();
+  auto finder = FaceFinder::create();
+  if (!finder) return tl::unexpected<Error>(finder.error());
+  const auto faces = finder->find(picture);
+  if (faces.empty()) return fail(ErrorCode::kNoFace, "no face in the first picture");
+  const Marks marks = find_marks(picture, faces.front());
+  const auto adapted = adapt_head(marks);
+  if (!adapted) return tl::unexpected<Error>(adapted.error());
+
+  const cv::Rect2d part = head_part(adapted->pose) & whole_picture(footage.format);
+  const auto canvas = [&] { return Canvas(picture, footage.format, part, kPanelWidth); };
+  Canvas marked = canvas(), scaled = canvas(), adjusted = canvas();
+  std::vector<glm::dvec2> points;
+  for (const auto& p : marks.vertex)
+    if (p) points.push_back(*p);
+  marked.dots(points, {255, 255, 255}, 3.2);
+  marked.dots(points, kMark, 2.4);
+  scaled.wire_frame(scaled_head(adapted->pose), kMesh);
+  adjusted.wire_frame(followed.analysis.front().vertices, kMesh);
+  return sheet({{{canvas().image(), "(a) source"},
+                 {marked.image(), "(b) reference points"},
+                 {scaled.image(), "(c) scaled wire-frame"},
+                 {adjusted.image(), "(d) adapted wire-frame"}}});
+}
+
+}  // namespace fbs::figures

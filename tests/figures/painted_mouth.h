@@ -1,0 +1,25 @@
+// A painted face that is only a mouth: skin, lips, and teeth before a dark gap. The case of the paper's Fig.
+// 1 with nothing else in the picture.
+#pragma once
+
+#include "bitstream/syntax.h"
+#include "common/picture.h"
+#include "encoder/pose.h"
+
+namespace fbs {
+
+/// The generic head as it is: every vertex of the painted mouth lies where its table has it.
+[[nodiscard]] Geometry painted_geometry();
+
+/// Frontal, in the middle of the picture.
+[[nodiscard]] Pose painted_pose();
+
+/// BT.601, limited range.
+/// @param open  how far the lower lip's middle has sunk, eye distances; 0: closed
+/// @param teeth  share of the gap between the lips that they fill, from above; the rest is dark
+[[nodiscard]] Picture painted_mouth(double open, double teeth);
+
+/// Height of the outer lips in their middle, eye distances.
+[[nodiscard]] double painted_height(double open);
+
+}  // namespace fbs

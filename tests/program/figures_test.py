@@ -1,0 +1,36 @@
+"""The paper's figures can be drawn, and the one with the teeth shows what the repulsion is for."""
+import re
+import struct
+import subprocess
+
+from harness import BUILD, SECONDS_AT_MOST, ProgramTest
+
+TALKERS = ("talker_figure1.png", "talker_figure3.png", "talker_figure5.png", "talker_figure6.png")
+FIGURES = ("figure2.png", "painted_figure1.png", *TALKERS)
+
+
+def png_size(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n" and data.endswith(b"IEND\xaeB`\x82"), "not a whole PNG"
+    return struct.unpack(">2I", data[16:24])
+
+
+class Figures(ProgramTest):
+    def test_paper_figures(self):
+        done = subprocess.run([BUILD / "paper_figures", self.folder / "out"], capture_output=True, text=True,
+                              timeout=SECONDS_AT_MOST)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        files = self.files()
+        self.assertEqual(sorted(files), sorted("out/" + name for name in FIGURES))
+        for name, data in files.items():
+            width, height = png_size(data)
+            self.assertTrue(500 < width < 2000 and 300 < height < 1500, (name, width, height))
+            # Drawn pictures: blank panels compress to nothing.
+            self.assertGreater(len(data), 0.05 * width * height, name)
+
+        heights = {name: list(map(float, numbers)) for name, *numbers in
+                   re.findall(r"^teeth (\S+) without (\S+) with (\S+) true (\S+)$", done.stdout, re.MULTILINE)}
+        self.assertEqual(set(heights), {"painted", "talker"})
+        without, with_repulsion, _ = heights["painted"]
+        self.assertLess(without, 0.7 * with_repulsion, "teeth no longer collapse the contour: show another case")
+        _, with_repulsion, true = heights["talker"]
+        self.assertAlmostEqual(with_repulsion, true, delta=0.1 * true)
