@@ -35,8 +35,9 @@ struct MouthMarks {
 /// brightness and redness between them, near where lips usually are. Sets top, inner_top, inner_bottom, bottom.
 void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
   constexpr double kStep = 1.0 / 64;
-  constexpr int kSamples = 52, kLine = 22;  // from 0.34 above the line to 0.47 below it
+  constexpr int kSamples = 51, kLine = 21;  // from 0.33 above the line to 0.47 below it
   constexpr double kLumaNoise = 10, kRedNoise = 2.5;
+  constexpr double kVarianceCost = 0.12, kOpenCost = 25;  // per eye distance
   struct Sums {
     double y = 0, yy = 0, r = 0, rr = 0;
   };
@@ -58,16 +59,19 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
   const auto squared = [](double v) { return v * v; };
   double best = 1e30;
   std::array<int, 4> found{};
-  for (int t = 4; t < kLine - 2; ++t) {
+  for (int t = 2; t < kLine - 2; ++t) {
     for (int u = t + 3; u <= kLine + 1; ++u) {
       for (int l = std::max(u + 1, kLine); l <= std::min(u + 24, kSamples - 10); ++l) {
         for (int b = l + 5; b <= std::min(l + 22, kSamples - 4); ++b) {
           const double open = (l - u) * kStep;
           double cost = spread(0, t) + spread(t, u) + spread(u, l) + spread(l, b) + spread(b, kSamples);
-          cost *= 0.12;
+          cost *= kVarianceCost;
           cost += squared(((u - t) * kStep - kUpperLip) / 0.04) + squared(((b - l) * kStep - kLowerLip) / 0.06);
-          cost += 1.5 * open / 0.1;
-          cost -= std::min(3.0, 0.5 * (mean_red(t, u) + mean_red(l, b)) - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)));
+          cost += kOpenCost * open;
+          // Both lips are redder than the skin, and what lies between them is not redder than they are.
+          const double lips = std::min(mean_red(t, u), mean_red(l, b));
+          cost -= std::clamp(lips - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)), -3.0, 3.0);
+          cost += std::clamp(mean_red(u, l) - lips, 0.0, 3.0);
           if (cost < best) {
             best = cost;
             found = {t, u, l, b};

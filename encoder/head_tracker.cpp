@@ -10,6 +10,8 @@ namespace fbs {
 namespace {
 
 constexpr double kPointSpacing = 3.0;  // work pixels between surface points
+constexpr float kMoving = 0.8F, kHair = 0.2F;  // weights, of one
+constexpr int kForeheadAbove = -kUnitsPerEyeDistance * 6 / 10;  // y
 constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -68,14 +70,16 @@ glm::dvec3 face_centre(const HeadVertices& vertices) {
   return (at(36) + at(45) + at(30)) / 3.0;
 }
 
-/// What moves by itself, and says less of the head: lips, eyes, brows, chin.
+/// What moves by itself says less of the head: lips, eyes, brows, chin; and hair or a hat above the forehead is not
+/// where the mesh has it.
 float weight_of(const HeadTriangle& t) {
   float least = 1;
   for (const std::int16_t v : t) {
     const HeadVertex& vertex = generic_head().vertices[static_cast<std::size_t>(v)];
     if (vertex.feature >= 0 || (vertex.landmark >= 36 && vertex.landmark < 48))
-      least = std::min(least, 0.35F);
-    if (vertex.landmark >= 4 && vertex.landmark <= 12) least = std::min(least, 0.35F);
+      least = std::min(least, kMoving);
+    if (vertex.landmark >= 4 && vertex.landmark <= 12) least = std::min(least, kMoving);
+    if (vertex.position.y < kForeheadAbove) least = std::min(least, kHair);
   }
   return least;
 }

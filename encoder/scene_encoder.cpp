@@ -188,6 +188,8 @@ State SceneEncoder::analyse(const Picture& picture) {
   const Fit refined = fit_->refine(tracked_fit);
   const std::array<State, 3> candidates = {state_, quantised(tracked_fit.pose, tracked_fit.offsets),
                                            quantised(refined.pose, refined.offsets)};
+  if (getenv("LAB_TRACKED")) return candidates[1];
+  if (getenv("LAB_REFINED")) return candidates[2];
   return choose_state(candidates, *fit_, *counter_, lambda_);
 }
 
