@@ -5,6 +5,8 @@
 // Each picture gets noise of its own, so that no two are alike and a walk would be seen. Nothing is kept but
 // one clip: pictures go into the encoder, its bytes into the decoder, and the decoded states are compared
 // with those of the first round at the same phase. Exit code 1 when the end is not where the beginning was.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -174,7 +176,7 @@ std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures,
       const auto status = decoder.next();
       if (!status) return status.error();
       if (*status != DecodeStatus::kPicture) return std::nullopt;
-      if (!decoder.scene().geometry) return Error{ErrorCode::kNoFace, 0, "no face in the first picture"};
+      if (!decoder.scene().geometry) return Error{ErrorCode::kNoFace, "no face in the first picture"};
       see(Shown(decoder));
     }
   };
