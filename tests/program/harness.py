@@ -22,12 +22,12 @@ SECONDS_AT_MOST = 240  # of any one command
 
 
 def make_material():
-    """A talker of 120 QCIF pictures, what is true about it, and its stream; and 165 pictures of one who is nearer and
+    """A talker of 120 QCIF pictures, what is true about it, and its stream; and 150 pictures of one who is nearer and
     turns more."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
-    talker(CLOSE_Y4M, "--size", "176x144", "--frames", "165", "--eye-distance", "0.2", "--noise", "1", "--truth",
-           CLOSE_TRUTH)
+    talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
+           "--yaw", "20", "--pitch", "12", "--roll", "10", "--scale", "0.15", "--truth", CLOSE_TRUTH)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
 
 

@@ -120,7 +120,9 @@ class LostFace(ProgramTest):
                 continue
             if abs(f.scale / good.scale - 1) > SIZE_OFF:
                 complaints.append(f"picture {i}: size {f.scale:.1f} px, was {good.scale:.1f}")
-            farthest = max(truth.distance(p, q) for p, q in zip(f.points, good.points) if math.isfinite(p[0] + q[0]))
+            # Wild is what lies neither where the face was nor where it is: it may be found again elsewhere.
+            farthest = max(min(truth.distance(p, q), truth.distance(p, true[i].points[k]))
+                           for k, (p, q) in enumerate(zip(f.points, good.points)) if math.isfinite(p[0] + q[0]))
             if farthest > PLACE_OFF * good.scale:
                 complaints.append(f"picture {i}: a landmark {farthest / good.scale:.2f} eye distances away")
         recovered = next((i for i in range(back, len(found)) if all(e <= FOUND_PERCENT for e in errors[i:])), None)
@@ -158,21 +160,34 @@ class LostFace(ProgramTest):
         print(f"mean {statistics.fmean(errors):.1f} %, worst {max(errors):.1f} % at picture {errors.index(max(errors))}")
         self.assertLess(max(errors), FOUND_PERCENT)
 
-    def cover(self, colour):
-        box = box_of(self.true[FIRST_LOST], 8)
+    def cover(self, colour, first=FIRST_LOST, box_at=lambda box, k: box):
+        """`colour` in a box over the face from picture `first` on; `box_at` says where it is after k pictures."""
+        box, back = box_of(self.true[first], 8), first + GONE
         pictures = list(self.clip.pictures)
-        for i in range(FIRST_LOST, FIRST_LOST + GONE):
-            pictures[i] = covered(pictures[i], self.width, self.height, box, colour)
+        for k in range(GONE):
+            pictures[first + k] = covered(pictures[first + k], self.width, self.height, box_at(box, k), colour)
         found, decoded = self.coded(pictures)
-        back = FIRST_LOST + GONE
-        self.check(found, self.true, FIRST_LOST, back)
-        self.check_pictures(decoded, [self.clip.pictures], FIRST_LOST, back)
+        self.check(found, self.true, first, back)
+        self.check_pictures(decoded, [self.clip.pictures], first, back)
 
     def test_covered_by_something_flat(self):
         self.cover(flat)
 
     def test_covered_by_a_hand(self):
         self.cover(hand)
+
+    def test_covered_before_the_stream_begins(self):
+        """In the two seconds from which the encoder learns what follows the head."""
+        self.cover(hand, first=15)
+
+    def test_a_hand_over_mouth_and_chin(self):
+        self.cover(hand, box_at=lambda box, k: (box[0], (box[1] + box[3]) // 2, box[2], box[3]))
+
+    def test_a_hand_that_wipes_across(self):
+        def wiping(box, k):
+            left = box[0] + round((box[2] - box[0]) * (2 * k / (GONE - 1) - 1))
+            return left, box[1], left + box[2] - box[0], box[3]
+        self.cover(hand, box_at=wiping)
 
     def test_out_of_the_picture_and_back(self):
         steps = 25
@@ -188,12 +203,24 @@ class LostFace(ProgramTest):
         found, _ = self.coded(pictures)
         self.check(found, self.true, lost, back)
 
-    def test_cut_to_black_and_back(self):
+    def cut_to_black(self, elsewhere=0):
+        """`elsewhere`: how far right of where it would be the face comes back, pixels."""
         black = Rows(self.clip.pictures[0], self.width, self.height)
         black.planes = [[bytearray([level]) * len(row) for row in plane]
                         for plane, level in zip(black.planes, (16, 128, 128))]
         pictures, back = list(self.clip.pictures), FIRST_LOST + GONE
         pictures[FIRST_LOST:back] = [black.bytes()] * GONE
+        for i in range(back, len(pictures)):
+            pictures[i] = pushed_aside(pictures[i], self.width, self.height, elsewhere)
+            self.true[i].points = [(x + elsewhere, y) for x, y in self.true[i].points]
         found, decoded = self.coded(pictures)
         self.check(found, self.true, FIRST_LOST, back)
-        self.check_pictures(decoded, [self.clip.pictures, pictures], FIRST_LOST, back)
+        return decoded, pictures
+
+    def test_cut_to_black_and_back(self):
+        decoded, pictures = self.cut_to_black()
+        self.check_pictures(decoded, [self.clip.pictures, pictures], FIRST_LOST, FIRST_LOST + GONE)
+
+    def test_cut_to_black_and_back_elsewhere(self):
+        """One and a half eye distances away: flow and alignment cannot reach that, the search must."""
+        self.cut_to_black(elsewhere=2 * round(0.75 * self.true[0].scale))
