@@ -7,6 +7,7 @@ import pathlib
 import statistics
 import sys
 
+from edited_pictures import black, covered, flat, hand, pushed_aside, y4m_bytes
 from harness import CLOSE_TRUTH, CLOSE_Y4M, ProgramTest, read_y4m
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "truth"))
@@ -22,57 +23,9 @@ GAP_DB = 16              # luma of the face in between, against what would be se
 WORSE_DB = 1.0           # by how much the pictures after the return may be worse than without the loss
 
 
-class Rows:
-    """Luma and chroma of one picture as rows that can be written."""
-
-    def __init__(self, data, width, height):
-        self.planes, at = [], 0
-        for w, h in ((width, height), *2 * [((width + 1) // 2, (height + 1) // 2)]):
-            self.planes.append([bytearray(data[at + y * w:at + (y + 1) * w]) for y in range(h)])
-            at += w * h
-
-    def bytes(self):
-        return b"".join(b"".join(map(bytes, plane)) for plane in self.planes)
-
-
-def y4m_bytes(width, height, pictures):
-    return b"YUV4MPEG2 W%d H%d F30:1 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n" % (width, height) + b"".join(
-        b"FRAME\n" + p for p in pictures)
-
-
 def box_of(true, margin):
     xs, ys = [p[0] for p in true.points], [p[1] for p in true.points]
     return int(min(xs) - margin), int(min(ys) - margin), int(max(xs) + margin), int(max(ys) + margin)
-
-
-def covered(data, width, height, box, colour):
-    """The picture with `colour`(x, y) -> (Y, U, V) in a box."""
-    rows = Rows(data, width, height)
-    left, top, right, bottom = (max(0, box[0]), max(0, box[1]), min(width, box[2]), min(height, box[3]))
-    for y in range(top, bottom):
-        for x in range(left, right):
-            rows.planes[0][y][x], u, v = colour(x, y)
-            rows.planes[1][y // 2][x // 2], rows.planes[2][y // 2][x // 2] = u, v
-    return rows.bytes()
-
-
-def pushed_aside(data, width, height, by):
-    """The picture `by` (even) pixels farther right; its left column fills what comes in."""
-    rows = Rows(data, width, height)
-    for plane, step in zip(rows.planes, (by, by // 2, by // 2)):
-        for row in plane:
-            row[:] = (row[:1] * step + row)[:len(row)]
-    return rows.bytes()
-
-
-def flat(x, y):
-    return 90, 128, 128
-
-
-def hand(x, y):
-    """Skin with folds and the dark between fingers."""
-    finger = abs(x % 14 - 7) / 7
-    return int(150 - 70 * finger ** 4 + 8 * math.sin(0.9 * y + 0.3 * x)), 112, 150
 
 
 def psnr(a, b, width, box):
@@ -205,11 +158,8 @@ class LostFace(ProgramTest):
 
     def cut_to_black(self, elsewhere=0):
         """`elsewhere`: how far right of where it would be the face comes back, pixels."""
-        black = Rows(self.clip.pictures[0], self.width, self.height)
-        black.planes = [[bytearray([level]) * len(row) for row in plane]
-                        for plane, level in zip(black.planes, (16, 128, 128))]
         pictures, back = list(self.clip.pictures), FIRST_LOST + GONE
-        pictures[FIRST_LOST:back] = [black.bytes()] * GONE
+        pictures[FIRST_LOST:back] = [black(pictures[0], self.width, self.height)] * GONE
         for i in range(back, len(pictures)):
             pictures[i] = pushed_aside(pictures[i], self.width, self.height, elsewhere)
             self.true[i].points = [(x + elsewhere, y) for x, y in self.true[i].points]
