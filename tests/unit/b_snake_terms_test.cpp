@@ -109,6 +109,14 @@ TEST(BSnakeTerms, TemporalTermOfEq5IsTheSquareOfTheWaySinceThePictureBefore) {
   EXPECT_NEAR(energy_of(b, {.temporal = 0.5}, b.before), 0, 1e-9);
 }
 
+// Not in the paper: what differs from the rest's slope, wherever the curve lies.
+TEST(BSnakeTerms, ShapeTermIsTheSquareOfTheSlopesDifferenceFromRest) {
+  ToyLine b;
+  b.rest = line(4);
+  EXPECT_NEAR(energy_of(b, {.shape = 0.5}, line(7)), 0.5 * 9 * ToyLine::kWhole, 1e-9);
+  EXPECT_NEAR(energy_of(b, {.shape = 0.5}, moved(line(4), {5, -6})), 0, 1e-9);
+}
+
 // The feature map rises downwards by 1 a unit. The normal of a curve that runs to the right points up, and
 // the contrast is the map's fall along it.
 TEST(BSnakeTerms, ContrastOfEq7IsTheFallAlongTheNormalWhateverTheSpeed) {
@@ -185,6 +193,19 @@ TEST(BSnakeTerms, TheFlatterTheEnergyTheSoonerADescentStops) {
     before = iterations;
   }
   EXPECT_EQ(Slope(1e-5).fall().iterations, 1);
+}
+
+// A crest narrower than the first step: one step overshoots it to where everything is flat and the descent
+// ends.
+TEST(BSnakeTerms, ADescentThatOvershootsGivesBackTheBestItMet) {
+  ToyLine b;
+  b.weights.change = 1;
+  b.image.change = painted([](glm::dvec2 p) { return std::abs(p.y) < 0.25 ? 1.0 : 0.0; });
+  const Control beside = moved(line(6), {0, -0.2});
+  const SnakeOutcome out = b.minimise(beside);
+  EXPECT_GT(out.iterations, 1) << "it went somewhere";
+  EXPECT_EQ(out.control, beside);
+  EXPECT_EQ(out.energy, b.snake().energy(beside));
 }
 
 /// The curve is drawn to where it was in the picture before, `way` units to the right of where it starts.
