@@ -15,15 +15,19 @@ SHARED = pathlib.Path(os.environ.get("FBS_SHARED") or SOURCE.parent / "shared")
 FBS, TALKER = BUILD / "fbs", BUILD / "talker"
 MATERIAL = BUILD / "tests/program/material"
 TALK_Y4M, TALK_FBS, TALK_TRUTH = (MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk.csv"))
+CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
 
 FAILED = 2             # exit code of fbs
 SECONDS_AT_MOST = 240  # of any one command
 
 
 def make_material():
-    """A talker of 120 QCIF pictures, what is true about it, and its stream."""
+    """A talker of 120 QCIF pictures, what is true about it, and its stream; and 150 pictures of one who is nearer and
+    turns more."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
+    talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
+           "--yaw", "20", "--pitch", "12", "--roll", "10", "--scale", "0.15", "--truth", CLOSE_TRUTH)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
 
 

@@ -5,108 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numbers>
+
+#include "tests/unit/toy_snake.h"
 
 namespace fbs {
 namespace {
-
-using Control = std::vector<glm::dvec2>;
-
-constexpr int kControls = 10, kPoints = 40;
-constexpr int kMostIterations = 15;  // of one descent
-
-double length(glm::dvec2 v) {
-  return std::hypot(v.x, v.y);
-}
-
-/// Control points of a closed curve that runs clockwise in the picture along an ellipse about `centre`.
-Control ellipse(glm::dvec2 radius, glm::dvec2 centre = {0, 0}) {
-  Control out;
-  for (int i = 0; i < kControls; ++i) {
-    const double a = std::numbers::pi + 2 * std::numbers::pi * i / kControls;  // from the left, over the top
-    out.push_back(centre + radius * glm::dvec2(std::cos(a), std::sin(a)));
-  }
-  return out;
-}
-
-Control circle(double radius, glm::dvec2 centre = {0, 0}) {
-  return ellipse(glm::dvec2(radius), centre);
-}
-
-Control moved(Control c, glm::dvec2 by) {
-  for (glm::dvec2& p : c) p += by;
-  return c;
-}
-
-/// 80 x 80 snake units about the origin, two samples a unit.
-constexpr double kHalf = 40, kPxPerUnit = 2;
-
-cv::Mat1f painted(const std::function<double(glm::dvec2)>& paint) {
-  cv::Mat1f m(static_cast<int>(2 * kHalf * kPxPerUnit), static_cast<int>(2 * kHalf * kPxPerUnit));
-  for (int y = 0; y < m.rows; ++y)
-    for (int x = 0; x < m.cols; ++x)
-      m(y, x) = static_cast<float>(paint(glm::dvec2(x, y) / kPxPerUnit - kHalf));
-  return m;
-}
-
-/// A picture without anything in it.
-SnakeImage blank() {
-  SnakeImage image;
-  image.contrast_x = image.contrast_y = image.change = painted([](glm::dvec2) { return 0.0; });
-  image.origin = glm::dvec2(-kHalf);
-  image.px_per_unit = kPxPerUnit;
-  return image;
-}
-
-/// The gradient of a feature map, per snake unit.
-SnakeImage contrast_of(const std::function<double(glm::dvec2)>& feature) {
-  SnakeImage image = blank();
-  constexpr double h = 0.25;
-  image.contrast_x = painted([&](glm::dvec2 p) {
-    return (feature(p + glm::dvec2(h, 0)) - feature(p - glm::dvec2(h, 0))) / (2 * h);
-  });
-  image.contrast_y = painted([&](glm::dvec2 p) {
-    return (feature(p + glm::dvec2(0, h)) - feature(p - glm::dvec2(0, h))) / (2 * h);
-  });
-  return image;
-}
-
-/// From 1 to 0 across a border at distance 0, over about three units either way.
-double soft_step(double distance) {
-  return 1 / (1 + std::exp(distance));
-}
-
-std::vector<glm::dvec2> curve_of(const SnakeCurve& curve, const Control& control) {
-  std::vector<glm::dvec2> out;
-  for (const SplineBasis& b : curve.points()) out.push_back(curve_point(b, control));
-  return out;
-}
-
-double mean(const std::vector<glm::dvec2>& points, const std::function<double(glm::dvec2)>& value) {
-  double sum = 0;
-  for (const glm::dvec2 p : points) sum += value(p);
-  return sum / static_cast<double>(points.size());
-}
-
-double mean_radius(const std::vector<glm::dvec2>& points) {
-  return mean(points, length);
-}
-
-/// Everything a snake refers to, with one weight set at a time.
-struct Bench {
-  SnakeCurve curve = SnakeCurve::closed(kControls, kPoints);
-  SnakeImage image = blank();
-  SnakeWeights weights;
-  Control rest = circle(10), before = circle(10);
-  std::vector<FacingPair> facing;
-
-  [[nodiscard]] BSnake snake() const { return {curve, image, weights, rest, before, facing}; }
-  [[nodiscard]] SnakeOutcome minimise(const Control& start) const { return snake().minimise(start); }
-  [[nodiscard]] std::vector<glm::dvec2> settled(const Control& start) const {
-    return curve_of(curve, minimise(start).control);
-  }
-};
 
 TEST(SnakeCurve, SupportIsWhereAControlPointMovesTheCurve) {
   for (const SnakeCurve& curve : {SnakeCurve::closed(kControls, kPoints), SnakeCurve::clamped(13)}) {
@@ -129,7 +32,7 @@ TEST(SnakeCurve, PointsAreEvenInTheParameter) {
 
 // Eq. 3 on a straight line of length L: v_s = L everywhere.
 TEST(BSnake, TensionEnergyOfALineIsItsSquaredLength) {
-  Bench b;
+  ToySnake b;
   b.curve = SnakeCurve::clamped(13);
   b.rest = b.before = Control(4);
   b.weights.tension = 0.5;
@@ -141,14 +44,14 @@ TEST(BSnake, TensionEnergyOfALineIsItsSquaredLength) {
 }
 
 TEST(BSnake, TensionShortensTheCurve) {
-  Bench b;
+  ToySnake b;
   b.weights.tension = 1;
   const double before = mean_radius(curve_of(b.curve, circle(10)));
   EXPECT_LT(mean_radius(b.settled(circle(10))), before - 3);
 }
 
 TEST(BSnake, RigidityStraightensTheCurve) {
-  Bench b;
+  ToySnake b;
   b.curve = SnakeCurve::clamped(13);
   b.rest = b.before = Control(4);
   b.weights.rigidity = 1;
@@ -160,7 +63,7 @@ TEST(BSnake, RigidityStraightensTheCurve) {
 }
 
 TEST(BSnake, TemporalTermHoldsTheCurveWhereItWas) {
-  Bench b;
+  ToySnake b;
   b.weights.temporal = 1;
   b.before = circle(10, {2, -1.5});
   const auto was = curve_of(b.curve, b.before), now = b.settled(circle(10));
@@ -168,7 +71,7 @@ TEST(BSnake, TemporalTermHoldsTheCurveWhereItWas) {
 }
 
 TEST(BSnake, ShapeTermRestoresTheRestShapeAnywhere) {
-  Bench b;
+  ToySnake b;
   b.weights.shape = 1;
   const Control elsewhere = moved(b.rest, {5, 3});
   EXPECT_NEAR(b.snake().energy(elsewhere), 0, 1e-9);
@@ -179,7 +82,7 @@ TEST(BSnake, ShapeTermRestoresTheRestShapeAnywhere) {
 }
 
 TEST(BSnake, ContrastAttractsToACirclesEdgeFromBothSides) {
-  Bench b;
+  ToySnake b;
   b.image = contrast_of([](glm::dvec2 p) { return soft_step(length(p) - 12); });
   b.weights.contrast = 1;
   for (const double radius : {10.5, 12.0, 14.5}) {
@@ -189,14 +92,14 @@ TEST(BSnake, ContrastAttractsToACirclesEdgeFromBothSides) {
 
 // The feature map is high inside: a border at which it rises outwards is not the contour.
 TEST(BSnake, ContrastOfTheWrongSignDoesNotAttract) {
-  Bench b;
+  ToySnake b;
   b.image = contrast_of([](glm::dvec2 p) { return 1 - soft_step(length(p) - 12); });
   b.weights.contrast = 1;
   EXPECT_GT(std::abs(mean_radius(b.settled(circle(11))) - 12), 1.5);
 }
 
 TEST(BSnake, RidgeAttractsACurveToTheMiddleOfABand) {
-  Bench b;
+  ToySnake b;
   b.curve = SnakeCurve::clamped(13);
   b.rest = b.before = Control(4);
   b.image.ridge = painted([](glm::dvec2 p) { return std::exp(-(p.y - 2) * (p.y - 2) / 8); });
@@ -205,7 +108,7 @@ TEST(BSnake, RidgeAttractsACurveToTheMiddleOfABand) {
 }
 
 TEST(BSnake, ChangeOfTheContrastAttracts) {
-  Bench b;
+  ToySnake b;
   b.image.change = painted([](glm::dvec2 p) { return std::exp(-(length(p) - 12) * (length(p) - 12) / 6); });
   b.weights.change = 1;
   for (const glm::dvec2 p : b.settled(circle(12))) EXPECT_NEAR(length(p), 12, 0.6);
@@ -216,7 +119,7 @@ TEST(BSnake, ChangeOfTheContrastAttracts) {
 // lip's inner border is in reach: it falls from lip to teeth just as a lip's outer border falls from lip to
 // skin, and more steeply.
 struct Teeth {
-  Bench bench;
+  ToySnake bench;
   Control start = ellipse({15, 7.6});
   static constexpr double kOuter = 7, kInner = 3.5;  // half heights of the lips and of the opening
 
@@ -259,7 +162,7 @@ TEST(BSnake, RepulsionBringsTheContourBackToTheLipsBorder) {
 
 // The gap is signed: lips that have passed through each other come apart again.
 TEST(BSnake, RepulsionUncrossesLips) {
-  Bench b;
+  ToySnake b;
   b.weights.repulsion = 1;
   for (int h = 3; h <= kPoints / 2 - 3; ++h) b.facing.push_back({h, kPoints - h, {0, 1}, 4});
   Control crossed = ellipse({15, 1});
@@ -269,7 +172,7 @@ TEST(BSnake, RepulsionUncrossesLips) {
 }
 
 TEST(BSnake, RepulsionIsSilentWhileTheGapIsWide) {
-  Bench b;
+  ToySnake b;
   b.weights.repulsion = 1;
   for (int h = 3; h <= kPoints / 2 - 3; ++h) b.facing.push_back({h, kPoints - h, {0, 1}, 4});
   EXPECT_EQ(b.snake().energy(ellipse({15, 12})), 0);
@@ -279,7 +182,7 @@ TEST(BSnake, RepulsionIsSilentWhileTheGapIsWide) {
 // delta_q = 0.75^q over 15 iterations, three descents: what draws the curve lies out of reach, so that every
 // control point makes every step.
 TEST(BSnake, StepsFollowThePapersSchedule) {
-  Bench b;
+  ToySnake b;
   b.weights.temporal = 1;
   b.before = circle(10, {1000, -1000});
   const SnakeOutcome out = b.minimise(circle(10));
@@ -294,7 +197,7 @@ TEST(BSnake, StepsFollowThePapersSchedule) {
 }
 
 TEST(BSnake, StopsWhenTheEnergyRests) {
-  Bench b;
+  ToySnake b;
   const SnakeOutcome out = b.minimise(circle(10));
   EXPECT_EQ(out.iterations, 1);
   EXPECT_EQ(out.restarts, 0);
@@ -302,7 +205,7 @@ TEST(BSnake, StopsWhenTheEnergyRests) {
 }
 
 TEST(BSnake, NeedsNoMoreIterationsThanADescentHasWhenNear) {
-  Bench b;
+  ToySnake b;
   b.image = contrast_of([](glm::dvec2 p) { return soft_step(length(p) - 12); });
   b.weights.contrast = 1;
   const SnakeOutcome out = b.minimise(circle(12.5));
@@ -322,7 +225,7 @@ TEST(BSnake, NeverEndsWithMoreEnergyThanItBeganWith) {
 }
 
 TEST(BSnake, PinnedEndsStay) {
-  Bench b;
+  ToySnake b;
   b.curve = SnakeCurve::clamped(11, false);
   b.rest = b.before = Control(4);
   b.weights.temporal = 1;
@@ -334,7 +237,7 @@ TEST(BSnake, PinnedEndsStay) {
 }
 
 TEST(BSnake, CurvesThatLeaveThePictureAreHarmless) {
-  Bench b;
+  ToySnake b;
   b.image = contrast_of([](glm::dvec2 p) { return soft_step(length(p) - 12); });
   b.weights = {.tension = 0.001, .contrast = 1, .change = 1};
   for (const glm::dvec2 p : b.settled(circle(10, {500, -900})))

@@ -3,10 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "encoder/adapt.h"
 #include "encoder/b_snake.h"
-#include "encoder/head_tracker.h"
-#include "tests/unit/talker_clip.h"
 
 namespace fbs {
 namespace {
@@ -40,26 +37,6 @@ void SnakeMinimise(benchmark::State& state) {
   state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(state.iterations());
 }
 BENCHMARK(SnakeMinimise)->Unit(benchmark::kMicrosecond);
-
-void HeadTrack(benchmark::State& state) {
-  TalkerClip clip(talker_settings(352, 288, 8));
-  const AdaptedHead head = *adapt_head(clip.marks(0));
-  const double eye = head.pose.eye_distance_px();
-  std::array<glm::dvec3, kVertexCount> neutral;
-  for (std::size_t v = 0; v < kVertexCount; ++v) neutral[v] = glm::dvec3(head.geometry.positions[v]);
-  std::vector<WorkFrame> frames;
-  for (int i = 0; i < clip.count(); ++i)
-    frames.push_back(WorkFrame::cut(clip[i], head.pose.shift, eye, false));
-  HeadTracker tracker(head.geometry, head.pose, frames[0]);
-  int i = 0, step = 1;
-  for (auto _ : state) {  // to and fro, so that each picture follows its neighbour
-    if (i + step < 0 || i + step >= clip.count()) step = -step;
-    i += step;
-    benchmark::DoNotOptimize(tracker.track(frames[static_cast<std::size_t>(i)], neutral));
-  }
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(HeadTrack)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace fbs

@@ -1,0 +1,64 @@
+#include "tests/bench/analysis_clip.h"
+
+#include <cmath>
+
+#include "encoder/operating_point.h"
+#include "encoder/state_choice.h"
+
+namespace fbs {
+
+AnalysisClip::AnalysisClip()
+    : clip_(talker_settings(352, 288, kPictures)),
+      head_(*adapt_head(clip_.marks(0))),
+      first_(WorkFrame::cut(clip_[0], head_.pose.shift, eye_distance_px(), true)) {
+  for (std::size_t v = 0; v < kVertexCount; ++v) neutral_[v] = glm::dvec3(head_.geometry.positions[v]);
+  const OperatingPoint point = OperatingPoint::at(50, eye_distance_px());
+  setup_.format = clip_.format();
+  setup_.steps = point.steps;
+  lambda_ = point.lambda;
+  for (const FeatureId id : kSnakeFeatures)
+    setup_.features = static_cast<FeatureMask>(setup_.features | (1U << static_cast<unsigned>(id)));
+  seen_.pose = quantise(head_.pose, setup_.steps);
+
+  HeadTracker head(head_.geometry, head_.pose, first_);
+  FeatureTracker features(head_.geometry, head_.pose, first_);
+  PictureFit fit(setup_, head_.geometry, first_, seen_);
+  const MotionCoder coder(setup_);
+  MotionCounter counter(coder, true);
+  State state = seen_;
+  counter.push(state);
+  // Twice round, so that the first picture too comes from its neighbour.
+  constexpr int kRound = 2 * (kPictures - 1);
+  round_.resize(kRound);
+  for (int i = 1; i <= 2 * kRound; ++i) {
+    const int phase = i % kRound;
+    AnalysedPicture& p = round_[static_cast<std::size_t>(phase)];
+    p.picture = clip_[phase < kPictures ? phase : kRound - phase];
+    p.frame = WorkFrame::cut(p.picture, head.pose().shift, eye_distance_px(), true);
+    p.tracked = head.track(p.frame, neutral_);
+    p.flow = head.flow();
+    features.track(p.frame, p.tracked.pose, p.flow);
+    p.tracked_fit = {p.tracked.pose, features.offsets()};
+    fit.look_at(p.frame, setup_.mouth);
+    p.before = state;
+    p.found = {quantised(p.tracked_fit), quantised(fit.refine(p.tracked_fit))};
+    state = choose_state(std::array{p.before, p.found[0], p.found[1]}, fit, counter, lambda_);
+    counter.push(state);
+  }
+}
+
+State AnalysisClip::quantised(const Fit& fit) const {
+  State state;
+  state.pose = quantise(fit.pose, setup_.steps);
+  for (std::size_t i = 0; i < kControlCount; ++i)
+    state.control[i] = {static_cast<int>(std::lround(fit.offsets[i].x / setup_.steps.control)),
+                        static_cast<int>(std::lround(fit.offsets[i].y / setup_.steps.control))};
+  return state;
+}
+
+AnalysisClip& analysis_clip() {
+  static AnalysisClip clip;
+  return clip;
+}
+
+}  // namespace fbs

@@ -1,0 +1,65 @@
+// The talker as the analysis meets it, to and fro, with what each stage hands to the next worked out once: so
+// that every stage can be timed alone, on what it really gets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bitstream/motion_payload.h"
+#include "common/generic_head.h"
+#include "encoder/adapt.h"
+#include "encoder/feature_tracker.h"
+#include "encoder/head_tracker.h"
+#include "encoder/picture_fit.h"
+#include "tests/unit/talker_clip.h"
+
+namespace fbs {
+
+/// One picture of the analysis.
+struct AnalysedPicture {
+  Picture picture;
+  WorkFrame frame;  ///< with colour
+  TrackedPose tracked;
+  std::array<glm::dvec2, kVertexCount> flow{};
+  Fit tracked_fit;             ///< pose and snakes
+  State before;                ///< chosen for the picture before
+  std::array<State, 2> found;  ///< as tracked and as refined, quantised
+};
+
+class AnalysisClip {
+ public:
+  static constexpr int kPictures = 24;
+
+  AnalysisClip();
+
+  /// A round is 2 (kPictures - 1) pictures, behind which the first follows again as the neighbour of the
+  /// last.
+  [[nodiscard]] const std::vector<AnalysedPicture>& round() const { return round_; }
+
+  [[nodiscard]] const Setup& setup() const { return setup_; }
+  [[nodiscard]] const Geometry& geometry() const { return head_.geometry; }
+  [[nodiscard]] const Pose& pose() const { return head_.pose; }  ///< of the first picture
+  [[nodiscard]] const State& seen() const { return seen_; }      ///< the same, quantised
+  [[nodiscard]] const WorkFrame& first() const { return first_; }
+  [[nodiscard]] double eye_distance_px() const { return head_.pose.eye_distance_px(); }
+  [[nodiscard]] double lambda() const { return lambda_; }
+  [[nodiscard]] const HeadVertices& neutral() const { return neutral_; }
+  [[nodiscard]] VideoFormat format() { return clip_.format(); }
+
+ private:
+  [[nodiscard]] State quantised(const Fit& fit) const;
+
+  TalkerClip clip_;
+  AdaptedHead head_;
+  HeadVertices neutral_{};
+  WorkFrame first_;
+  Setup setup_;
+  State seen_;
+  double lambda_ = 0;
+  std::vector<AnalysedPicture> round_;
+};
+
+/// Made when it is asked for first: benchmarks that are filtered out cost nothing.
+[[nodiscard]] AnalysisClip& analysis_clip();
+
+}  // namespace fbs

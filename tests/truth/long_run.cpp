@@ -1,0 +1,244 @@
+// long_run: a talker's clip played to and fro for ten minutes. Does the state end where it began?
+//
+//   long_run [--pictures 15000] [--clip 150] [--size 176x144] [--noise 2] [--seed 1] [--quality 50]
+//
+// Each picture gets noise of its own, so that no two are alike and a walk would be seen. Nothing is kept but
+// one clip: pictures go into the encoder, its bytes into the decoder, and the decoded states are compared
+// with those of the first round at the same phase. Exit code 1 when the end is not where the beginning was.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "decoder/stream_decoder.h"
+#include "encoder/encoder.h"
+#include "encoder/pose.h"
+#include "samples/talker_noise.h"
+#include "samples/talker_render.h"
+
+namespace {
+
+using namespace fbs;
+
+constexpr double kMostDegrees = 0.5, kMostPixels = 0.5;
+constexpr double kDegrees = 57.29577951308232;
+
+struct Options {
+  int pictures = 15000;
+  talker::Settings talker;
+  int quality = 50;
+  int noise = 2;
+
+  Options() { talker.width = 176, talker.height = 144, talker.frame_count = 150; }
+};
+
+bool number(std::string_view text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && value >= 0;
+}
+
+std::optional<Options> parse(int argc, char** argv) {
+  Options o;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string_view name = argv[i], value = argv[i + 1];
+    int seed = 1;
+    const auto cross = value.find('x');
+    const bool read = name == "--pictures"  ? number(value, o.pictures) && o.pictures > 0
+                      : name == "--clip"    ? number(value, o.talker.frame_count) && o.talker.frame_count > 1
+                      : name == "--noise"   ? number(value, o.noise)
+                      : name == "--quality" ? number(value, o.quality)
+                      : name == "--seed"    ? number(value, seed)
+                      : name == "--size"
+                          ? cross != value.npos && number(value.substr(0, cross), o.talker.width) &&
+                                number(value.substr(cross + 1), o.talker.height)
+                          : false;
+    if (!read) return std::nullopt;
+    if (name == "--seed") o.talker.seed = static_cast<std::uint32_t>(seed);
+  }
+  return argc % 2 == 1 ? std::optional(o) : std::nullopt;
+}
+
+/// The clip to and fro: picture i, with noise that never comes again.
+class ToAndFro {
+ public:
+  explicit ToAndFro(const Options& o) : noise_(o.noise) {
+    const talker::Talker talker(o.talker);
+    for (int i = 0; i < o.talker.frame_count; ++i) clip_.push_back(talker.picture(i));
+    for (std::uint32_t i = 0; i < kTable; ++i)
+      table_.push_back(static_cast<int>(
+          std::lround(static_cast<float>(o.noise) * talker::normal_noise(i, o.talker.seed, 0, 0))));
+  }
+
+  /// Pictures until the clip is where it was.
+  [[nodiscard]] int round() const { return 2 * (static_cast<int>(clip_.size()) - 1); }
+
+  [[nodiscard]] Picture at(int i) const {
+    const int phase = i % round(), last = static_cast<int>(clip_.size()) - 1;
+    Picture p = clip_[static_cast<std::size_t>(phase <= last ? phase : round() - phase)];
+    if (noise_ == 0) return p;
+    auto place = talker::hash(static_cast<std::uint32_t>(i));
+    for (Plane* plane : {&p.y, &p.u, &p.v})
+      for (std::uint8_t& s : plane->samples)
+        s = static_cast<std::uint8_t>(std::clamp(s + table_[++place % kTable], 0, 255));
+    return p;
+  }
+
+ private:
+  static constexpr std::uint32_t kTable = 65521;  // a prime: rows do not fall in step with it
+  int noise_;
+  std::vector<Picture> clip_;
+  std::vector<int> table_;
+};
+
+/// A decoded state as it shows: pose, and where the vertices lie.
+struct Shown {
+  Pose pose;
+  std::array<glm::dvec2, kVertexCount> vertices{};
+
+  explicit Shown(const StreamDecoder& decoder)
+      : pose(dequantise(decoder.state(), decoder.scene().setup.steps)) {
+    const auto projected = decoder.scene().geometry->project_vertices(decoder.state());
+    for (std::size_t v = 0; v < kVertexCount; ++v)
+      vertices[v] = glm::dvec2(projected[v].x, projected[v].y) / 64.0;
+  }
+};
+
+/// How far apart two pictures are shown.
+struct Apart {
+  double degrees = 0, shift_px = 0, vertices_px = 0;
+
+  Apart() = default;
+  Apart(const Shown& a, const Shown& b)
+      : degrees(kDegrees *
+                std::hypot(a.pose.pitch - b.pose.pitch, a.pose.yaw - b.pose.yaw, a.pose.roll - b.pose.roll)),
+        shift_px(glm::length(a.pose.shift - b.pose.shift)) {
+    for (std::size_t v = 0; v < kVertexCount; ++v)
+      vertices_px += glm::length(a.vertices[v] - b.vertices[v]) / static_cast<double>(kVertexCount);
+  }
+  [[nodiscard]] bool near() const {
+    return degrees <= kMostDegrees && shift_px <= kMostPixels && vertices_px <= kMostPixels;
+  }
+  void take_worst(const Apart& a) {
+    degrees = std::max(degrees, a.degrees);
+    shift_px = std::max(shift_px, a.shift_px);
+    vertices_px = std::max(vertices_px, a.vertices_px);
+  }
+};
+
+/// One round against the first.
+struct Round {
+  int pictures = 0;
+  Apart sum, worst;
+  glm::dvec3 turn{0};  ///< sums of signed differences: what does not average out is drift
+  glm::dvec2 shift{0};
+  std::array<glm::dvec2, kVertexCount> moved{};  ///< of each vertex, the same sums, the pose's share included
+
+  void take(const Shown& now, const Shown& first) {
+    const Apart a(now, first);
+    worst.take_worst(a);
+    sum.degrees += a.degrees, sum.shift_px += a.shift_px, sum.vertices_px += a.vertices_px;
+    turn += glm::dvec3(now.pose.pitch - first.pose.pitch, now.pose.yaw - first.pose.yaw,
+                       now.pose.roll - first.pose.roll);
+    shift += now.pose.shift - first.pose.shift;
+    for (std::size_t v = 0; v < kVertexCount; ++v) moved[v] += now.vertices[v] - first.vertices[v];
+    ++pictures;
+  }
+  [[nodiscard]] double drift_degrees() const { return kDegrees * glm::length(turn) / pictures; }
+  [[nodiscard]] double drift_px() const { return glm::length(shift) / pictures; }
+  /// The vertex that has drifted farthest: what is off by itself is lost in a mean over 105.
+  [[nodiscard]] std::size_t strayed() const {
+    const auto far = [](glm::dvec2 a, glm::dvec2 b) { return glm::length(a) < glm::length(b); };
+    return static_cast<std::size_t>(std::max_element(moved.begin(), moved.end(), far) - moved.begin());
+  }
+  [[nodiscard]] double strayed_px() const { return glm::length(moved[strayed()]) / pictures; }
+  void print(int number) const {
+    std::printf("%6d %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", number,
+                sum.degrees / pictures, sum.shift_px / pictures, sum.vertices_px / pictures, worst.degrees,
+                worst.shift_px, worst.vertices_px, drift_degrees(), drift_px(), strayed_px(),
+                std::string(generic_head().vertices[strayed()].name).c_str());
+  }
+};
+
+/// Codes and decodes; `see` gets every decoded picture. Returns what went wrong.
+template <class See>
+std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures, See see) {
+  VideoFormat format;
+  format.width = o.talker.width;
+  format.height = o.talker.height;
+  format.frame_rate = o.talker.frame_rate;
+  EncoderSettings settings;
+  settings.quality = o.quality;
+  auto encoder = Encoder::create(format, settings);
+  if (!encoder) return encoder.error();
+  StreamDecoder decoder;
+  const auto pass_on = [&]() -> std::optional<Error> {
+    const auto bytes = encoder->take();
+    if (bytes.empty()) return std::nullopt;
+    decoder.feed(bytes);
+    for (;;) {
+      const auto status = decoder.next();
+      if (!status) return status.error();
+      if (*status != DecodeStatus::kPicture) return std::nullopt;
+      if (!decoder.scene().geometry) return Error{ErrorCode::kNoFace, "no face in the first picture"};
+      see(Shown(decoder));
+    }
+  };
+  for (int i = 0; i < pictures; ++i) {
+    if (auto pushed = encoder->push(source.at(i)); !pushed) return pushed.error();
+    if (auto error = pass_on()) return error;
+  }
+  if (auto finished = encoder->finish(); !finished) return finished.error();
+  return pass_on();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto options = parse(argc, argv);
+  if (!options) {
+    std::fputs(
+        "usage: long_run [--pictures N] [--clip N] [--size WxH] [--noise N] [--seed N] [--quality N]\n",
+        stderr);
+    return 2;
+  }
+  const ToAndFro source(*options);
+  const int rounds = (options->pictures + source.round() - 1) / source.round();
+  std::vector<Shown> first;
+  std::vector<Round> seen(static_cast<std::size_t>(rounds) + 1);
+  std::optional<Shown> last;
+  int i = 0;
+  const auto error = run(*options, source, rounds * source.round() + 1, [&](const Shown& now) {
+    if (i < source.round()) first.push_back(now);
+    seen[static_cast<std::size_t>(i / source.round())].take(
+        now, first[static_cast<std::size_t>(i % source.round())]);
+    last = now;
+    ++i;
+  });
+  if (error) {
+    std::fprintf(stderr, "long_run: %s\n", error->text.c_str());
+    return 1;
+  }
+  std::puts("against the first round at the same phase: mean, worst, and drift (mean of signed differences;");
+  std::puts("the last column is that of the vertex that drifted farthest)");
+  std::puts(
+      " round   degrees  shift px  verts px   degrees  shift px  verts px   degrees  shift px   vert px");
+  for (int r = 1; r < rounds; ++r)
+    if (r == 1 || r == rounds - 1 || r % std::max(1, rounds / 10) == 0)
+      seen[static_cast<std::size_t>(r)].print(r + 1);
+  const Apart end(*last, first.front());
+  std::printf("after %d pictures: %.3f degrees, shift %.3f px, vertices %.3f px from the first picture\n", i,
+              end.degrees, end.shift_px, end.vertices_px);
+  if (rounds < 2) return end.near() ? 0 : 1;
+  const Round& final_round = seen[static_cast<std::size_t>(rounds) - 1];
+  const bool drifted = final_round.drift_degrees() > kMostDegrees || final_round.drift_px() > kMostPixels ||
+                       final_round.strayed_px() > kMostPixels;
+  if (!end.near() || drifted) std::puts("FAILED: it does not end where it began");
+  return end.near() && !drifted ? 0 : 1;
+}
