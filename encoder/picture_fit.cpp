@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "encoder/mouth_shape.h"
+
 namespace fbs {
 namespace {
 
@@ -16,6 +18,11 @@ constexpr double kPoseNear = 0.03;       // of the tracked pose
 constexpr double kControlNear = 0.02;    // of the tracked control points
 constexpr double kInnerLipNear = 0.006;  // of the tracked inner lips: they show best where they are
 constexpr double kControlRest = 0.12;    // of control points about rest
+// Of lids, in shares of their travel.
+constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
+constexpr double kLidsAlike = 60;     // squared grey levels that a difference of one costs
+constexpr double kLidNoise = 30;      // grey levels; larger differences hardly count more
+constexpr double kLidsApart = 0.014;  // eye distances: shut eyes keep a line of lashes
 constexpr int kSteps[] = {3, 2};         // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 
@@ -80,6 +87,7 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
         shares.push_back({static_cast<std::int16_t>(c), static_cast<float>(sum[c])});
     shares_.push_back(std::move(shares));
   }
+  lids_ = {lid_of(FeatureId::kUpperLidRight, 40), lid_of(FeatureId::kUpperLidLeft, 46)};
   const auto luma = two_levels(pattern.luma);
   for (int level = 0; level < kLevels; ++level) {
     for (const SurfacePoint& p : points_) {
@@ -89,6 +97,91 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
       pattern_luma_[static_cast<std::size_t>(level)].push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
+}
+
+PictureFit::Lid PictureFit::lid_of(FeatureId id, int lower_landmark) const {
+  const GenericHead& head = generic_head();
+  const Feature& f = feature(id);
+  Lid lid;
+  lid.first_control = static_cast<std::size_t>(f.first_control);
+  double upper = 0, lower = 0;
+  for (const FeatureVertex& fv : f.vertices) upper += geometry_.positions[static_cast<std::size_t>(fv.vertex)].y;
+  for (const int k : {lower_landmark, lower_landmark + 1}) {
+    const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(k)];
+    lower += geometry_.positions[static_cast<std::size_t>(v)].y;
+  }
+  // Both free control points of the cubic have two thirds of the say at its vertices.
+  lid.travel = 1.5 * (0.5 * (lower - upper) - kLidsApart * kUnitsPerEyeDistance);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto& shares = shares_[k];
+    if (std::any_of(shares.begin(), shares.end(), [&](const Share& s) {
+          const auto c = static_cast<std::size_t>(s.control);
+          return (c == lid.first_control || c == lid.first_control + 1) && s.weight > 0.05F;
+        }))
+      lid.points.push_back(k);
+  }
+  return lid;
+}
+
+double PictureFit::lid_difference(const Lid& lid, const Fit& fit) const {
+  constexpr int kLevel = 1;
+  const HeadVertices vertices = deformed(fit);
+  const PoseProjection projection(fit.pose);
+  const cv::Mat& luma = luma_[kLevel];
+  double sum = 0, weights = 0, weight = 0;
+  std::int16_t triangle = -1;
+  for (const std::size_t k : lid.points) {
+    const SurfacePoint& p = points_[k];
+    if (p.triangle != triangle) {
+      triangle = p.triangle;
+      const auto corner = [&](std::size_t i) { return projection(vertices[static_cast<std::size_t>(p.corner[i])]); };
+      weight = visible_area(corner(0), corner(1), corner(2)) /
+               points_on_triangle_[static_cast<std::size_t>(triangle)];
+    }
+    const double value = static_cast<double>(pattern_luma_[kLevel][k]);
+    Sample s;
+    if (weight <= 0 || value < 0 ||
+        !sample_with_slope(luma, on_level(picture_.to_work(projection(p.on(vertices))), kLevel), s))
+      continue;
+    const double r = (value - s.value) * (value - s.value);
+    sum += weight * r / (1 + r / (kLidNoise * kLidNoise));
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+Fit PictureFit::with_best_lids(const Fit& start) const {
+  if (column_[lids_[0].first_control] < 0) return start;
+  constexpr std::size_t kCandidates = std::size(kClosings) + 1;  // the last: as it is
+  const auto closed = [&](const Lid& lid, std::size_t candidate, Fit fit) {
+    if (candidate < std::size(kClosings))
+      for (std::size_t c = lid.first_control; c < lid.first_control + 2; ++c)
+        fit.offsets[c] = {0, kClosings[candidate] * lid.travel};
+    return fit;
+  };
+  std::array<std::array<double, kCandidates>, 2> difference{}, closing{};
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const Lid& lid = lids_[eye];
+    for (std::size_t i = 0; i < kCandidates; ++i) {
+      const Fit fit = closed(lid, i, start);
+      difference[eye][i] = lid_difference(lid, fit);
+      closing[eye][i] =
+          0.5 * (fit.offsets[lid.first_control].y + fit.offsets[lid.first_control + 1].y) / lid.travel;
+    }
+  }
+  double best = 1e30;
+  std::array<std::size_t, 2> chosen{};
+  for (std::size_t i = 0; i < kCandidates; ++i) {
+    for (std::size_t j = 0; j < kCandidates; ++j) {
+      const double apart = closing[0][i] - closing[1][j];
+      const double cost = difference[0][i] + difference[1][j] + kLidsAlike * apart * apart;
+      if (cost < best) {
+        best = cost;
+        chosen = {i, j};
+      }
+    }
+  }
+  return closed(lids_[1], chosen[1], closed(lids_[0], chosen[0], start));
 }
 
 double PictureFit::shown(std::size_t point, int level, std::int32_t shade) const {
@@ -122,6 +215,7 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   const auto n = static_cast<std::size_t>(unknowns_);
   std::vector<double> a(n * n), b(n);
   const double eye = fit.pose.eye_distance_px();
+  static const double kPoseNear = getenv("NP")?atof(getenv("NP")):0.03;
   // Priors first: near the start, near rest.
   const auto believe = [&](std::size_t k, double away, double sigma) {
     a[k * n + k] += 1 / (sigma * sigma);
@@ -137,12 +231,28 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
     if (column_[c] < 0) continue;
     const Feature& inner = feature(FeatureId::kMouthInner);
     const int past_inner = inner.first_control + inner.control_count, index = static_cast<int>(c);
-    const double near = index >= inner.first_control && index < past_inner ? kInnerLipNear : kControlNear;
+    static const double ni = getenv("NI")?atof(getenv("NI")):kInnerLipNear, no = getenv("NO")?atof(getenv("NO")):kControlNear;
+    static const double nl = getenv("NL")?atof(getenv("NL")):kControlNear;
+    const bool lid = (index >= feature(FeatureId::kUpperLidRight).first_control && index < feature(FeatureId::kUpperLidLeft).first_control + 2);
+    const double near = lid ? nl : index >= inner.first_control && index < past_inner ? ni : index < inner.first_control ? no : kControlNear;
     for (int axis = 0; axis < 2; ++axis) {
       const auto k = static_cast<std::size_t>(column_[c] + axis);
       believe(k, fit.offsets[c][axis] - start.offsets[c][axis], near * kUnitsPerEyeDistance);
-      believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
+      const bool lips = index < past_inner;
+      if (!lips || getenv("NOMODES")) believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
     }
+  }
+  if (!getenv("NOMODES") && column_[0] >= 0) {
+  const cv::Mat1d& lips = mouth_precision();
+  constexpr double kPerUnit = 1.0 / kUnitsPerEyeDistance / kUnitsPerEyeDistance;
+  for (int i = 0; i < lips.rows; ++i) {
+    for (int j = 0; j < lips.cols; ++j) {
+      const double p = lips(i, j) * kPerUnit;
+      const auto ki = static_cast<std::size_t>(column_[static_cast<std::size_t>(i / 2)] + i % 2), kj = static_cast<std::size_t>(column_[static_cast<std::size_t>(j / 2)] + j % 2);
+      a[std::min(ki, kj) * n + std::max(ki, kj)] += ki <= kj ? p : 0;
+      b[ki] -= p * fit.offsets[static_cast<std::size_t>(j / 2)][j % 2];
+    }
+  }
   }
 
   const PoseJacobian jacobian(fit.pose);

@@ -29,6 +29,11 @@ class PictureFit {
   /// @param mouth  luma that the decoder shows inside the mouth, as far as is known
   void look_at(const WorkFrame& picture, const MouthInterior& mouth);
 
+  /// `start` with the upper lids where the pattern, smeared on the closing eyes, looks most like the picture:
+  /// where they are, wider, or shut by some fifths, both eyes alike unless the picture insists. A blink is over
+  /// in three pictures, too fast to be followed downhill.
+  [[nodiscard]] Fit with_best_lids(const Fit& start) const;
+
   /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to
   /// fine, held near `start` where the picture says nothing and near rest everywhere.
   [[nodiscard]] Fit refine(const Fit& start) const;
@@ -45,6 +50,16 @@ class PictureFit {
     float weight;
   };
 
+  /// An upper lid: its control points and how far they go down to shut the eye, and the points that it moves.
+  struct Lid {
+    std::size_t first_control = 0;
+    double travel = 0;  ///< head units
+    std::vector<std::size_t> points;
+  };
+
+  [[nodiscard]] Lid lid_of(FeatureId id, int lower_landmark) const;
+  /// Mean robust squared difference over what a lid moves.
+  [[nodiscard]] double lid_difference(const Lid& lid, const Fit& fit) const;
   /// One Gauss-Newton step on one level; false when it cannot be solved.
   bool step(int level, const Fit& start, Fit& fit) const;
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
@@ -61,6 +76,7 @@ class PictureFit {
   int unknowns_ = 6;
   std::vector<int> points_on_triangle_;
   std::vector<float> mouth_ramp_;  ///< of each point, 0 upper to 1 lower lip; negative: not inside
+  std::array<Lid, 2> lids_;
   std::int32_t gap_seen_ = 0;      ///< mouth_gap() of the pattern
   WorkFrame picture_;
   MouthInterior mouth_;
