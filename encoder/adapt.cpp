@@ -163,14 +163,14 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   // x keeps its size, depth adds to it by the tangent and y grows. The head turns about its own axis, and the
   // eyes stay where they are seen.
   const Turn turn = turn_of(target);
-  const double depth = turn.width;  // is scaled with the width
+  const double depth = 0.5 * (turn.width + axis_scale(generic, target, 1));
   out.pose.yaw = std::atan(turn.tangent / depth);
   const double cosine = std::cos(out.pose.yaw);
   out.pose.log2_scale -= std::log2(cosine);
   const double aside = eye_distance * turn.tangent * eye_depth();
   out.pose.shift -= aside * glm::dvec2(std::cos(out.pose.roll), std::sin(out.pose.roll));
   for (std::size_t v = 0; v < kVertexCount; ++v)
-    if (target[v]) *target[v] = {target[v]->x - turn.tangent * behind_eyes(v), target[v]->y * cosine};
+    if (target[v]) target[v] = {target[v]->x - turn.tangent * behind_eyes(v), target[v]->y * cosine};
   const double sx = axis_scale(generic, target, 0), sy = axis_scale(generic, target, 1);
   Points now;
   for (std::size_t v = 0; v < kVertexCount; ++v) now[v] = generic[v] * glm::dvec2(sx, sy);

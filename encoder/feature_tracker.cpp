@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/expression_prior.h"
+
 namespace fbs {
 namespace {
 
@@ -132,6 +134,7 @@ void FeatureTracker::track(const WorkFrame& now, const Pose& pose,
     s.limit(s.now);
     s.iterations = settled.iterations;
   }
+  if (!getenv("NOPROB")) set_offsets(most_probable(offsets()));
 }
 
 std::array<glm::dvec2, kControlCount> FeatureTracker::offsets() const {

@@ -70,8 +70,8 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
           cost += kOpenCost * open;
           // Both lips are redder than the skin, and what lies between them is not redder than they are.
           const double lips = std::min(mean_red(t, u), mean_red(l, b));
-          cost -= std::clamp(lips - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)), -3.0, 3.0);
-          cost += std::clamp(mean_red(u, l) - lips, 0.0, 3.0);
+          cost -= std::clamp(lips - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)), -12.0, 4.0);
+          cost += std::clamp(mean_red(u, l) - lips, 0.0, 12.0);
           if (cost < best) {
             best = cost;
             found = {t, u, l, b};

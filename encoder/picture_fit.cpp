@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "encoder/mouth_shape.h"
+#include "encoder/expression_prior.h"
 
 namespace fbs {
 namespace {
@@ -14,9 +14,12 @@ constexpr int kMouthRows = 5;
 constexpr double kNoise = 6;   // grey levels: what differs by this much is as likely as not meant
 constexpr double kHuber = 24;  // grey levels; larger differences (teeth, shadows) pull with constant force
 // Standard deviations of what is believed before looking, as shares of the eye distance or radians.
-constexpr double kPoseNear = 0.03;       // of the tracked pose
-constexpr double kControlNear = 0.02;    // of the tracked control points
-constexpr double kInnerLipNear = 0.006;  // of the tracked inner lips: they show best where they are
+constexpr double kPoseNear = 0.006;      // of the tracked pose, which is aligned to the same picture with less to say
+constexpr double kOuterLipNear = 0.012;  // of the tracked control points, by feature: contours show lips and lids
+constexpr double kInnerLipNear = 0.003;  // better than textures do, and textures show brows better
+constexpr double kBrowNear = 0.02;
+constexpr double kLidNear = 0.004;
+constexpr double kElseNear = 0.02;
 constexpr double kControlRest = 0.12;    // of control points about rest
 // Of lids, in shares of their travel.
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
@@ -34,6 +37,19 @@ std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
 
 glm::dvec2 on_level(glm::dvec2 work, int level) {
   return work / static_cast<double>(1 << level);
+}
+
+bool belongs_to(int control, FeatureId first, FeatureId last) {
+  const Feature &from = feature(first), &to = feature(last);
+  return control >= from.first_control && control < to.first_control + to.control_count;
+}
+
+double near_of(int control) {
+  if (belongs_to(control, FeatureId::kMouthOuter, FeatureId::kMouthOuter)) return kOuterLipNear;
+  if (belongs_to(control, FeatureId::kMouthInner, FeatureId::kMouthInner)) return kInnerLipNear;
+  if (belongs_to(control, FeatureId::kBrowRight, FeatureId::kBrowLeft)) return kBrowNear;
+  if (belongs_to(control, FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft)) return kLidNear;
+  return kElseNear;
 }
 
 /// Area of a triangle on the screen; zero when it faces away.
@@ -215,7 +231,6 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   const auto n = static_cast<std::size_t>(unknowns_);
   std::vector<double> a(n * n), b(n);
   const double eye = fit.pose.eye_distance_px();
-  static const double kPoseNear = getenv("NP")?atof(getenv("NP")):0.03;
   // Priors first: near the start, near rest.
   const auto believe = [&](std::size_t k, double away, double sigma) {
     a[k * n + k] += 1 / (sigma * sigma);
@@ -229,30 +244,25 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   believe(5, fit.pose.log2_scale - start.pose.log2_scale, kPoseNear);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
-    const Feature& inner = feature(FeatureId::kMouthInner);
-    const int past_inner = inner.first_control + inner.control_count, index = static_cast<int>(c);
-    static const double ni = getenv("NI")?atof(getenv("NI")):kInnerLipNear, no = getenv("NO")?atof(getenv("NO")):kControlNear;
-    static const double nl = getenv("NL")?atof(getenv("NL")):kControlNear;
-    const bool lid = (index >= feature(FeatureId::kUpperLidRight).first_control && index < feature(FeatureId::kUpperLidLeft).first_control + 2);
-    const double near = lid ? nl : index >= inner.first_control && index < past_inner ? ni : index < inner.first_control ? no : kControlNear;
+    const double near = near_of(static_cast<int>(c));
     for (int axis = 0; axis < 2; ++axis) {
       const auto k = static_cast<std::size_t>(column_[c] + axis);
       believe(k, fit.offsets[c][axis] - start.offsets[c][axis], near * kUnitsPerEyeDistance);
-      const bool lips = index < past_inner;
-      if (!lips || getenv("NOMODES")) believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
+      if (static_cast<int>(c) >= kExpressionControls)
+        believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
     }
   }
-  if (!getenv("NOMODES") && column_[0] >= 0) {
-  const cv::Mat1d& lips = mouth_precision();
-  constexpr double kPerUnit = 1.0 / kUnitsPerEyeDistance / kUnitsPerEyeDistance;
-  for (int i = 0; i < lips.rows; ++i) {
-    for (int j = 0; j < lips.cols; ++j) {
-      const double p = lips(i, j) * kPerUnit;
-      const auto ki = static_cast<std::size_t>(column_[static_cast<std::size_t>(i / 2)] + i % 2), kj = static_cast<std::size_t>(column_[static_cast<std::size_t>(j / 2)] + j % 2);
-      a[std::min(ki, kj) * n + std::max(ki, kj)] += ki <= kj ? p : 0;
-      b[ki] -= p * fit.offsets[static_cast<std::size_t>(j / 2)][j % 2];
+  const cv::Mat1d& expression = expression_precision();
+  for (int i = 0; i < expression.rows; ++i) {
+    const int column = column_[static_cast<std::size_t>(i / 2)] + i % 2;
+    if (column_[static_cast<std::size_t>(i / 2)] < 0) continue;
+    for (int j = 0; j < expression.cols; ++j) {
+      const int other = column_[static_cast<std::size_t>(j / 2)] + j % 2;
+      if (column_[static_cast<std::size_t>(j / 2)] < 0) continue;
+      const double p = expression(i, j) / (static_cast<double>(kUnitsPerEyeDistance) * kUnitsPerEyeDistance);
+      if (column <= other) a[static_cast<std::size_t>(column) * n + static_cast<std::size_t>(other)] += p;
+      b[static_cast<std::size_t>(column)] -= p * fit.offsets[static_cast<std::size_t>(j / 2)][j % 2];
     }
-  }
   }
 
   const PoseJacobian jacobian(fit.pose);

@@ -42,6 +42,8 @@ class PictureFit {
   /// the points; in samples of the full picture.
   [[nodiscard]] double distortion(const State& state) const;
 
+  [[nodiscard]] const QuantiserSteps& steps() const { return steps_; }
+
  private:
   static constexpr int kLevels = 2;
   /// One control point's share in a surface point.

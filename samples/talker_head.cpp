@@ -25,6 +25,7 @@ float smooth_min(float a, float b, float k) {
 
 /// Height of the nose over the face: a ridge that rises to the tip, and two wings.
 float nose(float x, float y) {
+  y += 0.07f;
   if (y < -0.35f || y > 1.0f || std::abs(x) > 0.62f) return 0;
   const float ridge =
       0.05f + 0.35f * smooth_step(-0.15f, 0.70f, y) - 0.02f * bell(square((y - 0.25f) / 0.2f));

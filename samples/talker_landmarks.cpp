@@ -38,17 +38,22 @@ glm::vec3 border(float angle) {
 /// Neutral positions of the points that are skin; lids are left out (they slide).
 Points rest_points() {
   Points p{};
-  for (int i = 0; i <= 16; ++i) p[i] = border(static_cast<float>(i) * std::numbers::pi_v<float> / 16.0f);
+  constexpr float kAboveMiddle = 0.19f;  // the ends of the jaw lie at the height of the eyes
+  for (int i = 0; i <= 16; ++i) {
+    const float along = static_cast<float>(i) / 16.0f;
+    p[i] = border(along * (std::numbers::pi_v<float> + 2 * kAboveMiddle) - kAboveMiddle);
+  }
   for (int i = 0; i < 5; ++i) {
     const float u = 0.03f + 0.94f * static_cast<float>(i) / 4.0f;
     const float x = kBrowInnerX + (kBrowOuterX - kBrowInnerX) * u;
-    p[21 - i] = on_face(-x, brow_line(u).y);
-    p[22 + i] = on_face(x, brow_line(u).y);
+    const float y = brow_line(u).y - brow_line(u).half_thickness;  // the upper border, as iBUG marks it
+    p[21 - i] = on_face(-x, y);
+    p[22 + i] = on_face(x, y);
   }
-  constexpr std::array<float, 4> kBridgeY{-0.02f, 0.20f, 0.41f, 0.60f};
+  constexpr std::array<float, 4> kBridgeY{0.02f, 0.20f, 0.37f, 0.54f};
   for (int i = 0; i < 4; ++i) p[27 + i] = on_face(0, kBridgeY[i]);
   constexpr std::array<float, 5> kBaseX{-0.22f, -0.11f, 0, 0.11f, 0.22f};
-  constexpr std::array<float, 5> kBaseY{0.745f, 0.775f, 0.80f, 0.775f, 0.745f};
+  constexpr std::array<float, 5> kBaseY{0.69f, 0.725f, 0.745f, 0.725f, 0.69f};
   for (int i = 0; i < 5; ++i) p[31 + i] = on_face(kBaseX[i], kBaseY[i]);
 
   const auto lip = [](float u, float offset) { return on_face(u * kMouthHalfWidth, lip_line(u) + offset); };

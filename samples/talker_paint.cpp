@@ -33,7 +33,7 @@ float moles(glm::vec3 q, const Look& look) {
 Material paint_skin(glm::vec3 q, const Look& look, float pixels) {
   const float x = std::abs(q.x), y = q.y;
   const float blush = 0.55f * bell(x, y, 0.66f, 0.60f, 0.34f, 0.26f) +
-                      0.4f * bell(x, y, 0, 0.62f, 0.2f, 0.16f) + 0.25f * bell(x, y, 0, 1.62f, 0.3f, 0.2f) +
+                      0.4f * bell(x, y, 0, 0.55f, 0.2f, 0.16f) + 0.25f * bell(x, y, 0, 1.62f, 0.3f, 0.2f) +
                       0.5f * smooth_step(1.0f, 1.2f, x) * bell(square((y - 0.27f) / 0.4f));
   Material m;
   m.albedo = glm::mix(look.skin, look.blush, std::min(blush, 1.0f));
@@ -46,7 +46,7 @@ Material paint_skin(glm::vec3 q, const Look& look, float pixels) {
   shade += 0.30f * bell(x, y, 0.27f, -0.06f, 0.13f, 0.18f);                      // between eye and nose
   shade += 0.16f * bell(x, y, 0.50f, -0.15f, 0.26f, 0.09f);                      // over the lid
   shade += 0.14f * bell(x, y, 0.44f, 0.21f, 0.22f, 0.06f);                       // under the eye
-  shade += 0.22f * bell(x, y, 0, 0.86f, 0.22f, 0.09f);                           // under the nose
+  shade += 0.22f * bell(x, y, 0, 0.79f, 0.22f, 0.09f);                           // under the nose
   shade += 0.20f * bell(x, y, 0, 1.33f, 0.26f, 0.07f);                           // under the lip
   shade += 0.12f * bell(x - 0.35f * (y - 0.7f), y, 0.30f, 0.86f, 0.05f, 0.22f);  // beside the mouth
   shade += 0.45f * bell(x, y, 1.13f, 0.27f, 0.09f, 0.2f) * smooth_step(-0.05f, 0.1f, q.z);  // in the ear
@@ -54,7 +54,7 @@ Material paint_skin(glm::vec3 q, const Look& look, float pixels) {
   m.occlusion = 1.0f - std::min(shade, 0.8f);
 
   const float tilt = (x - 0.105f) * 0.35f;
-  const float nostril = bell(x, y, 0.105f, 0.765f - tilt, 0.055f, 0.026f);
+  const float nostril = bell(x, y, 0.105f, 0.695f - tilt, 0.055f, 0.026f);
   m.albedo = glm::mix(m.albedo, look.lips * 0.08f, std::min(1.0f, 1.3f * nostril));
   m.gloss = 0.10f * (1.0f + 0.5f * pores);
   m.shininess = 14;
