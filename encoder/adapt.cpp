@@ -43,8 +43,8 @@ bool folds(const Points& now, const Points& scaled) {
   return false;
 }
 
-/// The turn that the marks show: tangent of the yaw, positive towards the picture's left, and width, by robust
-/// least squares of x = width * generic x + tangent * depth behind the eyes.
+/// The turn that the marks show: tangent of the yaw, positive towards the picture's left, and width, by
+/// robust least squares of x = width * generic x + tangent * depth behind the eyes.
 struct Turn {
   double tangent = 0, width = 1;
 };
@@ -159,9 +159,9 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
     const glm::dvec2 d = *marks.vertex[v] - out.pose.shift;
     target[v] = glm::dvec2(c * d.x + s * d.y, -s * d.x + c * d.y);
   }
-  // A turn by a yaw narrows x to its cosine, the distance between the eyes with it, so that seen in eye distances
-  // x keeps its size, depth adds to it by the tangent and y grows. The head turns about its own axis, and the
-  // eyes stay where they are seen.
+  // A turn by a yaw narrows x to its cosine, the distance between the eyes with it, so that seen in eye
+  // distances x keeps its size, depth adds to it by the tangent and y grows. The head turns about its own
+  // axis, and the eyes stay where they are seen.
   const Turn turn = turn_of(target);
   const double depth = 0.5 * (turn.width + axis_scale(generic, target, 1));
   out.pose.yaw = std::atan(turn.tangent / depth);

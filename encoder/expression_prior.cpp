@@ -8,8 +8,9 @@
 namespace fbs {
 namespace {
 
+constexpr int kControls = static_cast<int>(kExpressionControls);
 // Standard deviations, eye distances.
-constexpr double kElse = 0.008;                                         // of a control point past all actions
+constexpr double kElse = 0.008;  // of a control point past all actions
 constexpr double kLipSeen = 0.02, kInnerLipSeen = 0.02, kBrowSeen = 0.03;  // of contours as seen
 
 /// A vertex of lips or brows as the actions see it.
@@ -52,8 +53,10 @@ const std::vector<Action>& actions() {
       // A smile: corners up and out.
       of_lips([](const Place& p) { return (1 - p.bow()) * glm::dvec2(0.02 * p.across, -0.045); }),
       // Either lip grows thicker or rolls in.
-      of_lips([](const Place& p) { return glm::dvec2(0, !p.upper && p.is_outer_lip() ? 0.03 * p.bow() : 0); }),
-      of_lips([](const Place& p) { return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.bow() : 0); }),
+      of_lips(
+          [](const Place& p) { return glm::dvec2(0, !p.upper && p.is_outer_lip() ? 0.03 * p.bow() : 0); }),
+      of_lips(
+          [](const Place& p) { return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.bow() : 0); }),
       // The whole mouth goes aside, up and down, or tilts.
       of_lips([](const Place&) { return glm::dvec2(0.02, 0); }),
       of_lips([](const Place&) { return glm::dvec2(0, 0.035); }),
@@ -100,16 +103,16 @@ cv::Mat1d precision() {
   }
   // How these vertices follow the control points; the same for x and y.
   const int n = static_cast<int>(vertices.size());
-  cv::Mat1d follow = cv::Mat1d::zeros(n, kExpressionControls);
+  cv::Mat1d follow = cv::Mat1d::zeros(n, kControls);
   for (int i = 0; i < n; ++i) {
     const std::size_t v = vertices[static_cast<std::size_t>(i)];
     for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-      if (head.spread[k].control < kExpressionControls)
+      if (head.spread[k].control < kControls)
         follow(i, head.spread[k].control) = head.spread[k].weight / static_cast<double>(kSpreadOne);
   }
   // An action in control points: those that move the vertices as it says.
-  const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kExpressionControls, kExpressionControls);
-  cv::Mat1d covariance = kElse * kElse * cv::Mat1d::eye(2 * kExpressionControls, 2 * kExpressionControls);
+  const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
+  cv::Mat1d covariance = kElse * kElse * cv::Mat1d::eye(2 * kControls, 2 * kControls);
   for (const Action& action : actions()) {
     cv::Mat1d moved(n, 2), offsets;
     for (int i = 0; i < n; ++i) {
@@ -118,7 +121,7 @@ cv::Mat1d precision() {
       moved(i, 1) = d.y;
     }
     cv::solve(normal, follow.t() * moved, offsets, cv::DECOMP_CHOLESKY);
-    const cv::Mat1d mode = offsets.reshape(1, 2 * kExpressionControls);
+    const cv::Mat1d mode = offsets.reshape(1, 2 * kControls);
     covariance += mode * mode.t();
   }
   return cv::Mat1d(covariance.inv(cv::DECOMP_CHOLESKY));
@@ -126,7 +129,7 @@ cv::Mat1d precision() {
 
 /// Seen offsets to most probable ones: (P + W)^-1 W, with the inverse variances W of what is seen.
 cv::Mat1d filter() {
-  cv::Mat1d seen = cv::Mat1d::zeros(2 * kExpressionControls, 2 * kExpressionControls);
+  cv::Mat1d seen = cv::Mat1d::zeros(2 * kControls, 2 * kControls);
   const int inner = feature(FeatureId::kMouthInner).first_control;
   const int brows = feature(FeatureId::kBrowRight).first_control;
   for (int i = 0; i < seen.rows; ++i) {

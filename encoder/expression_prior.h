@@ -10,18 +10,18 @@
 namespace fbs {
 
 /// The features whose control points the prior is about: lips and brows, in the order of FeatureId.
-inline constexpr int kExpressionControls = 26;
+inline constexpr std::size_t kExpressionControls = 26;
 
 /// Inverse covariance of the offsets of the control points of lips and brows about rest, per squared eye
-/// distance: a mouth opens, stretches, smiles, rolls its lips and goes aside as a whole, brows rise, frown and
-/// tilt, mostly together, and hardly do anything else. The actions are those that MPEG-4's parameters and
+/// distance: a mouth opens, stretches, smiles, rolls its lips and goes aside as a whole, brows rise, frown
+/// and tilt, mostly together, and hardly do anything else. The actions are those that MPEG-4's parameters and
 /// CANDIDE's action units name; how far they go was set by hand from what speech does.
 /// Rows and columns: 2 * control point + axis, for control points 0 .. kExpressionControls - 1.
 [[nodiscard]] const cv::Mat1d& expression_precision();
 
-/// The most probable offsets (head units) given those that contours were seen at, each to within some hundredths
-/// of the eye distance: contrast sees motion across a contour only, so that a closed mouth's line, say, may slide
-/// along itself unseen. Control points past kExpressionControls stay as they are.
+/// The most probable offsets (head units) given those that contours were seen at, each to within some
+/// hundredths of the eye distance: contrast sees motion across a contour only, so that a closed mouth's line,
+/// say, may slide along itself unseen. Control points past kExpressionControls stay as they are.
 [[nodiscard]] std::array<glm::dvec2, kControlCount> most_probable(
     const std::array<glm::dvec2, kControlCount>& seen);
 

@@ -1,4 +1,5 @@
-// A found face brought into a frame of its own, eyes level and one unit apart, and how evidence is searched there.
+// A found face brought into a frame of its own, eyes level and one unit apart, and how evidence is searched
+// there.
 #pragma once
 
 #include <functional>

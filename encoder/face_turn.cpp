@@ -43,7 +43,8 @@ double symmetry(const FaceFrame& f, double top, double bottom, double half,
 double nose_evidence(const FaceFrame& f, double turn, double shift) {
   const glm::dvec3 upper = generic_landmark(28), tip = generic_landmark(30), base = generic_landmark(33);
   return 3 * symmetry(f, 0.25, 0.95, 0.4, [&](double y) {
-           const double z = y < tip.y ? upper.z + (tip.z - upper.z) * (y - upper.y) / (tip.y - upper.y) : base.z;
+           const double z =
+               y < tip.y ? upper.z + (tip.z - upper.z) * (y - upper.y) / (tip.y - upper.y) : base.z;
            return shift + turn * z;
          });
 }

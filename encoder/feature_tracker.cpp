@@ -134,7 +134,7 @@ void FeatureTracker::track(const WorkFrame& now, const Pose& pose,
     s.limit(s.now);
     s.iterations = settled.iterations;
   }
-  if (!getenv("NOPROB")) set_offsets(most_probable(offsets()));
+  set_offsets(most_probable(offsets()));
 }
 
 std::array<glm::dvec2, kControlCount> FeatureTracker::offsets() const {

@@ -13,26 +13,27 @@ namespace {
 /// faces.
 constexpr double kEyeBiasX = 0.04, kEyeBiasY = 0.025;  // eye distances
 
-constexpr double kBrowHalfWidth = 0.056;   // eye distances
+constexpr double kBrowHalfWidth = 0.056;  // eye distances
 
 // Proportions that hold from person to person, measured on neutral pictures of nine people (mean; standard
 // deviation): they tie what is hard to see to what is not.
-constexpr double kNoseBasePerMouthLine = 0.68;             // of its height below the eyes; 0.02
-constexpr double kNostrilsPerMouthLine = 0.565;            // where the nostrils are darkest
-constexpr double kUpperLip = 0.13, kLowerLip = 0.19;       // thickness of both; 0.024, 0.039
-constexpr double kChinBelowMouth = 0.69;                   // 0.085
-constexpr double kChinPerOpening = 0.7;                    // the jaw goes down with the lower lip
+constexpr double kNoseBasePerMouthLine = 0.68;        // of its height below the eyes; 0.02
+constexpr double kNostrilsPerMouthLine = 0.565;       // where the nostrils are darkest
+constexpr double kUpperLip = 0.13, kLowerLip = 0.19;  // thickness of both; 0.024, 0.039
+constexpr double kChinBelowMouth = 0.65;              // 0.085
+constexpr double kChinPerOpening = 0.9;               // the jaw goes down with the lower lip
 
 struct MouthMarks {
   double line = 1.12;               // y of the line between the lips, or of the opening's middle
   double right = -0.4, left = 0.4;  // x of the corners
   double right_y = 1.12, left_y = 1.12;
-  double top = 1.0, bottom = 1.28;                   // y of the lips' outer borders on the midline
-  double inner_top = 1.11, inner_bottom = 1.13;      // y of the inner borders; apart by what the mouth is open
+  double top = 1.0, bottom = 1.28;               // y of the lips' outer borders on the midline
+  double inner_top = 1.11, inner_bottom = 1.13;  // y of the inner borders; apart by what the mouth is open
 };
 
-/// Skin, upper lip, opening, lower lip, skin along the midline: the four borders that leave the least variance of
-/// brightness and redness between them, near where lips usually are. Sets top, inner_top, inner_bottom, bottom.
+/// Skin, upper lip, opening, lower lip, skin along the midline: the four borders that leave the least
+/// variance of brightness and redness between them, near where lips usually are. Sets top, inner_top,
+/// inner_bottom, bottom.
 void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
   constexpr double kStep = 1.0 / 64;
   constexpr int kSamples = 51, kLine = 21;  // from 0.33 above the line to 0.47 below it
@@ -66,7 +67,8 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
           const double open = (l - u) * kStep;
           double cost = spread(0, t) + spread(t, u) + spread(u, l) + spread(l, b) + spread(b, kSamples);
           cost *= kVarianceCost;
-          cost += squared(((u - t) * kStep - kUpperLip) / 0.04) + squared(((b - l) * kStep - kLowerLip) / 0.06);
+          cost +=
+              squared(((u - t) * kStep - kUpperLip) / 0.04) + squared(((b - l) * kStep - kLowerLip) / 0.06);
           cost += kOpenCost * open;
           // Both lips are redder than the skin, and what lies between them is not redder than they are.
           const double lips = std::min(mean_red(t, u), mean_red(l, b));
@@ -93,17 +95,16 @@ MouthMarks find_mouth(const FaceFrame& f, const FaceTurn& turn) {
   MouthMarks m;
   const double middle = turn.shift + turn.tangent * generic_landmark(62).z;
   const double nose = turn.shift + turn.tangent * generic_landmark(33).z;
-  // The line between the lips: dark, and redder just above and below than farther away; and the nose's base is
-  // where it belongs to it.
+  // The line between the lips: dark, and redder just above and below than farther away; and the nose's base
+  // is where it belongs to it.
   m.line = search(0.86, 1.45, 1.11, 0.12, [&](double y) {
     const double dark = mean_over(middle, 0.22, [&](double x) { return f.valley(x, y, 0.09); });
     const double red = mean_over(middle, 0.2, [&](double x) {
       return 0.5 * (f.red(x, y - 0.06) + f.red(x, y + 0.08)) -
              0.5 * (f.red(x, y - 0.26) + f.red(x, y + 0.34));
     });
-    const double base = mean_over(nose, 0.18, [&](double x) {
-      return f.valley(x, kNostrilsPerMouthLine * y, 0.08);
-    });
+    const double base =
+        mean_over(nose, 0.18, [&](double x) { return f.valley(x, kNostrilsPerMouthLine * y, 0.08); });
     return dark / 8 + red / 5 + base / 8;
   });
   const double seen_line = m.line;
@@ -111,8 +112,8 @@ MouthMarks find_mouth(const FaceFrame& f, const FaceTurn& turn) {
   // Each corner: where the line, followed outwards, stops being a valley.
   for (const int side : {-1, 1}) {
     double y = seen_line, reached = 0.26;
-    const double start = std::max(4.0, mean_over(middle + side * 0.15, 0.1,
-                                                 [&](double x) { return f.valley(x, seen_line, 0.07); }));
+    const double start = std::max(
+        4.0, mean_over(middle + side * 0.15, 0.1, [&](double x) { return f.valley(x, seen_line, 0.07); }));
     for (double x = 0.1; x <= 0.56; x += 1.0 / 64) {
       const double px = middle + side * x;
       y = search(y - 0.02, y + 0.02, y, 0.02, [&](double v) { return f.valley(px, v, 0.06) / 4; });
@@ -160,8 +161,8 @@ std::array<double, 5> find_brow(const FaceFrame& f, const std::array<double, 5>&
   return ys;
 }
 
-/// How much farther out or in than `usual` the face's border lies at height y: where brightness and colour leave
-/// those of the cheek.
+/// How much farther out or in than `usual` the face's border lies at height y: where brightness and colour
+/// leave those of the cheek.
 double find_side(const FaceFrame& f, int side, double y, double usual) {
   const double cheek = side * (side * usual - 0.5);
   const double skin = f.luma(cheek, 0.55), skin_red = f.red(cheek, 0.55);
@@ -244,15 +245,12 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
   // The nose's base goes with the upper lip; nostrils and the shadow under the tip are dark.
   const double generic_base = generic_landmark(33).y, middle = usual(33).x;
   const double closed_line = mouth.inner_top + 0.01;
-  const double base = search(generic_base - 0.2, generic_base + 0.2, kNoseBasePerMouthLine * closed_line, 0.04,
-                             [&](double y) {
-                               const double nostrils = y * kNostrilsPerMouthLine / kNoseBasePerMouthLine;
-                               return mean_over(middle, 0.18, [&](double x) {
-                                        return f.valley(x, nostrils, 0.08);
-                                      }) / 8;
-                             });
-  for (int k = 27; k < 36; ++k)
-    set(k, {usual(k).x, k == 27 ? usual(k).y : usual(k).y * base / generic_base});
+  const double base = search(
+      generic_base - 0.2, generic_base + 0.2, kNoseBasePerMouthLine * closed_line, 0.04, [&](double y) {
+        const double nostrils = y * kNostrilsPerMouthLine / kNoseBasePerMouthLine;
+        return mean_over(middle, 0.18, [&](double x) { return f.valley(x, nostrils, 0.08); }) / 8;
+      });
+  for (int k = 27; k < 36; ++k) set(k, {usual(k).x, k == 27 ? usual(k).y : usual(k).y * base / generic_base});
 
   const double chin = find_chin(f, mouth, usual(8).x);
   const double jaw_stretch = chin / generic_landmark(8).y;

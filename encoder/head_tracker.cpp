@@ -9,10 +9,10 @@
 namespace fbs {
 namespace {
 
-constexpr double kPointSpacing = 3.0;  // work pixels between surface points
-constexpr float kMoving = 0.8F, kHair = 0.2F;  // weights, of one
+constexpr double kPointSpacing = 3.0;                           // work pixels between surface points
+constexpr float kMoving = 0.8F, kHair = 0.2F;                   // weights, of one
 constexpr int kForeheadAbove = -kUnitsPerEyeDistance * 6 / 10;  // y
-constexpr double kDoubtBelow = 0.7;    // correlation under which other poses are tried
+constexpr double kDoubtBelow = 0.7;  // correlation under which other poses are tried
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// How strongly the pose is held where it was guessed, per number, as standard deviations in eye distances of
@@ -70,8 +70,8 @@ glm::dvec3 face_centre(const HeadVertices& vertices) {
   return (at(36) + at(45) + at(30)) / 3.0;
 }
 
-/// What moves by itself says less of the head: lips, eyes, brows, chin; and hair or a hat above the forehead is not
-/// where the mesh has it.
+/// What moves by itself says less of the head: lips, eyes, brows, chin; and hair or a hat above the forehead
+/// is not where the mesh has it.
 float weight_of(const HeadTriangle& t) {
   float least = 1;
   for (const std::int16_t v : t) {

@@ -14,19 +14,21 @@ constexpr int kMouthRows = 5;
 constexpr double kNoise = 6;   // grey levels: what differs by this much is as likely as not meant
 constexpr double kHuber = 24;  // grey levels; larger differences (teeth, shadows) pull with constant force
 // Standard deviations of what is believed before looking, as shares of the eye distance or radians.
-constexpr double kPoseNear = 0.006;      // of the tracked pose, which is aligned to the same picture with less to say
-constexpr double kOuterLipNear = 0.012;  // of the tracked control points, by feature: contours show lips and lids
+constexpr double kPoseNear =
+    0.006;  // of the tracked pose, which is aligned to the same picture with less to say
+constexpr double kOuterLipNear =
+    0.007;  // of the tracked control points, by feature: contours show lips and lids
 constexpr double kInnerLipNear = 0.003;  // better than textures do, and textures show brows better
 constexpr double kBrowNear = 0.02;
 constexpr double kLidNear = 0.004;
 constexpr double kElseNear = 0.02;
-constexpr double kControlRest = 0.12;    // of control points about rest
+constexpr double kControlRest = 0.12;  // of control points about rest
 // Of lids, in shares of their travel.
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
 constexpr double kLidsAlike = 60;     // squared grey levels that a difference of one costs
 constexpr double kLidNoise = 30;      // grey levels; larger differences hardly count more
 constexpr double kLidsApart = 0.014;  // eye distances: shut eyes keep a line of lashes
-constexpr int kSteps[] = {3, 2};         // per level, fine level first
+constexpr int kSteps[] = {3, 2};      // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 
 std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
@@ -121,7 +123,8 @@ PictureFit::Lid PictureFit::lid_of(FeatureId id, int lower_landmark) const {
   Lid lid;
   lid.first_control = static_cast<std::size_t>(f.first_control);
   double upper = 0, lower = 0;
-  for (const FeatureVertex& fv : f.vertices) upper += geometry_.positions[static_cast<std::size_t>(fv.vertex)].y;
+  for (const FeatureVertex& fv : f.vertices)
+    upper += geometry_.positions[static_cast<std::size_t>(fv.vertex)].y;
   for (const int k : {lower_landmark, lower_landmark + 1}) {
     const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(k)];
     lower += geometry_.positions[static_cast<std::size_t>(v)].y;
@@ -150,7 +153,9 @@ double PictureFit::lid_difference(const Lid& lid, const Fit& fit) const {
     const SurfacePoint& p = points_[k];
     if (p.triangle != triangle) {
       triangle = p.triangle;
-      const auto corner = [&](std::size_t i) { return projection(vertices[static_cast<std::size_t>(p.corner[i])]); };
+      const auto corner = [&](std::size_t i) {
+        return projection(vertices[static_cast<std::size_t>(p.corner[i])]);
+      };
       weight = visible_area(corner(0), corner(1), corner(2)) /
                points_on_triangle_[static_cast<std::size_t>(triangle)];
     }
@@ -227,14 +232,11 @@ HeadVertices PictureFit::deformed(const Fit& fit) const {
   return out;
 }
 
-bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
-  const auto n = static_cast<std::size_t>(unknowns_);
-  std::vector<double> a(n * n), b(n);
+void PictureFit::add_priors(const Fit& start, const Fit& fit, Normal& normal) const {
   const double eye = fit.pose.eye_distance_px();
-  // Priors first: near the start, near rest.
   const auto believe = [&](std::size_t k, double away, double sigma) {
-    a[k * n + k] += 1 / (sigma * sigma);
-    b[k] -= away / (sigma * sigma);
+    normal.at(k, k) += 1 / (sigma * sigma);
+    normal.right[k] -= away / (sigma * sigma);
   };
   believe(0, fit.pose.pitch - start.pose.pitch, kPoseNear);
   believe(1, fit.pose.yaw - start.pose.yaw, kPoseNear);
@@ -248,23 +250,25 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
     for (int axis = 0; axis < 2; ++axis) {
       const auto k = static_cast<std::size_t>(column_[c] + axis);
       believe(k, fit.offsets[c][axis] - start.offsets[c][axis], near * kUnitsPerEyeDistance);
-      if (static_cast<int>(c) >= kExpressionControls)
-        believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
+      if (c >= kExpressionControls) believe(k, fit.offsets[c][axis], kControlRest * kUnitsPerEyeDistance);
     }
   }
   const cv::Mat1d& expression = expression_precision();
-  for (int i = 0; i < expression.rows; ++i) {
-    const int column = column_[static_cast<std::size_t>(i / 2)] + i % 2;
-    if (column_[static_cast<std::size_t>(i / 2)] < 0) continue;
-    for (int j = 0; j < expression.cols; ++j) {
-      const int other = column_[static_cast<std::size_t>(j / 2)] + j % 2;
-      if (column_[static_cast<std::size_t>(j / 2)] < 0) continue;
-      const double p = expression(i, j) / (static_cast<double>(kUnitsPerEyeDistance) * kUnitsPerEyeDistance);
-      if (column <= other) a[static_cast<std::size_t>(column) * n + static_cast<std::size_t>(other)] += p;
-      b[static_cast<std::size_t>(column)] -= p * fit.offsets[static_cast<std::size_t>(j / 2)][j % 2];
+  for (std::size_t i = 0; i < 2 * kExpressionControls; ++i) {
+    if (column_[i / 2] < 0) continue;
+    const std::size_t k = static_cast<std::size_t>(column_[i / 2]) + i % 2;
+    for (std::size_t j = 0; j < 2 * kExpressionControls; ++j) {
+      if (column_[j / 2] < 0) continue;
+      const std::size_t l = static_cast<std::size_t>(column_[j / 2]) + j % 2;
+      const double p = expression(static_cast<int>(i), static_cast<int>(j)) /
+                       (static_cast<double>(kUnitsPerEyeDistance) * kUnitsPerEyeDistance);
+      if (k <= l) normal.at(k, l) += p;
+      normal.right[k] -= p * fit.offsets[j / 2][static_cast<int>(j % 2)];
     }
   }
+}
 
+void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
   const PoseJacobian jacobian(fit.pose);
   const HeadVertices vertices = deformed(fit);
   const glm::dvec2 ex(jacobian.projection().matrix[0]), ey(jacobian.projection().matrix[1]);
@@ -295,14 +299,20 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
     }
     for (std::size_t i = 0; i < row.size(); ++i) {
       const double wi = w * row[i].second;
-      b[row[i].first] += wi * r;
-      double* line = a.data() + row[i].first * n;
-      for (std::size_t j = i; j < row.size(); ++j) line[row[j].first] += wi * row[j].second;
+      normal.right[row[i].first] += wi * r;
+      for (std::size_t j = i; j < row.size(); ++j)
+        normal.at(row[i].first, row[j].first) += wi * row[j].second;
     }
   }
-  cv::Mat1d normal(unknowns_, unknowns_, a.data()), right(unknowns_, 1, b.data()), x;
-  cv::completeSymm(normal);
-  if (!cv::solve(normal, right, x, cv::DECOMP_CHOLESKY)) return false;
+}
+
+bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
+  Normal normal(static_cast<std::size_t>(unknowns_));
+  add_priors(start, fit, normal);
+  add_picture(level, fit, normal);
+  cv::Mat1d left(unknowns_, unknowns_, normal.left.data()), right(unknowns_, 1, normal.right.data()), x;
+  cv::completeSymm(left);
+  if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return false;
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;

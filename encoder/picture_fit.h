@@ -30,8 +30,8 @@ class PictureFit {
   void look_at(const WorkFrame& picture, const MouthInterior& mouth);
 
   /// `start` with the upper lids where the pattern, smeared on the closing eyes, looks most like the picture:
-  /// where they are, wider, or shut by some fifths, both eyes alike unless the picture insists. A blink is over
-  /// in three pictures, too fast to be followed downhill.
+  /// where they are, wider, or shut by some fifths, both eyes alike unless the picture insists. A blink is
+  /// over in three pictures, too fast to be followed downhill.
   [[nodiscard]] Fit with_best_lids(const Fit& start) const;
 
   /// Minimises the robust squared difference over pose and control points together: Gauss-Newton, coarse to
@@ -62,6 +62,17 @@ class PictureFit {
   [[nodiscard]] Lid lid_of(FeatureId id, int lower_landmark) const;
   /// Mean robust squared difference over what a lid moves.
   [[nodiscard]] double lid_difference(const Lid& lid, const Fit& fit) const;
+  /// Normal equations; the upper triangle of `left` counts.
+  struct Normal {
+    explicit Normal(std::size_t unknowns) : n(unknowns), left(n * n), right(n) {}
+    double& at(std::size_t row, std::size_t column) { return left[row * n + column]; }
+    std::size_t n;
+    std::vector<double> left, right;
+  };
+  /// What is believed before looking: near the start, and an expression that faces make.
+  void add_priors(const Fit& start, const Fit& fit, Normal& normal) const;
+  /// What the picture says, at every point.
+  void add_picture(int level, const Fit& fit, Normal& normal) const;
   /// One Gauss-Newton step on one level; false when it cannot be solved.
   bool step(int level, const Fit& start, Fit& fit) const;
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
@@ -79,7 +90,7 @@ class PictureFit {
   std::vector<int> points_on_triangle_;
   std::vector<float> mouth_ramp_;  ///< of each point, 0 upper to 1 lower lip; negative: not inside
   std::array<Lid, 2> lids_;
-  std::int32_t gap_seen_ = 0;      ///< mouth_gap() of the pattern
+  std::int32_t gap_seen_ = 0;  ///< mouth_gap() of the pattern
   WorkFrame picture_;
   MouthInterior mouth_;
   std::array<cv::Mat, kLevels> luma_;

@@ -185,12 +185,10 @@ State SceneEncoder::analyse(const Picture& picture) {
     }
   }
   fit_->look_at(frame, started_ ? scene_.setup.mouth : mouth_colours_.colours());
-  if (!getenv("NOLIDS")) tracked_fit = fit_->with_best_lids(tracked_fit);
+  tracked_fit = fit_->with_best_lids(tracked_fit);
   const Fit refined = fit_->refine(tracked_fit);
   const std::array<State, 3> candidates = {state_, quantised(tracked_fit.pose, tracked_fit.offsets),
                                            quantised(refined.pose, refined.offsets)};
-  if (getenv("LAB_TRACKED")) return candidates[1];
-  if (getenv("LAB_REFINED")) return candidates[2];
   return choose_state(candidates, *fit_, *counter_, lambda_);
 }
 

@@ -16,8 +16,8 @@ void take_part(State& state, const State& from, int part) {
   std::copy(first, first + f.control_count, state.control.begin() + f.first_control);
 }
 
-/// What a viewer sees of lips and lids that are not where they should be, beyond what squared differences say: in
-/// bits that would be well spent to have them right.
+/// What a viewer sees of lips and lids that are not where they should be, beyond what squared differences
+/// say: in bits that would be well spent to have them right.
 double wrong_expression(const State& state, const State& wanted, double units_per_step) {
   constexpr double kTolerance = 0.03 * kUnitsPerEyeDistance;
   double sum = 0;
@@ -34,7 +34,8 @@ State choose_state(std::span<const State> candidates, const PictureFit& fit, con
                    double lambda) {
   const State& wanted = candidates.back();
   const auto judge = [&](const State& s) {
-    return fit.distortion(s) + lambda * (counter.cost(s) / 256 + wrong_expression(s, wanted, fit.steps().control));
+    return fit.distortion(s) +
+           lambda * (counter.cost(s) / 256 + wrong_expression(s, wanted, fit.steps().control));
   };
   State best = candidates.front();
   double best_cost = judge(best);
