@@ -11,7 +11,7 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 1;
+inline constexpr int kFormatVersion = 2;
 inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one motion packet
 inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
 inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each

@@ -38,7 +38,7 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
   constexpr double kStep = 1.0 / 64;
   constexpr int kSamples = 51, kLine = 21;  // from 0.33 above the line to 0.47 below it
   constexpr double kLumaNoise = 10, kRedNoise = 2.5;
-  constexpr double kVarianceCost = 0.12, kOpenCost = 25;  // per eye distance
+  constexpr double kVarianceCost = 0.12, kRedder = 2, kOpenCost = 25;  // per eye distance
   struct Sums {
     double y = 0, yy = 0, r = 0, rr = 0;
   };
@@ -68,12 +68,12 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
           double cost = spread(0, t) + spread(t, u) + spread(u, l) + spread(l, b) + spread(b, kSamples);
           cost *= kVarianceCost;
           cost +=
-              squared(((u - t) * kStep - kUpperLip) / 0.04) + squared(((b - l) * kStep - kLowerLip) / 0.06);
+              squared(((u - t) * kStep - kUpperLip) / 0.05) + squared(((b - l) * kStep - kLowerLip) / 0.075);
           cost += kOpenCost * open;
           // Both lips are redder than the skin, and what lies between them is not redder than they are.
           const double lips = std::min(mean_red(t, u), mean_red(l, b));
-          cost -= std::clamp(lips - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)), -12.0, 4.0);
-          cost += std::clamp(mean_red(u, l) - lips, 0.0, 12.0);
+          cost -= kRedder * std::clamp(lips - 0.5 * (mean_red(0, t) + mean_red(b, kSamples)), -12.0, 4.0);
+          cost += kRedder * std::clamp(mean_red(u, l) - lips, 0.0, 12.0);
           if (cost < best) {
             best = cost;
             found = {t, u, l, b};

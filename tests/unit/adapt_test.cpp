@@ -106,7 +106,7 @@ TEST(AdaptHead, RecoversScaleRollAndPlace) {
       EXPECT_NEAR(head->pose.eye_distance_px() / eye, 1, 0.02);
       EXPECT_LT(distance(head->pose.shift, {231, 117}), 0.03 * eye);
       EXPECT_EQ(head->pose.pitch, 0);
-      EXPECT_EQ(head->pose.yaw, 0);
+      EXPECT_NEAR(head->pose.yaw, 0, 1e-9);
     }
   }
 }

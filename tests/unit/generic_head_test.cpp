@@ -370,7 +370,7 @@ TEST(GenericHead, SmilePuckerAndBrowsDoNotFold) {
 }
 
 TEST(GenericHead, IsTheHeadOfTheFormat) {
-  EXPECT_EQ(generic_head_hash(), 0xEEB0008359D6A490U);
+  EXPECT_EQ(generic_head_hash(), 0x707765F0E9B630EFU);
 }
 
 }  // namespace

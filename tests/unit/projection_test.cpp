@@ -56,7 +56,7 @@ TEST(HeadProjection, IsWithinA32thOfAPixelOfThePlainOne) {
     const HeadPose pose = random_pose(random);
     const HeadProjection projection(pose);
     const PlainProjection plain(pose);
-    const double tolerance = std::max(1.0, std::exp2(pose.log_scale / 4096.0) / 80) / 32;
+    const double tolerance = std::max(1.0, std::exp2(pose.log_scale / 4096.0) / 72) / 32;
     for (const HeadVertex& v : generic_head().vertices) {
       const glm::ivec3 got = projection(v.position);
       const glm::dvec2 expected = plain(glm::dvec3(v.position));

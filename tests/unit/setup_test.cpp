@@ -79,7 +79,7 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
 
 // Payload by hand: version, head, width, height, rate, aspect, colour, steps, features, mouth.
 TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {1, 1, 64, 65, 25, 1,   1,   1,  0,   1,
+  const std::vector<std::uint8_t> good = {2, 2, 64, 65, 25, 1,   1,   1,  0,   1,
                                           2, 3, 4,  0,  70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
@@ -90,9 +90,9 @@ TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
     const auto read = decode_setup(bytes);
     return read ? ErrorCode::kInternal : read.error().code;
   };
-  EXPECT_EQ(code_with(0, 2), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, 3), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(1, 1), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(2, 63), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(4, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(5, 0), ErrorCode::kInvalidStream);
