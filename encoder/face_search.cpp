@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <span>
 
 #include "encoder/planes.h"
@@ -294,7 +295,11 @@ FaceSearch::Find FaceSearch::find(const Picture& picture, const HeadTracker& hea
   search_around(wanted, finds);
   if (lost_pictures_++ % kEverywhereEvery == 1 && !finds.best().believed)
     search_everywhere(wanted, *finder_, finds);
-  return finds.best();
+  Find found = finds.best();
+  const bool likely = !found.believed && found.head.confidence >= kLostBelow;
+  if (likely && suspected_ && in_place(found.head.pose, *suspected_, wanted.points)) found.believed = true;
+  suspected_ = likely ? std::optional(found.head.pose) : std::nullopt;
+  return found;
 }
 
 }  // namespace fbs

@@ -7,6 +7,8 @@
 // appearance decides there too, so that a hand, a background or another face is not taken for the head.
 #pragma once
 
+#include <optional>
+
 #include "encoder/face_finder.h"
 #include "encoder/head_tracker.h"
 
@@ -18,7 +20,7 @@ class FaceSearch {
   explicit FaceSearch(const FaceFinder& finder) : finder_(&finder) {}
 
   /// Correlation under which a pose is not believed: the head is lost. One who comes back elsewhere or nearer
-  /// must be surer. Other people, hands and pictures upside down reach 0.53.
+  /// must be surer. Other people and pictures upside down reach 0.53.
   static constexpr double kLostBelow = 0.55, kSureFrom = 0.6;
 
   struct Find {
@@ -36,11 +38,15 @@ class FaceSearch {
   [[nodiscard]] bool lost() const { return lost_pictures_ > 0; }
 
   /// The face is seen: the next loss begins anew.
-  void rest() { lost_pictures_ = 0; }
+  void rest() {
+    lost_pictures_ = 0;
+    suspected_.reset();
+  }
 
  private:
   const FaceFinder* finder_;
   int lost_pictures_ = 0;
+  std::optional<Pose> suspected_;  ///< where the lost picture before had something that may be the head
 };
 
 }  // namespace fbs
