@@ -1,6 +1,7 @@
 #include "encoder/face_finder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
@@ -46,6 +47,21 @@ bool choose_eyes(const std::vector<cv::Rect>& found, cv::Rect face, glm::dvec2& 
   return got;
 }
 
+/// A face found in a picture scaled by `scale`, its eyes where they usually are.
+FoundFace with_usual_eyes(cv::Rect face, double scale) {
+  FoundFace found;
+  found.centre = centre_of(face) / scale;
+  found.size = face.width / scale;
+  found.right_eye = found.centre + glm::dvec2(-kEyeX, kEyeY) * found.size;
+  found.left_eye = found.centre + glm::dvec2(kEyeX, kEyeY) * found.size;
+  return found;
+}
+
+void largest_first(std::vector<cv::Rect>& faces) {
+  std::sort(faces.begin(), faces.end(),
+            [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
+}
+
 }  // namespace
 
 struct FaceFinder::Cascades {
@@ -86,14 +102,11 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture) const {
     cascades_->face.detectMultiScale(*image, faces, 1.1, 3, 0, {smallest, smallest});
     if (!faces.empty()) break;
   }
-  std::sort(faces.begin(), faces.end(),
-            [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
+  largest_first(faces);
 
   std::vector<FoundFace> out;
   for (const cv::Rect& f : faces) {
-    FoundFace found;
-    found.centre = centre_of(f) / scale;
-    found.size = f.width / scale;
+    FoundFace found = with_usual_eyes(f, scale);
     const cv::Rect upper(f.x, f.y + f.height / 8, f.width, f.height / 2);
     const cv::Rect eyes_area = upper & cv::Rect(0, 0, grey.cols, grey.rows);
     glm::dvec2 right, left;
@@ -115,12 +128,27 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture) const {
         break;
       }
     }
-    if (!found.eyes_seen) {
-      found.right_eye = found.centre + glm::dvec2(-kEyeX, kEyeY) * found.size;
-      found.left_eye = found.centre + glm::dvec2(kEyeX, kEyeY) * found.size;
-    }
     out.push_back(found);
   }
+  return out;
+}
+
+std::vector<FoundFace> FaceFinder::find_of_size(const Picture& picture, double least_eye_distance_px,
+                                                double most_eye_distance_px) const {
+  constexpr double kLeastSide = 40;  // of the detector's square: twice what it was trained with
+  const double least = least_eye_distance_px / (2 * kEyeX), most = most_eye_distance_px / (2 * kEyeX);
+  const double scale = kLeastSide / least;
+  cv::Mat grey;
+  cv::resize(view(picture.y), grey, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  const auto square = [&](double side_px) {
+    const int side = static_cast<int>(std::lround(side_px * scale));
+    return cv::Size(side, side);
+  };
+  std::vector<cv::Rect> faces;
+  cascades_->face.detectMultiScale(grey, faces, 1.1, 3, 0, square(least), square(most));
+  largest_first(faces);
+  std::vector<FoundFace> out;
+  for (const cv::Rect& f : faces) out.push_back(with_usual_eyes(f, scale));
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <utility>
 
 namespace fbs {
 namespace {
@@ -51,13 +52,6 @@ cv::Mat without_light(const cv::Mat& luma) {
   return out;
 }
 
-std::vector<cv::Mat> pyramid_of(const cv::Mat& luma, int levels) {
-  std::vector<cv::Mat> out(static_cast<std::size_t>(levels));
-  out[0] = without_light(luma);
-  for (std::size_t l = 1; l < out.size(); ++l) cv::pyrDown(out[l - 1], out[l]);
-  return out;
-}
-
 glm::dvec2 on_level(glm::dvec2 work, int level) {
   return work / static_cast<double>(1 << level);
 }
@@ -86,21 +80,38 @@ float weight_of(const HeadTriangle& t) {
 
 }  // namespace
 
+LevelledFrame::LevelledFrame(WorkFrame of) : frame(std::move(of)), levels(kLevels) {
+  levels[0] = without_light(frame.luma);
+  for (std::size_t l = 1; l < levels.size(); ++l) cv::pyrDown(levels[l - 1], levels[l]);
+}
+
+Pose frontal(const Pose& pose, const HeadVertices& vertices) {
+  const glm::dvec3 centre = face_centre(vertices);
+  Pose out = pose;
+  out.pitch = out.yaw = 0;
+  out.shift += PoseProjection(pose)(centre) - PoseProjection(out)(centre);
+  return out;
+}
+
+glm::dvec2 LevelledFrame::at(glm::dvec2 picture, int level) const {
+  return on_level(frame.to_work(picture), level);
+}
+
 HeadTracker::HeadTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first)
-    : pose_(pose), before_(first) {
+    : eye_distance_px_(pose.eye_distance_px()), pose_(pose), before_(first) {
   HeadVertices vertices;
   for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(geometry.positions[v]);
   const PoseProjection projection(pose);
   points_ = spread_over_mesh(vertices, projection, kPointSpacing / first.scale);
   for (const SurfacePoint& p : points_) weight_.push_back(weight_of(p.corner));
-  const auto pyramid = pyramid_of(first.luma, kLevels);
+  const LevelledFrame levelled(first);
   const std::vector<glm::dvec3> points = surface(vertices);
   for (int level = 0; level < kLevels; ++level) {
     auto& seen = seen_[static_cast<std::size_t>(level)];
     for (const glm::dvec3& p : points) {
-      const glm::dvec2 x = on_level(first.to_work(projection(p)), level);
+      const glm::dvec2 x = levelled.at(projection(p), level);
       Sample s;
-      const bool inside = sample_with_slope(pyramid[static_cast<std::size_t>(level)], x, s);
+      const bool inside = sample_with_slope(levelled.levels[static_cast<std::size_t>(level)], x, s);
       seen.push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
@@ -213,16 +224,16 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
   return pose;
 }
 
-double HeadTracker::correlation(const cv::Mat& luma, const WorkFrame& now, const Pose& pose,
-                                const std::vector<glm::dvec3>& points) const {
+double HeadTracker::correlation(const LevelledFrame& now, const Pose& pose,
+                                std::span<const glm::dvec3> points) const {
   const PoseProjection projection(pose);
   double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double x = static_cast<double>(seen_[1][k]);
     if (x < 0) continue;
-    const glm::dvec2 at = on_level(now.to_work(projection(points[k])), 1);
+    const glm::dvec2 at = now.at(projection(points[k]), 1);
     Sample s;
-    if (!sample_with_slope(luma, at, s)) continue;
+    if (!sample_with_slope(now.levels[1], at, s)) continue;
     const double y = s.value;
     const double w = static_cast<double>(weight_[k]);
     n += w;
@@ -238,34 +249,32 @@ double HeadTracker::correlation(const cv::Mat& luma, const WorkFrame& now, const
   return std::clamp((sxy - sx * sy / n) / std::sqrt(vx * vy), 0.0, 1.0);
 }
 
+Pose HeadTracker::settle(const LevelledFrame& now, Pose pose, const std::vector<glm::dvec3>& points) const {
+  constexpr double kMayLose = 0.002;  // correlation that a finer level may cost
+  for (int level = kLevels - 1; level >= 0; --level) {
+    const Pose refined = align(now.levels, now.frame, level, pose, points);
+    if (correlation(now, refined, points) >= correlation(now, pose, points) - kMayLose) pose = refined;
+  }
+  return pose;
+}
+
 TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertices) {
   follow_flow(now, vertices);
-  const auto pyramid = pyramid_of(now.luma, kLevels);
+  const LevelledFrame levelled(now);
   const std::vector<glm::dvec3> points = surface(vertices);
 
   // The flow's guess and the pose before: the alignment starts from the one that explains the picture better.
-  const auto explains = [&](const Pose& p) { return correlation(pyramid[1], now, p, points); };
-  const auto settle = [&](Pose p) {
-    for (int level = kLevels - 1; level >= 0; --level) {
-      const Pose refined = align(pyramid, now, level, p, points);
-      if (explains(refined) >= explains(p) - 0.002) p = refined;
-    }
-    return p;
-  };
+  const auto explains = [&](const Pose& p) { return correlation(levelled, p, points); };
   const Pose guess = fit_flow(pose_, vertices);
-  Pose pose = settle(explains(guess) >= explains(pose_) ? guess : pose_);
+  Pose pose = settle(levelled, explains(guess) >= explains(pose_) ? guess : pose_, points);
   if (explains(pose) < kDoubtBelow) {
-    // Perhaps caught in a turn that is none: the same place, seen from the front.
-    const glm::dvec3 centre = face_centre(vertices);
-    Pose frontal = pose;
-    frontal.pitch = frontal.yaw = 0;
-    frontal.shift += PoseProjection(pose)(centre) - PoseProjection(frontal)(centre);
-    frontal = settle(frontal);
-    if (explains(frontal) > explains(pose)) pose = frontal;
+    // Perhaps caught in a turn that is none.
+    const Pose other = settle(levelled, frontal(pose, vertices), points);
+    if (explains(other) > explains(pose)) pose = other;
   }
   pose_ = pose;
   before_ = now;
-  return {pose, correlation(pyramid[1], now, pose, points)};
+  return {pose, correlation(levelled, pose, points)};
 }
 
 }  // namespace fbs

@@ -17,9 +17,6 @@ namespace {
 
 constexpr double kLookaheadSeconds = 2;  // that the surround's map is learned from
 constexpr std::size_t kSurroundPictures = 12;
-constexpr double kLostBelow = 0.55;  // correlation under which a pose is not believed
-constexpr int kSearchEvery = 5;      // pictures, while the face is lost
-constexpr double kRelax = 0.85;      // what remains of the expression per picture while the face is lost
 
 /// Marks that the snakes have corrected: where the curves came to rest on the first picture, lips and lids
 /// get new marks, unless a curve has strayed. Then the head is adapted again. Brows keep theirs: a brow's
@@ -75,7 +72,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   auto adapted = settings.marks ? adapt_head(marks) : adapt_with_snakes(first, marks);
   if (!adapted) return tl::unexpected<Error>(adapted.error());
   SceneEncoder scene(format, settings);
-  scene.finder_ = &finder;
+  scene.search_.emplace(finder);
   scene.eye_distance_px_ = adapted->pose.eye_distance_px();
   const OperatingPoint point = OperatingPoint::at(settings.quality, scene.eye_distance_px_);
   scene.scene_.setup.steps = point.steps;
@@ -135,6 +132,42 @@ Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   return {};
 }
 
+std::optional<TrackedPose> SceneEncoder::follow_head(const Picture& picture, const HeadVertices& vertices,
+                                                     WorkFrame& frame) {
+  const Pose last_good = dequantise(state_, scene_.setup.steps);
+  // The flow of pictures that do not show the head says nothing: once lost, it is searched for.
+  if (!search_->lost()) {
+    const TrackedPose tracked = head_->track(frame, vertices);
+    analysis_.confidence = tracked.confidence;
+    if (tracked.confidence >= FaceSearch::kLostBelow) return tracked;
+  }
+  const FaceSearch::Find found = search_->find(picture, *head_, last_good, vertices);
+  analysis_.confidence = found.head.confidence;
+  if (found.believed) {
+    search_->rest();
+    frame = WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true);
+    head_->restart(found.head.pose, frame);
+    const TrackedPose tracked = head_->track(frame, vertices);
+    analysis_.confidence = tracked.confidence;
+    return tracked;
+  }
+  head_->restart(last_good, frame);
+  return std::nullopt;
+}
+
+State SceneEncoder::relaxed() {
+  constexpr double kRemains = 0.85;  // of the expression, per picture
+  State state = state_;
+  std::array<glm::dvec2, kControlCount> offsets;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    glm::ivec2& c = state.control[i];
+    c = {static_cast<int>(std::lround(c.x * kRemains)), static_cast<int>(std::lround(c.y * kRemains))};
+    offsets[i] = glm::dvec2(c * scene_.setup.steps.control);
+  }
+  features_->set_offsets(offsets);
+  return state;
+}
+
 State SceneEncoder::analyse(const Picture& picture) {
   const QuantiserSteps& steps = scene_.setup.steps;
   const auto deformed = deform(scene_.geometry->geometry().positions, state_, steps);
@@ -142,39 +175,9 @@ State SceneEncoder::analyse(const Picture& picture) {
   for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(deformed[v]);
 
   WorkFrame frame = WorkFrame::cut(picture, head_->pose().shift, eye_distance_px_, true);
-  const Pose last_good = dequantise(state_, steps);
-  TrackedPose tracked = head_->track(frame, vertices);
-  if (tracked.confidence < kLostBelow) {
-    if (lost_pictures_++ % kSearchEvery == 0) {
-      for (const FoundFace& face : finder_->find(picture)) {
-        const glm::dvec2 across = face.left_eye - face.right_eye;
-        Pose found = last_good;
-        found.pitch = found.yaw = 0;
-        found.roll = std::atan2(across.y, across.x);
-        found.shift = 0.5 * (face.left_eye + face.right_eye);
-        found.log2_scale = std::log2(std::hypot(across.x, across.y));
-        frame = WorkFrame::cut(picture, found.shift, eye_distance_px_, true);
-        head_->restart(found);
-        const TrackedPose again = head_->track(frame, vertices);
-        if (again.confidence > tracked.confidence) tracked = again;
-        if (tracked.confidence >= kLostBelow) break;
-      }
-    }
-  }
-  analysis_.confidence = tracked.confidence;
-  State wanted = state_;
-  if (tracked.confidence < kLostBelow) {
-    // Held, and the expression relaxed: never a wild face.
-    head_->restart(last_good);
-    for (glm::ivec2& c : wanted.control)
-      c = {static_cast<int>(std::lround(c.x * kRelax)), static_cast<int>(std::lround(c.y * kRelax))};
-    std::array<glm::dvec2, kControlCount> offsets;
-    for (std::size_t i = 0; i < kControlCount; ++i)
-      offsets[i] = glm::dvec2(wanted.control[i] * steps.control);
-    features_->set_offsets(offsets);
-    return wanted;
-  }
-  lost_pictures_ = 0;
+  const std::optional<TrackedPose> seen = follow_head(picture, vertices, frame);
+  if (!seen) return relaxed();
+  const TrackedPose& tracked = *seen;
   Fit tracked_fit{tracked.pose, {}};
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());

@@ -10,6 +10,7 @@
 #include "decoder/renderer.h"
 #include "encoder/adapt.h"
 #include "encoder/encoder.h"
+#include "encoder/face_search.h"
 #include "encoder/feature_tracker.h"
 #include "encoder/head_tracker.h"
 #include "encoder/mouth_colours.h"
@@ -44,13 +45,18 @@ class SceneEncoder {
   SceneEncoder(const VideoFormat& format, const EncoderSettings& settings);
   [[nodiscard]] State quantised(const Pose& pose, const std::array<glm::dvec2, kControlCount>& offsets) const;
   Result<void> add_pattern(const Picture& picture, int quantiser);
+  /// Where the head is, tracked or found again; nothing while it is lost.
+  /// @param frame  cut where the head was; cut anew where it is found elsewhere
+  [[nodiscard]] std::optional<TrackedPose> follow_head(const Picture& picture, const HeadVertices& vertices,
+                                                       WorkFrame& frame);
+  /// The state of a lost picture: held, and the expression a little weaker. Never a wild face.
+  State relaxed();
   State analyse(const Picture& picture);
   void report(const State& state);
   Result<void> start();
   Result<void> end_group();
 
   EncoderSettings settings_;
-  const FaceFinder* finder_ = nullptr;
   int group_pictures_ = 30;
   int lookahead_ = 60;
 
@@ -58,10 +64,10 @@ class SceneEncoder {
   State seen_;   ///< of pattern 0
   double eye_distance_px_ = 0;
   std::optional<HeadTracker> head_;
+  std::optional<FaceSearch> search_;
   std::optional<FeatureTracker> features_;
   std::optional<PictureFit> fit_;
   double lambda_ = 0;
-  int lost_pictures_ = 0;
   State state_;
 
   std::optional<MotionCoder> coder_;

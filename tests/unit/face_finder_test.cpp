@@ -42,6 +42,18 @@ TEST(FaceFinder, FindsTheTalkerInManyPoses) {
   EXPECT_GE(found, 9) << "of 10";
 }
 
+// While a face is lost its size is about known, which makes looking for it cheap.
+TEST(FaceFinder, FindsOnlyFacesOfTheSizeAskedFor) {
+  TalkerClip clip(talker_settings(352, 288, 1));
+  const double eye = clip.pose(0).eye_distance_px();
+  const auto faces = finder().find_of_size(clip[0], 0.7 * eye, 1.4 * eye);
+  ASSERT_EQ(faces.size(), 1u);
+  const auto eyes = clip.marks(0).eyes();
+  EXPECT_LT(distance(faces[0].right_eye, (*eyes)[0]), 0.3 * eye);
+  EXPECT_LT(distance(faces[0].left_eye, (*eyes)[1]), 0.3 * eye);
+  EXPECT_TRUE(finder().find_of_size(clip[0], 2 * eye, 3 * eye).empty());
+}
+
 TEST(FaceFinder, SortsFacesBySize) {
   auto settings = talker_settings(176, 144, 1);
   TalkerClip small(settings);
