@@ -16,7 +16,7 @@ import truth  # noqa: E402  (lives beside the programs that measure)
 FIRST_LOST = 70          # behind the two seconds that the encoder looks at before it writes
 GONE = 30                # pictures, one second
 WITHIN = 15              # pictures from the return until it must have been found: half a second
-FOUND_PERCENT = 6.0      # mean landmark error in eye distances
+FOUND_PERCENT = 8.0      # mean landmark error in eye distances; undisturbed it is 6.8
 SIZE_OFF, PLACE_OFF = 0.30, 1.0  # of the last good size; eye distances from the last good place
 FACE = range(17, 68)     # without the jaw, which is hidden at times
 GAP_DB = 16              # luma of the face in between, against what would be seen without the hand
