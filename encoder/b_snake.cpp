@@ -12,15 +12,67 @@ constexpr int kMaxIterations = 15;
 constexpr int kMaxRestarts = 2;
 constexpr double kStopChange = 2e-4;      // of the energy, from iteration to iteration
 constexpr double kNearlyFullReach = 3.0;  // snake units; the steps sum to delta_0 / (1 - sigma) = 4
-constexpr double kProbe = 0.25;           // snake units either way, for the sign of the derivative
+constexpr double kFlat = 1e-7;  // energy per snake unit; a slope below this is rounding and no direction
 
-double bilinear(const cv::Mat1f& m, double u, double v) {
-  const double cu = std::clamp(u, 0.0, m.cols - 1.001), cv_ = std::clamp(v, 0.0, m.rows - 1.001);
-  const int i = static_cast<int>(cu), j = static_cast<int>(cv_);
-  const double fu = cu - i, fv = cv_ - j;
-  const float* a = m[j] + i;
-  const float* b = m[j + 1] + i;
-  return (a[0] * (1 - fu) + a[1] * fu) * (1 - fv) + (b[0] * (1 - fu) + b[1] * fu) * fv;
+using Lanes = float[4];
+
+/// A map's bilinear value at four points and its slopes, per sample of the map.
+struct MapLookup {
+  alignas(16) Lanes value, by_x, by_y;
+};
+
+/// Where four points lie in maps of one size.
+struct MapPlace {
+  std::array<std::ptrdiff_t, 4> offset;  ///< of the sample above and to the left
+  alignas(16) Lanes fx, fy;
+  alignas(16) Lanes inside_x, inside_y;  ///< 1, or 0 where the map's border is repeated and nothing slopes
+};
+
+MapPlace place(const cv::Mat1f& map, const Lanes& x, const Lanes& y) {
+  MapPlace p;
+  const float most_x = static_cast<float>(map.cols) - 1.001F, most_y = static_cast<float>(map.rows) - 1.001F;
+  const auto stride = static_cast<std::ptrdiff_t>(map.step1());
+  for (std::size_t l = 0; l < 4; ++l) {
+    const float cx = std::min(std::max(x[l], 0.0F), most_x), cy = std::min(std::max(y[l], 0.0F), most_y);
+    const int i = static_cast<int>(cx), j = static_cast<int>(cy);
+    p.fx[l] = cx - static_cast<float>(i);
+    p.fy[l] = cy - static_cast<float>(j);
+    p.inside_x[l] = cx == x[l] ? 1.0F : 0.0F;
+    p.inside_y[l] = cy == y[l] ? 1.0F : 0.0F;
+    p.offset[l] = j * stride + i;
+  }
+  return p;
+}
+
+MapLookup look_up(const cv::Mat1f& map, const MapPlace& p) {
+  alignas(16) Lanes a, b, c, d;
+  const float* first = map[0];
+  const auto stride = static_cast<std::ptrdiff_t>(map.step1());
+  for (std::size_t l = 0; l < 4; ++l) {
+    const float* at = first + p.offset[l];
+    a[l] = at[0];
+    b[l] = at[1];
+    c[l] = at[stride];
+    d[l] = at[stride + 1];
+  }
+  MapLookup out;
+  for (std::size_t l = 0; l < 4; ++l) {
+    const float above = a[l] + (b[l] - a[l]) * p.fx[l], below = c[l] + (d[l] - c[l]) * p.fx[l];
+    out.value[l] = above + (below - above) * p.fy[l];
+    out.by_y[l] = (below - above) * p.inside_y[l];
+    out.by_x[l] = ((b[l] - a[l]) * (1 - p.fy[l]) + (d[l] - c[l]) * p.fy[l]) * p.inside_x[l];
+  }
+  return out;
+}
+
+/// sum_i basis_i c_i at four points.
+void combine(const Lanes (&basis)[4], const std::array<float, 4>& c, Lanes& out) {
+  for (std::size_t l = 0; l < 4; ++l)
+    out[l] = basis[0][l] * c[0] + basis[1][l] * c[1] + basis[2][l] * c[2] + basis[3][l] * c[3];
+}
+
+float sum(const Lanes& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
 glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight,
@@ -30,8 +82,8 @@ glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight,
   return sum;
 }
 
-double squared(glm::dvec2 v) {
-  return v.x * v.x + v.y * v.y;
+double dot(glm::dvec2 a, glm::dvec2 b) {
+  return a.x * b.x + a.y * b.y;
 }
 
 }  // namespace
@@ -47,6 +99,31 @@ SnakeCurve::SnakeCurve(bool is_closed, int controls, int pinned, std::vector<Spl
       points_(std::move(points)),
       support_(static_cast<std::size_t>(controls)),
       ds_(ds) {
+  const auto n = static_cast<std::size_t>(controls);
+  for (auto& g : gram_) g.assign(n * n, 0.0);
+  for (const SplineBasis& b : points_) {
+    const std::array<const std::array<double, 4>*, 3> weight = {&b.value, &b.d1, &b.d2};
+    for (std::size_t derivative = 0; derivative < 3; ++derivative)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+          gram_[derivative]
+               [static_cast<std::size_t>(b.control[i]) * n + static_cast<std::size_t>(b.control[j])] +=
+              (*weight[derivative])[i] * (*weight[derivative])[j];
+  }
+  for (std::size_t h = 0, in_quad = 4; h < points_.size(); ++h, ++in_quad) {
+    const SplineBasis& b = points_[h];
+    if (in_quad == 4 || quads_.back().control != b.control) {
+      quads_.push_back({b.control, {}, {}, {}});
+      in_quad = 0;
+    }
+    for (std::size_t l = in_quad; l < 4; ++l) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        quads_.back().value[k][l] = static_cast<float>(b.value[k]);
+        quads_.back().d1[k][l] = static_cast<float>(b.d1[k]);
+      }
+      quads_.back().say[l] = l == in_quad ? 1.0F : 0.0F;
+    }
+  }
   for (std::size_t h = 0; h < points_.size(); ++h)
     for (std::size_t k = 0; k < 4; ++k)
       if (std::abs(points_[h].value[k]) > 1e-9)
@@ -74,93 +151,163 @@ BSnake::BSnake(const SnakeCurve& curve, const SnakeImage& image, const SnakeWeig
       image_(image),
       weights_(weights),
       facing_(facing),
-      pairs_of_control_(static_cast<std::size_t>(curve.controls())) {
-  for (const SplineBasis& b : curve.points()) {
-    rest_slope_.push_back(combine(b, b.d1, rest));
-    before_.push_back(curve_point(b, before));
-  }
-  for (std::size_t p = 0; p < facing.size(); ++p) {
-    for (const int h : {facing[p].from, facing[p].to}) {
-      for (const int c : curve.points()[static_cast<std::size_t>(h)].control) {
-        auto& list = pairs_of_control_[static_cast<std::size_t>(c)];
-        if (list.empty() || list.back() != static_cast<int>(p)) list.push_back(static_cast<int>(p));
-      }
+      quadratic_(curve.gram(0).size()),
+      linear_(static_cast<std::size_t>(curve.controls()), glm::dvec2(0)) {
+  const std::size_t n = linear_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const double temporal = weights.temporal * curve.gram(0)[i * n + j];  // eq. 5: |v - v(t - 1)|^2
+      const double shape = weights.shape * curve.gram(1)[i * n + j];        // |v_s - r_s|^2
+      quadratic_[i * n + j] = temporal + shape +
+                              weights.tension * curve.gram(1)[i * n + j] +  // eq. 3: |v_s|^2
+                              weights.rigidity * curve.gram(2)[i * n + j];  // eq. 4: |v_ss|^2
+      linear_[i] += temporal * before[j] + shape * rest[j];
+      constant_ += temporal * dot(before[i], before[j]) + shape * dot(rest[i], rest[j]);
     }
   }
 }
 
-double BSnake::point_energy(int point, const std::vector<glm::dvec2>& control) const {
-  const SplineBasis& b = curve_.points()[static_cast<std::size_t>(point)];
-  const glm::dvec2 v = combine(b, b.value, control);
-  const glm::dvec2 vs = combine(b, b.d1, control), vss = combine(b, b.d2, control);
-  const glm::dvec2 vt = v - before_[static_cast<std::size_t>(point)];
-  const double internal = weights_.tension * squared(vs)      // eq. 3
-                          + weights_.rigidity * squared(vss)  // eq. 4
-                          + weights_.temporal * squared(vt)   // eq. 5
-                          + weights_.shape * squared(vs - rest_slope_[static_cast<std::size_t>(point)]);
-  const glm::dvec2 at = (v - image_.origin) * image_.px_per_unit;
-  double h = 0;
-  if (image_.ridge.empty()) {
-    // The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high
-    // inside: the contrast that shows the contour is its fall along the normal.
-    const double length = std::sqrt(squared(vs)) + 1e-9;
-    h = (bilinear(image_.contrast_y, at.x, at.y) * vs.x - bilinear(image_.contrast_x, at.x, at.y) * vs.y) /
-        length;
-  } else {
-    h = bilinear(image_.ridge, at.x, at.y);
+double BSnake::internal(const Vectors& control, Vectors* gradient) const {
+  const std::size_t n = control.size();
+  double energy = constant_;
+  for (std::size_t i = 0; i < n; ++i) {
+    glm::dvec2 row(0);
+    for (std::size_t j = 0; j < n; ++j) row += quadratic_[i * n + j] * control[j];
+    energy += dot(control[i], row - 2.0 * linear_[i]);
+    if (gradient != nullptr) (*gradient)[i] += 2.0 * (row - linear_[i]);
   }
-  double external = weights_.contrast * h;                                                      // eq. 7
-  if (weights_.change != 0) external += weights_.change * bilinear(image_.change, at.x, at.y);  // eq. 8
-  return internal - external;
+  return energy;
 }
 
-double BSnake::repulsion(const FacingPair& pair, const std::vector<glm::dvec2>& control) const {
-  // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have
-  // crossed are driven apart again and not farther through each other.
-  const glm::dvec2 gap = curve_point(curve_.points()[static_cast<std::size_t>(pair.to)], control) -
-                         curve_point(curve_.points()[static_cast<std::size_t>(pair.from)], control);
-  const double lacks = std::max(0.0, pair.least_gap - (gap.x * pair.direction.x + gap.y * pair.direction.y));
-  return weights_.repulsion * lacks * lacks;
+double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
+  if (weights_.repulsion == 0) return 0;
+  double energy = 0;
+  for (const FacingPair& pair : facing_) {
+    // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have
+    // crossed are driven apart again and not farther through each other.
+    const SplineBasis& from = curve_.points()[static_cast<std::size_t>(pair.from)];
+    const SplineBasis& to = curve_.points()[static_cast<std::size_t>(pair.to)];
+    const double lacks =
+        pair.least_gap - dot(curve_point(to, control) - curve_point(from, control), pair.direction);
+    if (lacks <= 0) continue;
+    energy += weights_.repulsion * lacks * lacks;
+    if (gradient == nullptr) continue;
+    const glm::dvec2 slope = -2 * weights_.repulsion * lacks * pair.direction;
+    for (std::size_t k = 0; k < 4; ++k) {
+      (*gradient)[static_cast<std::size_t>(to.control[k])] += to.value[k] * slope;
+      (*gradient)[static_cast<std::size_t>(from.control[k])] -= from.value[k] * slope;
+    }
+  }
+  return energy;
+}
+
+double BSnake::external(const Vectors& control, Vectors* gradient) const {
+  const bool ridge = !image_.ridge.empty(), changes = weights_.change != 0;
+  if (weights_.contrast == 0 && !changes) return 0;
+  const auto scale = static_cast<float>(image_.px_per_unit);
+  const auto origin_x = static_cast<float>(image_.origin.x), origin_y = static_cast<float>(image_.origin.y);
+  const auto contrast_weight = static_cast<float>(weights_.contrast);
+  const auto change_weight = static_cast<float>(weights_.change);
+  double contrast = 0, change = 0;
+  for (const PointQuad& q : curve_.quads()) {
+    std::array<float, 4> x, y;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const glm::dvec2 c = control[static_cast<std::size_t>(q.control[k])];
+      x[k] = static_cast<float>(c.x);
+      y[k] = static_cast<float>(c.y);
+    }
+    alignas(16) Lanes vx, vy, vs_x, vs_y;
+    combine(q.value, x, vx);
+    combine(q.value, y, vy);
+    combine(q.d1, x, vs_x);
+    combine(q.d1, y, vs_y);
+    for (std::size_t l = 0; l < 4; ++l) {
+      vx[l] = (vx[l] - origin_x) * scale;
+      vy[l] = (vy[l] - origin_y) * scale;
+    }
+    const MapPlace at = place(ridge ? image_.ridge : image_.contrast_x, vx, vy);
+    alignas(16) Lanes h, h_by_x, h_by_y, h_by_vs_x{}, h_by_vs_y{};
+    if (ridge) {
+      const MapLookup r = look_up(image_.ridge, at);
+      for (std::size_t l = 0; l < 4; ++l) {
+        h[l] = r.value[l] * q.say[l];
+        h_by_x[l] = r.by_x[l];
+        h_by_y[l] = r.by_y[l];
+      }
+    } else {
+      // The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high
+      // inside: the contrast that shows the contour is its fall along the normal.
+      const MapLookup gx = look_up(image_.contrast_x, at), gy = look_up(image_.contrast_y, at);
+      for (std::size_t l = 0; l < 4; ++l) {
+        const float per_length = 1 / (std::sqrt(vs_x[l] * vs_x[l] + vs_y[l] * vs_y[l]) + 1e-9F);
+        const float tx = vs_x[l] * per_length, ty = vs_y[l] * per_length;
+        const float along = gy.value[l] * tx - gx.value[l] * ty;
+        h[l] = along * q.say[l];
+        h_by_x[l] = gy.by_x[l] * tx - gx.by_x[l] * ty;
+        h_by_y[l] = gy.by_y[l] * tx - gx.by_y[l] * ty;
+        h_by_vs_x[l] = (gy.value[l] - along * tx) * per_length;
+        h_by_vs_y[l] = (-gx.value[l] - along * ty) * per_length;
+      }
+    }
+    contrast += static_cast<double>(sum(h));
+    MapLookup c{};
+    if (changes) {
+      c = look_up(image_.change, at);
+      for (std::size_t l = 0; l < 4; ++l) c.value[l] *= q.say[l];
+      change += static_cast<double>(sum(c.value));
+    }
+    if (gradient == nullptr) continue;
+    alignas(16) Lanes by_x, by_y;
+    for (std::size_t l = 0; l < 4; ++l) {
+      by_x[l] = (contrast_weight * h_by_x[l] + change_weight * c.by_x[l]) * scale * q.say[l];
+      by_y[l] = (contrast_weight * h_by_y[l] + change_weight * c.by_y[l]) * scale * q.say[l];
+      h_by_vs_x[l] *= contrast_weight * q.say[l];
+      h_by_vs_y[l] *= contrast_weight * q.say[l];
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      alignas(16) Lanes gx, gy;
+      for (std::size_t l = 0; l < 4; ++l) {
+        gx[l] = q.value[k][l] * by_x[l] + q.d1[k][l] * h_by_vs_x[l];
+        gy[l] = q.value[k][l] * by_y[l] + q.d1[k][l] * h_by_vs_y[l];
+      }
+      (*gradient)[static_cast<std::size_t>(q.control[k])] -= glm::dvec2(sum(gx), sum(gy));
+    }
+  }
+  return -weights_.contrast * contrast - weights_.change * change;
+}
+
+double BSnake::evaluate(const Vectors& control, Vectors* gradient) const {
+  if (gradient != nullptr) gradient->assign(control.size(), glm::dvec2(0));
+  return internal(control, gradient) + repulsion(control, gradient) + external(control, gradient);
 }
 
 double BSnake::energy(const std::vector<glm::dvec2>& control) const {
-  double sum = 0;
-  for (int h = 0; h < static_cast<int>(curve_.points().size()); ++h) sum += point_energy(h, control);
-  for (const FacingPair& p : facing_) sum += repulsion(p, control);
-  return sum * curve_.ds();
+  return evaluate(control, nullptr) * curve_.ds();
 }
 
-double BSnake::local_energy(int control_index, const std::vector<glm::dvec2>& control) const {
-  double sum = 0;
-  for (const int h : curve_.support(control_index)) sum += point_energy(h, control);
-  for (const int p : pairs_of_control_[static_cast<std::size_t>(control_index)])
-    sum += repulsion(facing_[static_cast<std::size_t>(p)], control);
-  return sum;
+std::vector<glm::dvec2> BSnake::gradient(const std::vector<glm::dvec2>& control) const {
+  Vectors out;
+  (void)evaluate(control, &out);
+  for (glm::dvec2& g : out) g *= curve_.ds();
+  return out;
 }
 
 SnakeOutcome BSnake::minimise(std::vector<glm::dvec2> start) const {
+  const auto against = [](double slope) { return slope > kFlat ? -1.0 : slope < -kFlat ? 1.0 : 0.0; };
   SnakeOutcome out{std::move(start), 0, 0, 0};
-  out.energy = energy(out.control);
   SnakeOutcome best = out;
-  std::vector<glm::dvec2> sign(out.control.size());
+  Vectors gradient, descent_start;
   for (int restart = 0; restart <= kMaxRestarts; ++restart) {
     double delta = kDelta0;
-    const std::vector<glm::dvec2> descent_start = out.control;
+    descent_start = out.control;
+    out.energy = evaluate(out.control, &gradient) * curve_.ds();
+    if (restart == 0) best.energy = out.energy;
     for (int q = 0; q < kMaxIterations; ++q, delta *= kSigma) {
-      for (int i = curve_.first_free(); i < curve_.end_free(); ++i) {
-        glm::dvec2& c = out.control[static_cast<std::size_t>(i)];
-        for (int axis = 0; axis < 2; ++axis) {
-          const double here = c[axis];
-          c[axis] = here + kProbe;
-          const double above = local_energy(i, out.control);
-          c[axis] = here - kProbe;
-          const double below = local_energy(i, out.control);
-          c[axis] = here;
-          sign[static_cast<std::size_t>(i)][axis] = above > below ? 1 : above < below ? -1 : 0;
-        }
+      for (int k = curve_.first_free(); k < curve_.end_free(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        out.control[i] += delta * glm::dvec2(against(gradient[i].x), against(gradient[i].y));
       }
-      for (std::size_t i = 0; i < sign.size(); ++i) out.control[i] -= delta * sign[i];
-      const double now = energy(out.control);
+      const double now = evaluate(out.control, &gradient) * curve_.ds();
       const double change = now - out.energy;
       out.energy = now;
       ++out.iterations;
@@ -174,11 +321,12 @@ SnakeOutcome BSnake::minimise(std::vector<glm::dvec2> start) const {
     best.restarts = restart;
     // A control point that has gone nearly as far as the steps reach together was still on its way.
     double farthest = 0;
-    for (std::size_t i = 0; i < best.control.size(); ++i)
-      farthest = std::max(farthest, squared(best.control[i] - descent_start[i]));
+    for (std::size_t i = 0; i < best.control.size(); ++i) {
+      const glm::dvec2 way = best.control[i] - descent_start[i];
+      farthest = std::max(farthest, dot(way, way));
+    }
     if (farthest < kNearlyFullReach * kNearlyFullReach) break;
     out.control = best.control;
-    out.energy = best.energy;
   }
   return best;
 }

@@ -2,6 +2,7 @@
 // descent.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <opencv2/core.hpp>
 #include <utility>
@@ -25,7 +26,8 @@ struct SnakeWeights {
   double change = 0;     ///< gamma, eq. 8
 };
 
-/// What the snake sees: a picture patch in the head's own frame, as maps of forces' potentials.
+/// What the snake sees: a picture patch in the head's own frame, as maps of forces' potentials, all of one
+/// size.
 struct SnakeImage {
   cv::Mat1f contrast_x, contrast_y;  ///< gradient of the feature map; H is its part along the curve's normal
   cv::Mat1f ridge;          ///< instead: H itself, for a curve that runs along the middle of a dark band
@@ -33,6 +35,14 @@ struct SnakeImage {
                             ///< darkens the other, so that the sign says nothing about where it went
   glm::dvec2 origin{0, 0};  ///< snake units of the centre of pixel (0, 0)
   double px_per_unit = 1;
+};
+
+/// Four neighbouring points that the same control points move, or fewer and copies of the last without a say:
+/// one step of the loops over the curve.
+struct PointQuad {
+  std::array<int, 4> control;
+  alignas(16) float value[4][4], d1[4][4];  ///< B_i and dB_i/ds, [control][point]
+  alignas(16) float say[4];                 ///< 1 or 0
 };
 
 /// The curve's fixed part: basis functions at the p + 1 points over which the energies are summed.
@@ -54,6 +64,14 @@ class SnakeCurve {
   /// Parameter distance between neighbouring points: ds of the sums that stand for the integrals.
   [[nodiscard]] double ds() const { return ds_; }
   [[nodiscard]] bool is_closed() const { return closed_; }
+  /// The points once more, as the external energies' loops want them.
+  [[nodiscard]] const std::vector<PointQuad>& quads() const { return quads_; }
+  /// Gram matrix of the basis functions' n-th derivatives, row after row: sum over the points of
+  /// B_i(s) B_j(s). So sum |v|^2 = c' G c of either coordinate, and internal energies need no points.
+  /// @param derivative  0, 1 or 2
+  [[nodiscard]] const std::vector<double>& gram(int derivative) const {
+    return gram_[static_cast<std::size_t>(derivative)];
+  }
 
  private:
   SnakeCurve(bool is_closed, int controls, int pinned, std::vector<SplineBasis> points, double ds);
@@ -62,6 +80,8 @@ class SnakeCurve {
   int pinned_;  ///< at each end
   std::vector<SplineBasis> points_;
   std::vector<std::vector<int>> support_;
+  std::vector<PointQuad> quads_;
+  std::array<std::vector<double>, 3> gram_;
   double ds_;
 };
 
@@ -96,6 +116,8 @@ class BSnake {
 
   /// E_tot = E_int - E_img (eq. 1) of the whole curve.
   [[nodiscard]] double energy(const std::vector<glm::dvec2>& control) const;
+  /// dE_tot/dX_i and dE_tot/dY_i; maps slope as their bilinear interpolation does, the normal turns with v_s.
+  [[nodiscard]] std::vector<glm::dvec2> gradient(const std::vector<glm::dvec2>& control) const;
 
   /// Sign descent: the sign of dE/dX_i and dE/dY_i of all control points, then all move by delta_q against
   /// it; delta_q = delta_0 sigma^q with delta_0 = 1 snake unit and sigma = 0.75. Stops when the energy
@@ -105,17 +127,22 @@ class BSnake {
   [[nodiscard]] SnakeOutcome minimise(std::vector<glm::dvec2> start) const;
 
  private:
-  [[nodiscard]] double point_energy(int point, const std::vector<glm::dvec2>& control) const;
-  [[nodiscard]] double repulsion(const FacingPair& pair, const std::vector<glm::dvec2>& control) const;
-  [[nodiscard]] double local_energy(int control_index, const std::vector<glm::dvec2>& control) const;
+  using Vectors = std::vector<glm::dvec2>;  // one for each control point
+
+  // Each gives its energy but for the factor ds and, unless `gradient` is null, adds its dE/dX_i, dE/dY_i.
+  double internal(const Vectors& control, Vectors* gradient) const;
+  double repulsion(const Vectors& control, Vectors* gradient) const;
+  double external(const Vectors& control, Vectors* gradient) const;
+  double evaluate(const Vectors& control, Vectors* gradient) const;
 
   const SnakeCurve& curve_;
   const SnakeImage& image_;
   const SnakeWeights& weights_;
   const std::vector<FacingPair>& facing_;
-  std::vector<glm::dvec2> rest_slope_;              ///< r_s at each point
-  std::vector<glm::dvec2> before_;                  ///< v(s, t - 1) at each point
-  std::vector<std::vector<int>> pairs_of_control_;  ///< facing pairs that control point i moves
+  // Eq. 2-5 are quadratic in the control points c, one axis like the other: c' Q c - 2 q' c + k.
+  std::vector<double> quadratic_;  ///< Q, row after row
+  Vectors linear_;                 ///< q
+  double constant_ = 0;            ///< k
 };
 
 }  // namespace fbs

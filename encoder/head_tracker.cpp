@@ -11,6 +11,7 @@ namespace fbs {
 namespace {
 
 constexpr double kPointSpacing = 3.0;                           // work pixels between surface points
+constexpr std::array<std::size_t, 3> kEvery = {1, 2, 4};        // one of so many aligns; finest level first
 constexpr float kMoving = 0.8F, kHair = 0.2F;                   // weights, of one
 constexpr int kForeheadAbove = -kUnitsPerEyeDistance * 6 / 10;  // y
 constexpr double kDoubtBelow = 0.7;  // correlation under which other poses are tried
@@ -55,6 +56,112 @@ cv::Mat without_light(const cv::Mat& luma) {
 glm::dvec2 on_level(glm::dvec2 work, int level) {
   return work / static_cast<double>(1 << level);
 }
+
+/// Where head points are seen in a level of a work frame: affine in the point.
+struct LevelProjection {
+  glm::vec3 x, y;  ///< rows of the matrix
+  glm::vec2 shift;
+
+  LevelProjection(const PoseProjection& projection, const WorkFrame& frame, int level) {
+    const double scale = frame.scale / (1 << level);
+    const glm::dmat3 rows = glm::transpose(projection.matrix * scale);
+    x = rows[0];
+    y = rows[1];
+    shift = on_level(frame.to_work(projection.shift), level);
+  }
+  [[nodiscard]] glm::vec2 operator()(glm::vec3 p) const {
+    return {x.x * p.x + x.y * p.y + x.z * p.z + shift.x, y.x * p.x + y.y * p.y + y.z * p.z + shift.y};
+  }
+};
+
+/// Sums of the alignment's normal equations, some points at a time so that their loops vectorise. Unknowns:
+/// the pose's six numbers, gain and offset of the light.
+class AlignmentSums {
+ public:
+  static constexpr std::size_t kUnknowns = 8;
+
+  /// @param pixels_per_unit  of the level
+  AlignmentSums(const PoseJacobian& jacobian, double pixels_per_unit, double sigma)
+      : pixels_per_unit_(static_cast<float>(pixels_per_unit)),
+        per_variance_(static_cast<float>(1 / (sigma * sigma))) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      glm::dvec3 unit(0);
+      unit[static_cast<int>(axis)] = 1;
+      const auto by = jacobian.at(unit);
+      for (std::size_t m = 0; m < kTurns.size(); ++m) {
+        by_x_[m][axis] = static_cast<float>(pixels_per_unit * by[kTurns[m]].x);
+        by_y_[m][axis] = static_cast<float>(pixels_per_unit * by[kTurns[m]].y);
+      }
+    }
+  }
+
+  void add(glm::vec3 point, const Sample& s, float seen, float difference, float weight) {
+    const std::size_t k = count_++;
+    for (std::size_t axis = 0; axis < 3; ++axis) point_[axis][k] = point[static_cast<int>(axis)];
+    dx_[k] = s.dx;
+    dy_[k] = s.dy;
+    seen_[k] = seen;
+    difference_[k] = difference;
+    weight_[k] = weight;
+    if (count_ == kBlock) flush();
+  }
+
+  /// Adds to the upper triangle of `a` and to `b`.
+  void finish(cv::Matx<double, 8, 8>& a, cv::Vec<double, 8>& b) {
+    while (count_ > 0 && count_ % kLanes != 0) weight_[count_++] = 0;
+    flush();
+    std::size_t k = 0;
+    for (int m = 0; m < 8; ++m) {
+      for (int n = m; n < 8; ++n) a(m, n) += sums_[k++];
+      b[m] += sums_[k++];
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 64, kLanes = 8;
+  static constexpr std::array<std::size_t, 4> kTurns = {0, 1, 2, 5};  // these move a point by where it is
+  using Row = float[kBlock];
+
+  void flush() {
+    const std::size_t n = count_;
+    alignas(16) Row j[kUnknowns + 1], weighted;
+    for (std::size_t m = 0; m < kTurns.size(); ++m) {
+      const std::array<float, 3> bx = by_x_[m], by = by_y_[m];
+      for (std::size_t k = 0; k < n; ++k)
+        j[kTurns[m]][k] = dx_[k] * (bx[0] * point_[0][k] + bx[1] * point_[1][k] + bx[2] * point_[2][k]) +
+                          dy_[k] * (by[0] * point_[0][k] + by[1] * point_[1][k] + by[2] * point_[2][k]);
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      j[3][k] = pixels_per_unit_ * dx_[k];
+      j[4][k] = pixels_per_unit_ * dy_[k];
+      j[6][k] = -seen_[k];
+      j[7][k] = -1;
+      j[8][k] = difference_[k];
+      const float q = 1 + difference_[k] * difference_[k] * per_variance_;
+      weight_[k] /= q * q;  // Geman-McClure
+    }
+    std::size_t to = 0;
+    for (std::size_t m = 0; m < kUnknowns; ++m) {
+      for (std::size_t k = 0; k < n; ++k) weighted[k] = weight_[k] * j[m][k];
+      for (std::size_t i = m; i < kUnknowns + 1; ++i)
+        sums_[to++] += static_cast<double>(dot(weighted, j[i], n));
+    }
+    count_ = 0;
+  }
+
+  static float dot(const Row& a, const Row& b, std::size_t n) {
+    alignas(16) float sum[kLanes] = {};
+    for (std::size_t k = 0; k < n; k += kLanes)
+      for (std::size_t l = 0; l < kLanes; ++l) sum[l] += a[k + l] * b[k + l];
+    return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+  }
+
+  float pixels_per_unit_, per_variance_;
+  std::array<std::array<float, 3>, 4> by_x_, by_y_;
+  alignas(16) Row point_[3] = {}, dx_ = {}, dy_ = {}, seen_ = {}, difference_ = {}, weight_ = {};
+  std::size_t count_ = 0;
+  std::array<double, kUnknowns*(kUnknowns + 3) / 2> sums_{};  ///< rows of the upper triangle, each with b's
+};
 
 /// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
 glm::dvec3 face_centre(const HeadVertices& vertices) {
@@ -134,8 +241,8 @@ void HeadTracker::follow_flow(const WorkFrame& now, const HeadVertices& vertices
     to.emplace_back(static_cast<float>(b.x), static_cast<float>(b.y));
   }
   std::vector<std::uint8_t> found;
-  std::vector<float> error;
-  cv::calcOpticalFlowPyrLK(before_.luma, now.luma, from, to, found, error, {13, 13}, 3,
+  // On the coarsest of the three levels the window is an eye distance wide.
+  cv::calcOpticalFlowPyrLK(before_.luma, now.luma, from, to, found, cv::noArray(), {13, 13}, 2,
                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 12, 0.02},
                            cv::OPTFLOW_USE_INITIAL_FLOW);
   for (std::size_t v = 0; v < kVertexCount; ++v)
@@ -174,6 +281,7 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
   const cv::Mat& luma = pyramid[static_cast<std::size_t>(level)];
   const std::vector<float>& seen = seen_[static_cast<std::size_t>(level)];
   const double to_level = now.scale / (1 << level);
+  const std::size_t every = kEvery[static_cast<std::size_t>(level)];
   const double eye = start.eye_distance_px();
   Pose pose = start;
   double gain = 1, offset = 0, sigma = 20;
@@ -186,29 +294,23 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
     a(6, 6) = 1e4;  // light changes slowly: gain and offset cost what they explain
     a(7, 7) = 1e-1;
     b[6] = 1e4 * (1 - gain);
-    double absolute = 0, count = 0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    float absolute = 0, count = 0;
+    const LevelProjection projection(jacobian.projection(), now, level);
+    AlignmentSums sums(jacobian, to_level, sigma);
+    const auto gain_now = static_cast<float>(gain), offset_now = static_cast<float>(offset);
+    for (std::size_t k = 0; k < points.size(); k += every) {
       if (seen[k] < 0) continue;
-      const glm::dvec2 x = on_level(now.to_work(jacobian.projection()(points[k])), level);
+      const glm::vec3 p(points[k]);
       Sample s;
-      if (!sample_with_slope(luma, x, s)) continue;
-      const double r = gain * static_cast<double>(seen[k]) + offset - s.value;
+      if (!sample_with_slope(luma, projection(p), s)) continue;
+      const float r = gain_now * seen[k] + offset_now - s.value;
       absolute += std::abs(r);
       ++count;
-      const double q = r * r / (sigma * sigma);
-      const double w = static_cast<double>(weight_[k]) / ((1 + q) * (1 + q)) / 25;  // 5 grey levels of noise
-      const auto px = jacobian.at(points[k]);
-      std::array<double, 8> j{};
-      for (std::size_t m = 0; m < 6; ++m) j[m] = to_level * (s.dx * px[m].x + s.dy * px[m].y);
-      j[6] = -static_cast<double>(seen[k]);
-      j[7] = -1;
-      for (std::size_t m = 0; m < 8; ++m) {
-        const double wj = w * j[m];
-        b[static_cast<int>(m)] += wj * r;
-        for (std::size_t n = m; n < 8; ++n) a(static_cast<int>(m), static_cast<int>(n)) += wj * j[n];
-      }
+      const float weight = weight_[k] * static_cast<float>(every) / 25;
+      sums.add(p, s, seen[k], r, weight);  // 5 grey levels of noise
     }
-    if (count < 50) return start;
+    if (count < 50 / static_cast<float>(every)) return start;
+    sums.finish(a, b);
     for (int m = 0; m < 8; ++m)
       for (int n = 0; n < m; ++n) a(m, n) = a(n, m);
     cv::Vec<double, 8> d;
@@ -216,7 +318,7 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
     pose = moved(pose, {d[0], d[1], d[2], d[3], d[4], d[5]});
     gain = std::clamp(gain + d[6], 0.5, 2.0);
     offset = std::clamp(offset + d[7], -80.0, 80.0);
-    sigma = std::clamp(2 * 1.25 * absolute / count, 6.0, 30.0);
+    sigma = std::clamp(2 * 1.25 * static_cast<double>(absolute / count), 6.0, 30.0);
     const double step =
         std::hypot(d[3], d[4]) / eye + std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) + std::abs(d[5]);
     if (step < 5e-4) break;
@@ -226,16 +328,13 @@ Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& no
 
 double HeadTracker::correlation(const LevelledFrame& now, const Pose& pose,
                                 std::span<const glm::dvec3> points) const {
-  const PoseProjection projection(pose);
+  const LevelProjection projection(PoseProjection(pose), now.frame, 1);
   double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double x = static_cast<double>(seen_[1][k]);
-    if (x < 0) continue;
-    const glm::dvec2 at = now.at(projection(points[k]), 1);
     Sample s;
-    if (!sample_with_slope(now.levels[1], at, s)) continue;
-    const double y = s.value;
-    const double w = static_cast<double>(weight_[k]);
+    if (seen_[1][k] < 0 || !sample_with_slope(now.levels[1], projection(glm::vec3(points[k])), s)) continue;
+    const auto w = static_cast<double>(weight_[k]);
+    const auto x = static_cast<double>(seen_[1][k]), y = static_cast<double>(s.value);
     n += w;
     sx += w * x;
     sy += w * y;

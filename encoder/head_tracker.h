@@ -51,8 +51,8 @@ class HeadTracker {
   /// track().
   [[nodiscard]] const std::array<glm::dvec2, kVertexCount>& flow() const { return flow_; }
 
-  /// Takes `before` as the picture before and `pose` as the head's in it: while a face is lost and when a search has
-  /// found it.
+  /// Takes `before` as the picture before and `pose` as the head's in it: while a face is lost and when a
+  /// search has found it.
   void restart(const Pose& pose, const WorkFrame& before) {
     pose_ = pose;
     before_ = before;

@@ -27,25 +27,6 @@ std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices, const P
   return out;
 }
 
-bool sample_with_slope(const cv::Mat& m, glm::dvec2 at, Sample& out) {
-  if (!(at.x >= 1 && at.y >= 1 && at.x < m.cols - 2.001 && at.y < m.rows - 2.001)) return false;
-  const int i = static_cast<int>(at.x), j = static_cast<int>(at.y);
-  const double fx = at.x - i, fy = at.y - j;
-  const std::uint8_t* r0 = m.ptr<std::uint8_t>(j - 1) + i;
-  const std::uint8_t* r1 = m.ptr<std::uint8_t>(j) + i;
-  const std::uint8_t* r2 = m.ptr<std::uint8_t>(j + 1) + i;
-  const std::uint8_t* r3 = m.ptr<std::uint8_t>(j + 2) + i;
-  const double a = r1[0], b = r1[1], c = r2[0], d = r2[1];
-  out.value = (a * (1 - fx) + b * fx) * (1 - fy) + (c * (1 - fx) + d * fx) * fy;
-  const double dx1 = ((b - r1[-1]) * (1 - fx) + (r1[2] - a) * fx) * 0.5;
-  const double dx2 = ((d - r2[-1]) * (1 - fx) + (r2[2] - c) * fx) * 0.5;
-  out.dx = dx1 * (1 - fy) + dx2 * fy;
-  const double dy1 = ((c - r0[0]) * (1 - fy) + (r3[0] - a) * fy) * 0.5;
-  const double dy2 = ((d - r0[1]) * (1 - fy) + (r3[1] - b) * fy) * 0.5;
-  out.dy = dy1 * (1 - fx) + dy2 * fx;
-  return true;
-}
-
 Pose moved(const Pose& p, const PoseStep& d) {
   Pose out = p;
   out.pitch += d[0];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "tests/unit/toy_snake.h"
 
@@ -83,6 +84,54 @@ TEST(BSnakeTerms, InternalEnergyIsAPenaltyAndTheImagesAReward) {
     one.*kTerms[k] = 1;
     const double value = energy_of(e, one, e.now);
     EXPECT_EQ(value < 0, k >= 5) << "term " << k << ": " << value;
+  }
+}
+
+// What the sign descent goes by, against the difference of the energies either side.
+void expect_slope_of_energy(const ToySnake& b, const Control& at, double tolerance) {
+  constexpr double kEither = 0.01;  // snake units; maps have kinks at their samples
+  const BSnake snake = b.snake();
+  const Control gradient = snake.gradient(at);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      Control above = at, below = at;
+      above[i][axis] += kEither;
+      below[i][axis] -= kEither;
+      const double slope = (snake.energy(above) - snake.energy(below)) / (2 * kEither);
+      EXPECT_NEAR(gradient[i][axis], slope, tolerance) << "control " << i << " axis " << axis;
+    }
+  }
+}
+
+TEST(BSnakeTerms, GradientOfEachIsTheSlopeOfItsEnergy) {
+  EveryTerm e;
+  for (std::size_t k = 0; k < kTerms.size(); ++k) {
+    e.weights = {};
+    e.weights.*kTerms[k] = 0.3;
+    SCOPED_TRACE("term " + std::to_string(k));
+    double largest = 0;
+    for (const glm::dvec2 g : e.snake().gradient(e.now)) largest = std::max(largest, length(g));
+    EXPECT_GT(largest, 1e-3);
+    expect_slope_of_energy(e, e.now, 0.02 * largest);
+  }
+}
+
+TEST(BSnakeTerms, GradientOfARidgeIsTheSlopeOfItsEnergy) {
+  ToyLine b;
+  b.image.ridge = painted([](glm::dvec2 p) { return std::exp(-(p.y - 2) * (p.y - 2) / 8); });
+  b.weights = {.contrast = 1, .change = 0.2};
+  b.image.change = painted([](glm::dvec2 p) { return 0.3 + 0.01 * p.x * p.y; });
+  expect_slope_of_energy(b, moved(line(9), {-3.1, 0.4}), 1e-3);
+}
+
+// Outside, the border's samples are repeated: nothing slopes there.
+TEST(BSnakeTerms, MapsAreFlatOutside) {
+  ToyLine b;
+  b.image.change = painted([](glm::dvec2 p) { return 20 + 0.5 * p.x + 0.25 * p.y; });
+  b.weights.change = 1;
+  for (const glm::dvec2 g : b.snake().gradient(moved(line(6), {100, 0}))) {
+    EXPECT_EQ(g.x, 0);
+    EXPECT_LT(g.y, 0);
   }
 }
 
