@@ -9,7 +9,7 @@ namespace fbs {
 namespace {
 
 constexpr double kOpen = 0.3;       // eye distances: as high again as the closed lips
-constexpr double kTeeth = 0.8;      // of the gap; the rest is dark
+constexpr double kTeeth = 0.9;      // of the gap; the rest is dark
 constexpr double kUpperLip = 0.15;  // its height in the middle, eye distances
 
 /// Heights of the contour, eye distances.
