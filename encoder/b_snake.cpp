@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace fbs {
 namespace {
@@ -14,65 +15,49 @@ constexpr double kStopChange = 2e-4;      // of the energy, from iteration to it
 constexpr double kNearlyFullReach = 3.0;  // snake units; the steps sum to delta_0 / (1 - sigma) = 4
 constexpr double kFlat = 1e-7;  // energy per snake unit; a slope below this is rounding and no direction
 
-using Lanes = float[4];
+using Four = cv::v_float32x4;  // one number of each of four points
 
 /// A map's bilinear value at four points and its slopes, per sample of the map.
 struct MapLookup {
-  alignas(16) Lanes value, by_x, by_y;
+  Four value, by_x, by_y;
 };
 
 /// Where four points lie in maps of one size.
 struct MapPlace {
-  std::array<std::ptrdiff_t, 4> offset;  ///< of the sample above and to the left
-  alignas(16) Lanes fx, fy;
-  alignas(16) Lanes inside_x, inside_y;  ///< 1, or 0 where the map's border is repeated and nothing slopes
+  std::array<std::ptrdiff_t, 4> first;  ///< index of the sample above and to the left
+  std::ptrdiff_t stride;
+  Four fx, fy;
+  Four inside_x, inside_y;  ///< 1, or 0 where the map's border is repeated and nothing slopes
+
+  MapPlace(const cv::Mat1f& map, const Four& x, const Four& y) : stride(map.cols) {
+    const Four zero = cv::v_setzero_f32(), one = cv::v_setall_f32(1);
+    const Four cx = cv::v_min(cv::v_max(x, zero), cv::v_setall_f32(static_cast<float>(map.cols) - 1.001F));
+    const Four cy = cv::v_min(cv::v_max(y, zero), cv::v_setall_f32(static_cast<float>(map.rows) - 1.001F));
+    const cv::v_int32x4 i = cv::v_trunc(cx), j = cv::v_trunc(cy);
+    alignas(16) int column[4], row[4];
+    cv::v_store_aligned(column, i);
+    cv::v_store_aligned(row, j);
+    for (std::size_t l = 0; l < 4; ++l) first[l] = row[l] * stride + column[l];
+    fx = cx - cv::v_cvt_f32(i);
+    fy = cy - cv::v_cvt_f32(j);
+    inside_x = (cx == x) & one;
+    inside_y = (cy == y) & one;
+  }
+
+  [[nodiscard]] MapLookup in(const cv::Mat1f& map) const {
+    const float* data = map[0];
+    const float *p0 = data + first[0], *p1 = data + first[1], *p2 = data + first[2], *p3 = data + first[3];
+    const auto all = [&](std::ptrdiff_t k) { return Four(p0[k], p1[k], p2[k], p3[k]); };
+    const Four a = all(0), along = all(1) - a, c = all(stride), along_below = all(stride + 1) - c;
+    const Four above = a + along * fx, down = c + along_below * fx - above;
+    return {above + down * fy, (along + (along_below - along) * fy) * inside_x, down * inside_y};
+  }
 };
 
-MapPlace place(const cv::Mat1f& map, const Lanes& x, const Lanes& y) {
-  MapPlace p;
-  const float most_x = static_cast<float>(map.cols) - 1.001F, most_y = static_cast<float>(map.rows) - 1.001F;
-  const auto stride = static_cast<std::ptrdiff_t>(map.step1());
-  for (std::size_t l = 0; l < 4; ++l) {
-    const float cx = std::min(std::max(x[l], 0.0F), most_x), cy = std::min(std::max(y[l], 0.0F), most_y);
-    const int i = static_cast<int>(cx), j = static_cast<int>(cy);
-    p.fx[l] = cx - static_cast<float>(i);
-    p.fy[l] = cy - static_cast<float>(j);
-    p.inside_x[l] = cx == x[l] ? 1.0F : 0.0F;
-    p.inside_y[l] = cy == y[l] ? 1.0F : 0.0F;
-    p.offset[l] = j * stride + i;
-  }
-  return p;
-}
-
-MapLookup look_up(const cv::Mat1f& map, const MapPlace& p) {
-  alignas(16) Lanes a, b, c, d;
-  const float* first = map[0];
-  const auto stride = static_cast<std::ptrdiff_t>(map.step1());
-  for (std::size_t l = 0; l < 4; ++l) {
-    const float* at = first + p.offset[l];
-    a[l] = at[0];
-    b[l] = at[1];
-    c[l] = at[stride];
-    d[l] = at[stride + 1];
-  }
-  MapLookup out;
-  for (std::size_t l = 0; l < 4; ++l) {
-    const float above = a[l] + (b[l] - a[l]) * p.fx[l], below = c[l] + (d[l] - c[l]) * p.fx[l];
-    out.value[l] = above + (below - above) * p.fy[l];
-    out.by_y[l] = (below - above) * p.inside_y[l];
-    out.by_x[l] = ((b[l] - a[l]) * (1 - p.fy[l]) + (d[l] - c[l]) * p.fy[l]) * p.inside_x[l];
-  }
-  return out;
-}
-
 /// sum_i basis_i c_i at four points.
-void combine(const Lanes (&basis)[4], const std::array<float, 4>& c, Lanes& out) {
-  for (std::size_t l = 0; l < 4; ++l)
-    out[l] = basis[0][l] * c[0] + basis[1][l] * c[1] + basis[2][l] * c[2] + basis[3][l] * c[3];
-}
-
-float sum(const Lanes& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
+Four combine(const float (&basis)[4][4], const std::array<Four, 4>& c) {
+  return cv::v_load_aligned(basis[0]) * c[0] + cv::v_load_aligned(basis[1]) * c[1] +
+         cv::v_load_aligned(basis[2]) * c[2] + cv::v_load_aligned(basis[3]) * c[3];
 }
 
 glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight,
@@ -204,76 +189,57 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
 double BSnake::external(const Vectors& control, Vectors* gradient) const {
   const bool ridge = !image_.ridge.empty(), changes = weights_.change != 0;
   if (weights_.contrast == 0 && !changes) return 0;
-  const auto scale = static_cast<float>(image_.px_per_unit);
-  const auto origin_x = static_cast<float>(image_.origin.x), origin_y = static_cast<float>(image_.origin.y);
-  const auto contrast_weight = static_cast<float>(weights_.contrast);
-  const auto change_weight = static_cast<float>(weights_.change);
-  double contrast = 0, change = 0;
+  const Four scale = cv::v_setall_f32(static_cast<float>(image_.px_per_unit));
+  const Four origin_x = cv::v_setall_f32(static_cast<float>(image_.origin.x));
+  const Four origin_y = cv::v_setall_f32(static_cast<float>(image_.origin.y));
+  const Four contrast_weight = cv::v_setall_f32(static_cast<float>(weights_.contrast));
+  const Four change_weight = cv::v_setall_f32(static_cast<float>(weights_.change));
+  Four contrast = cv::v_setzero_f32(), change = cv::v_setzero_f32();
   for (const PointQuad& q : curve_.quads()) {
-    std::array<float, 4> x, y;
+    std::array<Four, 4> x, y;
     for (std::size_t k = 0; k < 4; ++k) {
       const glm::dvec2 c = control[static_cast<std::size_t>(q.control[k])];
-      x[k] = static_cast<float>(c.x);
-      y[k] = static_cast<float>(c.y);
+      x[k] = cv::v_setall_f32(static_cast<float>(c.x));
+      y[k] = cv::v_setall_f32(static_cast<float>(c.y));
     }
-    alignas(16) Lanes vx, vy, vs_x, vs_y;
-    combine(q.value, x, vx);
-    combine(q.value, y, vy);
-    combine(q.d1, x, vs_x);
-    combine(q.d1, y, vs_y);
-    for (std::size_t l = 0; l < 4; ++l) {
-      vx[l] = (vx[l] - origin_x) * scale;
-      vy[l] = (vy[l] - origin_y) * scale;
-    }
-    const MapPlace at = place(ridge ? image_.ridge : image_.contrast_x, vx, vy);
-    alignas(16) Lanes h, h_by_x, h_by_y, h_by_vs_x{}, h_by_vs_y{};
+    const Four say = cv::v_load_aligned(q.say), vs_x = combine(q.d1, x), vs_y = combine(q.d1, y);
+    const MapPlace at(ridge ? image_.ridge : image_.contrast_x, (combine(q.value, x) - origin_x) * scale,
+                      (combine(q.value, y) - origin_y) * scale);
+    MapLookup h;
+    Four h_by_vs_x = cv::v_setzero_f32(), h_by_vs_y = h_by_vs_x;
     if (ridge) {
-      const MapLookup r = look_up(image_.ridge, at);
-      for (std::size_t l = 0; l < 4; ++l) {
-        h[l] = r.value[l] * q.say[l];
-        h_by_x[l] = r.by_x[l];
-        h_by_y[l] = r.by_y[l];
-      }
+      h = at.in(image_.ridge);
     } else {
       // The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high
       // inside: the contrast that shows the contour is its fall along the normal.
-      const MapLookup gx = look_up(image_.contrast_x, at), gy = look_up(image_.contrast_y, at);
-      for (std::size_t l = 0; l < 4; ++l) {
-        const float per_length = 1 / (std::sqrt(vs_x[l] * vs_x[l] + vs_y[l] * vs_y[l]) + 1e-9F);
-        const float tx = vs_x[l] * per_length, ty = vs_y[l] * per_length;
-        const float along = gy.value[l] * tx - gx.value[l] * ty;
-        h[l] = along * q.say[l];
-        h_by_x[l] = gy.by_x[l] * tx - gx.by_x[l] * ty;
-        h_by_y[l] = gy.by_y[l] * tx - gx.by_y[l] * ty;
-        h_by_vs_x[l] = (gy.value[l] - along * tx) * per_length;
-        h_by_vs_y[l] = (-gx.value[l] - along * ty) * per_length;
-      }
+      const MapLookup gx = at.in(image_.contrast_x), gy = at.in(image_.contrast_y);
+      const Four length = cv::v_sqrt(vs_x * vs_x + vs_y * vs_y) + cv::v_setall_f32(1e-9F);
+      const Four per_length = cv::v_setall_f32(1) / length, tx = vs_x * per_length, ty = vs_y * per_length;
+      h = {gy.value * tx - gx.value * ty, gy.by_x * tx - gx.by_x * ty, gy.by_y * tx - gx.by_y * ty};
+      h_by_vs_x = (gy.value - h.value * tx) * per_length;
+      h_by_vs_y = (cv::v_setzero_f32() - gx.value - h.value * ty) * per_length;
     }
-    contrast += static_cast<double>(sum(h));
-    MapLookup c{};
+    contrast += h.value * say;
+    Four by_x = contrast_weight * h.by_x, by_y = contrast_weight * h.by_y;
     if (changes) {
-      c = look_up(image_.change, at);
-      for (std::size_t l = 0; l < 4; ++l) c.value[l] *= q.say[l];
-      change += static_cast<double>(sum(c.value));
+      const MapLookup c = at.in(image_.change);
+      change += c.value * say;
+      by_x += change_weight * c.by_x;
+      by_y += change_weight * c.by_y;
     }
     if (gradient == nullptr) continue;
-    alignas(16) Lanes by_x, by_y;
-    for (std::size_t l = 0; l < 4; ++l) {
-      by_x[l] = (contrast_weight * h_by_x[l] + change_weight * c.by_x[l]) * scale * q.say[l];
-      by_y[l] = (contrast_weight * h_by_y[l] + change_weight * c.by_y[l]) * scale * q.say[l];
-      h_by_vs_x[l] *= contrast_weight * q.say[l];
-      h_by_vs_y[l] *= contrast_weight * q.say[l];
-    }
+    by_x *= scale * say;
+    by_y *= scale * say;
+    h_by_vs_x *= contrast_weight * say;
+    h_by_vs_y *= contrast_weight * say;
     for (std::size_t k = 0; k < 4; ++k) {
-      alignas(16) Lanes gx, gy;
-      for (std::size_t l = 0; l < 4; ++l) {
-        gx[l] = q.value[k][l] * by_x[l] + q.d1[k][l] * h_by_vs_x[l];
-        gy[l] = q.value[k][l] * by_y[l] + q.d1[k][l] * h_by_vs_y[l];
-      }
-      (*gradient)[static_cast<std::size_t>(q.control[k])] -= glm::dvec2(sum(gx), sum(gy));
+      const Four value = cv::v_load_aligned(q.value[k]), d1 = cv::v_load_aligned(q.d1[k]);
+      (*gradient)[static_cast<std::size_t>(q.control[k])] -= glm::dvec2(
+          cv::v_reduce_sum(value * by_x + d1 * h_by_vs_x), cv::v_reduce_sum(value * by_y + d1 * h_by_vs_y));
     }
   }
-  return -weights_.contrast * contrast - weights_.change * change;
+  return -weights_.contrast * static_cast<double>(cv::v_reduce_sum(contrast)) -
+         weights_.change * static_cast<double>(cv::v_reduce_sum(change));
 }
 
 double BSnake::evaluate(const Vectors& control, Vectors* gradient) const {

@@ -21,15 +21,16 @@ struct Class {
   int count = 0;
 };
 
-Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
+/// @param planes  0 stands for what is left out
+Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask, int planes = 3) {
   Class c;
   cv::Vec3d sum(0, 0, 0);
   cv::Matx33d product = cv::Matx33d::zeros();
   for (int y = 0; y < mask.rows; ++y) {
     for (int x = 0; x < mask.cols; ++x) {
       if (mask.at<std::uint8_t>(y, x) == 0) continue;
-      const cv::Vec3d v(patch[0].at<std::uint8_t>(y, x), patch[1].at<std::uint8_t>(y, x),
-                        patch[2].at<std::uint8_t>(y, x));
+      cv::Vec3d v(0, 0, 0);
+      for (int k = 0; k < planes; ++k) v[k] = patch[static_cast<std::size_t>(k)].at<std::uint8_t>(y, x);
       sum += v;
       product += v * v.t();
       ++c.count;
@@ -46,16 +47,11 @@ Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask) {
 FeatureMap FeatureMap::discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,
                                     const cv::Mat& outside, bool luma_only) {
   FeatureMap map;
-  const Class in = statistics(patch, inside), out = statistics(patch, outside);
+  const int planes = luma_only ? 1 : 3;
+  const Class in = statistics(patch, inside, planes), out = statistics(patch, outside, planes);
   if (in.count < 8 || out.count < 8) return map;
   cv::Matx33d pooled = 0.5 * (in.covariance + out.covariance);
   for (int k = 0; k < 3; ++k) pooled(k, k) += kNoise[k];
-  if (luma_only) {
-    for (int k = 1; k < 3; ++k) {
-      pooled(0, k) = pooled(k, 0) = 0;
-      pooled(k, k) = 1e9;
-    }
-  }
   const cv::Vec3d difference = in.mean - out.mean;
   const cv::Vec3d w = pooled.inv() * difference;
   const double separation = w.dot(difference);
@@ -81,18 +77,28 @@ FeatureMap FeatureMap::likeness(const std::array<cv::Mat, 3>& patch, const cv::M
 
 cv::Mat1f FeatureMap::operator()(const std::array<cv::Mat, 3>& patch) const {
   cv::Mat1f out(patch[0].size());
+  const cv::Matx33f& s = inverse_covariance_;
+  const cv::Vec3f mean = mean_, weight = weight_;
+  const float offset = offset_;
+  const bool luma_only = !is_likeness_ && weight[1] == 0 && weight[2] == 0;
   for (int y = 0; y < out.rows; ++y) {
-    const std::uint8_t *a = patch[0].ptr(y), *b = patch[1].ptr(y), *c = patch[2].ptr(y);
-    for (int x = 0; x < out.cols; ++x) {
-      const cv::Vec3f v(a[x], b[x], c[x]);
-      if (is_likeness_) {
-        const cv::Vec3f d = v - mean_;
-        out(y, x) = std::exp(-0.5F * d.dot(inverse_covariance_ * d));
-      } else {
-        out(y, x) = std::clamp(weight_.dot(v) + offset_, kLeast, kMost);
+    const std::uint8_t* a = patch[0].ptr(y);
+    const std::uint8_t *b = luma_only ? a : patch[1].ptr(y), *c = luma_only ? a : patch[2].ptr(y);
+    float* to = out[y];
+    if (is_likeness_) {
+      for (int x = 0; x < out.cols; ++x) {
+        const float d0 = a[x] - mean[0], d1 = b[x] - mean[1], d2 = c[x] - mean[2];
+        to[x] = -0.5F * (s(0, 0) * d0 * d0 + s(1, 1) * d1 * d1 + s(2, 2) * d2 * d2) -
+                (s(0, 1) * d0 * d1 + s(0, 2) * d0 * d2 + s(1, 2) * d1 * d2);
+      }
+    } else {
+      for (int x = 0; x < out.cols; ++x) {
+        const float mix = weight[0] * a[x] + weight[1] * b[x] + weight[2] * c[x] + offset;
+        to[x] = std::min(std::max(mix, kLeast), kMost);
       }
     }
   }
+  if (is_likeness_) cv::exp(out, out);
   return out;
 }
 

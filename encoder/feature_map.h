@@ -15,7 +15,8 @@ class FeatureMap {
   /// @param patch    8-bit Y, U, V planes of one size
   /// @param inside   8-bit mask of the feature, nonzero where it is
   /// @param outside  8-bit mask of the skin round it
-  /// @param luma_only  for brows and lids: hair differs from skin in brightness, and chroma only adds noise
+  /// @param luma_only  for brows and lids: hair differs from skin in brightness, and chroma only adds noise;
+  ///                   U and V may be empty
   static FeatureMap discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,
                                  const cv::Mat& outside, bool luma_only);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 
 namespace fbs {
@@ -27,9 +29,9 @@ constexpr Kind kOuterLips = {{.tension = 0.0012,
                               .change = 0.05},
                              40,
                              1.2,
-                             9,
+                             8,
                              16,
-                             9};
+                             8};
 constexpr Kind kInnerLips = {{.tension = 0.0008,
                               .rigidity = 0.002,
                               .temporal = 0.004,
@@ -137,6 +139,50 @@ cv::Mat disc(double radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * r + 1, 2 * r + 1});
 }
 
+/// Rows that a patch comes from, with the neighbours that interpolation asks for; one at least.
+cv::Range rows_of(const cv::Matx23d& m, cv::Size patch, int rows) {
+  constexpr double kMargin = 2;
+  const double across = m(1, 0) * patch.width, down = m(1, 1) * patch.height;
+  const double first = m(1, 2) + std::min(across, 0.0) + std::min(down, 0.0) - kMargin;
+  const double last = m(1, 2) + std::max(across, 0.0) + std::max(down, 0.0) + kMargin;
+  const int start = static_cast<int>(std::clamp(first, 0.0, rows - 1.0));
+  return {start, std::max(start + 1, static_cast<int>(std::clamp(last + 1, 0.0, 1.0 * rows)))};
+}
+
+/// A Gaussian as a column, snake units. Kept: OpenCV takes longer to work one out than to blur with it.
+const cv::Mat& gaussian(double sigma_units) {
+  static std::map<double, cv::Mat> kept;
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  cv::Mat& kernel = kept[sigma_units];
+  if (kernel.empty()) {
+    const double sigma = sigma_units * kPxPerUnit;
+    kernel = cv::getGaussianKernel(2 * static_cast<int>(std::lround(3 * sigma)) + 1, sigma, CV_32F);
+  }
+  return kernel;
+}
+
+void blur(const cv::Mat1f& in, cv::Mat1f& out, const cv::Mat& kernel) {
+  cv::sepFilter2D(in, out, CV_32F, kernel, kernel);
+}
+
+/// Central differences per snake unit, times `sign`; none across the border.
+void slopes(const cv::Mat1f& values, float sign, cv::Mat1f& by_x, cv::Mat1f& by_y) {
+  const float half = sign * static_cast<float>(0.5 * kPxPerUnit);
+  const int w = values.cols, h = values.rows;
+  by_x.create(values.size());
+  by_y.create(values.size());
+  for (int y = 0; y < h; ++y) {
+    // The border is mirrored, as OpenCV's filters do: what meets there is alike.
+    const float *above = values[y > 0 ? y - 1 : 1], *here = values[y],
+                *below = values[y < h - 1 ? y + 1 : h - 2];
+    float *dx = by_x[y], *dy = by_y[y];
+    for (int x = 1; x < w - 1; ++x) dx[x] = half * (here[x + 1] - here[x - 1]);
+    dx[0] = dx[w - 1] = 0;
+    for (int x = 0; x < w; ++x) dy[x] = half * (below[x] - above[x]);
+  }
+}
+
 }  // namespace
 
 SplineBasis basis_at(const SnakeCurve& curve, double s) {
@@ -238,10 +284,21 @@ FeaturePatch FeatureSnake::patch(const WorkFrame& frame, const Pose& pose) const
   const cv::Size size(static_cast<int>(region.width * kPxPerUnit),
                       static_cast<int>(region.height * kPxPerUnit));
   FeaturePatch out;
-  const std::array<const cv::Mat*, 3> source = {&frame.luma, &frame.u, &frame.v};
-  for (std::size_t k = 0; k < 3; ++k)
-    cv::warpAffine(*source[k], out[k], m, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+  const auto cut = [&](const cv::Mat& source, const cv::Matx23d& to_source, cv::Mat& patch) {
+    cv::warpAffine(source, patch, to_source, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                    cv::BORDER_REPLICATE);
+  };
+  if (is_brow(id)) {  // hair differs from skin in brightness
+    cut(frame.luma, m, out[0]);
+    return out;
+  }
+  // All planes at once: most of the work is finding the place. Only the rows that the patch shows are put
+  // together.
+  const cv::Range rows = rows_of(m, size, frame.luma.rows);
+  cv::Mat together, patch;
+  cv::merge(std::array{frame.luma.rowRange(rows), frame.u.rowRange(rows), frame.v.rowRange(rows)}, together);
+  cut(together, {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2) - rows.start}, patch);
+  cv::split(patch, out);
   return out;
 }
 
@@ -294,25 +351,27 @@ void FeatureSnake::learn(const FeaturePatch& first) {
 SnakeImage FeatureSnake::look(const FeaturePatch& patch) {
   const Kind& kind = kind_of(id);
   cv::Mat1f values = map(patch);
-  if (skin) values = 0.5 * (values - (*skin)(patch));
-  cv::GaussianBlur(values, values, {}, kind.blur * kPxPerUnit);
+  if (skin) cv::addWeighted(values, 0.5, (*skin)(patch), -0.5, 0, values);
+  blur(values, values, gaussian(kind.blur));
   SnakeImage image;
   image.origin = {region.x, region.y};
   image.px_per_unit = kPxPerUnit;
   if (is_brow(id)) {
     // Centre less surround: largest along the middle of a band as wide as a brow.
-    cv::Mat1f wide;
-    cv::GaussianBlur(values, wide, {}, 3 * kPxPerUnit);
-    image.ridge = values - wide;
+    constexpr double kSurround = 3;
+    blur(values, image.ridge, gaussian(kSurround));
+    cv::subtract(values, image.ridge, image.ridge);
   } else {
-    // Central differences, per snake unit. Outer contours have the feature inside them, inner lips outside.
-    const float one = static_cast<float>(0.5 * kPxPerUnit) * (id == FeatureId::kMouthInner ? -1 : 1);
-    cv::filter2D(values, image.contrast_x, CV_32F, cv::Matx13f(-one, 0, one));
-    cv::filter2D(values, image.contrast_y, CV_32F, cv::Matx31f(-one, 0, one));
+    // Outer contours have the feature inside them, inner lips outside.
+    slopes(values, id == FeatureId::kMouthInner ? -1 : 1, image.contrast_x, image.contrast_y);
   }
-  image.change =
-      seen.empty() ? cv::Mat1f(cv::Mat1f::zeros(values.size())) : cv::Mat1f(cv::abs(values - seen));
-  seen = values;
+  if (weights.change != 0) {
+    if (seen.empty())
+      image.change = cv::Mat1f::zeros(values.size());
+    else
+      cv::absdiff(values, seen, image.change);
+    seen = values;
+  }
   return image;
 }
 

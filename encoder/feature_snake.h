@@ -18,7 +18,7 @@ namespace fbs {
 /// of it.
 inline constexpr double kHeadUnitsPerSnakeUnit = kUnitsPerEyeDistance / 32.0;
 
-/// A picture patch of a feature: Y, U and V, 8 bit, of one size.
+/// A picture patch of a feature: Y, U and V, 8 bit, of one size; a brow's is Y alone.
 using FeaturePatch = std::array<cv::Mat, 3>;
 
 struct FeatureSnake {
@@ -33,7 +33,7 @@ struct FeatureSnake {
   std::vector<FacingPair> facing{};
   double below_vertices = 0;  ///< the curve runs this far below the vertices it moves
   double lowest = 1e9;        ///< y that a lid's middle does not pass: just above the lower lid
-  cv::Mat1f seen{};           ///< feature map of the picture before
+  cv::Mat1f seen{};           ///< feature map of the picture before; empty when I_t has no weight
   int iterations = 0;         ///< of the last descent
 
   /// A snake at rest on the adapted head. It sees nothing before learn().
