@@ -29,9 +29,9 @@ constexpr Kind kOuterLips = {{.tension = 0.0012,
                               .change = 0.05},
                              40,
                              1.2,
-                             8,
+                             9,
                              16,
-                             8};
+                             9};
 constexpr Kind kInnerLips = {{.tension = 0.0008,
                               .rigidity = 0.002,
                               .temporal = 0.004,

@@ -14,7 +14,7 @@ namespace {
 constexpr int kPanelWidth = 300;    // pixels
 constexpr double kPapersRate = 12;  // pictures/s
 constexpr double kSame = 0.02;      // eye distances; less is no difference
-constexpr double kTeeth = 1.0;      // of the gap
+constexpr double kTeeth = 0.9;      // of the gap
 constexpr double kClosing = 0.03;   // eye distances a picture
 const cv::Scalar kTrue(170, 170, 170), kWithout(60, 60, 230), kWith(200, 130, 30);
 

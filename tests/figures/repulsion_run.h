@@ -43,7 +43,7 @@ struct PaintedRun {
 /// @param step  how much farther it opens from one picture to the next, eye distances
 [[nodiscard]] PaintedRun run_painted_mouth(double step);
 inline constexpr double kPaintedOpen =
-    0.30;  ///< how far it opens, eye distances; talking seldom goes farther
+    0.40;  ///< how far it opens, eye distances; talking seldom goes farther
 
 /// 4 : 3 about the middle of points.
 [[nodiscard]] cv::Rect2d part_around(const std::vector<glm::dvec2>& points, double width);
