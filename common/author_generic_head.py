@@ -244,7 +244,7 @@ FOLLOW = {
     "forehead_upper": [(BROWS, 0.25, 0.30, 1.0)],
     "forehead_{}": [(BROWS, 0.20, 0.30, 1.0)],
     "orbit_{}_outer": [(BROWS, 0.20, 0.25, 0.6)],
-    "upper_lid_crease_{}": [(BROWS, 0.20, 0.25, 0.6), ("upper_lid", 0.12, 0.12, 1.0)],
+    "upper_lid_crease_{}": [(BROWS, 0.20, 0.25, 0.6), ("upper_lid", 0.12, 0.12, 0.4)],
 }
 
 

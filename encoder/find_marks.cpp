@@ -13,6 +13,11 @@ namespace {
 /// faces.
 constexpr double kEyeBiasX = 0.04, kEyeBiasY = 0.025;  // eye distances
 
+/// Of the landmarks of both eyes, below their middles: an eye looking at the camera stands wider open than
+/// the generic head's, whose lids must close without a fold.
+constexpr std::array<double, 12> kLidHeight = {0,     -0.075, -0.075, 0.022, 0.064, 0.064,
+                                               0.022, -0.075, -0.075, 0,     0.064, 0.064};
+
 constexpr double kBrowHalfWidth = 0.056;  // eye distances
 
 // Proportions that hold from person to person, measured on neutral pictures of nine people (mean; standard
@@ -225,7 +230,7 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
 
   Marks marks;
   const auto set = [&](int ibug, glm::dvec2 p) { marks.set_landmark(ibug, f.to_picture(p)); };
-  for (int k = 36; k < 48; ++k) set(k, usual(k));
+  for (int k = 36; k < 48; ++k) set(k, {usual(k).x, kLidHeight[static_cast<std::size_t>(k - 36)]});
 
   const MouthMarks mouth = find_mouth(f, turn);
   for (int k = 48; k < 68; ++k) set(k, place_lip(mouth, k));

@@ -370,7 +370,7 @@ TEST(GenericHead, SmilePuckerAndBrowsDoNotFold) {
 }
 
 TEST(GenericHead, IsTheHeadOfTheFormat) {
-  EXPECT_EQ(generic_head_hash(), 0x707765F0E9B630EFU);
+  EXPECT_EQ(generic_head_hash(), 0x5AE3856F4C36A3E7U);
 }
 
 }  // namespace
