@@ -111,6 +111,24 @@ TEST(AdaptHead, RecoversScaleRollAndPlace) {
   }
 }
 
+TEST(AdaptHead, RecoversTheTurnThatMarksShow) {
+  for (const double yaw : {-0.3, -0.1, 0.2}) {
+    Pose turned = seen_at(160, 120, 50, 0.1);
+    turned.yaw = yaw;
+    const PoseProjection projection(turned);
+    Marks marks;
+    for (std::size_t v = 0; v < kVertexCount; ++v)
+      if (generic_head().vertices[v].landmark >= 0)
+        marks.vertex[v] = projection(glm::dvec3(generic_head().vertices[v].position));
+    const auto head = adapt_head(marks);
+    ASSERT_TRUE(head);
+    EXPECT_NEAR(head->pose.yaw, yaw, 0.03);
+    EXPECT_NEAR(head->pose.eye_distance_px() / 50, 1, 0.03);
+    EXPECT_LT(worst_mark(marks, *head), 0.01);
+    EXPECT_EQ(folded_triangles(head->geometry), 0);
+  }
+}
+
 /// Another face: every feature as a whole moved and stretched by up to a tenth of the eye distance.
 Marks other_face(unsigned seed, const Pose& pose) {
   std::mt19937 random(seed);

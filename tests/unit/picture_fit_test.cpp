@@ -124,5 +124,30 @@ TEST(PictureFit, FlatPictureMovesNothingFar) {
   for (const glm::dvec2 o : found.offsets) EXPECT_TRUE(std::isfinite(o.x) && std::isfinite(o.y));
 }
 
+// A blink is over in three pictures: both lids are found shut, or open again, in one step.
+TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
+  FittedScene s;
+  const auto lids = {FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
+  const auto lowered = [&](double by) {
+    State state = s.seen;
+    for (const FeatureId id : lids)
+      for (int i = 0; i < 2; ++i)
+        state.control[static_cast<std::size_t>(feature(id).first_control + i)] = {
+            0, static_cast<int>(std::lround(by / s.setup.steps.control))};
+    return state;
+  };
+  const double down = 0.12 * kUnitsPerEyeDistance;
+  for (const double truth : {0.0, down}) {
+    s.look_at(lowered(truth));
+    Fit start{dequantise(s.seen, s.setup.steps), {}};
+    for (const FeatureId id : lids)
+      for (std::size_t i = 0; i < 2; ++i)
+        start.offsets[static_cast<std::size_t>(feature(id).first_control) + i] = {0, down - truth};
+    const Fit found = s.fit.with_best_lids(start);
+    for (const FeatureId id : lids)
+      EXPECT_NEAR(found.offsets[static_cast<std::size_t>(feature(id).first_control)].y, truth, 0.35 * down);
+  }
+}
+
 }  // namespace
 }  // namespace fbs
