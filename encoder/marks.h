@@ -29,9 +29,10 @@ struct Marks {
 /// {"landmarks": [[x, y] x 68]} in iBUG-68 order. Unknown names are an error.
 [[nodiscard]] Result<Marks> read_marks(const std::string& path);
 
-/// Marks a found face from image evidence: eyes and pupils, brows, nose base, mouth line, corners and lips,
-/// chin, face sides. Each point is searched near where the generic head has it and stays within anatomical
-/// limits; where the picture says nothing, the proportion is kept.
+/// Marks a found face from image evidence: its turn first, then mouth line and nose base together, the
+/// borders of the lips (which may be open), corners, brows, chin, face sides; lids by proportion from the
+/// eyes found. Each point is searched near where the generic head has it and stays within anatomical limits;
+/// where the picture says nothing, the proportion is kept.
 [[nodiscard]] Marks find_marks(const Picture& picture, const FoundFace& face);
 
 }  // namespace fbs
