@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "encoder/face_frame.h"
+
 namespace fbs {
 namespace {
 
@@ -17,18 +19,9 @@ constexpr double kAtRest = 1.0 / 512;  // largest force that counts as rest, eye
 constexpr double kMostTurn = 0.6;      // tangent of the yaw that marks may show
 constexpr double kLeastArea = 0.05;    // of a triangle's own area on the scaled head
 
-/// Depth of the generic head's eyes, and how far a vertex lies behind them, eye distances.
-double eye_depth() {
-  static const double depth = [] {
-    double sum = 0;
-    for (std::size_t k = 36; k < 48; ++k)
-      sum += generic_head().vertices[static_cast<std::size_t>(generic_head().landmark_vertex[k])].position.z;
-    return sum / 12 / kUnits;
-  }();
-  return depth;
-}
+/// How far a vertex of the generic head lies behind its eyes, eye distances.
 double behind_eyes(std::size_t v) {
-  return generic_head().vertices[v].position.z / kUnits - eye_depth();
+  return generic_head().vertices[v].position.z / kUnits - generic_eye_depth();
 }
 
 double area(const Points& p, const HeadTriangle& t) {
@@ -167,7 +160,7 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   out.pose.yaw = std::atan(turn.tangent / depth);
   const double cosine = std::cos(out.pose.yaw);
   out.pose.log2_scale -= std::log2(cosine);
-  const double aside = eye_distance * turn.tangent * eye_depth();
+  const double aside = eye_distance * turn.tangent * generic_eye_depth();
   out.pose.shift -= aside * glm::dvec2(std::cos(out.pose.roll), std::sin(out.pose.roll));
   for (std::size_t v = 0; v < kVertexCount; ++v)
     if (target[v]) target[v] = {target[v]->x - turn.tangent * behind_eyes(v), target[v]->y * cosine};

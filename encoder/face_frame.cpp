@@ -85,19 +85,23 @@ double mean_over(double centre, double half, const std::function<double(double)>
   return sum / kSamples;
 }
 
+double generic_eye_depth() {
+  static const double depth = [] {
+    const GenericHead& head = generic_head();
+    double sum = 0;
+    for (std::size_t k = 36; k < 48; ++k)
+      sum += head.vertices[static_cast<std::size_t>(head.landmark_vertex[k])].position.z;
+    return sum / 12 / kUnitsPerEyeDistance;
+  }();
+  return depth;
+}
+
 glm::dvec3 generic_landmark(int ibug) {
   const GenericHead& head = generic_head();
-  const auto at = [&](int k) {
-    const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(k)];
-    return glm::dvec3(head.vertices[static_cast<std::size_t>(v)].position) /
-           static_cast<double>(kUnitsPerEyeDistance);
-  };
-  static const double eye_z = [&] {
-    double sum = 0;
-    for (int k = 36; k < 48; ++k) sum += at(k).z / 12;
-    return sum;
-  }();
-  return at(ibug) - glm::dvec3(0, 0, eye_z);
+  const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(ibug)];
+  return glm::dvec3(head.vertices[static_cast<std::size_t>(v)].position) /
+             static_cast<double>(kUnitsPerEyeDistance) -
+         glm::dvec3(0, 0, generic_eye_depth());
 }
 
 }  // namespace fbs

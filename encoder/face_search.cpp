@@ -230,12 +230,11 @@ class Finds {
 
   void settle(const LevelledFrame& now, const Pose& start) {
     if (best_.believed) return;
-    const Pose pose = wanted_.head.settle(now, start, wanted_.points);
-    if (!plausible(pose, wanted_.last, wanted_.picture, wanted_.points)) return;
-    const double confidence = wanted_.head.correlation(now, pose, wanted_.points);
-    const bool stayed = in_place(pose, wanted_.last, wanted_.points);
-    const bool believed = confidence >= (stayed ? FaceSearch::kLostBelow : FaceSearch::kSureFrom);
-    if (believed || confidence > best_.head.confidence) best_ = {{pose, confidence}, believed};
+    const TrackedPose head = wanted_.head.settle(now, start, wanted_.points);
+    if (!plausible(head.pose, wanted_.last, wanted_.picture, wanted_.points)) return;
+    const bool stayed = in_place(head.pose, wanted_.last, wanted_.points);
+    const bool believed = head.confidence >= (stayed ? FaceSearch::kLostBelow : FaceSearch::kSureFrom);
+    if (believed || head.confidence > best_.head.confidence) best_ = {head, believed};
   }
 
   /// Round a pose, by a grid.

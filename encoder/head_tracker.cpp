@@ -177,9 +177,9 @@ float weight_of(const HeadTriangle& t) {
   float least = 1;
   for (const std::int16_t v : t) {
     const HeadVertex& vertex = generic_head().vertices[static_cast<std::size_t>(v)];
-    if (vertex.feature >= 0 || (vertex.landmark >= 36 && vertex.landmark < 48))
-      least = std::min(least, kMoving);
-    if (vertex.landmark >= 4 && vertex.landmark <= 12) least = std::min(least, kMoving);
+    const bool eye = vertex.landmark >= 36 && vertex.landmark < 48;
+    const bool chin = vertex.landmark >= 4 && vertex.landmark <= 12;
+    if (vertex.feature >= 0 || eye || chin) least = std::min(least, kMoving);
     if (vertex.position.y < kForeheadAbove) least = std::min(least, kHair);
   }
   return least;
@@ -348,13 +348,16 @@ double HeadTracker::correlation(const LevelledFrame& now, const Pose& pose,
   return std::clamp((sxy - sx * sy / n) / std::sqrt(vx * vy), 0.0, 1.0);
 }
 
-Pose HeadTracker::settle(const LevelledFrame& now, Pose pose, const std::vector<glm::dvec3>& points) const {
+TrackedPose HeadTracker::settle(const LevelledFrame& now, const Pose& pose,
+                                const std::vector<glm::dvec3>& points) const {
   constexpr double kMayLose = 0.002;  // correlation that a finer level may cost
+  TrackedPose best{pose, correlation(now, pose, points)};
   for (int level = kLevels - 1; level >= 0; --level) {
-    const Pose refined = align(now.levels, now.frame, level, pose, points);
-    if (correlation(now, refined, points) >= correlation(now, pose, points) - kMayLose) pose = refined;
+    const Pose refined = align(now.levels, now.frame, level, best.pose, points);
+    const double explained = correlation(now, refined, points);
+    if (explained >= best.confidence - kMayLose) best = {refined, explained};
   }
-  return pose;
+  return best;
 }
 
 TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertices) {
@@ -363,17 +366,17 @@ TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertice
   const std::vector<glm::dvec3> points = surface(vertices);
 
   // The flow's guess and the pose before: the alignment starts from the one that explains the picture better.
-  const auto explains = [&](const Pose& p) { return correlation(levelled, p, points); };
   const Pose guess = fit_flow(pose_, vertices);
-  Pose pose = settle(levelled, explains(guess) >= explains(pose_) ? guess : pose_, points);
-  if (explains(pose) < kDoubtBelow) {
+  const bool flowed = correlation(levelled, guess, points) >= correlation(levelled, pose_, points);
+  TrackedPose found = settle(levelled, flowed ? guess : pose_, points);
+  if (found.confidence < kDoubtBelow) {
     // Perhaps caught in a turn that is none.
-    const Pose other = settle(levelled, frontal(pose, vertices), points);
-    if (explains(other) > explains(pose)) pose = other;
+    const TrackedPose other = settle(levelled, frontal(found.pose, vertices), points);
+    if (other.confidence > found.confidence) found = other;
   }
-  pose_ = pose;
+  pose_ = found.pose;
   before_ = now;
-  return {pose, correlation(levelled, pose, points)};
+  return found;
 }
 
 }  // namespace fbs

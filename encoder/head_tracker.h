@@ -77,7 +77,8 @@ class HeadTracker {
   [[nodiscard]] double correlation(const LevelledFrame& now, const Pose& pose,
                                    std::span<const glm::dvec3> points) const;
   /// Brings a pose that is nearly right to where picture 0 explains `now` best, from the coarsest level on.
-  [[nodiscard]] Pose settle(const LevelledFrame& now, Pose pose, const std::vector<glm::dvec3>& points) const;
+  [[nodiscard]] TrackedPose settle(const LevelledFrame& now, const Pose& pose,
+                                   const std::vector<glm::dvec3>& points) const;
 
  private:
   static constexpr int kLevels = LevelledFrame::kLevels;
