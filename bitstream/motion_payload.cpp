@@ -7,6 +7,7 @@
 #include "bitstream/byte_io.h"
 #include "bitstream/range_coder.h"
 #include "bitstream/setup.h"
+#include "bitstream/track.h"
 
 namespace fbs {
 namespace {
@@ -16,85 +17,101 @@ constexpr std::uint64_t kKeyFlag = 1;
 constexpr std::uint64_t kDurationsFlag = 2;
 constexpr int kCountShift = 2;
 
-/// A group between header and bits.
-struct Body {
-  bool key = false;
-  bool has_durations = false;
-  PredictionChoice damped = 0;
-  std::vector<FlatState> states;
-  std::vector<std::uint32_t> durations;  // as many as states if has_durations
-};
-
-// SPEC 4.5: everything behind the header. Returns false when what was read breaks a limit.
+// SPEC 4.5: one part's track. Returns false when what was read breaks a limit.
 template <class Coder>
-bool code_body(Coder& coder, const StateLimits& limits, MotionMemory& memory, Body& body) {
-  StateCoder<Coder> states(coder, limits, memory);
-  body.damped = states.choice(body.damped);
-  for (std::size_t i = 0; i < body.states.size(); ++i) {
-    if (body.has_durations && !states.duration(body.durations[i])) return false;
-    const bool whole = body.key && i == 0;
-    if (!(whole ? states.whole(body.states[i]) : states.next(body.states[i], body.damped))) return false;
+bool code_track(Coder& coder, TrackCoder<Coder>& tracks, std::size_t part, const CodedState& anchor,
+                std::int32_t pictures, Track& track) {
+  Knot last{.picture = -1, .value = {}};
+  std::copy_n(anchor.begin() + kPartFirst[part], kPartSizes[part], last.value.begin());
+  for (std::size_t k = 0; last.picture + 1 < pictures; ++k) {
+    Knot next;
+    if constexpr (!Coder::kReads) next = track[k];
+    const std::int32_t left = pictures - 1 - last.picture;
+    const std::int32_t length = tracks.span(part, left, k == 0, next.picture - last.picture);
+    if (length > left) return false;
+    next.picture = last.picture + length;
+    if (!tracks.knot(part, length, last, next)) return false;
     if constexpr (Coder::kReads) {
       if (!coder.ok()) return false;
+      track.push_back(next);
     }
+    last = next;
   }
   return true;
 }
 
-std::uint64_t cost_of_body(const StateLimits& limits, MotionMemory memory, Body& body) {
-  BitCounter counter;
-  code_body(counter, limits, memory, body);
-  return counter.cost();
-}
-
-// Tries for one part after the other whether the damped velocity predicts it better.
-PredictionChoice best_choice(const StateLimits& limits, const MotionMemory& memory, Body& body) {
-  body.damped = 0;
-  std::uint64_t least = cost_of_body(limits, memory, body);
-  PredictionChoice best = 0;
+// SPEC 4.5: everything behind the header. Returns false when what was read breaks a limit.
+// @param after  called behind each part, and with kPartCount behind the durations
+template <class Coder, class After>
+bool code_body(Coder& coder, const CodedLimits& limits, TrackMemory& memory, MotionGroup& group,
+               bool has_durations, After&& after) {
+  TrackCoder<Coder> tracks(coder, limits, memory);
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    if ((limits.coded >> part & 1) == 0) continue;
-    body.damped = static_cast<PredictionChoice>(best | 1 << part);
-    const PredictionChoice tried = body.damped;
-    const std::uint64_t cost = cost_of_body(limits, memory, body);
-    if (cost < least) {
-      least = cost;
-      best = tried;
+    if ((limits.parts >> part & 1) == 0) continue;
+    if (!code_track(coder, tracks, part, group.anchor, group.pictures, group.tracks[part])) return false;
+    after(part);
+  }
+  if (has_durations) {
+    group.durations.resize(static_cast<std::size_t>(group.pictures));
+    for (std::uint32_t& duration : group.durations) {
+      if (!tracks.duration(duration)) return false;
+      if constexpr (Coder::kReads) {
+        if (!coder.ok()) return false;
+      }
     }
   }
-  return best;
+  after(kPartCount);
+  return true;
 }
 
-MotionMemory fresh_memory(std::uint32_t duration) {
-  MotionMemory memory;
+TrackMemory fresh_memory(std::uint32_t duration) {
+  TrackMemory memory;
   memory.history.duration = duration;
   memory.history.older_duration = duration;
   return memory;
 }
 
-Result<void> check_group(const MotionGroup& group, const StateLimits& limits) {
-  if (group.states.empty() || group.states.size() > kMaxGroupPictures) {
+bool fits(const Track& track, std::size_t part, std::int32_t pictures, const CodedLimits& limits) {
+  if ((limits.parts >> part & 1) == 0) return track.empty();
+  std::int32_t last = -1;
+  for (const Knot& knot : track) {
+    if (knot.picture <= last) return false;
+    last = knot.picture;
+    for (std::size_t k = 0; k < kMaxPartSize; ++k) {
+      const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + k;
+      const bool inside = k < static_cast<std::size_t>(kPartSizes[part])
+                              ? knot.value[k] >= limits.least[i] && knot.value[k] <= limits.most[i]
+                              : knot.value[k] == 0;
+      if (!inside) return false;
+    }
+  }
+  return last == pictures - 1;
+}
+
+Result<void> check_group(const MotionGroup& group, const CodedLimits& limits) {
+  if (group.pictures < 1 || group.pictures > kMaxGroupPictures) {
     return fail(ErrorCode::kInvalidArgument, "a motion group has 1 to 256 pictures");
   }
-  if (!group.durations.empty() && group.durations.size() != group.states.size()) {
+  if (!group.durations.empty() && group.durations.size() != static_cast<std::size_t>(group.pictures)) {
     return fail(ErrorCode::kInvalidArgument, "a motion group has a duration for each picture or none");
   }
   const auto in_range = [](std::uint32_t d) { return d >= 1 && d <= kMaxDuration; };
   if (!std::all_of(group.durations.begin(), group.durations.end(), in_range)) {
     return fail(ErrorCode::kInvalidArgument, "a picture's duration is out of range");
   }
-  const auto inside = [&](const State& state) { return limits.hold(flatten(state)); };
-  if (!std::all_of(group.states.begin(), group.states.end(), inside)) {
-    return fail(ErrorCode::kInvalidArgument, "a state is out of range");
-  }
+  for (std::size_t part = 0; part < kPartCount; ++part)
+    if (!fits(group.tracks[part], part, group.pictures, limits))
+      return fail(ErrorCode::kInvalidArgument, "a track has knots or numbers out of range");
   return {};
 }
 
 }  // namespace
 
-MotionCoder::MotionCoder(const Setup& setup)
-    : limits_(setup),
+MotionCoder::MotionCoder(const Setup& setup, const CodedState& seen)
+    : limits_(setup.steps, setup.parts),
       nominal_duration_(nominal_duration(setup.format.frame_rate)),
+      seen_(seen),
+      last_(seen),
       memory_(fresh_memory(nominal_duration_)) {
   assert(check_setup(setup));
 }
@@ -103,24 +120,29 @@ Result<std::vector<std::uint8_t>> MotionCoder::encode(const MotionGroup& group) 
   if (auto checked = check_group(group, limits_); !checked) return tl::unexpected(checked.error());
   if (needs_key_ && !group.key)
     return fail(ErrorCode::kInvalidArgument, "the first motion group must be a key group");
-
-  Body body{.key = group.key,
-            .has_durations = !group.durations.empty(),
-            .damped = 0,
-            .states = {},
-            .durations = group.durations};
-  for (const State& state : group.states) body.states.push_back(flatten(state));
-
+  if (group.anchor != anchor(group.key))
+    return fail(ErrorCode::kInvalidArgument, "a motion group begins elsewhere than the last one ended");
   if (group.key) memory_ = fresh_memory(nominal_duration_);
-  body.damped = best_choice(limits_, memory_, body);
 
+  MotionGroup body = group;
+  const bool has_durations = !group.durations.empty();
+  {
+    BitCounter counter;
+    TrackMemory trial = memory_;
+    std::uint64_t so_far = 0;
+    code_body(counter, limits_, trial, body, has_durations, [&](std::size_t part) {
+      costs_[part] += counter.bits_x256() - so_far;
+      so_far = counter.bits_x256();
+    });
+  }
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
-  writer.varint((group.states.size() - 1) << kCountShift | (body.has_durations ? kDurationsFlag : 0) |
-                (body.key ? kKeyFlag : 0));
+  writer.varint(static_cast<std::uint64_t>(group.pictures - 1) << kCountShift |
+                (has_durations ? kDurationsFlag : 0) | (group.key ? kKeyFlag : 0));
   RangeEncoder encoder;
-  code_body(encoder, limits_, memory_, body);
+  code_body(encoder, limits_, memory_, body, has_durations, [](std::size_t) {});
   writer.bytes(encoder.finish());
+  last_ = last_of(group);
   needs_key_ = false;
   return payload;
 }
@@ -136,48 +158,23 @@ Result<MotionGroup> MotionCoder::decode(std::span<const std::uint8_t> payload) {
   if (header >> kCountShift >= kMaxGroupPictures) {
     return fail(ErrorCode::kTooLarge, "motion packet has more than 256 pictures");
   }
-  Body body;
-  body.key = (header & kKeyFlag) != 0;
-  body.has_durations = (header & kDurationsFlag) != 0;
-  if (needed_key && !body.key)
+  MotionGroup group;
+  group.key = (header & kKeyFlag) != 0;
+  group.pictures = static_cast<std::int32_t>(header >> kCountShift) + 1;
+  if (needed_key && !group.key)
     return fail(ErrorCode::kInvalidStream, "motion packet refers to one that is missing");
-  body.states.resize(static_cast<std::size_t>(header >> kCountShift) + 1);
-  if (body.has_durations) body.durations.resize(body.states.size());
 
-  if (body.key) memory_ = fresh_memory(nominal_duration_);
+  if (group.key) memory_ = fresh_memory(nominal_duration_);
   RangeDecoder decoder(reader.rest());
-  const bool valid = code_body(decoder, limits_, memory_, body);
+  group.anchor = anchor(group.key);
+  const bool valid =
+      code_body(decoder, limits_, memory_, group, (header & kDurationsFlag) != 0, [](std::size_t) {});
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "motion packet has a value out of range");
   if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "motion packet has bytes too many");
-
-  MotionGroup group;
-  group.key = body.key;
-  group.durations = std::move(body.durations);
-  group.states.reserve(body.states.size());
-  for (const FlatState& state : body.states) group.states.push_back(unflatten(state));
+  last_ = last_of(group);
   needs_key_ = false;
   return group;
-}
-
-MotionCounter::MotionCounter(const MotionCoder& coder, bool key, PredictionChoice damped)
-    : limits_(coder.limits()), memory_(coder.memory()), damped_(damped), key_next_(key || coder.needs_key()) {
-  if (key_next_) memory_ = MotionMemory{};
-}
-
-std::uint32_t MotionCounter::push(const State& state) {
-  FlatState flat = flatten(state);
-  assert(limits_.hold(flat));
-  BitCounter counter;
-  StateCoder<BitCounter> states(counter, limits_, memory_);
-  if (key_next_) {
-    states.whole(flat);
-    key_next_ = false;
-  } else {
-    states.next(flat, damped_);
-  }
-  total_ += counter.bits_x256();
-  return static_cast<std::uint32_t>(counter.bits_x256());
 }
 
 }  // namespace fbs

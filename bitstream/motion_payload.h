@@ -1,30 +1,30 @@
-// The motion packet: the states of a group of pictures. SPEC 4.5.
+// The motion packet: the tracks of a group of pictures. SPEC 4.5.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "bitstream/state_coder.h"
 #include "bitstream/syntax.h"
+#include "bitstream/track_coder.h"
 #include "common/result.h"
 
 namespace fbs {
 
-/// Writes or reads the motion packets of one scene, in stream order. Contexts, last states and last durations
+/// Writes or reads the motion packets of one scene, in stream order. Contexts, last knots and last durations
 /// go on from group to group; a key group begins them anew. Use one object for writing and another for
-/// reading. A value: a copy goes on independently.
+/// reading. A value: a copy goes on independently, so that an encoder may try what a group would cost.
 class MotionCoder {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  explicit MotionCoder(const Setup& setup);
+  /// @param seen   of pattern 0: the anchor of key groups
+  MotionCoder(const Setup& setup, const CodedState& seen);
 
-  /// Codes the group that follows. Tries the predictions of each part and keeps the shortest.
+  /// Codes the group that follows.
   /// @return kInvalidArgument  no pictures or more than kMaxGroupPictures; not a key group where one is
-  /// needed;
-  ///                           durations neither empty nor one for each picture, or outside 1..kMaxDuration;
-  ///                           a state beyond its limits or with control points of absent features. The coder
-  ///                           is then as before the call.
+  ///                           needed; tracks that are not as MotionGroup says; durations neither empty nor
+  ///                           one for each picture, or outside 1..kMaxDuration; numbers beyond their limits.
+  ///                           The coder is then as before the call.
   [[nodiscard]] Result<std::vector<std::uint8_t>> encode(const MotionGroup& group);
 
   /// Reads the group that follows. After an error only a key group can be read.
@@ -33,50 +33,27 @@ class MotionCoder {
   ///         kInvalidStream  damaged, or not a key group where one is needed
   [[nodiscard]] Result<MotionGroup> decode(std::span<const std::uint8_t> payload);
 
+  /// The coded state before the first picture of the next group.
+  [[nodiscard]] const CodedState& anchor(bool key) const { return key ? seen_ : last_; }
+
   /// A packet was lost: only a key group can follow.
   void lose() { needs_key_ = true; }
 
   /// True before the first group and after a loss.
   [[nodiscard]] bool needs_key() const { return needs_key_; }
 
-  /// Contexts and history as they stand after the last group: where a MotionCounter begins.
-  [[nodiscard]] const MotionMemory& memory() const { return memory_; }
-  [[nodiscard]] const StateLimits& limits() const { return limits_; }
+  [[nodiscard]] const CodedLimits& limits() const { return limits_; }
+
+  /// What the parts of all groups encoded so far have cost, in 1/256 bit; the last is for durations.
+  [[nodiscard]] const std::array<std::uint64_t, kPartCount + 1>& cost_of_parts() const { return costs_; }
 
  private:
-  StateLimits limits_;
+  CodedLimits limits_;
   std::uint32_t nominal_duration_;
-  MotionMemory memory_;
+  CodedState seen_, last_;
+  TrackMemory memory_;
   bool needs_key_ = true;
-};
-
-/// Asks what states would cost if they were coded next: push() them one by one. A value: copy it to try
-/// alternatives from the same point (about 15 KB, some microseconds). Group header and durations are not
-/// counted.
-class MotionCounter {
- public:
-  /// Goes on from what `coder` coded last; `key`: as the first pictures of a key group.
-  explicit MotionCounter(const MotionCoder& coder, bool key = false, PredictionChoice damped = 0);
-
-  /// @param state  within the limits of the scene (assert)
-  /// @return cost of this picture in 1/256 bit
-  std::uint32_t push(const State& state);
-
-  /// The same without moving on.
-  [[nodiscard]] std::uint32_t cost(const State& state) const {
-    MotionCounter trial = *this;
-    return trial.push(state);
-  }
-
-  /// Sum of all push() so far, 1/256 bit.
-  [[nodiscard]] std::uint64_t total() const { return total_; }
-
- private:
-  StateLimits limits_;
-  MotionMemory memory_;
-  PredictionChoice damped_;
-  bool key_next_;
-  std::uint64_t total_ = 0;
+  std::array<std::uint64_t, kPartCount + 1> costs_{};
 };
 
 }  // namespace fbs

@@ -2,7 +2,7 @@
 
 #include "bitstream/byte_io.h"
 #include "bitstream/range_coder.h"
-#include "bitstream/state_coder.h"
+#include "bitstream/track_coder.h"
 
 namespace fbs {
 
@@ -11,13 +11,13 @@ Result<std::vector<std::uint8_t>> encode_pattern(const PatternSyntax& pattern, c
     return fail(ErrorCode::kInvalidArgument, "pattern index is out of range");
   }
   if (pattern.av1.empty()) return fail(ErrorCode::kInvalidArgument, "pattern has no picture");
-  const StateLimits limits(setup);
-  FlatState state = flatten(pattern.state);
+  const CodedLimits limits(setup.steps, setup.parts);
+  CodedState state = pattern.state;
   if (!limits.hold(state)) return fail(ErrorCode::kInvalidArgument, "pattern's state is out of range");
 
   RangeEncoder encoder;
-  MotionMemory memory;
-  StateCoder(encoder, limits, memory).whole(state);
+  TrackMemory memory;
+  TrackCoder(encoder, limits, memory).whole(state);
   const std::vector<std::uint8_t> coded_state = encoder.finish();
 
   std::vector<std::uint8_t> payload;
@@ -42,15 +42,15 @@ Result<PatternSyntax> decode_pattern(std::span<const std::uint8_t> payload, cons
   if (av1.empty()) return fail(ErrorCode::kInvalidStream, "pattern packet has no picture");
 
   // SPEC 5.3
-  const StateLimits limits(setup);
+  const CodedLimits limits(setup.steps, setup.parts);
   RangeDecoder decoder(coded_state);
-  MotionMemory memory;
-  FlatState state{};
-  const bool inside = StateCoder(decoder, limits, memory).whole(state);
+  TrackMemory memory;
+  CodedState state{};
+  const bool inside = TrackCoder(decoder, limits, memory).whole(state);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "pattern's state ends early");
   if (!inside || !decoder.at_end()) return fail(ErrorCode::kInvalidStream, "pattern's state is out of range");
 
-  return PatternSyntax{static_cast<std::int32_t>(index), unflatten(state), {av1.begin(), av1.end()}};
+  return PatternSyntax{static_cast<std::int32_t>(index), state, {av1.begin(), av1.end()}};
 }
 
 }  // namespace fbs

@@ -68,10 +68,12 @@ Result<void> check_setup(const Setup& setup) {
     return fail(ErrorCode::kInvalidArgument, "colour matrix is unknown");
   }
   const QuantiserSteps& s = setup.steps;
-  if (!is_step(s.rotation) || !is_step(s.translation) || !is_step(s.log_scale) || !is_step(s.control)) {
+  if (!is_step(s.rotation) || !is_step(s.translation) || !is_step(s.log_scale) || !is_step(s.light) ||
+      !is_step(s.control)) {
     return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
   }
-  if (setup.features >> kFeatureCount != 0) return fail(ErrorCode::kInvalidArgument, "feature is unknown");
+  if ((setup.parts & ~kAllParts) != 0 || (setup.parts & mask_of(PartId::kPose)) == 0)
+    return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
   return {};
 }
 
@@ -87,11 +89,11 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   write_rational(writer, setup.format.pixel_aspect);
   writer.u8(static_cast<std::uint8_t>((setup.format.range == ColourRange::kFull ? kFullRangeFlag : 0) |
                                       static_cast<int>(setup.format.matrix) << kMatrixShift));
-  for (const std::int32_t step :
-       {setup.steps.rotation, setup.steps.translation, setup.steps.log_scale, setup.steps.control}) {
+  for (const std::int32_t step : {setup.steps.rotation, setup.steps.translation, setup.steps.log_scale,
+                                  setup.steps.light, setup.steps.control}) {
     writer.varint(static_cast<std::uint64_t>(step));
   }
-  writer.varint(setup.features);
+  writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
   return payload;
 }
@@ -101,8 +103,9 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
 
   // SPEC 4.1: the version comes first and is judged before the rest, which another version may lay out anew.
   const std::uint64_t version = reader.varint();
-  if (reader.ok() && version > kFormatVersion) {
-    return fail(ErrorCode::kUnsupported, "stream is of a newer format version");
+  if (reader.ok() && version != 0 && version != kFormatVersion) {
+    return fail(ErrorCode::kUnsupported, version > kFormatVersion ? "stream is of a newer format version"
+                                                                  : "stream is of an older format version");
   }
   const std::uint8_t head = reader.u8();
   if (reader.ok() && head != kGenericHeadId) return fail(ErrorCode::kUnsupported, "generic head is unknown");
@@ -113,11 +116,11 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   const auto frame_rate = read_rational(reader);
   const auto pixel_aspect = read_rational(reader);
   const std::uint8_t colour = reader.u8();
-  for (std::int32_t* step :
-       {&setup.steps.rotation, &setup.steps.translation, &setup.steps.log_scale, &setup.steps.control}) {
+  for (std::int32_t* step : {&setup.steps.rotation, &setup.steps.translation, &setup.steps.log_scale,
+                             &setup.steps.light, &setup.steps.control}) {
     *step = to_int(reader.varint());
   }
-  const std::uint64_t features = reader.varint();
+  const std::uint64_t parts = reader.varint();
   setup.mouth.upper = read_colour(reader);
   setup.mouth.lower = read_colour(reader);
 
@@ -126,13 +129,13 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (!frame_rate) return tl::unexpected(frame_rate.error());
   if (!pixel_aspect) return tl::unexpected(pixel_aspect.error());
   if (colour >> kMatrixShift > kMaxMatrix) return fail(ErrorCode::kInvalidStream, "colour matrix is unknown");
-  if (features >> kFeatureCount != 0) return fail(ErrorCode::kInvalidStream, "feature is unknown");
+  if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 
   setup.format.frame_rate = *frame_rate;
   setup.format.pixel_aspect = *pixel_aspect;
   setup.format.range = (colour & kFullRangeFlag) != 0 ? ColourRange::kFull : ColourRange::kLimited;
   setup.format.matrix = static_cast<ColourMatrix>(colour >> kMatrixShift);
-  setup.features = static_cast<FeatureMask>(features);
+  setup.parts = static_cast<PartMask>(parts << 1 | 1);
   if (auto checked = check_setup(setup); !checked) {
     const bool large = checked.error().code == ErrorCode::kTooLarge;
     return fail(large ? ErrorCode::kTooLarge : ErrorCode::kInvalidStream, checked.error().text);

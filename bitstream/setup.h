@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-inline constexpr int kGenericHeadId = 2;
+inline constexpr int kGenericHeadId = 3;
 inline constexpr std::uint32_t kMaxPicturesPerSecond = 1000;
 inline constexpr std::int32_t kMaxStep = 65535;
 

@@ -23,11 +23,10 @@ struct Neighbours {
   int left, up, up_left, up_right;
 };
 
-Neighbours neighbours_of(const SurroundMap& map, int x, int y) {
-  const int width = map.columns + 1;
+Neighbours neighbours_of(const std::vector<std::uint8_t>& values, int width, int x, int y) {
   const auto at = [&](int px, int py) -> int {
-    return map.follow[static_cast<std::size_t>(py) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(px)];
+    return values[static_cast<std::size_t>(py) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(px)];
   };
   if (x == 0 && y == 0) return {0, 0, 0, 0};
   if (y == 0) return {at(x - 1, 0), at(x - 1, 0), at(x - 1, 0), at(x - 1, 0)};
@@ -62,16 +61,29 @@ int code_value(Coder& coder, Contexts& contexts, const Neighbours& n, int value)
   return last;
 }
 
+/// One layer of the map; where `known` is not null and holds kFollowOne the value is zero and not coded.
 template <class Coder>
-void code_values(Coder& coder, SurroundMap& map) {
+void code_layer(Coder& coder, const SurroundMap& map, const std::vector<std::uint8_t>* known,
+                std::vector<std::uint8_t>& values) {
   Contexts contexts;
   std::size_t i = 0;
   for (int y = 0; y <= map.rows; ++y) {
     for (int x = 0; x <= map.columns; ++x, ++i) {
-      map.follow[i] =
-          static_cast<std::uint8_t>(code_value(coder, contexts, neighbours_of(map, x, y), map.follow[i]));
+      const bool implied = known != nullptr && (*known)[i] == kFollowOne;
+      values[i] = implied ? std::uint8_t{0}
+                          : static_cast<std::uint8_t>(code_value(
+                                coder, contexts, neighbours_of(values, map.columns + 1, x, y), values[i]));
     }
   }
+}
+
+template <class Coder>
+void code_values(Coder& coder, SurroundMap& map) {
+  code_layer(coder, map, nullptr, map.head);
+  AdaptiveBit any_body;
+  const bool any =
+      coder.bit(any_body, std::any_of(map.body.begin(), map.body.end(), [](auto v) { return v != 0; }));
+  if (any) code_layer(coder, map, &map.head, map.body);
 }
 
 std::size_t points(const SurroundMap& map) {
@@ -85,7 +97,12 @@ Result<std::vector<std::uint8_t>> encode_surround(const SurroundMap& map) {
     return fail(ErrorCode::kInvalidArgument, "surround has 1 to 128 columns and rows");
   }
   const auto in_range = [](std::uint8_t value) { return value <= kFollowOne; };
-  if (map.follow.size() != points(map) || !std::all_of(map.follow.begin(), map.follow.end(), in_range)) {
+  const auto valid = [&](const std::vector<std::uint8_t>& layer) {
+    return layer.size() == points(map) && std::all_of(layer.begin(), layer.end(), in_range);
+  };
+  bool apart = valid(map.head) && valid(map.body);
+  for (std::size_t i = 0; apart && i < points(map); ++i) apart = map.head[i] < kFollowOne || map.body[i] == 0;
+  if (!apart) {
     return fail(ErrorCode::kInvalidArgument,
                 "surround's values are out of range or not as many as its points");
   }
@@ -111,8 +128,9 @@ Result<SurroundMap> decode_surround(std::span<const std::uint8_t> payload) {
   }
   if (std::max(columns, rows) > kMaxSurroundCells) return fail(ErrorCode::kTooLarge, "surround is too large");
 
-  SurroundMap map{static_cast<std::int32_t>(columns), static_cast<std::int32_t>(rows), {}};
-  map.follow.assign(points(map), 0);
+  SurroundMap map{static_cast<std::int32_t>(columns), static_cast<std::int32_t>(rows), {}, {}};
+  map.head.assign(points(map), 0);
+  map.body.assign(points(map), 0);
   RangeDecoder decoder(reader.rest());
   code_values(decoder, map);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "surround packet ends early", payload.size());

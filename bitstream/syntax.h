@@ -6,12 +6,13 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "bitstream/coded_state.h"
 #include "common/picture.h"
 #include "common/state.h"
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 2;
+inline constexpr int kFormatVersion = 3;
 inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one motion packet
 inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
 inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each
@@ -41,8 +42,8 @@ struct YuvColour {
   friend bool operator==(const YuvColour&, const YuvColour&) = default;
 };
 
-/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at the lower
-/// (dark, tongue), and all between.
+/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at
+/// the lower (dark, tongue), and all between.
 struct MouthInterior {
   YuvColour upper{70, 126, 138}, lower{45, 126, 138};
   friend bool operator==(const MouthInterior&, const MouthInterior&) = default;
@@ -52,7 +53,7 @@ struct MouthInterior {
 struct Setup {
   VideoFormat format;
   QuantiserSteps steps;
-  FeatureMask features = 0;
+  PartMask parts = kAllParts;  ///< of the state that are sent; the pose always
   MouthInterior mouth;
   friend bool operator==(const Setup&, const Setup&) = default;
 };
@@ -64,26 +65,42 @@ struct Geometry {
 };
 
 /// A regular grid of (columns + 1) x (rows + 1) points over the picture, first and last on its borders. Each
-/// point says how much of the head's motion it follows: 0 (ground) .. kFollowOne (hair, ears).
+/// point says how much of the head's motion it follows; what it does not follow of the head it shares between
+/// body and ground.
 struct SurroundMap {
   std::int32_t columns = 0;  ///< 1..kMaxSurroundCells
   std::int32_t rows = 0;
-  std::vector<std::uint8_t> follow;  ///< row by row from the top
+  std::vector<std::uint8_t> head;  ///< row by row from the top: 0 .. kFollowOne (hair, ears)
+  std::vector<std::uint8_t> body;  ///< 0 (ground) .. kFollowOne (shoulders); 0 where head is kFollowOne
   friend bool operator==(const SurroundMap&, const SurroundMap&) = default;
 };
 
 /// One pattern: a picture, and the state in which it was seen.
 struct PatternSyntax {
   std::int32_t index = 0;  ///< 0..kMaxPatterns-1
-  State state;
+  CodedState state{};
   std::vector<std::uint8_t> av1;  ///< one AV1 temporal unit (low-overhead OBU format)
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
 
-/// The states of consecutive pictures.
+/// Numbers of one part at one picture of a group.
+struct Knot {
+  std::int32_t picture = 0;                        ///< 0 .. pictures of the group - 1
+  std::array<std::int32_t, kMaxPartSize> value{};  ///< in steps; the part's numbers, then zeros
+  friend bool operator==(const Knot&, const Knot&) = default;
+};
+
+/// A part's way through a group: straight from knot to knot.
+using Track = std::vector<Knot>;
+
+/// Consecutive pictures.
 struct MotionGroup {
-  bool key = false;           ///< coded without reference to earlier groups
-  std::vector<State> states;  ///< 1..kMaxGroupPictures
+  bool key = false;     ///< coded without reference to earlier groups
+  CodedState anchor{};  ///< before the first picture: of the picture before the group, in a key group of
+                        ///< pattern 0. Not coded, since both sides know it
+  std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
+  /// Of each part that is sent: at least one knot, the last in the last picture; of others: none.
+  std::array<Track, kPartCount> tracks;
   std::vector<std::uint32_t>
       durations;  ///< of each picture, 1..kMaxDuration, 1/90000 s; empty: constant frame rate
   friend bool operator==(const MotionGroup&, const MotionGroup&) = default;

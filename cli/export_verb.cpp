@@ -28,7 +28,7 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
     for (int k = 0; k < 6 + 2 * kLandmarkCount; ++k) line += ",nan";
     return line + "\n";
   }
-  const HeadPose pose = dequantise_pose(decoder.state(), decoder.scene().setup.steps);
+  const HeadPose pose = head_pose(decoder.state());
   for (const std::int32_t angle : {pose.pitch, pose.yaw, pose.roll}) line += number(angle * 360.0 / 65536);
   line +=
       number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));

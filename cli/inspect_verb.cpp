@@ -40,6 +40,7 @@ nlohmann::json to_json(const Summary& s) {
            {{"rotation", s.steps.rotation},
             {"translation", s.steps.translation},
             {"log_scale", s.steps.log_scale},
+            {"light", s.steps.light},
             {"control", s.steps.control}}}};
 }
 

@@ -49,6 +49,12 @@ std::uint64_t generic_head_hash() {
       hash.add(head.spread[i].weight);
     }
   }
+  hash.add(kExpressionPartCount);
+  for (const ExpressionPart& part : head.expression) {
+    hash.add(part.first_control);
+    hash.add(part.control_count);
+    for (const std::int16_t weight : part.rows) hash.add(weight);
+  }
   return hash.value();
 }
 

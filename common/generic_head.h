@@ -72,6 +72,17 @@ struct SpreadWeight {
   std::int16_t weight;
 };
 
+/// A part of the face that moves as one, and the directions in which it does: row k of `rows` is what one
+/// unit of coefficient k adds to the part's control points, x0, y0, x1, y1 ..., in 1/kSpreadOne. A complete
+/// basis, the coefficient that varies most first (author_expression_basis.py).
+struct ExpressionPart {
+  std::string_view name;  ///< "mouth", "brows", "upper_lids", "lower_lids", "gaze"
+  std::int16_t first_control;
+  std::int16_t control_count;
+  std::span<const std::int16_t> rows;  ///< 2 * control_count rows of as many
+};
+inline constexpr int kExpressionPartCount = 5;
+
 /// The tables; everything lives as long as the program. No allocation.
 struct GenericHead {
   std::span<const HeadVertex, kVertexCount> vertices;
@@ -83,6 +94,7 @@ struct GenericHead {
       spread_begin;  ///< weights of vertex v: [begin[v], begin[v+1])
   std::span<const SpreadWeight> spread;
   std::span<const std::int16_t, kLandmarkCount> landmark_vertex;  ///< vertex of each iBUG-68 point
+  std::array<ExpressionPart, kExpressionPartCount> expression;
 };
 
 [[nodiscard]] const GenericHead& generic_head();
@@ -93,7 +105,9 @@ struct GenericHead {
 ///   number of triangles; for each: three corners
 ///   length of the outline; its vertices
 ///   10; for each feature: closed (0 or 1), first control, number of controls, number of vertices, its
-///   vertices for each vertex: number of spread weights; for each: control, weight (controls ascend)
+///   vertices
+///   for each vertex: number of spread weights; for each: control, weight (controls ascend)
+///   5; for each part of the expression: first control, number of controls, the rows
 [[nodiscard]] std::uint64_t generic_head_hash();
 
 [[nodiscard]] inline const Feature& feature(FeatureId id) {

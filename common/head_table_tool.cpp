@@ -150,6 +150,25 @@ void write_spread(std::ostream& out, const Value& vertices) {
   out << "constexpr std::array<SpreadWeight, " << count << "> kSpread{{\n" << weights.str() << "}};\n\n";
 }
 
+void write_expression(std::ostream& out, const Value& parts) {
+  for (int p = 0; p < length(parts); ++p) {
+    const Value& rows = parts.Get(p).Get("rows");
+    out << "constexpr std::array<std::int16_t, " << length(rows) * length(rows) << "> kRows" << p << "{{\n";
+    for (int r = 0; r < length(rows); ++r) {
+      for (int c = 0; c < length(rows); ++c) out << (c > 0 ? ", " : "    ") << number(rows.Get(r), c);
+      out << ",\n";
+    }
+    out << "}};\n\n";
+  }
+  out << "constexpr std::array<ExpressionPart, kExpressionPartCount> kExpression{{\n";
+  for (int p = 0; p < length(parts); ++p) {
+    const Value& part = parts.Get(p);
+    out << "    {\"" << part.Get("name").Get<std::string>() << "\", " << number(part, "first_control") << ", "
+        << number(part, "control_count") << ", kRows" << p << "},\n";
+  }
+  out << "}};\n\n";
+}
+
 bool write_table(std::ostream& out, const Model& model) {
   const auto positions = read_positions(model);
   const auto triangles = read_triangles(model);
@@ -164,8 +183,9 @@ bool write_table(std::ostream& out, const Model& model) {
   write_landmarks(out, vertices);
   write_features(out, extras.Get("features"));
   write_spread(out, vertices);
+  write_expression(out, extras.Get("expression"));
   out << "constexpr GenericHead kHead{kVertices, kTriangles,    kOutline, kFeatures,\n"
-         "                            kSpreadBegin, kSpread, kLandmarkVertex};\n\n"
+         "                            kSpreadBegin, kSpread, kLandmarkVertex, kExpression};\n\n"
          "}  // namespace\n\n"
          "const GenericHead& generic_head() { return kHead; }\n\n"
          "}  // namespace fbs\n";

@@ -152,6 +152,18 @@ void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int
   }
 }
 
+/// Adds light to samples [first, last] of a row.
+/// @param offset, gain  1/16 grey level in Q16 at `first`  @param offset_step, gain_step  per sample
+void add_light(std::uint8_t* out, int64_t offset, int64_t offset_step, int64_t gain, int64_t gain_step,
+               int64_t first, int64_t last) {
+  for (int64_t x = first; x <= last; ++x, offset += offset_step, gain += gain_step) {
+    // 2^-12 grey level
+    const auto by_gain = static_cast<int32_t>((out[x] - 128) * (gain >> 8) >> 6);
+    const int32_t sum = (out[x] << 12) + static_cast<int32_t>(offset >> 8) + by_gain;
+    out[x] = static_cast<std::uint8_t>(std::clamp((sum + (1 << 11)) >> 12, 0, 255));
+  }
+}
+
 /// Calls draw(from, to) for each run of samples of [first, last] that are nearer than what is there, and
 /// notes them.
 /// @param z  depth at `first`  @param dz  per sample
@@ -187,7 +199,7 @@ bool faces_viewer(const RasterTriangle& triangle) {
 }
 
 void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const PlanePair> planes,
-                   const SampleArea& area_to_draw, DepthPlane* depth, const Shade* shade) {
+                   const SampleArea& area_to_draw, DepthPlane* depth, const Finish& finish) {
   const int64_t area = twice_area(t);
   if (area <= 0) return;
   const int bits = static_cast<int>(scale);
@@ -201,8 +213,13 @@ void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const Pl
   const Gradient u(t, {t[0].texture.x, t[1].texture.x, t[2].texture.x}, bits, area, bits);
   const Gradient v(t, {t[0].texture.y, t[1].texture.y, t[2].texture.y}, bits, area, bits);
   const Gradient z(t, {t[0].depth, t[1].depth, t[2].depth}, 16, area, bits);
-  const std::array<int32_t, 3> corners = shade != nullptr ? shade->ramp : std::array<int32_t, 3>{};
-  const Gradient ramp(t, {corners[0], corners[1], corners[2]}, 0, area, bits);
+  const Shade* shade = finish.shade;
+  const auto over = [&](const std::array<int32_t, 3>& c) {
+    return Gradient(t, {c[0], c[1], c[2]}, 0, area, bits);
+  };
+  const Gradient ramp = over(shade != nullptr ? shade->ramp : std::array<int32_t, 3>{});
+  const Light light = finish.light != nullptr ? *finish.light : Light{};
+  const Gradient offset = over(light.offset), gain = over(light.gain);
   const bool fast = u.exact && v.exact && reads_inside(t, shape, bits);
   const std::array<Edge, 3> edges = {Edge(t[0].screen, t[1].screen), Edge(t[1].screen, t[2].screen),
                                      Edge(t[2].screen, t[0].screen)};
@@ -220,10 +237,14 @@ void draw_triangle(const RasterTriangle& t, PlaneScale scale, std::span<const Pl
     } else {
       int32_t* nearest = depth->depth.data() + static_cast<std::ptrdiff_t>(row) * depth->width;
       for_each_nearer(nearest, first, last, z.at(dx, dy, bits), z.dx, [&](int64_t from, int64_t to) {
+        const int64_t steps = from - first;
         for (const PlanePair& p : planes) {
-          walk.from(from - first).fill(*p.pattern, p.target->row(row), from, to);
+          walk.from(steps).fill(*p.pattern, p.target->row(row), from, to);
+          if (finish.light != nullptr && &p == &planes.front())
+            add_light(p.target->row(row), offset.at(dx, dy, bits) + steps * offset.dx, offset.dx,
+                      gain.at(dx, dy, bits) + steps * gain.dx, gain.dx, from, to);
           if (shade != nullptr)
-            mix(p, shade->amount, ramp.at(dx, dy, bits) + (from - first) * ramp.dx, ramp.dx, row, from, to);
+            mix(p, shade->amount, ramp.at(dx, dy, bits) + steps * ramp.dx, ramp.dx, row, from, to);
         }
       });
     }

@@ -52,14 +52,24 @@ struct Shade {
   std::int32_t amount = 0;           ///< 0..256
 };
 
+/// What is added to luma: in 1/16 grey level, linear over the triangle; gain is for luma 64 levels above 128.
+struct Light {
+  std::array<std::int32_t, 3> offset{}, gain{};  ///< at the corners
+};
+
+/// What happens to the samples of a triangle on their way from pattern to picture. Only with depth.
+struct Finish {
+  const Light* light = nullptr;  ///< on the first plane
+  const Shade* shade = nullptr;  ///< then mixed over all planes
+};
+
 /// Draws the triangle's part of each pattern plane into its target; all of the same size and scale. Samples
 /// in `area` whose centre is inside the triangle (top-left rule) are drawn. A triangle that is anticlockwise
 /// on the screen or has no area is not drawn.
 /// @param area   within the targets
 /// @param depth  of the targets' size: samples that are not nearer are left alone; null: all are drawn
-/// @param shade  mixed over what is drawn; null: nothing. Only with depth.
 void draw_triangle(const RasterTriangle& triangle, PlaneScale scale, std::span<const PlanePair> planes,
-                   const SampleArea& area, DepthPlane* depth, const Shade* shade = nullptr);
+                   const SampleArea& area, DepthPlane* depth, const Finish& finish = {});
 
 /// Whether the triangle faces the viewer (clockwise in the picture).
 [[nodiscard]] bool faces_viewer(const RasterTriangle& triangle);

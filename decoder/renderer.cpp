@@ -39,30 +39,31 @@ SampleArea area_of_head(const ScreenMesh& now, PlaneScale scale, const SampleAre
           std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
-/// The cells of the surround's grid, those that follow the head most last, over what stays.
-void draw_surround(const SurroundMap& map, const ScreenMesh& now, const ScreenMesh& seen,
+/// The cells of the surround's grid that have moved, over what stays.
+void draw_surround(const Surround& surround, const ScreenMesh& now, const ScreenMesh& seen,
                    std::span<const Layer> layers) {
-  const int stride = map.columns + 1;
   const auto corner = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     return RasterVertex{now.surround[i], seen.surround[i], 0};
   };
   const auto still = [](const RasterVertex& v) { return v.screen == v.texture; };
-  for (int follow = 1; follow <= 4 * kFollowOne; ++follow) {
-    for (int r = 0; r < map.rows; ++r) {
-      for (int c = 0; c < map.columns; ++c) {
-        const int k = r * stride + c;
-        const std::array<int, 4> at = {k, k + 1, k + stride + 1, k + stride};
-        int sum = 0;
-        for (const int i : at) sum += map.follow[static_cast<std::size_t>(i)];
-        if (sum != follow) continue;
-        const std::array<RasterVertex, 4> q = {corner(at[0]), corner(at[1]), corner(at[2]), corner(at[3])};
-        if (std::all_of(q.begin(), q.end(), still)) continue;  // the pattern already shows it
-        for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}})
-          for (const Layer& layer : layers) draw_triangle(t, layer.scale, layer.planes, layer.area, nullptr);
-      }
-    }
+  for (const Surround::Cell& cell : surround.cells()) {
+    const std::array<RasterVertex, 4> q = {corner(cell[0]), corner(cell[1]), corner(cell[2]),
+                                           corner(cell[3])};
+    if (std::all_of(q.begin(), q.end(), still)) continue;  // the pattern already shows it
+    for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}})
+      for (const Layer& layer : layers) draw_triangle(t, layer.scale, layer.planes, layer.area, nullptr);
   }
+}
+
+Light light_on(const std::array<std::int16_t, 3>& triangle, const std::vector<VertexLight>& light) {
+  Light out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexLight& l = light[static_cast<std::size_t>(triangle[i])];
+    out.offset[i] = l.offset;
+    out.gain[i] = l.gain;
+  }
+  return out;
 }
 
 void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer, DepthPlane& depth) {
@@ -75,8 +76,11 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
     const bool inside_mouth = std::all_of(triangle.begin(), triangle.end(), is_inner_lip);
     Shade shade{{}, shade_amount};
     if (inside_mouth) std::transform(triangle.begin(), triangle.end(), shade.ramp.begin(), mouth_ramp);
-    draw_triangle(corners(triangle, now, seen), layer.scale, layer.planes, area, &depth,
-                  inside_mouth && shade_amount > 0 ? &shade : nullptr);
+    const bool lit = layer.scale == PlaneScale::kLuma && !now.light.empty();
+    const Light light = lit ? light_on(triangle, now.light) : Light{};
+    draw_triangle(
+        corners(triangle, now, seen), layer.scale, layer.planes, area, &depth,
+        {.light = lit ? &light : nullptr, .shade = inside_mouth && shade_amount > 0 ? &shade : nullptr});
   }
 }
 

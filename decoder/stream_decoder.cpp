@@ -8,6 +8,7 @@
 #include "bitstream/pattern_payload.h"
 #include "bitstream/setup.h"
 #include "bitstream/surround_payload.h"
+#include "bitstream/track.h"
 
 namespace fbs {
 namespace {
@@ -125,7 +126,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   if (!patterns) return at(packet, patterns.error());
   patterns_.emplace(std::move(*patterns));
   scene_ = Scene{*setup, std::nullopt, {}};
-  motion_.emplace(*setup);
+  motion_.reset();
   geometry_.reset();
   surround_.reset();
   has_setup_ = true;
@@ -135,7 +136,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
 Result<void> StreamDecoder::begin_geometry(const State& seen) {
   if (!geometry_) return {};
   // Without a map of its own the surround stays where it is.
-  SurroundMap still{1, 1, {0, 0, 0, 0}};
+  SurroundMap still{1, 1, {0, 0, 0, 0}, {0, 0, 0, 0}};
   scene_.geometry.emplace(scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still),
                           seen);
   return {};
@@ -148,10 +149,13 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
     return fail(ErrorCode::kInvalidStream, "a pattern out of order", packet.offset);
   auto picture = patterns_->decode(pattern->av1);
   if (!picture) return at(packet, picture.error());
-  if (scene_.patterns.empty())
-    if (auto begun = begin_geometry(pattern->state); !begun) return begun;
+  const State seen = state_of(pattern->state, scene_.setup.steps);
+  if (scene_.patterns.empty()) {
+    if (auto begun = begin_geometry(seen); !begun) return begun;
+    motion_.emplace(scene_.setup, pattern->state);
+  }
   scene_.patterns.push_back(
-      {std::move(*picture), scene_.geometry ? scene_.geometry->project(pattern->state) : ScreenMesh{}});
+      {std::move(*picture), scene_.geometry ? scene_.geometry->project(seen) : ScreenMesh{}});
   return {};
 }
 
@@ -160,9 +164,10 @@ Result<void> StreamDecoder::take_motion(const Packet& packet) {
     return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
   auto group = motion_->decode(packet.payload);
   if (!group) return at(packet, group.error());
-  waiting_.assign(group->states.begin(), group->states.end());
+  const std::vector<State> states = states_of(*group, scene_.setup.steps);
+  waiting_.assign(states.begin(), states.end());
   if (group->durations.empty())
-    durations_.assign(group->states.size(), nominal_duration(scene_.setup.format.frame_rate));
+    durations_.assign(states.size(), nominal_duration(scene_.setup.format.frame_rate));
   else
     durations_.assign(group->durations.begin(), group->durations.end());
   return {};

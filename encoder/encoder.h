@@ -18,6 +18,7 @@ struct EncoderSettings {
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to see what they are worth
+  bool refine = true;          ///< fit the state to the picture; off only to see what it is worth
   int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
@@ -25,7 +26,7 @@ struct EncoderSettings {
 struct PictureAnalysis {
   bool face = false;
   double confidence = 0;                            ///< 0..1
-  std::array<glm::dvec2, kVertexCount> vertices{};  ///< as the decoder will have them
+  std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
   std::vector<std::vector<glm::dvec2>> snakes;      ///< each curve as points, as tracked
   std::vector<int> iterations;                      ///< of each snake
 };

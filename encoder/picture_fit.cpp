@@ -22,6 +22,8 @@ constexpr double kInnerLipNear = 0.003;  // better than textures do, and texture
 constexpr double kBrowNear = 0.02;
 constexpr double kLidNear = 0.004;
 constexpr double kElseNear = 0.02;
+constexpr double kLightNear = 4;  // grey levels: of the light in the picture before
+constexpr double kLightRest = 40;
 constexpr double kControlRest = 0.12;  // of control points about rest
 // Of lids, in shares of their travel.
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
@@ -64,16 +66,16 @@ double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
 
 PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern,
                        const State& seen)
-    : steps_(setup.steps), geometry_(geometry), column_(kControlCount, -1) {
+    : geometry_(geometry), column_(kControlCount, -1) {
   const GenericHead& head = generic_head();
-  for (std::size_t f = 0; f < kFeatureCount; ++f) {
-    if ((setup.features >> f & 1U) == 0) continue;
-    for (int c = 0; c < head.features[f].control_count; ++c) {
-      column_[static_cast<std::size_t>(head.features[f].first_control + c)] = unknowns_;
+  for (std::size_t p = 0; p < kExpressionPartCount; ++p) {
+    if ((setup.parts >> (kFirstExpressionPart + static_cast<int>(p)) & 1) == 0) continue;
+    for (int c = 0; c < head.expression[p].control_count; ++c) {
+      column_[static_cast<std::size_t>(head.expression[p].first_control + c)] = unknowns_;
       unknowns_ += 2;
     }
   }
-  const Fit rest{dequantise(seen, steps_), {}};
+  const Fit rest{pose_of(seen), {}, {}};
   const HeadVertices vertices = deformed(rest);
   const PoseProjection projection(rest.pose);
   const double spacing = kPointSpacing / pattern.scale;
@@ -90,7 +92,9 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
     }
     mouth_ramp_.push_back(ramp);
   }
-  gap_seen_ = mouth_gap(deform(geometry_.positions, seen, steps_));
+  gap_seen_ = mouth_gap(deform(geometry_.positions, seen));
+  for (const SurfacePoint& p : points_)
+    rest_.push_back(glm::dvec2(p.on(vertices)) / static_cast<double>(kUnitsPerEyeDistance));
   for (const SurfacePoint& p : points_) {
     std::array<double, kControlCount> sum{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -159,7 +163,7 @@ double PictureFit::lid_difference(const Lid& lid, const Fit& fit) const {
       weight = visible_area(corner(0), corner(1), corner(2)) /
                points_on_triangle_[static_cast<std::size_t>(triangle)];
     }
-    const double value = static_cast<double>(pattern_luma_[kLevel][k]);
+    const double value = shown(k, kLevel, 0, fit);
     Sample s;
     if (weight <= 0 || value < 0 ||
         !sample_with_slope(luma, on_level(picture_.to_work(projection(p.on(vertices))), kLevel), s))
@@ -205,12 +209,20 @@ Fit PictureFit::with_best_lids(const Fit& start) const {
   return closed(lids_[1], chosen[1], closed(lids_[0], chosen[0], start));
 }
 
-double PictureFit::shown(std::size_t point, int level, std::int32_t shade) const {
-  const double pattern = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][point]);
+std::array<double, kLightCount> PictureFit::light_at(std::size_t point, double pattern) const {
+  return {1, (pattern - 128) / 64, rest_[point].x, rest_[point].y};
+}
+
+double PictureFit::shown(std::size_t point, int level, std::int32_t shade, const Fit& fit) const {
+  double value = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][point]);
+  if (value < 0) return value;
+  const auto light = light_at(point, value);
+  for (std::size_t i = 0; i < kLightCount; ++i) value += fit.light[i] * light[i];
+  value = std::clamp(value, 0.0, 255.0);
   const double ramp = static_cast<double>(mouth_ramp_[point]);
-  if (ramp < 0 || pattern < 0 || shade == 0) return pattern;
+  if (ramp < 0 || shade == 0) return value;
   const double inside = mouth_.upper.y * (1 - ramp) + mouth_.lower.y * ramp;
-  return (pattern * (256 - shade) + inside * shade) / 256;
+  return (value * (256 - shade) + inside * shade) / 256;
 }
 
 void PictureFit::look_at(const WorkFrame& picture, const MouthInterior& mouth) {
@@ -244,6 +256,10 @@ void PictureFit::add_priors(const Fit& start, const Fit& fit, Normal& normal) co
   believe(3, fit.pose.shift.x - start.pose.shift.x, kPoseNear * eye);
   believe(4, fit.pose.shift.y - start.pose.shift.y, kPoseNear * eye);
   believe(5, fit.pose.log2_scale - start.pose.log2_scale, kPoseNear);
+  for (std::size_t i = 0; i < kLightCount; ++i) {
+    believe(kPoseCount + i, fit.light[i] - start.light[i], kLightNear);
+    believe(kPoseCount + i, fit.light[i], kLightRest);
+  }
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
     const double near = near_of(static_cast<int>(c));
@@ -278,7 +294,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
   const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
   std::vector<std::pair<std::size_t, double>> row;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double value = shown(k, level, shade);
+    const double value = shown(k, level, shade, fit);
     if (value < 0) continue;
     const glm::dvec3 p = points_[k].on(vertices);
     Sample s;
@@ -291,6 +307,8 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
     const auto by_pose = jacobian.at(p);
     for (std::size_t m = 0; m < 6; ++m)
       row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
+    const auto light = light_at(k, static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]));
+    for (std::size_t m = 0; m < kLightCount; ++m) row.emplace_back(kPoseCount + m, -light[m]);
     const double by_x = to_level * (s.dx * ex.x + s.dy * ex.y), by_y = to_level * (s.dx * ey.x + s.dy * ey.y);
     for (const Share& share : shares_[k]) {
       const auto column = static_cast<std::size_t>(column_[static_cast<std::size_t>(share.control)]);
@@ -314,6 +332,7 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   cv::completeSymm(left);
   if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return false;
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
+  for (int i = 0; i < kLightCount; ++i) fit.light[static_cast<std::size_t>(i)] += x(kPoseCount + i);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
     for (int axis = 0; axis < 2; ++axis)
@@ -322,47 +341,99 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   return true;
 }
 
+double PictureFit::difference(const Fit& fit) const {
+  const HeadVertices vertices = deformed(fit);
+  const PoseProjection projection(fit.pose);
+  std::array<glm::ivec3, kVertexCount> rounded;
+  for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
+  const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const double value = shown(k, 0, shade, fit);
+    Sample s;
+    if (value < 0 || !sample_with_slope(luma_[0], picture_.to_work(projection(points_[k].on(vertices))), s))
+      continue;
+    const double r = std::abs(value - static_cast<double>(s.value));
+    sum += r < kHuber ? r * r : kHuber * (2 * r - kHuber);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 Fit PictureFit::refine(const Fit& start) const {
   Fit fit = start;
   for (int level = kLevels - 1; level >= 0; --level)
     for (int i = 0; i < kSteps[level]; ++i)
       if (!step(level, start, fit)) return start;
-  return fit;
+  return difference(fit) < difference(start) ? fit : start;
 }
 
-double PictureFit::distortion(const State& state) const {
-  const HeadProjection projection(dequantise_pose(state, steps_));
-  const auto vertices = deform(geometry_.positions, state, steps_);
-  std::array<glm::dvec2, kVertexCount> at;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    const glm::ivec3 screen = projection(vertices[v]);
-    at[v] = picture_.to_work(glm::dvec2(screen.x, screen.y) / static_cast<double>(1 << kScreenOneLog2));
+FitForm PictureFit::form_at(const Fit& fit) const {
+  Normal normal(static_cast<std::size_t>(unknowns_));
+  add_picture(0, fit, normal);
+  cv::Mat1d all(unknowns_, unknowns_, normal.left.data());
+  cv::completeSymm(all);
+  // Of the fit's own numbers: pose, light, offsets.
+  constexpr int kOffsets = kFirstControlColumn;
+  cv::Mat1d own = cv::Mat1d::zeros(kOffsets + kCoefficientCount, kOffsets + kCoefficientCount);
+  std::vector<int> place(static_cast<std::size_t>(unknowns_));
+  for (int i = 0; i < kOffsets; ++i) place[static_cast<std::size_t>(i)] = i;
+  for (int c = 0; c < kControlCount; ++c)
+    for (int axis = 0; axis < 2; ++axis)
+      if (const int column = column_[static_cast<std::size_t>(c)]; column >= 0)
+        place[static_cast<std::size_t>(column + axis)] = kOffsets + 2 * c + axis;
+  for (int i = 0; i < unknowns_; ++i)
+    for (int j = 0; j < unknowns_; ++j)
+      own(place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)]) = all(i, j);
+
+  // In the units of the coded state.
+  const Pose one_unit =
+      pose_of(State{.pose = {1, 1, 1, 1, 1, 1}, .light = {}, .body = {}, .ground = {}, .control = {}});
+  const std::array<double, kOffsets> unit = {
+      one_unit.pitch,      one_unit.yaw, one_unit.roll, one_unit.shift.x, one_unit.shift.y,
+      one_unit.log2_scale, 1 / 16.0,     1 / 16.0,      1 / 16.0,         1 / 16.0};
+  for (int i = 0; i < kOffsets; ++i) {
+    own.row(i) *= unit[static_cast<std::size_t>(i)];
+    own.col(i) *= unit[static_cast<std::size_t>(i)];
   }
-  const std::int32_t shade = mouth_shade(mouth_gap(vertices), gap_seen_);
-  double sum = 0, weight = 0;
-  std::int16_t triangle = -1;
-  const cv::Mat& luma = luma_[0];
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const SurfacePoint& p = points_[k];
-    const auto corner = [&](std::size_t i) { return at[static_cast<std::size_t>(p.corner[i])]; };
-    if (p.triangle != triangle) {
-      triangle = p.triangle;
-      weight = visible_area(corner(0), corner(1), corner(2)) /
-               points_on_triangle_[static_cast<std::size_t>(triangle)];
-    }
-    const double value = shown(k, 0, shade);
-    if (weight <= 0 || value < 0) continue;
-    const glm::dvec2 x = static_cast<double>(p.barycentric[0]) * corner(0) +
-                         static_cast<double>(p.barycentric[1]) * corner(1) +
-                         static_cast<double>(p.barycentric[2]) * corner(2);
-    if (!(x.x >= 0 && x.y >= 0 && x.x < luma.cols - 1.001 && x.y < luma.rows - 1.001)) continue;
-    const int i = static_cast<int>(x.x), j = static_cast<int>(x.y);
-    const double fx = x.x - i, fy = x.y - j;
-    const std::uint8_t *r0 = luma.ptr<std::uint8_t>(j) + i, *r1 = luma.ptr<std::uint8_t>(j + 1) + i;
-    const double seen = (r0[0] * (1 - fx) + r0[1] * fx) * (1 - fy) + (r1[0] * (1 - fx) + r1[1] * fx) * fy;
-    sum += weight * (value - seen) * (value - seen);
-  }
-  return sum / (picture_.scale * picture_.scale);
+  const cv::Range ours(0, kOffsets), offsets(kOffsets, own.cols);
+  const cv::Mat1d across = rows_of_coefficients(cv::Mat1d(own(ours, offsets)));
+  const cv::Mat1d within = form_of_coefficients(cv::Mat1d(own(offsets, offsets)));
+
+  FitForm out = form_unseen(fit);
+  const cv::Range coefficients(kFirstCoefficient, kParameterCount);
+  own(ours, ours).copyTo(out.form(ours, ours));
+  across.copyTo(out.form(ours, coefficients));
+  cv::Mat(across.t()).copyTo(out.form(coefficients, ours));
+  within.copyTo(out.form(coefficients, coefficients));
+  // add_picture() weighs by the noise and counts points, each of which stands for so many samples.
+  const double samples = kPointSpacing * kPointSpacing / (picture_.scale * picture_.scale);
+  out.form *= samples * kNoise * kNoise;
+
+  return out;
+}
+
+FitForm PictureFit::form_unseen(const Fit& fit) {
+  FitForm out;
+  out.form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  const auto pose = numbers_of(fit.pose);
+  std::copy(pose.begin(), pose.end(), out.value.begin());
+  for (std::size_t i = 0; i < kLightCount; ++i) out.value[kPoseCount + i] = 16 * fit.light[i];
+  const auto expression = to_coefficients(fit.offsets);
+  std::copy(expression.begin(), expression.end(), out.value.begin() + kFirstCoefficient);
+  return out;
+}
+
+State state_of(const Fit& fit) {
+  State state;
+  const auto whole = [](double v) { return static_cast<std::int32_t>(std::lround(v)); };
+  const auto pose = numbers_of(fit.pose);
+  std::transform(pose.begin(), pose.end(), state.pose.begin(), whole);
+  for (std::size_t i = 0; i < kLightCount; ++i) state.light[i] = whole(16 * fit.light[i]);
+  for (std::size_t c = 0; c < kControlCount; ++c)
+    state.control[c] = {whole(fit.offsets[c].x), whole(fit.offsets[c].y)};
+  return state;
 }
 
 }  // namespace fbs

@@ -5,15 +5,28 @@
 #include <vector>
 
 #include "decoder/projection.h"
+#include "encoder/expression_basis.h"
 #include "encoder/image_alignment.h"
 #include "encoder/work_frame.h"
 
 namespace fbs {
 
-/// A pose and offsets of all control points (head units).
+/// Pose, light (grey levels, else as State::light) and offsets of all control points (head units).
 struct Fit {
   Pose pose;
-  std::array<glm::dvec2, kControlCount> offsets{};
+  std::array<double, kLightCount> light{};
+  Offsets offsets{};
+};
+
+/// The state nearest to a fit; body and ground stay where pattern 0 saw them.
+[[nodiscard]] State state_of(const Fit& fit);
+
+/// What a picture says of its state: the squared luma difference over the face, in samples of the full
+/// picture, rises from the fit's by (x - fit)^T form (x - fit), x the numbers of the coded state in the units
+/// of State and in head units. Rows and columns of body and ground are zero.
+struct FitForm {
+  std::array<double, kParameterCount> value{};
+  cv::Mat1d form;  ///< kParameterCount x kParameterCount
 };
 
 /// Compares the pattern, smeared on the moved mesh, with a picture. Works at the work frame's size, whatever
@@ -22,7 +35,7 @@ class PictureFit {
  public:
   /// @param pattern  work frame of the decoded pattern, cut like those of the later pictures
   /// @param seen     state of the pattern
-  /// The control points of setup.features may move.
+  /// The control points of setup.parts may move.
   PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern, const State& seen);
 
   /// The picture that the next calls are about; its luma is shared.
@@ -38,14 +51,18 @@ class PictureFit {
   /// fine, held near `start` where the picture says nothing and near rest everywhere.
   [[nodiscard]] Fit refine(const Fit& start) const;
 
-  /// Sum of squared luma differences over the face that the decoder would show in this state, estimated from
-  /// the points; in samples of the full picture.
-  [[nodiscard]] double distortion(const State& state) const;
+  /// How the picture changes round a fit.
+  [[nodiscard]] FitForm form_at(const Fit& fit) const;
 
-  [[nodiscard]] const QuantiserSteps& steps() const { return steps_; }
+  /// Of a fit that no picture speaks for.
+  [[nodiscard]] static FitForm form_unseen(const Fit& fit);
+
+  /// The head's vertices in the head frame, head units.
+  [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
 
  private:
   static constexpr int kLevels = 2;
+  static constexpr int kFirstControlColumn = kPoseCount + kLightCount;
   /// One control point's share in a surface point.
   struct Share {
     std::int16_t control;
@@ -75,18 +92,21 @@ class PictureFit {
   void add_picture(int level, const Fit& fit, Normal& normal) const;
   /// One Gauss-Newton step on one level; false when it cannot be solved.
   bool step(int level, const Fit& start, Fit& fit) const;
-  [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
   /// What the decoder shows at a point: the pattern, or the mouth's inside by as much as the lips have
   /// parted.
-  [[nodiscard]] double shown(std::size_t point, int level, std::int32_t shade) const;
+  [[nodiscard]] double shown(std::size_t point, int level, std::int32_t shade, const Fit& fit) const;
+  /// What one unit of each light adds at a point.
+  [[nodiscard]] std::array<double, kLightCount> light_at(std::size_t point, double pattern) const;
+  /// Robust mean of squared differences on the fine level.
+  [[nodiscard]] double difference(const Fit& fit) const;
 
-  QuantiserSteps steps_;
   Geometry geometry_;
   std::vector<SurfacePoint> points_;
   std::vector<std::vector<Share>> shares_;                ///< of each point, active control points only
   std::array<std::vector<float>, kLevels> pattern_luma_;  ///< at each point; negative outside
   std::vector<int> column_;  ///< of a control point's x in the normal equations, or -1
-  int unknowns_ = 6;
+  int unknowns_ = kFirstControlColumn;
+  std::vector<glm::dvec2> rest_;  ///< of each point: head frame, eye distances
   std::vector<int> points_on_triangle_;
   std::vector<float> mouth_ramp_;  ///< of each point, 0 upper to 1 lower lip; negative: not inside
   std::array<Lid, 2> lids_;

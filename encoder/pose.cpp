@@ -8,10 +8,6 @@ namespace {
 
 constexpr double kAngleUnit = 2 * std::numbers::pi / 65536;
 
-std::int32_t to_steps(double value, double unit, std::int32_t step) {
-  return static_cast<std::int32_t>(std::lround(value / (unit * step)));
-}
-
 }  // namespace
 
 double Pose::eye_distance_px() const {
@@ -34,24 +30,18 @@ glm::dvec2 PoseProjection::operator()(glm::dvec3 p) const {
   return glm::dvec2(matrix * p) + shift;
 }
 
-std::array<std::int32_t, kPoseCount> quantise(const Pose& pose, const QuantiserSteps& steps) {
-  std::array<std::int32_t, kPoseCount> q{};
-  q[kPitch] = to_steps(pose.pitch, kAngleUnit, steps.rotation);
-  q[kYaw] = to_steps(pose.yaw, kAngleUnit, steps.rotation);
-  q[kRoll] = to_steps(pose.roll, kAngleUnit, steps.rotation);
-  q[kShiftX] = to_steps(pose.shift.x, 1.0 / 64, steps.translation);
-  q[kShiftY] = to_steps(pose.shift.y, 1.0 / 64, steps.translation);
-  q[kLogScale] = to_steps(pose.log2_scale, 1.0 / 4096, steps.log_scale);
-  return q;
+std::array<double, kPoseCount> numbers_of(const Pose& pose) {
+  return {pose.pitch / kAngleUnit, pose.yaw / kAngleUnit, pose.roll / kAngleUnit,
+          pose.shift.x * 64,       pose.shift.y * 64,     pose.log2_scale * 4096};
 }
 
-Pose dequantise(const State& state, const QuantiserSteps& steps) {
-  const HeadPose p = dequantise_pose(state, steps);
-  return {p.pitch * kAngleUnit,
-          p.yaw * kAngleUnit,
-          p.roll * kAngleUnit,
-          {p.shift_x / 64.0, p.shift_y / 64.0},
-          p.log_scale / 4096.0};
+Pose pose_of(const State& state) {
+  const auto& p = state.pose;
+  return {p[kPitch] * kAngleUnit,
+          p[kYaw] * kAngleUnit,
+          p[kRoll] * kAngleUnit,
+          {p[kShiftX] / 64.0, p[kShiftY] / 64.0},
+          p[kLogScale] / 4096.0};
 }
 
 }  // namespace fbs

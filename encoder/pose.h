@@ -31,8 +31,8 @@ struct PoseProjection {
   [[nodiscard]] glm::dvec2 operator()(glm::dvec3 p) const;
 };
 
-/// The six numbers of the pose in the stream's steps, rounded to nearest.
-[[nodiscard]] std::array<std::int32_t, kPoseCount> quantise(const Pose& pose, const QuantiserSteps& steps);
-[[nodiscard]] Pose dequantise(const State& state, const QuantiserSteps& steps);
+/// The six numbers of the pose in the units of State::pose.
+[[nodiscard]] std::array<double, kPoseCount> numbers_of(const Pose& pose);
+[[nodiscard]] Pose pose_of(const State& state);
 
 }  // namespace fbs

@@ -8,6 +8,7 @@
 #include "bitstream/pattern_payload.h"
 #include "bitstream/setup.h"
 #include "bitstream/surround_payload.h"
+#include "bitstream/track.h"
 #include "decoder/pattern_decoder.h"
 #include "encoder/pattern_encoder.h"
 #include "encoder/surround_fit.h"
@@ -40,16 +41,34 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
   return adapt_head(marks);
 }
 
-FeatureMask mask_of(bool snakes) {
-  FeatureMask mask = 0;
-  if (snakes)
-    for (const FeatureId id : kSnakeFeatures)
-      mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
+PartMask parts_of(const EncoderSettings& settings) {
+  PartMask parts =
+      mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kBody) | mask_of(PartId::kGround);
   // Pupils have no curve; the fit to the picture finds them.
-  if (snakes)
-    for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
-      mask = static_cast<FeatureMask>(mask | (1U << static_cast<unsigned>(id)));
-  return mask;
+  if (settings.snakes)
+    for (const PartId part : {PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze})
+      parts = static_cast<PartMask>(parts | mask_of(part));
+  return parts;
+}
+
+/// The pose in whole steps, all else at rest.
+CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
+  CodedState coded{};
+  const auto numbers = numbers_of(pose);
+  for (std::size_t i = 0; i < kPoseCount; ++i)
+    coded[i] = static_cast<std::int32_t>(std::lround(numbers[i] / step_of(steps, i)));
+  return coded;
+}
+
+/// What a viewer sees of lips and lids that are not where they should be, beyond what squared differences
+/// say: in bits that would be well spent to have them right.
+cv::Mat1d wrong_expression() {
+  constexpr double kTolerance = 0.03 * kUnitsPerEyeDistance;
+  const cv::Mat1d even = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kTolerance * kTolerance);
+  cv::Mat1d form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  const cv::Range coefficients(kFirstCoefficient, kParameterCount);
+  form_of_coefficients(even).copyTo(form(coefficients, coefficients));
+  return form;
 }
 
 double pictures_per_second(const VideoFormat& f) {
@@ -76,30 +95,31 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.eye_distance_px_ = adapted->pose.eye_distance_px();
   const OperatingPoint point = OperatingPoint::at(settings.quality, scene.eye_distance_px_);
   scene.scene_.setup.steps = point.steps;
-  scene.scene_.setup.features = mask_of(settings.snakes);
+  scene.scene_.setup.parts = parts_of(settings);
 
   const WorkFrame frame = WorkFrame::cut(first, adapted->pose.shift, scene.eye_distance_px_, true);
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return tl::unexpected<Error>(geometry.error());
   scene.geometry_bytes_ = std::move(geometry->payload);
-  scene.seen_.pose = quantise(adapted->pose, point.steps);
+  scene.seen_coded_ = coded_pose(adapted->pose, point.steps);
+  scene.seen_ = state_of(scene.seen_coded_, point.steps);
   // Until pictures have shown better, the surround is a guess by distance from the face.
   scene.scene_.geometry.emplace(
       scene.scene_.setup, geometry->decoded,
       fit_surround(scene.scene_.setup, geometry->decoded, {&first, scene.seen_}, {}), scene.seen_);
-  const Pose seen_pose = dequantise(scene.seen_, point.steps);
+  const Pose seen_pose = pose_of(scene.seen_);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
-  scene.lambda_ = point.lambda;
-  scene.state_ = scene.seen_;
+  scene.now_.pose = seen_pose;
+  scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda);
+  scene.expression_form_ = wrong_expression() * point.lambda;
   scene.first_ = first;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
     return tl::unexpected<Error>(added.error());
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
   scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
-  scene.coder_.emplace(scene.scene_.setup);
-  scene.counter_.emplace(*scene.coder_, true);
+  scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
 }
 
@@ -108,9 +128,10 @@ Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format,
   SceneEncoder scene(format, settings);
   const OperatingPoint point = OperatingPoint::at(settings.quality, 64);
   scene.scene_.setup.steps = point.steps;
+  scene.scene_.setup.parts = mask_of(PartId::kPose);
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
     return tl::unexpected<Error>(added.error());
-  scene.coder_.emplace(scene.scene_.setup);
+  scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
 }
 
@@ -124,7 +145,7 @@ Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   if (!decoder) return tl::unexpected<Error>(decoder.error());
   auto decoded = decoder->decode(*av1);
   if (!decoded) return tl::unexpected<Error>(decoded.error());
-  auto payload = encode_pattern({0, seen_, std::move(*av1)}, scene_.setup);
+  auto payload = encode_pattern({0, seen_coded_, std::move(*av1)}, scene_.setup);
   if (!payload) return tl::unexpected<Error>(payload.error());
   pattern_bytes_ = std::move(*payload);
   scene_.patterns.push_back(
@@ -134,7 +155,7 @@ Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
 
 std::optional<TrackedPose> SceneEncoder::follow_head(const Picture& picture, const HeadVertices& vertices,
                                                      WorkFrame& frame) {
-  const Pose last_good = dequantise(state_, scene_.setup.steps);
+  const Pose last_good = now_.pose;
   // The flow of pictures that do not show the head says nothing: once lost, it is searched for.
   if (!search_->lost()) {
     const TrackedPose tracked = head_->track(frame, vertices);
@@ -155,54 +176,37 @@ std::optional<TrackedPose> SceneEncoder::follow_head(const Picture& picture, con
   return std::nullopt;
 }
 
-State SceneEncoder::relaxed() {
+Fit SceneEncoder::relaxed() {
   constexpr double kRemains = 0.85;  // of the expression, per picture
-  State state = state_;
-  std::array<glm::dvec2, kControlCount> offsets;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    glm::ivec2& c = state.control[i];
-    c = {static_cast<int>(std::lround(c.x * kRemains)), static_cast<int>(std::lround(c.y * kRemains))};
-    offsets[i] = glm::dvec2(c * scene_.setup.steps.control);
-  }
-  features_->set_offsets(offsets);
-  return state;
+  Fit fit = now_;
+  for (glm::dvec2& o : fit.offsets) o *= kRemains;
+  features_->set_offsets(fit.offsets);
+  return fit;
 }
 
-State SceneEncoder::analyse(const Picture& picture) {
-  const QuantiserSteps& steps = scene_.setup.steps;
-  const auto deformed = deform(scene_.geometry->geometry().positions, state_, steps);
-  std::array<glm::dvec3, kVertexCount> vertices;
-  for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(deformed[v]);
-
+Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
+  const HeadVertices vertices = fit_->deformed(now_);
   WorkFrame frame = WorkFrame::cut(picture, head_->pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> seen = follow_head(picture, vertices, frame);
-  if (!seen) return relaxed();
-  const TrackedPose& tracked = *seen;
-  Fit tracked_fit{tracked.pose, {}};
+  if (!seen) {
+    const Fit fit = relaxed();
+    form = fit_->form_unseen(fit);
+    return fit;
+  }
+  Fit tracked{seen->pose, now_.light, now_.offsets};
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());
-    tracked_fit.offsets = features_->offsets();
+    tracked.offsets = features_->offsets();
     for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft}) {
       const auto c = static_cast<std::size_t>(feature(id).first_control);
-      tracked_fit.offsets[c] = glm::dvec2(state_.control[c] * steps.control);
+      tracked.offsets[c] = now_.offsets[c];
     }
   }
   fit_->look_at(frame, started_ ? scene_.setup.mouth : mouth_colours_.colours());
-  tracked_fit = fit_->with_best_lids(tracked_fit);
-  const Fit refined = fit_->refine(tracked_fit);
-  const std::array<State, 3> candidates = {state_, quantised(tracked_fit.pose, tracked_fit.offsets),
-                                           quantised(refined.pose, refined.offsets)};
-  return choose_state(candidates, *fit_, *counter_, lambda_);
-}
-
-State SceneEncoder::quantised(const Pose& pose, const std::array<glm::dvec2, kControlCount>& offsets) const {
-  const QuantiserSteps& steps = scene_.setup.steps;
-  State state;
-  state.pose = quantise(pose, steps);
-  for (std::size_t i = 0; i < kControlCount; ++i)
-    state.control[i] = {static_cast<int>(std::lround(offsets[i].x / steps.control)),
-                        static_cast<int>(std::lround(offsets[i].y / steps.control))};
-  return state;
+  tracked = fit_->with_best_lids(tracked);
+  const Fit fit = settings_.refine ? fit_->refine(tracked) : tracked;
+  form = fit_->form_at(fit);
+  return fit;
 }
 
 void SceneEncoder::report(const State& state) {
@@ -223,42 +227,54 @@ void SceneEncoder::report(const State& state) {
 
 Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) {
   if (scene_.geometry) {
-    if (pictures_ > 0)
-      state_ = analyse(picture);
-    else
+    FitForm form;
+    if (pictures_ > 0) {
+      now_ = analyse(picture, form);
+    } else {
+      fit_->look_at(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), scene_.setup.mouth);
+      form = fit_->form_at(now_);
       analysis_.confidence = 1;
-    report(state_);
-    counter_->push(state_);
+    }
+    form.form += expression_form_;
+    fits_.push_back(std::move(form));
+    const State state = state_of(now_);
+    report(state);
     if (!started_) {
-      mouth_colours_.add(picture, scene_.geometry->project_vertices(state_),
+      mouth_colours_.add(picture, scene_.geometry->project_vertices(state),
                          mouth_height(scene_.geometry->project_vertices(seen_)), eye_distance_px_);
     }
     const auto every =
         static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
-    if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state_);
+    if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state);
   }
-  group_.states.push_back(state_);
-  group_.durations.push_back(duration);
+  durations_.push_back(duration);
   ++pictures_;
-  if (static_cast<int>(group_.states.size()) == group_pictures_)
+  // The first picture is a group of its own: a viewer need not wait for more.
+  if (pictures_ == 1 || static_cast<int>(durations_.size()) == group_pictures_)
     if (auto ended = end_group(); !ended) return ended;
   if (!started_ && pictures_ >= static_cast<std::uint64_t>(lookahead_)) return start();
   return {};
 }
 
 Result<void> SceneEncoder::end_group() {
-  if (group_.states.empty()) return {};
-  group_.key = coder_->needs_key();
-  const bool constant =
-      std::all_of(group_.durations.begin(), group_.durations.end(), [](std::uint32_t d) { return d == 0; });
-  if (constant) group_.durations.clear();
-  for (std::uint32_t& d : group_.durations)
+  if (durations_.empty()) return {};
+  const bool key = coder_->needs_key();
+  const CodedState& anchor = coder_->anchor(key);
+  MotionGroup group =
+      scene_.geometry ? planner_->plan(anchor, fits_, rate_)
+                      : knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
+  group.key = key;
+  group.durations = durations_;
+  if (std::all_of(durations_.begin(), durations_.end(), [](std::uint32_t d) { return d == 0; }))
+    group.durations.clear();
+  for (std::uint32_t& d : group.durations)
     if (d == 0) d = nominal_duration(scene_.setup.format.frame_rate);
-  auto payload = coder_->encode(group_);
+  auto payload = coder_->encode(group);
   if (!payload) return tl::unexpected<Error>(payload.error());
+  rate_.learn(group);
   write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, *payload);
-  group_ = {};
-  if (scene_.geometry) counter_.emplace(*coder_);
+  fits_.clear();
+  durations_.clear();
   return {};
 }
 

@@ -15,7 +15,7 @@
 #include "encoder/head_tracker.h"
 #include "encoder/mouth_colours.h"
 #include "encoder/operating_point.h"
-#include "encoder/state_choice.h"
+#include "encoder/track_plan.h"
 
 namespace fbs {
 
@@ -43,15 +43,15 @@ class SceneEncoder {
 
  private:
   SceneEncoder(const VideoFormat& format, const EncoderSettings& settings);
-  [[nodiscard]] State quantised(const Pose& pose, const std::array<glm::dvec2, kControlCount>& offsets) const;
   Result<void> add_pattern(const Picture& picture, int quantiser);
   /// Where the head is, tracked or found again; nothing while it is lost.
   /// @param frame  cut where the head was; cut anew where it is found elsewhere
   [[nodiscard]] std::optional<TrackedPose> follow_head(const Picture& picture, const HeadVertices& vertices,
                                                        WorkFrame& frame);
-  /// The state of a lost picture: held, and the expression a little weaker. Never a wild face.
-  State relaxed();
-  State analyse(const Picture& picture);
+  /// Of a lost picture: held, and the expression a little weaker. Never a wild face.
+  [[nodiscard]] Fit relaxed();
+  /// What the next picture shows, and in `form` how surely.
+  [[nodiscard]] Fit analyse(const Picture& picture, FitForm& form);
   void report(const State& state);
   Result<void> start();
   Result<void> end_group();
@@ -60,19 +60,22 @@ class SceneEncoder {
   int group_pictures_ = 30;
   int lookahead_ = 60;
 
-  Scene scene_;  ///< as the decoder has it; until start() the surround's map is a guess
-  State seen_;   ///< of pattern 0
+  Scene scene_;              ///< as the decoder has it; until start() the surround's map is a guess
+  CodedState seen_coded_{};  ///< of pattern 0
+  State seen_;
   double eye_distance_px_ = 0;
   std::optional<HeadTracker> head_;
   std::optional<FaceSearch> search_;
   std::optional<FeatureTracker> features_;
   std::optional<PictureFit> fit_;
-  double lambda_ = 0;
-  State state_;
+  Fit now_;                    ///< of the last picture
+  cv::Mat1d expression_form_;  ///< what a viewer sees of lips and lids that are not where they should be
 
   std::optional<MotionCoder> coder_;
-  std::optional<MotionCounter> counter_;
-  MotionGroup group_;
+  std::optional<TrackPlanner> planner_;
+  TrackRate rate_;
+  std::vector<FitForm> fits_;  ///< of the group's pictures
+  std::vector<std::uint32_t> durations_;
   std::uint64_t pictures_ = 0;
 
   MouthColours mouth_colours_;

@@ -52,14 +52,23 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
   map.rows = std::max(2, static_cast<int>(std::lround(h / cell)));
   const int stride = map.columns + 1;
   const auto points = static_cast<std::size_t>(stride) * static_cast<std::size_t>(map.rows + 1);
-  map.follow.assign(points, kFollowOne);
+  map.head.assign(points, kFollowOne);
+  map.body.assign(points, 0);
 
   // Where each point goes when it follows wholly.
   const SceneGeometry whole(setup, geometry, map, first.state);
-  const std::vector<glm::ivec2> regular = whole.project(first.state).surround;
+  const auto inner = [&](const State& state) {
+    const std::vector<glm::ivec2> all = whole.project(state).surround;
+    std::vector<glm::ivec2> out;
+    for (int r = 0; r <= map.rows; ++r)
+      for (int c = 0; c <= map.columns; ++c)
+        out.push_back(all[static_cast<std::size_t>((r + 1) * (map.columns + 3) + c + 1)]);
+    return out;
+  };
+  const std::vector<glm::ivec2> regular = inner(first.state);
   std::vector<Costs> data(points, Costs{});
   for (const SeenPicture& seen : later) {
-    const std::vector<glm::ivec2> moved = whole.project(seen.state).surround;
+    const std::vector<glm::ivec2> moved = inner(seen.state);
     for (std::size_t k = 0; k < points; ++k) {
       const glm::dvec2 p = glm::dvec2(regular[k]) / 64.0, d = glm::dvec2(moved[k] - regular[k]) / 64.0;
       for (int v = 0; v < kSamplesAcross; ++v) {
@@ -80,12 +89,12 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
     }
   }
 
-  const Pose seen_pose = dequantise(first.state, setup.steps);
+  const Pose seen_pose = pose_of(first.state);
   for (std::size_t k = 0; k < points; ++k) {
     const double g = guess(seen_pose, glm::dvec2(regular[k]) / 64.0);
     for (int level = 0; level < kLevels; ++level)
       data[k][static_cast<std::size_t>(level)] += kPrior * std::abs(level - g);
-    map.follow[k] =
+    map.head[k] =
         static_cast<std::uint8_t>(std::min_element(data[k].begin(), data[k].end()) - data[k].begin());
   }
   const auto border = [&](int r, int c) { return r == 0 || c == 0 || r == map.rows || c == map.columns; };
@@ -94,17 +103,17 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry, const See
       for (int c = 0; c <= map.columns; ++c) {
         const auto k = static_cast<std::size_t>(r * stride + c);
         if (border(r, c)) {  // the picture's border stays: SPEC 10.1
-          map.follow[k] = 0;
+          map.head[k] = 0;
           continue;
         }
         Costs cost = data[k];
         for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
           if (border(r + dr, c + dc)) continue;
-          const int neighbour = map.follow[static_cast<std::size_t>((r + dr) * stride + c + dc)];
+          const int neighbour = map.head[static_cast<std::size_t>((r + dr) * stride + c + dc)];
           for (int level = 0; level < kLevels; ++level)
             cost[static_cast<std::size_t>(level)] += kSmooth * std::abs(level - neighbour);
         }
-        map.follow[k] = static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+        map.head[k] = static_cast<std::uint8_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
       }
     }
   }

@@ -1,0 +1,92 @@
+#include "bitstream/coded_state.h"
+
+#include <algorithm>
+
+namespace fbs {
+namespace {
+
+/// Coefficients reach farther than the control points that they move, which are clamped.
+constexpr std::int32_t kMaxCoefficient = 8 * kMaxControl;
+
+std::int32_t limit_of(std::size_t i) {
+  switch (static_cast<PartId>(kPartOf[i])) {
+    case PartId::kPose:
+      return i <= kRoll ? kMaxRotation : i <= kShiftY ? kMaxTranslation : kMaxLogScale;
+    case PartId::kLight:
+      return kMaxLight;
+    case PartId::kBody:
+    case PartId::kGround:
+      return kMaxTranslation;
+    default:
+      return kMaxCoefficient;
+  }
+}
+
+}  // namespace
+
+std::int32_t step_of(const QuantiserSteps& steps, std::size_t i) {
+  switch (static_cast<PartId>(kPartOf[i])) {
+    case PartId::kPose:
+      return i <= kRoll ? steps.rotation : i <= kShiftY ? steps.translation : steps.log_scale;
+    case PartId::kLight:
+      return steps.light;
+    case PartId::kBody:
+    case PartId::kGround:
+      return steps.translation;
+    default:
+      return steps.control;
+  }
+}
+
+State state_of_values(const CodedState& values) {
+  State state;
+  auto from = values.begin();
+  const auto take = [&from](auto& numbers) {
+    std::copy_n(from, numbers.size(), numbers.begin());
+    from += static_cast<std::ptrdiff_t>(numbers.size());
+  };
+  take(state.pose);
+  take(state.light);
+  take(state.body);
+  take(state.ground);
+  for (const ExpressionPart& part : generic_head().expression) {
+    const auto n = static_cast<std::size_t>(2 * part.control_count);
+    std::array<std::int64_t, kMaxPartSize> sum{};
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int64_t coefficient = from[static_cast<std::ptrdiff_t>(k)];
+      if (coefficient == 0) continue;
+      for (std::size_t c = 0; c < n; ++c) sum[c] += coefficient * part.rows[k * n + c];
+    }
+    const auto rounded = [&](std::size_t c) {
+      const std::int64_t nearest = (sum[c] + kSpreadOne / 2) >> 12;
+      return static_cast<std::int32_t>(std::clamp<std::int64_t>(nearest, -kMaxControl, kMaxControl));
+    };
+    static_assert(kSpreadOne == 1 << 12);
+    for (std::size_t c = 0; c < n; c += 2)
+      state.control[static_cast<std::size_t>(part.first_control) + c / 2] = {rounded(c), rounded(c + 1)};
+    from += static_cast<std::ptrdiff_t>(n);
+  }
+  return state;
+}
+
+State state_of(const CodedState& coded, const QuantiserSteps& steps) {
+  CodedState values;
+  for (std::size_t i = 0; i < kParameterCount; ++i) values[i] = coded[i] * step_of(steps, i);
+  return state_of_values(values);
+}
+
+CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent) : parts(sent) {
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    if ((parts >> kPartOf[i] & 1) == 0) continue;
+    most[i] = limit_of(i) / step_of(steps, i);
+    least[i] = i == kLogScale ? 0 : -most[i];
+  }
+}
+
+bool CodedLimits::hold(const CodedState& state) const {
+  for (std::size_t i = 0; i < kParameterCount; ++i)
+    if (state[i] < least[i] || state[i] > most[i]) return false;
+  return true;
+}
+
+}  // namespace fbs

@@ -1,0 +1,61 @@
+#include "bitstream/track.h"
+
+#include <algorithm>
+
+namespace fbs {
+
+std::int32_t between(std::int64_t from, std::int64_t to, std::int64_t way, std::int64_t length) {
+  const std::int64_t twice = 2 * (to - from) * way + length;
+  const std::int64_t quotient = twice / (2 * length);
+  const bool below = twice % (2 * length) < 0;
+  return static_cast<std::int32_t>(from + quotient - (below ? 1 : 0));
+}
+
+std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps) {
+  std::vector<CodedState> values(static_cast<std::size_t>(group.pictures), CodedState{});
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    const auto first = static_cast<std::size_t>(kPartFirst[part]);
+    Knot last{.picture = -1, .value = {}};
+    std::copy_n(group.anchor.begin() + kPartFirst[part], kPartSizes[part], last.value.begin());
+    for (const Knot& knot : group.tracks[part]) {
+      const std::int32_t length = knot.picture - last.picture;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(kPartSizes[part]); ++i) {
+        const std::int64_t step = step_of(steps, first + i);
+        for (std::int32_t way = 1; way <= length; ++way)
+          values[static_cast<std::size_t>(last.picture + way)][first + i] =
+              between(last.value[i] * step, knot.value[i] * step, way, length);
+      }
+      last = knot;
+    }
+  }
+  std::vector<State> states;
+  states.reserve(values.size());
+  std::transform(values.begin(), values.end(), std::back_inserter(states), state_of_values);
+  return states;
+}
+
+CodedState last_of(const MotionGroup& group) {
+  CodedState last{};
+  for (std::size_t part = 0; part < kPartCount; ++part)
+    if (!group.tracks[part].empty())
+      std::copy_n(group.tracks[part].back().value.begin(), kPartSizes[part], last.begin() + kPartFirst[part]);
+  return last;
+}
+
+MotionGroup knots_everywhere(const CodedState& anchor, const std::vector<CodedState>& states,
+                             PartMask parts) {
+  MotionGroup group;
+  group.anchor = anchor;
+  group.pictures = static_cast<std::int32_t>(states.size());
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    if ((parts >> part & 1) == 0) continue;
+    for (std::size_t t = 0; t < states.size(); ++t) {
+      Knot knot{.picture = static_cast<std::int32_t>(t), .value = {}};
+      std::copy_n(states[t].begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());
+      group.tracks[part].push_back(knot);
+    }
+  }
+  return group;
+}
+
+}  // namespace fbs

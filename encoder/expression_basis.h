@@ -1,0 +1,28 @@
+// Between control points and the coefficients that the stream codes (GenericHead::expression).
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <opencv2/core.hpp>
+
+#include "bitstream/coded_state.h"
+
+namespace fbs {
+
+inline constexpr int kCoefficientCount = 2 * kControlCount;
+
+/// Offsets of all control points, head units, as one row: x0, y0, x1, y1 ...
+using Offsets = std::array<glm::dvec2, kControlCount>;
+
+/// The coefficients, head units, that move the control points by `offsets`.
+[[nodiscard]] std::array<double, kCoefficientCount> to_coefficients(const Offsets& offsets);
+
+/// A quadratic form over the offsets as one over the coefficients.
+/// @param form  kCoefficientCount x kCoefficientCount, symmetric
+[[nodiscard]] cv::Mat1d form_of_coefficients(const cv::Mat1d& form);
+
+/// Rows of a matrix over the offsets, one for each other number, over the coefficients.
+/// @param rows  n x kCoefficientCount
+[[nodiscard]] cv::Mat1d rows_of_coefficients(const cv::Mat1d& rows);
+
+}  // namespace fbs
