@@ -116,6 +116,15 @@ MotionCoder::MotionCoder(const Setup& setup, const CodedState& seen)
   assert(check_setup(setup));
 }
 
+void MotionCoder::count(TrackMemory memory, MotionGroup group) {
+  BitCounter counter;
+  std::uint64_t so_far = 0;
+  code_body(counter, limits_, memory, group, !group.durations.empty(), [&](std::size_t part) {
+    costs_[part] += counter.bits_x256() - so_far;
+    so_far = counter.bits_x256();
+  });
+}
+
 Result<std::vector<std::uint8_t>> MotionCoder::encode(const MotionGroup& group) {
   if (auto checked = check_group(group, limits_); !checked) return tl::unexpected(checked.error());
   if (needs_key_ && !group.key)
@@ -126,15 +135,7 @@ Result<std::vector<std::uint8_t>> MotionCoder::encode(const MotionGroup& group) 
 
   MotionGroup body = group;
   const bool has_durations = !group.durations.empty();
-  {
-    BitCounter counter;
-    TrackMemory trial = memory_;
-    std::uint64_t so_far = 0;
-    code_body(counter, limits_, trial, body, has_durations, [&](std::size_t part) {
-      costs_[part] += counter.bits_x256() - so_far;
-      so_far = counter.bits_x256();
-    });
-  }
+  count(memory_, group);
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
   writer.varint(static_cast<std::uint64_t>(group.pictures - 1) << kCountShift |
@@ -165,6 +166,7 @@ Result<MotionGroup> MotionCoder::decode(std::span<const std::uint8_t> payload) {
     return fail(ErrorCode::kInvalidStream, "motion packet refers to one that is missing");
 
   if (group.key) memory_ = fresh_memory(nominal_duration_);
+  const TrackMemory before = memory_;
   RangeDecoder decoder(reader.rest());
   group.anchor = anchor(group.key);
   const bool valid =
@@ -172,6 +174,7 @@ Result<MotionGroup> MotionCoder::decode(std::span<const std::uint8_t> payload) {
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "motion packet has a value out of range");
   if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "motion packet has bytes too many");
+  count(before, group);
   last_ = last_of(group);
   needs_key_ = false;
   return group;

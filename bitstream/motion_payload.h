@@ -11,6 +11,8 @@
 
 namespace fbs {
 
+using PartCosts = std::array<std::uint64_t, kPartCount + 1>;
+
 /// Writes or reads the motion packets of one scene, in stream order. Contexts, last knots and last durations
 /// go on from group to group; a key group begins them anew. Use one object for writing and another for
 /// reading. A value: a copy goes on independently, so that an encoder may try what a group would cost.
@@ -44,16 +46,19 @@ class MotionCoder {
 
   [[nodiscard]] const CodedLimits& limits() const { return limits_; }
 
-  /// What the parts of all groups encoded so far have cost, in 1/256 bit; the last is for durations.
-  [[nodiscard]] const std::array<std::uint64_t, kPartCount + 1>& cost_of_parts() const { return costs_; }
+  /// What the parts of all groups so far have cost, in 1/256 bit; behind them the durations.
+  [[nodiscard]] const PartCosts& cost_of_parts() const { return costs_; }
 
  private:
+  /// Adds to the costs what the group costs after `before`.
+  void count(TrackMemory before, MotionGroup group);
+
   CodedLimits limits_;
   std::uint32_t nominal_duration_;
   CodedState seen_, last_;
   TrackMemory memory_;
   bool needs_key_ = true;
-  std::array<std::uint64_t, kPartCount + 1> costs_{};
+  PartCosts costs_{};
 };
 
 }  // namespace fbs

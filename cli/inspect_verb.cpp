@@ -1,6 +1,9 @@
 // fbs inspect: what is in a stream, bytes by part.
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
@@ -16,11 +19,26 @@ struct Summary {
   double seconds = 0;
   std::size_t patterns = 0;
   bool face = false;
-  SurroundMap surround;
+  PartCosts motion{};  ///< 1/256 bit
 };
+
+/// Bytes of the motion by part of the state, then durations, then all else: headers, checks, ends of codes.
+std::vector<std::pair<std::string, double>> motion_by_part(const Summary& s) {
+  std::vector<std::pair<std::string, double>> out;
+  double rest = static_cast<double>(s.bytes.motion);
+  for (std::size_t p = 0; p < s.motion.size(); ++p) {
+    const double bytes = static_cast<double>(s.motion[p]) / (256 * 8);
+    rest -= bytes;
+    out.emplace_back(p < kPartCount ? std::string(kPartNames[p]) : "durations", bytes);
+  }
+  out.emplace_back("packets", rest);
+  return out;
+}
 
 nlohmann::json to_json(const Summary& s) {
   const ByteCount& b = s.bytes;
+  nlohmann::json by_part;
+  for (const auto& [part, bytes] : motion_by_part(s)) by_part[part] = std::lround(bytes);
   return {{"bytes",
            {{"total", b.total},
             {"startup", b.startup},
@@ -29,6 +47,7 @@ nlohmann::json to_json(const Summary& s) {
             {"motion", b.motion},
             {"index", b.index},
             {"other", b.other}}},
+          {"motion", by_part},
           {"frames", s.pictures},
           {"fps", static_cast<double>(s.format.frame_rate.num) / s.format.frame_rate.den},
           {"width", s.format.width},
@@ -61,6 +80,10 @@ void print(const std::string& name, const Summary& s) {
   line("geometry", b.geometry);
   line("patterns", b.patterns);
   line("motion", b.motion);
+  for (const auto& [part, bytes] : motion_by_part(s))
+    if (bytes >= 0.5)
+      std::printf("    %-11s %5.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
+                  s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
   line("index", b.index);
   line("other", b.other);
   line("total", b.total);
@@ -91,6 +114,7 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   s.patterns = decoder.scene().patterns.size();
   s.face = decoder.scene().geometry.has_value();
   s.steps = decoder.scene().setup.steps;
+  s.motion = decoder.motion_costs();
   if (arguments.json)
     std::printf("%s\n", to_json(s).dump(1).c_str());
   else

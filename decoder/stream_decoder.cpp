@@ -162,8 +162,10 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
 Result<void> StreamDecoder::take_motion(const Packet& packet) {
   if (scene_.patterns.empty())
     return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
+  const PartCosts before = motion_->cost_of_parts();
   auto group = motion_->decode(packet.payload);
   if (!group) return at(packet, group.error());
+  for (std::size_t i = 0; i < before.size(); ++i) motion_costs_[i] += motion_->cost_of_parts()[i] - before[i];
   const std::vector<State> states = states_of(*group, scene_.setup.steps);
   waiting_.assign(states.begin(), states.end());
   if (group->durations.empty())

@@ -62,6 +62,8 @@ class StreamDecoder {
   [[nodiscard]] const VideoFormat& format() const { return scene_.setup.format; }
   [[nodiscard]] std::uint64_t pictures() const { return pictures_; }  ///< announced so far
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
+  /// What the parts of the motion have cost, in 1/256 bit; as MotionCoder says.
+  [[nodiscard]] const PartCosts& motion_costs() const { return motion_costs_; }
   /// Duration of the announced picture in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return duration_; }
   /// Number of pictures that the end packet announces, when it has been read.
@@ -94,6 +96,7 @@ class StreamDecoder {
   std::uint64_t pictures_ = 0;
   std::optional<std::uint64_t> announced_;
   ByteCount bytes_;
+  PartCosts motion_costs_{};
 };
 
 }  // namespace fbs
