@@ -13,6 +13,7 @@ std::int32_t limit_of(std::size_t i) {
     case PartId::kPose:
       return i <= kRoll ? kMaxRotation : i <= kShiftY ? kMaxTranslation : kMaxLogScale;
     case PartId::kLight:
+    case PartId::kInside:
       return kMaxLight;
     case PartId::kBody:
     case PartId::kGround:
@@ -29,6 +30,7 @@ std::int32_t step_of(const QuantiserSteps& steps, std::size_t i) {
     case PartId::kPose:
       return i <= kRoll ? steps.rotation : i <= kShiftY ? steps.translation : steps.log_scale;
     case PartId::kLight:
+    case PartId::kInside:
       return steps.light;
     case PartId::kBody:
     case PartId::kGround:
@@ -47,6 +49,7 @@ State state_of_values(const CodedState& values) {
   };
   take(state.pose);
   take(state.light);
+  take(state.inside);
   take(state.body);
   take(state.ground);
   for (const ExpressionPart& part : generic_head().expression) {

@@ -13,6 +13,7 @@ namespace fbs {
 enum class PartId : std::uint8_t {
   kPose,
   kLight,
+  kInside,  ///< of the mouth
   kBody,
   kGround,
   kMouth,  ///< this and the following: coefficients of GenericHead::expression, in its order
@@ -21,7 +22,7 @@ enum class PartId : std::uint8_t {
   kLowerLids,
   kGaze,
 };
-inline constexpr int kPartCount = 9;
+inline constexpr int kPartCount = 10;
 
 /// Bit p for part p.
 using PartMask = std::uint16_t;
@@ -31,10 +32,10 @@ inline constexpr PartMask kAllParts = (1 << kPartCount) - 1;
 }
 
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "pose", "light", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze"};
+    "pose", "light", "inside", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze"};
 
 /// Numbers of each part.
-inline constexpr std::array<int, kPartCount> kPartSizes = {6, 4, 4, 4, 36, 16, 8, 8, 4};
+inline constexpr std::array<int, kPartCount> kPartSizes = {6, 4, 3, 4, 4, 36, 16, 8, 8, 4};
 inline constexpr int kMaxPartSize = 36;
 
 inline constexpr int kFirstExpressionPart = static_cast<int>(PartId::kMouth);
@@ -47,7 +48,7 @@ inline constexpr std::array<int, kPartCount + 1> kPartFirst = [] {
 }();
 inline constexpr int kParameterCount = kPartFirst[kPartCount];
 inline constexpr int kFirstCoefficient = kPartFirst[kFirstExpressionPart];
-static_assert(kParameterCount == 90 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
+static_assert(kParameterCount == 93 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
 
 /// Part of each number.
 inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {
@@ -58,7 +59,7 @@ inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {
   return part;
 }();
 
-/// All numbers of a state in stream order, in steps: pose, light, body, ground, then the coefficients of the
+/// All numbers of a state in stream order, in steps: pose, light, inside, body, ground, then the coefficients of the
 /// expression's parts.
 using CodedState = std::array<std::int32_t, kParameterCount>;
 

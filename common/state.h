@@ -20,6 +20,11 @@ inline constexpr int kPoseCount = 6;
 enum LightIndex : std::uint8_t { kLightOffset, kLightGain, kLightSlopeX, kLightSlopeY };
 inline constexpr int kLightCount = 4;
 
+/// Index of each number of the mouth's inside in State::inside: what is added to its luma at the upper lip, half way
+/// and at the lower lip, in 1/16 grey level.
+enum InsideIndex : std::uint8_t { kInsideUpper, kInsideMiddle, kInsideLower };
+inline constexpr int kInsideCount = 3;
+
 /// Index of each number of a flat part of the surround, body or ground: how far it has gone since pattern 0,
 /// in 1/64 pixel; growth and turn as the way of a point one eye distance from the head's origin.
 enum SurroundIndex : std::uint8_t { kWayX, kWayY, kGrowth, kTurn };
@@ -29,6 +34,7 @@ inline constexpr int kSurroundCount = 4;
 struct State {
   std::array<std::int32_t, kPoseCount> pose{};
   std::array<std::int32_t, kLightCount> light{};
+  std::array<std::int32_t, kInsideCount> inside{};
   std::array<std::int32_t, kSurroundCount> body{};
   std::array<std::int32_t, kSurroundCount> ground{};
   /// Offsets from the adapted, expressionless face, x, y in the head frame, head units.
@@ -42,7 +48,7 @@ struct QuantiserSteps {
   std::int32_t rotation = 64;     ///< 2^-16 turn
   std::int32_t translation = 16;  ///< 1/64 pixel; of body and ground, too
   std::int32_t log_scale = 8;     ///< 2^-12 octave of the eye distance in pixels
-  std::int32_t light = 16;        ///< 1/16 grey level
+  std::int32_t light = 16;        ///< 1/16 grey level; of the mouth's inside, too
   std::int32_t control = 32;      ///< coefficients of the expression, head units (1/4096 eye distance)
   friend bool operator==(const QuantiserSteps&, const QuantiserSteps&) = default;
 };

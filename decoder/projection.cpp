@@ -138,6 +138,7 @@ ScreenMesh SceneGeometry::project(const State& state) const {
   surround_.project(state, mesh.surround);
   const auto vertices = deform(geometry_.positions, state);
   mesh.mouth_gap = fbs::mouth_gap(vertices);
+  mesh.inside = state.inside;
   mesh.head.reserve(static_cast<std::size_t>(head_mesh().vertex_count));
   for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
   project_ring(projection, mesh);

@@ -52,6 +52,7 @@ struct ScreenMesh {
   std::vector<glm::ivec3> head;      ///< head_mesh().vertex_count; as HeadProjection gives
   std::vector<glm::ivec2> surround;  ///< as Surround::project gives; empty without a face
   std::int32_t mouth_gap = 0;        ///< between the middles of the inner lips, head units
+  std::array<std::int32_t, kInsideCount> inside{};  ///< as State::inside
   std::vector<VertexLight> light;    ///< of each vertex of the head; empty: none has any
 };
 

@@ -147,7 +147,9 @@ void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int
   std::uint8_t* out = plane.target->row(row);
   for (int64_t x = first; x <= last; ++x, ramp += step) {
     const auto at = static_cast<int32_t>(std::clamp<int64_t>(ramp >> 16, 0, 256));
-    const int32_t colour = (plane.shade_low * (256 - at) + plane.shade_high * at + 128) >> 8;
+    const auto below = static_cast<std::size_t>(at < 128 ? 0 : 1);
+    const int32_t way = at - 128 * static_cast<int32_t>(below);
+    const int32_t colour = (plane.shade[below] * (128 - way) + plane.shade[below + 1] * way + 64) >> 7;
     out[x] = static_cast<std::uint8_t>((out[x] * (256 - amount) + colour * amount + 128) >> 8);
   }
 }

@@ -42,11 +42,11 @@ enum class PlaneScale : std::uint8_t { kLuma = 6, kChroma = 7 };  ///< log2 of p
 struct PlanePair {
   const Plane* pattern;
   Plane* target;
-  std::uint8_t shade_low = 0, shade_high = 0;  ///< what Shade mixes in where its ramp is 0 and 256
+  std::array<std::uint8_t, 3> shade{};  ///< what Shade mixes in where its ramp is 0, 128 and 256
 };
 
-/// A colour mixed over the pattern: `amount` / 256 of it, going from shade_low to shade_high with a ramp over
-/// the triangle.
+/// A colour mixed over the pattern: `amount` / 256 of it, going through PlanePair::shade with a ramp over the
+/// triangle.
 struct Shade {
   std::array<std::int32_t, 3> ramp;  ///< at the corners, 0..256
   std::int32_t amount = 0;           ///< 0..256

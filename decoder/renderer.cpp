@@ -84,6 +84,18 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
   }
 }
 
+/// One plane of the mouth's inside at the upper lip, half way and at the lower lip.
+/// @param added  1/16 grey level
+std::array<std::uint8_t, kInsideCount> inside_of(const MouthInterior& mouth, std::uint8_t YuvColour::*plane,
+                                                 const std::array<std::int32_t, kInsideCount>& added) {
+  const std::int32_t upper = 16 * (mouth.upper.*plane), lower = 16 * (mouth.lower.*plane);
+  const std::array<std::int32_t, kInsideCount> mean = {upper, (upper + lower) / 2, lower};
+  std::array<std::uint8_t, kInsideCount> colour{};
+  for (std::size_t i = 0; i < kInsideCount; ++i)
+    colour[i] = static_cast<std::uint8_t>(std::clamp((mean[i] + added[i] + 8) >> 4, 0, 255));
+  return colour;
+}
+
 }  // namespace
 
 void Renderer::render(const Scene& scene, const State& state, Picture& out) {
@@ -93,10 +105,10 @@ void Renderer::render(const Scene& scene, const State& state, Picture& out) {
   const ScreenMesh now = scene.geometry->project(state);
   const MouthInterior& mouth = scene.setup.mouth;
   const std::array<Layer, 2> layers = {
-      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y, mouth.upper.y, mouth.lower.y}}, whole(out.y)},
+      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}}, whole(out.y)},
       Layer{PlaneScale::kChroma,
-            {{&pattern.picture.u, &out.u, mouth.upper.u, mouth.lower.u},
-             {&pattern.picture.v, &out.v, mouth.upper.v, mouth.lower.v}},
+            {{&pattern.picture.u, &out.u, inside_of(mouth, &YuvColour::u, {})},
+             {&pattern.picture.v, &out.v, inside_of(mouth, &YuvColour::v, {})}},
             whole(out.u)}};
   draw_surround(scene.geometry->surround(), now, pattern.seen, layers);
   draw_head(now, pattern.seen, layers[0], luma_depth_);

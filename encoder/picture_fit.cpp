@@ -24,6 +24,8 @@ constexpr double kLidNear = 0.004;
 constexpr double kElseNear = 0.02;
 constexpr double kLightNear = 4;  // grey levels: of the light in the picture before
 constexpr double kLightRest = 40;
+constexpr double kInsideNear = 8;  // the same for the mouth's inside
+constexpr double kInsideRest = 30;
 constexpr double kControlRest = 0.12;  // of control points about rest
 // Of lids, in shares of their travel.
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
@@ -75,7 +77,7 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
       unknowns_ += 2;
     }
   }
-  const Fit rest{pose_of(seen), {}, {}};
+  const Fit rest{pose_of(seen), {}, {}, {}};
   const HeadVertices vertices = deformed(rest);
   const PoseProjection projection(rest.pose);
   const double spacing = kPointSpacing / pattern.scale;
@@ -213,6 +215,10 @@ std::array<double, kLightCount> PictureFit::light_at(std::size_t point, double p
   return {1, (pattern - 128) / 64, rest_[point].x, rest_[point].y};
 }
 
+std::array<double, kInsideCount> PictureFit::inside_at(double ramp) {
+  return {std::max(0.0, 1 - 2 * ramp), 1 - std::abs(2 * ramp - 1), std::max(0.0, 2 * ramp - 1)};
+}
+
 double PictureFit::shown(std::size_t point, int level, std::int32_t shade, const Fit& fit) const {
   double value = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][point]);
   if (value < 0) return value;
@@ -221,7 +227,11 @@ double PictureFit::shown(std::size_t point, int level, std::int32_t shade, const
   value = std::clamp(value, 0.0, 255.0);
   const double ramp = static_cast<double>(mouth_ramp_[point]);
   if (ramp < 0 || shade == 0) return value;
-  const double inside = mouth_.upper.y * (1 - ramp) + mouth_.lower.y * ramp;
+  const auto shares = inside_at(ramp);
+  const double upper = mouth_.upper.y, lower = mouth_.lower.y;
+  const std::array<double, kInsideCount> luma = {upper, 0.5 * (upper + lower), lower};
+  double inside = 0;
+  for (std::size_t i = 0; i < kInsideCount; ++i) inside += shares[i] * (luma[i] + fit.inside[i]);
   return (value * (256 - shade) + inside * shade) / 256;
 }
 
@@ -259,6 +269,10 @@ void PictureFit::add_priors(const Fit& start, const Fit& fit, Normal& normal) co
   for (std::size_t i = 0; i < kLightCount; ++i) {
     believe(kPoseCount + i, fit.light[i] - start.light[i], kLightNear);
     believe(kPoseCount + i, fit.light[i], kLightRest);
+  }
+  for (std::size_t i = 0; i < kInsideCount; ++i) {
+    believe(kFirstInsideColumn + i, fit.inside[i] - start.inside[i], kInsideNear);
+    believe(kFirstInsideColumn + i, fit.inside[i], kInsideRest);
   }
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
@@ -308,7 +322,14 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
     for (std::size_t m = 0; m < 6; ++m)
       row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
     const auto light = light_at(k, static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]));
-    for (std::size_t m = 0; m < kLightCount; ++m) row.emplace_back(kPoseCount + m, -light[m]);
+    const double ramp = static_cast<double>(mouth_ramp_[k]), covered = ramp < 0 ? 0 : shade / 256.0;
+    for (std::size_t m = 0; m < kLightCount; ++m)
+      row.emplace_back(kPoseCount + m, -light[m] * (1 - covered));
+    if (covered > 0) {
+      const auto inside = inside_at(ramp);
+      for (std::size_t m = 0; m < kInsideCount; ++m)
+        row.emplace_back(kFirstInsideColumn + m, -inside[m] * covered);
+    }
     const double by_x = to_level * (s.dx * ex.x + s.dy * ex.y), by_y = to_level * (s.dx * ey.x + s.dy * ey.y);
     for (const Share& share : shares_[k]) {
       const auto column = static_cast<std::size_t>(column_[static_cast<std::size_t>(share.control)]);
@@ -333,6 +354,8 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return false;
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
   for (int i = 0; i < kLightCount; ++i) fit.light[static_cast<std::size_t>(i)] += x(kPoseCount + i);
+  for (int i = 0; i < kInsideCount; ++i)
+    fit.inside[static_cast<std::size_t>(i)] += x(kFirstInsideColumn + i);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
     for (int axis = 0; axis < 2; ++axis)
@@ -388,11 +411,11 @@ FitForm PictureFit::form_at(const Fit& fit) const {
       own(place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)]) = all(i, j);
 
   // In the units of the coded state.
-  const Pose one_unit =
-      pose_of(State{.pose = {1, 1, 1, 1, 1, 1}, .light = {}, .body = {}, .ground = {}, .control = {}});
-  const std::array<double, kOffsets> unit = {
-      one_unit.pitch,      one_unit.yaw, one_unit.roll, one_unit.shift.x, one_unit.shift.y,
-      one_unit.log2_scale, 1 / 16.0,     1 / 16.0,      1 / 16.0,         1 / 16.0};
+  State one;
+  one.pose.fill(1);
+  const Pose p = pose_of(one);
+  std::array<double, kOffsets> unit = {p.pitch, p.yaw, p.roll, p.shift.x, p.shift.y, p.log2_scale};
+  std::fill(unit.begin() + kPoseCount, unit.end(), 1 / 16.0);
   for (int i = 0; i < kOffsets; ++i) {
     own.row(i) *= unit[static_cast<std::size_t>(i)];
     own.col(i) *= unit[static_cast<std::size_t>(i)];
@@ -420,6 +443,7 @@ FitForm PictureFit::form_unseen(const Fit& fit) {
   const auto pose = numbers_of(fit.pose);
   std::copy(pose.begin(), pose.end(), out.value.begin());
   for (std::size_t i = 0; i < kLightCount; ++i) out.value[kPoseCount + i] = 16 * fit.light[i];
+  for (std::size_t i = 0; i < kInsideCount; ++i) out.value[kFirstInsideColumn + i] = 16 * fit.inside[i];
   const auto expression = to_coefficients(fit.offsets);
   std::copy(expression.begin(), expression.end(), out.value.begin() + kFirstCoefficient);
   return out;
@@ -431,6 +455,7 @@ State state_of(const Fit& fit) {
   const auto pose = numbers_of(fit.pose);
   std::transform(pose.begin(), pose.end(), state.pose.begin(), whole);
   for (std::size_t i = 0; i < kLightCount; ++i) state.light[i] = whole(16 * fit.light[i]);
+  for (std::size_t i = 0; i < kInsideCount; ++i) state.inside[i] = whole(16 * fit.inside[i]);
   for (std::size_t c = 0; c < kControlCount; ++c)
     state.control[c] = {whole(fit.offsets[c].x), whole(fit.offsets[c].y)};
   return state;

@@ -11,10 +11,11 @@
 
 namespace fbs {
 
-/// Pose, light (grey levels, else as State::light) and offsets of all control points (head units).
+/// Pose, light and the mouth's inside (grey levels, else as in State), offsets of all control points (head units).
 struct Fit {
   Pose pose;
   std::array<double, kLightCount> light{};
+  std::array<double, kInsideCount> inside{};
   Offsets offsets{};
 };
 
@@ -62,7 +63,8 @@ class PictureFit {
 
  private:
   static constexpr int kLevels = 2;
-  static constexpr int kFirstControlColumn = kPoseCount + kLightCount;
+  static constexpr int kFirstInsideColumn = kPoseCount + kLightCount;
+  static constexpr int kFirstControlColumn = kFirstInsideColumn + kInsideCount;
   /// One control point's share in a surface point.
   struct Share {
     std::int16_t control;
@@ -97,6 +99,8 @@ class PictureFit {
   [[nodiscard]] double shown(std::size_t point, int level, std::int32_t shade, const Fit& fit) const;
   /// What one unit of each light adds at a point.
   [[nodiscard]] std::array<double, kLightCount> light_at(std::size_t point, double pattern) const;
+  /// Shares of the numbers of the mouth's inside at a place of the ramp from upper (0) to lower lip (1).
+  [[nodiscard]] static std::array<double, kInsideCount> inside_at(double ramp);
   /// Robust mean of squared differences on the fine level.
   [[nodiscard]] double difference(const Fit& fit) const;
 

@@ -43,7 +43,7 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
 
 PartMask parts_of(const EncoderSettings& settings) {
   PartMask parts =
-      mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kBody) | mask_of(PartId::kGround);
+      mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside) | mask_of(PartId::kBody) | mask_of(PartId::kGround);
   // Pupils have no curve; the fit to the picture finds them.
   if (settings.snakes)
     for (const PartId part : {PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze})
@@ -193,7 +193,7 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
     form = fit_->form_unseen(fit);
     return fit;
   }
-  Fit tracked{seen->pose, now_.light, now_.offsets};
+  Fit tracked{seen->pose, now_.light, now_.inside, now_.offsets};
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());
     tracked.offsets = features_->offsets();
