@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include "bitstream/bit_counter.h"
-#include "bitstream/byte_io.h"
 #include "bitstream/range_coder.h"
 #include "bitstream/setup.h"
 #include "bitstream/track.h"
@@ -12,10 +11,8 @@
 namespace fbs {
 namespace {
 
-// Flags of the group's header, below the number of pictures. SPEC 4.5.
-constexpr std::uint64_t kKeyFlag = 1;
-constexpr std::uint64_t kDurationsFlag = 2;
-constexpr int kCountShift = 2;
+/// Probability that a group is not key, 1/65536. It has no context, since key groups begin those anew. SPEC 4.5.
+constexpr std::uint32_t kNotKey = 15 << 12;
 
 // SPEC 4.5: one part's track. Returns false when what was read breaks a limit.
 template <class Coder>
@@ -40,12 +37,15 @@ bool code_track(Coder& coder, TrackCoder<Coder>& tracks, std::size_t part, const
   return true;
 }
 
-// SPEC 4.5: everything behind the header. Returns false when what was read breaks a limit.
+// SPEC 4.5: everything behind the key flag. Returns false when what was read breaks a limit.
 // @param after  called behind each part, and with kPartCount behind the durations
 template <class Coder, class After>
 bool code_body(Coder& coder, const CodedLimits& limits, TrackMemory& memory, MotionGroup& group,
-               bool has_durations, After&& after) {
+               After&& after) {
   TrackCoder<Coder> tracks(coder, limits, memory);
+  bool has_durations = !group.durations.empty();
+  tracks.header(group.pictures, has_durations);
+  if (group.pictures < 1) return false;
   for (std::size_t part = 0; part < kPartCount; ++part) {
     if ((limits.parts >> part & 1) == 0) continue;
     if (!code_track(coder, tracks, part, group.anchor, group.pictures, group.tracks[part])) return false;
@@ -119,7 +119,7 @@ MotionCoder::MotionCoder(const Setup& setup, const CodedState& seen)
 void MotionCoder::count(TrackMemory memory, MotionGroup group) {
   BitCounter counter;
   std::uint64_t so_far = 0;
-  code_body(counter, limits_, memory, group, !group.durations.empty(), [&](std::size_t part) {
+  code_body(counter, limits_, memory, group, [&](std::size_t part) {
     costs_[part] += counter.bits_x256() - so_far;
     so_far = counter.bits_x256();
   });
@@ -133,44 +133,30 @@ Result<std::vector<std::uint8_t>> MotionCoder::encode(const MotionGroup& group) 
     return fail(ErrorCode::kInvalidArgument, "a motion group begins elsewhere than the last one ended");
   if (group.key) memory_ = fresh_memory(nominal_duration_);
 
-  MotionGroup body = group;
-  const bool has_durations = !group.durations.empty();
   count(memory_, group);
-  std::vector<std::uint8_t> payload;
-  ByteWriter writer(payload);
-  writer.varint(static_cast<std::uint64_t>(group.pictures - 1) << kCountShift |
-                (has_durations ? kDurationsFlag : 0) | (group.key ? kKeyFlag : 0));
+  MotionGroup body = group;
   RangeEncoder encoder;
-  code_body(encoder, limits_, memory_, body, has_durations, [](std::size_t) {});
-  writer.bytes(encoder.finish());
+  encoder.raw_bit(kNotKey, group.key);
+  code_body(encoder, limits_, memory_, body, [](std::size_t) {});
   last_ = last_of(group);
   needs_key_ = false;
-  return payload;
+  return encoder.finish();
 }
 
 Result<MotionGroup> MotionCoder::decode(std::span<const std::uint8_t> payload) {
   const bool needed_key = needs_key_;
   needs_key_ = true;  // until this group has been read
 
-  ByteReader reader(payload);
-  const std::uint64_t header = reader.varint();
-  if (reader.past_end()) return fail(ErrorCode::kTruncated, "motion packet ends early");
-  if (reader.malformed()) return fail(ErrorCode::kInvalidStream, "motion packet has a damaged header");
-  if (header >> kCountShift >= kMaxGroupPictures) {
-    return fail(ErrorCode::kTooLarge, "motion packet has more than 256 pictures");
-  }
+  RangeDecoder decoder(payload);
   MotionGroup group;
-  group.key = (header & kKeyFlag) != 0;
-  group.pictures = static_cast<std::int32_t>(header >> kCountShift) + 1;
+  group.key = decoder.raw_bit(kNotKey);
   if (needed_key && !group.key)
     return fail(ErrorCode::kInvalidStream, "motion packet refers to one that is missing");
 
   if (group.key) memory_ = fresh_memory(nominal_duration_);
   const TrackMemory before = memory_;
-  RangeDecoder decoder(reader.rest());
   group.anchor = anchor(group.key);
-  const bool valid =
-      code_body(decoder, limits_, memory_, group, (header & kDurationsFlag) != 0, [](std::size_t) {});
+  const bool valid = code_body(decoder, limits_, memory_, group, [](std::size_t) {});
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "motion packet has a value out of range");
   if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "motion packet has bytes too many");

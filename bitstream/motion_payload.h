@@ -31,7 +31,6 @@ class MotionCoder {
 
   /// Reads the group that follows. After an error only a key group can be read.
   /// @return kTruncated      the payload ends early
-  ///         kTooLarge       more than kMaxGroupPictures
   ///         kInvalidStream  damaged, or not a key group where one is needed
   [[nodiscard]] Result<MotionGroup> decode(std::span<const std::uint8_t> payload);
 

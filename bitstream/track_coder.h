@@ -36,6 +36,10 @@ struct TrackContexts {
   template <std::size_t A, std::size_t B>
   using Grid = std::array<std::array<AdaptiveBit, B>, A>;
 
+  // The group's header
+  AdaptiveBit other_count;
+  AdaptiveBit has_durations;
+
   // "The span reaches to the group's end"
   Grid<kPartCount, 4> to_end;
   // Its length otherwise
@@ -79,6 +83,7 @@ struct TrackHistory {
   CodedState change{};        ///< of each number, over the last span in which its part moved
   CodedState older_change{};  ///< over the one before that
   std::array<std::uint8_t, kPartCount> moves{};  ///< bit 0: the part moved over its last span, bit 1 ...
+  std::int32_t pictures = 0;                     ///< of the last group
   std::uint32_t duration = 0;                    ///< of the picture before, 1/90000 s
   std::uint32_t older_duration = 0;              ///< of the picture before that
 };
@@ -98,6 +103,9 @@ class TrackCoder {
   /// All numbers without reference to others. SPEC 5.3.
   /// @return false when what was read lies outside the limits
   bool whole(CodedState& state);
+
+  /// Number of pictures of the group, and whether it has durations. SPEC 4.5.
+  void header(std::int32_t& pictures, bool& has_durations);
 
   /// How many pictures on the next knot lies, 1..left. SPEC 5.4.
   std::int32_t span(std::size_t part, std::int32_t left, bool first, std::int32_t length);
@@ -139,6 +147,17 @@ bool TrackCoder<Coder>::whole(CodedState& state) {
     inside = inside && state[i] >= limits_.least[i] && state[i] <= limits_.most[i];
   }
   return inside;
+}
+
+template <class Coder>
+void TrackCoder<Coder>::header(std::int32_t& pictures, bool& has_durations) {
+  if (coder_.bit(contexts_.other_count, pictures != history_.pictures))
+    pictures = static_cast<std::int32_t>(coder_.bypass(8, static_cast<std::uint32_t>(pictures - 1))) + 1;
+  else
+    pictures = history_.pictures;
+  static_assert(kMaxGroupPictures == 1 << 8);
+  has_durations = coder_.bit(contexts_.has_durations, has_durations);
+  history_.pictures = pictures;
 }
 
 template <class Coder>
