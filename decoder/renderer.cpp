@@ -56,12 +56,16 @@ void draw_surround(const Surround& surround, const ScreenMesh& now, const Screen
   }
 }
 
-Light light_on(const std::array<std::int16_t, 3>& triangle, const std::vector<VertexLight>& light) {
+/// The light that a picture has and its pattern has not.
+Light light_on(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
+  const auto at = [](const ScreenMesh& mesh, std::int16_t v) {
+    return mesh.light.empty() ? VertexLight{} : mesh.light[static_cast<std::size_t>(v)];
+  };
   Light out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const VertexLight& l = light[static_cast<std::size_t>(triangle[i])];
-    out.offset[i] = l.offset;
-    out.gain[i] = l.gain;
+    const VertexLight a = at(now, triangle[i]), b = at(seen, triangle[i]);
+    out.offset[i] = a.offset - b.offset;
+    out.gain[i] = a.gain - b.gain;
   }
   return out;
 }
@@ -76,8 +80,8 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
     const bool inside_mouth = std::all_of(triangle.begin(), triangle.end(), is_inner_lip);
     Shade shade{{}, shade_amount};
     if (inside_mouth) std::transform(triangle.begin(), triangle.end(), shade.ramp.begin(), mouth_ramp);
-    const bool lit = layer.scale == PlaneScale::kLuma && !now.light.empty();
-    const Light light = lit ? light_on(triangle, now.light) : Light{};
+    const bool lit = layer.scale == PlaneScale::kLuma && !(now.light.empty() && seen.light.empty());
+    const Light light = lit ? light_on(triangle, now, seen) : Light{};
     draw_triangle(
         corners(triangle, now, seen), layer.scale, layer.planes, area, &depth,
         {.light = lit ? &light : nullptr, .shade = inside_mouth && shade_amount > 0 ? &shade : nullptr});
@@ -105,7 +109,9 @@ void Renderer::render(const Scene& scene, const State& state, Picture& out) {
   const ScreenMesh now = scene.geometry->project(state);
   const MouthInterior& mouth = scene.setup.mouth;
   const std::array<Layer, 2> layers = {
-      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}}, whole(out.y)},
+      Layer{PlaneScale::kLuma,
+            {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}},
+            whole(out.y)},
       Layer{PlaneScale::kChroma,
             {{&pattern.picture.u, &out.u, inside_of(mouth, &YuvColour::u, {})},
              {&pattern.picture.v, &out.v, inside_of(mouth, &YuvColour::v, {})}},

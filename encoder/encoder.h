@@ -14,6 +14,9 @@ namespace fbs {
 
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
+  double bitrate = 0;          ///< kbit/s in all, quality then follows; 0: as quality says
+  double seconds = 0;          ///< length of the video, for bitrate; 0: not known, ten are taken
+  double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: as quality says
   int face = 0;                ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
