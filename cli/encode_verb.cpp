@@ -40,9 +40,9 @@ Result<void> encode(const EncodeArguments& arguments) {
   options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
   auto source = open_video_source(arguments.input, options);
   if (!source) return tl::unexpected<Error>(source.error());
-  if ((*source)->frame_count_estimate() > 0) {
+  if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {
     const Rational& rate = (*source)->format().frame_rate;
-    settings.seconds = static_cast<double>((*source)->frame_count_estimate()) * rate.den / rate.num;
+    settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
   }
   auto file = AtomicFile::create(arguments.output);
   if (!file) return tl::unexpected<Error>(file.error());
