@@ -31,6 +31,7 @@ Result<void> encode(const EncodeArguments& arguments) {
   settings.motion_bitrate = arguments.motion_bitrate;
   settings.snakes = arguments.snakes;
   settings.refine = arguments.refine;
+  settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);
     if (!marks) return tl::unexpected<Error>(about_file(arguments.marks, marks.error()));

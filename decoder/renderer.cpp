@@ -44,13 +44,16 @@ void draw_surround(const Surround& surround, const ScreenMesh& now, const Screen
                    std::span<const Layer> layers) {
   const auto corner = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    return RasterVertex{now.surround[i], seen.surround[i], 0};
+    return RasterVertex{now.surround[i], surround.texture()[i], 0};
   };
-  const auto still = [](const RasterVertex& v) { return v.screen == v.texture; };
+  const auto still = [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    return now.surround[i] == seen.surround[i];
+  };
   for (const Surround::Cell& cell : surround.cells()) {
+    if (std::all_of(cell.begin(), cell.end(), still)) continue;  // the pattern already shows it
     const std::array<RasterVertex, 4> q = {corner(cell[0]), corner(cell[1]), corner(cell[2]),
                                            corner(cell[3])};
-    if (std::all_of(q.begin(), q.end(), still)) continue;  // the pattern already shows it
     for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}})
       for (const Layer& layer : layers) draw_triangle(t, layer.scale, layer.planes, layer.area, nullptr);
   }

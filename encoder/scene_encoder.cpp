@@ -43,8 +43,9 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
 }
 
 PartMask parts_of(const EncoderSettings& settings) {
-  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside) |
-                   mask_of(PartId::kBody) | mask_of(PartId::kGround);
+  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside);
+  if (settings.surround)
+    parts = static_cast<PartMask>(parts | mask_of(PartId::kBody) | mask_of(PartId::kGround));
   // Pupils have no curve; the fit to the picture finds them.
   if (settings.snakes)
     for (const PartId part : {PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze})
@@ -121,6 +122,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
   scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
+  if (settings.surround) scene.surround_.emplace(first, scene.seen_);
   scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
 }
@@ -267,8 +269,13 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
       analysis_.confidence = 1;
     }
     form.form += expression_form_;
+    State state = state_of(now_);
+    if (surround_) {
+      surround_->look_at(picture, now_.pose);
+      surround_->add_to(form);
+      surround_->add_to(state);
+    }
     fits_.push_back(std::move(form));
-    const State state = state_of(now_);
     report(state);
     if (!started_) {
       mouth_colours_.add(picture, scene_.geometry->project_vertices(state),
@@ -276,7 +283,8 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     }
     const auto every =
         static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
-    if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state);
+    if (surround_ && !started_ && pictures_ > 0 && pictures_ % every == 0)
+      later_.emplace_back(picture, state);
   }
   durations_.push_back(duration);
   ++pictures_;
@@ -345,7 +353,10 @@ Result<void> SceneEncoder::start() {
   if (scene_.geometry) {
     std::vector<SeenPicture> later;
     for (const auto& [picture, state] : later_) later.push_back({&picture, state});
-    const SurroundMap map = fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later);
+    const SurroundMap map =
+        surround_ ? fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later)
+                  : still_surround();
+    if (surround_) surround_->believe(map);
     auto surround = encode_surround(map);
     if (!surround) return tl::unexpected<Error>(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);

@@ -16,6 +16,7 @@
 #include "encoder/mouth_colours.h"
 #include "encoder/operating_point.h"
 #include "encoder/rate_control.h"
+#include "encoder/surround_motion.h"
 #include "encoder/track_plan.h"
 
 namespace fbs {
@@ -75,7 +76,8 @@ class SceneEncoder {
   std::optional<FaceSearch> search_;
   std::optional<FeatureTracker> features_;
   std::optional<PictureFit> fit_;
-  Fit now_;                    ///< of the last picture
+  std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
+  Fit now_;                                 ///< of the last picture
   cv::Mat1d expression_form_;  ///< what a viewer sees of lips and lids that are not where they should be
 
   std::optional<MotionCoder> coder_;
