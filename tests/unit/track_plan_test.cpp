@@ -281,5 +281,27 @@ TEST(TrackPlanner, GoesStraightPastPicturesThatSayNothing) {
   EXPECT_EQ(knots_of(group), static_cast<std::size_t>(kPartCount));
 }
 
+// The last picture says nothing and its fit is wild. Chains go through fits only, so that the first finds a
+// bend there; its knot does not pay.
+TEST(TrackPlanner, KnotThatDoesNotPayIsDropped) {
+  auto fits = still_fits(20, 0.5);
+  for (std::size_t t = 0; t < 19; ++t) fits[t].value[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
+  fits[19].value[kYaw] = in_units(kYaw, -40);
+  fits[19].form = 0;
+  const MotionGroup group = planned(fits);
+  EXPECT_EQ(pictures_of(group.tracks[kPose]), (std::vector{19}));
+  EXPECT_NEAR(group.tracks[kPose].back().value[kYaw], 20, 1);
+}
+
+// Noise before a jump is no reason to move towards it.
+TEST(TrackPlanner, JumpIsKeptBehindNoise) {
+  auto fits = still_fits(20, 2);
+  for (std::size_t t = 0; t < 20; ++t)
+    fits[t].value[kFirstCoefficient] = in_units(kFirstCoefficient, t < 10 ? (t % 2 == 0 ? -0.8 : 0.8) : 30);
+  const MotionGroup group = planned(fits);
+  EXPECT_EQ(pictures_of(group.tracks[kMouth]), (std::vector{9, 10, 19}));
+  EXPECT_EQ(group.tracks[kMouth][0].value[0], 0);
+}
+
 }  // namespace
 }  // namespace fbs
