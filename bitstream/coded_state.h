@@ -59,8 +59,8 @@ inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {
   return part;
 }();
 
-/// All numbers of a state in stream order, in steps: pose, light, inside, body, ground, then the coefficients of the
-/// expression's parts.
+/// All numbers of a state in stream order, in steps: pose, light, inside, body, ground, then the coefficients
+/// of the expression's parts.
 using CodedState = std::array<std::int32_t, kParameterCount>;
 
 /// Step of each number.

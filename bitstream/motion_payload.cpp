@@ -11,7 +11,8 @@
 namespace fbs {
 namespace {
 
-/// Probability that a group is not key, 1/65536. It has no context, since key groups begin those anew. SPEC 4.5.
+/// Probability that a group is not key, 1/65536. It has no context, since key groups begin those anew.
+/// SPEC 4.5.
 constexpr std::uint32_t kNotKey = 15 << 12;
 
 // SPEC 4.5: one part's track. Returns false when what was read breaks a limit.

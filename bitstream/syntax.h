@@ -42,8 +42,8 @@ struct YuvColour {
   friend bool operator==(const YuvColour&, const YuvColour&) = default;
 };
 
-/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at the
-/// lower (dark, tongue), and between their mean; State::inside adds to their luma.
+/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at
+/// the lower (dark, tongue), and between their mean; State::inside adds to their luma.
 struct MouthInterior {
   YuvColour upper{70, 126, 138}, lower{45, 126, 138};
   friend bool operator==(const MouthInterior&, const MouthInterior&) = default;

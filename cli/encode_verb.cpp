@@ -1,4 +1,5 @@
 // fbs encode: a video becomes a stream.
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -10,6 +11,8 @@
 
 namespace fbs::cli {
 namespace {
+
+constexpr double kRateTolerance = 0.1;  // of --bitrate
 
 void print_closing_line(const std::string& output, const Measure& m) {
   std::fprintf(stderr, "%s: %llu pictures, %llu bytes, %.2f kbit/s (motion %.2f)", output.c_str(),
@@ -24,7 +27,11 @@ Result<void> encode(const EncodeArguments& arguments) {
   settings.quality = arguments.quality;
   settings.face = arguments.face;
   settings.allow_no_face = arguments.allow_no_face;
+  settings.bitrate = arguments.bitrate;
+  settings.motion_bitrate = arguments.motion_bitrate;
   settings.snakes = arguments.snakes;
+  settings.refine = arguments.refine;
+  settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);
     if (!marks) return tl::unexpected<Error>(about_file(arguments.marks, marks.error()));
@@ -34,6 +41,10 @@ Result<void> encode(const EncodeArguments& arguments) {
   options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
   auto source = open_video_source(arguments.input, options);
   if (!source) return tl::unexpected<Error>(source.error());
+  if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {
+    const Rational& rate = (*source)->format().frame_rate;
+    settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
+  }
   auto file = AtomicFile::create(arguments.output);
   if (!file) return tl::unexpected<Error>(file.error());
   std::optional<Overlay> overlay;
@@ -62,6 +73,9 @@ Result<void> encode(const EncodeArguments& arguments) {
   if ((*source)->damaged_packets() > 0)
     std::fprintf(stderr, "fbs: %s: %lld damaged packets were passed over\n", arguments.input.c_str(),
                  static_cast<long long>((*source)->damaged_packets()));
+  if (arguments.bitrate > 0 && std::abs(measure->kbps() / arguments.bitrate - 1) > kRateTolerance)
+    std::fprintf(stderr, "fbs: %s: %.2f kbit/s cannot be had of these pictures; it became %.2f\n",
+                 arguments.output.c_str(), arguments.bitrate, measure->kbps());
   if (!arguments.quiet) print_closing_line(arguments.output, *measure);
   return {};
 }

@@ -45,6 +45,12 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--quality", a.quality, "0 (smallest) to 100 (best)")
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
+  verb->add_option("--bitrate", a.bitrate, "Aim at this many kbit/s in all instead of a quality")
+      ->check(CLI::Range(0.1, 10000.0))
+      ->excludes("--quality");
+  verb->add_option("--patterns", a.patterns, "Pictures of the person to send; so far there is one, the first")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "1"}));
   verb->add_option("--marks", a.marks,
                    "JSON file of points on the first picture, {\"nose_tip\": [x, y], ...} or {\"landmarks\": "
                    "[68 points]}; "
@@ -61,6 +67,9 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
                  "Code a video without a face as a still picture instead of failing");
   verb->add_flag("--quiet", a.quiet, "No progress bar, no closing line");
   verb->add_flag("!--no-snakes", a.snakes)->group("");
+  verb->add_flag("!--no-refine", a.refine)->group("");
+  verb->add_flag("!--still-surround", a.surround)->group("");
+  verb->add_option("--motion-bitrate", a.motion_bitrate)->check(CLI::Range(0.05, 1000.0))->group("");
   verb->callback([&] { run = [&] { return run_encode(a); }; });
 }
 

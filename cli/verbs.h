@@ -13,12 +13,18 @@ namespace fbs::cli {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
+  double bitrate = 0;  ///< kbit/s in all; 0: as quality says
+  std::string patterns = "auto";
   int face = 0;
   std::string marks;    ///< file; empty: automatic
   std::string overlay;  ///< video of the source with mesh and snakes; empty: none
   double sequence_rate = 25;
   bool allow_no_face = false;
+  // For measurements; not shown by --help.
+  double motion_bitrate = 0;  ///< kbit/s of the motion alone
   bool snakes = true;
+  bool refine = true;
+  bool surround = true;
   bool quiet = false;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/state.h"
+
 namespace fbs {
 namespace {
 
@@ -11,6 +13,9 @@ using std::int64_t;
 
 /// Gradients per sample are clamped to this; only slivers reach it.
 constexpr int64_t kMaxGradient = int64_t{1} << 30;
+
+/// What light adds is clamped to this, 1/16 grey level in Q16.
+constexpr int64_t kMostLit = int64_t{kMaxLight} << 16;
 
 int64_t twice_area(const RasterTriangle& t) {
   const int64_t ax = t[1].screen.x - t[0].screen.x, ay = t[1].screen.y - t[0].screen.y;
@@ -158,10 +163,14 @@ void mix(const PlanePair& plane, int32_t amount, int64_t ramp, int64_t step, int
 /// @param offset, gain  1/16 grey level in Q16 at `first`  @param offset_step, gain_step  per sample
 void add_light(std::uint8_t* out, int64_t offset, int64_t offset_step, int64_t gain, int64_t gain_step,
                int64_t first, int64_t last) {
+  // Slivers, whose gradients are clamped, go beyond what their corners have.
+  const auto limited = [](int64_t v) {
+    return static_cast<int32_t>(std::clamp(v, -kMostLit, kMostLit) >> 8);
+  };
   for (int64_t x = first; x <= last; ++x, offset += offset_step, gain += gain_step) {
     // 2^-12 grey level
-    const auto by_gain = static_cast<int32_t>((out[x] - 128) * (gain >> 8) >> 6);
-    const int32_t sum = (out[x] << 12) + static_cast<int32_t>(offset >> 8) + by_gain;
+    const int32_t by_gain = (out[x] - 128) * limited(gain) >> 6;
+    const int32_t sum = (out[x] << 12) + limited(offset) + by_gain;
     out[x] = static_cast<std::uint8_t>(std::clamp((sum + (1 << 11)) >> 12, 0, 255));
   }
 }

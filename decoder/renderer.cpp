@@ -44,24 +44,31 @@ void draw_surround(const Surround& surround, const ScreenMesh& now, const Screen
                    std::span<const Layer> layers) {
   const auto corner = [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    return RasterVertex{now.surround[i], seen.surround[i], 0};
+    return RasterVertex{now.surround[i], surround.texture()[i], 0};
   };
-  const auto still = [](const RasterVertex& v) { return v.screen == v.texture; };
+  const auto still = [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    return now.surround[i] == seen.surround[i];
+  };
   for (const Surround::Cell& cell : surround.cells()) {
+    if (std::all_of(cell.begin(), cell.end(), still)) continue;  // the pattern already shows it
     const std::array<RasterVertex, 4> q = {corner(cell[0]), corner(cell[1]), corner(cell[2]),
                                            corner(cell[3])};
-    if (std::all_of(q.begin(), q.end(), still)) continue;  // the pattern already shows it
     for (const RasterTriangle& t : {RasterTriangle{q[0], q[1], q[2]}, RasterTriangle{q[0], q[2], q[3]}})
       for (const Layer& layer : layers) draw_triangle(t, layer.scale, layer.planes, layer.area, nullptr);
   }
 }
 
-Light light_on(const std::array<std::int16_t, 3>& triangle, const std::vector<VertexLight>& light) {
+/// The light that a picture has and its pattern has not.
+Light light_on(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
+  const auto at = [](const ScreenMesh& mesh, std::int16_t v) {
+    return mesh.light.empty() ? VertexLight{} : mesh.light[static_cast<std::size_t>(v)];
+  };
   Light out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const VertexLight& l = light[static_cast<std::size_t>(triangle[i])];
-    out.offset[i] = l.offset;
-    out.gain[i] = l.gain;
+    const VertexLight a = at(now, triangle[i]), b = at(seen, triangle[i]);
+    out.offset[i] = a.offset - b.offset;
+    out.gain[i] = a.gain - b.gain;
   }
   return out;
 }
@@ -76,8 +83,8 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
     const bool inside_mouth = std::all_of(triangle.begin(), triangle.end(), is_inner_lip);
     Shade shade{{}, shade_amount};
     if (inside_mouth) std::transform(triangle.begin(), triangle.end(), shade.ramp.begin(), mouth_ramp);
-    const bool lit = layer.scale == PlaneScale::kLuma && !now.light.empty();
-    const Light light = lit ? light_on(triangle, now.light) : Light{};
+    const bool lit = layer.scale == PlaneScale::kLuma && !(now.light.empty() && seen.light.empty());
+    const Light light = lit ? light_on(triangle, now, seen) : Light{};
     draw_triangle(
         corners(triangle, now, seen), layer.scale, layer.planes, area, &depth,
         {.light = lit ? &light : nullptr, .shade = inside_mouth && shade_amount > 0 ? &shade : nullptr});
@@ -105,7 +112,9 @@ void Renderer::render(const Scene& scene, const State& state, Picture& out) {
   const ScreenMesh now = scene.geometry->project(state);
   const MouthInterior& mouth = scene.setup.mouth;
   const std::array<Layer, 2> layers = {
-      Layer{PlaneScale::kLuma, {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}}, whole(out.y)},
+      Layer{PlaneScale::kLuma,
+            {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}},
+            whole(out.y)},
       Layer{PlaneScale::kChroma,
             {{&pattern.picture.u, &out.u, inside_of(mouth, &YuvColour::u, {})},
              {&pattern.picture.v, &out.v, inside_of(mouth, &YuvColour::v, {})}},

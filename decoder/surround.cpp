@@ -12,6 +12,10 @@ namespace {
 /// seen from the side and its plane cannot be inverted.
 constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
 
+/// The grid begins this far inside the picture: the outermost samples of many videos are dark, and would be a
+/// line across it wherever the border moves inwards.
+constexpr std::int64_t kInset = 1 << kScreenOneLog2;
+
 constexpr std::int64_t kMaxFromHead = 64 << 8;  // 1/256 eye distance
 
 /// The way of a point of the head frame's plane z = 0 from the seen pose to another one.
@@ -63,8 +67,8 @@ Surround::Surround(const VideoFormat& format, SurroundMap map, const HeadPose& s
   const std::int64_t width = std::int64_t{format.width} << kScreenOneLog2,
                      height = std::int64_t{format.height} << kScreenOneLog2;
   const auto along = [](std::int64_t size, int k, int of) {
-    if (k < 0) return -size / 2;
-    return k > of ? size + size / 2 : size * k / of;
+    if (k < 0) return kInset - size / 2;
+    return kInset + (k > of ? size + size / 2 - 2 * kInset : (size - 2 * kInset) * k / of);
   };
   const std::int64_t scale = HeadProjection(seen).scale;
   const auto from_head = [&](std::int64_t away) {
@@ -86,6 +90,7 @@ Surround::Surround(const VideoFormat& format, SurroundMap map, const HeadPose& s
            {from_head(std::int64_t{on.x} - seen.shift_x), from_head(std::int64_t{on.y} - seen.shift_y)},
            map_.head[k],
            map_.body[k]});
+      texture_.push_back(2 * on - at);
     }
   }
   std::vector<int> ranks;
@@ -134,7 +139,8 @@ void Surround::project(const State& state, std::vector<glm::ivec2>& out) const {
 
 Surround::Place Surround::place(glm::ivec2 seen) const {
   const glm::ivec2 last = points_[index(map_.columns, map_.rows)].seen;
-  const glm::ivec2 inside(std::clamp(seen.x, 0, last.x), std::clamp(seen.y, 0, last.y));
+  const glm::ivec2 first = points_[index(0, 0)].seen;
+  const glm::ivec2 inside(std::clamp(seen.x, first.x, last.x), std::clamp(seen.y, first.y, last.y));
   int column = 0, row = 0;
   while (column + 1 < map_.columns && points_[index(column + 1, 0)].seen.x <= inside.x) ++column;
   while (row + 1 < map_.rows && points_[index(0, row + 1)].seen.y <= inside.y) ++row;

@@ -61,6 +61,8 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
     return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
   if (settings.group_pictures < 0 || settings.group_pictures > kMaxGroupPictures)
     return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
+  if (settings.bitrate < 0 || settings.seconds < 0 || settings.motion_bitrate < 0)
+    return fail(ErrorCode::kInvalidArgument, "a negative rate or length");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   Setup setup;
   setup.format = format;

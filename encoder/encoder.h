@@ -14,11 +14,15 @@ namespace fbs {
 
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
+  double bitrate = 0;          ///< kbit/s in all, quality then follows; 0: as quality says
+  double seconds = 0;          ///< length of the video, for bitrate; 0: not known, ten are taken
+  double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: as quality says
   int face = 0;                ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to see what they are worth
   bool refine = true;          ///< fit the state to the picture; off only to see what it is worth
+  bool surround = true;        ///< let hair, body and ground move; off only to see what it is worth
   int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };
 

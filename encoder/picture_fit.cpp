@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "encoder/expression_prior.h"
@@ -323,8 +324,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
       row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
     const auto light = light_at(k, static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]));
     const double ramp = static_cast<double>(mouth_ramp_[k]), covered = ramp < 0 ? 0 : shade / 256.0;
-    for (std::size_t m = 0; m < kLightCount; ++m)
-      row.emplace_back(kPoseCount + m, -light[m] * (1 - covered));
+    for (std::size_t m = 0; m < kLightCount; ++m) row.emplace_back(kPoseCount + m, -light[m] * (1 - covered));
     if (covered > 0) {
       const auto inside = inside_at(ramp);
       for (std::size_t m = 0; m < kInsideCount; ++m)
@@ -354,8 +354,7 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return false;
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
   for (int i = 0; i < kLightCount; ++i) fit.light[static_cast<std::size_t>(i)] += x(kPoseCount + i);
-  for (int i = 0; i < kInsideCount; ++i)
-    fit.inside[static_cast<std::size_t>(i)] += x(kFirstInsideColumn + i);
+  for (int i = 0; i < kInsideCount; ++i) fit.inside[static_cast<std::size_t>(i)] += x(kFirstInsideColumn + i);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
     for (int axis = 0; axis < 2; ++axis)
@@ -425,6 +424,7 @@ FitForm PictureFit::form_at(const Fit& fit) const {
   const cv::Mat1d within = form_of_coefficients(cv::Mat1d(own(offsets, offsets)));
 
   FitForm out = form_unseen(fit);
+  out.form = 0.0;
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
   own(ours, ours).copyTo(out.form(ours, ours));
   across.copyTo(out.form(ours, coefficients));
@@ -440,6 +440,17 @@ FitForm PictureFit::form_at(const Fit& fit) const {
 FitForm PictureFit::form_unseen(const Fit& fit) {
   FitForm out;
   out.form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  // The pose stays rather than to slide to where the face comes back: as if a few samples said so.
+  constexpr double kSamples = 4;
+  State one;
+  one.pose.fill(1);
+  const Pose unit = pose_of(one);
+  const double eye = fit.pose.eye_distance_px();
+  const std::array<double, kPoseCount> px = {unit.pitch * eye, unit.yaw * eye,
+                                             unit.roll * eye,  unit.shift.x,
+                                             unit.shift.y,     unit.log2_scale * eye * std::numbers::ln2};
+  for (int i = 0; i < kPoseCount; ++i)
+    out.form(i, i) = kSamples * px[static_cast<std::size_t>(i)] * px[static_cast<std::size_t>(i)];
   const auto pose = numbers_of(fit.pose);
   std::copy(pose.begin(), pose.end(), out.value.begin());
   for (std::size_t i = 0; i < kLightCount; ++i) out.value[kPoseCount + i] = 16 * fit.light[i];

@@ -11,7 +11,8 @@
 
 namespace fbs {
 
-/// Pose, light and the mouth's inside (grey levels, else as in State), offsets of all control points (head units).
+/// Pose, light and the mouth's inside (grey levels, else as in State), offsets of all control points (head
+/// units).
 struct Fit {
   Pose pose;
   std::array<double, kLightCount> light{};

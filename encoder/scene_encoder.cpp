@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kLookaheadSeconds = 2;  // that the surround's map is learned from
 constexpr std::size_t kSurroundPictures = 12;
+constexpr std::size_t kPacketBytes = 5;  // of a motion packet round its payload
 
 /// Marks that the snakes have corrected: where the curves came to rest on the first picture, lips and lids
 /// get new marks, unless a curve has strayed. Then the head is adapted again. Brows keep theirs: a brow's
@@ -42,8 +43,9 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
 }
 
 PartMask parts_of(const EncoderSettings& settings) {
-  PartMask parts =
-      mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside) | mask_of(PartId::kBody) | mask_of(PartId::kGround);
+  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside);
+  if (settings.surround)
+    parts = static_cast<PartMask>(parts | mask_of(PartId::kBody) | mask_of(PartId::kGround));
   // Pupils have no curve; the fit to the picture finds them.
   if (settings.snakes)
     for (const PartId part : {PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze})
@@ -93,14 +95,14 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   SceneEncoder scene(format, settings);
   scene.search_.emplace(finder);
   scene.eye_distance_px_ = adapted->pose.eye_distance_px();
-  const OperatingPoint point = OperatingPoint::at(settings.quality, scene.eye_distance_px_);
-  scene.scene_.setup.steps = point.steps;
   scene.scene_.setup.parts = parts_of(settings);
-
   const WorkFrame frame = WorkFrame::cut(first, adapted->pose.shift, scene.eye_distance_px_, true);
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return tl::unexpected<Error>(geometry.error());
   scene.geometry_bytes_ = std::move(geometry->payload);
+  auto chosen = scene.choose_point(first);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  const OperatingPoint& point = *chosen;
   scene.seen_coded_ = coded_pose(adapted->pose, point.steps);
   scene.seen_ = state_of(scene.seen_coded_, point.steps);
   // Until pictures have shown better, the surround is a guess by distance from the face.
@@ -111,6 +113,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
   scene.now_.pose = seen_pose;
+  scene.lambda_ = point.lambda;
   scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda);
   scene.expression_form_ = wrong_expression() * point.lambda;
   scene.first_ = first;
@@ -119,6 +122,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
   scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
+  if (settings.surround) scene.surround_.emplace(first, scene.seen_);
   scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
 }
@@ -126,13 +130,42 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
 Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format,
                                                       const EncoderSettings& settings, const Picture& first) {
   SceneEncoder scene(format, settings);
-  const OperatingPoint point = OperatingPoint::at(settings.quality, 64);
-  scene.scene_.setup.steps = point.steps;
+  scene.eye_distance_px_ = 64;  // of a face, had it one
   scene.scene_.setup.parts = mask_of(PartId::kPose);
+  auto chosen = scene.choose_point(first);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  const OperatingPoint& point = *chosen;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
     return tl::unexpected<Error>(added.error());
   scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
+}
+
+Result<OperatingPoint> SceneEncoder::choose_point(const Picture& first) {
+  constexpr double kSecondsUnknown = 10;
+  constexpr double kLeastMotion = 0.15;     // of the rate, whatever the startup takes
+  constexpr std::size_t kOtherBytes = 160;  // setup, surround, heads of packets
+  int quality = settings_.quality;
+  double motion = settings_.motion_bitrate;
+  if (settings_.bitrate > 0) {
+    const double seconds = settings_.seconds > 0 ? settings_.seconds : kSecondsUnknown;
+    Result<void> failed;
+    const auto startup = [&](int q) {
+      auto encoder = PatternEncoder::create(scene_.setup.format,
+                                            OperatingPoint::at(q, eye_distance_px_).pattern_quantiser);
+      auto av1 = encoder ? encoder->encode(first) : tl::unexpected<Error>(encoder.error());
+      if (!av1) failed = tl::unexpected<Error>(av1.error());
+      return geometry_bytes_.size() + kOtherBytes + (av1 ? av1->size() : 0);
+    };
+    quality = quality_for(settings_.bitrate, seconds, startup);
+    const double rest = settings_.bitrate - 8e-3 * static_cast<double>(startup(quality)) / seconds;
+    if (!failed) return tl::unexpected<Error>(failed.error());
+    motion = std::max(rest, kLeastMotion * settings_.bitrate);
+  }
+  if (motion > 0) budget_.emplace(motion);
+  const OperatingPoint point = OperatingPoint::at(quality, eye_distance_px_);
+  scene_.setup.steps = point.steps;
+  return point;
 }
 
 Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
@@ -236,8 +269,13 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
       analysis_.confidence = 1;
     }
     form.form += expression_form_;
+    State state = state_of(now_);
+    if (surround_) {
+      surround_->look_at(picture, now_.pose);
+      surround_->add_to(form);
+      surround_->add_to(state);
+    }
     fits_.push_back(std::move(form));
-    const State state = state_of(now_);
     report(state);
     if (!started_) {
       mouth_colours_.add(picture, scene_.geometry->project_vertices(state),
@@ -245,7 +283,8 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     }
     const auto every =
         static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
-    if (!started_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state);
+    if (surround_ && !started_ && pictures_ > 0 && pictures_ % every == 0)
+      later_.emplace_back(picture, state);
   }
   durations_.push_back(duration);
   ++pictures_;
@@ -256,19 +295,47 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
   return {};
 }
 
+void SceneEncoder::finish_group(MotionGroup& group, bool key) const {
+  group.key = key;
+  if (std::all_of(durations_.begin(), durations_.end(), [](std::uint32_t d) { return d == 0; })) return;
+  group.durations = durations_;
+  for (std::uint32_t& d : group.durations)
+    if (d == 0) d = nominal_duration(scene_.setup.format.frame_rate);
+}
+
+MotionGroup SceneEncoder::plan_group(const CodedState& anchor, bool key) {
+  MotionGroup group;
+  const auto bits_at = [&](double lambda) {
+    planner_->set_lambda(lambda);
+    group = planner_->plan(anchor, fits_, rate_);
+    finish_group(group, key);
+    const auto payload = MotionCoder(*coder_).encode(group);
+    return 8.0 * static_cast<double>((payload ? payload->size() : 0) + kPacketBytes);
+  };
+  if (!budget_) {
+    group = planner_->plan(anchor, fits_, rate_);
+    finish_group(group, key);
+    return group;
+  }
+  double seconds = 0;
+  for (const std::uint32_t d : durations_)
+    seconds += (d > 0 ? d : nominal_duration(scene_.setup.format.frame_rate)) / 90000.0;
+  const double lambda = lambda_for(budget_->allowed(seconds), planner_->lambda(), lambda_, bits_at);
+  budget_->spend(bits_at(lambda), seconds);
+  return group;
+}
+
 Result<void> SceneEncoder::end_group() {
   if (durations_.empty()) return {};
   const bool key = coder_->needs_key();
   const CodedState& anchor = coder_->anchor(key);
-  MotionGroup group =
-      scene_.geometry ? planner_->plan(anchor, fits_, rate_)
-                      : knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
-  group.key = key;
-  group.durations = durations_;
-  if (std::all_of(durations_.begin(), durations_.end(), [](std::uint32_t d) { return d == 0; }))
-    group.durations.clear();
-  for (std::uint32_t& d : group.durations)
-    if (d == 0) d = nominal_duration(scene_.setup.format.frame_rate);
+  MotionGroup group;
+  if (scene_.geometry) {
+    group = plan_group(anchor, key);
+  } else {
+    group = knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
+    finish_group(group, key);
+  }
   auto payload = coder_->encode(group);
   if (!payload) return tl::unexpected<Error>(payload.error());
   rate_.learn(group);
@@ -286,7 +353,10 @@ Result<void> SceneEncoder::start() {
   if (scene_.geometry) {
     std::vector<SeenPicture> later;
     for (const auto& [picture, state] : later_) later.push_back({&picture, state});
-    const SurroundMap map = fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later);
+    const SurroundMap map =
+        surround_ ? fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later)
+                  : still_surround();
+    if (surround_) surround_->believe(map);
     auto surround = encode_surround(map);
     if (!surround) return tl::unexpected<Error>(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);

@@ -15,6 +15,8 @@
 #include "encoder/head_tracker.h"
 #include "encoder/mouth_colours.h"
 #include "encoder/operating_point.h"
+#include "encoder/rate_control.h"
+#include "encoder/surround_motion.h"
 #include "encoder/track_plan.h"
 
 namespace fbs {
@@ -43,6 +45,8 @@ class SceneEncoder {
 
  private:
   SceneEncoder(const VideoFormat& format, const EncoderSettings& settings);
+  /// Quality, steps and rates. Needs the geometry's bytes.
+  Result<OperatingPoint> choose_point(const Picture& first);
   Result<void> add_pattern(const Picture& picture, int quantiser);
   /// Where the head is, tracked or found again; nothing while it is lost.
   /// @param frame  cut where the head was; cut anew where it is found elsewhere
@@ -55,6 +59,10 @@ class SceneEncoder {
   void report(const State& state);
   Result<void> start();
   Result<void> end_group();
+  /// The group's tracks; where a rate is set, with the lambda that keeps it.
+  [[nodiscard]] MotionGroup plan_group(const CodedState& anchor, bool key);
+  /// Key flag and durations.
+  void finish_group(MotionGroup& group, bool key) const;
 
   EncoderSettings settings_;
   int group_pictures_ = 30;
@@ -68,13 +76,16 @@ class SceneEncoder {
   std::optional<FaceSearch> search_;
   std::optional<FeatureTracker> features_;
   std::optional<PictureFit> fit_;
-  Fit now_;                    ///< of the last picture
+  std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
+  Fit now_;                                 ///< of the last picture
   cv::Mat1d expression_form_;  ///< what a viewer sees of lips and lids that are not where they should be
 
   std::optional<MotionCoder> coder_;
   std::optional<TrackPlanner> planner_;
   TrackRate rate_;
-  std::vector<FitForm> fits_;  ///< of the group's pictures
+  double lambda_ = 0;                 ///< that the quality stands for
+  std::optional<RateBudget> budget_;  ///< of the motion, where a rate is set
+  std::vector<FitForm> fits_;         ///< of the group's pictures
   std::vector<std::uint32_t> durations_;
   std::uint64_t pictures_ = 0;
 

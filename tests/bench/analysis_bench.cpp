@@ -4,7 +4,7 @@
 #include <string>
 
 #include "encoder/encoder.h"
-#include "encoder/state_choice.h"
+#include "encoder/track_plan.h"
 #include "tests/bench/analysis_clip.h"
 
 namespace fbs {
@@ -90,20 +90,26 @@ void FitRefine(benchmark::State& state) {
 }
 BENCHMARK(FitRefine)->Unit(benchmark::kMicrosecond);
 
-void ChooseState(benchmark::State& state) {
+void FitFormAt(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
   PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
-  const MotionCoder coder(clip.setup());
-  MotionCounter counter(coder, true);
-  counter.push(clip.seen());
   each_picture(state, [&](const AnalysedPicture& p) {
     fit.look_at(p.frame, clip.setup().mouth);
-    const State chosen =
-        choose_state(std::array{p.before, p.found[0], p.found[1]}, fit, counter, clip.lambda());
-    counter.push(chosen);
+    benchmark::DoNotOptimize(fit.form_at(p.tracked_fit));
   });
 }
-BENCHMARK(ChooseState)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FitFormAt)->Unit(benchmark::kMicrosecond);
+
+void TrackPlan(benchmark::State& state) {
+  constexpr int kGroup = 30;
+  const AnalysisClip& clip = analysis_clip();
+  const TrackPlanner planner(clip.setup().steps, clip.setup().parts, clip.lambda());
+  std::vector<FitForm> fits;
+  for (std::size_t i = 1; i <= kGroup; ++i) fits.push_back(clip.round()[i].form);
+  for (auto _ : state) benchmark::DoNotOptimize(planner.plan(clip.seen_coded(), fits, TrackRate()));
+  state.SetItemsProcessed(state.iterations() * kGroup);
+}
+BENCHMARK(TrackPlan)->Unit(benchmark::kMillisecond);
 
 /// Everything that a picture costs once the scene is under way: analysis, its share of the motion coder. The
 /// two seconds that the surround is learned from lie before the clock starts.

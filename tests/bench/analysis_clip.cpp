@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "encoder/operating_point.h"
-#include "encoder/state_choice.h"
 
 namespace fbs {
 
@@ -16,17 +15,15 @@ AnalysisClip::AnalysisClip()
   setup_.format = clip_.format();
   setup_.steps = point.steps;
   lambda_ = point.lambda;
-  for (const FeatureId id : kSnakeFeatures)
-    setup_.features = static_cast<FeatureMask>(setup_.features | (1U << static_cast<unsigned>(id)));
-  seen_.pose = quantise(head_.pose, setup_.steps);
+  const auto numbers = numbers_of(head_.pose);
+  for (std::size_t i = 0; i < kPoseCount; ++i)
+    seen_coded_[i] = static_cast<std::int32_t>(std::lround(numbers[i] / step_of(setup_.steps, i)));
+  seen_ = state_of(seen_coded_, setup_.steps);
 
   HeadTracker head(head_.geometry, head_.pose, first_);
   FeatureTracker features(head_.geometry, head_.pose, first_);
   PictureFit fit(setup_, head_.geometry, first_, seen_);
-  const MotionCoder coder(setup_);
-  MotionCounter counter(coder, true);
-  State state = seen_;
-  counter.push(state);
+  Fit now{pose_of(seen_), {}, {}};
   // Twice round, so that the first picture too comes from its neighbour.
   constexpr int kRound = 2 * (kPictures - 1);
   round_.resize(kRound);
@@ -38,22 +35,11 @@ AnalysisClip::AnalysisClip()
     p.tracked = head.track(p.frame, neutral_);
     p.flow = head.flow();
     features.track(p.frame, p.tracked.pose, p.flow);
-    p.tracked_fit = {p.tracked.pose, features.offsets()};
+    p.tracked_fit = {p.tracked.pose, now.light, features.offsets()};
     fit.look_at(p.frame, setup_.mouth);
-    p.before = state;
-    p.found = {quantised(p.tracked_fit), quantised(fit.refine(p.tracked_fit))};
-    state = choose_state(std::array{p.before, p.found[0], p.found[1]}, fit, counter, lambda_);
-    counter.push(state);
+    now = fit.refine(p.tracked_fit);
+    p.form = fit.form_at(now);
   }
-}
-
-State AnalysisClip::quantised(const Fit& fit) const {
-  State state;
-  state.pose = quantise(fit.pose, setup_.steps);
-  for (std::size_t i = 0; i < kControlCount; ++i)
-    state.control[i] = {static_cast<int>(std::lround(fit.offsets[i].x / setup_.steps.control)),
-                        static_cast<int>(std::lround(fit.offsets[i].y / setup_.steps.control))};
-  return state;
 }
 
 AnalysisClip& analysis_clip() {

@@ -5,7 +5,6 @@
 #include <array>
 #include <vector>
 
-#include "bitstream/motion_payload.h"
 #include "common/generic_head.h"
 #include "encoder/adapt.h"
 #include "encoder/feature_tracker.h"
@@ -21,9 +20,8 @@ struct AnalysedPicture {
   WorkFrame frame;  ///< with colour
   TrackedPose tracked;
   std::array<glm::dvec2, kVertexCount> flow{};
-  Fit tracked_fit;             ///< pose and snakes
-  State before;                ///< chosen for the picture before
-  std::array<State, 2> found;  ///< as tracked and as refined, quantised
+  Fit tracked_fit;  ///< pose and snakes, the light of the picture before
+  FitForm form;     ///< round the refined fit
 };
 
 class AnalysisClip {
@@ -40,6 +38,7 @@ class AnalysisClip {
   [[nodiscard]] const Geometry& geometry() const { return head_.geometry; }
   [[nodiscard]] const Pose& pose() const { return head_.pose; }  ///< of the first picture
   [[nodiscard]] const State& seen() const { return seen_; }      ///< the same, quantised
+  [[nodiscard]] const CodedState& seen_coded() const { return seen_coded_; }
   [[nodiscard]] const WorkFrame& first() const { return first_; }
   [[nodiscard]] double eye_distance_px() const { return head_.pose.eye_distance_px(); }
   [[nodiscard]] double lambda() const { return lambda_; }
@@ -47,13 +46,12 @@ class AnalysisClip {
   [[nodiscard]] VideoFormat format() { return clip_.format(); }
 
  private:
-  [[nodiscard]] State quantised(const Fit& fit) const;
-
   TalkerClip clip_;
   AdaptedHead head_;
   HeadVertices neutral_{};
   WorkFrame first_;
   Setup setup_;
+  CodedState seen_coded_{};
   State seen_;
   double lambda_ = 0;
   std::vector<AnalysedPicture> round_;

@@ -7,6 +7,7 @@
 #include "cli/video/video_source.h"
 #include "decoder/stream_decoder.h"
 #include "encoder/feature_tracker.h"
+#include "encoder/pose.h"
 #include "samples/talker_render.h"
 
 namespace fbs::figures {
@@ -90,7 +91,7 @@ Result<Followed> follow(const Footage& footage) {
     if (!status) return tl::unexpected<Error>(status.error());
     if (*status != DecodeStatus::kPicture) break;
     out.geometry = decoder.scene().geometry->geometry();
-    out.poses.push_back(dequantise(decoder.state(), decoder.scene().setup.steps));
+    out.poses.push_back(pose_of(decoder.state()));
   }
   return out;
 }

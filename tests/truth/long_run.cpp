@@ -103,8 +103,7 @@ struct Shown {
   Pose pose;
   std::array<glm::dvec2, kVertexCount> vertices{};
 
-  explicit Shown(const StreamDecoder& decoder)
-      : pose(dequantise(decoder.state(), decoder.scene().setup.steps)) {
+  explicit Shown(const StreamDecoder& decoder) : pose(pose_of(decoder.state())) {
     const auto projected = decoder.scene().geometry->project_vertices(decoder.state());
     for (std::size_t v = 0; v < kVertexCount; ++v)
       vertices[v] = glm::dvec2(projected[v].x, projected[v].y) / 64.0;

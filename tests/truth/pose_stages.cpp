@@ -13,13 +13,14 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "bitstream/track.h"
 #include "encoder/adapt.h"
 #include "encoder/encoder.h"
 #include "encoder/feature_tracker.h"
 #include "encoder/head_tracker.h"
 #include "encoder/operating_point.h"
 #include "encoder/picture_fit.h"
-#include "encoder/state_choice.h"
+#include "encoder/track_plan.h"
 #include "tests/unit/talker_clip.h"
 
 namespace {
@@ -27,6 +28,7 @@ namespace {
 using namespace fbs;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::size_t kGroup = 30;
 
 /// Errors of one stage over pictures.
 struct Stage {
@@ -67,15 +69,6 @@ struct Stage {
   }
 };
 
-State quantised(const Fit& fit, const QuantiserSteps& steps) {
-  State state;
-  state.pose = quantise(fit.pose, steps);
-  for (std::size_t i = 0; i < kControlCount; ++i)
-    state.control[i] = {static_cast<int>(std::lround(fit.offsets[i].x / steps.control)),
-                        static_cast<int>(std::lround(fit.offsets[i].y / steps.control))};
-  return state;
-}
-
 /// The analysis of SceneEncoder, with every stage's pose taken down.
 void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   const AdaptedHead head = *adapt_head(clip.marks(0));
@@ -84,35 +77,38 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   Setup setup;
   setup.format = clip.format();
   setup.steps = point.steps;
-  for (const FeatureId id : kSnakeFeatures)
-    setup.features = static_cast<FeatureMask>(setup.features | (1U << static_cast<unsigned>(id)));
-  State state;
-  state.pose = quantise(head.pose, setup.steps);
+  CodedState anchor{};
+  const auto numbers = numbers_of(head.pose);
+  for (std::size_t i = 0; i < kPoseCount; ++i)
+    anchor[i] = static_cast<std::int32_t>(std::lround(numbers[i] / step_of(setup.steps, i)));
+  const State seen = state_of(anchor, setup.steps);
   const WorkFrame first = WorkFrame::cut(clip[0], head.pose.shift, eye, true);
   HeadTracker tracker(head.geometry, head.pose, first);
   FeatureTracker features(head.geometry, head.pose, first);
-  PictureFit fit(setup, head.geometry, first, state);
-  const MotionCoder coder(setup);
-  MotionCounter counter(coder, true);
-  counter.push(state);
+  PictureFit fit(setup, head.geometry, first, seen);
+  const TrackPlanner planner(setup.steps, setup.parts, point.lambda);
+  TrackRate rate;
+  Fit now{pose_of(seen), {}, {}};
+  std::vector<FitForm> fits;
+  std::vector<Pose> truths;
   for (int i = 1; i < clip.count(); ++i) {
-    const auto deformed = deform(head.geometry.positions, state, setup.steps);
-    HeadVertices vertices;
-    for (std::size_t v = 0; v < kVertexCount; ++v) vertices[v] = glm::dvec3(deformed[v]);
-    const WorkFrame now = WorkFrame::cut(clip[i], tracker.pose().shift, eye, true);
-    const TrackedPose tracked = tracker.track(now, vertices);
-    features.track(now, tracked.pose, tracker.flow());
-    const Fit as_tracked{tracked.pose, features.offsets()};
-    fit.look_at(now, setup.mouth);
-    const Fit refined = fit.refine(as_tracked);
-    state =
-        choose_state(std::array{state, quantised(as_tracked, setup.steps), quantised(refined, setup.steps)},
-                     fit, counter, point.lambda);
-    counter.push(state);
-    const Pose truth = clip.pose(i);
-    stages[0].take(tracked.pose, truth);
-    stages[1].take(refined.pose, truth);
-    stages[2].take(dequantise(state, setup.steps), truth);
+    const WorkFrame frame = WorkFrame::cut(clip[i], tracker.pose().shift, eye, true);
+    const TrackedPose tracked = tracker.track(frame, fit.deformed(now));
+    features.track(frame, tracked.pose, tracker.flow());
+    fit.look_at(frame, setup.mouth);
+    now = fit.refine({tracked.pose, now.light, features.offsets()});
+    fits.push_back(fit.form_at(now));
+    truths.push_back(clip.pose(i));
+    stages[0].take(tracked.pose, truths.back());
+    stages[1].take(now.pose, truths.back());
+    if (fits.size() < kGroup && i + 1 < clip.count()) continue;
+    const MotionGroup group = planner.plan(anchor, fits, rate);
+    const std::vector<State> chosen = states_of(group, setup.steps);
+    for (std::size_t t = 0; t < chosen.size(); ++t) stages[2].take(pose_of(chosen[t]), truths[t]);
+    rate.learn(group);
+    anchor = last_of(group);
+    fits.clear();
+    truths.clear();
   }
 }
 

@@ -16,6 +16,7 @@ TEST(OperatingPoint, MovesEverythingTheSameWayWithQuality) {
       EXPECT_LE(better.steps.rotation, worse.steps.rotation);
       EXPECT_LE(better.steps.translation, worse.steps.translation);
       EXPECT_LE(better.steps.log_scale, worse.steps.log_scale);
+      EXPECT_LE(better.steps.light, worse.steps.light);
       EXPECT_LE(better.steps.control, worse.steps.control);
       EXPECT_LT(better.lambda, worse.lambda);
     }

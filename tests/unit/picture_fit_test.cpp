@@ -26,62 +26,37 @@ State other_state(const FittedScene& s) {
   return state;
 }
 
-TEST(PictureFit, TrueStateHasTheLeastDistortion) {
-  FittedScene s;
-  const State truth = other_state(s);
-  s.look_at(truth);
-  const double least = s.fit.distortion(truth);
-  EXPECT_LT(least, 0.1 * s.fit.distortion(s.seen));
-  for (const auto& [index, step] : {std::pair{kPitch, 4 * kDegree},
-                                    {kYaw, 4 * kDegree},
-                                    {kRoll, 2 * kDegree},
-                                    {kShiftX, 96},
-                                    {kShiftY, 96},
-                                    {kLogScale, 200}}) {
-    for (const int side : {-1, 1}) {
-      State wrong = truth;
-      wrong.pose[index] += side * step;
-      EXPECT_GT(s.fit.distortion(wrong), 1.5 * least) << static_cast<int>(index);
-    }
+/// Squared luma difference between two pictures.
+double squares(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.y.samples.size(); ++i) {
+    const double d = a.y.samples[i] - b.y.samples[i];
+    sum += d * d;
   }
+  return sum;
 }
 
-// It looks at some thousand points where the decoder has all samples.
-TEST(PictureFit, DistortionIsNearThatOfTheDecodersPicture) {
-  FittedScene s;
-  const State truth = other_state(s);
-  s.look_at(truth);
-  const Picture source = s.drawn(truth);
-  for (const int step : {0, 64, 200}) {
-    State tried = s.seen;
-    tried.pose[kShiftX] += step;
-    const Picture shown = s.drawn(tried);
-    double squares = 0;
-    for (std::size_t i = 0; i < source.y.samples.size(); ++i) {
-      const double d = source.y.samples[i] - shown.y.samples[i];
-      squares += d * d;
-    }
-    EXPECT_NEAR(s.fit.distortion(tried) / squares, 1, 0.5) << step;
-  }
+/// The fit that says a state.
+Fit fit_of(const State& state) {
+  Fit fit{pose_of(state), {}, {}};
+  for (std::size_t i = 0; i < kLightCount; ++i) fit.light[i] = state.light[i] / 16.0;
+  for (std::size_t c = 0; c < kControlCount; ++c) fit.offsets[c] = glm::dvec2(state.control[c]);
+  return fit;
 }
 
 TEST(PictureFit, RefineFindsPoseAndExpression) {
   FittedScene s;
   const State truth = other_state(s);
   s.look_at(truth);
-  const Fit found = s.fit.refine({dequantise(s.seen, s.setup.steps), {}});
-  const Pose expected = dequantise(truth, s.setup.steps);
+  const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
+  const Pose expected = pose_of(truth);
   EXPECT_NEAR(found.pose.yaw, expected.yaw, kDegreeRad);
   EXPECT_NEAR(found.pose.pitch, expected.pitch, kDegreeRad);
   EXPECT_NEAR(found.pose.roll, expected.roll, 0.5 * kDegreeRad);
   EXPECT_NEAR(found.pose.shift.x, expected.shift.x, 1);
   EXPECT_NEAR(found.pose.shift.y, expected.shift.y, 1);
-  State state;
-  state.pose = quantise(found.pose, s.setup.steps);
-  for (std::size_t i = 0; i < kControlCount; ++i)
-    state.control[i] = {static_cast<int>(std::lround(found.offsets[i].x)),
-                        static_cast<int>(std::lround(found.offsets[i].y))};
-  EXPECT_LT(s.fit.distortion(state), 0.35 * s.fit.distortion(s.seen));
+  const Picture source = s.drawn(truth);
+  EXPECT_LT(squares(s.drawn(state_of(found)), source), 0.35 * squares(s.drawn(s.seen), source));
   double brow = 0;
   for (int i = 0; i < 4; ++i)
     brow += found.offsets[static_cast<std::size_t>(feature(FeatureId::kBrowRight).first_control + i)].y / 4;
@@ -91,26 +66,127 @@ TEST(PictureFit, RefineFindsPoseAndExpression) {
 TEST(PictureFit, RefineStaysWhereThePictureIsThePattern) {
   FittedScene s;
   s.look_at(s.seen);
-  const Pose start = dequantise(s.seen, s.setup.steps);
-  const Fit found = s.fit.refine({start, {}});
+  const Pose start = pose_of(s.seen);
+  const Fit found = s.fit.refine({start, {}, {}});
   EXPECT_NEAR(found.pose.yaw, start.yaw, 0.3 * kDegreeRad);
   EXPECT_NEAR(found.pose.shift.x, start.shift.x, 0.1);
   EXPECT_NEAR(found.pose.shift.y, start.shift.y, 0.1);
   for (const glm::dvec2 o : found.offsets) EXPECT_LT(std::hypot(o.x, o.y), 0.02 * kUnitsPerEyeDistance);
 }
 
-TEST(PictureFit, FeaturesThatAreNotSentDoNotMove) {
+TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
   FittedScene s;
   fbs::Setup few = s.setup;
-  few.features = 1U << static_cast<unsigned>(FeatureId::kBrowRight);
+  few.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kBrows));
   PictureFit fit(few, toy_geometry(), WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true),
                  s.seen);
   fit.look_at(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
-  const Fit found = fit.refine({dequantise(s.seen, few.steps), {}});
-  const Feature& brow = feature(FeatureId::kBrowRight);
+  const Fit found = fit.refine({pose_of(s.seen), {}, {}});
+  const ExpressionPart& brows = generic_head().expression[1];
   for (int i = 0; i < kControlCount; ++i) {
-    const bool sent = i >= brow.first_control && i < brow.first_control + brow.control_count;
+    const bool sent = i >= brows.first_control && i < brows.first_control + brows.control_count;
     EXPECT_EQ(found.offsets[static_cast<std::size_t>(i)] != glm::dvec2(0), sent) << i;
+  }
+}
+
+TEST(PictureFit, LightIsFound) {
+  FittedScene s;
+  for (const std::array<int, kLightCount>& light :
+       {std::array{15, 0, 0, 0}, {-12, 8, 0, 0}, {5, -6, 10, 0}, {0, 0, -8, 12}}) {
+    State truth = s.seen;
+    for (std::size_t i = 0; i < kLightCount; ++i) truth.light[i] = 16 * light[i];
+    s.look_at(truth);
+    const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
+    for (std::size_t i = 0; i < kLightCount; ++i) EXPECT_NEAR(found.light[i], light[i], 1.5) << i;
+    EXPECT_NEAR(found.pose.shift.x, pose_of(s.seen).shift.x, 0.2) << "light is not taken for motion";
+  }
+}
+
+TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
+  FittedScene s;
+  State state = other_state(s);
+  state.light = {-100, 7, 80, 16};
+  EXPECT_EQ(state_of(fit_of(state)), state);
+  Fit fit = fit_of(state);
+  fit.light[0] += 0.4 / 16;
+  fit.offsets[3] += 0.4;
+  EXPECT_EQ(state_of(fit), state);
+}
+
+// The least eigenvalue of a sum of squares is not below zero, but for rounding.
+TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
+  FittedScene s;
+  State truth = other_state(s);
+  truth.light = {160, 0, 80, 0};
+  s.look_at(truth);
+  const FitForm form = s.fit.form_at(fit_of(truth));
+  ASSERT_EQ(form.form.rows, kParameterCount);
+  EXPECT_LT(cv::norm(form.form - form.form.t()), 1e-9 * cv::norm(form.form));
+  cv::Mat1d values;
+  ASSERT_TRUE(cv::eigen(form.form, values));
+  EXPECT_GT(values(kParameterCount - 1), -1e-9 * values(0));
+  for (int i = 0; i < kParameterCount; ++i) {
+    const bool surround = kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kBody) ||
+                          kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kGround);
+    EXPECT_EQ(form.form(i, i) > 0, !surround) << i;
+  }
+}
+
+TEST(PictureFit, FormHasTheNumbersOfTheFit) {
+  FittedScene s;
+  State state = other_state(s);
+  state.light = {160, -32, 80, 16};
+  s.look_at(state);
+  for (const FitForm& form : {s.fit.form_at(fit_of(state)), PictureFit::form_unseen(fit_of(state))}) {
+    CodedState values;
+    for (std::size_t i = 0; i < kParameterCount; ++i)
+      values[i] = static_cast<std::int32_t>(std::lround(form.value[i]));
+    const State back = state_of_values(values);
+    EXPECT_EQ(back.pose, state.pose);
+    EXPECT_EQ(back.light, state.light);
+    for (std::size_t c = 0; c < kControlCount; ++c) {
+      EXPECT_NEAR(back.control[c].x, state.control[c].x, 4) << c;
+      EXPECT_NEAR(back.control[c].y, state.control[c].y, 4) << c;
+    }
+  }
+  EXPECT_EQ(cv::countNonZero(PictureFit::form_unseen(fit_of(state)).form), 0) << "no picture speaks";
+}
+
+// What the encoder weighs bits against is what the decoder's picture shows: it looks at some thousand points
+// where the decoder has all samples.
+TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
+  FittedScene s;
+  s.look_at(s.seen);
+  const Picture source = s.drawn(s.seen);
+  const FitForm form = s.fit.form_at(fit_of(s.seen));
+  const auto compare = [&](std::size_t first, std::int32_t by, std::size_t second = 0,
+                           std::int32_t and_by = 0) {
+    CodedState values;
+    for (std::size_t i = 0; i < kParameterCount; ++i)
+      values[i] = static_cast<std::int32_t>(std::lround(form.value[i]));
+    values[first] += by;
+    values[second] += and_by;
+    cv::Mat1d e = cv::Mat1d::zeros(kParameterCount, 1);
+    for (std::size_t i = 0; i < kParameterCount; ++i) e(static_cast<int>(i)) = values[i] - form.value[i];
+    const double predicted = cv::Mat1d(e.t() * form.form * e)(0);
+    const double shown = squares(s.drawn(state_of_values(values)), source);
+    EXPECT_NEAR(shown / predicted, 1, 0.5) << first << ' ' << second;
+  };
+  constexpr std::size_t kLight = kPoseCount;
+  for (const int side : {-1, 1}) {
+    compare(kShiftX, side * 40);
+    compare(kShiftY, side * 40);
+    compare(kYaw, side * kDegree);
+    compare(kRoll, side * kDegree);
+    compare(kLogScale, side * 80);
+    compare(kLight + kLightOffset, side * 80);
+    compare(kLight + kLightGain, side * 80);
+    compare(kLight + kLightSlopeX, side * 80);
+    compare(kLight + kLightSlopeY, side * 80);
+    compare(kFirstCoefficient, side * 150);
+    compare(kFirstCoefficient + 36, side * 150);  // brows
+    compare(kYaw, kDegree, kShiftX, side * 40);
+    compare(kLight + kLightOffset, 80, kLight + kLightSlopeX, side * 80);
   }
 }
 
@@ -118,8 +194,8 @@ TEST(PictureFit, FeaturesThatAreNotSentDoNotMove) {
 TEST(PictureFit, FlatPictureMovesNothingFar) {
   FittedScene s;
   s.fit.look_at(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true), s.setup.mouth);
-  const Pose start = dequantise(s.seen, s.setup.steps);
-  const Fit found = s.fit.refine({start, {}});
+  const Pose start = pose_of(s.seen);
+  const Fit found = s.fit.refine({start, {}, {}});
   EXPECT_TRUE(std::isfinite(found.pose.yaw) && std::isfinite(found.pose.shift.x));
   for (const glm::dvec2 o : found.offsets) EXPECT_TRUE(std::isfinite(o.x) && std::isfinite(o.y));
 }
@@ -133,13 +209,13 @@ TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
     for (const FeatureId id : lids)
       for (int i = 0; i < 2; ++i)
         state.control[static_cast<std::size_t>(feature(id).first_control + i)] = {
-            0, static_cast<int>(std::lround(by / s.setup.steps.control))};
+            0, static_cast<int>(std::lround(by))};
     return state;
   };
   const double down = 0.12 * kUnitsPerEyeDistance;
   for (const double truth : {0.0, down}) {
     s.look_at(lowered(truth));
-    Fit start{dequantise(s.seen, s.setup.steps), {}};
+    Fit start{pose_of(s.seen), {}, {}};
     for (const FeatureId id : lids)
       for (std::size_t i = 0; i < 2; ++i)
         start.offsets[static_cast<std::size_t>(feature(id).first_control) + i] = {0, down - truth};

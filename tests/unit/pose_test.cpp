@@ -22,24 +22,19 @@ Pose random_pose(std::mt19937& random) {
           within(4, 6.3)};  // 16..79 pixels
 }
 
-TEST(Pose, SurvivesQuantisingWithinHalfAStep) {
+TEST(Pose, NumbersAreThoseOfTheState) {
   std::mt19937 random(1);
-  for (const QuantiserSteps steps :
-       {QuantiserSteps{1, 1, 1, 1}, QuantiserSteps{}, QuantiserSteps{700, 55, 90, 300}}) {
-    for (int i = 0; i < 200; ++i) {
-      const Pose pose = random_pose(random);
-      State state;
-      state.pose = quantise(pose, steps);
-      const Pose back = dequantise(state, steps);
-      const double turn = 0.5001 * steps.rotation * 2 * std::numbers::pi / 65536;
-      EXPECT_NEAR(back.pitch, pose.pitch, turn);
-      EXPECT_NEAR(back.yaw, pose.yaw, turn);
-      EXPECT_NEAR(back.roll, pose.roll, turn);
-      EXPECT_NEAR(back.shift.x, pose.shift.x, 0.5001 * steps.translation / 64);
-      EXPECT_NEAR(back.shift.y, pose.shift.y, 0.5001 * steps.translation / 64);
-      EXPECT_NEAR(back.log2_scale, pose.log2_scale, 0.5001 * steps.log_scale / 4096);
-      EXPECT_EQ(quantise(back, steps), state.pose) << "what was quantised stays";
-    }
+  for (int i = 0; i < 200; ++i) {
+    const Pose pose = random_pose(random);
+    const auto numbers = numbers_of(pose);
+    EXPECT_NEAR(numbers[kYaw], pose.yaw / (2 * std::numbers::pi) * 65536, 1e-9);
+    EXPECT_NEAR(numbers[kShiftX], pose.shift.x * 64, 1e-9);
+    EXPECT_NEAR(numbers[kLogScale], pose.log2_scale * 4096, 1e-9);
+    State state;
+    for (std::size_t k = 0; k < kPoseCount; ++k)
+      state.pose[k] = static_cast<std::int32_t>(std::lround(numbers[k]));
+    const auto back = numbers_of(pose_of(state));
+    for (std::size_t k = 0; k < kPoseCount; ++k) EXPECT_NEAR(back[k], state.pose[k], 1e-6) << k;
   }
 }
 
@@ -57,12 +52,13 @@ TEST(Pose, EyeDistanceIsTheDistanceBetweenTheProjectedEyes) {
 // One frame, one order of rotation: the encoder's continuous projection is the decoder's.
 TEST(PoseProjection, AgreesWithTheDecodersWithinA32thOfAPixel) {
   std::mt19937 random(2);
-  const QuantiserSteps finest{1, 1, 1, 1};
   for (int i = 0; i < 300; ++i) {
     State state;
-    state.pose = quantise(random_pose(random), finest);
-    const PoseProjection continuous(dequantise(state, finest));
-    const HeadProjection integer(dequantise_pose(state, finest));
+    const auto numbers = numbers_of(random_pose(random));
+    for (std::size_t k = 0; k < kPoseCount; ++k)
+      state.pose[k] = static_cast<std::int32_t>(std::lround(numbers[k]));
+    const PoseProjection continuous(pose_of(state));
+    const HeadProjection integer(head_pose(state));
     for (const HeadVertex& v : generic_head().vertices) {
       const glm::dvec2 expected = continuous(glm::dvec3(v.position));
       const glm::ivec3 got = integer(v.position);

@@ -379,7 +379,7 @@ void draw_shaded(const RasterTriangle& t, PlaneScale scale, const Plane& pattern
   DepthPlane depth;
   depth.reset(target.width, target.height, whole(target));
   const PlanePair pair{&pattern, &target, low, high};
-  draw_triangle(t, scale, {&pair, 1}, whole(target), &depth, &shade);
+  draw_triangle(t, scale, {&pair, 1}, whole(target), &depth, {.shade = &shade});
 }
 
 TEST(Rasteriser, ShadeMixesARampOverThePattern) {

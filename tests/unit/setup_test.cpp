@@ -19,8 +19,7 @@ Setup sample_setup() {
   setup.format.pixel_aspect = {12, 11};
   setup.format.range = ColourRange::kFull;
   setup.format.matrix = ColourMatrix::kBt709;
-  setup.steps = {300, 65535, 1, 77};
-  setup.features = (1 << kFeatureCount) - 1;
+  setup.steps = {300, 65535, 1, 12, 77};
   setup.mouth = {{180, 120, 130}, {20, 110, 140}};
   return setup;
 }
@@ -63,8 +62,11 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
       {[](fbs::Setup& s) { s.steps.rotation = 0; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.steps.translation = 65536; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.steps.log_scale = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.light = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.light = kMaxStep + 1; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.steps.control = -1; }, ErrorCode::kInvalidArgument},
-      {[](fbs::Setup& s) { s.features = 1 << kFeatureCount; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.parts = 1 << kPartCount | 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.parts = kAllParts & ~1; }, ErrorCode::kInvalidArgument},  // the pose is always
       {[](fbs::Setup& s) { s.format.matrix = static_cast<ColourMatrix>(3); }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.format.range = static_cast<ColourRange>(2); }, ErrorCode::kInvalidArgument},
   };
@@ -77,12 +79,15 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
   }
 }
 
-// Payload by hand: version, head, width, height, rate, aspect, colour, steps, features, mouth.
+// Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
 TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {2, 2, 64, 65, 25, 1,   1,   1,  0,   1,
-                                          2, 3, 4,  0,  70, 126, 138, 45, 126, 139};
+  const std::vector<std::uint8_t> good = {3, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
+                                          3, 4, 5,  6,  70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
+  EXPECT_EQ(decode_setup(good)->steps, (QuantiserSteps{1, 2, 3, 4, 5}));
+  EXPECT_EQ(decode_setup(good)->parts,
+            mask_of(PartId::kPose) | mask_of(PartId::kBody) | mask_of(PartId::kGround));
   EXPECT_EQ(decode_setup(good)->mouth, (MouthInterior{{70, 126, 138}, {45, 126, 139}}));
   const auto code_with = [&](std::size_t place, std::uint8_t value) {
     auto bytes = good;
@@ -90,16 +95,22 @@ TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
     const auto read = decode_setup(bytes);
     return read ? ErrorCode::kInternal : read.error().code;
   };
-  EXPECT_EQ(code_with(0, 3), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, 4), ErrorCode::kUnsupported);
+  for (const std::uint8_t older : {1, 2}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(1, 1), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(2, 63), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(4, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(5, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(7, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(8, 6), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(9, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(12, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(12, 0), ErrorCode::kInvalidStream) << "light";
+  EXPECT_EQ(code_with(13, 0), ErrorCode::kInvalidStream) << "control";
+  auto unknown_part = good;
+  unknown_part[14] = 0x80;
+  unknown_part.insert(unknown_part.begin() + 15, 2);  // bit 8 without the pose's: a tenth part
+  EXPECT_EQ(decode_setup(unknown_part).error().code, ErrorCode::kInvalidStream);
   auto large = good;
   large.insert(large.begin() + 2, {0x81});  // width 1 + 128 * 64 = 8193
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
@@ -139,8 +150,11 @@ TEST(EndPayload, RoundTrips) {
 PatternSyntax sample_pattern() {
   PatternSyntax pattern;
   pattern.index = 5;
-  pattern.state.pose = {3, -2, 0, 40, -7, 900};
-  pattern.state.control[0] = {4, -9};
+  pattern.state[kYaw] = -2;
+  pattern.state[kShiftX] = 40;
+  pattern.state[kLogScale] = 900;
+  pattern.state[kFirstCoefficient] = -9;
+  pattern.state.back() = 4;
   pattern.av1 = {0x12, 0x00, 0x0A};
   return pattern;
 }
@@ -162,18 +176,20 @@ TEST(PatternPayload, RoundTrips) {
 TEST(PatternPayload, RefusesWhatBreaksALimit) {
   const auto code_of = [](const std::function<void(PatternSyntax&)>& breaks) {
     PatternSyntax pattern = sample_pattern();
+    pattern.state.back() = 0;  // gaze, is not sent
     breaks(pattern);
     auto setup = fine_setup();
-    setup.features = 1;  // outer lips only
+    setup.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kMouth));
     const auto payload = encode_pattern(pattern, setup);
     return payload ? ErrorCode::kInternal : payload.error().code;
   };
+  EXPECT_EQ(code_of([](PatternSyntax&) {}), ErrorCode::kInternal) << "all else is in order";
   EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = kMaxPatterns; }), ErrorCode::kInvalidArgument);
   EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = -1; }), ErrorCode::kInvalidArgument);
   EXPECT_EQ(code_of([](PatternSyntax& p) { p.av1.clear(); }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state.pose[kYaw] = 1 << 20; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state.pose[kLogScale] = -1; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state.control[12] = {1, 0}; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kYaw] = 1 << 20; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kLogScale] = -1; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kPoseCount] = 1; }), ErrorCode::kInvalidArgument);
   const std::vector<std::uint8_t> far = {64, 0, 1};
   EXPECT_EQ(decode_pattern(far, fine_setup()).error().code, ErrorCode::kTooLarge);
   const std::vector<std::uint8_t> endless = {0, 0x7F, 1};

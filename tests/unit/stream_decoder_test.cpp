@@ -11,6 +11,7 @@
 #include "bitstream/pattern_payload.h"
 #include "bitstream/setup.h"
 #include "bitstream/surround_payload.h"
+#include "bitstream/track.h"
 #include "encoder/pattern_encoder.h"
 #include "tests/unit/toy_scene.h"
 
@@ -27,12 +28,13 @@ Setup setup_of() {
   return setup;
 }
 
-State state_of(int time) {
-  State s = toy_state(48, 34);
-  s.pose[kLogScale] = 4 * 4096;
-  s.pose[kYaw] = time * 150;
-  s.pose[kShiftX] += time * 20;
-  s.control[7] = {0, time * 25};
+CodedState coded_at(int time) {
+  CodedState s = coded_pose(toy_state(48, 34));
+  s[kLogScale] = 4 * 4096;
+  s[kYaw] = time * 150;
+  s[kShiftX] += time * 20;
+  s[kPoseCount + kLightOffset] = time * 9;
+  s[kFirstCoefficient] = time * 25;
   return s;
 }
 
@@ -58,7 +60,7 @@ class Writer {
   }
   Writer& setup(const Setup& s = setup_of()) {
     setup_ = s;
-    motion_.emplace(s);
+    motion_.emplace(s, coded_at(0));
     patterns_ = 0;
     av1_.emplace(*PatternEncoder::create(s.format, 50));
     return packet(PacketType::kSetup, encode_setup(s));
@@ -68,13 +70,16 @@ class Writer {
     return packet(PacketType::kSurround, encode_surround(even_surround(6, 5, follow)));
   }
   Writer& pattern(const Picture& picture = face_picture(0)) {
-    const PatternSyntax syntax{patterns_++, state_of(0), *av1_->encode(picture)};
+    const PatternSyntax syntax{patterns_++, coded_at(0), *av1_->encode(picture)};
     return packet(PacketType::kPattern, encode_pattern(syntax, setup_));
   }
   /// Pictures `from`..`end` - 1.
   Writer& motion(int from, int end, bool key = false, std::vector<std::uint32_t> durations = {}) {
-    MotionGroup group{key, {}, std::move(durations)};
-    for (int t = from; t < end; ++t) group.states.push_back(state_of(t));
+    std::vector<CodedState> states;
+    for (int t = from; t < end; ++t) states.push_back(coded_at(t));
+    MotionGroup group = knots_everywhere(motion_->anchor(key), states, setup_.parts);
+    group.key = key;
+    group.durations = std::move(durations);
     return packet(PacketType::kMotion, motion_->encode(group));
   }
   Writer& end(std::uint64_t pictures) { return packet(PacketType::kEnd, encode_end({pictures})); }
@@ -262,7 +267,7 @@ TEST(StreamDecoder, OrderOfPacketsIsChecked) {
       << "no pattern";
   Writer late;
   late.setup();
-  const PatternSyntax one{1, state_of(0),
+  const PatternSyntax one{1, coded_at(0),
                           *PatternEncoder::create(setup_of().format, 50)->encode(face_picture(0))};
   EXPECT_EQ(first_error(late.packet(PacketType::kPattern, encode_pattern(one, setup_of()))),
             ErrorCode::kInvalidStream)
@@ -389,7 +394,7 @@ TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
 TEST(StreamDecoder, DamagedAv1IsInvalid) {
   Writer w;
   w.setup().geometry();
-  const PatternSyntax junk{0, state_of(0), Bytes(50, 0xAB)};
+  const PatternSyntax junk{0, coded_at(0), Bytes(50, 0xAB)};
   w.packet(PacketType::kPattern, encode_pattern(junk, setup_of()));
   const Told told = played(w.bytes);
   ASSERT_FALSE(told.errors.empty());

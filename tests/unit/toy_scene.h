@@ -2,6 +2,7 @@
 // needed.
 #pragma once
 
+#include <algorithm>
 #include <random>
 
 #include "decoder/renderer.h"
@@ -42,15 +43,12 @@ inline Plane smooth_plane(int width, int height, unsigned seed) {
   return out;
 }
 
-inline constexpr FeatureMask kAllFeatures = (1 << kFeatureCount) - 1;
-
 /// Finest steps, so that tests can say turns, pixels and head units.
 inline Setup toy_setup(int width = 160, int height = 128) {
   Setup setup;
   setup.format.width = width;
   setup.format.height = height;
-  setup.steps = {1, 1, 1, 1};
-  setup.features = kAllFeatures;
+  setup.steps = {1, 1, 1, 1, 1};
   return setup;
 }
 
@@ -69,13 +67,23 @@ inline State toy_state(int x = 80, int y = 50) {
   return state;
 }
 
-/// `follow` everywhere inside, nothing on the border.
-inline SurroundMap even_surround(int columns, int rows, int follow) {
-  SurroundMap map{columns, rows, {}};
-  for (int r = 0; r <= rows; ++r)
-    for (int c = 0; c <= columns; ++c)
-      map.follow.push_back(
-          static_cast<std::uint8_t>(r == 0 || c == 0 || r == rows || c == columns ? 0 : follow));
+/// A state at rest but for its pose, in steps of one.
+inline CodedState coded_pose(const State& state) {
+  CodedState coded{};
+  std::copy(state.pose.begin(), state.pose.end(), coded.begin());
+  return coded;
+}
+
+/// The same shares everywhere inside; the border goes with the ground.
+inline SurroundMap even_surround(int columns, int rows, int head, int body = 0) {
+  SurroundMap map{columns, rows, {}, {}};
+  for (int r = 0; r <= rows; ++r) {
+    for (int c = 0; c <= columns; ++c) {
+      const bool border = r == 0 || c == 0 || r == rows || c == columns;
+      map.head.push_back(static_cast<std::uint8_t>(border ? 0 : head));
+      map.body.push_back(static_cast<std::uint8_t>(border ? 0 : body));
+    }
+  }
   return map;
 }
 
@@ -88,30 +96,32 @@ inline Scene toy_scene(Picture picture, SurroundMap surround = even_surround(10,
   return scene;
 }
 
-/// Any state that a stream may hold.
-inline State random_state(std::mt19937& random, const QuantiserSteps& steps = {1, 1, 1, 1}) {
-  const auto within = [&](std::int32_t limit, std::int32_t step) {
-    const std::int32_t most = limit / step;
-    // Often the very limit.
-    switch (random() % 4) {
+/// Any numbers that a stream may hold, often at a limit.
+inline CodedState random_coded(std::mt19937& random, const CodedLimits& limits) {
+  CodedState coded;
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
+    switch (random() % 5) {
       case 0:
-        return most;
+        coded[i] = limits.most[i];
+        break;
       case 1:
-        return -most;
+        coded[i] = limits.least[i];
+        break;
+      case 2:
+        coded[i] = 0;
+        break;
       default:
-        return static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
+        coded[i] = limits.least[i] + static_cast<std::int32_t>(random() % range);
     }
-  };
-  State state;
-  for (const int i : {kPitch, kYaw, kRoll})
-    state.pose[static_cast<std::size_t>(i)] = within(kMaxRotation, steps.rotation);
-  for (const int i : {kShiftX, kShiftY})
-    state.pose[static_cast<std::size_t>(i)] = within(kMaxTranslation, steps.translation);
-  state.pose[kLogScale] =
-      static_cast<std::int32_t>(random() % static_cast<unsigned>(kMaxLogScale / steps.log_scale + 1));
-  for (glm::ivec2& c : state.control)
-    c = {within(kMaxControl, steps.control), within(kMaxControl, steps.control)};
-  return state;
+  }
+  return coded;
+}
+
+/// Any state that a stream may hold.
+inline State random_state(std::mt19937& random) {
+  const QuantiserSteps finest{1, 1, 1, 1, 1};
+  return state_of(random_coded(random, {finest, kAllParts}), finest);
 }
 
 }  // namespace fbs

@@ -102,35 +102,48 @@ std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   return joined(pieces).size();
 }
 
-/// Every part of the state at and between its limits: what an encoder never writes, and a decoder must draw
-/// alike.
+/// Tracks of random knots at and between the limits of every number: what an encoder never writes, and a
+/// decoder must draw alike.
+MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, const CodedState& anchor) {
+  MotionGroup group;
+  group.anchor = anchor;
+  group.pictures = 20;
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    for (std::int32_t t = 0; t < group.pictures; ++t) {
+      if (t + 1 < group.pictures && random() % 3 != 0) continue;
+      Knot knot{.picture = t, .value = {}};
+      for (std::size_t k = 0; k < static_cast<std::size_t>(kPartSizes[part]); ++k) {
+        const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + k;
+        const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
+        knot.value[k] = random() % 6 == 0   ? limits.most[i]
+                        : random() % 6 == 0 ? limits.least[i]
+                                            : limits.least[i] + static_cast<int>(random() % range);
+      }
+      group.tracks[part].push_back(knot);
+    }
+  }
+  return group;
+}
+
+/// Everything that may be sent at its limits.
 Bytes limits_stream() {
   Setup setup;
   setup.format.width = 65;
   setup.format.height = 64;
   setup.format.frame_rate = {30, 1};
-  setup.steps = {512, 4096, 1024, 1024};
-  setup.features = (1 << kFeatureCount) - 1;
+  setup.steps = {512, 4096, 1024, 256, 1024};
   std::mt19937 random(1);
-  const StateLimits limits(setup);
-  const auto state = [&] {
-    FlatState flat{};
-    for (std::size_t i = 0; i < kParameterCount; ++i) {
-      const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
-      flat[i] = random() % 6 == 0   ? limits.most[i]
-                : random() % 6 == 0 ? limits.least[i]
-                                    : limits.least[i] + static_cast<int>(random() % range);
-    }
-    return unflatten(flat);
-  };
   Geometry geometry;
   for (std::size_t v = 0; v < kVertexCount; ++v) geometry.positions[v] = generic_head().vertices[v].position;
-  SurroundMap surround{7, 5, {}};
-  for (int k = 0; k < 8 * 6; ++k)
-    surround.follow.push_back(static_cast<std::uint8_t>(random() % (kFollowOne + 1)));
-  State seen;
-  seen.pose[kShiftX] = 32 * 64 / setup.steps.translation;
-  seen.pose[kLogScale] = 4 * 4096 / setup.steps.log_scale;
+  SurroundMap surround{7, 5, {}, {}};
+  const auto share = [&] { return static_cast<std::uint8_t>(random() % (kFollowOne + 1)); };
+  for (int k = 0; k < 8 * 6; ++k) {
+    surround.head.push_back(share());
+    surround.body.push_back(surround.head.back() == kFollowOne ? std::uint8_t{0} : share());
+  }
+  CodedState seen{};
+  seen[kShiftX] = 32 * 64 / setup.steps.translation;
+  seen[kLogScale] = 4 * 4096 / setup.steps.log_scale;
   auto av1 = must(PatternEncoder::create(setup.format, 40));
   const Picture picture = pictures_of(talker_settings(65, 64, 1))[0];
 
@@ -139,11 +152,11 @@ Bytes limits_stream() {
       {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
       {PacketType::kSurround, must(encode_surround(surround))},
       {PacketType::kPattern, must(encode_pattern({0, seen, must(av1.encode(picture))}, setup))}};
-  MotionCoder coder(setup);
-  for (int group = 0; group < 2; ++group) {
-    MotionGroup g{group == 0, {}, {}};
-    for (int i = 0; i < 20; ++i) g.states.push_back(state());
-    pieces.push_back({PacketType::kMotion, must(coder.encode(g))});
+  MotionCoder coder(setup, seen);
+  for (int i = 0; i < 2; ++i) {
+    MotionGroup group = group_at_limits(random, coder.limits(), coder.anchor(i == 0));
+    group.key = i == 0;
+    pieces.push_back({PacketType::kMotion, must(coder.encode(group))});
   }
   return joined(pieces);
 }
@@ -205,11 +218,11 @@ void add_good(Folder& folder, const Bytes& talk) {
 void add_broken(Folder& folder, const Bytes& talk) {
   const auto pieces = pieces_of(talk);
   const std::size_t third_motion = offset_of(pieces, place_of(pieces, PacketType::kMotion, 2));
-  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)},
-             10, "kTruncated");
+  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)}, 6,
+             "kTruncated");
   Bytes flipped = talk;
   flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
-  folder.add("flipped_bit.fbs", flipped, 5, "kInvalidStream");
+  folder.add("flipped_bit.fbs", flipped, 1, "kInvalidStream");
   const std::string y4m = "YUV4MPEG2 W64 H64 F30:1 Ip A1:1 C420jpeg\nFRAME\n";
   folder.add("not_fbs.fbs", {y4m.begin(), y4m.end()}, 0, "kNotFbs");
 

@@ -1,0 +1,47 @@
+// Motion groups of random tracks, for tests, fuzzing and benchmarks of the motion packet.
+#pragma once
+
+#include <algorithm>
+#include <random>
+
+#include "bitstream/syntax.h"
+
+namespace fbs {
+
+/// How tracks go.
+struct TrackHabits {
+  int knot_one_in = 6;   ///< pictures between knots, about
+  int moves_one_in = 2;  ///< spans over which a part moves
+  int reach = 3;         ///< the largest change of a number over a span, within its limits
+};
+
+/// A group from `anchor` on; not key.
+inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits, const CodedState& anchor,
+                                std::int32_t pictures, const TrackHabits& habits) {
+  const auto one_in = [&](int n) { return random() % static_cast<unsigned>(n) == 0; };
+  MotionGroup group;
+  group.anchor = anchor;
+  group.pictures = pictures;
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    if ((limits.parts >> part & 1) == 0) continue;
+    Knot knot;
+    std::copy_n(anchor.begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());
+    for (std::int32_t t = 0; t < pictures; ++t) {
+      if (t + 1 < pictures && !one_in(habits.knot_one_in)) continue;
+      knot.picture = t;
+      const bool moves = one_in(habits.moves_one_in);
+      for (int k = 0; moves && k < kPartSizes[part]; ++k) {
+        if (one_in(2)) continue;
+        const auto i = static_cast<std::size_t>(kPartFirst[part] + k);
+        const int change =
+            static_cast<int>(random() % static_cast<unsigned>(2 * habits.reach + 1)) - habits.reach;
+        std::int32_t& value = knot.value[static_cast<std::size_t>(k)];
+        value = std::clamp(value + change, limits.least[i], limits.most[i]);
+      }
+      group.tracks[part].push_back(knot);
+    }
+  }
+  return group;
+}
+
+}  // namespace fbs

@@ -1,0 +1,131 @@
+#include "bitstream/track.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+constexpr QuantiserSteps kFinest{1, 1, 1, 1, 1};
+
+TEST(Between, BeginsAndEndsExactly) {
+  for (const int from : {-1000, -1, 0, 7}) {
+    for (const int to : {-999, 0, 3, 1 << 20}) {
+      for (const int length : {1, 2, 7, 256}) {
+        EXPECT_EQ(between(from, to, 0, length), from);
+        EXPECT_EQ(between(from, to, length, length), to);
+      }
+    }
+  }
+}
+
+// SPEC 5.2. Halves go up on both sides of zero: a way there and the way back differ, and both are fixed.
+TEST(Between, RoundsHalvesUp) {
+  EXPECT_EQ(between(0, 1, 1, 2), 1);
+  EXPECT_EQ(between(0, -1, 1, 2), 0);
+  EXPECT_EQ(between(-1, 0, 1, 2), 0);
+  EXPECT_EQ(between(-3, -2, 1, 2), -2);
+  EXPECT_EQ(between(0, -3, 1, 2), -1);
+  EXPECT_EQ(between(0, 1, 1, 3), 0);
+  EXPECT_EQ(between(0, -1, 1, 3), 0);
+  EXPECT_EQ(between(0, -2, 1, 3), -1);
+}
+
+TEST(Between, IsTheNearestIntegerToTheStraightLine) {
+  std::mt19937 random(1);
+  const auto number = [&] { return static_cast<int>(random() % 4001) - 2000; };
+  for (int i = 0; i < 20000; ++i) {
+    const int from = number(), to = number(), length = 1 + static_cast<int>(random() % 256),
+              way = static_cast<int>(random() % static_cast<unsigned>(length + 1));
+    const double exact = from + (to - from) * (way / static_cast<double>(length));
+    ASSERT_NEAR(between(from, to, way, length), exact, 0.5 + 1e-9);
+    // A shift of both ends shifts what lies between.
+    ASSERT_EQ(between(from + 5000, to + 5000, way, length), between(from, to, way, length) + 5000);
+  }
+}
+
+TEST(Between, HoldsTheLargestNumbers) {
+  EXPECT_EQ(between(kMaxTranslation, -kMaxTranslation, 128, 256), 0);
+  EXPECT_EQ(between(INT32_MIN, INT32_MAX, 1, 2), 0);
+}
+
+/// A group in which only the pose is sent, with knots of yaw.
+MotionGroup yaw_group(std::int32_t pictures, std::initializer_list<std::pair<int, int>> knots) {
+  MotionGroup group;
+  group.pictures = pictures;
+  for (const auto& [picture, yaw] : knots) {
+    Knot knot{.picture = picture, .value = {}};
+    knot.value[kYaw] = yaw;
+    group.tracks[0].push_back(knot);
+  }
+  return group;
+}
+
+std::vector<int> yaws(const std::vector<State>& states) {
+  std::vector<int> out;
+  for (const State& s : states) out.push_back(s.pose[kYaw]);
+  return out;
+}
+
+TEST(StatesOf, GoStraightFromKnotToKnot) {
+  MotionGroup group = yaw_group(6, {{1, 10}, {2, -2}, {5, 4}});
+  EXPECT_EQ(yaws(states_of(group, kFinest)), (std::vector{5, 10, -2, 0, 2, 4}));
+  group.anchor[kYaw] = 20;
+  EXPECT_EQ(yaws(states_of(group, kFinest)), (std::vector{15, 10, -2, 0, 2, 4}));
+}
+
+// The units between are not whole steps: a coarse quantiser does not make a motion jerk.
+TEST(StatesOf, AreStraightInTheUnitsOfTheStateAndNotInSteps) {
+  const QuantiserSteps coarse{100, 1, 1, 1, 1};
+  EXPECT_EQ(yaws(states_of(yaw_group(4, {{3, 1}}), coarse)), (std::vector{25, 50, 75, 100}));
+}
+
+TEST(StatesOf, PartsGoTheirOwnWays) {
+  MotionGroup group = yaw_group(4, {{3, 8}});
+  const auto light = static_cast<std::size_t>(PartId::kLight), gaze = static_cast<std::size_t>(PartId::kGaze);
+  group.anchor[kPoseCount] = 4;
+  group.tracks[light] = {{0, {0}}, {3, {3}}};
+  group.tracks[gaze] = {{3, {4096}}};
+  const auto states = states_of(group, kFinest);
+  EXPECT_EQ(yaws(states), (std::vector{2, 4, 6, 8}));
+  for (int t = 0; t < 4; ++t) EXPECT_EQ(states[static_cast<std::size_t>(t)].light[kLightOffset], t);
+  CodedState a_quarter{}, whole{};
+  a_quarter[kPartFirst[gaze]] = 1024;
+  whole[kPartFirst[gaze]] = 4096;
+  EXPECT_EQ(states[0].control, state_of_values(a_quarter).control);
+  EXPECT_EQ(states[3].control, state_of_values(whole).control);
+}
+
+TEST(KnotsEverywhere, GiveTheStatesThatTheyWereMadeOf) {
+  std::mt19937 random(2);
+  const QuantiserSteps steps{3, 5, 7, 11, 13};
+  for (const PartMask parts : {kAllParts, PartMask{1}, PartMask{0x111}}) {
+    const CodedLimits limits(steps, parts);
+    std::vector<CodedState> coded;
+    for (int t = 0; t < 9; ++t) coded.push_back(random_coded(random, limits));
+    const MotionGroup group = knots_everywhere(random_coded(random, limits), coded, parts);
+    EXPECT_FALSE(group.key);
+    const auto states = states_of(group, steps);
+    ASSERT_EQ(states.size(), coded.size());
+    for (std::size_t t = 0; t < coded.size(); ++t) EXPECT_EQ(states[t], state_of(coded[t], steps));
+    EXPECT_EQ(last_of(group), coded.back());
+    for (std::size_t p = 0; p < kPartCount; ++p)
+      EXPECT_EQ(group.tracks[p].size(), (parts >> p & 1) != 0 ? coded.size() : 0);
+  }
+}
+
+TEST(LastOf, IsTheLastKnotOfEachPart) {
+  MotionGroup group = yaw_group(6, {{1, 10}, {5, 4}});
+  group.tracks[1] = {{5, {1, 2, 3, 4}}};
+  CodedState expected{};
+  expected[kYaw] = 4;
+  for (std::size_t k = 0; k < kLightCount; ++k) expected[kPoseCount + k] = static_cast<int>(k) + 1;
+  EXPECT_EQ(last_of(group), expected);
+}
+
+}  // namespace
+}  // namespace fbs
