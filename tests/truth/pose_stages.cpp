@@ -88,7 +88,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   PictureFit fit(setup, head.geometry, first, seen);
   const TrackPlanner planner(setup.steps, setup.parts, point.lambda);
   TrackRate rate;
-  Fit now{pose_of(seen), {}, {}};
+  Fit now{pose_of(seen), {}, {}, {}};
   std::vector<FitForm> fits;
   std::vector<Pose> truths;
   for (int i = 1; i < clip.count(); ++i) {
