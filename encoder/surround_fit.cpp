@@ -19,7 +19,7 @@ constexpr double kMaxDifference =
     45;                            // grey levels; what differs more is something else that has come into view
 constexpr int kSamplesAcross = 6;  // of a cell, each way
 constexpr double kSmooth =
-    12;  // cost of a whole share's change between neighbours... per quarter, squared grey levels of a cell
+    12;  // cost of a quarter's change between neighbours, in squared grey levels over a cell
 constexpr double kPrior = 4;  // cost of a quarter away from the guess by place
 constexpr int kSweeps = 3;
 
@@ -144,10 +144,6 @@ class MapFit {
     return flat + h * (later.way[0][k] - flat);
   }
 
-  [[nodiscard]] static float mirrored(float x, float low, float high) {
-    return x < low ? 2 * low - x : x > high ? 2 * high - x : x;
-  }
-
   [[nodiscard]] static float value(const cv::Mat& luma, float x, float y) {
     x = std::clamp(x - 0.5F, 0.0F, static_cast<float>(luma.cols) - 1.01F);
     y = std::clamp(y - 0.5F, 0.0F, static_cast<float>(luma.rows) - 1.01F);
@@ -205,7 +201,7 @@ class MapFit {
           if (later.hidden.ptr(static_cast<int>(p.y))[static_cast<int>(p.x)] != 0) continue;
           const float x = static_cast<float>(low.x) + static_cast<float>(high.x - low.x) * fx;
           const float r = value(later.luma, p.x, p.y) -
-                          value(first_, mirrored(x, begin.x, end.x), mirrored(y, begin.y, end.y));
+                          value(first_, std::clamp(x, begin.x, end.x), std::clamp(y, begin.y, end.y));
           of_picture += std::min(limit, r * r);
         }
       }
