@@ -55,6 +55,8 @@ class MapFit {
     stride_ = static_cast<std::size_t>(map_.columns) + 1;
     const std::size_t points = stride_ * (static_cast<std::size_t>(map_.rows) + 1);
     labels_.assign(points, {0, 0});
+    visited_.assign(points, 0);
+    changed_.assign(points, 0);
     const Pose seen = pose_of(first.state);
     map_.head.assign(points, 0);
     map_.body.assign(points, 0);
@@ -260,6 +262,8 @@ class MapFit {
     bool changed = false;
     for (std::size_t k = 0; k < labels_.size(); ++k) {
       const int c = static_cast<int>(k % stride_), r = static_cast<int>(k / stride_);
+      if (changed_round(c, r) < visited_[k]) continue;
+      visited_[k] = ++visits_;
       const auto cost = [&](const Label& l) {
         const Label was = std::exchange(labels_[k], l);
         double sum = prior(k, l) + smoothness(k, l);
@@ -280,10 +284,21 @@ class MapFit {
           best = l;
         }
       }
-      changed = changed || best.head != labels_[k].head || best.body != labels_[k].body;
+      if (best.head == labels_[k].head && best.body == labels_[k].body) continue;
+      changed = true;
+      changed_[k] = visits_;
       labels_[k] = best;
     }
     return changed;
+  }
+
+  /// The visit in which a point or one of those round it changed last.
+  [[nodiscard]] int changed_round(int column, int row) const {
+    int last = 0;
+    for (int r = std::max(0, row - 1); r <= std::min(map_.rows, row + 1); ++r)
+      for (int c = std::max(0, column - 1); c <= std::min(map_.columns, column + 1); ++c)
+        last = std::max(last, changed_[static_cast<std::size_t>(r) * stride_ + static_cast<std::size_t>(c)]);
+    return last;
   }
 
   /// Whether a neighbour has that label.
@@ -298,8 +313,10 @@ class MapFit {
   SurroundMap map_;
   std::size_t stride_ = 0;
   Labels labels_;
-  std::vector<glm::dvec2> seen_;   ///< the points in the first picture, pixels
-  std::vector<glm::dvec2> guess_;  ///< head, body of each point
+  int visits_ = 0;
+  std::vector<int> visited_, changed_;  ///< the visit in which a point was seen last, and changed last
+  std::vector<glm::dvec2> seen_;        ///< the points in the first picture, pixels
+  std::vector<glm::dvec2> guess_;       ///< head, body of each point
   cv::Mat first_;
   std::vector<Later> later_;
 };
