@@ -14,7 +14,7 @@ constexpr std::int64_t kMinSeenDeterminant = 1 << 11;
 
 /// The grid begins this far inside the picture: the outermost samples of many videos are dark, and would be a
 /// line across it wherever the border moves inwards.
-constexpr std::int64_t kInset = 1 << kScreenOneLog2;
+constexpr std::int64_t kInset = 2 << kScreenOneLog2;
 
 constexpr std::int64_t kMaxFromHead = 64 << 8;  // 1/256 eye distance
 
@@ -90,7 +90,7 @@ Surround::Surround(const VideoFormat& format, SurroundMap map, const HeadPose& s
            {from_head(std::int64_t{on.x} - seen.shift_x), from_head(std::int64_t{on.y} - seen.shift_y)},
            map_.head[k],
            map_.body[k]});
-      texture_.push_back(2 * on - at);
+      texture_.push_back(on);
     }
   }
   std::vector<int> ranks;

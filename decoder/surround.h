@@ -12,9 +12,9 @@
 
 namespace fbs {
 
-/// The grid of a SurroundMap, which begins a few samples inside the picture, with a margin: one more column
-/// and row on each side, half a picture away, which move as the outermost do and show the pattern mirrored
-/// there, so that what comes in from outside is of a kind with what is near.
+/// The grid of a SurroundMap, which begins a little inside the picture, with a margin: one more column and
+/// row on each side, half a picture away, which move as the outermost do and show the same, so that what
+/// comes in from outside repeats what is near.
 class Surround {
  public:
   /// @param seen  pose of pattern 0, in which the grid is regular
@@ -23,8 +23,8 @@ class Surround {
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.
   void project(const State& state, std::vector<glm::ivec2>& out) const;
 
-  /// What the pattern shows at the grid points: where they are in the seen state; of the margin, mirrored at
-  /// the outermost. 1/64 pixel.
+  /// What the pattern shows at the grid points: where they are in the seen state; in the margin, what the
+  /// outermost show. 1/64 pixel.
   [[nodiscard]] const std::vector<glm::ivec2>& texture() const { return texture_; }
 
   /// A place that some cell carries.

@@ -19,7 +19,7 @@ constexpr double kMaxDifference =
     45;                            // grey levels; what differs more is something else that has come into view
 constexpr int kSamplesAcross = 6;  // of a cell, each way
 constexpr double kSmooth =
-    12;  // cost of a whole share's change between neighbours... per quarter, squared grey levels of a cell
+    12;  // cost of a quarter's change between neighbours, in squared grey levels over a cell
 constexpr double kPrior = 4;  // cost of a quarter away from the guess by place
 constexpr int kSweeps = 3;
 
@@ -55,6 +55,8 @@ class MapFit {
     stride_ = static_cast<std::size_t>(map_.columns) + 1;
     const std::size_t points = stride_ * (static_cast<std::size_t>(map_.rows) + 1);
     labels_.assign(points, {0, 0});
+    visited_.assign(points, 0);
+    changed_.assign(points, 0);
     const Pose seen = pose_of(first.state);
     map_.head.assign(points, 0);
     map_.body.assign(points, 0);
@@ -144,10 +146,6 @@ class MapFit {
     return flat + h * (later.way[0][k] - flat);
   }
 
-  [[nodiscard]] static float mirrored(float x, float low, float high) {
-    return x < low ? 2 * low - x : x > high ? 2 * high - x : x;
-  }
-
   [[nodiscard]] static float value(const cv::Mat& luma, float x, float y) {
     x = std::clamp(x - 0.5F, 0.0F, static_cast<float>(luma.cols) - 1.01F);
     y = std::clamp(y - 0.5F, 0.0F, static_cast<float>(luma.rows) - 1.01F);
@@ -205,7 +203,7 @@ class MapFit {
           if (later.hidden.ptr(static_cast<int>(p.y))[static_cast<int>(p.x)] != 0) continue;
           const float x = static_cast<float>(low.x) + static_cast<float>(high.x - low.x) * fx;
           const float r = value(later.luma, p.x, p.y) -
-                          value(first_, mirrored(x, begin.x, end.x), mirrored(y, begin.y, end.y));
+                          value(first_, std::clamp(x, begin.x, end.x), std::clamp(y, begin.y, end.y));
           of_picture += std::min(limit, r * r);
         }
       }
@@ -264,6 +262,8 @@ class MapFit {
     bool changed = false;
     for (std::size_t k = 0; k < labels_.size(); ++k) {
       const int c = static_cast<int>(k % stride_), r = static_cast<int>(k / stride_);
+      if (changed_round(c, r) < visited_[k]) continue;
+      visited_[k] = ++visits_;
       const auto cost = [&](const Label& l) {
         const Label was = std::exchange(labels_[k], l);
         double sum = prior(k, l) + smoothness(k, l);
@@ -284,10 +284,21 @@ class MapFit {
           best = l;
         }
       }
-      changed = changed || best.head != labels_[k].head || best.body != labels_[k].body;
+      if (best.head == labels_[k].head && best.body == labels_[k].body) continue;
+      changed = true;
+      changed_[k] = visits_;
       labels_[k] = best;
     }
     return changed;
+  }
+
+  /// The visit in which a point or one of those round it changed last.
+  [[nodiscard]] int changed_round(int column, int row) const {
+    int last = 0;
+    for (int r = std::max(0, row - 1); r <= std::min(map_.rows, row + 1); ++r)
+      for (int c = std::max(0, column - 1); c <= std::min(map_.columns, column + 1); ++c)
+        last = std::max(last, changed_[static_cast<std::size_t>(r) * stride_ + static_cast<std::size_t>(c)]);
+    return last;
   }
 
   /// Whether a neighbour has that label.
@@ -302,8 +313,10 @@ class MapFit {
   SurroundMap map_;
   std::size_t stride_ = 0;
   Labels labels_;
-  std::vector<glm::dvec2> seen_;   ///< the points in the first picture, pixels
-  std::vector<glm::dvec2> guess_;  ///< head, body of each point
+  int visits_ = 0;
+  std::vector<int> visited_, changed_;  ///< the visit in which a point was seen last, and changed last
+  std::vector<glm::dvec2> seen_;        ///< the points in the first picture, pixels
+  std::vector<glm::dvec2> guess_;       ///< head, body of each point
   cv::Mat first_;
   std::vector<Later> later_;
 };

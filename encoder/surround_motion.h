@@ -62,12 +62,16 @@ class SurroundMotion {
     std::array<float, kLayers> weight{};    ///< both together; sum 1
     std::array<float, kLayers> share{};     ///< that the map gives it
     std::array<float, kLayers> fits_now{};  ///< robust weight in the picture looked at
+    bool rim = false;                       ///< near the picture's sides or top
   };
 
   [[nodiscard]] glm::dvec2 way_of(const Spot& spot, const Flat& flat) const;
   [[nodiscard]] Flat aligned(Layer layer, const Flat& start, const Flat& near) const;
   /// Weighted mean robust difference of a layer's spots.
-  [[nodiscard]] double difference(Layer layer, const Flat& flat) const;
+  /// @param rim  only of spots near the picture's sides and top
+  [[nodiscard]] double difference(Layer layer, const Flat& flat, bool rim = false) const;
+  /// The way of body about `rest`, from where it was or, if that is of no use, from elsewhere.
+  [[nodiscard]] Flat found_body(const Flat& rest, glm::dvec2 head_way) const;
   void weigh(Spot& spot) const;
   void learn(const Pose& head);
 
@@ -79,6 +83,7 @@ class SurroundMotion {
   std::array<cv::Mat, kLevels> luma_;
   Flat body_{}, ground_{};              ///< as last aligned
   Flat shown_body_{}, shown_ground_{};  ///< as they are believed
+  bool ground_shows_ = false;           ///< there is enough of it near the rim to say whether it moves
   bool ground_moves_ = false, body_moves_ = false;
   bool mapped_ = false;
   int pictures_ = 0;

@@ -35,7 +35,7 @@ AnalysisClip::AnalysisClip()
     p.tracked = head.track(p.frame, neutral_);
     p.flow = head.flow();
     features.track(p.frame, p.tracked.pose, p.flow);
-    p.tracked_fit = {p.tracked.pose, now.light, features.offsets()};
+    p.tracked_fit = {p.tracked.pose, now.light, now.inside, features.offsets()};
     fit.look_at(p.frame, setup_.mouth);
     now = fit.refine(p.tracked_fit);
     p.form = fit.form_at(now);

@@ -88,7 +88,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   PictureFit fit(setup, head.geometry, first, seen);
   const TrackPlanner planner(setup.steps, setup.parts, point.lambda);
   TrackRate rate;
-  Fit now{pose_of(seen), {}, {}};
+  Fit now{pose_of(seen), {}, {}, {}};
   std::vector<FitForm> fits;
   std::vector<Pose> truths;
   for (int i = 1; i < clip.count(); ++i) {
@@ -96,7 +96,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
     const TrackedPose tracked = tracker.track(frame, fit.deformed(now));
     features.track(frame, tracked.pose, tracker.flow());
     fit.look_at(frame, setup.mouth);
-    now = fit.refine({tracked.pose, now.light, features.offsets()});
+    now = fit.refine({tracked.pose, now.light, now.inside, features.offsets()});
     fits.push_back(fit.form_at(now));
     truths.push_back(clip.pose(i));
     stages[0].take(tracked.pose, truths.back());
