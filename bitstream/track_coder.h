@@ -54,7 +54,7 @@ struct TrackContexts {
   Grid<kParameterCount, 3> nonzero_by_number;
   Grid<kParameterCount, kSpanSizes> nonzero_by_span;
   Grid<kPartCount * kPlaceSizes, 9> nonzero_by_past;
-  Grid<kPartCount, 12> nonzero_by_others;
+  Grid<kPartCount, 36> nonzero_by_others;
   std::array<Mixer<4>, kPartCount> nonzero_mixer;
 
   // "The change is negative"
@@ -217,7 +217,7 @@ std::int32_t TrackCoder<Coder>::change(std::size_t part, std::size_t place, std:
     const bool nonzero = c.nonzero_mixer[part].code(
         coder_,
         {&c.nonzero_by_number[i][size_index(past)], &c.nonzero_by_span[i][span],
-         &c.nonzero_by_past[row][by_past], &c.nonzero_by_others[part][before * 3 + nearby_ / 3]},
+         &c.nonzero_by_past[row][by_past], &c.nonzero_by_others[part][before * 9 + nearby_]},
         value != 0);
     if (!nonzero) return 0;
   }

@@ -92,7 +92,7 @@ const HeadMesh& head_mesh() {
 }
 
 SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& seen)
-    : geometry_(geometry), surround_(setup.format, std::move(map), head_pose(seen)) {
+    : geometry_(geometry), surround_(setup.format, std::move(map), seen) {
   const HeadProjection projection(head_pose(seen));
   for (const std::int16_t v : generic_head().outline) {
     const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(v)];

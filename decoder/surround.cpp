@@ -54,16 +54,18 @@ class HeadWay {
 };
 
 /// The way of a point of body or ground.
-glm::ivec2 flat_way(const std::array<std::int32_t, kSurroundCount>& s, glm::ivec2 from_head) {
-  const std::int64_t growth = s[kGrowth], turn = s[kTurn];
-  return {clamp_screen(s[kWayX] + round_shift(growth * from_head.x - turn * from_head.y, 8)),
-          clamp_screen(s[kWayY] + round_shift(growth * from_head.y + turn * from_head.x, 8))};
+glm::ivec2 flat_way(const std::array<std::int32_t, kSurroundCount>& s,
+                    const std::array<std::int32_t, kSurroundCount>& seen, glm::ivec2 from_head) {
+  const std::int64_t growth = s[kGrowth] - seen[kGrowth], turn = s[kTurn] - seen[kTurn];
+  return {clamp_screen(s[kWayX] - seen[kWayX] + round_shift(growth * from_head.x - turn * from_head.y, 8)),
+          clamp_screen(s[kWayY] - seen[kWayY] + round_shift(growth * from_head.y + turn * from_head.x, 8))};
 }
 
 }  // namespace
 
-Surround::Surround(const VideoFormat& format, SurroundMap map, const HeadPose& seen)
-    : map_(std::move(map)), seen_(seen) {
+Surround::Surround(const VideoFormat& format, SurroundMap map, const State& seen_state)
+    : map_(std::move(map)), seen_(seen_state) {
+  const HeadPose seen = head_pose(seen_);
   const std::int64_t width = std::int64_t{format.width} << kScreenOneLog2,
                      height = std::int64_t{format.height} << kScreenOneLog2;
   const auto along = [](std::int64_t size, int k, int of) {
@@ -122,14 +124,15 @@ std::size_t Surround::index(int column, int row) const {
 
 void Surround::project(const State& state, std::vector<glm::ivec2>& out) const {
   const HeadPose pose = head_pose(state);
-  const HeadWay head(seen_, pose);
+  const HeadPose seen = head_pose(seen_);
+  const HeadWay head(seen, pose);
   out.resize(points_.size());
   for (int r = -1; r <= map_.rows + 1; ++r) {
     for (int c = -1; c <= map_.columns + 1; ++c) {
       const Point& p = points_[index(c, r)];
       const Point& on = points_[index(std::clamp(c, 0, map_.columns), std::clamp(r, 0, map_.rows))];
-      const glm::ivec2 by_body = flat_way(state.body, p.from_head),
-                       by_ground = flat_way(state.ground, p.from_head);
+      const glm::ivec2 by_body = flat_way(state.body, seen_.body, p.from_head),
+                       by_ground = flat_way(state.ground, seen_.ground, p.from_head);
       const glm::ivec2 flat = by_ground + (by_body - by_ground) * p.body / kFollowOne;
       const glm::ivec2 way = p.head == 0 ? flat : flat + (head.of(on.seen) - flat) * p.head / kFollowOne;
       out[index(c, r)] = {clamp_screen(p.seen.x + way.x), clamp_screen(p.seen.y + way.y)};

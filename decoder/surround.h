@@ -17,8 +17,8 @@ namespace fbs {
 /// comes in from outside repeats what is near.
 class Surround {
  public:
-  /// @param seen  pose of pattern 0, in which the grid is regular
-  Surround(const VideoFormat& format, SurroundMap map, const HeadPose& seen);
+  /// @param seen  state of pattern 0, in which the grid is regular
+  Surround(const VideoFormat& format, SurroundMap map, const State& seen);
 
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.
   void project(const State& state, std::vector<glm::ivec2>& out) const;
@@ -55,7 +55,7 @@ class Surround {
   [[nodiscard]] std::size_t index(int column, int row) const;
 
   SurroundMap map_;
-  HeadPose seen_;
+  State seen_;
   std::vector<Point> points_;
   std::vector<glm::ivec2> texture_;
   std::vector<Cell> cells_;

@@ -13,16 +13,16 @@ namespace {
 constexpr double kPointSpacing = 2.5;  // work pixels
 constexpr int kMouthRows = 5;
 constexpr double kNoise = 6;   // grey levels: what differs by this much is as likely as not meant
-constexpr double kHuber = 24;  // grey levels; larger differences (teeth, shadows) pull with constant force
+constexpr double kHuber = 48;  // grey levels; larger differences (teeth, shadows) pull with constant force
 // Standard deviations of what is believed before looking, as shares of the eye distance or radians.
 constexpr double kPoseNear =
     0.006;  // of the tracked pose, which is aligned to the same picture with less to say
 constexpr double kOuterLipNear =
-    0.007;  // of the tracked control points, by feature: contours show lips and lids
-constexpr double kInnerLipNear = 0.003;  // better than textures do, and textures show brows better
-constexpr double kBrowNear = 0.02;
-constexpr double kLidNear = 0.004;
-constexpr double kElseNear = 0.02;
+    0.012;  // of the tracked control points, by feature: contours show lips and lids
+constexpr double kInnerLipNear = 0.005;  // better than textures do, and textures show brows better
+constexpr double kBrowNear = 0.034;
+constexpr double kLidNear = 0.007;
+constexpr double kElseNear = 0.034;
 constexpr double kLightNear = 4;  // grey levels: of the light in the picture before
 constexpr double kLightRest = 40;
 constexpr double kInsideNear = 8;  // the same for the mouth's inside
@@ -32,7 +32,8 @@ constexpr double kControlRest = 0.12;  // of control points about rest
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
 constexpr double kLidsAlike = 60;     // squared grey levels that a difference of one costs
 constexpr double kLidNoise = 30;      // grey levels; larger differences hardly count more
-constexpr double kLidsApart = 0.014;  // eye distances: shut eyes keep a line of lashes
+// Eye distances by which a shut upper lid passes the lower one, so that nothing of the eye is left between.
+constexpr double kLidsApart = -0.01;
 constexpr int kSteps[] = {3, 2};      // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 

@@ -115,7 +115,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.now_.pose = seen_pose;
   scene.lambda_ = point.lambda;
   scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda);
-  scene.expression_form_ = wrong_expression() * point.lambda;
+  scene.expression_form_ = wrong_expression() * point.lambda / 2;
   scene.first_ = first;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
     return tl::unexpected<Error>(added.error());
