@@ -72,7 +72,7 @@ Result<PatternEncoder> PatternEncoder::create(const VideoFormat& format, int qua
   const auto set = [&](int key, int value) {
     return aom_codec_control(&context->codec, key, value) == AOM_CODEC_OK;
   };
-  const bool configured = set(AOME_SET_CPUUSED, 2) && set(AOME_SET_CQ_LEVEL, quantiser) &&
+  const bool configured = set(AOME_SET_CPUUSED, 3) && set(AOME_SET_CQ_LEVEL, quantiser) &&
                           set(AV1E_SET_ROW_MT, 0) && set(AV1E_SET_ENABLE_ORDER_HINT, 0) &&
                           set(AV1E_SET_COLOR_RANGE,
                               format.range == ColourRange::kFull ? AOM_CR_FULL_RANGE : AOM_CR_STUDIO_RANGE) &&

@@ -66,6 +66,31 @@ double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
   return std::max(0.0, 0.5 * (a.x * b.y - a.y * b.x));
 }
 
+/// Normal equations of the points of one triangle, which few control points move: dense, in single precision.
+constexpr std::size_t kMostColumns = kPoseCount + kLightCount + kInsideCount + 2 * kControlCount;
+struct Block {
+  std::size_t n = 0;
+  alignas(32) std::array<float, kMostColumns> row;
+  alignas(32) std::array<float, kMostColumns> right;
+  alignas(32) std::array<float, kMostColumns * kMostColumns> left;  // upper triangle
+
+  void begin(std::size_t columns) {
+    n = columns;
+    std::fill_n(right.begin(), n, 0.0F);
+    for (std::size_t i = 0; i < n; ++i) std::fill_n(left.begin() + static_cast<std::ptrdiff_t>(i * kMostColumns), n, 0.0F);
+  }
+
+  /// @param r  residual of `row`
+  void add(float weight, float r) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const float wi = weight * row[i];
+      right[i] += wi * r;
+      float* out = &left[i * kMostColumns];
+      for (std::size_t j = i; j < n; ++j) out[j] += wi * row[j];
+    }
+  }
+};
+
 }  // namespace
 
 PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkFrame& pattern,
@@ -99,19 +124,11 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
   gap_seen_ = mouth_gap(deform(geometry_.positions, seen));
   for (const SurfacePoint& p : points_)
     rest_.push_back(glm::dvec2(p.on(vertices)) / static_cast<double>(kUnitsPerEyeDistance));
-  for (const SurfacePoint& p : points_) {
-    std::array<double, kControlCount> sum{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(p.corner[k]);
-      for (std::size_t w = head.spread_begin[v]; w < head.spread_begin[v + 1]; ++w)
-        sum[static_cast<std::size_t>(head.spread[w].control)] +=
-            static_cast<double>(p.barycentric[k]) * head.spread[w].weight / kSpreadOne;
-    }
-    std::vector<Share> shares;
-    for (std::size_t c = 0; c < kControlCount; ++c)
-      if (column_[c] >= 0 && std::abs(sum[c]) > 0.01)
-        shares.push_back({static_cast<std::int16_t>(c), static_cast<float>(sum[c])});
-    shares_.push_back(std::move(shares));
+  for (std::size_t k = 0; k < points_.size();) {
+    std::size_t end = k;
+    while (end < points_.size() && points_[end].triangle == points_[k].triangle) ++end;
+    patches_.push_back(patch_of(k, end));
+    k = end;
   }
   lids_ = {lid_of(FeatureId::kUpperLidRight, 40), lid_of(FeatureId::kUpperLidLeft, 46)};
   const auto luma = two_levels(pattern.luma);
@@ -123,6 +140,31 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
       pattern_luma_[static_cast<std::size_t>(level)].push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
+}
+
+PictureFit::Patch PictureFit::patch_of(std::size_t first, std::size_t end) const {
+  const GenericHead& head = generic_head();
+  const auto& corner = points_[first].corner;
+  Patch patch{first, end, {}, {}};
+  // Of each corner and control point.
+  std::array<std::array<double, kControlCount>, 3> weight{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto v = static_cast<std::size_t>(corner[i]);
+    for (std::size_t w = head.spread_begin[v]; w < head.spread_begin[v + 1]; ++w)
+      weight[i][static_cast<std::size_t>(head.spread[w].control)] =
+          head.spread[w].weight / static_cast<double>(kSpreadOne);
+  }
+  for (std::size_t c = 0; c < kControlCount; ++c)
+    if (column_[c] >= 0 && std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) > 0.01)
+      patch.controls.push_back(static_cast<std::int16_t>(c));
+  for (std::size_t k = first; k < end; ++k)
+    for (const std::int16_t control : patch.controls) {
+      double share = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        share += static_cast<double>(points_[k].barycentric[i]) * weight[i][static_cast<std::size_t>(control)];
+      patch.shares.push_back(static_cast<float>(share));
+    }
+  return patch;
 }
 
 PictureFit::Lid PictureFit::lid_of(FeatureId id, int lower_landmark) const {
@@ -139,13 +181,16 @@ PictureFit::Lid PictureFit::lid_of(FeatureId id, int lower_landmark) const {
   }
   // Both free control points of the cubic have two thirds of the say at its vertices.
   lid.travel = 1.5 * (0.5 * (lower - upper) - kLidsApart * kUnitsPerEyeDistance);
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const auto& shares = shares_[k];
-    if (std::any_of(shares.begin(), shares.end(), [&](const Share& s) {
-          const auto c = static_cast<std::size_t>(s.control);
-          return (c == lid.first_control || c == lid.first_control + 1) && s.weight > 0.05F;
-        }))
-      lid.points.push_back(k);
+  for (const Patch& patch : patches_) {
+    const float* share = patch.shares.data();
+    for (std::size_t k = patch.first; k < patch.end; ++k, share += patch.controls.size()) {
+      bool moved = false;
+      for (std::size_t i = 0; i < patch.controls.size(); ++i) {
+        const auto c = static_cast<std::size_t>(patch.controls[i]);
+        moved = moved || ((c == lid.first_control || c == lid.first_control + 1) && share[i] > 0.05F);
+      }
+      if (moved) lid.points.push_back(k);
+    }
   }
   return lid;
 }
@@ -308,40 +353,45 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
   std::array<glm::ivec3, kVertexCount> rounded;
   for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
   const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
-  std::vector<std::pair<std::size_t, double>> row;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double value = shown(k, level, shade, fit);
-    if (value < 0) continue;
-    const glm::dvec3 p = points_[k].on(vertices);
-    Sample s;
-    if (!sample_with_slope(luma_[static_cast<std::size_t>(level)],
-                           on_level(picture_.to_work(jacobian.projection()(p)), level), s))
-      continue;
-    const double r = value - s.value;
-    const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
-    row.clear();
-    const auto by_pose = jacobian.at(p);
-    for (std::size_t m = 0; m < 6; ++m)
-      row.emplace_back(m, to_level * (s.dx * by_pose[m].x + s.dy * by_pose[m].y));
-    const auto light = light_at(k, static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][k]));
-    const double ramp = static_cast<double>(mouth_ramp_[k]), covered = ramp < 0 ? 0 : shade / 256.0;
-    for (std::size_t m = 0; m < kLightCount; ++m) row.emplace_back(kPoseCount + m, -light[m] * (1 - covered));
-    if (covered > 0) {
-      const auto inside = inside_at(ramp);
-      for (std::size_t m = 0; m < kInsideCount; ++m)
-        row.emplace_back(kFirstInsideColumn + m, -inside[m] * covered);
+  const auto& seen = pattern_luma_[static_cast<std::size_t>(level)];
+  Block block;
+  for (const Patch& patch : patches_) {
+    block.begin(kFirstControlColumn + 2 * patch.controls.size());
+    const float* share = patch.shares.data();
+    for (std::size_t k = patch.first; k < patch.end; ++k, share += patch.controls.size()) {
+      const double value = shown(k, level, shade, fit);
+      if (value < 0) continue;
+      const glm::dvec3 p = points_[k].on(vertices);
+      Sample s;
+      if (!sample_with_slope(luma_[static_cast<std::size_t>(level)],
+                             on_level(picture_.to_work(jacobian.projection()(p)), level), s))
+        continue;
+      const double r = value - static_cast<double>(s.value);
+      const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
+      float* row = block.row.data();
+      for (const glm::dvec2& by : jacobian.at(p)) *row++ = static_cast<float>(to_level * (s.dx * by.x + s.dy * by.y));
+      const double ramp = static_cast<double>(mouth_ramp_[k]), covered = ramp < 0 ? 0 : shade / 256.0;
+      for (const double light : light_at(k, static_cast<double>(seen[k])))
+        *row++ = static_cast<float>(-light * (1 - covered));
+      for (const double inside : inside_at(ramp)) *row++ = static_cast<float>(-inside * covered);
+      const auto by_x = static_cast<float>(to_level * (s.dx * ex.x + s.dy * ex.y));
+      const auto by_y = static_cast<float>(to_level * (s.dx * ey.x + s.dy * ey.y));
+      for (std::size_t c = 0; c < patch.controls.size(); ++c) {
+        *row++ = share[c] * by_x;
+        *row++ = share[c] * by_y;
+      }
+      block.add(static_cast<float>(w), static_cast<float>(r));
     }
-    const double by_x = to_level * (s.dx * ex.x + s.dy * ex.y), by_y = to_level * (s.dx * ey.x + s.dy * ey.y);
-    for (const Share& share : shares_[k]) {
-      const auto column = static_cast<std::size_t>(column_[static_cast<std::size_t>(share.control)]);
-      row.emplace_back(column, static_cast<double>(share.weight) * by_x);
-      row.emplace_back(column + 1, static_cast<double>(share.weight) * by_y);
-    }
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const double wi = w * row[i].second;
-      normal.right[row[i].first] += wi * r;
-      for (std::size_t j = i; j < row.size(); ++j)
-        normal.at(row[i].first, row[j].first) += wi * row[j].second;
+    // Columns rise within a patch, so that the upper triangle stays one.
+    const auto column = [&](std::size_t i) {
+      if (i < kFirstControlColumn) return i;
+      const std::size_t c = i - kFirstControlColumn;
+      return static_cast<std::size_t>(column_[static_cast<std::size_t>(patch.controls[c / 2])]) + c % 2;
+    };
+    for (std::size_t i = 0; i < block.n; ++i) {
+      normal.right[column(i)] += static_cast<double>(block.right[i]);
+      for (std::size_t j = i; j < block.n; ++j)
+        normal.at(column(i), column(j)) += static_cast<double>(block.left[i * kMostColumns + j]);
     }
   }
 }

@@ -66,11 +66,13 @@ class PictureFit {
   static constexpr int kLevels = 2;
   static constexpr int kFirstInsideColumn = kPoseCount + kLightCount;
   static constexpr int kFirstControlColumn = kFirstInsideColumn + kInsideCount;
-  /// One control point's share in a surface point.
-  struct Share {
-    std::int16_t control;
-    float weight;
+  /// The points of one triangle, and how the control points that move it move each.
+  struct Patch {
+    std::size_t first, end;              ///< points
+    std::vector<std::int16_t> controls;  ///< rising
+    std::vector<float> shares;           ///< of each control point, point by point
   };
+  [[nodiscard]] Patch patch_of(std::size_t first, std::size_t end) const;
 
   /// An upper lid: its control points and how far they go down to shut the eye, and the points that it moves.
   struct Lid {
@@ -107,7 +109,7 @@ class PictureFit {
 
   Geometry geometry_;
   std::vector<SurfacePoint> points_;
-  std::vector<std::vector<Share>> shares_;                ///< of each point, active control points only
+  std::vector<Patch> patches_;
   std::array<std::vector<float>, kLevels> pattern_luma_;  ///< at each point; negative outside
   std::vector<int> column_;  ///< of a control point's x in the normal equations, or -1
   int unknowns_ = kFirstControlColumn;
