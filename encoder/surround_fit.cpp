@@ -17,7 +17,7 @@ constexpr double kCellsAlongLongSide = 22;
 constexpr int kWorkLongSide = 360;  // pixels
 constexpr double kMaxDifference =
     45;                            // grey levels; what differs more is something else that has come into view
-constexpr int kSamplesAcross = 6;  // of a cell, each way
+constexpr int kSamplesAcross = 5;  // of a cell, each way
 constexpr double kSmooth =
     12;  // cost of a quarter's change between neighbours, in squared grey levels over a cell
 constexpr double kPrior = 4;  // cost of a quarter away from the guess by place
