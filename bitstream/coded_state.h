@@ -35,7 +35,7 @@ inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
     "pose", "light", "inside", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze"};
 
 /// Numbers of each part.
-inline constexpr std::array<int, kPartCount> kPartSizes = {6, 4, 3, 4, 4, 36, 16, 8, 8, 4};
+inline constexpr std::array<int, kPartCount> kPartSizes = {6, 7, 3, 4, 4, 36, 16, 8, 8, 4};
 inline constexpr int kMaxPartSize = 36;
 
 inline constexpr int kFirstExpressionPart = static_cast<int>(PartId::kMouth);
@@ -48,7 +48,7 @@ inline constexpr std::array<int, kPartCount + 1> kPartFirst = [] {
 }();
 inline constexpr int kParameterCount = kPartFirst[kPartCount];
 inline constexpr int kFirstCoefficient = kPartFirst[kFirstExpressionPart];
-static_assert(kParameterCount == 93 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
+static_assert(kParameterCount == 96 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
 
 /// Part of each number.
 inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {

@@ -117,8 +117,11 @@ void SceneGeometry::light_vertices(const State& state, ScreenMesh& mesh) const {
   mesh.light.resize(mesh.head.size());
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     const glm::ivec3 p = geometry_.positions[v];
-    const std::int64_t slope = std::int64_t{l[kLightSlopeX]} * p.x + std::int64_t{l[kLightSlopeY]} * p.y;
-    const std::int64_t offset = l[kLightOffset] + round_shift(slope, 12);
+    const std::int64_t x = p.x, y = p.y, v_middle = y - kFaceMiddle;
+    const std::int64_t slope = l[kLightSlopeX] * x + l[kLightSlopeY] * y;
+    const std::int64_t bow =
+        l[kLightBowX] * x * x + l[kLightBowY] * v_middle * v_middle + l[kLightTwist] * x * v_middle;
+    const std::int64_t offset = l[kLightOffset] + round_shift(slope, 12) + round_shift(bow, 24);
     static_assert(kUnitsPerEyeDistance == 1 << 12);
     mesh.light[v] = {static_cast<std::int32_t>(std::clamp<std::int64_t>(offset, -kMaxLight, kMaxLight)),
                      l[kLightGain]};

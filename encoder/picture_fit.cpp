@@ -259,7 +259,9 @@ Fit PictureFit::with_best_lids(const Fit& start) const {
 }
 
 std::array<double, kLightCount> PictureFit::light_at(std::size_t point, double pattern) const {
-  return {1, (pattern - 128) / 64, rest_[point].x, rest_[point].y};
+  const glm::dvec2 p = rest_[point];
+  const double v = p.y - kFaceMiddle / static_cast<double>(kUnitsPerEyeDistance);
+  return {1, (pattern - 128) / 64, p.x, p.y, p.x * p.x, v * v, p.x * v};
 }
 
 std::array<double, kInsideCount> PictureFit::inside_at(double ramp) {
