@@ -223,12 +223,18 @@ TEST(SurroundMotion, DoesNotDrift) {
   EXPECT_LT(ground_error(state_of_motion(motion), {}), 0.1);
 }
 
+/// An even wall with a camera's noise.
+Picture wall(std::uint8_t grey, unsigned seed) {
+  std::mt19937 random(seed);
+  Picture out(kWidth, kHeight);
+  for (auto& s : out.y.samples) s = static_cast<std::uint8_t>(grey + random() % 3);
+  return out;
+}
+
 TEST(SurroundMotion, NothingToSeeMovesNothing) {
-  Picture flat(kWidth, kHeight), brighter(kWidth, kHeight);
-  flat.y = Plane(kWidth, kHeight, 90);
-  brighter.y = Plane(kWidth, kHeight, 99);
+  const Picture flat = wall(90, 1);
   SurroundMotion motion(flat, seen_state());
-  for (const Picture& picture : {flat, brighter, picture_of({})}) {
+  for (const Picture& picture : {flat, wall(90, 2), wall(99, 3), picture_of({})}) {
     motion.look_at(picture, head_of({}));
     EXPECT_EQ(state_of_motion(motion), seen_state());
     EXPECT_EQ(cv::countNonZero(form_of(motion).form), 0);
