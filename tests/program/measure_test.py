@@ -7,6 +7,7 @@ import os
 from harness import TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest
 
 PARTS = ("geometry", "patterns", "motion", "index", "other")
+STATE = ("pose", "light", "inside", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze")
 POSE = ["frame", "rx_deg", "ry_deg", "rz_deg", "tx_px", "ty_px", "scale"]
 POINTS = [axis + str(k) for k in range(68) for axis in "xy"]
 
@@ -25,6 +26,16 @@ class Measure(ProgramTest):
         self.assertEqual(told["bytes"]["total"], size)
         self.assertTrue(0 < told["bytes"]["startup"] < size)
         self.assertEqual((told["width"], told["height"], told["frames"], told["fps"]), (176, 144, 120, 30))
+
+    def test_inspect_motion_by_part_sums_to_the_motion(self):
+        told = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
+        self.assertEqual(set(told["motion"]), {*STATE, "durations", "packets"})
+        # Each is rounded to a byte.
+        self.assertAlmostEqual(sum(told["motion"].values()), told["bytes"]["motion"], delta=len(told["motion"]) / 2)
+        self.assertTrue(all(size >= 0 for size in told["motion"].values()), told["motion"])
+        self.assertGreater(told["motion"]["pose"], 50)
+        self.assertGreater(told["motion"]["mouth"], 50)
+        self.assertEqual(told["motion"]["durations"], 0, "a constant frame rate")
 
     def test_startup_is_what_the_first_picture_needs(self):
         stream = TALK_FBS.read_bytes()

@@ -28,7 +28,7 @@ TEST(CodedState, EachNumberHasTheStepOfItsKind) {
     const std::int32_t expected = i < 3                   ? kSteps.rotation
                                   : i < 5                 ? kSteps.translation
                                   : i == 5                ? kSteps.log_scale
-                                  : i < 10                ? kSteps.light
+                                  : i < 13                ? kSteps.light
                                   : i < kFirstCoefficient ? kSteps.translation
                                                           : kSteps.control;
     EXPECT_EQ(step_of(kSteps, i), expected) << i;
@@ -41,8 +41,9 @@ TEST(CodedState, StateHasItsNumbersTimesTheSteps) {
   const State s = state_of(coded, kSteps);
   EXPECT_EQ(s.pose, (std::array{-4 * 3, -3 * 3, -2 * 3, -1 * 5, 0, 1 * 7}));
   EXPECT_EQ(s.light, (std::array{2 * 11, 3 * 11, 4 * 11, 5 * 11}));
-  EXPECT_EQ(s.body, (std::array{6 * 5, 7 * 5, 8 * 5, 9 * 5}));
-  EXPECT_EQ(s.ground, (std::array{10 * 5, 11 * 5, 12 * 5, 13 * 5}));
+  EXPECT_EQ(s.inside, (std::array{6 * 11, 7 * 11, 8 * 11}));
+  EXPECT_EQ(s.body, (std::array{9 * 5, 10 * 5, 11 * 5, 12 * 5}));
+  EXPECT_EQ(s.ground, (std::array{13 * 5, 14 * 5, 15 * 5, 16 * 5}));
   for (const glm::ivec2 c : s.control) EXPECT_EQ(c, glm::ivec2(0));
 }
 
@@ -106,7 +107,8 @@ TEST(CodedLimits, AreThoseOfTheStateInWholeSteps) {
   EXPECT_EQ(limits.most[kLogScale], kMaxLogScale / 7);
   EXPECT_EQ(limits.least[kLogScale], 0) << "the eyes are never less than a pixel apart";
   EXPECT_EQ(limits.most[kPoseCount], kMaxLight / 11);
-  EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxTranslation / 5));
+  EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxLight / 11)) << "the mouth's inside";
+  EXPECT_EQ(limits.least[kPoseCount + kLightCount + kInsideCount], -(kMaxTranslation / 5));
   EXPECT_EQ(limits.most[kFirstCoefficient], 8 * kMaxControl / 13);
   for (std::size_t i = 0; i < kParameterCount; ++i) EXPECT_LE(limits.least[i], 0) << i;
 }

@@ -22,7 +22,7 @@ Plane lit(const Plane& pattern, const Light& light, const Shade* shade = nullptr
   const SampleArea area{0, 0, pattern.width, pattern.height};
   DepthPlane depth;
   depth.reset(pattern.width, pattern.height, area);
-  const PlanePair pair{&pattern, &target, 50, 50};
+  const PlanePair pair{&pattern, &target, {50, 50, 50}};
   draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, &depth, {.light = &light, .shade = shade});
   return target;
 }
@@ -167,12 +167,17 @@ Picture rendered(const Scene& scene, const State& state) {
 }
 
 /// The toy head in one grey before the same grey.
-Scene grey_scene(std::uint8_t grey) {
+/// @param light  under which it was seen
+Scene grey_scene(std::uint8_t grey, const std::array<std::int32_t, kLightCount>& light = {}) {
   Picture picture(160, 128);
   picture.y = Plane(160, 128, grey);
   picture.u = noise_plane(80, 64, 1);
   picture.v = noise_plane(80, 64, 2);
-  return toy_scene(picture);
+  Scene scene = toy_scene(picture);
+  State seen = toy_state();
+  seen.light = light;
+  scene.patterns[0].seen = scene.geometry->project(seen);
+  return scene;
 }
 
 /// Luma where a landmark is.
@@ -240,6 +245,32 @@ TEST(RendererLight, GoesWithTheHead) {
   state.light = {16 * 20, 0, 16 * 20, 0};
   EXPECT_NEAR(luma_at(scene, state, kNoseTip), 120, 2);
   EXPECT_GT(luma_at(scene, state, 54), luma_at(scene, state, 48) + 5) << "corners of the mouth";
+}
+
+// The pattern was seen under a light of its own: what is added is what the picture has more.
+TEST(RendererLight, IsWhatThePatternHadNot) {
+  const std::array<std::int32_t, kLightCount> own = {16 * 30, 0, 0, 0};
+  const Scene scene = grey_scene(100, own);
+  State state = toy_state();
+  EXPECT_EQ(luma_at(scene, state, kNoseTip), 70) << "taken off";
+  state.light = own;
+  EXPECT_EQ(luma_at(scene, state, kNoseTip), 100);
+  state.light[kLightOffset] = 16 * 45;
+  EXPECT_EQ(luma_at(scene, state, kNoseTip), 115);
+  state.light = {0, 16 * 16, 0, 0};
+  EXPECT_EQ(luma_at(grey_scene(192, {0, 16 * 10, 0, 0}), state, kNoseTip), 198) << "so is the gain";
+}
+
+TEST(RendererLight, ThatOfThePatternReproducesItExactly) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 20; ++i) {
+    Scene scene = toy_scene(noise_picture(160, 128, 7));
+    State seen = toy_state();
+    for (std::int32_t& n : seen.light) n = static_cast<int>(random() % 2001) - 1000;
+    scene.patterns[0].seen = scene.geometry->project(seen);
+    ASSERT_EQ(rendered(scene, seen), scene.patterns[0].picture) << i;
+    ASSERT_NE(rendered(scene, toy_state()), scene.patterns[0].picture) << i;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "bitstream/range_coder.h"
 #include "bitstream/setup.h"
 #include "bitstream/track.h"
 #include "tests/unit/random_tracks.h"
@@ -162,9 +163,9 @@ TEST(MotionCoder, CarriesDurations) {
   Sender sender(setup);
   MotionCoder reader(setup, sender.seen);
   std::mt19937 random(1);
-  for (int g = 0; g < 3; ++g) {
+  for (int g = 0; g < 5; ++g) {
     MotionGroup group = sender.next({}, 30);
-    for (int i = 0; i < 30; ++i) group.durations.push_back(random() % 3 == 0 ? 3060 : 2970);
+    for (int i = 0; i < 30 && g != 3; ++i) group.durations.push_back(random() % 3 == 0 ? 3060 : 2970);
     if (g == 1) group.durations[3] = kMaxDuration;
     if (g == 2) group.durations[5] = 1;
     EXPECT_EQ(*reader.decode(*sender.coder.encode(group)), group);
@@ -273,7 +274,8 @@ TEST(MotionCoder, ReportsTruncationOrDamageButNeverCrashes) {
   const TrackHabits habits{.knot_one_in = 3, .moves_one_in = 1, .reach = 3};
   const auto key = *sender.coder.encode(sender.next(habits, 20));
   const auto next = *sender.coder.encode(sender.next(habits, 20));
-  EXPECT_EQ(MotionCoder(setup, sender.seen).decode({}).error().code, ErrorCode::kTruncated);
+  EXPECT_EQ(MotionCoder(setup, sender.seen).decode({}).error().code, ErrorCode::kInvalidStream)
+      << "zeros: not a key group";
   // The decoder reads zeros past the end: they may break a limit before there are too many of them, or be a
   // group that holds. The check of the packet is what tells.
   int truncated = 0, held = 0;
@@ -318,7 +320,7 @@ TEST(MotionCoder, SurvivesRandomPayloads) {
     std::vector<std::uint8_t> bytes(random() % 200);
     for (auto& byte : bytes)
       byte = static_cast<std::uint8_t>(i % 2 == 0 ? random() : random() % 4 == 0 ? random() : 0);
-    if (!bytes.empty()) bytes[0] = static_cast<std::uint8_t>(bytes[0] | 1);
+    if (!bytes.empty()) bytes[0] = static_cast<std::uint8_t>(bytes[0] | 0xF0);  // a key group
     const auto setup = sample_setup(static_cast<PartMask>((random() & kAllParts) | kPoseOnly));
     MotionCoder reader(setup, sample_seen(CodedLimits(setup.steps, setup.parts)));
     if (const auto read = reader.decode(bytes)) {
@@ -328,9 +330,43 @@ TEST(MotionCoder, SurvivesRandomPayloads) {
   }
 }
 
-TEST(MotionCoder, RefusesTooManyPictures) {
-  const std::vector<std::uint8_t> bytes = {0x81, 0x08};  // 257 pictures, key
-  EXPECT_EQ(MotionCoder(sample_setup(), {}).decode(bytes).error().code, ErrorCode::kTooLarge);
+/// A key group's code up to its count, which is not said: it is that of the group before.
+TEST(MotionCoder, RefusesAGroupOfNoPictures) {
+  RangeEncoder encoder;
+  AdaptiveBit other_count;
+  encoder.raw_bit(15 << 12, true);
+  encoder.bit(other_count, false);
+  EXPECT_EQ(MotionCoder(sample_setup(), {}).decode(encoder.finish()).error().code, ErrorCode::kInvalidStream);
+}
+
+// SPEC 4.5: key flag, count and durations flag are inside the range code.
+TEST(MotionCoder, HeaderCostsLittleWhereItSaysNothingNew) {
+  Sender sender(sample_setup(kPoseOnly));
+  const auto held = [&](std::int32_t pictures) {
+    const CodedState at = sender.coder.anchor(sender.coder.needs_key());
+    MotionGroup group = knots_everywhere(at, {at}, kPoseOnly);
+    group.key = sender.coder.needs_key();
+    group.pictures = pictures;
+    group.tracks[0].front().picture = pictures - 1;
+    return group;
+  };
+  for (int g = 0; g < 20; ++g) ASSERT_TRUE(sender.coder.encode(held(30)));
+  const auto cost = [&](const MotionGroup& group) {
+    MotionCoder trial = sender.coder;
+    EXPECT_TRUE(trial.encode(group));
+    const auto sum = [](const PartCosts& c) { return std::accumulate(c.begin(), c.end(), 0.0) / 256; };
+    return sum(trial.cost_of_parts()) - sum(sender.coder.cost_of_parts());
+  };
+  EXPECT_LT(cost(held(30)), 1) << "bits";
+  EXPECT_GT(cost(held(31)), 8 + cost(held(30))) << "the count, and that it is another";
+  MotionGroup timed = held(30);
+  timed.durations.assign(30, 3000);
+  EXPECT_GT(cost(timed), 2 + cost(held(30)));
+  MotionCoder same = sender.coder, fresh = sender.coder;
+  MotionGroup key = held(30);
+  key.key = true;
+  key.anchor = fresh.anchor(true);
+  EXPECT_GT(fresh.encode(key)->size(), same.encode(held(30))->size());
 }
 
 }  // namespace

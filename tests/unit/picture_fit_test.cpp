@@ -26,6 +26,13 @@ State other_state(const FittedScene& s) {
   return state;
 }
 
+/// With the lower lip hanging.
+State with_open_mouth(State state) {
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  for (const int c : {4, 5, 6, 7}) state.control[static_cast<std::size_t>(inner.first_control + c)].y = 1000;
+  return state;
+}
+
 /// Squared luma difference between two pictures.
 double squares(const Picture& a, const Picture& b) {
   double sum = 0;
@@ -40,6 +47,7 @@ double squares(const Picture& a, const Picture& b) {
 Fit fit_of(const State& state) {
   Fit fit{pose_of(state), {}, {}};
   for (std::size_t i = 0; i < kLightCount; ++i) fit.light[i] = state.light[i] / 16.0;
+  for (std::size_t i = 0; i < kInsideCount; ++i) fit.inside[i] = state.inside[i] / 16.0;
   for (std::size_t c = 0; c < kControlCount; ++c) fit.offsets[c] = glm::dvec2(state.control[c]);
   return fit;
 }
@@ -106,6 +114,7 @@ TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
   FittedScene s;
   State state = other_state(s);
   state.light = {-100, 7, 80, 16};
+  state.inside = {33, -50, 4};
   EXPECT_EQ(state_of(fit_of(state)), state);
   Fit fit = fit_of(state);
   fit.light[0] += 0.4 / 16;
@@ -113,10 +122,22 @@ TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
   EXPECT_EQ(state_of(fit), state);
 }
 
+TEST(PictureFit, MouthsInsideIsFound) {
+  FittedScene s;
+  for (const std::array<int, kInsideCount>& inside : {std::array{40, 0, 0}, {0, 40, 0}, {-30, -30, 40}}) {
+    State truth = with_open_mouth(s.seen);
+    const Fit start = fit_of(truth);
+    for (std::size_t i = 0; i < kInsideCount; ++i) truth.inside[i] = 16 * inside[i];
+    s.look_at(truth);
+    const Fit found = s.fit.refine(start);
+    for (std::size_t i = 0; i < kInsideCount; ++i) EXPECT_NEAR(found.inside[i], inside[i], 15) << i;
+  }
+}
+
 // The least eigenvalue of a sum of squares is not below zero, but for rounding.
 TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   FittedScene s;
-  State truth = other_state(s);
+  State truth = with_open_mouth(other_state(s));
   truth.light = {160, 0, 80, 0};
   s.look_at(truth);
   const FitForm form = s.fit.form_at(fit_of(truth));
@@ -132,10 +153,21 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   }
 }
 
+TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
+  FittedScene s;
+  s.look_at(s.seen);
+  const FitForm form = s.fit.form_at(fit_of(s.seen));
+  for (int i = 0; i < kParameterCount; ++i)
+    if (kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kInside)) {
+      EXPECT_EQ(cv::countNonZero(form.form.row(i)), 0) << i;
+    }
+}
+
 TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   FittedScene s;
   State state = other_state(s);
   state.light = {160, -32, 80, 16};
+  state.inside = {48, -16, 7};
   s.look_at(state);
   for (const FitForm& form : {s.fit.form_at(fit_of(state)), PictureFit::form_unseen(fit_of(state))}) {
     CodedState values;
@@ -144,12 +176,20 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
     const State back = state_of_values(values);
     EXPECT_EQ(back.pose, state.pose);
     EXPECT_EQ(back.light, state.light);
+    EXPECT_EQ(back.inside, state.inside);
     for (std::size_t c = 0; c < kControlCount; ++c) {
       EXPECT_NEAR(back.control[c].x, state.control[c].x, 4) << c;
       EXPECT_NEAR(back.control[c].y, state.control[c].y, 4) << c;
     }
   }
-  EXPECT_EQ(cv::countNonZero(PictureFit::form_unseen(fit_of(state)).form), 0) << "no picture speaks";
+}
+
+TEST(PictureFit, FormUnseenHoldsThePoseAlone) {
+  FittedScene s;
+  const cv::Mat1d form = PictureFit::form_unseen(fit_of(s.seen)).form;
+  for (int i = 0; i < kParameterCount; ++i)
+    for (int j = 0; j < kParameterCount; ++j)
+      EXPECT_EQ(form(i, j) > 0, i == j && i < kPoseCount) << i << ' ' << j;
 }
 
 // What the encoder weighs bits against is what the decoder's picture shows: it looks at some thousand points

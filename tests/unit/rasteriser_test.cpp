@@ -373,49 +373,6 @@ TEST(Rasteriser, DrawsAllPlanesAlike) {
   EXPECT_EQ(b, alone_b);
 }
 
-/// Draws over the whole target with a shade.
-void draw_shaded(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
-                 const Shade& shade, std::uint8_t low, std::uint8_t high) {
-  DepthPlane depth;
-  depth.reset(target.width, target.height, whole(target));
-  const PlanePair pair{&pattern, &target, low, high};
-  draw_triangle(t, scale, {&pair, 1}, whole(target), &depth, {.shade = &shade});
-}
-
-TEST(Rasteriser, ShadeMixesARampOverThePattern) {
-  std::mt19937 random(18);
-  const Plane pattern = noise_plane(24, 20, 19);
-  for (int i = 0; i < 500; ++i) {
-    const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
-    const int bits = static_cast<int>(scale) - 6;
-    const auto p = [&] { return random_point(random, 24 << bits, 20 << bits, 1); };
-    const RasterTriangle t = in_place(p(), p(), p());
-    const Shade shade{{0, 128, 256}, static_cast<std::int32_t>(random() % 257)};
-    Plane target(24, 20);
-    draw_shaded(t, scale, pattern, target, shade, 40, 200);
-    const glm::dvec2 a(t[0].screen), ab = glm::dvec2(t[1].screen) - a, ac = glm::dvec2(t[2].screen) - a;
-    const double area = ab.x * ac.y - ab.y * ac.x;
-    for (int y = 0; y < 20; ++y) {
-      for (int x = 0; x < 24; ++x) {
-        if (!covers(t, scale, x, y)) continue;
-        const glm::dvec2 d = glm::dvec2((x + 0.5) * (64 << bits), (y + 0.5) * (64 << bits)) - a;
-        const double ramp = (128 * (d.x * ac.y - d.y * ac.x) + 256 * (ab.x * d.y - ab.y * d.x)) / area / 256;
-        const double colour = 40 + 160 * ramp, share = shade.amount / 256.0;
-        ASSERT_NEAR(target.row(y)[x], pattern.row(y)[x] * (1 - share) + colour * share, 2) << i;
-      }
-    }
-  }
-}
-
-TEST(Rasteriser, ShadeOfNothingIsThePatternAndOfAllIsTheColour) {
-  const Plane pattern = noise_plane(24, 20, 20);
-  Plane target(24, 20);
-  draw_shaded(kLarge, PlaneScale::kLuma, pattern, target, {{256, 256, 256}, 0}, 1, 99);
-  EXPECT_EQ(target, pattern);
-  draw_shaded(kLarge, PlaneScale::kLuma, pattern, target, {{256, 256, 256}, 256}, 1, 99);
-  EXPECT_EQ(target, Plane(24, 20, 99));
-}
-
 // Positions at the limits of what projection gives and depths at the limits of their type. What counts is
 // that nothing overflows (sanitizers) and that coverage stays exact.
 TEST(Rasteriser, HostileCoordinatesStayExact) {
@@ -448,7 +405,10 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
     depth.reset(32, 24, whole(drawn));
     draw(t, scale, white, covered);
     draw(t, scale, pattern, drawn, &depth);
-    draw_shaded(t, scale, pattern, drawn, {{256, 0, 128}, 200}, 3, 250);
+    const Shade shade{{256, 0, 128}, 200};
+    const PlanePair pair{&pattern, &drawn, {3, 90, 250}};
+    depth.reset(32, 24, whole(drawn));
+    draw_triangle(t, scale, {&pair, 1}, whole(drawn), &depth, {.shade = &shade});
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 32; ++x) ASSERT_EQ(covered.row(y)[x] != 0, covers(t, scale, x, y)) << i;
   }

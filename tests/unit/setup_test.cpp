@@ -82,7 +82,7 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
 // Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
 TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
   const std::vector<std::uint8_t> good = {3, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
-                                          3, 4, 5,  6,  70, 126, 138, 45, 126, 139};
+                                          3, 4, 5,  12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
   EXPECT_EQ(decode_setup(good)->steps, (QuantiserSteps{1, 2, 3, 4, 5}));
@@ -109,7 +109,7 @@ TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
   EXPECT_EQ(code_with(13, 0), ErrorCode::kInvalidStream) << "control";
   auto unknown_part = good;
   unknown_part[14] = 0x80;
-  unknown_part.insert(unknown_part.begin() + 15, 2);  // bit 8 without the pose's: a tenth part
+  unknown_part.insert(unknown_part.begin() + 15, 4);  // bit 9 without the pose's: an eleventh part
   EXPECT_EQ(decode_setup(unknown_part).error().code, ErrorCode::kInvalidStream);
   auto large = good;
   large.insert(large.begin() + 2, {0x81});  // width 1 + 128 * 64 = 8193

@@ -13,9 +13,17 @@ namespace fbs {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 128;
+constexpr int kInset = 2 * 64;  ///< of the grid's border from the picture's; SPEC 10.1
 
 Surround surround_of(SurroundMap map, const State& seen = toy_state()) {
   return {toy_setup(kWidth, kHeight).format, std::move(map), head_pose(seen)};
+}
+
+/// Five by four cells of 32 by 32 pixels.
+Surround even_cells() {
+  const int border = 2 * kInset / 64;
+  return {toy_setup(kWidth + border, kHeight + border).format, even_surround(5, 4, 0),
+          head_pose(toy_state())};
 }
 
 std::vector<glm::ivec2> projected(const Surround& surround, const State& state) {
@@ -62,11 +70,32 @@ TEST(Surround, SeenStateGivesTheRegularGridAndItsMargin) {
   ASSERT_EQ(grid.size(), 10U * 8U);
   for (int r = -1; r <= 6; ++r) {
     for (int c = -1; c <= 8; ++c) {
-      const int x = c < 0 ? -165 * 32 : c > 7 ? 165 * 96 : 165 * 64 * c / 7;
-      const int y = r < 0 ? -127 * 32 : r > 5 ? 127 * 96 : 127 * 64 * r / 5;
+      const int x = kInset + (c < 0   ? -165 * 32
+                              : c > 7 ? 165 * 96 - 2 * kInset
+                                      : (165 * 64 - 2 * kInset) * c / 7);
+      const int y = kInset + (r < 0   ? -127 * 32
+                              : r > 5 ? 127 * 96 - 2 * kInset
+                                      : (127 * 64 - 2 * kInset) * r / 5);
       EXPECT_EQ(grid[static_cast<std::size_t>((r + 1) * 10 + c + 1)], glm::ivec2(x, y)) << c << ' ' << r;
     }
   }
+}
+
+// In the margin the border's samples repeat, those that lie a little inside the picture.
+TEST(Surround, TextureIsWhereThingsWereSeenAndInTheMarginTheBorders) {
+  State seen = toy_state(70, 60);
+  seen.pose[kYaw] = 900;
+  const Surround surround = surround_of(whole_map(7, 5, kFollowOne), seen);
+  const auto grid = projected(surround, seen);
+  ASSERT_EQ(surround.texture().size(), grid.size());
+  for (int r = 0; r <= 7; ++r) {
+    for (int c = 0; c <= 9; ++c) {
+      const auto k = static_cast<std::size_t>((on_picture(r, 5) + 1) * 10 + on_picture(c, 7) + 1);
+      EXPECT_EQ(surround.texture()[static_cast<std::size_t>(r * 10 + c)], grid[k]) << r << ' ' << c;
+    }
+  }
+  EXPECT_EQ(surround.texture().front(), glm::ivec2(kInset));
+  EXPECT_EQ(surround.texture().back(), glm::ivec2(kWidth, kHeight) * 64 - kInset);
 }
 
 TEST(Surround, FollowsAShiftOfTheHeadByItsShare) {
@@ -242,8 +271,8 @@ TEST(Surround, DrawsGroundThenBodyThenHead) {
 }
 
 TEST(Surround, PlaceIsTheCellThatHoldsThePoint) {
-  const Surround surround = surround_of(whole_map(5, 4, 0));  // cells of 32 by 32 pixels
-  const Surround::Place p = surround.place({70 * 64, 40 * 64});
+  const Surround surround = even_cells();
+  const Surround::Place p = surround.place({70 * 64 + kInset, 40 * 64 + kInset});
   const int corner = (1 + 1) * 8 + 2 + 1;
   EXPECT_EQ(p.corner, (std::array{corner, corner + 1, corner + 8, corner + 9}));
   EXPECT_EQ(p.across, 6 * 256 / 32);
@@ -257,7 +286,7 @@ TEST(Surround, PlaceIsTheCellThatHoldsThePoint) {
 
 TEST(Surround, PlacesAreCarriedByTheirCorners) {
   std::mt19937 random(6);
-  const Surround surround = surround_of(whole_map(5, 4, 0));
+  const Surround surround = even_cells();
   const auto seen = projected(surround, toy_state());
   auto moved = seen;
   for (glm::ivec2& p : moved) p += glm::ivec2(random() % 3000, random() % 3000) - 1500;
@@ -271,11 +300,12 @@ TEST(Surround, PlacesAreCarriedByTheirCorners) {
     const glm::ivec2 at(static_cast<int>(random() % (kWidth * 64)),
                         static_cast<int>(random() % (kHeight * 64)));
     const double x = at.x % 2048 / 2048.0, y = at.y % 2048 / 2048.0;
+    const glm::ivec2 place = at + kInset;
     const auto k = static_cast<std::size_t>((at.y / 2048 + 1) * 8 + at.x / 2048 + 1);
     const auto way = [&](std::size_t j) { return glm::dvec2(moved[j] - seen[j]); };
-    const glm::dvec2 expected = glm::dvec2(at) + (way(k) * (1 - x) + way(k + 1) * x) * (1 - y) +
+    const glm::dvec2 expected = glm::dvec2(place) + (way(k) * (1 - x) + way(k + 1) * x) * (1 - y) +
                                 (way(k + 8) * (1 - x) + way(k + 9) * x) * y;
-    const glm::ivec2 got = surround.carried(surround.place(at), moved);
+    const glm::ivec2 got = surround.carried(surround.place(place), moved);
     EXPECT_NEAR(got.x, expected.x, 1 + 2 * 3000 / 256.0);  // the place is in 1/256 cell
     EXPECT_NEAR(got.y, expected.y, 1 + 2 * 3000 / 256.0);
   }
