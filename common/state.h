@@ -16,8 +16,8 @@ inline constexpr int kPoseCount = 6;
 
 /// Index of each number of the light on the face in State::light: what is added to the pattern's luma, in
 /// 1/16 grey level; for the gain to luma that is 64 levels brighter than 128, for the slopes one eye distance
-/// to the right of or below the head's origin; for the rest u^2, v^2 and u v eye distances from the middle of the
-/// face, half an eye distance below the origin.
+/// to the right of or below the head's origin; for the rest u^2, v^2 and u v eye distances from the middle of
+/// the face, half an eye distance below the origin.
 enum LightIndex : std::uint8_t {
   kLightOffset,
   kLightGain,
@@ -32,8 +32,8 @@ inline constexpr int kLightCount = 7;
 /// Of the face, below the head's origin, head units.
 inline constexpr int kFaceMiddle = kUnitsPerEyeDistance / 2;
 
-/// Index of each number of the mouth's inside in State::inside: what is added to its luma at the upper lip, half way
-/// and at the lower lip, in 1/16 grey level.
+/// Index of each number of the mouth's inside in State::inside: what is added to its luma at the upper lip,
+/// half way and at the lower lip, in 1/16 grey level.
 enum InsideIndex : std::uint8_t { kInsideUpper, kInsideMiddle, kInsideLower };
 inline constexpr int kInsideCount = 3;
 

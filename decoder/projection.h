@@ -49,11 +49,11 @@ struct VertexLight {
 /// Where everything of a scene lies on the screen in one state. Also the texture coordinates of a pattern,
 /// for the state in which the pattern was seen.
 struct ScreenMesh {
-  std::vector<glm::ivec3> head;      ///< head_mesh().vertex_count; as HeadProjection gives
-  std::vector<glm::ivec2> surround;  ///< as Surround::project gives; empty without a face
-  std::int32_t mouth_gap = 0;        ///< between the middles of the inner lips, head units
+  std::vector<glm::ivec3> head;                     ///< head_mesh().vertex_count; as HeadProjection gives
+  std::vector<glm::ivec2> surround;                 ///< as Surround::project gives; empty without a face
+  std::int32_t mouth_gap = 0;                       ///< between the middles of the inner lips, head units
   std::array<std::int32_t, kInsideCount> inside{};  ///< as State::inside
-  std::vector<VertexLight> light;    ///< of each vertex of the head; empty: none has any
+  std::vector<VertexLight> light;                   ///< of each vertex of the head; empty: none has any
 };
 
 /// What is fixed for a scene with a face: the adapted head, the surround and how pattern 0 saw them.

@@ -30,11 +30,11 @@ constexpr double kInsideRest = 30;
 constexpr double kControlRest = 0.12;  // of control points about rest
 // Of lids, in shares of their travel.
 constexpr double kClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
-constexpr double kLidsAlike = 60;     // squared grey levels that a difference of one costs
-constexpr double kLidNoise = 30;      // grey levels; larger differences hardly count more
+constexpr double kLidsAlike = 60;  // squared grey levels that a difference of one costs
+constexpr double kLidNoise = 30;   // grey levels; larger differences hardly count more
 // Eye distances by which a shut upper lid passes the lower one, so that nothing of the eye is left between.
 constexpr double kLidsApart = -0.01;
-constexpr int kSteps[] = {3, 2};      // per level, fine level first
+constexpr int kSteps[] = {3, 2};  // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 
 std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
@@ -77,7 +77,8 @@ struct Block {
   void begin(std::size_t columns) {
     n = columns;
     std::fill_n(right.begin(), n, 0.0F);
-    for (std::size_t i = 0; i < n; ++i) std::fill_n(left.begin() + static_cast<std::ptrdiff_t>(i * kMostColumns), n, 0.0F);
+    for (std::size_t i = 0; i < n; ++i)
+      std::fill_n(left.begin() + static_cast<std::ptrdiff_t>(i * kMostColumns), n, 0.0F);
   }
 
   /// @param r  residual of `row`
@@ -155,13 +156,15 @@ PictureFit::Patch PictureFit::patch_of(std::size_t first, std::size_t end) const
           head.spread[w].weight / static_cast<double>(kSpreadOne);
   }
   for (std::size_t c = 0; c < kControlCount; ++c)
-    if (column_[c] >= 0 && std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) > 0.01)
+    if (column_[c] >= 0 &&
+        std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) > 0.01)
       patch.controls.push_back(static_cast<std::int16_t>(c));
   for (std::size_t k = first; k < end; ++k)
     for (const std::int16_t control : patch.controls) {
       double share = 0;
       for (std::size_t i = 0; i < 3; ++i)
-        share += static_cast<double>(points_[k].barycentric[i]) * weight[i][static_cast<std::size_t>(control)];
+        share +=
+            static_cast<double>(points_[k].barycentric[i]) * weight[i][static_cast<std::size_t>(control)];
       patch.shares.push_back(static_cast<float>(share));
     }
   return patch;
@@ -371,7 +374,8 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
       const double r = value - static_cast<double>(s.value);
       const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
       float* row = block.row.data();
-      for (const glm::dvec2& by : jacobian.at(p)) *row++ = static_cast<float>(to_level * (s.dx * by.x + s.dy * by.y));
+      for (const glm::dvec2& by : jacobian.at(p))
+        *row++ = static_cast<float>(to_level * (s.dx * by.x + s.dy * by.y));
       const double ramp = static_cast<double>(mouth_ramp_[k]), covered = ramp < 0 ? 0 : shade / 256.0;
       for (const double light : light_at(k, static_cast<double>(seen[k])))
         *row++ = static_cast<float>(-light * (1 - covered));

@@ -28,7 +28,7 @@ TEST(CodedState, EachNumberHasTheStepOfItsKind) {
     const std::int32_t expected = i < 3                   ? kSteps.rotation
                                   : i < 5                 ? kSteps.translation
                                   : i == 5                ? kSteps.log_scale
-                                  : i < 13                ? kSteps.light
+                                  : i < 16                ? kSteps.light
                                   : i < kFirstCoefficient ? kSteps.translation
                                                           : kSteps.control;
     EXPECT_EQ(step_of(kSteps, i), expected) << i;
@@ -40,10 +40,10 @@ TEST(CodedState, StateHasItsNumbersTimesTheSteps) {
   for (int i = 0; i < kFirstCoefficient; ++i) coded[static_cast<std::size_t>(i)] = i - 4;
   const State s = state_of(coded, kSteps);
   EXPECT_EQ(s.pose, (std::array{-4 * 3, -3 * 3, -2 * 3, -1 * 5, 0, 1 * 7}));
-  EXPECT_EQ(s.light, (std::array{2 * 11, 3 * 11, 4 * 11, 5 * 11}));
-  EXPECT_EQ(s.inside, (std::array{6 * 11, 7 * 11, 8 * 11}));
-  EXPECT_EQ(s.body, (std::array{9 * 5, 10 * 5, 11 * 5, 12 * 5}));
-  EXPECT_EQ(s.ground, (std::array{13 * 5, 14 * 5, 15 * 5, 16 * 5}));
+  EXPECT_EQ(s.light, (std::array{2 * 11, 3 * 11, 4 * 11, 5 * 11, 6 * 11, 7 * 11, 8 * 11}));
+  EXPECT_EQ(s.inside, (std::array{9 * 11, 10 * 11, 11 * 11}));
+  EXPECT_EQ(s.body, (std::array{12 * 5, 13 * 5, 14 * 5, 15 * 5}));
+  EXPECT_EQ(s.ground, (std::array{16 * 5, 17 * 5, 18 * 5, 19 * 5}));
   for (const glm::ivec2 c : s.control) EXPECT_EQ(c, glm::ivec2(0));
 }
 

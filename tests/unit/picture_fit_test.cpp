@@ -100,7 +100,7 @@ TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
 TEST(PictureFit, LightIsFound) {
   FittedScene s;
   for (const std::array<int, kLightCount>& light :
-       {std::array{15, 0, 0, 0}, {-12, 8, 0, 0}, {5, -6, 10, 0}, {0, 0, -8, 12}}) {
+       {std::array{15, 0, 0, 0, 0, 0, 0}, {-12, 8}, {5, -6, 10}, {0, 0, -8, 12}, {0, 0, 0, 0, 10, -8, 6}}) {
     State truth = s.seen;
     for (std::size_t i = 0; i < kLightCount; ++i) truth.light[i] = 16 * light[i];
     s.look_at(truth);

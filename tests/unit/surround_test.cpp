@@ -16,14 +16,13 @@ constexpr int kWidth = 160, kHeight = 128;
 constexpr int kInset = 2 * 64;  ///< of the grid's border from the picture's; SPEC 10.1
 
 Surround surround_of(SurroundMap map, const State& seen = toy_state()) {
-  return {toy_setup(kWidth, kHeight).format, std::move(map), head_pose(seen)};
+  return {toy_setup(kWidth, kHeight).format, std::move(map), seen};
 }
 
 /// Five by four cells of 32 by 32 pixels.
 Surround even_cells() {
   const int border = 2 * kInset / 64;
-  return {toy_setup(kWidth + border, kHeight + border).format, even_surround(5, 4, 0),
-          head_pose(toy_state())};
+  return {toy_setup(kWidth + border, kHeight + border).format, even_surround(5, 4, 0), toy_state()};
 }
 
 std::vector<glm::ivec2> projected(const Surround& surround, const State& state) {
@@ -65,7 +64,7 @@ TEST(Surround, SeenStateGivesTheRegularGridAndItsMargin) {
   State seen = toy_state(70, 60);
   seen.pose[kYaw] = 900;
   seen.pose[kRoll] = -1500;
-  const Surround surround(toy_setup(165, 127).format, whole_map(7, 5, kFollowOne), head_pose(seen));
+  const Surround surround(toy_setup(165, 127).format, whole_map(7, 5, kFollowOne), seen);
   const auto grid = projected(surround, seen);
   ASSERT_EQ(grid.size(), 10U * 8U);
   for (int r = -1; r <= 6; ++r) {

@@ -120,7 +120,7 @@ TEST(KnotsEverywhere, GiveTheStatesThatTheyWereMadeOf) {
 
 TEST(LastOf, IsTheLastKnotOfEachPart) {
   MotionGroup group = yaw_group(6, {{1, 10}, {5, 4}});
-  group.tracks[1] = {{5, {1, 2, 3, 4}}};
+  group.tracks[1] = {{5, {1, 2, 3, 4, 5, 6, 7}}};
   CodedState expected{};
   expected[kYaw] = 4;
   for (std::size_t k = 0; k < kLightCount; ++k) expected[kPoseCount + k] = static_cast<int>(k) + 1;
