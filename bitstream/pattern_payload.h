@@ -10,9 +10,8 @@
 
 namespace fbs {
 
-/// @param setup  of the scene: its features say which control points are coded, its steps bound the state
-/// @return kInvalidArgument  index outside 0..kMaxPatterns-1, a state beyond the limits of common/state.h, a
-///                           control point of an absent feature that is not zero, or no AV1 bytes
+/// @param setup  of the scene: its parts say which numbers are coded, its steps bound them
+/// @return kInvalidArgument  index outside 0..kMaxPatterns-1, a state beyond CodedLimits, or no AV1 bytes
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_pattern(const PatternSyntax& pattern,
                                                                const Setup& setup);
 

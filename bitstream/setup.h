@@ -17,15 +17,15 @@ inline constexpr std::int32_t kMaxStep = 65535;
 /// Checks every bound of a setup.
 /// @return kTooLarge          a side beyond kMaxPictureSize
 ///         kInvalidArgument   a side below kMinPictureSize; a rate of zero or beyond kMaxPicturesPerSecond; a
-///                            denominator of zero; a step outside 1..kMaxStep; a feature bit at or beyond
-///                            kFeatureCount; a range or matrix that has no name
+///                            denominator of zero; a step outside 1..kMaxStep; parts without the
+///                            pose or beyond kAllParts; a range or matrix that has no name
 [[nodiscard]] Result<void> check_setup(const Setup& setup);
 
-/// @return the payload, about 18 bytes; the errors of check_setup
+/// @return the payload, about 20 bytes; the errors of check_setup
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup);
 
 /// Bytes behind the known fields are ignored: later versions of the writer may add some.
-/// @return kUnsupported    a newer format version, or another generic head
+/// @return kUnsupported    another format version, or another generic head
 ///         kTruncated      the payload ends early
 ///         kTooLarge       a side beyond kMaxPictureSize
 ///         kInvalidStream  anything else that check_setup refuses

@@ -1,4 +1,4 @@
-// The surround packet: how the picture round the face follows the head. SPEC 4.3.
+// The surround packet: what the picture round the face moves with. SPEC 4.3.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace fbs {
 
-/// @return kInvalidArgument  columns or rows outside 1..kMaxSurroundCells, follow.size() other than
-///                           (columns + 1) * (rows + 1), or a value beyond kFollowOne
+/// @return kInvalidArgument  columns or rows outside 1..kMaxSurroundCells, layers not of (columns + 1) *
+/// (rows + 1)
+///                           values, a value beyond kFollowOne, or one of the body where the head's is that
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_surround(const SurroundMap& map);
 
 /// @return kTruncated, kTooLarge (columns or rows beyond kMaxSurroundCells), kInvalidStream

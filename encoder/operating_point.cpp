@@ -27,8 +27,8 @@ OperatingPoint OperatingPoint::at(int quality, double eye_distance_px) {
   p.steps.light = step(24 * std::exp2((50 - quality) / 25.0));
   p.steps.control = step(3.2 * px / eye_distance_px * kUnitsPerEyeDistance);
   // A bit is worth the same change of PSNR on a face of any size: lambda goes with the face's area. Measured
-  // on the ten clips at quality 50: a quarter of it adds a third of motion for 0.1 dB in the face, four times as
-  // much saves a third for 0.3 dB and shuts mouths.
+  // on the ten clips at quality 50: a quarter of it adds a third of motion for 0.1 dB in the face, four times
+  // as much saves a third for 0.3 dB and shuts mouths.
   p.lambda = 4 * eye_distance_px * eye_distance_px * std::exp2((50 - quality) / 12.0);
   return p;
 }

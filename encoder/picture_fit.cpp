@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "encoder/expression_prior.h"
@@ -453,80 +452,19 @@ FitForm PictureFit::form_at(const Fit& fit) const {
   add_picture(0, fit, normal);
   cv::Mat1d all(unknowns_, unknowns_, normal.left.data());
   cv::completeSymm(all);
-  // Of the fit's own numbers: pose, light, offsets.
-  constexpr int kOffsets = kFirstControlColumn;
-  cv::Mat1d own = cv::Mat1d::zeros(kOffsets + kCoefficientCount, kOffsets + kCoefficientCount);
   std::vector<int> place(static_cast<std::size_t>(unknowns_));
-  for (int i = 0; i < kOffsets; ++i) place[static_cast<std::size_t>(i)] = i;
+  for (int i = 0; i < kFitOffsets; ++i) place[static_cast<std::size_t>(i)] = i;
   for (int c = 0; c < kControlCount; ++c)
     for (int axis = 0; axis < 2; ++axis)
       if (const int column = column_[static_cast<std::size_t>(c)]; column >= 0)
-        place[static_cast<std::size_t>(column + axis)] = kOffsets + 2 * c + axis;
+        place[static_cast<std::size_t>(column + axis)] = kFitOffsets + 2 * c + axis;
+  cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
   for (int i = 0; i < unknowns_; ++i)
     for (int j = 0; j < unknowns_; ++j)
       own(place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)]) = all(i, j);
-
-  // In the units of the coded state.
-  State one;
-  one.pose.fill(1);
-  const Pose p = pose_of(one);
-  std::array<double, kOffsets> unit = {p.pitch, p.yaw, p.roll, p.shift.x, p.shift.y, p.log2_scale};
-  std::fill(unit.begin() + kPoseCount, unit.end(), 1 / 16.0);
-  for (int i = 0; i < kOffsets; ++i) {
-    own.row(i) *= unit[static_cast<std::size_t>(i)];
-    own.col(i) *= unit[static_cast<std::size_t>(i)];
-  }
-  const cv::Range ours(0, kOffsets), offsets(kOffsets, own.cols);
-  const cv::Mat1d across = rows_of_coefficients(cv::Mat1d(own(ours, offsets)));
-  const cv::Mat1d within = form_of_coefficients(cv::Mat1d(own(offsets, offsets)));
-
-  FitForm out = form_unseen(fit);
-  out.form = 0.0;
-  const cv::Range coefficients(kFirstCoefficient, kParameterCount);
-  own(ours, ours).copyTo(out.form(ours, ours));
-  across.copyTo(out.form(ours, coefficients));
-  cv::Mat(across.t()).copyTo(out.form(coefficients, ours));
-  within.copyTo(out.form(coefficients, coefficients));
   // add_picture() weighs by the noise and counts points, each of which stands for so many samples.
   const double samples = kPointSpacing * kPointSpacing / (picture_.scale * picture_.scale);
-  out.form *= samples * kNoise * kNoise;
-
-  return out;
-}
-
-FitForm PictureFit::form_unseen(const Fit& fit) {
-  FitForm out;
-  out.form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
-  // The pose stays rather than to slide to where the face comes back: as if a few samples said so.
-  constexpr double kSamples = 4;
-  State one;
-  one.pose.fill(1);
-  const Pose unit = pose_of(one);
-  const double eye = fit.pose.eye_distance_px();
-  const std::array<double, kPoseCount> px = {unit.pitch * eye, unit.yaw * eye,
-                                             unit.roll * eye,  unit.shift.x,
-                                             unit.shift.y,     unit.log2_scale * eye * std::numbers::ln2};
-  for (int i = 0; i < kPoseCount; ++i)
-    out.form(i, i) = kSamples * px[static_cast<std::size_t>(i)] * px[static_cast<std::size_t>(i)];
-  const auto pose = numbers_of(fit.pose);
-  std::copy(pose.begin(), pose.end(), out.value.begin());
-  for (std::size_t i = 0; i < kLightCount; ++i) out.value[kPoseCount + i] = 16 * fit.light[i];
-  for (std::size_t i = 0; i < kInsideCount; ++i) out.value[kFirstInsideColumn + i] = 16 * fit.inside[i];
-  const auto expression = to_coefficients(fit.offsets);
-  std::copy(expression.begin(), expression.end(), out.value.begin() + kFirstCoefficient);
-  return out;
-}
-
-State state_of(const Fit& fit) {
-  State state;
-  const auto whole = [](double v) { return static_cast<std::int32_t>(std::lround(v)); };
-  const auto pose = numbers_of(fit.pose);
-  std::transform(pose.begin(), pose.end(), state.pose.begin(), whole);
-  for (std::size_t i = 0; i < kLightCount; ++i) state.light[i] = whole(16 * fit.light[i]);
-  for (std::size_t i = 0; i < kInsideCount; ++i) state.inside[i] = whole(16 * fit.inside[i]);
-  for (std::size_t c = 0; c < kControlCount; ++c)
-    state.control[c] = {whole(fit.offsets[c].x), whole(fit.offsets[c].y)};
-  return state;
+  return form_of(fit, cv::Mat1d(own * samples * kNoise * kNoise));
 }
 
 }  // namespace fbs

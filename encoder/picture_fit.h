@@ -5,31 +5,11 @@
 #include <vector>
 
 #include "decoder/projection.h"
-#include "encoder/expression_basis.h"
+#include "encoder/fit.h"
 #include "encoder/image_alignment.h"
 #include "encoder/work_frame.h"
 
 namespace fbs {
-
-/// Pose, light and the mouth's inside (grey levels, else as in State), offsets of all control points (head
-/// units).
-struct Fit {
-  Pose pose;
-  std::array<double, kLightCount> light{};
-  std::array<double, kInsideCount> inside{};
-  Offsets offsets{};
-};
-
-/// The state nearest to a fit; body and ground stay where pattern 0 saw them.
-[[nodiscard]] State state_of(const Fit& fit);
-
-/// What a picture says of its state: the squared luma difference over the face, in samples of the full
-/// picture, rises from the fit's by (x - fit)^T form (x - fit), x the numbers of the coded state in the units
-/// of State and in head units. Rows and columns of body and ground are zero.
-struct FitForm {
-  std::array<double, kParameterCount> value{};
-  cv::Mat1d form;  ///< kParameterCount x kParameterCount
-};
 
 /// Compares the pattern, smeared on the moved mesh, with a picture. Works at the work frame's size, whatever
 /// the size of the picture.
@@ -55,9 +35,6 @@ class PictureFit {
 
   /// How the picture changes round a fit.
   [[nodiscard]] FitForm form_at(const Fit& fit) const;
-
-  /// Of a fit that no picture speaks for.
-  [[nodiscard]] static FitForm form_unseen(const Fit& fit);
 
   /// The head's vertices in the head frame, head units.
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;

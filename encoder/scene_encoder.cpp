@@ -223,7 +223,7 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
   const std::optional<TrackedPose> seen = follow_head(picture, vertices, frame);
   if (!seen) {
     const Fit fit = relaxed();
-    form = fit_->form_unseen(fit);
+    form = form_unseen(fit);
     return fit;
   }
   Fit tracked{seen->pose, now_.light, now_.inside, now_.offsets};

@@ -169,7 +169,7 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   state.light = {160, -32, 80, 16};
   state.inside = {48, -16, 7};
   s.look_at(state);
-  for (const FitForm& form : {s.fit.form_at(fit_of(state)), PictureFit::form_unseen(fit_of(state))}) {
+  for (const FitForm& form : {s.fit.form_at(fit_of(state)), form_unseen(fit_of(state))}) {
     CodedState values;
     for (std::size_t i = 0; i < kParameterCount; ++i)
       values[i] = static_cast<std::int32_t>(std::lround(form.value[i]));
@@ -186,7 +186,7 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
 
 TEST(PictureFit, FormUnseenHoldsThePoseAlone) {
   FittedScene s;
-  const cv::Mat1d form = PictureFit::form_unseen(fit_of(s.seen)).form;
+  const cv::Mat1d form = form_unseen(fit_of(s.seen)).form;
   for (int i = 0; i < kParameterCount; ++i)
     for (int j = 0; j < kParameterCount; ++j)
       EXPECT_EQ(form(i, j) > 0, i == j && i < kPoseCount) << i << ' ' << j;
