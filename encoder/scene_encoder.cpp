@@ -235,7 +235,7 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
       tracked.offsets[c] = now_.offsets[c];
     }
   }
-  fit_->look_at(frame, started_ ? scene_.setup.mouth : mouth_colours_.colours());
+  fit_->look_at(frame, scene_.setup.mouth);
   tracked = fit_->with_best_lids(tracked);
   const Fit fit = settings_.refine ? fit_->refine(tracked) : tracked;
   form = fit_->form_at(fit);
@@ -346,7 +346,13 @@ Result<void> SceneEncoder::end_group() {
 }
 
 Result<void> SceneEncoder::start() {
-  scene_.setup.mouth = mouth_colours_.colours();
+  // Only the chroma: the luma has been fitted as State::inside since the first picture, on what setup says.
+  const MouthInterior colours = mouth_colours_.colours();
+  for (const auto& [to, from] :
+       {std::pair{&scene_.setup.mouth.upper, colours.upper}, {&scene_.setup.mouth.lower, colours.lower}}) {
+    to->u = from.u;
+    to->v = from.v;
+  }
   auto setup = encode_setup(scene_.setup);
   if (!setup) return tl::unexpected<Error>(setup.error());
   write_packet(ready_, PacketType::kSetup, *setup);
