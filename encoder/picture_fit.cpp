@@ -33,7 +33,8 @@ constexpr double kLidsAlike = 60;  // squared grey levels that a difference of o
 constexpr double kLidNoise = 30;   // grey levels; larger differences hardly count more
 // Eye distances by which a shut upper lid passes the lower one, so that nothing of the eye is left between.
 constexpr double kLidsApart = -0.01;
-constexpr int kSteps[] = {3, 2};  // per level, fine level first
+constexpr double kInnerLipsStray = 0.04;  // eye distances
+constexpr int kSteps[] = {3, 2};          // per level, fine level first
 constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;
 
 std::array<cv::Mat, 2> two_levels(const cv::Mat& luma) {
@@ -445,6 +446,20 @@ Fit PictureFit::refine(const Fit& start) const {
     for (int i = 0; i < kSteps[level]; ++i)
       if (!step(level, start, fit)) return start;
   return difference(fit) < difference(start) ? fit : start;
+}
+
+Fit PictureFit::refine_mouth(const Fit& start) const {
+  const Fit fit = refine(start);
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  const auto first = start.offsets.begin() + inner.first_control;
+  const bool strayed = std::any_of(first, first + inner.control_count, [](const glm::dvec2& o) {
+    return std::hypot(o.x, o.y) > kInnerLipsStray * kUnitsPerEyeDistance;
+  });
+  if (!strayed) return fit;
+  Fit carried = start;
+  std::fill_n(carried.offsets.begin() + inner.first_control, inner.control_count, glm::dvec2(0));
+  carried = refine(carried);
+  return difference(carried) < difference(fit) ? carried : fit;
 }
 
 FitForm PictureFit::form_at(const Fit& fit) const {

@@ -33,6 +33,10 @@ class PictureFit {
   /// fine, held near `start` where the picture says nothing and near rest everywhere.
   [[nodiscard]] Fit refine(const Fit& start) const;
 
+  /// refine(), from `start` and, where the inner lips have strayed from where the outer ones take them, from
+  /// there, too: a mouth that opens at once leaves their contour behind.
+  [[nodiscard]] Fit refine_mouth(const Fit& start) const;
+
   /// How the picture changes round a fit.
   [[nodiscard]] FitForm form_at(const Fit& fit) const;
 

@@ -237,7 +237,7 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
   }
   fit_->look_at(frame, scene_.setup.mouth);
   tracked = fit_->with_best_lids(tracked);
-  const Fit fit = settings_.refine ? fit_->refine(tracked) : tracked;
+  const Fit fit = settings_.refine ? fit_->refine_mouth(tracked) : tracked;
   form = fit_->form_at(fit);
   return fit;
 }

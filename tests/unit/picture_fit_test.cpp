@@ -82,6 +82,26 @@ TEST(PictureFit, RefineStaysWhereThePictureIsThePattern) {
   for (const glm::dvec2 o : found.offsets) EXPECT_LT(std::hypot(o.x, o.y), 0.02 * kUnitsPerEyeDistance);
 }
 
+TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
+  FittedScene s;
+  State truth = s.seen;
+  for (const std::size_t lower : {6U, 7U, 8U, 9U}) truth.control[lower].y = 600;
+  s.look_at(truth);
+  Fit start{pose_of(s.seen), {}, {}, {}};
+  for (std::size_t c = 0; c < kControlCount; ++c) start.offsets[c] = glm::dvec2(truth.control[c]);
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  Fit strayed = start;
+  for (const int c : {5, 6, 7})  // of the lower lip
+    strayed.offsets[static_cast<std::size_t>(inner.first_control + c)].y = -400;
+  const auto gap = [&](const Fit& fit) {
+    return std::abs(mouth_gap(deform(toy_geometry().positions, state_of(fit))) -
+                    mouth_gap(deform(toy_geometry().positions, truth)));
+  };
+  ASSERT_GT(gap(strayed), 100);
+  EXPECT_LT(gap(s.fit.refine_mouth(strayed)), gap(s.fit.refine(strayed)) / 2);
+  EXPECT_EQ(s.fit.refine_mouth(start).offsets, s.fit.refine(start).offsets) << "which have not strayed";
+}
+
 TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
   FittedScene s;
   fbs::Setup few = s.setup;
