@@ -19,8 +19,7 @@ constexpr std::uint32_t kNotKey = 15 << 12;
 template <class Coder>
 bool code_track(Coder& coder, TrackCoder<Coder>& tracks, std::size_t part, const CodedState& anchor,
                 std::int32_t pictures, Track& track) {
-  Knot last{.picture = -1, .value = {}};
-  std::copy_n(anchor.begin() + kPartFirst[part], kPartSizes[part], last.value.begin());
+  Knot last = anchor_knot(anchor, part);
   for (std::size_t k = 0; last.picture + 1 < pictures; ++k) {
     Knot next;
     if constexpr (!Coder::kReads) next = track[k];

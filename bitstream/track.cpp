@@ -11,12 +11,17 @@ std::int32_t between(std::int64_t from, std::int64_t to, std::int64_t way, std::
   return static_cast<std::int32_t>(from + quotient - (below ? 1 : 0));
 }
 
+Knot anchor_knot(const CodedState& anchor, std::size_t part) {
+  Knot knot{.picture = -1, .value = {}};
+  std::copy_n(anchor.begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());
+  return knot;
+}
+
 std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps) {
   std::vector<CodedState> values(static_cast<std::size_t>(group.pictures), CodedState{});
   for (std::size_t part = 0; part < kPartCount; ++part) {
     const auto first = static_cast<std::size_t>(kPartFirst[part]);
-    Knot last{.picture = -1, .value = {}};
-    std::copy_n(group.anchor.begin() + kPartFirst[part], kPartSizes[part], last.value.begin());
+    Knot last = anchor_knot(group.anchor, part);
     for (const Knot& knot : group.tracks[part]) {
       const std::int32_t length = knot.picture - last.picture;
       for (std::size_t i = 0; i < static_cast<std::size_t>(kPartSizes[part]); ++i) {

@@ -73,6 +73,13 @@ cv::Mat1d wrong_expression() {
   return form;
 }
 
+Result<std::vector<std::uint8_t>> first_pattern(const VideoFormat& format, const Picture& picture,
+                                                int quantiser) {
+  auto encoder = PatternEncoder::create(format, quantiser);
+  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  return encoder->encode(picture);
+}
+
 double pictures_per_second(const VideoFormat& f) {
   return static_cast<double>(f.frame_rate.num) / static_cast<double>(f.frame_rate.den);
 }
@@ -151,9 +158,8 @@ Result<OperatingPoint> SceneEncoder::choose_point(const Picture& first) {
     const double seconds = settings_.seconds > 0 ? settings_.seconds : kSecondsUnknown;
     Result<void> failed;
     const auto startup = [&](int q) {
-      auto encoder = PatternEncoder::create(scene_.setup.format,
-                                            OperatingPoint::at(q, eye_distance_px_).pattern_quantiser);
-      auto av1 = encoder ? encoder->encode(first) : tl::unexpected<Error>(encoder.error());
+      const auto av1 = first_pattern(scene_.setup.format, first,
+                                     OperatingPoint::at(q, eye_distance_px_).pattern_quantiser);
       if (!av1) failed = tl::unexpected<Error>(av1.error());
       return geometry_bytes_.size() + kOtherBytes + (av1 ? av1->size() : 0);
     };
@@ -170,9 +176,7 @@ Result<OperatingPoint> SceneEncoder::choose_point(const Picture& first) {
 
 Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   const VideoFormat& format = scene_.setup.format;
-  auto encoder = PatternEncoder::create(format, quantiser);
-  if (!encoder) return tl::unexpected<Error>(encoder.error());
-  auto av1 = encoder->encode(picture);
+  auto av1 = first_pattern(format, picture, quantiser);
   if (!av1) return tl::unexpected<Error>(av1.error());
   auto decoder = PatternDecoder::create(format.width, format.height);
   if (!decoder) return tl::unexpected<Error>(decoder.error());
@@ -312,11 +316,7 @@ MotionGroup SceneEncoder::plan_group(const CodedState& anchor, bool key) {
     const auto payload = MotionCoder(*coder_).encode(group);
     return 8.0 * static_cast<double>((payload ? payload->size() : 0) + kPacketBytes);
   };
-  if (!budget_) {
-    group = planner_->plan(anchor, fits_, rate_);
-    finish_group(group, key);
-    return group;
-  }
+  if (!budget_) return planner_->plan(anchor, fits_, rate_);
   double seconds = 0;
   for (const std::uint32_t d : durations_)
     seconds += (d > 0 ? d : nominal_duration(scene_.setup.format.frame_rate)) / 90000.0;
@@ -329,13 +329,10 @@ Result<void> SceneEncoder::end_group() {
   if (durations_.empty()) return {};
   const bool key = coder_->needs_key();
   const CodedState& anchor = coder_->anchor(key);
-  MotionGroup group;
-  if (scene_.geometry) {
-    group = plan_group(anchor, key);
-  } else {
-    group = knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
-    finish_group(group, key);
-  }
+  MotionGroup group =
+      scene_.geometry ? plan_group(anchor, key)
+                      : knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
+  finish_group(group, key);
   auto payload = coder_->encode(group);
   if (!payload) return tl::unexpected<Error>(payload.error());
   rate_.learn(group);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bitstream/track.h"
+
 namespace fbs {
 namespace {
 
@@ -55,11 +57,7 @@ class Plan {
   static std::size_t first(std::size_t part) { return static_cast<std::size_t>(kPartFirst[part]); }
   static std::size_t size(std::size_t part) { return static_cast<std::size_t>(kPartSizes[part]); }
 
-  [[nodiscard]] Knot anchor_of(std::size_t part) const {
-    Knot knot{.picture = -1, .value = {}};
-    std::copy_n(group_.anchor.begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());
-    return knot;
-  }
+  [[nodiscard]] Knot anchor_of(std::size_t part) const { return anchor_knot(group_.anchor, part); }
 
   /// The fit at a picture in whole steps, within the limits.
   [[nodiscard]] Values rounded(std::size_t part, std::size_t t) const {

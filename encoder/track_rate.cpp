@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/track.h"
+
 namespace fbs {
 namespace {
 
@@ -67,8 +69,7 @@ void TrackRate::learn(const MotionGroup& group) {
   for (auto* counts : {&spans_, &moved_, &ended_})
     for (double& c : *counts) c *= kMemory;
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    Knot last{.picture = -1, .value = {}};
-    std::copy_n(group.anchor.begin() + kPartFirst[part], kPartSizes[part], last.value.begin());
+    Knot last = anchor_knot(group.anchor, part);
     for (const Knot& knot : group.tracks[part]) {
       const bool moves = knot.value != last.value;
       spans_[part] += 1;

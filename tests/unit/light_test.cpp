@@ -159,13 +159,6 @@ TEST(Light, IsThatOfThePlainRuleOnHostileTriangles) {
   EXPECT_GT(drawn, 10000);
 }
 
-Picture rendered(const Scene& scene, const State& state) {
-  Renderer renderer;
-  Picture out;
-  renderer.render(scene, state, out);
-  return out;
-}
-
 /// The toy head in one grey before the same grey.
 /// @param light  under which it was seen
 Scene grey_scene(std::uint8_t grey, const std::array<std::int32_t, kLightCount>& light = {}) {

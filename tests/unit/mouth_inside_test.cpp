@@ -132,13 +132,6 @@ TEST(MouthInside, SliversStayBetweenTheColours) {
   EXPECT_GT(drawn, 5000);
 }
 
-Picture rendered(const Scene& scene, const State& state) {
-  Renderer renderer;
-  Picture out;
-  renderer.render(scene, state, out);
-  return out;
-}
-
 /// A closed mouth on a face and before a ground of one colour.
 Scene even_scene(const MouthInterior& mouth) {
   Picture picture(160, 128);

@@ -33,16 +33,6 @@ State with_open_mouth(State state) {
   return state;
 }
 
-/// Squared luma difference between two pictures.
-double squares(const Picture& a, const Picture& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.y.samples.size(); ++i) {
-    const double d = a.y.samples[i] - b.y.samples[i];
-    sum += d * d;
-  }
-  return sum;
-}
-
 /// The fit that says a state.
 Fit fit_of(const State& state) {
   Fit fit{pose_of(state), {}, {}};

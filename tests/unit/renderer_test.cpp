@@ -11,13 +11,6 @@
 namespace fbs {
 namespace {
 
-Picture rendered(const Scene& scene, const State& state) {
-  Renderer renderer;
-  Picture out;
-  renderer.render(scene, state, out);
-  return out;
-}
-
 TEST(Renderer, StateOfThePatternReproducesThePatternExactly) {
   for (const auto& [w, h] : {std::pair{160, 128}, {161, 127}, {64, 64}, {97, 200}}) {
     const Scene scene = toy_scene(noise_picture(w, h, 1), even_surround(9, 7, kFollowOne));

@@ -286,16 +286,6 @@ TEST(SurroundMotion, MapSaysWhatMattersToWhat) {
   EXPECT_LT(matters(kFirstBody), 1e-9 * all);
 }
 
-/// Squared luma difference between two pictures.
-double squares(const Picture& a, const Picture& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.y.samples.size(); ++i) {
-    const double d = a.y.samples[i] - b.y.samples[i];
-    sum += d * d;
-  }
-  return sum;
-}
-
 // What the encoder weighs bits against is how pictures differ: it looks at one spot in many samples.
 TEST(SurroundMotion, FormPredictsTheChangeOfTheSquaredDifference) {
   const Picture first = picture_of({}, 0, false);

@@ -124,4 +124,21 @@ inline State random_state(std::mt19937& random) {
   return state_of(random_coded(random, {finest, kAllParts}), finest);
 }
 
+inline Picture rendered(const Scene& scene, const State& state) {
+  Renderer renderer;
+  Picture out;
+  renderer.render(scene, state, out);
+  return out;
+}
+
+/// Squared luma difference between two pictures.
+inline double squares(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.y.samples.size(); ++i) {
+    const double d = a.y.samples[i] - b.y.samples[i];
+    sum += d * d;
+  }
+  return sum;
+}
+
 }  // namespace fbs
