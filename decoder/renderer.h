@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/picture.h"
-#include "decoder/projection.h"
-#include "decoder/rasteriser.h"
+#include "decoder/animate/projection.h"
+#include "decoder/raster/rasteriser.h"
 
 namespace fbs {
 

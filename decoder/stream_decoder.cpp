@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "bitstream/end_payload.h"
-#include "bitstream/geometry_payload.h"
-#include "bitstream/pattern_payload.h"
-#include "bitstream/setup.h"
-#include "bitstream/surround_payload.h"
+#include "bitstream/payload/end_payload.h"
+#include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
 
 namespace fbs {

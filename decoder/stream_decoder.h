@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/motion_payload.h"
 #include "bitstream/packet.h"
+#include "bitstream/payload/motion_payload.h"
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"

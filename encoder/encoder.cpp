@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "bitstream/end_payload.h"
 #include "bitstream/packet.h"
-#include "bitstream/setup.h"
+#include "bitstream/payload/end_payload.h"
+#include "bitstream/payload/setup_payload.h"
 #include "encoder/scene_encoder.h"
 
 namespace fbs {

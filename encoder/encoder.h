@@ -8,7 +8,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
-#include "encoder/marks.h"
+#include "encoder/find/marks.h"
 
 namespace fbs {
 

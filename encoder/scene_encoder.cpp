@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bitstream/geometry_payload.h"
 #include "bitstream/packet.h"
-#include "bitstream/pattern_payload.h"
-#include "bitstream/setup.h"
-#include "bitstream/surround_payload.h"
+#include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
 #include "decoder/pattern_decoder.h"
-#include "encoder/pattern_encoder.h"
-#include "encoder/surround_fit.h"
+#include "encoder/patterns/pattern_encoder.h"
+#include "encoder/surround/surround_fit.h"
 
 namespace fbs {
 namespace {

@@ -5,19 +5,20 @@
 #include <optional>
 #include <vector>
 
-#include "bitstream/motion_payload.h"
+#include "bitstream/payload/motion_payload.h"
 #include "common/result.h"
 #include "decoder/renderer.h"
-#include "encoder/adapt.h"
 #include "encoder/encoder.h"
-#include "encoder/face_search.h"
-#include "encoder/feature_tracker.h"
-#include "encoder/head_tracker.h"
-#include "encoder/mouth_colours.h"
-#include "encoder/operating_point.h"
-#include "encoder/rate_control.h"
-#include "encoder/surround_motion.h"
-#include "encoder/track_plan.h"
+#include "encoder/find/adapt.h"
+#include "encoder/fit/picture_fit.h"
+#include "encoder/patterns/mouth_colours.h"
+#include "encoder/plan/operating_point.h"
+#include "encoder/plan/rate_control.h"
+#include "encoder/plan/track_plan.h"
+#include "encoder/surround/surround_motion.h"
+#include "encoder/track/face_search.h"
+#include "encoder/track/feature_tracker.h"
+#include "encoder/track/head_tracker.h"
 
 namespace fbs {
 

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "cli/module.h"
-#include "cli/video/number_pattern.h"
+#include "cli/video/images/number_pattern.h"
 #include "cli/video/video_modules.h"
 #include "cli/video/y4m.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "encoder/encoder.h"
-#include "encoder/track_plan.h"
+#include "encoder/plan/track_plan.h"
 #include "tests/bench/analysis_clip.h"
 
 namespace fbs {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "encoder/operating_point.h"
+#include "encoder/plan/operating_point.h"
 
 namespace fbs {
 

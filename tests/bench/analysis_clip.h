@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "common/generic_head.h"
-#include "encoder/adapt.h"
-#include "encoder/feature_tracker.h"
-#include "encoder/head_tracker.h"
-#include "encoder/picture_fit.h"
+#include "encoder/find/adapt.h"
+#include "encoder/fit/picture_fit.h"
+#include "encoder/track/feature_tracker.h"
+#include "encoder/track/head_tracker.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "bitstream/packet.h"
-#include "bitstream/pattern_payload.h"
-#include "bitstream/setup.h"
+#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/payload/setup_payload.h"
 #include "decoder/pattern_decoder.h"
 #include "tests/unit/toy_scene.h"
 #include "tests/vectors/stream_digest.h"

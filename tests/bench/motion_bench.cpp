@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "bitstream/motion_payload.h"
+#include "bitstream/payload/motion_payload.h"
 #include "bitstream/track.h"
-#include "tests/unit/random_tracks.h"
+#include "tests/unit/bitstream/random_tracks.h"
 
 namespace fbs {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "encoder/b_snake.h"
+#include "encoder/track/b_snake.h"
 
 namespace fbs {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cli/video/colour.h"
 #include "common/generic_head.h"
-#include "encoder/planes.h"
+#include "encoder/image/planes.h"
 
 namespace fbs::figures {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "cli/video/video_source.h"
 #include "decoder/stream_decoder.h"
-#include "encoder/feature_tracker.h"
-#include "encoder/pose.h"
-#include "samples/talker_render.h"
+#include "encoder/model/pose.h"
+#include "encoder/track/feature_tracker.h"
+#include "samples/talker/talker_render.h"
 
 namespace fbs::figures {
 namespace {

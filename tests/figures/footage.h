@@ -10,7 +10,7 @@
 #include "common/picture.h"
 #include "common/result.h"
 #include "encoder/encoder.h"
-#include "encoder/pose.h"
+#include "encoder/model/pose.h"
 #include "tests/figures/face_motion.h"
 
 namespace fbs::figures {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "encoder/feature_tracker.h"
+#include "encoder/track/feature_tracker.h"
 #include "tests/figures/canvas.h"
 #include "tests/figures/figures.h"
 #include "tests/figures/sheet.h"

@@ -4,7 +4,7 @@
 
 #include "bitstream/syntax.h"
 #include "common/picture.h"
-#include "encoder/pose.h"
+#include "encoder/model/pose.h"
 
 namespace fbs {
 

@@ -1,5 +1,5 @@
 // Bytes to a head: what decodes is within its limits, and coded again in steps of one it decodes to the same.
-#include "bitstream/geometry_payload.h"
+#include "bitstream/payload/geometry_payload.h"
 
 #include <algorithm>
 #include <cstdlib>

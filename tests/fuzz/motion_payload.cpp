@@ -1,5 +1,5 @@
 // Bytes to states: what decodes is within the limits, and coded again it decodes to the same.
-#include "bitstream/motion_payload.h"
+#include "bitstream/payload/motion_payload.h"
 
 #include "bitstream/track.h"
 #include "tests/fuzz/fuzz_target.h"

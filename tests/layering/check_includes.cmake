@@ -1,36 +1,94 @@
 # cmake -D ROOT=<repository> -P check_includes.cmake
-# Arrows between folders never turn back: common <- bitstream <- decoder <- encoder <- cli. A folder may include itself
-# and what comes before it. The first three know nothing of OpenCV, OpenImageIO, tinygltf or the command line.
+# Folders are floors, and so are the rooms inside them: a file includes what lies on its own floor or below. The lowest
+# comes first. What stands directly in bitstream/ (the plain data of the syntax) is below its payloads; what stands
+# directly in decoder/ and encoder/ joins their rooms and is above them.
 cmake_minimum_required(VERSION 3.25)
-set(chain common bitstream decoder encoder cli)
-set(core common bitstream decoder)
-set(foreign "opencv|OpenImageIO|tiny_gltf|nlohmann|CLI/|libav|aom/")
+set(floors
+  common
+  bitstream/entropy bitstream bitstream/payload
+  decoder/animate decoder/raster decoder
+  encoder/image encoder/model encoder/find encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan
+  encoder
+  cli/video/images cli/video/av cli/video cli)
+# These stand side by side: neither may include the other.
+set(apart "decoder/animate decoder/raster" "encoder/track encoder/fit" "encoder/fit encoder/surround"
+          "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
+# What big libraries are for, and the only rooms that may include them.
+set(foreign
+  "opencv2/objdetect@encoder/find"
+  "opencv2/video/@encoder/track"
+  "opencv2/highgui|opencv2/videoio@cli|cli/video"
+  "opencv2/@encoder/image|encoder/model|encoder/find|encoder/track|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video"
+  "aom/@encoder/patterns"
+  "dav1d/@decoder"
+  "draco/@bitstream/payload"
+  "nlohmann@encoder/find|cli"
+  "OpenImageIO@cli/video/images"
+  "libav|libsw@cli/video/av"
+  "CLI/@cli"
+  "tiny_gltf@none")
 set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table out of glTF; in no library
+# Interfaces that modules implement: they stand in cli/video, which is above them.
+set(module_interface "cli/(module|verbs|progress)\\.h|cli/video/[a-z0-9_]+\\.h")
+
+# The floor of a path: the longest name in `floors` that it lies in.
+function(floor_of path out)
+  get_filename_component(folder ${path} DIRECTORY)
+  while(folder AND NOT folder IN_LIST floors)
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+  set(${out} "${folder}" PARENT_SCOPE)
+endfunction()
 
 set(faults 0)
 set(checked 0)
-set(above ${chain})
-foreach(folder ${chain})
-  list(REMOVE_ITEM above ${folder})
-  list(JOIN above "|" forbidden)
-  file(GLOB_RECURSE sources ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)
-  foreach(source ${sources})
-    file(RELATIVE_PATH name ${ROOT} ${source})
-    math(EXPR checked "${checked} + 1")
-    file(STRINGS ${source} includes REGEX "^[ \t]*#[ \t]*include")
-    foreach(include ${includes})
-      if(forbidden AND include MATCHES "\"(${forbidden}|samples|tests)/")
-        message("${name}: ${include} points up the chain")
+file(GLOB_RECURSE sources RELATIVE ${ROOT}
+  ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp ${ROOT}/decoder/*.h
+  ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
+foreach(source ${sources})
+  math(EXPR checked "${checked} + 1")
+  floor_of(${source} mine)
+  list(FIND floors "${mine}" my_place)
+  file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(include ${includes})
+    if(include MATCHES "\"([a-z_]+/[^\"]+)\"")
+      set(path ${CMAKE_MATCH_1})
+      floor_of(${path} theirs)
+      list(FIND floors "${theirs}" place)
+      if(place EQUAL -1)
+        set(place 1000)  # samples, tests, or a folder that is not in the list
+      endif()
+      set(is_interface FALSE)
+      if(mine MATCHES "^cli/video" AND path MATCHES "^(${module_interface})$")
+        set(is_interface TRUE)
+      endif()
+      if(place GREATER my_place AND NOT is_interface)
+        message("${source}: ${path} points up: ${mine} is below ${theirs}")
         math(EXPR faults "${faults} + 1")
       endif()
-      if(folder IN_LIST core AND NOT name IN_LIST tool_of_the_build AND include MATCHES "[<\"](${foreign})")
-        message("${name}: ${include} does not belong in ${folder}/")
-        math(EXPR faults "${faults} + 1")
-      endif()
-    endforeach()
+      foreach(pair ${apart})
+        if(pair STREQUAL "${theirs} ${mine}")
+          message("${source}: ${path}: ${theirs} and ${mine} stand side by side")
+          math(EXPR faults "${faults} + 1")
+        endif()
+      endforeach()
+    elseif(NOT source IN_LIST tool_of_the_build)
+      foreach(rule ${foreign})
+        string(REPLACE "@" ";" rule "${rule}")
+        list(GET rule 0 header)
+        list(GET rule 1 rooms)
+        if(include MATCHES "[<\"](${header})")
+          if(NOT mine MATCHES "^(${rooms})$")
+            message("${source}: ${include} does not belong in ${mine}/")
+            math(EXPR faults "${faults} + 1")
+          endif()
+          break()
+        endif()
+      endforeach()
+    endif()
   endforeach()
 endforeach()
-if(checked LESS 60)
+if(checked LESS 100)
   message(FATAL_ERROR "only ${checked} sources found in ${ROOT}")
 endif()
 if(faults)

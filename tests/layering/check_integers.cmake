@@ -2,9 +2,10 @@
 # The path from stream to picture is integers only (design, section 10): no floating-point type, literal or function is
 # named in it. Comments and strings may speak of them.
 cmake_minimum_required(VERSION 3.25)
-file(GLOB sources
+file(GLOB_RECURSE sources
   ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp
-  ${ROOT}/decoder/*.h ${ROOT}/decoder/*.cpp
+  ${ROOT}/decoder/*.h ${ROOT}/decoder/*.cpp)
+list(APPEND sources
   ${ROOT}/common/generic_head.cpp ${ROOT}/common/picture.h ${ROOT}/common/result.h ${ROOT}/common/state.h)
 # common/generic_head.h is left out: FeatureVertex::s is a float, "only the encoder uses it".
 # common/bspline.h and common/quality.* are the encoder's and the measurements'.

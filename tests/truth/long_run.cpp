@@ -20,9 +20,9 @@
 
 #include "decoder/stream_decoder.h"
 #include "encoder/encoder.h"
-#include "encoder/pose.h"
-#include "samples/talker_noise.h"
-#include "samples/talker_render.h"
+#include "encoder/model/pose.h"
+#include "samples/talker/talker_noise.h"
+#include "samples/talker/talker_render.h"
 
 namespace {
 

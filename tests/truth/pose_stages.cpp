@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "bitstream/track.h"
-#include "encoder/adapt.h"
 #include "encoder/encoder.h"
-#include "encoder/feature_tracker.h"
-#include "encoder/head_tracker.h"
-#include "encoder/operating_point.h"
-#include "encoder/picture_fit.h"
-#include "encoder/track_plan.h"
+#include "encoder/find/adapt.h"
+#include "encoder/fit/picture_fit.h"
+#include "encoder/plan/operating_point.h"
+#include "encoder/plan/track_plan.h"
+#include "encoder/track/feature_tracker.h"
+#include "encoder/track/head_tracker.h"
 #include "tests/unit/talker_clip.h"
 
 namespace {

@@ -15,8 +15,8 @@
 
 #include "cli/video/video_source.h"
 #include "encoder/encoder.h"
-#include "encoder/feature_tracker.h"
-#include "samples/talker_render.h"
+#include "encoder/track/feature_tracker.h"
+#include "samples/talker/talker_render.h"
 
 namespace {
 

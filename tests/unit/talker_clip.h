@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
-#include "encoder/marks.h"
-#include "encoder/pose.h"
-#include "samples/talker_render.h"
+#include "encoder/find/marks.h"
+#include "encoder/model/pose.h"
+#include "samples/talker/talker_render.h"
 
 namespace fbs {
 

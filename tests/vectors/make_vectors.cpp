@@ -5,15 +5,15 @@
 #include <iostream>
 #include <random>
 
-#include "bitstream/geometry_payload.h"
-#include "bitstream/motion_payload.h"
 #include "bitstream/packet.h"
-#include "bitstream/pattern_payload.h"
-#include "bitstream/setup.h"
-#include "bitstream/surround_payload.h"
+#include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/motion_payload.h"
+#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "encoder/encoder.h"
-#include "encoder/pattern_encoder.h"
-#include "samples/talker_render.h"
+#include "encoder/patterns/pattern_encoder.h"
+#include "samples/talker/talker_render.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {

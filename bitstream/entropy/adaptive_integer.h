@@ -1,0 +1,60 @@
+// Signed integers over the binary range coder: zero flag, sign, magnitude. SPEC 2.4.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "bitstream/entropy/adaptive_bit.h"
+
+namespace fbs {
+
+inline constexpr int kMaxExponent = 23;
+/// Largest value code_exponential can write.
+inline constexpr std::uint32_t kMaxExponential = (std::uint32_t{2} << kMaxExponent) - 2;
+
+/// Contexts of an Exp-Golomb number: one for each place of the unary exponent, one for the highest bit of the
+/// mantissa; the bits below are written without a context.
+struct ExponentialContexts {
+  std::array<AdaptiveBit, kMaxExponent> more;
+  std::array<AdaptiveBit, 4> top_bit;  ///< by exponent 1, 2, 3, beyond
+};
+
+/// Exp-Golomb of order 0: value + 1 = 2^exponent + mantissa.
+/// @param value  0..kMaxExponential; also the range of what is read, whatever the bytes are
+template <class Coder>
+std::uint32_t code_exponential(Coder& coder, ExponentialContexts& contexts, std::uint32_t value) {
+  if constexpr (Coder::kReads) value = 0;
+  assert(value <= kMaxExponential);
+  int exponent = 0;
+  while (exponent < kMaxExponent &&
+         coder.bit(contexts.more[static_cast<std::size_t>(exponent)], (value + 1) >> (exponent + 1) != 0)) {
+    ++exponent;
+  }
+  std::uint32_t mantissa = value + 1 - (std::uint32_t{1} << exponent);
+  if (exponent > 0) {
+    const auto place = static_cast<std::size_t>(exponent < 4 ? exponent - 1 : 3);
+    const std::uint32_t top = coder.bit(contexts.top_bit[place], (mantissa >> (exponent - 1) & 1) != 0);
+    mantissa = top << (exponent - 1) | coder.bypass(exponent - 1, mantissa & ((1u << (exponent - 1)) - 1));
+  }
+  return (std::uint32_t{1} << exponent) + mantissa - 1;
+}
+
+/// Contexts of a number of which little is known beforehand, such as a pose coded whole.
+struct WideIntegerContexts {
+  AdaptiveBit not_zero;
+  AdaptiveBit negative;
+  ExponentialContexts magnitude;
+};
+
+/// @param value  |value| <= kMaxExponential; what is read may be one larger
+template <class Coder>
+std::int32_t code_wide_integer(Coder& coder, WideIntegerContexts& contexts, std::int32_t value) {
+  if (!coder.bit(contexts.not_zero, value != 0)) return 0;
+  const bool negative = coder.bit(contexts.negative, value < 0);
+  const auto size = static_cast<std::uint32_t>(value < 0 ? -value : value);
+  const auto magnitude = static_cast<std::int32_t>(code_exponential(coder, contexts.magnitude, size - 1)) + 1;
+  return negative ? -magnitude : magnitude;
+}
+
+}  // namespace fbs

@@ -1,0 +1,38 @@
+// Counts what a RangeEncoder would write, without writing it. Same interface; contexts learn in the same way.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/entropy/adaptive_bit.h"
+#include "bitstream/entropy/logistic.h"
+
+namespace fbs {
+
+class BitCounter {
+ public:
+  static constexpr bool kReads = false;
+
+  bool raw_bit(std::uint32_t zero, bool value) {
+    cost_ += cost_of(value ? kProbabilityOne - zero : zero);
+    return value;
+  }
+  bool bit(AdaptiveBit& context, bool value) {
+    raw_bit(context.zero(), value);
+    context.update(value);
+    return value;
+  }
+  std::uint32_t bypass(int count, std::uint32_t value) {
+    cost_ += static_cast<std::uint64_t>(count) << 16;
+    return value;
+  }
+
+  /// Sum of all costs so far in 1/65536 bit.
+  [[nodiscard]] std::uint64_t cost() const { return cost_; }
+  /// The same in 1/256 bit, rounded.
+  [[nodiscard]] std::uint64_t bits_x256() const { return (cost_ + 128) >> 8; }
+
+ private:
+  std::uint64_t cost_ = 0;
+};
+
+}  // namespace fbs

@@ -1,0 +1,117 @@
+#include "bitstream/payload/draco_points.h"
+
+#include <draco/compression/decode.h>
+#include <draco/compression/expert_encode.h>
+#include <draco/core/decoder_buffer.h>
+#include <draco/core/encoder_buffer.h>
+#include <draco/point_cloud/point_cloud.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+
+namespace fbs {
+namespace {
+
+// The start of every stream of ours, in Draco's bitstream version 2.3. SPEC 4.2 lists the fields.
+constexpr std::array<std::uint8_t, 22> kDracoStart = {
+    'D',
+    'R',
+    'A',
+    'C',
+    'O',
+    2,
+    3,
+    0,
+    0,
+    0,
+    0,  // version, point cloud, sequential, no flags
+    kVertexCount,
+    0,
+    0,
+    0,  // points, 32 bits, low byte first
+    1,
+    1,
+    4,
+    5,
+    3,
+    0,
+    0,  // one decoder, one attribute: generic, int32, 3 components, id 0
+};
+
+Result<std::vector<std::uint8_t>> encode_with(const HeadPoints& points,
+                                              draco::PredictionSchemeMethod prediction) {
+  draco::PointCloud cloud;
+  cloud.set_num_points(kVertexCount);
+  draco::GeometryAttribute layout;
+  layout.Init(draco::GeometryAttribute::GENERIC, nullptr, 3, draco::DT_INT32, false, 3 * sizeof(std::int32_t),
+              0);
+  const int attribute = cloud.AddAttribute(layout, true, kVertexCount);
+  for (std::uint32_t i = 0; i < kVertexCount; ++i) {
+    const std::array<std::int32_t, 3> value = {points[i].x, points[i].y, points[i].z};
+    cloud.attribute(attribute)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
+  }
+
+  draco::ExpertEncoder encoder(cloud);
+  encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
+  encoder.SetSpeedOptions(0, 0);
+  if (!encoder.SetAttributePredictionScheme(attribute, prediction).ok()) {
+    return fail(ErrorCode::kInternal, "Draco refuses a prediction");
+  }
+  draco::EncoderBuffer buffer;
+  if (!encoder.EncodeToBuffer(&buffer).ok()) return fail(ErrorCode::kInternal, "Draco refuses a geometry");
+  return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
+}
+
+Result<HeadPoints> read_points(const draco::PointCloud& cloud) {
+  if (cloud.num_points() != kVertexCount || cloud.num_attributes() != 1) {
+    return fail(ErrorCode::kInvalidStream, "geometry has other than 105 points");
+  }
+  const draco::PointAttribute& attribute = *cloud.attribute(0);
+  if (attribute.num_components() != 3 || attribute.data_type() != draco::DT_INT32) {
+    return fail(ErrorCode::kInvalidStream, "geometry is no set of integer points");
+  }
+  HeadPoints points;
+  for (std::uint32_t i = 0; i < kVertexCount; ++i) {
+    const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
+    std::array<std::int32_t, 3> value{};
+    if (index.value() >= attribute.size() || !attribute.ConvertValue<std::int32_t>(index, 3, value.data())) {
+      return fail(ErrorCode::kInvalidStream, "geometry lacks points");
+    }
+    points[i] = {value[0], value[1], value[2]};
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points) try {
+  auto shortest = encode_with(points, draco::PREDICTION_NONE);
+  auto difference = encode_with(points, draco::PREDICTION_DIFFERENCE);
+  if (!shortest) return shortest;
+  if (!difference) return difference;
+  if (difference->size() < shortest->size()) shortest.swap(difference);
+  if (shortest->size() < kDracoStart.size() ||
+      !std::equal(kDracoStart.begin(), kDracoStart.end(), shortest->begin())) {
+    return fail(ErrorCode::kInternal, "Draco writes another version of its format");
+  }
+  shortest->erase(shortest->begin(), shortest->begin() + kDracoStart.size());
+  return shortest;
+} catch (const std::exception&) {
+  return fail(ErrorCode::kInternal, "Draco threw an exception");
+}
+
+Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes) try {
+  std::vector<char> stream(kDracoStart.begin(), kDracoStart.end());
+  stream.insert(stream.end(), bytes.begin(), bytes.end());
+  draco::DecoderBuffer buffer;
+  buffer.Init(stream.data(), stream.size());
+  draco::Decoder decoder;
+  auto cloud = decoder.DecodePointCloudFromBuffer(&buffer);
+  if (!cloud.ok()) return fail(ErrorCode::kInvalidStream, "Draco refuses the geometry");
+  return read_points(*cloud.value());
+} catch (const std::exception&) {
+  return fail(ErrorCode::kInvalidStream, "Draco threw an exception");
+}
+
+}  // namespace fbs

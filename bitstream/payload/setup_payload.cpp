@@ -1,0 +1,146 @@
+#include "bitstream/payload/setup_payload.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bitstream/byte_io.h"
+
+namespace fbs {
+namespace {
+
+constexpr std::uint8_t kFullRangeFlag = 1;
+constexpr int kMatrixShift = 1;
+constexpr std::uint8_t kMaxMatrix = static_cast<std::uint8_t>(ColourMatrix::kBt709);
+
+// A number that does not fit becomes one that check_setup refuses.
+std::int32_t to_int(std::uint64_t value) {
+  return static_cast<std::int32_t>(std::min<std::uint64_t>(value, std::numeric_limits<std::int32_t>::max()));
+}
+
+// SPEC 4.1: numerator, denominator.
+Result<Rational> read_rational(ByteReader& reader) {
+  const std::uint64_t num = reader.varint();
+  const std::uint64_t den = reader.varint();
+  if (std::max(num, den) > std::numeric_limits<std::uint32_t>::max()) {
+    return fail(ErrorCode::kInvalidStream, "setup has a ratio out of range");
+  }
+  return Rational{static_cast<std::uint32_t>(num), static_cast<std::uint32_t>(den)};
+}
+
+void write_rational(ByteWriter& writer, const Rational& ratio) {
+  writer.varint(ratio.num);
+  writer.varint(ratio.den);
+}
+
+void write_colour(ByteWriter& writer, const YuvColour& colour) {
+  for (const std::uint8_t component : {colour.y, colour.u, colour.v}) writer.u8(component);
+}
+
+YuvColour read_colour(ByteReader& reader) {
+  YuvColour colour;
+  for (std::uint8_t* component : {&colour.y, &colour.u, &colour.v}) *component = reader.u8();
+  return colour;
+}
+
+bool is_rate(const Rational& rate) {
+  return rate.num > 0 && rate.den > 0 && rate.num <= std::uint64_t{kMaxPicturesPerSecond} * rate.den;
+}
+
+bool is_step(std::int32_t step) {
+  return step >= 1 && step <= kMaxStep;
+}
+
+}  // namespace
+
+Result<void> check_setup(const Setup& setup) {
+  const VideoFormat& f = setup.format;
+  if (std::max(f.width, f.height) > kMaxPictureSize)
+    return fail(ErrorCode::kTooLarge, "picture is too large");
+  if (std::min(f.width, f.height) < kMinPictureSize) {
+    return fail(ErrorCode::kInvalidArgument, "picture is too small");
+  }
+  if (!is_rate(f.frame_rate)) return fail(ErrorCode::kInvalidArgument, "frame rate is out of range");
+  if (f.pixel_aspect.den == 0) return fail(ErrorCode::kInvalidArgument, "pixel aspect has no denominator");
+  if (f.range != ColourRange::kLimited && f.range != ColourRange::kFull) {
+    return fail(ErrorCode::kInvalidArgument, "colour range is unknown");
+  }
+  if (static_cast<std::uint8_t>(f.matrix) > kMaxMatrix) {
+    return fail(ErrorCode::kInvalidArgument, "colour matrix is unknown");
+  }
+  const QuantiserSteps& s = setup.steps;
+  if (!is_step(s.rotation) || !is_step(s.translation) || !is_step(s.log_scale) || !is_step(s.light) ||
+      !is_step(s.control)) {
+    return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
+  }
+  if ((setup.parts & ~kAllParts) != 0 || (setup.parts & mask_of(PartId::kPose)) == 0)
+    return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
+  if (auto checked = check_setup(setup); !checked) return tl::unexpected(checked.error());
+  std::vector<std::uint8_t> payload;
+  ByteWriter writer(payload);
+  writer.varint(kFormatVersion);
+  writer.u8(kGenericHeadId);
+  writer.varint(static_cast<std::uint64_t>(setup.format.width));
+  writer.varint(static_cast<std::uint64_t>(setup.format.height));
+  write_rational(writer, setup.format.frame_rate);
+  write_rational(writer, setup.format.pixel_aspect);
+  writer.u8(static_cast<std::uint8_t>((setup.format.range == ColourRange::kFull ? kFullRangeFlag : 0) |
+                                      static_cast<int>(setup.format.matrix) << kMatrixShift));
+  for (const std::int32_t step : {setup.steps.rotation, setup.steps.translation, setup.steps.log_scale,
+                                  setup.steps.light, setup.steps.control}) {
+    writer.varint(static_cast<std::uint64_t>(step));
+  }
+  writer.varint(setup.parts >> 1);
+  for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
+  return payload;
+}
+
+Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
+  ByteReader reader(payload);
+
+  // SPEC 4.1: the version comes first and is judged before the rest, which another version may lay out anew.
+  const std::uint64_t version = reader.varint();
+  if (reader.ok() && version != 0 && version != kFormatVersion) {
+    return fail(ErrorCode::kUnsupported, version > kFormatVersion ? "stream is of a newer format version"
+                                                                  : "stream is of an older format version");
+  }
+  const std::uint8_t head = reader.u8();
+  if (reader.ok() && head != kGenericHeadId) return fail(ErrorCode::kUnsupported, "generic head is unknown");
+
+  Setup setup;
+  setup.format.width = to_int(reader.varint());
+  setup.format.height = to_int(reader.varint());
+  const auto frame_rate = read_rational(reader);
+  const auto pixel_aspect = read_rational(reader);
+  const std::uint8_t colour = reader.u8();
+  for (std::int32_t* step : {&setup.steps.rotation, &setup.steps.translation, &setup.steps.log_scale,
+                             &setup.steps.light, &setup.steps.control}) {
+    *step = to_int(reader.varint());
+  }
+  const std::uint64_t parts = reader.varint();
+  setup.mouth.upper = read_colour(reader);
+  setup.mouth.lower = read_colour(reader);
+
+  if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
+  if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
+  if (!frame_rate) return tl::unexpected(frame_rate.error());
+  if (!pixel_aspect) return tl::unexpected(pixel_aspect.error());
+  if (colour >> kMatrixShift > kMaxMatrix) return fail(ErrorCode::kInvalidStream, "colour matrix is unknown");
+  if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
+
+  setup.format.frame_rate = *frame_rate;
+  setup.format.pixel_aspect = *pixel_aspect;
+  setup.format.range = (colour & kFullRangeFlag) != 0 ? ColourRange::kFull : ColourRange::kLimited;
+  setup.format.matrix = static_cast<ColourMatrix>(colour >> kMatrixShift);
+  setup.parts = static_cast<PartMask>(parts << 1 | 1);
+  if (auto checked = check_setup(setup); !checked) {
+    const bool large = checked.error().code == ErrorCode::kTooLarge;
+    return fail(large ? ErrorCode::kTooLarge : ErrorCode::kInvalidStream, checked.error().text);
+  }
+  return setup;
+}
+
+}  // namespace fbs

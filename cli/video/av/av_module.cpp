@@ -1,0 +1,17 @@
+// The doors of the module fbs_av.
+
+#include "cli/module.h"
+#include "cli/video/av/av_sink.h"
+#include "cli/video/av/av_source.h"
+#include "cli/video/video_modules.h"
+
+FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,
+                                       fbs::Result<std::unique_ptr<fbs::VideoSource>>& source) {
+  source = fbs::open_av_source(input, options);
+}
+
+FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::VideoFormat& format,
+                                     const fbs::SinkOptions& options,
+                                     fbs::Result<std::unique_ptr<fbs::VideoSink>>& sink) {
+  sink = fbs::open_av_sink(output, format, options);
+}

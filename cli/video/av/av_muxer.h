@@ -1,0 +1,46 @@
+// A libav container written through AtomicFile. Part of the module fbs_av.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "cli/video/atomic_file.h"
+#include "cli/video/av/av_support.h"
+
+namespace fbs {
+
+/// Errors are ErrorCode::kIo with the system's reason when the file failed, else libav's reason.
+class AvMuxer {
+ public:
+  /// @param container  libav's name, "mp4" or "matroska"
+  static Result<std::unique_ptr<AvMuxer>> create(const std::string& output, const char* container);
+  ~AvMuxer();
+  AvMuxer(const AvMuxer&) = delete;
+  AvMuxer& operator=(const AvMuxer&) = delete;
+
+  /// Owned by the muxer; all streams are added before write_header.
+  AVStream* add_stream();
+  [[nodiscard]] const AVOutputFormat& container() const { return *context_->oformat; }
+
+  Result<void> write_header();
+  /// Takes the packet's data; its times are in the stream's time base.
+  Result<void> write(AVPacket& packet);
+  /// Writes the end of the container and gives the file its name.
+  Result<void> finish();
+
+  [[nodiscard]] tl::unexpected<Error> error(const std::string& reason) const;
+
+ private:
+  explicit AvMuxer(AtomicFile file) : file_(std::move(file)) {}
+
+  static int write_bytes(void* self, std::uint8_t* bytes, int size);
+  static std::int64_t seek(void* self, std::int64_t offset, int whence);
+  Result<void> check(int code) const;
+
+  AtomicFile file_;
+  Result<void> file_state_;  ///< the first failure of file_
+  AVFormatContext* context_ = nullptr;
+};
+
+}  // namespace fbs

@@ -1,0 +1,109 @@
+#include "cli/video/av/av_picture.h"
+
+extern "C" {
+#include <libavutil/pixdesc.h>
+}
+
+#include <algorithm>
+
+namespace fbs {
+namespace {
+
+constexpr int kScalerFlags =
+    SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT;
+constexpr int kOne = 1 << 16;  // contrast and saturation of 1
+
+bool is_rgb(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return description != nullptr && (description->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
+}
+
+bool is_grey(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return description != nullptr && description->nb_components <= 2 && !is_rgb(format);
+}
+
+/// The J formats say full range a second time; without it swscale leaves the range alone.
+AVPixelFormat without_range(AVPixelFormat format) {
+  switch (format) {
+    case AV_PIX_FMT_YUVJ411P:
+      return AV_PIX_FMT_YUV411P;
+    case AV_PIX_FMT_YUVJ420P:
+      return AV_PIX_FMT_YUV420P;
+    case AV_PIX_FMT_YUVJ422P:
+      return AV_PIX_FMT_YUV422P;
+    case AV_PIX_FMT_YUVJ440P:
+      return AV_PIX_FMT_YUV440P;
+    case AV_PIX_FMT_YUVJ444P:
+      return AV_PIX_FMT_YUV444P;
+    default:
+      return format;
+  }
+}
+
+void copy_plane(const AVFrame& frame, int index, Plane& plane) {
+  for (int y = 0; y < plane.height; ++y) {
+    const std::uint8_t* row = frame.data[index] + static_cast<std::ptrdiff_t>(y) * frame.linesize[index];
+    std::copy_n(row, plane.width, plane.row(y));
+  }
+}
+
+}  // namespace
+
+Result<Picture> FramePicture::convert(const AVFrame& frame) {
+  const AVPixelFormat stored = without_range(static_cast<AVPixelFormat>(frame.format));
+  const AVPixelFormat wanted = is_grey(stored) ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_YUV420P;
+  const AVFrame* planes = &frame;
+  if (stored != wanted) {
+    if (!scaled_) scaled_.reset(av_frame_alloc());
+    av_frame_unref(scaled_.get());
+    scaled_->width = frame.width;
+    scaled_->height = frame.height;
+    scaled_->format = wanted;
+    scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, stored, frame.width,
+                                       frame.height, wanted, kScalerFlags, nullptr, nullptr, nullptr));
+    if (!scaler_ || av_frame_get_buffer(scaled_.get(), 0) < 0) {
+      const char* name = av_get_pix_fmt_name(stored);
+      return fail(ErrorCode::kUnsupported,
+                  std::string("pixel format ") + (name != nullptr ? name : "unknown"));
+    }
+    const int* bt601 = sws_getCoefficients(SWS_CS_ITU601);
+    const int source_range = is_rgb(stored) ? 1 : 0;
+    sws_setColorspaceDetails(scaler_.get(), bt601, source_range, bt601, 0, 0, kOne, kOne);
+    const int rows = sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, scaled_->data,
+                               scaled_->linesize);
+    if (rows != frame.height) return fail(ErrorCode::kUnsupported, "picture cannot be converted to 4:2:0");
+    planes = scaled_.get();
+  }
+  Picture picture(frame.width, frame.height);
+  copy_plane(*planes, 0, picture.y);
+  if (wanted == AV_PIX_FMT_YUV420P) {
+    copy_plane(*planes, 1, picture.u);
+    copy_plane(*planes, 2, picture.v);
+  }
+  return picture;
+}
+
+ColourRange colour_range(const AVFrame& frame) {
+  const auto format = static_cast<AVPixelFormat>(frame.format);
+  if (is_rgb(format)) return ColourRange::kLimited;
+  if (frame.color_range == AVCOL_RANGE_MPEG) return ColourRange::kLimited;
+  const bool implied = without_range(format) != format || is_grey(format);
+  return frame.color_range == AVCOL_RANGE_JPEG || implied ? ColourRange::kFull : ColourRange::kLimited;
+}
+
+ColourMatrix colour_matrix(const AVFrame& frame) {
+  if (is_rgb(static_cast<AVPixelFormat>(frame.format))) return ColourMatrix::kBt601;
+  switch (frame.colorspace) {
+    case AVCOL_SPC_BT709:
+      return ColourMatrix::kBt709;
+    case AVCOL_SPC_BT470BG:
+    case AVCOL_SPC_SMPTE170M:
+    case AVCOL_SPC_FCC:
+      return ColourMatrix::kBt601;
+    default:
+      return ColourMatrix::kUnspecified;
+  }
+}
+
+}  // namespace fbs

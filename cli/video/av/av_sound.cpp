@@ -1,0 +1,72 @@
+#include "cli/video/av/av_sound.h"
+
+#include <algorithm>
+
+namespace fbs {
+
+Result<AvSound> AvSound::open(const std::string& source, AvMuxer& muxer) {
+  AvSound sound;
+  sound.name_ = source;
+  int code = 0;
+  sound.container_ = open_av_input(source, code);
+  if (!sound.container_) return fail(ErrorCode::kIo, "cannot read " + source + ": " + av_reason(code));
+  const int index = av_find_best_stream(sound.container_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
+  if (index < 0) return fail(ErrorCode::kUnsupported, source + ": holds no sound");
+  for (unsigned i = 0; i < sound.container_->nb_streams; ++i) {
+    if (static_cast<int>(i) != index) sound.container_->streams[i]->discard = AVDISCARD_ALL;
+  }
+  sound.from_ = sound.container_->streams[index];
+  sound.packet_.reset(av_packet_alloc());
+
+  const AVCodecID codec = sound.from_->codecpar->codec_id;
+  if (avformat_query_codec(&muxer.container(), codec, FF_COMPLIANCE_NORMAL) == 0) {
+    return fail(ErrorCode::kUnsupported, source + ": sound in " + avcodec_get_name(codec) +
+                                             " does not fit in " + muxer.container().name +
+                                             "; .mkv takes more");
+  }
+  sound.to_ = muxer.add_stream();
+  if (sound.to_ == nullptr || !sound.packet_ ||
+      avcodec_parameters_copy(sound.to_->codecpar, sound.from_->codecpar) < 0) {
+    return muxer.error("out of memory");
+  }
+  sound.to_->codecpar->codec_tag = 0;  // each container has its own
+  sound.to_->time_base = sound.from_->time_base;
+  return sound;
+}
+
+Result<void> AvSound::copy_until(std::int64_t end, AvMuxer& muxer) {
+  while (!ended_) {
+    if (!waiting_) {
+      auto found = read();
+      if (!found) return tl::unexpected(found.error());
+      if (!*found) break;
+    }
+    waiting_ = packet_->dts != AV_NOPTS_VALUE && av_rescale_q(packet_->dts, from_->time_base, kTick) >= end;
+    if (waiting_) break;
+    packet_->stream_index = to_->index;
+    av_packet_rescale_ts(packet_.get(), from_->time_base, to_->time_base);
+    if (auto written = muxer.write(*packet_); !written) return written;
+  }
+  return {};
+}
+
+Result<bool> AvSound::read() {
+  int code = 0;
+  do {
+    av_packet_unref(packet_.get());
+    code = av_read_frame(container_.get(), packet_.get());
+  } while (code >= 0 && packet_->stream_index != from_->index);
+  ended_ = code == AVERROR_EOF;
+  if (ended_) return false;
+  if (code < 0) return fail(ErrorCode::kIo, "cannot read " + name_ + ": " + av_reason(code));
+  if (container_->start_time != AV_NOPTS_VALUE) {
+    const std::int64_t start =
+        av_rescale_q(container_->start_time, AVRational{1, AV_TIME_BASE}, from_->time_base);
+    if (packet_->pts != AV_NOPTS_VALUE) packet_->pts -= start;
+    if (packet_->dts != AV_NOPTS_VALUE) packet_->dts -= start;
+  }
+  packet_->pos = -1;
+  return true;
+}
+
+}  // namespace fbs

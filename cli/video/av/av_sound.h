@@ -1,0 +1,38 @@
+// The sound of a source, copied beside pictures of ours. Part of the module fbs_av.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/video/av/av_muxer.h"
+#include "cli/video/av/av_support.h"
+
+namespace fbs {
+
+/// Copies packets without recoding. Times count from the start of the source, as those of VideoSource do, so
+/// sound and pictures stay together.
+class AvSound {
+ public:
+  /// Finds the main sound stream of `source` and adds one for it to the muxer.
+  /// @return ErrorCode::kUnsupported when there is no sound or the container cannot hold it
+  static Result<AvSound> open(const std::string& source, AvMuxer& muxer);
+
+  /// Writes all packets that begin before `end`.
+  /// @param end  1/90000 s
+  Result<void> copy_until(std::int64_t end, AvMuxer& muxer);
+
+ private:
+  AvSound() = default;
+  /// Reads the next packet of sound into packet_. @return false at the end
+  Result<bool> read();
+
+  std::string name_;
+  AvInput container_;
+  AvPacket packet_;
+  AVStream* from_ = nullptr;  ///< of container_
+  AVStream* to_ = nullptr;    ///< of the muxer
+  bool waiting_ = false;      ///< packet_ was read and not yet written
+  bool ended_ = false;
+};
+
+}  // namespace fbs

@@ -1,0 +1,253 @@
+#include "cli/video/av/av_source.h"
+
+extern "C" {
+#include <libavutil/display.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "cli/video/av/av_picture.h"
+#include "cli/video/av/av_support.h"
+#include "cli/video/orientation.h"
+#include "cli/video/picture_size.h"
+#include "cli/video/timestamps.h"
+
+namespace fbs {
+namespace {
+
+constexpr Rational kUnknownRate{25, 1};
+
+Rational as_rational(AVRational value) {
+  if (value.num <= 0 || value.den <= 0) return {0, 1};
+  return {static_cast<std::uint32_t>(value.num), static_cast<std::uint32_t>(value.den)};
+}
+
+/// The nominal rate when it agrees with the mean, else the mean: for variable rates the nominal one is only
+/// the finest grid that holds all timestamps.
+Rational choose_frame_rate(AVFormatContext* container, AVStream* stream) {
+  const AVRational nominal = av_guess_frame_rate(container, stream, nullptr);
+  const AVRational mean = stream->avg_frame_rate;
+  const bool mean_known = mean.num > 0 && mean.den > 0;
+  const bool agree = !mean_known || std::abs(av_q2d(nominal) / av_q2d(mean) - 1) < 0.1;
+  AVRational rate = agree ? nominal : mean;
+  av_reduce(&rate.num, &rate.den, rate.num, rate.den, kMaxRatePart);
+  return plausible_rate(as_rational(rate)) ? as_rational(rate) : kUnknownRate;
+}
+
+std::optional<Orientation> orientation_of(const std::uint8_t* matrix_bytes, std::size_t size) {
+  std::array<std::int32_t, 9> matrix{};
+  if (matrix_bytes == nullptr || size < sizeof matrix) return std::nullopt;
+  std::memcpy(matrix.data(), matrix_bytes, sizeof matrix);
+  return orientation_from_matrix(matrix);
+}
+
+/// The container's display matrix, else the one inside the stream.
+Orientation orientation_of(const AVStream& stream, const AVFrame& frame) {
+  std::size_t size = 0;
+  const std::uint8_t* in_stream = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
+  if (const auto found = orientation_of(in_stream, size)) return *found;
+  const AVFrameSideData* in_frame = av_frame_get_side_data(&frame, AV_FRAME_DATA_DISPLAYMATRIX);
+  if (in_frame == nullptr) return {};
+  return orientation_of(in_frame->data, in_frame->size).value_or(Orientation{});
+}
+
+class AvSource final : public VideoSource {
+ public:
+  explicit AvSource(std::string name) : name_(std::move(name)) {}
+
+  Result<void> open(const SourceOptions& options);
+
+  [[nodiscard]] const VideoFormat& format() const override { return format_; }
+  Result<std::optional<TimedPicture>> next() override;
+  [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
+  [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
+
+ private:
+  Result<void> open_decoder(const SourceOptions& options);
+  void describe(const AVFrame& first);
+  /// Decodes the next frame into frame_. @return false at the end
+  Result<bool> decode();
+  /// Hands the next packet, or the end, to the decoder.
+  Result<void> feed();
+  std::int64_t next_pts();
+  [[nodiscard]] std::int64_t on_regular_grid(std::int64_t pts) const;
+  [[nodiscard]] tl::unexpected<Error> error(ErrorCode code, const std::string& text) const {
+    return fail(code, name_ + ": " + text);
+  }
+
+  std::string name_;
+  AvInput container_;
+  AvCodec decoder_;
+  AvPacket packet_{av_packet_alloc()};
+  AvFrame frame_{av_frame_alloc()};
+  AVStream* stream_ = nullptr;  ///< of container_
+  FramePicture converter_;
+  VideoFormat format_;
+  Orientation orientation_;
+  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet handed over
+  bool drained_ = false;        ///< the decoder was told that no packet follows
+  std::int64_t index_ = 0;
+  std::int64_t first_pts_ = 0;
+  std::int64_t last_pts_ = 0;
+  std::int64_t damaged_packets_ = 0;
+};
+
+Result<void> AvSource::open(const SourceOptions& options) {
+  int code = 0;
+  container_ = open_av_input(name_, code);
+  if (!container_) {
+    const bool other_kind = code == AVERROR_INVALIDDATA || code == AVERROR_PROTOCOL_NOT_FOUND;
+    return fail(other_kind ? ErrorCode::kUnsupported : ErrorCode::kIo,
+                "cannot read " + name_ + ": " + (other_kind ? "not a video that we know" : av_reason(code)));
+  }
+  if (auto opened = open_decoder(options); !opened) return opened;
+  auto decoded = decode();
+  if (!decoded) return tl::unexpected(decoded.error());
+  if (!*decoded) return error(ErrorCode::kUnsupported, "holds no picture that can be decoded");
+  frame_waiting_ = true;
+  describe(*frame_);
+  return check_picture_size(name_, format_.width, format_.height);
+}
+
+Result<void> AvSource::open_decoder(const SourceOptions& options) {
+  const AVCodec* codec = nullptr;
+  const int index = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  if (index == AVERROR_DECODER_NOT_FOUND) return error(ErrorCode::kUnsupported, "no decoder for its video");
+  if (index < 0) return error(ErrorCode::kUnsupported, "holds no video");
+  stream_ = container_->streams[index];
+  if ((stream_->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
+    return error(ErrorCode::kUnsupported, "holds no video, only a cover picture");
+  }
+  for (unsigned i = 0; i < container_->nb_streams; ++i) {
+    if (static_cast<int>(i) != index) container_->streams[i]->discard = AVDISCARD_ALL;
+  }
+  decoder_.reset(avcodec_alloc_context3(codec));
+  if (!decoder_) return error(ErrorCode::kInternal, "out of memory");
+  int code = avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
+  decoder_->pkt_timebase = stream_->time_base;
+  decoder_->thread_count = std::max(options.decoder_threads, 1);
+  if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
+  if (code < 0) return error(ErrorCode::kUnsupported, "cannot decode its video: " + av_reason(code));
+  return {};
+}
+
+void AvSource::describe(const AVFrame& first) {
+  orientation_ = orientation_of(*stream_, first);
+  const AVRational aspect =
+      av_guess_sample_aspect_ratio(container_.get(), stream_, const_cast<AVFrame*>(&first));
+  format_.width = first.width;
+  format_.height = first.height;
+  format_.frame_rate = choose_frame_rate(container_.get(), stream_);
+  format_.pixel_aspect = as_rational(aspect);
+  format_.range = colour_range(first);
+  format_.matrix = colour_matrix(first);
+  if (orientation_.transposed) {
+    std::swap(format_.width, format_.height);
+    const bool known = format_.pixel_aspect.num != 0;
+    if (known) std::swap(format_.pixel_aspect.num, format_.pixel_aspect.den);
+  }
+}
+
+Result<std::optional<TimedPicture>> AvSource::next() {
+  if (!std::exchange(frame_waiting_, false)) {
+    const auto decoded = decode();
+    if (!decoded) return tl::unexpected(decoded.error());
+    if (!*decoded) return std::nullopt;
+  }
+  auto picture = converter_.convert(*frame_);
+  if (!picture) return error(picture.error().code, picture.error().text);
+  TimedPicture timed{oriented(std::move(*picture), orientation_), next_pts()};
+  if (timed.picture.width() != format_.width || timed.picture.height() != format_.height) {
+    return size_change(name_, format_, timed.picture.width(), timed.picture.height());
+  }
+  ++index_;
+  return timed;
+}
+
+Result<bool> AvSource::decode() {
+  for (;;) {
+    const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+    if (code == AVERROR_EOF) return false;
+    if (code >= 0) return true;
+    if (code != AVERROR(EAGAIN)) {
+      ++damaged_packets_;
+      continue;
+    }
+    if (auto fed = feed(); !fed) return tl::unexpected(fed.error());
+  }
+}
+
+Result<void> AvSource::feed() {
+  if (drained_) return error(ErrorCode::kInternal, "decoder does not end");
+  int code = 0;
+  do {
+    av_packet_unref(packet_.get());
+    code = av_read_frame(container_.get(), packet_.get());
+  } while (code >= 0 && packet_->stream_index != stream_->index);
+  if (code == AVERROR_EOF) {
+    drained_ = true;
+    avcodec_send_packet(decoder_.get(), nullptr);
+    return {};
+  }
+  if (code == AVERROR_INVALIDDATA) return error(ErrorCode::kInvalidStream, "damaged container");
+  if (code < 0) return error(ErrorCode::kIo, av_reason(code));
+  if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) ++damaged_packets_;
+  return {};
+}
+
+std::int64_t AvSource::next_pts() {
+  std::int64_t pts = last_pts_ + regular_pts(1, format_.frame_rate);
+  if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
+    const std::int64_t start = container_->start_time == AV_NOPTS_VALUE
+                                   ? 0
+                                   : av_rescale(container_->start_time, kTicksPerSecond, AV_TIME_BASE);
+    pts = av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTick) - start;
+  } else if (index_ == 0) {
+    pts = 0;
+  }
+  if (index_ == 0) first_pts_ = pts;
+  pts = on_regular_grid(pts);
+  if (index_ > 0) pts = std::max(pts, last_pts_ + 1);
+  last_pts_ = pts;
+  return pts;
+}
+
+std::int64_t AvSource::on_regular_grid(std::int64_t pts) const {
+  const std::int64_t unit =
+      av_rescale_rnd(stream_->time_base.num, kTicksPerSecond, stream_->time_base.den, AV_ROUND_UP);
+  const std::int64_t tolerance = std::min(unit, regular_pts(1, format_.frame_rate) / 4);
+  const std::int64_t elapsed = pts - first_pts_;
+  if (elapsed < 0) return pts;
+  const Rational rate = format_.frame_rate;
+  const std::int64_t nearest =
+      av_rescale(elapsed, rate.num, kTicksPerSecond * static_cast<std::int64_t>(rate.den));
+  const std::int64_t regular = first_pts_ + regular_pts(nearest, rate);
+  return std::abs(regular - pts) <= tolerance ? regular : pts;
+}
+
+std::optional<std::int64_t> AvSource::frame_count_estimate() const {
+  if (stream_->nb_frames > 0) return stream_->nb_frames;
+  double seconds = 0;
+  if (stream_->duration > 0) {
+    seconds = static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
+  } else if (container_->duration > 0) {
+    seconds = static_cast<double>(container_->duration) / AV_TIME_BASE;
+  }
+  if (seconds <= 0) return std::nullopt;
+  return std::llround(seconds * format_.frame_rate.num / format_.frame_rate.den);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, const SourceOptions& options) {
+  auto source = std::make_unique<AvSource>(input);
+  if (auto opened = source->open(options); !opened) return tl::unexpected(opened.error());
+  return source;
+}
+
+}  // namespace fbs

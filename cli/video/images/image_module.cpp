@@ -1,0 +1,27 @@
+// The doors of the module fbs_image. OpenImageIO may throw; nothing leaves here.
+
+#include <exception>
+
+#include "cli/module.h"
+#include "cli/video/images/image_sink.h"
+#include "cli/video/images/image_source.h"
+#include "cli/video/video_modules.h"
+
+FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,
+                                       fbs::Result<std::unique_ptr<fbs::VideoSource>>& source) {
+  try {
+    source = fbs::open_image_source(input, options);
+  } catch (const std::exception& problem) {
+    source = fbs::fail(fbs::ErrorCode::kIo, "cannot read " + input + ": " + problem.what());
+  }
+}
+
+FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::VideoFormat& format,
+                                     const fbs::SinkOptions& /*options*/,
+                                     fbs::Result<std::unique_ptr<fbs::VideoSink>>& sink) {
+  try {
+    sink = fbs::open_image_sink(output, format);
+  } catch (const std::exception& problem) {
+    sink = fbs::fail(fbs::ErrorCode::kIo, "cannot write " + output + ": " + problem.what());
+  }
+}

@@ -1,0 +1,107 @@
+#include "encoder/find/face_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "common/generic_head.h"
+#include "encoder/image/planes.h"
+
+namespace fbs {
+namespace {
+
+constexpr double kRes = 64;                                               // pixels per eye distance
+constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // eye distances
+
+double at(const cv::Mat& m, double x, double y) {
+  const double u = std::clamp((x - kLeft) * kRes, 0.0, m.cols - 1.001);
+  const double v = std::clamp((y - kTop) * kRes, 0.0, m.rows - 1.001);
+  const int i = static_cast<int>(u), j = static_cast<int>(v);
+  const double fu = u - i, fv = v - j;
+  const float *a = m.ptr<float>(j) + i, *b = m.ptr<float>(j + 1) + i;
+  return (a[0] * (1 - fu) + a[1] * fu) * (1 - fv) + (b[0] * (1 - fu) + b[1] * fu) * fv;
+}
+
+}  // namespace
+
+FaceFrame::FaceFrame(const Picture& picture, glm::dvec2 right, glm::dvec2 left)
+    : origin_(0.5 * (right + left)), x_axis_(left - right) {
+  luma_ = warp(picture.y, 1.0);
+  red_ = warp(picture.v, 0.5);
+  constexpr double kBlur = 0.02 * kRes;
+  cv::GaussianBlur(luma_, luma_, {}, kBlur);
+  cv::GaussianBlur(red_, red_, {}, 2 * kBlur);
+}
+
+glm::dvec2 FaceFrame::to_picture(glm::dvec2 p) const {
+  return origin_ + p.x * x_axis_ + p.y * glm::dvec2(-x_axis_.y, x_axis_.x);
+}
+
+double FaceFrame::luma(double x, double y) const {
+  return at(luma_, x, y);
+}
+
+double FaceFrame::red(double x, double y) const {
+  return at(red_, x, y);
+}
+
+double FaceFrame::valley(double x, double y, double reach) const {
+  return 0.5 * (luma(x, y - reach) + luma(x, y + reach)) - luma(x, y);
+}
+
+cv::Mat FaceFrame::warp(const Plane& plane, double plane_scale) const {
+  // From own pixel (i, j) to plane sample; pixel centres at + 0.5.
+  const glm::dvec2 ex = x_axis_ * plane_scale / kRes, ey(-ex.y, ex.x);
+  const glm::dvec2 o = to_picture({kLeft, kTop}) * plane_scale - 0.5;
+  const cv::Matx23d m(ex.x, ey.x, o.x, ex.y, ey.y, o.y);
+  const cv::Size size(static_cast<int>(kWidth * kRes), static_cast<int>(kHeight * kRes));
+  cv::Mat source = view(plane), out;
+  const double shrink = std::hypot(ex.x, ex.y);
+  if (shrink > 1.5) cv::GaussianBlur(source, source, {}, 0.4 * shrink);
+  cv::warpAffine(source, out, m, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  out.convertTo(out, CV_32F);
+  return out;
+}
+
+double search(double from, double to, double usual, double spread,
+              const std::function<double(double)>& evidence) {
+  constexpr double kStep = 1.0 / 128;
+  double best = usual, best_score = -1e30;
+  for (double p = from; p <= to; p += kStep) {
+    const double d = (p - usual) / spread;
+    const double score = evidence(p) - d * d;
+    if (score > best_score) {
+      best_score = score;
+      best = p;
+    }
+  }
+  return best;
+}
+
+double mean_over(double centre, double half, const std::function<double(double)>& value) {
+  double sum = 0;
+  constexpr int kSamples = 13;
+  for (int i = 0; i < kSamples; ++i) sum += value(centre + half * (2.0 * i / (kSamples - 1) - 1));
+  return sum / kSamples;
+}
+
+double generic_eye_depth() {
+  static const double depth = [] {
+    const GenericHead& head = generic_head();
+    double sum = 0;
+    for (std::size_t k = 36; k < 48; ++k)
+      sum += head.vertices[static_cast<std::size_t>(head.landmark_vertex[k])].position.z;
+    return sum / 12 / kUnitsPerEyeDistance;
+  }();
+  return depth;
+}
+
+glm::dvec3 generic_landmark(int ibug) {
+  const GenericHead& head = generic_head();
+  const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(ibug)];
+  return glm::dvec3(head.vertices[static_cast<std::size_t>(v)].position) /
+             static_cast<double>(kUnitsPerEyeDistance) -
+         glm::dvec3(0, 0, generic_eye_depth());
+}
+
+}  // namespace fbs

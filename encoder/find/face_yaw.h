@@ -1,0 +1,21 @@
+// How far the face of the first picture is turned aside.
+#pragma once
+
+#include "encoder/find/face_frame.h"
+
+namespace fbs {
+
+struct FaceTurn {
+  double tangent = 0;  ///< of the yaw; positive: towards the picture's left, as HeadPose has it
+  double shift = 0;  ///< the middle between the eyes lies this far to the right of the frame's, eye distances
+};
+
+/// The turn at which the generic head explains the picture best: seen from the eyes, the sides of the face
+/// move to one side and nose and mouth to the other, each by its depth. The sides show by a step of
+/// brightness or colour, nose and mouth by the likeness of their halves. Where eyes were found a little
+/// aside, all of it shifts. Measured on 91 pictures of ten clips: correlation 0.84 with an independent
+/// tracker's yaw, 3.5 degrees rms.
+/// @return tangent within +-0.5; near 0 without evidence
+[[nodiscard]] FaceTurn find_turn(const FaceFrame& face);
+
+}  // namespace fbs

@@ -1,0 +1,91 @@
+#include "encoder/find/marks.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace fbs {
+namespace {
+
+std::size_t vertex_of(int ibug) {
+  return static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)]);
+}
+
+std::optional<glm::dvec2> point_of(const nlohmann::json& j) {
+  if (!j.is_array() || j.size() != 2 || !j[0].is_number() || !j[1].is_number()) return std::nullopt;
+  const glm::dvec2 p(j[0].get<double>(), j[1].get<double>());
+  if (!(std::abs(p.x) <= 2 * kMaxPictureSize && std::abs(p.y) <= 2 * kMaxPictureSize)) return std::nullopt;
+  return p;
+}
+
+Result<Marks> landmarks_of(const nlohmann::json& list) {
+  if (!list.is_array() || list.size() != kLandmarkCount)
+    return fail(ErrorCode::kInvalidArgument, "\"landmarks\" does not hold 68 points");
+  Marks marks;
+  for (int k = 0; k < kLandmarkCount; ++k) {
+    const auto p = point_of(list[static_cast<std::size_t>(k)]);
+    if (!p) return fail(ErrorCode::kInvalidArgument, "landmark " + std::to_string(k) + " is not [x, y]");
+    marks.set_landmark(k, *p);
+  }
+  return marks;
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> Marks::landmark(int ibug) const {
+  return vertex[vertex_of(ibug)];
+}
+
+void Marks::set_landmark(int ibug, glm::dvec2 p) {
+  vertex[vertex_of(ibug)] = p;
+}
+
+std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
+  std::array<glm::dvec2, 2> centre{};
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    glm::dvec2 sum(0);
+    int count = 0;
+    for (int k = 0; k < 6; ++k) {
+      if (const auto p = landmark(36 + 6 * static_cast<int>(eye) + k)) {
+        sum += *p;
+        ++count;
+      }
+    }
+    if (count == 0) return std::nullopt;
+    centre[eye] = sum / static_cast<double>(count);
+  }
+  return centre;
+}
+
+Result<Marks> read_marks(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return fail(ErrorCode::kIo, "cannot read: " + std::string(std::strerror(errno)));
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object()) return fail(ErrorCode::kInvalidArgument, "not a JSON object of marks");
+  Marks marks;
+  if (json.contains("landmarks")) {
+    auto listed = landmarks_of(json["landmarks"]);
+    if (!listed) return listed;
+    marks = *listed;
+  }
+  for (const auto& [name, value] : json.items()) {
+    if (name == "landmarks") continue;
+    const auto vertices = generic_head().vertices;
+    const auto found =
+        std::find_if(vertices.begin(), vertices.end(), [&](const HeadVertex& v) { return v.name == name; });
+    if (found == vertices.end())
+      return fail(ErrorCode::kInvalidArgument, "no vertex is named \"" + name + "\"");
+    const auto p = point_of(value);
+    if (!p) return fail(ErrorCode::kInvalidArgument, "\"" + name + "\" is not [x, y]");
+    marks.vertex[static_cast<std::size_t>(found - vertices.begin())] = *p;
+  }
+  const auto eyes = marks.eyes();
+  if (!eyes) return fail(ErrorCode::kInvalidArgument, "no mark on one of the eyes");
+  if ((*eyes)[1].x - (*eyes)[0].x < 4)
+    return fail(ErrorCode::kInvalidArgument, "the eyes are less than 4 pixels apart or the wrong way round");
+  return marks;
+}
+
+}  // namespace fbs

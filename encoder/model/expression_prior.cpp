@@ -1,0 +1,165 @@
+#include "encoder/model/expression_prior.h"
+
+#include <cmath>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace fbs {
+namespace {
+
+constexpr int kControls = static_cast<int>(kExpressionControls);
+// Standard deviations, eye distances.
+constexpr double kElse = 0.008;  // of a control point past all actions
+constexpr double kLipSeen = 0.02, kInnerLipSeen = 0.02, kBrowSeen = 0.03;  // of contours as seen
+
+/// A vertex of lips or brows as the actions see it.
+struct Place {
+  FeatureId feature;
+  bool upper = false;   ///< lip
+  double across = 0;    ///< lips: -1 at the subject's right corner, 1 at the left
+  double outwards = 0;  ///< brows: 0 at the inner end, 1 at the outer
+  double side = 0;      ///< brows: -1 the subject's right, 1 the left
+
+  [[nodiscard]] bool is_brow() const {
+    return feature == FeatureId::kBrowRight || feature == FeatureId::kBrowLeft;
+  }
+  [[nodiscard]] bool is_outer_lip() const { return feature == FeatureId::kMouthOuter; }
+  /// 0 at the mouth's corners, 1 in its middle.
+  [[nodiscard]] double bow() const { return 1 - across * across; }
+};
+
+/// How far a point goes in one standard deviation of an action, eye distances.
+using Action = std::function<glm::dvec2(const Place&)>;
+
+Action of_lips(Action action) {
+  return [action = std::move(action)](const Place& p) { return p.is_brow() ? glm::dvec2(0) : action(p); };
+}
+
+Action of_brows(Action action) {
+  return [action = std::move(action)](const Place& p) { return p.is_brow() ? action(p) : glm::dvec2(0); };
+}
+
+const std::vector<Action>& actions() {
+  static const std::vector<Action> all = {
+      // The jaw drops; the corners come in and down a little.
+      of_lips([](const Place& p) {
+        return 0.15 * glm::dvec2(-0.12 * p.across, p.upper ? 0.2 * (1 - p.bow()) : 0.2 + 0.8 * p.bow());
+      }),
+      // The upper lip is raised.
+      of_lips([](const Place& p) { return glm::dvec2(0, p.upper ? -0.045 * p.bow() : 0); }),
+      // The corners go apart, or together to a pout.
+      of_lips([](const Place& p) { return glm::dvec2(0.06 * p.across, 0); }),
+      // A smile: corners up and out.
+      of_lips([](const Place& p) { return (1 - p.bow()) * glm::dvec2(0.02 * p.across, -0.045); }),
+      // Either lip grows thicker or rolls in.
+      of_lips(
+          [](const Place& p) { return glm::dvec2(0, !p.upper && p.is_outer_lip() ? 0.03 * p.bow() : 0); }),
+      of_lips(
+          [](const Place& p) { return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.bow() : 0); }),
+      // The whole mouth goes aside, up and down, or tilts.
+      of_lips([](const Place&) { return glm::dvec2(0.02, 0); }),
+      of_lips([](const Place&) { return glm::dvec2(0, 0.035); }),
+      of_lips([](const Place& p) { return glm::dvec2(0, 0.02 * p.across); }),
+      // The opening is wider or narrower than the lips say.
+      of_lips([](const Place& p) { return glm::dvec2(p.is_outer_lip() ? 0 : 0.02 * p.across, 0); }),
+      // Both brows rise, their inner or their outer ends more; a frown brings them down and together.
+      of_brows([](const Place&) { return glm::dvec2(0, -0.06); }),
+      of_brows([](const Place& p) { return glm::dvec2(0, -0.03 * (1 - p.outwards)); }),
+      of_brows([](const Place& p) { return glm::dvec2(0, -0.02 * p.outwards); }),
+      of_brows([](const Place& p) { return (1 - p.outwards) * glm::dvec2(-0.03 * p.side, 0.02); }),
+      // One brow rises and the other does not.
+      of_brows([](const Place& p) { return glm::dvec2(0, -0.02 * p.side); }),
+  };
+  return all;
+}
+
+Place place_of(const GenericHead& head, FeatureId id, std::size_t v) {
+  const auto at = [&](std::size_t landmark) {
+    return head.vertices[static_cast<std::size_t>(head.landmark_vertex[landmark])].position;
+  };
+  const HeadVertex& vertex = head.vertices[v];
+  Place p{.feature = id};
+  if (p.is_brow()) {
+    p.side = id == FeatureId::kBrowLeft ? 1 : -1;
+    p.outwards = (std::abs(vertex.position.x) - at(22).x) / static_cast<double>(at(26).x - at(22).x);
+  } else {
+    p.across = vertex.position.x / static_cast<double>(at(54).x);
+    p.upper = vertex.landmark <= 54 || (vertex.landmark >= 60 && vertex.landmark <= 64);
+  }
+  return p;
+}
+
+cv::Mat1d precision() {
+  const GenericHead& head = generic_head();
+  std::vector<std::size_t> vertices;
+  std::vector<Place> places;
+  for (const FeatureId id :
+       {FeatureId::kMouthOuter, FeatureId::kMouthInner, FeatureId::kBrowRight, FeatureId::kBrowLeft}) {
+    for (const FeatureVertex& fv : feature(id).vertices) {
+      vertices.push_back(static_cast<std::size_t>(fv.vertex));
+      places.push_back(place_of(head, id, vertices.back()));
+    }
+  }
+  // How these vertices follow the control points; the same for x and y.
+  const int n = static_cast<int>(vertices.size());
+  cv::Mat1d follow = cv::Mat1d::zeros(n, kControls);
+  for (int i = 0; i < n; ++i) {
+    const std::size_t v = vertices[static_cast<std::size_t>(i)];
+    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
+      if (head.spread[k].control < kControls)
+        follow(i, head.spread[k].control) = head.spread[k].weight / static_cast<double>(kSpreadOne);
+  }
+  // An action in control points: those that move the vertices as it says.
+  const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
+  cv::Mat1d covariance = kElse * kElse * cv::Mat1d::eye(2 * kControls, 2 * kControls);
+  for (const Action& action : actions()) {
+    cv::Mat1d moved(n, 2), offsets;
+    for (int i = 0; i < n; ++i) {
+      const glm::dvec2 d = action(places[static_cast<std::size_t>(i)]);
+      moved(i, 0) = d.x;
+      moved(i, 1) = d.y;
+    }
+    cv::solve(normal, follow.t() * moved, offsets, cv::DECOMP_CHOLESKY);
+    const cv::Mat1d mode = offsets.reshape(1, 2 * kControls);
+    covariance += mode * mode.t();
+  }
+  return cv::Mat1d(covariance.inv(cv::DECOMP_CHOLESKY));
+}
+
+/// Seen offsets to most probable ones: (P + W)^-1 W, with the inverse variances W of what is seen.
+cv::Mat1d filter() {
+  cv::Mat1d seen = cv::Mat1d::zeros(2 * kControls, 2 * kControls);
+  const int inner = feature(FeatureId::kMouthInner).first_control;
+  const int brows = feature(FeatureId::kBrowRight).first_control;
+  for (int i = 0; i < seen.rows; ++i) {
+    const double sigma = i / 2 < inner ? kLipSeen : i / 2 < brows ? kInnerLipSeen : kBrowSeen;
+    seen(i, i) = 1 / (sigma * sigma);
+  }
+  const cv::Mat1d sum = expression_precision() + seen;
+  return cv::Mat1d(sum.inv(cv::DECOMP_CHOLESKY) * seen);
+}
+
+}  // namespace
+
+const cv::Mat1d& expression_precision() {
+  static const cv::Mat1d matrix = precision();
+  return matrix;
+}
+
+std::array<glm::dvec2, kControlCount> most_probable(const std::array<glm::dvec2, kControlCount>& seen) {
+  static const cv::Mat1d matrix = filter();
+  std::array<glm::dvec2, kControlCount> out = seen;
+  for (std::size_t i = 0; i < kExpressionControls; ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double* row = matrix[2 * static_cast<int>(i) + axis];
+      double sum = 0;
+      for (std::size_t j = 0; j < kExpressionControls; ++j)
+        sum += row[2 * j] * seen[j].x + row[2 * j + 1] * seen[j].y;
+      out[i][axis] = sum;
+    }
+  }
+  return out;
+}
+
+}  // namespace fbs

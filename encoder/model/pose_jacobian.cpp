@@ -1,0 +1,41 @@
+#include "encoder/model/pose_jacobian.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fbs {
+
+Pose moved(const Pose& p, const PoseStep& d) {
+  Pose out = p;
+  out.pitch += d[0];
+  out.yaw += d[1];
+  out.roll += d[2];
+  out.shift += glm::dvec2(d[3], d[4]);
+  out.log2_scale += d[5];
+  constexpr double kMaxTurn = 1.2;  // beyond this the face is not seen any more
+  out.pitch = std::clamp(out.pitch, -kMaxTurn, kMaxTurn);
+  out.yaw = std::clamp(out.yaw, -kMaxTurn, kMaxTurn);
+  out.roll = std::clamp(out.roll, -kMaxTurn, kMaxTurn);
+  return out;
+}
+
+PoseJacobian::PoseJacobian(const Pose& pose) : projection_(pose) {
+  constexpr double kStep = 1e-4;
+  for (int k = 0; k < 3; ++k) {
+    PoseStep d;
+    d[k] = kStep;
+    by_angle_[static_cast<std::size_t>(k)] =
+        (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
+  }
+}
+
+std::array<glm::dvec2, 6> PoseJacobian::at(glm::dvec3 p) const {
+  return {glm::dvec2(by_angle_[0] * p),
+          glm::dvec2(by_angle_[1] * p),
+          glm::dvec2(by_angle_[2] * p),
+          {1, 0},
+          {0, 1},
+          std::log(2.0) * glm::dvec2(projection_.matrix * p)};
+}
+
+}  // namespace fbs

@@ -1,0 +1,31 @@
+// How a projected point moves with the pose.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <opencv2/core.hpp>
+
+#include "encoder/model/pose.h"
+
+namespace fbs {
+
+/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; turns are kept within
+/// what still shows a face.
+using PoseStep = cv::Vec<double, 6>;
+[[nodiscard]] Pose moved(const Pose& pose, const PoseStep& step);
+
+/// Derivatives of a projected point by the six numbers of PoseStep: the rotations' by difference, the rest
+/// exact.
+class PoseJacobian {
+ public:
+  explicit PoseJacobian(const Pose& pose);
+  [[nodiscard]] const PoseProjection& projection() const { return projection_; }
+  /// Pixels per unit of each number.
+  [[nodiscard]] std::array<glm::dvec2, 6> at(glm::dvec3 p) const;
+
+ private:
+  PoseProjection projection_;
+  std::array<glm::dmat3, 3> by_angle_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,36 @@
+// Points fixed on the surface of the head.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "encoder/model/pose.h"
+
+namespace fbs {
+
+using HeadVertices = std::array<glm::dvec3, kVertexCount>;  ///< head units
+
+/// A point fixed on a triangle of the mesh.
+struct SurfacePoint {
+  std::int16_t triangle;
+  std::array<std::int16_t, 3> corner;
+  std::array<float, 3> barycentric;
+
+  [[nodiscard]] glm::dvec3 on(const HeadVertices& v) const {
+    return static_cast<double>(barycentric[0]) * v[static_cast<std::size_t>(corner[0])] +
+           static_cast<double>(barycentric[1]) * v[static_cast<std::size_t>(corner[1])] +
+           static_cast<double>(barycentric[2]) * v[static_cast<std::size_t>(corner[2])];
+  }
+};
+
+/// Points spread evenly over the mesh as `projection` sees it.
+/// @param spacing_px  between neighbours, pixels of the picture
+/// @param mouth_rows  points across each triangle of the mouth's inside at least, which may be a mere line
+/// now
+[[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices,
+                                                         const PoseProjection& projection, double spacing_px,
+                                                         int mouth_rows = 1);
+
+}  // namespace fbs

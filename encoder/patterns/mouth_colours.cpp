@@ -1,0 +1,67 @@
+#include "encoder/patterns/mouth_colours.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fbs {
+namespace {
+
+constexpr double kOpen = 0.10;       // eye distances that the outer lips have parted beyond rest
+constexpr std::int64_t kEnough = 3;  // pictures
+constexpr int kSteps = 24;           // along the middle line
+
+glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::size_t landmark) {
+  const glm::ivec3 p = vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])];
+  return glm::dvec2(p.x, p.y) / 64.0;
+}
+
+}  // namespace
+
+void MouthColours::Sum::add(const Picture& picture, glm::dvec2 at) {
+  const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+  if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) return;
+  yuv[0] += picture.y.row(y)[x];
+  yuv[1] += picture.u.row(y / 2)[x / 2];
+  yuv[2] += picture.v.row(y / 2)[x / 2];
+  ++count;
+}
+
+std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices) {
+  const glm::dvec2 d = 64.0 * (seen_at(vertices, 57) - seen_at(vertices, 51));
+  return static_cast<std::int32_t>(std::hypot(d.x, d.y));
+}
+
+void MouthColours::add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices,
+                       std::int32_t rest_height, double eye_distance_px) {
+  if (mouth_height(vertices) - rest_height < kOpen * eye_distance_px * 64) return;
+  const glm::dvec2 top = seen_at(vertices, 51), bottom = seen_at(vertices, 57);
+  glm::dvec2 darkest = top;
+  int least = 256;
+  for (int i = kSteps / 5; i <= kSteps - kSteps / 5; ++i) {
+    const glm::dvec2 p = top + (bottom - top) * (static_cast<double>(i) / kSteps);
+    const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
+    if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) return;
+    if (picture.y.row(y)[x] < least) {
+      least = picture.y.row(y)[x];
+      darkest = p;
+    }
+  }
+  lower_.add(picture, darkest);
+  upper_.add(picture, 0.5 * (darkest + seen_at(vertices, 62)));
+}
+
+MouthInterior MouthColours::colours() const {
+  MouthInterior mouth;
+  const auto mean = [](const Sum& s, YuvColour& c) {
+    if (s.count < kEnough) return;
+    const auto of = [&](std::size_t k) {
+      return static_cast<std::uint8_t>((s.yuv[k] + s.count / 2) / s.count);
+    };
+    c = {of(0), of(1), of(2)};
+  };
+  mean(upper_, mouth.upper);
+  mean(lower_, mouth.lower);
+  return mouth;
+}
+
+}  // namespace fbs

@@ -1,0 +1,59 @@
+// Follows lips, brows and upper lids with B-snakes in the head's own frame. Paper section 2.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "encoder/track/feature_snake.h"
+
+namespace fbs {
+
+/// The features that have a snake, in the order in which they are followed. Inner lips and lids go past the
+/// paper.
+inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {
+    FeatureId::kMouthOuter, FeatureId::kMouthInner,    FeatureId::kBrowRight,
+    FeatureId::kBrowLeft,   FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
+
+class FeatureTracker {
+ public:
+  /// Learns what each feature looks like and lets its snake come to rest on the first picture.
+  /// @param first  with colour
+  FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first);
+
+  /// @param now   with colour
+  /// @param flow  where the optical flow took each vertex (pixels of the picture, nan where lost): moves the
+  /// curves
+  ///              first, as does the pose
+  void track(const WorkFrame& now, const Pose& pose, const std::array<glm::dvec2, kVertexCount>& flow);
+
+  /// Offsets of all control points from rest, head units; those of the inner lips from where the outer lips
+  /// take them.
+  [[nodiscard]] std::array<glm::dvec2, kControlCount> offsets() const;
+
+  /// Moves every snake to where `offsets` (head units) has it.
+  void set_offsets(const std::array<glm::dvec2, kControlCount>& offsets);
+
+  /// The curve of a snake as points in the head frame, head units; for drawing and for marks.
+  [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t snake) const;
+  [[nodiscard]] bool is_closed(std::size_t snake) const { return snakes_[snake].curve.is_closed(); }
+
+  /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head
+  /// frame (head units).
+  [[nodiscard]] std::vector<std::pair<std::size_t, glm::dvec3>> vertices() const;
+
+  [[nodiscard]] std::size_t count() const { return snakes_.size(); }
+  /// Iterations that the last track() needed, per snake.
+  [[nodiscard]] int iterations(std::size_t snake) const { return snakes_[snake].iterations; }
+
+ private:
+  /// Where the snake rests when nothing but the features that carry it has moved.
+  [[nodiscard]] std::vector<glm::dvec2> carried_rest(const FeatureSnake& s) const;
+  [[nodiscard]] std::vector<glm::dvec2> predict(const FeatureSnake& s, const Pose& pose,
+                                                const std::array<glm::dvec2, kVertexCount>& flow) const;
+
+  std::vector<FeatureSnake> snakes_;
+  std::array<glm::dvec3, kVertexCount> neutral_;  ///< head units
+};
+
+}  // namespace fbs

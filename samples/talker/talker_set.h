@@ -1,0 +1,26 @@
+// Everything around the head: a static wall with a shelf and a plant, and a body in clothes with its neck.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "samples/talker/talker_paint.h"
+
+namespace fbs::talker {
+
+/// Linear colour of the wall; place in picture heights, x from the middle, y from the top.
+[[nodiscard]] glm::vec3 background(glm::vec2 place, const Look& look, float pixels_per_height);
+
+/// How the body stands in a frame; body frame: eye distances of frame 0, origin where the head's origin
+/// rests.
+struct BodyState {
+  glm::vec2 neck_top;  ///< where the neck meets the head
+  glm::vec2 chin;      ///< lowest point of the chin: below it is shadow
+  float pixels_per_unit;
+};
+
+/// What is at `place` of the body, or nothing; the normal is in screen directions.
+[[nodiscard]] std::optional<Material> body(glm::vec2 place, const BodyState& state, const Look& look);
+
+}  // namespace fbs::talker

@@ -1,0 +1,188 @@
+#include "bitstream/entropy/range_coder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "bitstream/entropy/adaptive_integer.h"
+#include "bitstream/entropy/bit_counter.h"
+#include "bitstream/entropy/mixed_bit.h"
+
+namespace fbs {
+namespace {
+
+std::vector<bool> skewed_bits(std::size_t count, double ones, unsigned seed) {
+  std::mt19937 random(seed);
+  std::bernoulli_distribution one(ones);
+  std::vector<bool> bits(count);
+  for (std::size_t i = 0; i < count; ++i) bits[i] = one(random);
+  return bits;
+}
+
+std::vector<std::uint8_t> encode_bits(const std::vector<bool>& bits) {
+  RangeEncoder encoder;
+  AdaptiveBit context;
+  for (const bool bit : bits) encoder.bit(context, bit);
+  return encoder.finish();
+}
+
+std::vector<bool> decode_bits(std::span<const std::uint8_t> bytes, std::size_t count, bool* exact = nullptr) {
+  RangeDecoder decoder(bytes);
+  AdaptiveBit context;
+  std::vector<bool> bits(count);
+  for (std::size_t i = 0; i < count; ++i) bits[i] = decoder.bit(context);
+  if (exact != nullptr) *exact = decoder.ok() && decoder.at_end();
+  return bits;
+}
+
+TEST(RangeCoder, RoundTripsSkewedSymbols) {
+  for (const double ones : {0.0, 0.001, 0.02, 0.3, 0.5, 0.9, 0.999, 1.0}) {
+    for (const std::size_t count : {0u, 1u, 2u, 7u, 100u, 5000u}) {
+      const auto bits = skewed_bits(count, ones, static_cast<unsigned>(count) + 1);
+      bool exact = false;
+      EXPECT_EQ(decode_bits(encode_bits(bits), count, &exact), bits) << ones << " " << count;
+      EXPECT_TRUE(exact) << ones << " " << count;
+    }
+  }
+}
+
+// Every short message over extreme probabilities: carries, trimmed zeros and all ends occur.
+TEST(RangeCoder, RoundTripsEveryShortMessageAtExtremeProbabilities) {
+  constexpr std::array<std::uint32_t, 5> kZero = {1, 32, 32768, 65504, 65535};
+  for (std::uint32_t message = 0; message < 1u << 12; ++message) {
+    RangeEncoder encoder;
+    for (std::size_t i = 0; i < 12; ++i) encoder.raw_bit(kZero[(message + i) % 5], (message >> i & 1) != 0);
+    const auto bytes = encoder.finish();
+    RangeDecoder decoder(bytes);
+    std::uint32_t read = 0;
+    for (std::size_t i = 0; i < 12; ++i) {
+      read |= static_cast<std::uint32_t>(decoder.raw_bit(kZero[(message + i) % 5])) << i;
+    }
+    ASSERT_EQ(read, message);
+    ASSERT_TRUE(decoder.ok() && decoder.at_end());
+  }
+}
+
+TEST(RangeCoder, AdaptsCloseToTheEntropy) {
+  for (const double ones : {0.05, 0.2, 0.5}) {
+    constexpr std::size_t kCount = 50000;
+    const auto bits = skewed_bits(kCount, ones, 5);
+    const double share = static_cast<double>(std::count(bits.begin(), bits.end(), true)) / kCount;
+    const double entropy = -(share * std::log2(share) + (1 - share) * std::log2(1 - share)) * kCount / 8;
+    EXPECT_LT(static_cast<double>(encode_bits(bits).size()), entropy * 1.03) << ones;
+  }
+}
+
+TEST(RangeCoder, EndsWithoutBytesWhenAllIsLikely) {
+  EXPECT_EQ(encode_bits({}).size(), 0u);
+  EXPECT_EQ(encode_bits(std::vector<bool>(200, false)).size(), 0u);
+}
+
+TEST(RangeCoder, EndCostsLessThanABytePastTheInformation) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const auto bits = skewed_bits(100, 0.5, seed);
+    RangeEncoder encoder;
+    for (const bool bit : bits) encoder.raw_bit(kProbabilityOne / 2, bit);
+    EXPECT_LE(encoder.finish().size(), 14u);  // 12.5 bytes of information
+  }
+}
+
+TEST(RangeCoder, DecoderReportsReadingFarPastTheEnd) {
+  const std::vector<std::uint8_t> bytes = {0x5A, 0x12};
+  RangeDecoder decoder(bytes);
+  EXPECT_TRUE(decoder.ok());
+  for (int i = 0; i < 20; ++i) decoder.bypass(8);
+  EXPECT_FALSE(decoder.ok());
+}
+
+TEST(RangeCoder, EncoderKeepsZerosTheDecoderWouldMiss) {
+  RangeEncoder encoder;
+  for (int i = 0; i < 400; ++i) encoder.raw_bit(kProbabilityOne / 2, false);
+  const auto bytes = encoder.finish();
+  EXPECT_EQ(bytes.size(), 50u + 4 - kMaxVirtualBytes);
+  RangeDecoder decoder(bytes);
+  for (int i = 0; i < 400; ++i) EXPECT_FALSE(decoder.raw_bit(kProbabilityOne / 2));
+  EXPECT_TRUE(decoder.ok() && decoder.at_end());
+}
+
+TEST(RangeCoder, DecoderRefusesBytesNoEncoderWrites) {
+  const std::vector<std::uint8_t> bytes(4, 0xFF);
+  EXPECT_FALSE(RangeDecoder(bytes).ok());
+}
+
+TEST(RangeCoder, NoticesBytesThatAreNotUsed) {
+  auto bytes = encode_bits(skewed_bits(40, 0.3, 1));
+  bytes.insert(bytes.end(), 5, 1);
+  bool exact = true;
+  decode_bits(bytes, 40, &exact);
+  EXPECT_FALSE(exact);
+}
+
+TEST(BitCounter, AgreesWithTheEncoderWithinOnePercent) {
+  for (const double ones : {0.003, 0.1, 0.5}) {
+    const auto bits = skewed_bits(40000, ones, 11);
+    BitCounter counter;
+    AdaptiveBit context;
+    for (const bool bit : bits) counter.bit(context, bit);
+    const double counted = static_cast<double>(counter.bits_x256()) / 256;
+    const double written = static_cast<double>(encode_bits(bits).size()) * 8;
+    EXPECT_NEAR(counted, written, written * 0.01 + 8) << ones;
+  }
+}
+
+TEST(Logistic, CostIsTheLogarithmOfTheProbability) {
+  for (std::uint32_t p = 1; p <= kProbabilityOne; ++p) {
+    EXPECT_NEAR(cost_of(p) / 65536.0, 16 - std::log2(p), 3e-5);
+  }
+}
+
+TEST(Logistic, SquashInvertsStretch) {
+  for (std::uint32_t p = kMinProbability; p <= kProbabilityOne - kMinProbability; ++p) {
+    EXPECT_NEAR(squash(stretch(p)), p, 2) << p;
+  }
+  EXPECT_EQ(squash(INT32_MAX), kProbabilityOne - kMinProbability);
+  EXPECT_EQ(squash(INT32_MIN), kMinProbability);
+}
+
+TEST(Mixer, TrustsTheContextThatKnows) {
+  std::mt19937 random(3);
+  RangeEncoder encoder;
+  BitCounter counter;
+  Mixer<2> mixer;
+  std::array<AdaptiveBit, 2> knowing;
+  AdaptiveBit blind;
+  for (int i = 0; i < 2000; ++i) {
+    const bool state = (random() & 1) != 0;
+    const bool bit = state != (random() % 32 == 0);
+    mixer.code(counter, {&knowing[state ? 1 : 0], &blind}, bit);
+  }
+  EXPECT_LT(static_cast<double>(counter.bits_x256()) / 256, 2000 * 0.2 * 1.15);  // entropy 0.2006 bit
+}
+
+TEST(AdaptiveInteger, RoundTripsAllSizes) {
+  std::vector<std::int32_t> values = {0, 1, -1, 2, -7, 255, -256, 1 << 20, -(1 << 22)};
+  values.push_back(static_cast<std::int32_t>(kMaxExponential));
+  RangeEncoder encoder;
+  WideIntegerContexts contexts;
+  for (const std::int32_t v : values) code_wide_integer(encoder, contexts, v);
+  const auto bytes = encoder.finish();
+  RangeDecoder decoder(bytes);
+  contexts = {};
+  for (const std::int32_t v : values) EXPECT_EQ(code_wide_integer(decoder, contexts, 0), v);
+}
+
+TEST(AdaptiveInteger, StaysBoundedOnArbitraryBytes) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::uint8_t> bytes(12);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 8 == 0 ? random() : 0xFF);
+    RangeDecoder decoder(bytes);
+    ExponentialContexts contexts;
+    for (int k = 0; k < 8; ++k) EXPECT_LE(code_exponential(decoder, contexts, 0), kMaxExponential);
+  }
+}
+
+}  // namespace
+}  // namespace fbs

@@ -1,0 +1,216 @@
+#include "bitstream/payload/setup_payload.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "bitstream/payload/end_payload.h"
+#include "bitstream/payload/pattern_payload.h"
+
+namespace fbs {
+namespace {
+
+Setup sample_setup() {
+  Setup setup;
+  setup.format.width = 352;
+  setup.format.height = 288;
+  setup.format.frame_rate = {30000, 1001};
+  setup.format.pixel_aspect = {12, 11};
+  setup.format.range = ColourRange::kFull;
+  setup.format.matrix = ColourMatrix::kBt709;
+  setup.steps = {300, 65535, 1, 12, 77};
+  setup.mouth = {{180, 120, 130}, {20, 110, 140}};
+  return setup;
+}
+
+TEST(Setup, RoundTrips) {
+  const auto payload = encode_setup(sample_setup());
+  ASSERT_TRUE(payload);
+  EXPECT_LE(payload->size(), 30u);
+  const auto read = decode_setup(*payload);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, sample_setup());
+}
+
+TEST(Setup, EachBoundIsCheckedBothWays) {
+  struct Case {
+    std::function<void(fbs::Setup&)> breaks;
+    ErrorCode code;
+  };
+  const std::vector<Case> cases = {
+      {[](fbs::Setup& s) { s.format.width = kMaxPictureSize + 1; }, ErrorCode::kTooLarge},
+      {[](fbs::Setup& s) { s.format.height = kMaxPictureSize + 1; }, ErrorCode::kTooLarge},
+      {[](fbs::Setup& s) { s.format.width = kMinPictureSize - 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.format.height = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) {
+         s.format.frame_rate = {0, 1};
+       },
+       ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) {
+         s.format.frame_rate = {1, 0};
+       },
+       ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) {
+         s.format.frame_rate = {1001, 1};
+       },
+       ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) {
+         s.format.pixel_aspect = {1, 0};
+       },
+       ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.rotation = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.translation = 65536; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.log_scale = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.light = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.light = kMaxStep + 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.steps.control = -1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.parts = 1 << kPartCount | 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.parts = kAllParts & ~1; }, ErrorCode::kInvalidArgument},  // the pose is always
+      {[](fbs::Setup& s) { s.format.matrix = static_cast<ColourMatrix>(3); }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.format.range = static_cast<ColourRange>(2); }, ErrorCode::kInvalidArgument},
+  };
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    auto setup = sample_setup();
+    cases[i].breaks(setup);
+    const auto payload = encode_setup(setup);
+    ASSERT_FALSE(payload) << i;
+    EXPECT_EQ(payload.error().code, cases[i].code) << i;
+  }
+}
+
+// Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
+TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
+  const std::vector<std::uint8_t> good = {3, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
+                                          3, 4, 5,  12, 70, 126, 138, 45, 126, 139};
+  ASSERT_TRUE(decode_setup(good));
+  EXPECT_EQ(decode_setup(good)->format.height, 65);
+  EXPECT_EQ(decode_setup(good)->steps, (QuantiserSteps{1, 2, 3, 4, 5}));
+  EXPECT_EQ(decode_setup(good)->parts,
+            mask_of(PartId::kPose) | mask_of(PartId::kBody) | mask_of(PartId::kGround));
+  EXPECT_EQ(decode_setup(good)->mouth, (MouthInterior{{70, 126, 138}, {45, 126, 139}}));
+  const auto code_with = [&](std::size_t place, std::uint8_t value) {
+    auto bytes = good;
+    bytes[place] = value;
+    const auto read = decode_setup(bytes);
+    return read ? ErrorCode::kInternal : read.error().code;
+  };
+  EXPECT_EQ(code_with(0, 4), ErrorCode::kUnsupported);
+  for (const std::uint8_t older : {1, 2}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(2, 63), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(4, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(5, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(7, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(8, 6), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(9, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(12, 0), ErrorCode::kInvalidStream) << "light";
+  EXPECT_EQ(code_with(13, 0), ErrorCode::kInvalidStream) << "control";
+  auto unknown_part = good;
+  unknown_part[14] = 0x80;
+  unknown_part.insert(unknown_part.begin() + 15, 4);  // bit 9 without the pose's: an eleventh part
+  EXPECT_EQ(decode_setup(unknown_part).error().code, ErrorCode::kInvalidStream);
+  auto large = good;
+  large.insert(large.begin() + 2, {0x81});  // width 1 + 128 * 64 = 8193
+  EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
+}
+
+TEST(Setup, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
+  auto payload = *encode_setup(sample_setup());
+  for (std::size_t size = 0; size < payload.size(); ++size) {
+    const auto read = decode_setup(std::span(payload).first(size));
+    ASSERT_FALSE(read) << size;
+    EXPECT_EQ(read.error().code, ErrorCode::kTruncated) << size;
+  }
+  payload.push_back(99);
+  EXPECT_TRUE(decode_setup(payload));
+}
+
+TEST(Setup, SurvivesRandomBytes) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 20000; ++i) {
+    auto payload = *encode_setup(sample_setup());
+    for (unsigned k = 1 + random() % 4; k > 0; --k) {
+      payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
+    }
+    if (const auto read = decode_setup(payload)) {
+      EXPECT_TRUE(check_setup(*read));
+    }
+  }
+}
+
+TEST(EndPayload, RoundTrips) {
+  for (const std::uint64_t pictures : {std::uint64_t{0}, std::uint64_t{1800}, ~std::uint64_t{0}}) {
+    EXPECT_EQ(decode_end(encode_end(End{pictures}))->pictures, pictures);
+  }
+  EXPECT_EQ(decode_end({}).error().code, ErrorCode::kTruncated);
+}
+
+PatternSyntax sample_pattern() {
+  PatternSyntax pattern;
+  pattern.index = 5;
+  pattern.state[kYaw] = -2;
+  pattern.state[kShiftX] = 40;
+  pattern.state[kLogScale] = 900;
+  pattern.state[kFirstCoefficient] = -9;
+  pattern.state.back() = 4;
+  pattern.av1 = {0x12, 0x00, 0x0A};
+  return pattern;
+}
+
+Setup fine_setup() {
+  Setup setup = sample_setup();
+  setup.steps = QuantiserSteps{};
+  return setup;
+}
+
+TEST(PatternPayload, RoundTrips) {
+  const auto payload = encode_pattern(sample_pattern(), fine_setup());
+  ASSERT_TRUE(payload);
+  const auto read = decode_pattern(*payload, fine_setup());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, sample_pattern());
+}
+
+TEST(PatternPayload, RefusesWhatBreaksALimit) {
+  const auto code_of = [](const std::function<void(PatternSyntax&)>& breaks) {
+    PatternSyntax pattern = sample_pattern();
+    pattern.state.back() = 0;  // gaze, is not sent
+    breaks(pattern);
+    auto setup = fine_setup();
+    setup.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kMouth));
+    const auto payload = encode_pattern(pattern, setup);
+    return payload ? ErrorCode::kInternal : payload.error().code;
+  };
+  EXPECT_EQ(code_of([](PatternSyntax&) {}), ErrorCode::kInternal) << "all else is in order";
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = kMaxPatterns; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = -1; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.av1.clear(); }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kYaw] = 1 << 20; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kLogScale] = -1; }), ErrorCode::kInvalidArgument);
+  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kPoseCount] = 1; }), ErrorCode::kInvalidArgument);
+  const std::vector<std::uint8_t> far = {64, 0, 1};
+  EXPECT_EQ(decode_pattern(far, fine_setup()).error().code, ErrorCode::kTooLarge);
+  const std::vector<std::uint8_t> endless = {0, 0x7F, 1};
+  EXPECT_EQ(decode_pattern(endless, fine_setup()).error().code, ErrorCode::kTruncated);
+  const std::vector<std::uint8_t> empty = {0, 0};
+  EXPECT_EQ(decode_pattern(empty, fine_setup()).error().code, ErrorCode::kInvalidStream);
+}
+
+TEST(PatternPayload, SurvivesRandomBytes) {
+  std::mt19937 random(8);
+  const auto good = *encode_pattern(sample_pattern(), fine_setup());
+  for (int i = 0; i < 20000; ++i) {
+    auto payload = good;
+    for (unsigned k = 1 + random() % 6; k > 0; --k) {
+      payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
+    }
+    if (const auto read = decode_pattern(payload, fine_setup())) {
+      EXPECT_TRUE(encode_pattern(*read, fine_setup()));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fbs

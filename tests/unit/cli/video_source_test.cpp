@@ -1,0 +1,288 @@
+#include "cli/video/video_source.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <vector>
+
+#include "cli/module.h"
+#include "cli/video/images/image_sequence.h"
+#include "cli/video/images/number_pattern.h"
+#include "cli/video/orientation.h"
+#include "cli/video/timestamps.h"
+#include "cli/video/video_sink.h"
+
+namespace fbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+class VideoSourceFiles : public ::testing::Test {
+ protected:
+  VideoSourceFiles() { fs::create_directories(folder_); }
+  ~VideoSourceFiles() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("fbs_video_source_test_" + std::to_string(getpid()));
+};
+
+/// A soft ramp that moves by two pixels a picture.
+Picture moving_ramp(int width, int height, int number) {
+  Picture picture(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      picture.y.row(y)[x] = static_cast<std::uint8_t>(60 + (x + y + 2 * number) % 128);
+    }
+  }
+  for (int y = 0; y < picture.u.height; ++y) {
+    for (int x = 0; x < picture.u.width; ++x) {
+      picture.u.row(y)[x] = static_cast<std::uint8_t>(120 + x % 16);
+      picture.v.row(y)[x] = static_cast<std::uint8_t>(120 + y % 16);
+    }
+  }
+  return picture;
+}
+
+void write_video(const std::string& name, const VideoFormat& format, const std::vector<std::int64_t>& times) {
+  auto sink = open_video_sink(name, format);
+  ASSERT_TRUE(sink) << sink.error().text;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto written =
+        (*sink)->write(moving_ramp(format.width, format.height, static_cast<int>(i)), times[i]);
+    ASSERT_TRUE(written) << written.error().text;
+  }
+  const auto finished = (*sink)->finish();
+  ASSERT_TRUE(finished) << finished.error().text;
+}
+
+std::vector<std::int64_t> regular_times(int count, Rational rate) {
+  std::vector<std::int64_t> times;
+  for (int i = 0; i < count; ++i) times.push_back(regular_pts(i, rate));
+  return times;
+}
+
+std::vector<TimedPicture> read_all(VideoSource& source) {
+  std::vector<TimedPicture> pictures;
+  for (;;) {
+    auto timed = source.next();
+    EXPECT_TRUE(timed) << timed.error().text;
+    if (!timed || !*timed) return pictures;
+    pictures.push_back(std::move(**timed));
+  }
+}
+
+double mean_difference(const Plane& a, const Plane& b) {
+  EXPECT_EQ(a.samples.size(), b.samples.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < a.samples.size(); ++i) sum += std::abs(a.samples[i] - b.samples[i]);
+  return sum / static_cast<double>(a.samples.size());
+}
+
+struct Kind {
+  const char* name;
+  VideoFormat format;
+};
+
+class VideoSourceOfEachKind : public VideoSourceFiles, public ::testing::WithParamInterface<Kind> {};
+
+TEST_P(VideoSourceOfEachKind, ReadsBackCountSizeRateTimesAndColour) {
+  const auto& [name, format] = GetParam();
+  const std::vector<std::int64_t> times = regular_times(40, format.frame_rate);
+  ASSERT_NO_FATAL_FAILURE(write_video(path(name), format, times));
+
+  auto source = open_video_source(path(name));
+  ASSERT_TRUE(source) << source.error().text;
+  EXPECT_EQ((*source)->format().width, format.width);
+  EXPECT_EQ((*source)->format().height, format.height);
+  EXPECT_EQ((*source)->format().frame_rate, format.frame_rate);
+  EXPECT_EQ((*source)->format().pixel_aspect, format.pixel_aspect);
+  EXPECT_EQ((*source)->format().range, format.range);
+  EXPECT_EQ((*source)->format().matrix, format.matrix);
+  EXPECT_NEAR(static_cast<double>((*source)->frame_count_estimate().value_or(0)), 40, 1);
+
+  const std::vector<TimedPicture> pictures = read_all(**source);
+  ASSERT_EQ(pictures.size(), 40U);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    EXPECT_EQ(pictures[i].pts, times[i]);
+    const Picture expected = moving_ramp(format.width, format.height, static_cast<int>(i));
+    EXPECT_LT(mean_difference(pictures[i].picture.y, expected.y), 2);
+    EXPECT_LT(mean_difference(pictures[i].picture.u, expected.u), 2);
+    EXPECT_LT(mean_difference(pictures[i].picture.v, expected.v), 2);
+  }
+}
+
+constexpr Rational kNtsc{30000, 1001};
+INSTANTIATE_TEST_SUITE_P(
+    Files, VideoSourceOfEachKind,
+    ::testing::Values(
+        Kind{"a.mp4", {96, 64, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601}},
+        Kind{"a.mkv", {96, 64, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt709}},
+        Kind{"ntsc.mp4", {96, 64, kNtsc, {128, 117}, ColourRange::kFull, ColourMatrix::kBt709}},
+        Kind{"ntsc.mkv", {96, 64, kNtsc, {128, 117}, ColourRange::kFull, ColourMatrix::kUnspecified}},
+        Kind{"film.mp4", {96, 64, {24000, 1001}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601}},
+        Kind{"odd.mp4", {97, 67, {30, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601}},
+        Kind{"odd.mkv", {65, 64, {12000, 1001}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601}}),
+    [](const auto& instance) {
+      std::string name = instance.param.name;
+      std::replace(name.begin(), name.end(), '.', '_');
+      return name;
+    });
+
+TEST_F(VideoSourceFiles, VariableFrameRateKeepsItsTimes) {
+  const VideoFormat format{96, 64, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601};
+  std::vector<std::int64_t> times;
+  std::int64_t time = 0;
+  for (int i = 0; i < 50; ++i) {
+    times.push_back(time);
+    time += 1800 + 97 * (i * i % 41);
+  }
+  // Matroska rounds to 1 ms, and what lies within 1 ms of the regular grid is put there.
+  for (const auto& [name, tolerance] : {std::pair{"a.mp4", 0}, std::pair{"a.mkv", 135}}) {
+    ASSERT_NO_FATAL_FAILURE(write_video(path(name), format, times));
+    auto source = open_video_source(path(name));
+    ASSERT_TRUE(source) << source.error().text;
+    const std::vector<TimedPicture> pictures = read_all(**source);
+    ASSERT_EQ(pictures.size(), times.size());
+    std::int64_t before = std::numeric_limits<std::int64_t>::min();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      EXPECT_GT(pictures[i].pts, before);
+      EXPECT_NEAR(static_cast<double>(pictures[i].pts), static_cast<double>(times[i]), tolerance)
+          << name << i;
+      before = pictures[i].pts;
+    }
+  }
+}
+
+TEST_F(VideoSourceFiles, ImageSequenceRoundTrips) {
+  for (const auto& [width, height] : {std::pair{96, 64}, std::pair{97, 65}}) {
+    const VideoFormat format{width, height, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601};
+    ASSERT_NO_FATAL_FAILURE(write_video(path("f_%05d.png"), format, regular_times(12, {25, 1})));
+    EXPECT_TRUE(fs::exists(path("f_00001.png")));
+    EXPECT_TRUE(fs::exists(path("f_00012.png")));
+    for (const std::string& input : {path("f_%05d.png"), path("f_*.png"), path("")}) {
+      auto source = open_video_source(input);
+      ASSERT_TRUE(source) << source.error().text;
+      EXPECT_EQ((*source)->format(), format);
+      EXPECT_EQ((*source)->frame_count_estimate(), 12);
+      const std::vector<TimedPicture> pictures = read_all(**source);
+      ASSERT_EQ(pictures.size(), 12U);
+      for (int i = 0; i < 12; ++i) {
+        const TimedPicture& timed = pictures[static_cast<std::size_t>(i)];
+        const Picture expected = moving_ramp(width, height, i);
+        EXPECT_EQ(timed.pts, i * 3600);
+        EXPECT_LT(mean_difference(timed.picture.y, expected.y), 1);
+        EXPECT_LT(mean_difference(timed.picture.u, expected.u), 1);
+        EXPECT_LT(mean_difference(timed.picture.v, expected.v), 1);
+      }
+    }
+  }
+}
+
+TEST_F(VideoSourceFiles, ImageOfAnotherSizeIsAnErrorNamingIt) {
+  const VideoFormat small{96, 64, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601};
+  const VideoFormat large{98, 64, {25, 1}, {1, 1}, ColourRange::kLimited, ColourMatrix::kBt601};
+  ASSERT_NO_FATAL_FAILURE(write_video(path("b_%d.png"), large, {0}));
+  ASSERT_NO_FATAL_FAILURE(write_video(path("a_%d.png"), small, {0}));
+  auto source = open_video_source(path("*.png"));
+  ASSERT_TRUE(source) << source.error().text;
+  ASSERT_TRUE((*source)->next());
+  const auto second = (*source)->next();
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(second.error().text.find("b_1.png"), std::string::npos) << second.error().text;
+}
+
+TEST_F(VideoSourceFiles, ImagesAreInOrderOfNumber) {
+  for (const char* name : {"f9.png", "f10.png", "f2.png", "f1.txt", "g1.png"})
+    std::ofstream(path(name)) << "x";
+  const auto files = image_sequence_files(path("f%d.png"), nullptr);
+  ASSERT_TRUE(files);
+  EXPECT_EQ(*files, (std::vector{path("f2.png"), path("f9.png"), path("f10.png")}));
+  const auto all = image_sequence_files(path("?*.png"), nullptr);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(*all, (std::vector{path("f2.png"), path("f9.png"), path("f10.png"), path("g1.png")}));
+}
+
+TEST_F(VideoSourceFiles, MissingInputIsAnErrorNamingItAndTheCause) {
+  for (const char* name : {"none.y4m", "none.mkv", "none_%05d.png", "none/*.png"}) {
+    const auto source = open_video_source(path(name));
+    ASSERT_FALSE(source) << name;
+    EXPECT_EQ(source.error().code, ErrorCode::kIo);
+    EXPECT_NE(source.error().text.find(path(name)), std::string::npos) << source.error().text;
+  }
+}
+
+TEST_F(VideoSourceFiles, FileOfAnotherKindIsAnErrorNamingIt) {
+  std::ofstream(path("letter.mkv")) << "Dear reader, this is not a video.";
+  const auto source = open_video_source(path("letter.mkv"));
+  ASSERT_FALSE(source);
+  EXPECT_EQ(source.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(source.error().text.find("letter.mkv"), std::string::npos) << source.error().text;
+}
+
+TEST(VideoSource, MissingCameraIsAnError) {
+  const auto source = open_video_source("camera:97");
+  ASSERT_FALSE(source);
+  EXPECT_EQ(source.error().code, ErrorCode::kIo);
+  EXPECT_FALSE(open_video_source("camera:front"));
+}
+
+TEST(Module, MissingModuleIsAnErrorNamingIt) {
+  const auto symbol = load_module_symbol("fbs_none", "fbs_open_source");
+  ASSERT_FALSE(symbol);
+  EXPECT_EQ(symbol.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(symbol.error().text.find("fbs_none.so"), std::string::npos) << symbol.error().text;
+}
+
+TEST(Timestamps, RegularTimesAreRoundedWithoutDrift) {
+  EXPECT_EQ(regular_pts(3, {25, 1}), 10800);
+  EXPECT_EQ(regular_pts(1, {24000, 1001}), 3754);  // 3753.75
+  EXPECT_EQ(regular_pts(24000LL * 3600, {24000, 1001}), 1001LL * 3600 * kTicksPerSecond);
+}
+
+TEST(NumberPattern, FillsAndReadsNumbers) {
+  const auto pattern = parse_number_pattern("frame_%05d.png");
+  ASSERT_TRUE(pattern);
+  EXPECT_EQ(pattern->name(42), "frame_00042.png");
+  EXPECT_EQ(pattern->name(123456), "frame_123456.png");
+  EXPECT_EQ(pattern->number("frame_00042.png"), 42);
+  EXPECT_EQ(pattern->number("frame_42.png"), std::nullopt);
+  EXPECT_EQ(pattern->number("frame_.png"), std::nullopt);
+  for (const char* text :
+       {"frame.png", "%s.png", "%05d_%05d.png", "%99999d.png", "%0999d", "100%", "%5d.png"}) {
+    EXPECT_FALSE(parse_number_pattern(text)) << text;
+  }
+}
+
+// A stored picture 64 wide and 66 high with one bright pixel at the top left.
+TEST(Orientation, QuarterTurnsMoveTheTopLeftCorner) {
+  constexpr std::int32_t kOne = 1 << 16;
+  Picture stored(64, 66);
+  stored.y.row(0)[0] = 200;
+  stored.u.row(0)[0] = 20;
+  const auto shown = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    return oriented(stored, orientation_from_matrix({a, b, 0, c, d, 0, 0, 0, 1 << 30}));
+  };
+  EXPECT_EQ(shown(kOne, 0, 0, kOne), stored);
+  const Picture clockwise = shown(0, kOne, -kOne, 0);
+  EXPECT_EQ(clockwise.width(), 66);
+  EXPECT_EQ(clockwise.height(), 64);
+  EXPECT_EQ(clockwise.y.row(0)[65], 200);
+  EXPECT_EQ(clockwise.u.row(0)[32], 20);
+  const Picture anticlockwise = shown(0, -kOne, kOne, 0);
+  EXPECT_EQ(anticlockwise.y.row(63)[0], 200);
+  const Picture upside_down = shown(-kOne, 0, 0, -kOne);
+  EXPECT_EQ(upside_down.y.row(65)[63], 200);
+  const Picture mirrored = shown(-kOne, 0, 0, kOne);
+  EXPECT_EQ(mirrored.y.row(0)[63], 200);
+}
+
+}  // namespace
+}  // namespace fbs

@@ -1,0 +1,441 @@
+#include "decoder/raster/rasteriser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+using std::int64_t;
+
+constexpr int kMostScreen = 1 << 21;
+
+SampleArea whole(const Plane& p) {
+  return {0, 0, p.width, p.height};
+}
+
+void draw(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
+          DepthPlane* depth = nullptr) {
+  const PlanePair pair{&pattern, &target};
+  draw_triangle(t, scale, {&pair, 1}, whole(target), depth);
+}
+
+/// A triangle whose texture lies where it is on the screen.
+RasterTriangle in_place(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
+  return {{{a, a}, {b, b}, {c, c}}};
+}
+
+/// The rules as text: a sample is covered when its centre is inside, or on an edge that is a top or a left
+/// one.
+bool covers(const RasterTriangle& t, PlaneScale scale, int x, int y) {
+  const int bits = static_cast<int>(scale);
+  const int64_t px = (int64_t{x} << bits) + (1 << (bits - 1)), py = (int64_t{y} << bits) + (1 << (bits - 1));
+  if (!faces_viewer(t)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::ivec2 from = t[i].screen, to = t[(i + 1) % 3].screen;
+    const int64_t side = int64_t{to.x - from.x} * (py - from.y) - int64_t{to.y - from.y} * (px - from.x);
+    const bool top = from.y == to.y && to.x > from.x;
+    const bool left = to.y < from.y;
+    if (side < 0 || (side == 0 && !top && !left)) return false;
+  }
+  return true;
+}
+
+glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
+  const auto within = [&](int n) {
+    return (static_cast<int>(random() % static_cast<unsigned>(n + 16)) - 8) * unit;
+  };
+  return {within(width * 64 / unit), within(height * 64 / unit)};
+}
+
+TEST(Rasteriser, CoversWhatThePlainRuleSays) {
+  std::mt19937 random(1);
+  const Plane white(24, 20, 255);
+  for (int i = 0; i < 3000; ++i) {
+    // Every other triangle has its corners on sample centres and borders, so that edges pass through centres.
+    const int unit = i % 2 == 0 ? 1 : 32;
+    const PlaneScale scale = i % 3 == 0 ? PlaneScale::kChroma : PlaneScale::kLuma;
+    const auto p = [&] { return random_point(random, 24, 20, unit); };
+    const RasterTriangle t = in_place(p(), p(), p());
+    Plane target(24, 20);
+    draw(t, scale, white, target);
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 24; ++x)
+        ASSERT_EQ(target.row(y)[x] != 0, covers(t, scale, x, y)) << i << ": " << x << ',' << y;
+  }
+}
+
+TEST(Rasteriser, DrawsOnlyInsideTheArea) {
+  std::mt19937 random(2);
+  const Plane white(24, 20, 255);
+  for (int i = 0; i < 500; ++i) {
+    const RasterTriangle t = in_place(random_point(random, 24, 20, 1), random_point(random, 24, 20, 1),
+                                      random_point(random, 24, 20, 1));
+    const int x0 = static_cast<int>(random() % 24), y0 = static_cast<int>(random() % 20);
+    const SampleArea area{x0, y0, x0 + static_cast<int>(random() % static_cast<unsigned>(25 - x0)),
+                          y0 + static_cast<int>(random() % static_cast<unsigned>(21 - y0))};
+    Plane target(24, 20);
+    const PlanePair pair{&white, &target};
+    draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, nullptr);
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 24; ++x) {
+        const bool in_area = x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
+        ASSERT_EQ(target.row(y)[x] != 0, in_area && covers(t, PlaneScale::kLuma, x, y));
+      }
+    }
+  }
+}
+
+TEST(Rasteriser, AnticlockwiseAndFlatTrianglesAreNotDrawn) {
+  const Plane white(8, 8, 255);
+  Plane target(8, 8);
+  draw(in_place({0, 0}, {0, 512}, {512, 0}), PlaneScale::kLuma, white, target);
+  draw(in_place({0, 32}, {512, 32}, {256, 32}), PlaneScale::kLuma, white, target);
+  draw(in_place({64, 64}, {64, 64}, {64, 64}), PlaneScale::kLuma, white, target);
+  EXPECT_EQ(target, Plane(8, 8));
+}
+
+// The diagonal passes through the centres of the samples on it: they belong to the triangle to whose left
+// edge it is.
+TEST(Rasteriser, SampleOnAnEdgeBelongsToTheTopOrLeftTriangle) {
+  const Plane white(4, 4, 255);
+  Plane upper(4, 4), lower(4, 4);
+  draw(in_place({0, 0}, {256, 0}, {256, 256}), PlaneScale::kLuma, white, upper);
+  draw(in_place({0, 0}, {256, 256}, {0, 256}), PlaneScale::kLuma, white, lower);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(upper.row(i)[i], 255);
+    EXPECT_EQ(lower.row(i)[i], 0);
+  }
+}
+
+/// How often each sample is drawn by a mesh of triangles.
+std::vector<int> times_drawn(const std::vector<RasterTriangle>& mesh, PlaneScale scale, int width,
+                             int height) {
+  const Plane one(width, height, 1);
+  std::vector<int> times(one.samples.size());
+  for (const RasterTriangle& t : mesh) {
+    Plane target(width, height);
+    draw(t, scale, one, target);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] += target.samples[i];
+  }
+  return times;
+}
+
+TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 60; ++round) {
+    const PlaneScale scale = round % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
+    const int sample = 1 << static_cast<int>(scale);
+    constexpr int kCells = 8, kSamples = 32;
+    const int cell = kSamples * sample / kCells;
+    // Points move by a fifth of a cell at most, so that no triangle turns over; in some rounds by half
+    // samples or not at all, so that edges meet in centres.
+    const auto jitter = [&] {
+      const int unit = round % 3 == 0 ? sample / 2 : 1, most = round % 5 == 0 ? 0 : cell / unit / 5;
+      return (static_cast<int>(random() % static_cast<unsigned>(2 * most + 1)) - most) * unit;
+    };
+    std::vector<glm::ivec2> p;
+    for (int r = 0; r <= kCells; ++r)
+      for (int c = 0; c <= kCells; ++c) {
+        const bool border = r == 0 || c == 0 || r == kCells || c == kCells;
+        p.emplace_back(c * cell + (border ? 0 : jitter()), r * cell + (border ? 0 : jitter()));
+      }
+    std::vector<RasterTriangle> mesh;
+    for (int r = 0; r < kCells; ++r) {
+      for (int c = 0; c < kCells; ++c) {
+        const auto at = [&](int i, int j) {
+          return p[static_cast<std::size_t>((r + j) * (kCells + 1) + c + i)];
+        };
+        mesh.push_back(in_place(at(0, 0), at(1, 0), at(1, 1)));
+        mesh.push_back(in_place(at(0, 0), at(1, 1), at(0, 1)));
+      }
+    }
+    for (const RasterTriangle& t : mesh) ASSERT_TRUE(faces_viewer(t));
+    const auto times = times_drawn(mesh, scale, kSamples, kSamples);
+    ASSERT_EQ(std::count(times.begin(), times.end(), 1), kSamples * kSamples) << round;
+  }
+}
+
+TEST(Rasteriser, FanAboutASampleCentreDrawsItOnce) {
+  const glm::ivec2 hub(8 * 64 + 32, 8 * 64 + 32);
+  std::vector<RasterTriangle> fan;
+  constexpr int kBlades = 16;
+  const auto rim = [&](int i) {
+    const double a = 2 * 3.14159265358979 * i / kBlades;
+    return hub + glm::ivec2(std::lround(400 * std::cos(a)), std::lround(400 * std::sin(a)));
+  };
+  for (int i = 0; i < kBlades; ++i) fan.push_back(in_place(hub, rim(i), rim((i + 1) % kBlades)));
+  const auto times = times_drawn(fan, PlaneScale::kLuma, 16, 16);
+  EXPECT_EQ(times[8 * 16 + 8], 1);
+  EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
+}
+
+TEST(Rasteriser, TextureInItsPlaceReproducesThePatternBitForBit) {
+  std::mt19937 random(4);
+  const Plane pattern = noise_plane(40, 30, 5);
+  for (int i = 0; i < 2000; ++i) {
+    const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
+    const int bits = static_cast<int>(scale) - 6;
+    const auto p = [&] { return random_point(random, 40 << bits, 30 << bits, 1); };
+    const RasterTriangle t = in_place(p(), p(), p());
+    Plane target(40, 30);
+    DepthPlane depth;
+    depth.reset(40, 30, whole(target));
+    draw(t, scale, pattern, target, i % 3 == 0 ? &depth : nullptr);
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x)
+        ASSERT_EQ(target.row(y)[x], covers(t, scale, x, y) ? pattern.row(y)[x] : 0) << i;
+  }
+}
+
+RasterTriangle shifted_texture(RasterTriangle t, glm::ivec2 by) {
+  for (RasterVertex& v : t) v.texture += by;
+  return t;
+}
+
+const RasterTriangle kLarge = in_place({-640, -640}, {5000, -640}, {-640, 5000});  // covers 24 x 20 samples
+
+TEST(Rasteriser, ShiftByWholeSamplesCopies) {
+  const Plane pattern = noise_plane(24, 20, 6);
+  Plane target(24, 20);
+  draw(shifted_texture(kLarge, {3 * 64, -2 * 64}), PlaneScale::kLuma, pattern, target);
+  for (int y = 2; y < 20; ++y)
+    for (int x = 0; x < 21; ++x) ASSERT_EQ(target.row(y)[x], pattern.row(y - 2)[x + 3]);
+}
+
+TEST(Rasteriser, ShiftByHalfASampleAverages) {
+  const Plane pattern = noise_plane(24, 20, 7);
+  Plane target(24, 20);
+  draw(shifted_texture(kLarge, {32, 0}), PlaneScale::kLuma, pattern, target);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 23; ++x)
+      ASSERT_EQ(target.row(y)[x], (pattern.row(y)[x] + pattern.row(y)[x + 1] + 1) / 2);
+}
+
+TEST(Rasteriser, ReadingOutsideRepeatsTheBorder) {
+  const Plane pattern = noise_plane(24, 20, 8);
+  Plane target(24, 20);
+  draw(shifted_texture(kLarge, {100 * 64, 0}), PlaneScale::kLuma, pattern, target);
+  for (int y = 0; y < 20; ++y) ASSERT_EQ(target.row(y)[5], pattern.row(y)[23]);
+  draw(shifted_texture(kLarge, {-100 * 64, -100 * 64}), PlaneScale::kLuma, pattern, target);
+  EXPECT_EQ(target, Plane(24, 20, pattern.samples.front()));
+}
+
+/// Bilinear in doubles at the texture position that belongs to the sample's centre.
+double plain_texel(const RasterTriangle& t, const Plane& pattern, PlaneScale scale, int x, int y) {
+  const double unit = 1 << static_cast<int>(scale);
+  const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+  const glm::dvec2 p((x + 0.5) * unit, (y + 0.5) * unit);
+  const glm::dvec2 a(t[0].screen), b(t[1].screen), c(t[2].screen);
+  const double area = cross(b - a, c - a);
+  const double wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
+  const glm::dvec2 at = glm::dvec2(t[0].texture) * (1 - wb - wc) + glm::dvec2(t[1].texture) * wb +
+                        glm::dvec2(t[2].texture) * wc;
+  const double u = std::clamp(at.x / unit - 0.5, 0.0, pattern.width - 1.0),
+               v = std::clamp(at.y / unit - 0.5, 0.0, pattern.height - 1.0);
+  const int i = std::min(static_cast<int>(u), pattern.width - 2),
+            j = std::min(static_cast<int>(v), pattern.height - 2);
+  const double fu = u - i, fv = v - j;
+  const std::uint8_t *top = pattern.row(j), *bottom = pattern.row(j + 1);
+  return (top[i] * (1 - fu) + top[i + 1] * fu) * (1 - fv) + (bottom[i] * (1 - fu) + bottom[i + 1] * fu) * fv;
+}
+
+/// Grey levels that change by at most 12 from sample to sample, so that 1/256 of a sample is nothing.
+Plane wavy_plane(int width, int height) {
+  Plane plane(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      plane.row(y)[x] =
+          static_cast<std::uint8_t>(128 + 60 * std::sin(x * 0.1) + 60 * std::cos(y * 0.13 + x * 0.05));
+  return plane;
+}
+
+TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
+  std::mt19937 random(9);
+  const Plane pattern = wavy_plane(60, 50);
+  int compared = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
+    const int bits = static_cast<int>(scale) - 6;
+    RasterTriangle t;
+    for (RasterVertex& v : t)
+      v = {random_point(random, 30 << bits, 30 << bits, 1), random_point(random, 60 << bits, 50 << bits, 1),
+           0};
+    Plane target(30, 30);
+    draw(t, scale, pattern, target);
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 30; ++x) {
+        if (!covers(t, scale, x, y)) continue;
+        ++compared;
+        // Slivers squeeze the whole pattern into one sample: there Q16 gradients are the limit.
+        ASSERT_NEAR(target.row(y)[x], plain_texel(t, pattern, scale, x, y), 1.01) << i;
+      }
+    }
+  }
+  EXPECT_GT(compared, 50000);
+}
+
+// Two ways of reading: with and without a check at the border. The same texture, once at the pattern's border
+// and once inside a larger pattern whose margin repeats it.
+TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
+  std::mt19937 random(10);
+  const Plane pattern = noise_plane(20, 20, 11);
+  constexpr int kMargin = 8;
+  Plane padded(20 + 2 * kMargin, 20 + 2 * kMargin);
+  for (int y = 0; y < padded.height; ++y)
+    for (int x = 0; x < padded.width; ++x)
+      padded.row(y)[x] = pattern.row(std::clamp(y - kMargin, 0, 19))[std::clamp(x - kMargin, 0, 19)];
+  for (int i = 0; i < 1000; ++i) {
+    RasterTriangle t;
+    for (RasterVertex& v : t) v = {random_point(random, 20, 20, 1), random_point(random, 20, 20, 1), 0};
+    Plane checked(20, 20), direct(20, 20);
+    draw(t, PlaneScale::kLuma, pattern, checked);
+    draw(shifted_texture(t, glm::ivec2(kMargin * 64)), PlaneScale::kLuma, padded, direct);
+    ASSERT_EQ(checked, direct) << i;
+  }
+}
+
+RasterTriangle at_depth(RasterTriangle t, int a, int b, int c) {
+  t[0].depth = a;
+  t[1].depth = b;
+  t[2].depth = c;
+  return t;
+}
+
+TEST(Rasteriser, NearerHidesFartherInEitherOrder) {
+  const Plane near_paint(24, 20, 200), far_paint(24, 20, 50);
+  const RasterTriangle small = in_place({300, 200}, {1000, 300}, {500, 900});
+  const auto near_one = at_depth(small, -5, -7, -9), far_one = at_depth(kLarge, 10, 20, 30);
+  std::array<Plane, 2> target = {Plane(24, 20), Plane(24, 20)};
+  for (std::size_t order = 0; order < 2; ++order) {
+    DepthPlane depth;
+    depth.reset(24, 20, whole(target[order]));
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (k == order)
+        draw(near_one, PlaneScale::kLuma, near_paint, target[order], &depth);
+      else
+        draw(far_one, PlaneScale::kLuma, far_paint, target[order], &depth);
+    }
+  }
+  EXPECT_EQ(target[0], target[1]);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 24; ++x)
+      EXPECT_EQ(target[0].row(y)[x], covers(small, PlaneScale::kLuma, x, y) ? 200 : 50);
+}
+
+TEST(Rasteriser, EqualDepthKeepsWhatWasThere) {
+  Plane target(24, 20);
+  DepthPlane depth;
+  depth.reset(24, 20, whole(target));
+  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
+  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
+  EXPECT_EQ(target, Plane(24, 20, 1));
+}
+
+// Depth x against depth 12 samples: they cross in the middle of the picture.
+TEST(Rasteriser, TrianglesThatPassThroughEachOtherMeetWhereDepthsAreEqual) {
+  Plane target(24, 20);
+  DepthPlane depth;
+  depth.reset(24, 20, whole(target));
+  auto slanted = kLarge;
+  for (RasterVertex& v : slanted) v.depth = v.screen.x;
+  draw(at_depth(kLarge, 768, 768, 768), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
+  draw(slanted, PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
+  for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(9)[x], x < 12 ? 2 : 1) << x;
+}
+
+TEST(Rasteriser, ResetClearsTheAreaAlone) {
+  Plane target(24, 20);
+  DepthPlane depth;
+  depth.reset(24, 20, whole(target));
+  draw(at_depth(kLarge, 0, 0, 0), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
+  depth.reset(24, 20, {4, 4, 10, 10});
+  draw(at_depth(kLarge, 5, 5, 5), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(y)[x], x >= 4 && x < 10 && y >= 4 && y < 10 ? 2 : 1);
+}
+
+TEST(Rasteriser, DrawsAllPlanesAlike) {
+  const Plane pattern = noise_plane(24, 20, 12), inverse = noise_plane(24, 20, 13);
+  Plane a(24, 20), b(24, 20), alone(24, 20);
+  const std::array<PlanePair, 2> planes = {PlanePair{&pattern, &a}, PlanePair{&inverse, &b}};
+  const auto t = shifted_texture(kLarge, {77, -40});
+  draw_triangle(t, PlaneScale::kChroma, planes, whole(a), nullptr);
+  draw(t, PlaneScale::kChroma, pattern, alone);
+  EXPECT_EQ(a, alone);
+  Plane alone_b(24, 20);
+  draw(t, PlaneScale::kChroma, inverse, alone_b);
+  EXPECT_EQ(b, alone_b);
+}
+
+// Positions at the limits of what projection gives and depths at the limits of their type. What counts is
+// that nothing overflows (sanitizers) and that coverage stays exact.
+TEST(Rasteriser, HostileCoordinatesStayExact) {
+  std::mt19937 random(14);
+  const Plane pattern = noise_plane(32, 24, 15);
+  const auto wild = [&] {
+    switch (random() % 4) {
+      case 0:
+        return kMostScreen;
+      case 1:
+        return -kMostScreen;
+      case 2:
+        return static_cast<int>(random() % 2048);
+      default:
+        return static_cast<int>(random() % (2 * kMostScreen)) - kMostScreen;
+    }
+  };
+  for (int i = 0; i < 4000; ++i) {
+    RasterTriangle t;
+    for (RasterVertex& v : t) {
+      v = {{wild(), wild()}, {wild(), wild()}, static_cast<std::int32_t>(random())};
+      if (random() % 3 == 0)
+        v.depth = random() % 2 == 0 ? std::numeric_limits<std::int32_t>::max()
+                                    : std::numeric_limits<std::int32_t>::min();
+    }
+    const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
+    const Plane white(32, 24, 255);
+    Plane covered(32, 24), drawn(32, 24);
+    DepthPlane depth;
+    depth.reset(32, 24, whole(drawn));
+    draw(t, scale, white, covered);
+    draw(t, scale, pattern, drawn, &depth);
+    const Shade shade{{256, 0, 128}, 200};
+    const PlanePair pair{&pattern, &drawn, {3, 90, 250}};
+    depth.reset(32, 24, whole(drawn));
+    draw_triangle(t, scale, {&pair, 1}, whole(drawn), &depth, {.shade = &shade});
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 32; ++x) ASSERT_EQ(covered.row(y)[x] != 0, covers(t, scale, x, y)) << i;
+  }
+}
+
+// A triangle that is thinner than a unit may still hold a sample's centre; its gradients are as large as they
+// get.
+TEST(Rasteriser, SliversReadInsideThePattern) {
+  std::mt19937 random(16);
+  const Plane pattern = noise_plane(8192, 4, 17);
+  int drawn = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const int x = static_cast<int>(random() % 64) * 64 + 30,
+              far = kMostScreen - static_cast<int>(random() % 1000);
+    RasterTriangle t;
+    t[0].screen = {x, -far};
+    t[1].screen = {x + 1 + static_cast<int>(random() % 6), far};
+    t[2].screen = {x, far};
+    for (RasterVertex& v : t)
+      v.texture = {static_cast<int>(random() % (8190 * 64)), static_cast<int>(random() % 256)};
+    Plane target(64, 48);
+    draw(t, PlaneScale::kLuma, pattern, target);
+    drawn += static_cast<int>(
+        std::count_if(target.samples.begin(), target.samples.end(), [](auto s) { return s != 0; }));
+  }
+  EXPECT_GT(drawn, 50000);
+}
+
+}  // namespace
+}  // namespace fbs

@@ -1,0 +1,41 @@
+// A toy scene as PictureFit sees it: smooth paint, 48 pixels between the eyes, pictures drawn by the decoder.
+#pragma once
+
+#include "encoder/fit/picture_fit.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+
+struct FittedScene {
+  static constexpr int kWidth = 320, kHeight = 240;
+
+  Setup setup = toy_setup(kWidth, kHeight);
+  State seen = toy_state(160, 96);
+  Scene scene;
+  PictureFit fit;
+
+  FittedScene() : scene(make()), fit(setup, toy_geometry(), frame_of(scene.patterns[0].picture), seen) {}
+
+  [[nodiscard]] Picture drawn(const State& state) const {
+    Renderer renderer;
+    Picture out;
+    renderer.render(scene, state, out);
+    return out;
+  }
+  void look_at(const State& state) { fit.look_at(frame_of(drawn(state)), setup.mouth); }
+
+ private:
+  Scene make() {
+    seen.pose[kLogScale] = static_cast<std::int32_t>(4096 * 5.585);  // 48 pixels
+    Picture picture(kWidth, kHeight);
+    picture.y = smooth_plane(kWidth, kHeight, 1);
+    Scene s;
+    s.setup = setup;
+    s.geometry.emplace(setup, toy_geometry(), even_surround(10, 8, 0), seen);
+    s.patterns.push_back({picture, s.geometry->project(seen)});
+    return s;
+  }
+  static WorkFrame frame_of(const Picture& picture) { return WorkFrame::cut(picture, {160, 96}, 48, true); }
+};
+
+}  // namespace fbs
