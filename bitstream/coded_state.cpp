@@ -13,7 +13,7 @@ std::int32_t limit_of(std::size_t i) {
     case PartId::kPose:
       return i <= kRoll ? kMaxRotation : i <= kShiftY ? kMaxTranslation : kMaxLogScale;
     case PartId::kLight:
-    case PartId::kInside:
+    case PartId::kMouthInterior:
       return kMaxLight;
     case PartId::kBody:
     case PartId::kGround:
@@ -30,7 +30,7 @@ std::int32_t step_of(const QuantiserSteps& steps, std::size_t i) {
     case PartId::kPose:
       return i <= kRoll ? steps.rotation : i <= kShiftY ? steps.translation : steps.log_scale;
     case PartId::kLight:
-    case PartId::kInside:
+    case PartId::kMouthInterior:
       return steps.light;
     case PartId::kBody:
     case PartId::kGround:
@@ -49,7 +49,7 @@ State state_of_values(const CodedState& values) {
   };
   take(state.pose);
   take(state.light);
-  take(state.inside);
+  take(state.interior);
   take(state.body);
   take(state.ground);
   for (const ExpressionPart& part : generic_head().expression) {
@@ -61,12 +61,12 @@ State state_of_values(const CodedState& values) {
       for (std::size_t c = 0; c < n; ++c) sum[c] += coefficient * part.rows[k * n + c];
     }
     const auto rounded = [&](std::size_t c) {
-      const std::int64_t nearest = (sum[c] + kSpreadOne / 2) >> 12;
+      const std::int64_t nearest = (sum[c] + kSkinningOne / 2) >> 12;
       return static_cast<std::int32_t>(std::clamp<std::int64_t>(nearest, -kMaxControl, kMaxControl));
     };
-    static_assert(kSpreadOne == 1 << 12);
+    static_assert(kSkinningOne == 1 << 12);
     for (std::size_t c = 0; c < n; c += 2)
-      state.control[static_cast<std::size_t>(part.first_control) + c / 2] = {rounded(c), rounded(c + 1)};
+      state.control[part.first_control + c / 2] = {rounded(c), rounded(c + 1)};
     from += static_cast<std::ptrdiff_t>(n);
   }
   return state;

@@ -13,7 +13,7 @@ namespace fbs {
 enum class PartId : std::uint8_t {
   kPose,
   kLight,
-  kInside,  ///< of the mouth
+  kMouthInterior,
   kBody,
   kGround,
   kMouth,  ///< this and the following: coefficients of GenericHead::expression, in its order
@@ -32,17 +32,18 @@ inline constexpr PartMask kAllParts = (1 << kPartCount) - 1;
 }
 
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
-    "pose", "light", "inside", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze"};
+    "pose",  "light", "mouth interior", "body",       "ground",
+    "mouth", "brows", "upper lids",     "lower lids", "gaze"};
 
 /// Numbers of each part.
-inline constexpr std::array<int, kPartCount> kPartSizes = {6, 7, 3, 4, 4, 36, 16, 8, 8, 4};
-inline constexpr int kMaxPartSize = 36;
+inline constexpr std::array<std::size_t, kPartCount> kPartSizes = {6, 7, 3, 4, 4, 36, 16, 8, 8, 4};
+inline constexpr std::size_t kMaxPartSize = 36;
 
 inline constexpr int kFirstExpressionPart = static_cast<int>(PartId::kMouth);
 
 /// First number of each part.
-inline constexpr std::array<int, kPartCount + 1> kPartFirst = [] {
-  std::array<int, kPartCount + 1> first{};
+inline constexpr std::array<std::size_t, kPartCount + 1> kPartFirst = [] {
+  std::array<std::size_t, kPartCount + 1> first{};
   for (std::size_t p = 0; p < kPartCount; ++p) first[p + 1] = first[p] + kPartSizes[p];
   return first;
 }();
@@ -50,12 +51,15 @@ inline constexpr int kParameterCount = kPartFirst[kPartCount];
 inline constexpr int kFirstCoefficient = kPartFirst[kFirstExpressionPart];
 static_assert(kParameterCount == 96 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
 
+[[nodiscard]] constexpr std::size_t first_of(PartId part) {
+  return kPartFirst[static_cast<std::size_t>(part)];
+}
+
 /// Part of each number.
 inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {
   std::array<std::uint8_t, kParameterCount> part{};
   for (std::size_t p = 0; p < kPartCount; ++p)
-    for (int i = kPartFirst[p]; i < kPartFirst[p + 1]; ++i)
-      part[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(p);
+    for (std::size_t i = kPartFirst[p]; i < kPartFirst[p + 1]; ++i) part[i] = static_cast<std::uint8_t>(p);
   return part;
 }();
 

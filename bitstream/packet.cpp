@@ -40,7 +40,7 @@ struct PacketReader::Impl {
 
   tl::unexpected<Error> refuse(ErrorCode code, const char* text) {
     error = Error{code, text, offset()};
-    return tl::unexpected<Error>(*error);
+    return fail(*error);
   }
 
   // Not enough bytes for what `where` names.
@@ -114,7 +114,7 @@ void PacketReader::close() {
 
 Result<ReadResult> PacketReader::next() {
   Impl& s = *impl_;
-  if (s.error) return tl::unexpected(*s.error);
+  if (s.error) return fail(*s.error);
   if (!s.begun) {
     auto signature = s.read_signature();
     if (!signature || !s.begun) return signature;

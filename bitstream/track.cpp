@@ -20,14 +20,14 @@ Knot anchor_knot(const CodedState& anchor, std::size_t part) {
 std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps) {
   std::vector<CodedState> values(static_cast<std::size_t>(group.pictures), CodedState{});
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    const auto first = static_cast<std::size_t>(kPartFirst[part]);
+    const auto first = kPartFirst[part];
     Knot last = anchor_knot(group.anchor, part);
     for (const Knot& knot : group.tracks[part]) {
       const std::int32_t length = knot.picture - last.picture;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(kPartSizes[part]); ++i) {
+      for (std::size_t i = 0; i < kPartSizes[part]; ++i) {
         const std::int64_t step = step_of(steps, first + i);
         for (std::int32_t way = 1; way <= length; ++way)
-          values[static_cast<std::size_t>(last.picture + way)][first + i] =
+          values[last.picture + way][first + i] =
               between(last.value[i] * step, knot.value[i] * step, way, length);
       }
       last = knot;

@@ -10,7 +10,7 @@ namespace fbs::cli {
 
 Result<void> run_decode(const DecodeArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
 
   std::unique_ptr<VideoSink> sink;
@@ -23,7 +23,7 @@ Result<void> run_decode(const DecodeArguments& arguments) {
     if (!status) {
       if (!arguments.keep_going || status.error().code == ErrorCode::kIo ||
           status.error().code == ErrorCode::kNotFbs)
-        return tl::unexpected<Error>(status.error());
+        return fail(status.error());
       progress.finish();
       std::fprintf(stderr, "fbs: %s; going on\n", status.error().text.c_str());
       if (status.error().code == ErrorCode::kTruncated) break;
@@ -33,7 +33,7 @@ Result<void> run_decode(const DecodeArguments& arguments) {
     if (*status == DecodeStatus::kEnd) break;
     if (!sink) {
       auto opened = open_video_sink(arguments.output, decoder.format(), {arguments.sound});
-      if (!opened) return tl::unexpected<Error>(opened.error());
+      if (!opened) return fail(opened.error());
       sink = std::move(*opened);
     }
     decoder.render(picture);

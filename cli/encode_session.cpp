@@ -19,7 +19,7 @@ std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t
 Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
                               const SeePicture& see, bool with_ssim, bool quiet) {
   auto encoder = Encoder::create(source.format(), settings);
-  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  if (!encoder) return fail(encoder.error());
   StreamDecoder decoder;
   StreamMeter meter(decoder, with_ssim);
   std::deque<Picture> waiting;  // pushed, and not yet back from the decoder
@@ -47,21 +47,20 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
   auto current = source.next();
   while (current && *current) {
     auto next = source.next();
-    if (!next) return tl::unexpected<Error>(next.error());
+    if (!next) return fail(next.error());
     const TimedPicture& now = **current;
     const std::uint32_t duration = *next ? duration_of(now.pts, (*next)->pts, nominal) : 0;
-    if (auto pushed = encoder->push(now.picture, duration); !pushed)
-      return tl::unexpected<Error>(pushed.error());
+    if (auto pushed = encoder->push(now.picture, duration); !pushed) return fail(pushed.error());
     if (see)
-      if (auto seen = see(now, encoder->analysis()); !seen) return tl::unexpected<Error>(seen.error());
+      if (auto seen = see(now, encoder->analysis()); !seen) return fail(seen.error());
     waiting.push_back(std::move((*current)->picture));
-    if (auto passed = pass_on(); !passed) return tl::unexpected<Error>(passed.error());
+    if (auto passed = pass_on(); !passed) return fail(passed.error());
     progress.update(++done);
     current = std::move(next);
   }
-  if (!current) return tl::unexpected<Error>(current.error());
-  if (auto finished = encoder->finish(); !finished) return tl::unexpected<Error>(finished.error());
-  if (auto passed = pass_on(); !passed) return tl::unexpected<Error>(passed.error());
+  if (!current) return fail(current.error());
+  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
+  if (auto passed = pass_on(); !passed) return fail(passed.error());
   if (!waiting.empty())
     return fail(ErrorCode::kInternal, "our own stream has fewer pictures than its source");
   return meter.result();

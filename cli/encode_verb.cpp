@@ -34,24 +34,24 @@ Result<void> encode(const EncodeArguments& arguments) {
   settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);
-    if (!marks) return tl::unexpected<Error>(about_file(arguments.marks, marks.error()));
+    if (!marks) return fail(about_file(arguments.marks, marks.error()));
     settings.marks = *marks;
   }
   SourceOptions options;
   options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
   auto source = open_video_source(arguments.input, options);
-  if (!source) return tl::unexpected<Error>(source.error());
+  if (!source) return fail(source.error());
   if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {
     const Rational& rate = (*source)->format().frame_rate;
     settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
   }
   auto file = AtomicFile::create(arguments.output);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   std::optional<Overlay> overlay;
   SeePicture see;
   if (!arguments.overlay.empty()) {
     auto created = Overlay::create(arguments.overlay, (*source)->format());
-    if (!created) return tl::unexpected<Error>(created.error());
+    if (!created) return fail(created.error());
     overlay.emplace(std::move(*created));
     see = [&](const TimedPicture& p, const PictureAnalysis& a) {
       return overlay->write(p.picture, p.pts, a);
@@ -65,7 +65,7 @@ Result<void> encode(const EncodeArguments& arguments) {
     // Errors of files name their file already; those of the codec are about the input.
     if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input))
       error.text = arguments.input + ": " + error.text;
-    return tl::unexpected<Error>(std::move(error));
+    return fail(std::move(error));
   }
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return finished;

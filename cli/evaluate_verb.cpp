@@ -17,16 +17,16 @@ struct Point {
 
 Result<Measure> measure_stream(const EvaluateArguments& arguments) {
   auto source = open_video_source(arguments.source);
-  if (!source) return tl::unexpected<Error>(source.error());
+  if (!source) return fail(source.error());
   auto file = StreamFile::open(arguments.stream);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   StreamMeter meter(file->decoder(), true);
   Progress progress("evaluating", (*source)->frame_count_estimate(), arguments.quiet);
   for (std::int64_t n = 1;; ++n) {
     auto status = file->next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     auto picture = (*source)->next();
-    if (!picture) return tl::unexpected<Error>(picture.error());
+    if (!picture) return fail(picture.error());
     const bool ended = *status == DecodeStatus::kEnd;
     if (ended && !*picture) return meter.result();
     if (ended || !*picture)
@@ -43,7 +43,7 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
 
 Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality) {
   auto source = open_video_source(arguments.source);
-  if (!source) return tl::unexpected<Error>(source.error());
+  if (!source) return fail(source.error());
   EncoderSettings settings;
   settings.quality = quality;
   auto measure = encode_source(
@@ -52,7 +52,7 @@ Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality
   if (!measure) {
     Error error = measure.error();
     error.text = arguments.source + ": " + error.text;
-    return tl::unexpected<Error>(std::move(error));
+    return fail(std::move(error));
   }
   return measure;
 }
@@ -97,12 +97,12 @@ Result<void> evaluate(const EvaluateArguments& arguments) {
   std::vector<Point> points;
   if (!arguments.stream.empty()) {
     auto m = measure_stream(arguments);
-    if (!m) return tl::unexpected<Error>(m.error());
+    if (!m) return fail(m.error());
     points.push_back({arguments.stream, *m});
   } else {
     for (const int quality : arguments.qualities) {
       auto m = measure_encoding(arguments, quality);
-      if (!m) return tl::unexpected<Error>(m.error());
+      if (!m) return fail(m.error());
       points.push_back({"quality " + std::to_string(quality), *m});
     }
   }

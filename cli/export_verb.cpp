@@ -34,7 +34,7 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
       number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
   const auto vertices = geometry->project_vertices(decoder.state());
   for (const std::int16_t v : generic_head().landmark_vertex) {
-    const glm::ivec3 p = vertices[static_cast<std::size_t>(v)];
+    const glm::ivec3 p = vertices[v];
     line += number(p.x / 64.0) + number(p.y / 64.0);
   }
   return line + "\n";
@@ -46,16 +46,16 @@ Result<void> run_export(const ExportArguments& arguments) {
   if (!arguments.output.ends_with(".csv"))
     return fail(ErrorCode::kUnsupported, arguments.output + ": only .csv can be exported so far");
   auto file = StreamFile::open(arguments.input);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   auto out = AtomicFile::create(arguments.output);
-  if (!out) return tl::unexpected<Error>(out.error());
+  if (!out) return fail(out.error());
   const auto write = [&](const std::string& text) {
     return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   };
   if (auto written = write(header()); !written) return written;
   for (std::uint64_t frame = 0;; ++frame) {
     auto status = file->next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
     if (auto written = write(row(frame, file->decoder())); !written) return written;
   }

@@ -99,12 +99,12 @@ void print(const std::string& name, const Summary& s) {
 
 Result<void> run_inspect(const InspectArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
   Summary s;
   for (;;) {
     auto status = file->next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
     s.seconds += decoder.duration() / 90000.0;
   }

@@ -9,7 +9,7 @@ namespace {
 template <class Arguments>
 Result<void> run(const char* module, const char* symbol, const Arguments& arguments) {
   auto function = load_module_function<void(const Arguments&, Result<void>&)>(module, symbol);
-  if (!function) return tl::unexpected<Error>(function.error());
+  if (!function) return fail(function.error());
   Result<void> result;
   (*function)(arguments, result);
   return result;

@@ -27,7 +27,7 @@ Result<Overlay> Overlay::create(const std::string& name, const VideoFormat& form
   enlarged.width *= zoom;
   enlarged.height *= zoom;
   auto sink = open_video_sink(name, enlarged);
-  if (!sink) return tl::unexpected<Error>(sink.error());
+  if (!sink) return fail(sink.error());
   return Overlay(std::move(*sink), enlarged, zoom);
 }
 
@@ -38,9 +38,8 @@ Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const Pict
   if (analysis.face) {
     for (const HeadTriangle& t : generic_head().triangles)
       for (std::size_t i = 0; i < 3; ++i)
-        cv::line(large, fixed(analysis.vertices[static_cast<std::size_t>(t[i])], zoom_),
-                 fixed(analysis.vertices[static_cast<std::size_t>(t[(i + 1) % 3])], zoom_), kMeshColour, 1,
-                 cv::LINE_AA, kShift);
+        cv::line(large, fixed(analysis.vertices[t[i]], zoom_),
+                 fixed(analysis.vertices[t[(i + 1) % 3]], zoom_), kMeshColour, 1, cv::LINE_AA, kShift);
     for (const auto& snake : analysis.snakes) {
       std::vector<cv::Point> points;
       for (const glm::dvec2 p : snake) points.push_back(fixed(p, zoom_));

@@ -31,14 +31,14 @@ enum class Leave : std::uint8_t { kQuit, kAgain };
 Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
   using Clock = std::chrono::steady_clock;
   auto file = StreamFile::open(arguments.input);
-  if (!file) return tl::unexpected<Error>(file.error());
+  if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
   Picture picture;
   bool paused = false;
   auto due = Clock::now();
   for (;;) {
     auto status = file->next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     const bool ended = *status == DecodeStatus::kEnd;
     if (ended && decoder.pictures() == 0)
       return fail(ErrorCode::kInvalidStream, arguments.input + ": holds no picture");
@@ -75,8 +75,8 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
 Result<void> play(const PlayArguments& arguments) {
   // The stream is looked at first, so that a bad one gives its error and no window.
   auto probe = StreamFile::open(arguments.input);
-  if (!probe) return tl::unexpected<Error>(probe.error());
-  if (auto first = probe->next(); !first) return tl::unexpected<Error>(first.error());
+  if (!probe) return fail(probe.error());
+  if (auto first = probe->next(); !first) return fail(first.error());
   // The window's library aborts the program where there is no display.
   if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: there is no display");
   try {
@@ -85,7 +85,7 @@ Result<void> play(const PlayArguments& arguments) {
     std::fprintf(stderr, "%s\n", kKeys);
     for (;;) {
       auto left = show(arguments, window);
-      if (!left) return tl::unexpected<Error>(left.error());
+      if (!left) return fail(left.error());
       if (*left == Leave::kQuit) return {};
     }
   } catch (const cv::Exception& e) {

@@ -27,7 +27,7 @@ Result<StreamFile> StreamFile::open(const std::string& name) {
 Result<DecodeStatus> StreamFile::next() {
   for (;;) {
     auto status = decoder_.next();
-    if (!status) return tl::unexpected<Error>(about_file(name_, status.error()));
+    if (!status) return fail(about_file(name_, status.error()));
     if (*status != DecodeStatus::kNeedMore) return status;
     std::array<std::uint8_t, 1 << 16> buffer;
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());

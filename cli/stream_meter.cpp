@@ -12,7 +12,7 @@ cv::Rect draw_face(const SceneGeometry& geometry, const State& state, Plane& mas
   const auto vertices = geometry.project_vertices(state);
   std::vector<cv::Point> outline;
   for (const std::int16_t v : generic_head().outline) {
-    const glm::ivec3 p = vertices[static_cast<std::size_t>(v)];
+    const glm::ivec3 p = vertices[v];
     outline.emplace_back(p.x >> kScreenOneLog2, p.y >> kScreenOneLog2);
   }
   cv::Mat image(mask.height, mask.width, CV_8UC1, mask.samples.data());

@@ -36,7 +36,7 @@ def mirror(vertices, first, count):
     """What the control points' offsets (x0, y0, x1, y1 ...) become in the mirror image of the face."""
     spread = np.zeros((len(vertices), count))
     for v, vertex in enumerate(vertices):
-        for control, weight in vertex["spread"]:
+        for control, weight in vertex["skinning"]:
             if first <= control < first + count:
                 spread[v, control - first] = weight
     swap = np.linalg.pinv(spread) @ spread[[v["mirror"] for v in vertices]]

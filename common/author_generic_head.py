@@ -259,7 +259,7 @@ class Head:
         self.build_vertices()
         self.build_triangles()
         self.build_features()
-        self.build_spread()
+        self.build_skinning()
 
     def build_vertices(self):
         rows = {}  # name -> (landmark, mirror name, position)
@@ -306,11 +306,11 @@ class Head:
             first += controls
         assert first == 36
 
-    def build_spread(self):
+    def build_skinning(self):
         """Weights of each vertex as {control: integer}; the right half and the midline, then their mirror image."""
         self.find_neighbours()
         own = {v: row for feature in self.features for v, row in basis_rows(feature).items()}
-        self.spread = [None] * 105
+        self.skinning = [None] * 105
         for v in range(105):
             if self.position[v][0] > 0:
                 continue
@@ -327,11 +327,11 @@ class Head:
             if self.mirror[v] == v:
                 row = {c: (row.get(c, 0) + row.get(CONTROL_MIRROR[c], 0)) / 2 for c in
                        set(row) | {CONTROL_MIRROR[c] for c in row}}
-            self.spread[v] = to_weights(row, wholes)
+            self.skinning[v] = to_weights(row, wholes)
         for v in range(105):
-            if self.spread[v] is None:
-                row = self.spread[self.mirror[v]]
-                self.spread[v] = dict(sorted((CONTROL_MIRROR[c], w) for c, w in row.items()))
+            if self.skinning[v] is None:
+                row = self.skinning[self.mirror[v]]
+                self.skinning[v] = dict(sorted((CONTROL_MIRROR[c], w) for c, w in row.items()))
 
     def find_neighbours(self):
         """Edges for distances: all but those across the mouth's opening."""
@@ -463,7 +463,7 @@ def to_gltf(head):
     data = positions + indices
     landmark = lambda v: v if v < 68 else -1
     vertices = [{"name": head.names[v], "mirror": head.mirror[v], "landmark": landmark(v),
-                 "feature": head.feature_of[v], "spread": [[c, w] for c, w in head.spread[v].items()]}
+                 "feature": head.feature_of[v], "skinning": [[c, w] for c, w in head.skinning[v].items()]}
                 for v in range(105)]
     features = [{"name": name, "closed": closed, "first_control": first, "control_count": n,
                  "vertices_s12": [list(p) for p in points]}
@@ -477,7 +477,7 @@ def to_gltf(head):
         "meshes": [{
             "name": "generic_head",
             "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 4}],
-            "extras": {"units_per_eye_distance": UNIT, "spread_one": UNIT, "features": features,
+            "extras": {"units_per_eye_distance": UNIT, "skinning_one": UNIT, "features": features,
                        "outline": head.outline, "vertices": vertices},
         }],
         "accessors": [
@@ -508,7 +508,7 @@ def to_json(value, depth=0):
 def moved(head, offsets):
     """Positions in eye distances after moving controls by {control: (dx, dy)}, y up."""
     out = []
-    for p, row in zip(head.position, head.spread):
+    for p, row in zip(head.position, head.skinning):
         x, y, z = (c / UNIT for c in p)
         for c, w in row.items():
             dx, dy = offsets.get(c, (0, 0))

@@ -21,7 +21,7 @@ struct SplineBasis {
   const int span = static_cast<int>(wrapped) % count;
   const double t = wrapped - std::floor(wrapped), r = 1 - t;
   SplineBasis b;
-  for (int k = 0; k < 4; ++k) b.control[static_cast<std::size_t>(k)] = (span + k - 1 + count) % count;
+  for (int k = 0; k < 4; ++k) b.control[k] = (span + k - 1 + count) % count;
   b.value = {r * r * r / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6,
              t * t * t / 6};
   b.d1 = {-r * r / 2, (3 * t * t - 4 * t) / 2, (-3 * t * t + 2 * t + 1) / 2, t * t / 2};

@@ -43,10 +43,10 @@ std::uint64_t generic_head_hash() {
     for (const FeatureVertex& point : feature.vertices) hash.add(point.vertex);
   }
   for (std::size_t v = 0; v < kVertexCount; ++v) {
-    hash.add(head.spread_begin[v + 1] - head.spread_begin[v]);
-    for (std::size_t i = head.spread_begin[v]; i < head.spread_begin[v + 1]; ++i) {
-      hash.add(head.spread[i].control);
-      hash.add(head.spread[i].weight);
+    hash.add(head.skinning_begin[v + 1] - head.skinning_begin[v]);
+    for (std::size_t i = head.skinning_begin[v]; i < head.skinning_begin[v + 1]; ++i) {
+      hash.add(head.skinning[i].control);
+      hash.add(head.skinning[i].weight);
     }
   }
   hash.add(kExpressionPartCount);

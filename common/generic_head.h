@@ -22,8 +22,8 @@ namespace fbs {
 inline constexpr int kVertexCount = 105;
 inline constexpr int kLandmarkCount = 68;  ///< iBUG-68
 inline constexpr int kUnitsPerEyeDistance = 4096;
-inline constexpr int kControlCount = 36;  ///< control points of all features together
-inline constexpr int kSpreadOne = 4096;   ///< a weight of one in the spread tables
+inline constexpr int kControlCount = 36;   ///< control points of all features together
+inline constexpr int kSkinningOne = 4096;  ///< a weight of one in the spread tables
 
 /// What a control point belongs to. Order is that of the stream (SPEC 5.1).
 enum class FeatureId : std::uint8_t {
@@ -42,15 +42,15 @@ inline constexpr int kFeatureCount = 10;
 
 /// One vertex that lies on a feature's curve.
 struct FeatureVertex {
-  std::int16_t vertex;
+  std::uint16_t vertex;
   float s;  ///< curve parameter; closed: 0 <= s < control_count; clamped: 0..1; only the encoder uses it
 };
 
 struct Feature {
   std::string_view name;  ///< "mouth_outer", "brow_right", ...
   bool closed;
-  std::int16_t first_control;  ///< index into the state's control points
-  std::int16_t control_count;
+  std::uint16_t first_control;  ///< index into the state's control points
+  std::uint16_t control_count;
   std::span<const FeatureVertex> vertices;  ///< in order of s; empty for none
 };
 
@@ -63,22 +63,22 @@ struct HeadVertex {
 };
 
 /// Corner indices, clockwise in the picture when the head is seen from the front.
-using HeadTriangle = std::array<std::int16_t, 3>;
+using HeadTriangle = std::array<std::uint16_t, 3>;
 
-/// One control point's share in one vertex: vertex displacement += control offset * weight / kSpreadOne.
+/// One control point's share in one vertex: vertex displacement += control offset * weight / kSkinningOne.
 /// A Gaussian of edge distance on the generic mesh, fixed (paper section 2.1, design section 4).
-struct SpreadWeight {
-  std::int16_t control;
+struct SkinningWeight {
+  std::uint16_t control;
   std::int16_t weight;
 };
 
 /// A part of the face that moves as one, and the directions in which it does: row k of `rows` is what one
-/// unit of coefficient k adds to the part's control points, x0, y0, x1, y1 ..., in 1/kSpreadOne. A complete
+/// unit of coefficient k adds to the part's control points, x0, y0, x1, y1 ..., in 1/kSkinningOne. A complete
 /// basis, the coefficient that varies most first (author_expression_basis.py).
 struct ExpressionPart {
   std::string_view name;  ///< "mouth", "brows", "upper_lids", "lower_lids", "gaze"
-  std::int16_t first_control;
-  std::int16_t control_count;
+  std::uint16_t first_control;
+  std::uint16_t control_count;
   std::span<const std::int16_t> rows;  ///< 2 * control_count rows of as many
 };
 inline constexpr int kExpressionPartCount = 5;
@@ -87,13 +87,13 @@ inline constexpr int kExpressionPartCount = 5;
 struct GenericHead {
   std::span<const HeadVertex, kVertexCount> vertices;
   std::span<const HeadTriangle> triangles;
-  std::span<const std::int16_t>
+  std::span<const std::uint16_t>
       outline;  ///< the mesh's border as a closed loop of vertices, clockwise in the picture
   std::array<Feature, kFeatureCount> features;
   std::span<const std::uint16_t, kVertexCount + 1>
-      spread_begin;  ///< weights of vertex v: [begin[v], begin[v+1])
-  std::span<const SpreadWeight> spread;
-  std::span<const std::int16_t, kLandmarkCount> landmark_vertex;  ///< vertex of each iBUG-68 point
+      skinning_begin;  ///< weights of vertex v: [begin[v], begin[v+1])
+  std::span<const SkinningWeight> skinning;
+  std::span<const std::uint16_t, kLandmarkCount> landmark_vertex;  ///< vertex of each iBUG-68 point
   std::array<ExpressionPart, kExpressionPartCount> expression;
 };
 
@@ -112,6 +112,11 @@ struct GenericHead {
 
 [[nodiscard]] inline const Feature& feature(FeatureId id) {
   return generic_head().features[static_cast<std::size_t>(id)];
+}
+
+/// @param ibug  0..67
+[[nodiscard]] inline std::size_t vertex_of_landmark(std::size_t ibug) {
+  return generic_head().landmark_vertex[ibug];
 }
 
 }  // namespace fbs

@@ -80,7 +80,7 @@ void write_vertices(std::ostream& out, const Value& vertices,
   out << "constexpr std::array<HeadVertex, kVertexCount> kVertices{{\n";
   for (int v = 0; v < kVertexCount; ++v) {
     const Value& vertex = vertices.Get(v);
-    const std::array<int, 3>& p = positions[static_cast<std::size_t>(v)];
+    const std::array<int, 3>& p = positions[v];
     out << "    {\"" << vertex.Get("name").Get<std::string>() << "\", {" << p[0] << ", " << p[1] << ", "
         << p[2] << "}, " << number(vertex, "mirror") << ", " << number(vertex, "landmark") << ", "
         << number(vertex, "feature") << "},\n";
@@ -97,7 +97,7 @@ void write_triangles(std::ostream& out, const std::vector<std::array<int, 3>>& t
 }
 
 void write_outline(std::ostream& out, const Value& outline) {
-  out << "constexpr std::array<std::int16_t, " << length(outline) << "> kOutline{";
+  out << "constexpr std::array<std::uint16_t, " << length(outline) << "> kOutline{";
   for (int i = 0; i < length(outline); ++i) out << (i > 0 ? ", " : "") << number(outline, i);
   out << "};\n\n";
 }
@@ -109,7 +109,7 @@ void write_landmarks(std::ostream& out, const Value& vertices) {
     const int landmark = number(vertices.Get(v), "landmark");
     if (landmark >= 0) vertex_of.at(static_cast<std::size_t>(landmark)) = v;
   }
-  out << "constexpr std::array<std::int16_t, kLandmarkCount> kLandmarkVertex{";
+  out << "constexpr std::array<std::uint16_t, kLandmarkCount> kLandmarkVertex{";
   for (std::size_t i = 0; i < vertex_of.size(); ++i) out << (i > 0 ? ", " : "") << vertex_of[i];
   out << "};\n\n";
 }
@@ -134,12 +134,12 @@ void write_features(std::ostream& out, const Value& features) {
   out << "}};\n\n";
 }
 
-void write_spread(std::ostream& out, const Value& vertices) {
+void write_skinning(std::ostream& out, const Value& vertices) {
   std::ostringstream weights;
   int count = 0;
-  out << "constexpr std::array<std::uint16_t, kVertexCount + 1> kSpreadBegin{";
+  out << "constexpr std::array<std::uint16_t, kVertexCount + 1> kSkinningBegin{";
   for (int v = 0; v < kVertexCount; ++v) {
-    const Value& row = vertices.Get(v).Get("spread");
+    const Value& row = vertices.Get(v).Get("skinning");
     out << count << ", ";
     for (int i = 0; i < length(row); ++i) {
       weights << "    {" << number(row.Get(i), 0) << ", " << number(row.Get(i), 1) << "},\n";
@@ -147,7 +147,7 @@ void write_spread(std::ostream& out, const Value& vertices) {
     count += length(row);
   }
   out << count << "};\n\n";
-  out << "constexpr std::array<SpreadWeight, " << count << "> kSpread{{\n" << weights.str() << "}};\n\n";
+  out << "constexpr std::array<SkinningWeight, " << count << "> kSkinning{{\n" << weights.str() << "}};\n\n";
 }
 
 void write_expression(std::ostream& out, const Value& parts) {
@@ -182,10 +182,10 @@ bool write_table(std::ostream& out, const Model& model) {
   write_outline(out, extras.Get("outline"));
   write_landmarks(out, vertices);
   write_features(out, extras.Get("features"));
-  write_spread(out, vertices);
+  write_skinning(out, vertices);
   write_expression(out, extras.Get("expression"));
   out << "constexpr GenericHead kHead{kVertices, kTriangles,    kOutline, kFeatures,\n"
-         "                            kSpreadBegin, kSpread, kLandmarkVertex, kExpression};\n\n"
+         "                            kSkinningBegin, kSkinning, kLandmarkVertex, kExpression};\n\n"
          "}  // namespace\n\n"
          "const GenericHead& generic_head() { return kHead; }\n\n"
          "}  // namespace fbs\n";

@@ -20,8 +20,7 @@ std::array<float, 2 * kRadius + 1> gaussian() {
   double sum = 0;
   for (int i = -kRadius; i <= kRadius; ++i) sum += std::exp(-i * i / (2 * kSigma * kSigma));
   for (int i = -kRadius; i <= kRadius; ++i)
-    k[static_cast<std::size_t>(i + kRadius)] =
-        static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)) / sum);
+    k[i + kRadius] = static_cast<float>(std::exp(-i * i / (2 * kSigma * kSigma)) / sum);
   return k;
 }
 
@@ -40,15 +39,14 @@ Image blurred(const Image& in, int w, int h) {
     float* to = rows.data() + static_cast<std::ptrdiff_t>(y) * w;
     for (int x = 0; x < w; ++x) {
       float sum = 0;
-      for (int k = -kRadius; k <= kRadius; ++k)
-        sum += kernel[static_cast<std::size_t>(k + kRadius)] * from[reflected(x + k, w)];
+      for (int k = -kRadius; k <= kRadius; ++k) sum += kernel[k + kRadius] * from[reflected(x + k, w)];
       to[x] = sum;
     }
   }
   for (int y = 0; y < h; ++y) {
     float* to = out.data() + static_cast<std::ptrdiff_t>(y) * w;
     for (int k = -kRadius; k <= kRadius; ++k) {
-      const float weight = kernel[static_cast<std::size_t>(k + kRadius)];
+      const float weight = kernel[k + kRadius];
       const float* from = rows.data() + static_cast<std::ptrdiff_t>(reflected(y + k, h)) * w;
       for (int x = 0; x < w; ++x) to[x] += weight * from[x];
     }

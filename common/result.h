@@ -36,4 +36,9 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{code, std::move(text), byte_offset});
 }
 
+/// Passes the error of one result on as that of another: `if (!parsed) return fail(parsed.error())`.
+[[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
+  return tl::unexpected<Error>(std::move(error));
+}
+
 }  // namespace fbs

@@ -23,32 +23,32 @@ enum LightIndex : std::uint8_t {
   kLightGain,
   kLightSlopeX,
   kLightSlopeY,
-  kLightBowX,
-  kLightBowY,
-  kLightTwist,
+  kLightQuadraticXX,
+  kLightQuadraticYY,
+  kLightQuadraticXY,
 };
 inline constexpr int kLightCount = 7;
 
 /// Of the face, below the head's origin, head units.
 inline constexpr int kFaceMiddle = kUnitsPerEyeDistance / 2;
 
-/// Index of each number of the mouth's inside in State::inside: what is added to its luma at the upper lip,
+/// Index of each number of the mouth's inside in State::interior: what is added to its luma at the upper lip,
 /// half way and at the lower lip, in 1/16 grey level.
-enum InsideIndex : std::uint8_t { kInsideUpper, kInsideMiddle, kInsideLower };
-inline constexpr int kInsideCount = 3;
+enum MouthInteriorIndex : std::uint8_t { kInteriorUpper, kInteriorMiddle, kInteriorLower };
+inline constexpr int kInteriorCount = 3;
 
 /// Index of each number of a flat part of the surround, body or ground: how far it has gone since pattern 0,
 /// in 1/64 pixel; growth and turn as the way of a point one eye distance from the head's origin.
-enum SurroundIndex : std::uint8_t { kWayX, kWayY, kGrowth, kTurn };
-inline constexpr int kSurroundCount = 4;
+enum SimilarityIndex : std::uint8_t { kDisplacementX, kDisplacementY, kSimilarityScale, kSimilarityRotation };
+inline constexpr int kSimilarityCount = 4;
 
 /// Everything the decoder needs beside the scene to draw one picture. All numbers are absolute.
 struct State {
   std::array<std::int32_t, kPoseCount> pose{};
   std::array<std::int32_t, kLightCount> light{};
-  std::array<std::int32_t, kInsideCount> inside{};
-  std::array<std::int32_t, kSurroundCount> body{};
-  std::array<std::int32_t, kSurroundCount> ground{};
+  std::array<std::int32_t, kInteriorCount> interior{};
+  std::array<std::int32_t, kSimilarityCount> body{};
+  std::array<std::int32_t, kSimilarityCount> ground{};
   /// Offsets from the adapted, expressionless face, x, y in the head frame, head units.
   std::array<glm::ivec2, kControlCount> control{};
 

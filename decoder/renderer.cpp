@@ -16,11 +16,10 @@ SampleArea whole(const Plane& p) {
   return {0, 0, p.width, p.height};
 }
 
-RasterTriangle corners(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now,
-                       const ScreenMesh& seen) {
+RasterTriangle corners(const HeadTriangle& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
   RasterTriangle t;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto v = static_cast<std::size_t>(triangle[i]);
+    const auto v = triangle[i];
     t[i] = {{now.head[v].x, now.head[v].y}, {seen.head[v].x, seen.head[v].y}, now.head[v].z};
   }
   return t;
@@ -60,9 +59,9 @@ void draw_surround(const Surround& surround, const ScreenMesh& now, const Screen
 }
 
 /// The light that a picture has and its pattern has not.
-Light light_on(const std::array<std::int16_t, 3>& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
-  const auto at = [](const ScreenMesh& mesh, std::int16_t v) {
-    return mesh.light.empty() ? VertexLight{} : mesh.light[static_cast<std::size_t>(v)];
+Light light_on(const HeadTriangle& triangle, const ScreenMesh& now, const ScreenMesh& seen) {
+  const auto at = [](const ScreenMesh& mesh, std::size_t v) {
+    return mesh.light.empty() ? VertexLight{} : mesh.light[v];
   };
   Light out;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,12 +92,12 @@ void draw_head(const ScreenMesh& now, const ScreenMesh& seen, const Layer& layer
 
 /// One plane of the mouth's inside at the upper lip, half way and at the lower lip.
 /// @param added  1/16 grey level
-std::array<std::uint8_t, kInsideCount> inside_of(const MouthInterior& mouth, std::uint8_t YuvColour::*plane,
-                                                 const std::array<std::int32_t, kInsideCount>& added) {
+std::array<std::uint8_t, kInteriorCount> inside_of(const MouthInterior& mouth, std::uint8_t YuvColour::*plane,
+                                                   const std::array<std::int32_t, kInteriorCount>& added) {
   const std::int32_t upper = 16 * (mouth.upper.*plane), lower = 16 * (mouth.lower.*plane);
-  const std::array<std::int32_t, kInsideCount> mean = {upper, (upper + lower) / 2, lower};
-  std::array<std::uint8_t, kInsideCount> colour{};
-  for (std::size_t i = 0; i < kInsideCount; ++i)
+  const std::array<std::int32_t, kInteriorCount> mean = {upper, (upper + lower) / 2, lower};
+  std::array<std::uint8_t, kInteriorCount> colour{};
+  for (std::size_t i = 0; i < kInteriorCount; ++i)
     colour[i] = static_cast<std::uint8_t>(std::clamp((mean[i] + added[i] + 8) >> 4, 0, 255));
   return colour;
 }
@@ -113,7 +112,7 @@ void Renderer::render(const Scene& scene, const State& state, Picture& out) {
   const MouthInterior& mouth = scene.setup.mouth;
   const std::array<Layer, 2> layers = {
       Layer{PlaneScale::kLuma,
-            {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.inside)}},
+            {{&pattern.picture.y, &out.y, inside_of(mouth, &YuvColour::y, now.interior)}},
             whole(out.y)},
       Layer{PlaneScale::kChroma,
             {{&pattern.picture.u, &out.u, inside_of(mouth, &YuvColour::u, {})},

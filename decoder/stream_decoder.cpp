@@ -16,7 +16,7 @@ namespace {
 /// Adds where in the stream the packet began.
 tl::unexpected<Error> at(const Packet& packet, Error error) {
   error.byte_offset = packet.offset;
-  return tl::unexpected<Error>(std::move(error));
+  return fail(std::move(error));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     if (!read) {
       damaged_ = true;
       if (motion_) motion_->lose();
-      return tl::unexpected<Error>(read.error());
+      return fail(read.error());
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
@@ -49,7 +49,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     damaged_ = false;
     count(read->packet);
-    if (auto taken = take(read->packet); !taken) return tl::unexpected<Error>(taken.error());
+    if (auto taken = take(read->packet); !taken) return fail(taken.error());
   }
   state_ = waiting_.front();
   waiting_.pop_front();

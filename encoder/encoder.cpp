@@ -34,7 +34,7 @@ struct Encoder::Impl {
     if (settings.marks) return settings.marks;
     const auto faces = finder.find(picture);
     if (faces.size() <= static_cast<std::size_t>(settings.face)) return std::nullopt;
-    return find_marks(picture, faces[static_cast<std::size_t>(settings.face)]);
+    return find_marks(picture, faces[settings.face]);
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
@@ -44,7 +44,7 @@ struct Encoder::Impl {
     }
     auto begun = marks ? SceneEncoder::begin(format, settings, finder, picture, *marks)
                        : SceneEncoder::begin_without_face(format, settings, picture);
-    if (!begun) return tl::unexpected<Error>(begun.error());
+    if (!begun) return fail(begun.error());
     scene.emplace(std::move(*begun));
     face_seen = face_seen || marks.has_value();
     return {};
@@ -66,9 +66,9 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   Setup setup;
   setup.format = format;
-  if (auto checked = check_setup(setup); !checked) return tl::unexpected<Error>(checked.error());
+  if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   auto finder = FaceFinder::create();
-  if (!finder) return tl::unexpected<Error>(finder.error());
+  if (!finder) return fail(finder.error());
   auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), {}, false, 0, {}, {}});
   write_signature(impl->ready);
   return Encoder(std::move(impl));

@@ -43,7 +43,7 @@ Result<AdaptedHead> adapt_with_snakes(const Picture& picture, Marks marks) {
 }
 
 PartMask parts_of(const EncoderSettings& settings) {
-  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kInside);
+  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
   if (settings.surround)
     parts = static_cast<PartMask>(parts | mask_of(PartId::kBody) | mask_of(PartId::kGround));
   // Pupils have no curve; the fit to the picture finds them.
@@ -76,7 +76,7 @@ cv::Mat1d wrong_expression() {
 Result<std::vector<std::uint8_t>> first_pattern(const VideoFormat& format, const Picture& picture,
                                                 int quantiser) {
   auto encoder = PatternEncoder::create(format, quantiser);
-  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  if (!encoder) return fail(encoder.error());
   return encoder->encode(picture);
 }
 
@@ -98,17 +98,17 @@ SceneEncoder::SceneEncoder(const VideoFormat& format, const EncoderSettings& set
 Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const EncoderSettings& settings,
                                          const FaceFinder& finder, const Picture& first, const Marks& marks) {
   auto adapted = settings.marks ? adapt_head(marks) : adapt_with_snakes(first, marks);
-  if (!adapted) return tl::unexpected<Error>(adapted.error());
+  if (!adapted) return fail(adapted.error());
   SceneEncoder scene(format, settings);
   scene.search_.emplace(finder);
   scene.eye_distance_px_ = adapted->pose.eye_distance_px();
   scene.scene_.setup.parts = parts_of(settings);
   const WorkFrame frame = WorkFrame::cut(first, adapted->pose.shift, scene.eye_distance_px_, true);
   auto geometry = encode_geometry(adapted->geometry);
-  if (!geometry) return tl::unexpected<Error>(geometry.error());
+  if (!geometry) return fail(geometry.error());
   scene.geometry_bytes_ = std::move(geometry->payload);
   auto chosen = scene.choose_point(first);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return fail(chosen.error());
   const OperatingPoint& point = *chosen;
   scene.seen_coded_ = coded_pose(adapted->pose, point.steps);
   scene.seen_ = state_of(scene.seen_coded_, point.steps);
@@ -124,8 +124,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda);
   scene.expression_form_ = wrong_expression() * point.lambda / 2;
   scene.first_ = first;
-  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
-    return tl::unexpected<Error>(added.error());
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return fail(added.error());
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
   scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
@@ -140,10 +139,9 @@ Result<SceneEncoder> SceneEncoder::begin_without_face(const VideoFormat& format,
   scene.eye_distance_px_ = 64;  // of a face, had it one
   scene.scene_.setup.parts = mask_of(PartId::kPose);
   auto chosen = scene.choose_point(first);
-  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  if (!chosen) return fail(chosen.error());
   const OperatingPoint& point = *chosen;
-  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added)
-    return tl::unexpected<Error>(added.error());
+  if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return fail(added.error());
   scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
 }
@@ -160,12 +158,12 @@ Result<OperatingPoint> SceneEncoder::choose_point(const Picture& first) {
     const auto startup = [&](int q) {
       const auto av1 = first_pattern(scene_.setup.format, first,
                                      OperatingPoint::at(q, eye_distance_px_).pattern_quantiser);
-      if (!av1) failed = tl::unexpected<Error>(av1.error());
+      if (!av1) failed = fail(av1.error());
       return geometry_bytes_.size() + kOtherBytes + (av1 ? av1->size() : 0);
     };
     quality = quality_for(settings_.bitrate, seconds, startup);
     const double rest = settings_.bitrate - 8e-3 * static_cast<double>(startup(quality)) / seconds;
-    if (!failed) return tl::unexpected<Error>(failed.error());
+    if (!failed) return fail(failed.error());
     motion = std::max(rest, kLeastMotion * settings_.bitrate);
   }
   if (motion > 0) budget_.emplace(motion);
@@ -177,13 +175,13 @@ Result<OperatingPoint> SceneEncoder::choose_point(const Picture& first) {
 Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   const VideoFormat& format = scene_.setup.format;
   auto av1 = first_pattern(format, picture, quantiser);
-  if (!av1) return tl::unexpected<Error>(av1.error());
+  if (!av1) return fail(av1.error());
   auto decoder = PatternDecoder::create(format.width, format.height);
-  if (!decoder) return tl::unexpected<Error>(decoder.error());
+  if (!decoder) return fail(decoder.error());
   auto decoded = decoder->decode(*av1);
-  if (!decoded) return tl::unexpected<Error>(decoded.error());
+  if (!decoded) return fail(decoded.error());
   auto payload = encode_pattern({0, seen_coded_, std::move(*av1)}, scene_.setup);
-  if (!payload) return tl::unexpected<Error>(payload.error());
+  if (!payload) return fail(payload.error());
   pattern_bytes_ = std::move(*payload);
   scene_.patterns.push_back(
       {std::move(*decoded), scene_.geometry ? scene_.geometry->project(seen_) : ScreenMesh{}});
@@ -230,12 +228,12 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
     form = form_unseen(fit);
     return fit;
   }
-  Fit tracked{seen->pose, now_.light, now_.inside, now_.offsets};
+  Fit tracked{seen->pose, now_.light, now_.interior, now_.offsets};
   if (settings_.snakes) {
     features_->track(frame, tracked.pose, head_->flow());
     tracked.offsets = features_->offsets();
     for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft}) {
-      const auto c = static_cast<std::size_t>(feature(id).first_control);
+      const auto c = feature(id).first_control;
       tracked.offsets[c] = now_.offsets[c];
     }
   }
@@ -334,7 +332,7 @@ Result<void> SceneEncoder::end_group() {
                       : knots_everywhere(anchor, std::vector(durations_.size(), anchor), scene_.setup.parts);
   finish_group(group, key);
   auto payload = coder_->encode(group);
-  if (!payload) return tl::unexpected<Error>(payload.error());
+  if (!payload) return fail(payload.error());
   rate_.learn(group);
   write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, *payload);
   fits_.clear();
@@ -351,7 +349,7 @@ Result<void> SceneEncoder::start() {
     to->v = from.v;
   }
   auto setup = encode_setup(scene_.setup);
-  if (!setup) return tl::unexpected<Error>(setup.error());
+  if (!setup) return fail(setup.error());
   write_packet(ready_, PacketType::kSetup, *setup);
   if (scene_.geometry) {
     std::vector<SeenPicture> later;
@@ -361,7 +359,7 @@ Result<void> SceneEncoder::start() {
                   : still_surround();
     if (surround_) surround_->believe(map);
     auto surround = encode_surround(map);
-    if (!surround) return tl::unexpected<Error>(surround.error());
+    if (!surround) return fail(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);
     write_packet(ready_, PacketType::kSurround, *surround);
     const Geometry geometry = scene_.geometry->geometry();  // outlives the object that emplace destroys

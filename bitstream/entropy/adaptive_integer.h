@@ -27,8 +27,7 @@ std::uint32_t code_exponential(Coder& coder, ExponentialContexts& contexts, std:
   if constexpr (Coder::kReads) value = 0;
   assert(value <= kMaxExponential);
   int exponent = 0;
-  while (exponent < kMaxExponent &&
-         coder.bit(contexts.more[static_cast<std::size_t>(exponent)], (value + 1) >> (exponent + 1) != 0)) {
+  while (exponent < kMaxExponent && coder.bit(contexts.more[exponent], (value + 1) >> (exponent + 1) != 0)) {
     ++exponent;
   }
   std::uint32_t mantissa = value + 1 - (std::uint32_t{1} << exponent);

@@ -33,7 +33,7 @@ class Mixer {
     std::int64_t sum = 0;
     for (std::size_t i = 0; i < N; ++i) {
       odds[i] = stretch(inputs[i]->zero());
-      weight[i] = &weights_[i][static_cast<std::size_t>(inputs[i]->experience())];
+      weight[i] = &weights_[i][inputs[i]->experience()];
       sum += std::int64_t{odds[i]} * *weight[i];
     }
     const std::int64_t limit = std::int64_t{12} << 32;

@@ -49,7 +49,7 @@ class EarlierNeighbours {
 
  private:
   void add(std::int16_t a, std::int16_t b) {
-    auto& list = lists_[static_cast<std::size_t>(std::max(a, b))];
+    auto& list = lists_[std::max(a, b)];
     const std::int16_t earlier = std::min(a, b);
     if (std::find(list.begin(), list.end(), earlier) == list.end()) list.push_back(earlier);
   }
@@ -67,7 +67,7 @@ glm::ivec3 predicted(const HeadPoints& residuals, std::size_t vertex, Prediction
   const auto earlier = neighbours.of(vertex);
   if (prediction == Prediction::kNone || earlier.empty()) return {0, 0, 0};
   glm::ivec3 sum{0, 0, 0};
-  for (const std::int16_t v : earlier) sum += residuals[static_cast<std::size_t>(v)];
+  for (const std::int16_t v : earlier) sum += residuals[v];
   return sum / static_cast<std::int32_t>(earlier.size());  // truncated
 }
 
@@ -101,8 +101,7 @@ std::optional<Geometry> reconstruct(const Frame& frame, const HeadPoints& residu
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     const Scaled scaled = scaled_vertex(frame, v);
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t value =
-          scaled[static_cast<std::size_t>(axis)] + std::int64_t{residuals[v][axis]} * frame.step;
+      const std::int64_t value = scaled[axis] + std::int64_t{residuals[v][axis]} * frame.step;
       if (std::abs(value) > kMaxCoordinate) return std::nullopt;
       geometry.positions[v][axis] = static_cast<std::int32_t>(value);
     }
@@ -125,7 +124,7 @@ Result<std::vector<std::uint8_t>> write_payload(const Frame& frame, const HeadPo
     coded[v] = residuals[v] - predicted(residuals, v, prediction, neighbours);
   }
   const auto points = encode_points(coded);
-  if (!points) return tl::unexpected(points.error());
+  if (!points) return fail(points.error());
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
   for (const std::int32_t scale : frame.scale) writer.varint(static_cast<std::uint64_t>(scale));
@@ -162,8 +161,7 @@ Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t ste
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     const Scaled scaled = scaled_vertex(frame, v);
     for (int axis = 0; axis < 3; ++axis) {
-      residuals[v][axis] =
-          quantised(geometry.positions[v][axis], scaled[static_cast<std::size_t>(axis)], step);
+      residuals[v][axis] = quantised(geometry.positions[v][axis], scaled[axis], step);
     }
   }
   const auto decoded = reconstruct(frame, residuals);
@@ -172,7 +170,7 @@ Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t ste
   CodedGeometry best{{}, *decoded};
   for (const Prediction prediction : kPredictions) {
     auto payload = write_payload(frame, residuals, prediction);
-    if (!payload) return tl::unexpected(payload.error());
+    if (!payload) return fail(payload.error());
     if (best.payload.empty() || payload->size() < best.payload.size()) best.payload = std::move(*payload);
   }
   return best;
@@ -194,7 +192,7 @@ Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload) {
     return fail(ErrorCode::kInvalidStream, "geometry packet has a damaged header");
   }
   const auto coded = decode_points(reader.rest());
-  if (!coded) return tl::unexpected(coded.error());
+  if (!coded) return fail(coded.error());
 
   const auto residuals = undo_prediction(*coded, Prediction{prediction});
   if (!residuals) return fail(ErrorCode::kInvalidStream, "a vertex lies too far out");

@@ -78,8 +78,8 @@ bool fits(const Track& track, std::size_t part, std::int32_t pictures, const Cod
     if (knot.picture <= last) return false;
     last = knot.picture;
     for (std::size_t k = 0; k < kMaxPartSize; ++k) {
-      const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + k;
-      const bool inside = k < static_cast<std::size_t>(kPartSizes[part])
+      const std::size_t i = kPartFirst[part] + k;
+      const bool inside = k < kPartSizes[part]
                               ? knot.value[k] >= limits.least[i] && knot.value[k] <= limits.most[i]
                               : knot.value[k] == 0;
       if (!inside) return false;
@@ -126,7 +126,7 @@ void MotionCoder::count(TrackMemory memory, MotionGroup group) {
 }
 
 Result<std::vector<std::uint8_t>> MotionCoder::encode(const MotionGroup& group) {
-  if (auto checked = check_group(group, limits_); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_group(group, limits_); !checked) return fail(checked.error());
   if (needs_key_ && !group.key)
     return fail(ErrorCode::kInvalidArgument, "the first motion group must be a key group");
   if (group.anchor != anchor(group.key))

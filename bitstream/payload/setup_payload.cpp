@@ -78,7 +78,7 @@ Result<void> check_setup(const Setup& setup) {
 }
 
 Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
-  if (auto checked = check_setup(setup); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
   writer.varint(kFormatVersion);
@@ -126,8 +126,8 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
-  if (!frame_rate) return tl::unexpected(frame_rate.error());
-  if (!pixel_aspect) return tl::unexpected(pixel_aspect.error());
+  if (!frame_rate) return fail(frame_rate.error());
+  if (!pixel_aspect) return fail(pixel_aspect.error());
   if (colour >> kMatrixShift > kMaxMatrix) return fail(ErrorCode::kInvalidStream, "colour matrix is unknown");
   if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 

@@ -51,7 +51,7 @@ int code_value(Coder& coder, Contexts& contexts, const Neighbours& n, int value)
   const auto equal = static_cast<std::size_t>((n.left == n.up ? 1 : 0) | (n.up == n.up_left ? 2 : 0) |
                                               (n.up == n.up_right ? 4 : 0));
   if (!coder.bit(contexts.differs[equal], value != predicted)) return predicted;
-  auto& next = contexts.next[static_cast<std::size_t>(predicted)];
+  auto& next = contexts.next[predicted];
   const int last = predicted == kFollowOne ? kFollowOne - 1 : kFollowOne;
   std::size_t place = 0;
   for (int candidate = 0; candidate < last; ++candidate) {

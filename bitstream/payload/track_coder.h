@@ -174,8 +174,8 @@ std::int32_t TrackCoder<Coder>::span(std::size_t part, std::int32_t left, bool f
 template <class Coder>
 bool TrackCoder<Coder>::knot(std::size_t part, std::int32_t length, const Knot& from, Knot& to) {
   TrackContexts& c = contexts_;
-  const auto first = static_cast<std::size_t>(kPartFirst[part]);
-  const auto count = static_cast<std::size_t>(kPartSizes[part]);
+  const auto first = kPartFirst[part];
+  const auto count = kPartSizes[part];
   const bool moves = c.moves_mixer.code(
       coder_,
       {&c.moves_by_history[part][history_.moves[part] & 3], &c.moves_by_span[part][span_size(length)]},
@@ -206,7 +206,7 @@ template <class Coder>
 std::int32_t TrackCoder<Coder>::change(std::size_t part, std::size_t place, std::int32_t length,
                                        std::int32_t value, int coded_before, bool implied) {
   TrackContexts& c = contexts_;
-  const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + place;
+  const std::size_t i = kPartFirst[part] + place;
   const std::size_t span = span_size(length);
   const std::size_t row = part * kPlaceSizes + place_size(place);
   const std::int32_t past = history_.change[i], older = history_.older_change[i];

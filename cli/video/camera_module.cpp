@@ -91,7 +91,7 @@ Result<std::unique_ptr<VideoSource>> open_camera_source(const std::string& input
                 "cannot read " + input + ": a camera is camera:0, camera:1, ...");
   }
   auto source = std::make_unique<CameraSource>(input);
-  if (auto opened = source->open(index); !opened) return tl::unexpected(opened.error());
+  if (auto opened = source->open(index); !opened) return fail(opened.error());
   return source;
 }
 

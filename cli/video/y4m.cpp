@@ -106,7 +106,7 @@ class Y4mSource final : public VideoSource {
 
 Result<void> Y4mSource::read_header() {
   auto line = read_line();
-  if (!line) return tl::unexpected(line.error());
+  if (!line) return fail(line.error());
   if (!*line) return error(ErrorCode::kTruncated, "empty, not a Y4M stream");
   auto header = parse_y4m_header(**line);
   if (!header) return error(header.error().code, header.error().text);
@@ -117,7 +117,7 @@ Result<void> Y4mSource::read_header() {
 
 Result<std::optional<TimedPicture>> Y4mSource::next() {
   auto line = read_line();
-  if (!line) return tl::unexpected(line.error());
+  if (!line) return fail(line.error());
   if (!*line) return std::nullopt;
   const std::string& text = **line;
   if (!text.starts_with(kFrame) || (text.size() > kFrame.size() && text[kFrame.size()] != ' ')) {
@@ -131,7 +131,7 @@ Result<std::optional<TimedPicture>> Y4mSource::next() {
     if (read) read = read_plane(timed.picture.v, true);
   }
   if (read && header_.layout.has_alpha) read = skip_plane();
-  if (!read) return tl::unexpected(read.error());
+  if (!read) return fail(read.error());
   ++index_;
   return timed;
 }
@@ -218,15 +218,15 @@ Result<std::unique_ptr<VideoSource>> open_y4m_source(const std::string& input) {
   File file(piped ? stdin : std::fopen(input.c_str(), "rbe"));
   if (!file) return fail(ErrorCode::kIo, "cannot read " + name + ": " + std::strerror(errno));
   auto source = std::make_unique<Y4mSource>(name, std::move(file));
-  if (auto read = source->read_header(); !read) return tl::unexpected(read.error());
+  if (auto read = source->read_header(); !read) return fail(read.error());
   return source;
 }
 
 Result<std::unique_ptr<VideoSink>> open_y4m_sink(const std::string& output, const VideoFormat& format) {
   auto file = AtomicFile::create(output);
-  if (!file) return tl::unexpected(file.error());
+  if (!file) return fail(file.error());
   auto sink = std::make_unique<Y4mSink>(std::move(*file));
-  if (auto written = sink->write_line(y4m_header(format)); !written) return tl::unexpected(written.error());
+  if (auto written = sink->write_line(y4m_header(format)); !written) return fail(written.error());
   return sink;
 }
 

@@ -13,8 +13,8 @@ constexpr std::int32_t kQuarterTurn = 1 << 14;
 std::int32_t interpolate(const std::array<std::int32_t, 257>& table, std::int32_t index, int fraction_bits) {
   const std::int32_t i = index >> fraction_bits;
   const std::int32_t f = index & ((1 << fraction_bits) - 1);
-  if (f == 0) return table[static_cast<std::size_t>(i)];
-  const std::int32_t a = table[static_cast<std::size_t>(i)];
+  if (f == 0) return table[i];
+  const std::int32_t a = table[i];
   const std::int32_t b = table[static_cast<std::size_t>(i) + 1];
   return a + static_cast<std::int32_t>(round_shift(std::int64_t{b - a} * f, fraction_bits));
 }

@@ -16,11 +16,11 @@ constexpr std::int32_t kRingBehind = kUnitsPerEyeDistance / 2;  // head units
 /// triangles otherwise.
 void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId upper_lid,
                        FeatureId lower_lid, FeatureId pupil) {
-  const auto y_of = [&](const FeatureVertex& v) { return vertices[static_cast<std::size_t>(v.vertex)].y; };
+  const auto y_of = [&](const FeatureVertex& v) { return vertices[v.vertex].y; };
   std::int32_t upper = INT32_MIN, lower = INT32_MAX;
   for (const FeatureVertex& v : feature(upper_lid).vertices) upper = std::max(upper, y_of(v));
   for (const FeatureVertex& v : feature(lower_lid).vertices) lower = std::min(lower, y_of(v));
-  std::int32_t& y = vertices[static_cast<std::size_t>(feature(pupil).vertices.front().vertex)].y;
+  std::int32_t& y = vertices[feature(pupil).vertices.front().vertex].y;
   const std::int32_t margin = (lower - upper) / 4;
   y = lower > upper ? std::clamp(y, upper + margin, lower - margin) : upper + (lower - upper) / 2;
 }
@@ -32,9 +32,9 @@ HeadMesh make_head_mesh() {
   const std::size_t n = head.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
-    const std::int16_t a = head.outline[i], b = head.outline[j];
-    const auto ring_a = static_cast<std::int16_t>(kVertexCount + i);
-    const auto ring_b = static_cast<std::int16_t>(kVertexCount + j);
+    const std::uint16_t a = head.outline[i], b = head.outline[j];
+    const auto ring_a = static_cast<std::uint16_t>(kVertexCount + i);
+    const auto ring_b = static_cast<std::uint16_t>(kVertexCount + j);
     mesh.triangles.push_back({a, ring_a, ring_b});
     mesh.triangles.push_back({a, ring_b, b});
   }
@@ -50,15 +50,15 @@ std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertex
   std::array<glm::ivec3, kVertexCount> out = neutral;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     std::int64_t x = 0, y = 0;
-    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k) {
-      const glm::ivec2 c = state.control[static_cast<std::size_t>(head.spread[k].control)];
-      x += std::int64_t{head.spread[k].weight} * c.x;
-      y += std::int64_t{head.spread[k].weight} * c.y;
+    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k) {
+      const glm::ivec2 c = state.control[head.skinning[k].control];
+      x += std::int64_t{head.skinning[k].weight} * c.x;
+      y += std::int64_t{head.skinning[k].weight} * c.y;
     }
     out[v].x += static_cast<std::int32_t>(round_shift(x, 12));
     out[v].y += static_cast<std::int32_t>(round_shift(y, 12));
   }
-  static_assert(kSpreadOne == 1 << 12);
+  static_assert(kSkinningOne == 1 << 12);
   keep_between_lids(out, FeatureId::kUpperLidRight, FeatureId::kLowerLidRight, FeatureId::kPupilRight);
   keep_between_lids(out, FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft, FeatureId::kPupilLeft);
   return out;
@@ -71,18 +71,16 @@ std::int32_t mouth_shade(std::int32_t gap_now, std::int32_t gap_seen) {
 }
 
 std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices) {
-  const auto y_of = [&](std::size_t landmark) {
-    return vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])].y;
-  };
+  const auto y_of = [&](std::size_t landmark) { return vertices[vertex_of_landmark(landmark)].y; };
   return y_of(66) - y_of(62);
 }
 
-bool is_inner_lip(std::int16_t vertex) {
-  return vertex < kVertexCount && generic_head().vertices[static_cast<std::size_t>(vertex)].landmark >= 60;
+bool is_inner_lip(std::size_t vertex) {
+  return vertex < kVertexCount && generic_head().vertices[vertex].landmark >= 60;
 }
 
-std::int32_t mouth_ramp(std::int16_t inner_lip_vertex) {
-  const int landmark = generic_head().vertices[static_cast<std::size_t>(inner_lip_vertex)].landmark;
+std::int32_t mouth_ramp(std::size_t inner_lip_vertex) {
+  const int landmark = generic_head().vertices[inner_lip_vertex].landmark;
   return landmark == 60 || landmark == 64 ? 128 : landmark < 64 ? 0 : 256;
 }
 
@@ -94,8 +92,8 @@ const HeadMesh& head_mesh() {
 SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& seen)
     : geometry_(geometry), surround_(setup.format, std::move(map), seen) {
   const HeadProjection projection(head_pose(seen));
-  for (const std::int16_t v : generic_head().outline) {
-    const glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(v)];
+  for (const std::uint16_t v : generic_head().outline) {
+    const glm::ivec3 p = geometry_.positions[v];
     const glm::ivec3 at = projection({p.x + p.x * kRingGrowth / 256, p.y + p.y * kRingGrowth / 256, p.z});
     ring_.push_back(surround_.place({at.x, at.y}));
   }
@@ -104,7 +102,7 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
 void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {
   for (std::size_t i = 0; i < ring_.size(); ++i) {
     // Behind the outline, so that the face hides it where the head has moved over it.
-    glm::ivec3 p = geometry_.positions[static_cast<std::size_t>(generic_head().outline[i])];
+    glm::ivec3 p = geometry_.positions[generic_head().outline[i]];
     p.z += kRingBehind;
     mesh.head.emplace_back(surround_.carried(ring_[i], mesh.surround), projection(p).z);
   }
@@ -119,8 +117,8 @@ void SceneGeometry::light_vertices(const State& state, ScreenMesh& mesh) const {
     const glm::ivec3 p = geometry_.positions[v];
     const std::int64_t x = p.x, y = p.y, v_middle = y - kFaceMiddle;
     const std::int64_t slope = l[kLightSlopeX] * x + l[kLightSlopeY] * y;
-    const std::int64_t bow =
-        l[kLightBowX] * x * x + l[kLightBowY] * v_middle * v_middle + l[kLightTwist] * x * v_middle;
+    const std::int64_t bow = l[kLightQuadraticXX] * x * x + l[kLightQuadraticYY] * v_middle * v_middle +
+                             l[kLightQuadraticXY] * x * v_middle;
     const std::int64_t offset = l[kLightOffset] + round_shift(slope, 12) + round_shift(bow, 24);
     static_assert(kUnitsPerEyeDistance == 1 << 12);
     mesh.light[v] = {static_cast<std::int32_t>(std::clamp<std::int64_t>(offset, -kMaxLight, kMaxLight)),
@@ -141,7 +139,7 @@ ScreenMesh SceneGeometry::project(const State& state) const {
   surround_.project(state, mesh.surround);
   const auto vertices = deform(geometry_.positions, state);
   mesh.mouth_gap = fbs::mouth_gap(vertices);
-  mesh.inside = state.inside;
+  mesh.interior = state.interior;
   mesh.head.reserve(static_cast<std::size_t>(head_mesh().vertex_count));
   for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
   project_ring(projection, mesh);

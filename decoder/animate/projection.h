@@ -23,8 +23,8 @@ namespace fbs {
 /// The 105 vertices and the ring round them: one vertex per outline vertex, pushed outwards, that goes with
 /// the surround under it. Between the two the jaw can move against the neck without tearing.
 struct HeadMesh {
-  std::vector<std::array<std::int16_t, 3>> triangles;  ///< clockwise in the picture seen from the front
-  int vertex_count = 0;                                ///< kVertexCount + ring
+  std::vector<HeadTriangle> triangles;  ///< clockwise in the picture seen from the front
+  int vertex_count = 0;                 ///< kVertexCount + ring
 };
 
 /// How much of the mouth's inside hides what the pattern had between the lips: 0 none, 256 all, once the lips
@@ -35,9 +35,9 @@ struct HeadMesh {
 [[nodiscard]] std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices);
 
 /// Whether the vertex lies on the inner lips; a triangle of three such is the inside of the mouth.
-[[nodiscard]] bool is_inner_lip(std::int16_t vertex);
+[[nodiscard]] bool is_inner_lip(std::size_t vertex);
 /// Upper inner lip 0, corners 128, lower inner lip 256.
-[[nodiscard]] std::int32_t mouth_ramp(std::int16_t inner_lip_vertex);
+[[nodiscard]] std::int32_t mouth_ramp(std::size_t inner_lip_vertex);
 
 [[nodiscard]] const HeadMesh& head_mesh();
 
@@ -49,11 +49,11 @@ struct VertexLight {
 /// Where everything of a scene lies on the screen in one state. Also the texture coordinates of a pattern,
 /// for the state in which the pattern was seen.
 struct ScreenMesh {
-  std::vector<glm::ivec3> head;                     ///< head_mesh().vertex_count; as HeadProjection gives
-  std::vector<glm::ivec2> surround;                 ///< as Surround::project gives; empty without a face
-  std::int32_t mouth_gap = 0;                       ///< between the middles of the inner lips, head units
-  std::array<std::int32_t, kInsideCount> inside{};  ///< as State::inside
-  std::vector<VertexLight> light;                   ///< of each vertex of the head; empty: none has any
+  std::vector<glm::ivec3> head;                         ///< head_mesh().vertex_count; as HeadProjection gives
+  std::vector<glm::ivec2> surround;                     ///< as Surround::project gives; empty without a face
+  std::int32_t mouth_gap = 0;                           ///< between the middles of the inner lips, head units
+  std::array<std::int32_t, kInteriorCount> interior{};  ///< as State::interior
+  std::vector<VertexLight> light;                       ///< of each vertex of the head; empty: none has any
 };
 
 /// What is fixed for a scene with a face: the adapted head, the surround and how pattern 0 saw them.

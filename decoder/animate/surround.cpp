@@ -54,11 +54,14 @@ class HeadWay {
 };
 
 /// The way of a point of body or ground.
-glm::ivec2 flat_way(const std::array<std::int32_t, kSurroundCount>& s,
-                    const std::array<std::int32_t, kSurroundCount>& seen, glm::ivec2 from_head) {
-  const std::int64_t growth = s[kGrowth] - seen[kGrowth], turn = s[kTurn] - seen[kTurn];
-  return {clamp_screen(s[kWayX] - seen[kWayX] + round_shift(growth * from_head.x - turn * from_head.y, 8)),
-          clamp_screen(s[kWayY] - seen[kWayY] + round_shift(growth * from_head.y + turn * from_head.x, 8))};
+glm::ivec2 flat_way(const std::array<std::int32_t, kSimilarityCount>& s,
+                    const std::array<std::int32_t, kSimilarityCount>& seen, glm::ivec2 from_head) {
+  const std::int64_t growth = s[kSimilarityScale] - seen[kSimilarityScale],
+                     turn = s[kSimilarityRotation] - seen[kSimilarityRotation];
+  return {clamp_screen(s[kDisplacementX] - seen[kDisplacementX] +
+                       round_shift(growth * from_head.x - turn * from_head.y, 8)),
+          clamp_screen(s[kDisplacementY] - seen[kDisplacementY] +
+                       round_shift(growth * from_head.y + turn * from_head.x, 8))};
 }
 
 }  // namespace
@@ -102,7 +105,7 @@ Surround::Surround(const VideoFormat& format, SurroundMap map, const State& seen
       const Cell cell = {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
       int rank = 0;
       for (const int i : cell) {
-        const Point& p = points_[static_cast<std::size_t>(i)];
+        const Point& p = points_[i];
         rank += 2 * kFollowOne * p.head + p.body;
       }
       cells_.push_back(cell);
@@ -148,8 +151,7 @@ Surround::Place Surround::place(glm::ivec2 seen) const {
   while (column + 1 < map_.columns && points_[index(column + 1, 0)].seen.x <= inside.x) ++column;
   while (row + 1 < map_.rows && points_[index(0, row + 1)].seen.y <= inside.y) ++row;
   Place p{seen, {}, 0, 0};
-  for (int i = 0; i < 4; ++i)
-    p.corner[static_cast<std::size_t>(i)] = static_cast<int>(index(column + i % 2, row + i / 2));
+  for (int i = 0; i < 4; ++i) p.corner[i] = static_cast<int>(index(column + i % 2, row + i / 2));
   const glm::ivec2 low = points_[index(column, row)].seen, high = points_[index(column + 1, row + 1)].seen;
   p.across = (inside.x - low.x) * 256 / (high.x - low.x);
   p.down = (inside.y - low.y) * 256 / (high.y - low.y);

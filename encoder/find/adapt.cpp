@@ -25,7 +25,7 @@ double behind_eyes(std::size_t v) {
 }
 
 double area(const Points& p, const HeadTriangle& t) {
-  const auto at = [&](int i) { return p[static_cast<std::size_t>(t[static_cast<std::size_t>(i)])]; };
+  const auto at = [&](int i) { return p[t[i]]; };
   const glm::dvec2 a = at(1) - at(0), b = at(2) - at(0);
   return a.x * b.y - a.y * b.x;
 }

@@ -89,8 +89,7 @@ double generic_eye_depth() {
   static const double depth = [] {
     const GenericHead& head = generic_head();
     double sum = 0;
-    for (std::size_t k = 36; k < 48; ++k)
-      sum += head.vertices[static_cast<std::size_t>(head.landmark_vertex[k])].position.z;
+    for (std::size_t k = 36; k < 48; ++k) sum += head.vertices[vertex_of_landmark(k)].position.z;
     return sum / 12 / kUnitsPerEyeDistance;
   }();
   return depth;
@@ -98,9 +97,8 @@ double generic_eye_depth() {
 
 glm::dvec3 generic_landmark(int ibug) {
   const GenericHead& head = generic_head();
-  const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(ibug)];
-  return glm::dvec3(head.vertices[static_cast<std::size_t>(v)].position) /
-             static_cast<double>(kUnitsPerEyeDistance) -
+  const std::size_t v = vertex_of_landmark(ibug);
+  return glm::dvec3(head.vertices[v].position) / static_cast<double>(kUnitsPerEyeDistance) -
          glm::dvec3(0, 0, generic_eye_depth());
 }
 

@@ -77,8 +77,8 @@ double side_evidence(const FaceFrame& f, double turn, double shift) {
 
 }  // namespace
 
-FaceTurn find_turn(const FaceFrame& f) {
-  FaceTurn best;
+FaceYaw estimate_yaw(const FaceFrame& f) {
+  FaceYaw best;
   double best_score = -1e30;
   for (double shift = -kMostShift; shift <= kMostShift; shift += kStep) {
     for (double turn = -kMostTurn; turn <= kMostTurn; turn += kStep) {

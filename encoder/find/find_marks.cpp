@@ -55,13 +55,11 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
     upto[i + 1] = {upto[i].y + y, upto[i].yy + y * y, upto[i].r + r, upto[i].rr + r * r};
   }
   const auto spread = [&](int from, int to) {  // squared deviations within [from, to)
-    const Sums &a = upto[static_cast<std::size_t>(from)], &b = upto[static_cast<std::size_t>(to)];
+    const Sums &a = upto[from], &b = upto[to];
     const double n = to - from, y = b.y - a.y, r = b.r - a.r;
     return b.yy - a.yy - y * y / n + b.rr - a.rr - r * r / n;
   };
-  const auto mean_red = [&](int from, int to) {
-    return (upto[static_cast<std::size_t>(to)].r - upto[static_cast<std::size_t>(from)].r) / (to - from);
-  };
+  const auto mean_red = [&](int from, int to) { return (upto[to].r - upto[from].r) / (to - from); };
   const auto squared = [](double v) { return v * v; };
   double best = 1e30;
   std::array<int, 4> found{};
@@ -96,7 +94,7 @@ void find_lip_borders(const FaceFrame& f, double middle, MouthMarks& m) {
 }
 
 /// @param turn  of the face: the mouth's middle lies aside by its depth
-MouthMarks find_mouth(const FaceFrame& f, const FaceTurn& turn) {
+MouthMarks find_mouth(const FaceFrame& f, const FaceYaw& turn) {
   MouthMarks m;
   const double middle = turn.shift + turn.tangent * generic_landmark(62).z;
   const double nose = turn.shift + turn.tangent * generic_landmark(33).z;
@@ -221,7 +219,7 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
   const glm::dvec2 down(-across.y, across.x);
   const glm::dvec2 bias = face.eyes_seen ? kEyeBiasX * across + kEyeBiasY * down : glm::dvec2(0);
   const FaceFrame f(picture, face.right_eye + bias, face.left_eye + bias);
-  const FaceTurn turn = find_turn(f);
+  const FaceYaw turn = estimate_yaw(f);
   // Where a landmark of the generic head is seen, turned.
   const auto usual = [&](int ibug) {
     const glm::dvec3 g = generic_landmark(ibug);
@@ -230,7 +228,7 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
 
   Marks marks;
   const auto set = [&](int ibug, glm::dvec2 p) { marks.set_landmark(ibug, f.to_picture(p)); };
-  for (int k = 36; k < 48; ++k) set(k, {usual(k).x, kLidHeight[static_cast<std::size_t>(k - 36)]});
+  for (int k = 36; k < 48; ++k) set(k, {usual(k).x, kLidHeight[k - 36]});
 
   const MouthMarks mouth = find_mouth(f, turn);
   for (int k = 48; k < 68; ++k) set(k, place_lip(mouth, k));
@@ -238,13 +236,12 @@ Marks find_marks(const Picture& picture, const FoundFace& face) {
   for (const int first : {17, 22}) {
     std::array<double, 5> xs{}, ridge{};
     for (int i = 0; i < 5; ++i) {
-      xs[static_cast<std::size_t>(i)] = usual(first + i).x;
-      ridge[static_cast<std::size_t>(i)] = usual(first + i).y + kBrowHalfWidth;
+      xs[i] = usual(first + i).x;
+      ridge[i] = usual(first + i).y + kBrowHalfWidth;
     }
     const auto ys = find_brow(f, xs, ridge);
     // What is found is the brow's middle; its landmarks lie on the upper border.
-    for (int i = 0; i < 5; ++i)
-      set(first + i, {xs[static_cast<std::size_t>(i)], ys[static_cast<std::size_t>(i)] - kBrowHalfWidth});
+    for (int i = 0; i < 5; ++i) set(first + i, {xs[i], ys[i] - kBrowHalfWidth});
   }
 
   // The nose's base goes with the upper lip; nostrils and the shadow under the tip are dark.

@@ -10,7 +10,7 @@ namespace fbs {
 namespace {
 
 std::size_t vertex_of(int ibug) {
-  return static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)]);
+  return vertex_of_landmark(ibug);
 }
 
 std::optional<glm::dvec2> point_of(const nlohmann::json& j) {
@@ -25,7 +25,7 @@ Result<Marks> landmarks_of(const nlohmann::json& list) {
     return fail(ErrorCode::kInvalidArgument, "\"landmarks\" does not hold 68 points");
   Marks marks;
   for (int k = 0; k < kLandmarkCount; ++k) {
-    const auto p = point_of(list[static_cast<std::size_t>(k)]);
+    const auto p = point_of(list[k]);
     if (!p) return fail(ErrorCode::kInvalidArgument, "landmark " + std::to_string(k) + " is not [x, y]");
     marks.set_landmark(k, *p);
   }
@@ -79,7 +79,7 @@ Result<Marks> read_marks(const std::string& path) {
       return fail(ErrorCode::kInvalidArgument, "no vertex is named \"" + name + "\"");
     const auto p = point_of(value);
     if (!p) return fail(ErrorCode::kInvalidArgument, "\"" + name + "\" is not [x, y]");
-    marks.vertex[static_cast<std::size_t>(found - vertices.begin())] = *p;
+    marks.vertex[found - vertices.begin()] = *p;
   }
   const auto eyes = marks.eyes();
   if (!eyes) return fail(ErrorCode::kInvalidArgument, "no mark on one of the eyes");

@@ -69,7 +69,7 @@ double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
 }
 
 /// Normal equations of the points of one triangle, which few control points move: dense, in single precision.
-constexpr std::size_t kMostColumns = kPoseCount + kLightCount + kInsideCount + 2 * kControlCount;
+constexpr std::size_t kMostColumns = kPoseCount + kLightCount + kInteriorCount + 2 * kControlCount;
 struct Block {
   std::size_t n = 0;
   alignas(32) std::array<float, kMostColumns> row;
@@ -103,7 +103,7 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
   for (std::size_t p = 0; p < kExpressionPartCount; ++p) {
     if ((setup.parts >> (kFirstExpressionPart + static_cast<int>(p)) & 1) == 0) continue;
     for (int c = 0; c < head.expression[p].control_count; ++c) {
-      column_[static_cast<std::size_t>(head.expression[p].first_control + c)] = unknowns_;
+      column_[head.expression[p].first_control + c] = unknowns_;
       unknowns_ += 2;
     }
   }
@@ -114,7 +114,7 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
   points_ = spread_over_mesh(vertices, projection, spacing, kMouthRows);
   points_on_triangle_.assign(head.triangles.size(), 0);
   for (const SurfacePoint& p : points_) {
-    ++points_on_triangle_[static_cast<std::size_t>(p.triangle)];
+    ++points_on_triangle_[p.triangle];
     const bool inside_mouth = std::all_of(p.corner.begin(), p.corner.end(), is_inner_lip);
     float ramp = -1;
     if (inside_mouth) {
@@ -139,8 +139,8 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const WorkF
     for (const SurfacePoint& p : points_) {
       Sample s;
       const glm::dvec2 at = on_level(pattern.to_work(projection(p.on(vertices))), level);
-      const bool inside = sample_with_slope(luma[static_cast<std::size_t>(level)], at, s);
-      pattern_luma_[static_cast<std::size_t>(level)].push_back(inside ? static_cast<float>(s.value) : -1.0F);
+      const bool inside = sample_with_slope(luma[level], at, s);
+      pattern_luma_[level].push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
 }
@@ -153,9 +153,8 @@ PictureFit::Patch PictureFit::patch_of(std::size_t first, std::size_t end) const
   std::array<std::array<double, kControlCount>, 3> weight{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto v = static_cast<std::size_t>(corner[i]);
-    for (std::size_t w = head.spread_begin[v]; w < head.spread_begin[v + 1]; ++w)
-      weight[i][static_cast<std::size_t>(head.spread[w].control)] =
-          head.spread[w].weight / static_cast<double>(kSpreadOne);
+    for (std::size_t w = head.skinning_begin[v]; w < head.skinning_begin[v + 1]; ++w)
+      weight[i][head.skinning[w].control] = head.skinning[w].weight / static_cast<double>(kSkinningOne);
   }
   for (std::size_t c = 0; c < kControlCount; ++c)
     if (column_[c] >= 0 &&
@@ -165,24 +164,21 @@ PictureFit::Patch PictureFit::patch_of(std::size_t first, std::size_t end) const
     for (const std::int16_t control : patch.controls) {
       double share = 0;
       for (std::size_t i = 0; i < 3; ++i)
-        share +=
-            static_cast<double>(points_[k].barycentric[i]) * weight[i][static_cast<std::size_t>(control)];
+        share += static_cast<double>(points_[k].barycentric[i]) * weight[i][control];
       patch.shares.push_back(static_cast<float>(share));
     }
   return patch;
 }
 
 PictureFit::Lid PictureFit::lid_of(FeatureId id, int lower_landmark) const {
-  const GenericHead& head = generic_head();
   const Feature& f = feature(id);
   Lid lid;
-  lid.first_control = static_cast<std::size_t>(f.first_control);
+  lid.first_control = f.first_control;
   double upper = 0, lower = 0;
-  for (const FeatureVertex& fv : f.vertices)
-    upper += geometry_.positions[static_cast<std::size_t>(fv.vertex)].y;
+  for (const FeatureVertex& fv : f.vertices) upper += geometry_.positions[fv.vertex].y;
   for (const int k : {lower_landmark, lower_landmark + 1}) {
-    const std::int16_t v = head.landmark_vertex[static_cast<std::size_t>(k)];
-    lower += geometry_.positions[static_cast<std::size_t>(v)].y;
+    const std::size_t v = vertex_of_landmark(k);
+    lower += geometry_.positions[v].y;
   }
   // Both free control points of the cubic have two thirds of the say at its vertices.
   lid.travel = 1.5 * (0.5 * (lower - upper) - kLidsApart * kUnitsPerEyeDistance);
@@ -211,11 +207,8 @@ double PictureFit::lid_difference(const Lid& lid, const Fit& fit) const {
     const SurfacePoint& p = points_[k];
     if (p.triangle != triangle) {
       triangle = p.triangle;
-      const auto corner = [&](std::size_t i) {
-        return projection(vertices[static_cast<std::size_t>(p.corner[i])]);
-      };
-      weight = visible_area(corner(0), corner(1), corner(2)) /
-               points_on_triangle_[static_cast<std::size_t>(triangle)];
+      const auto corner = [&](std::size_t i) { return projection(vertices[p.corner[i]]); };
+      weight = visible_area(corner(0), corner(1), corner(2)) / points_on_triangle_[triangle];
     }
     const double value = shown(k, kLevel, 0, fit);
     Sample s;
@@ -269,12 +262,12 @@ std::array<double, kLightCount> PictureFit::light_at(std::size_t point, double p
   return {1, (pattern - 128) / 64, p.x, p.y, p.x * p.x, v * v, p.x * v};
 }
 
-std::array<double, kInsideCount> PictureFit::inside_at(double ramp) {
+std::array<double, kInteriorCount> PictureFit::inside_at(double ramp) {
   return {std::max(0.0, 1 - 2 * ramp), 1 - std::abs(2 * ramp - 1), std::max(0.0, 2 * ramp - 1)};
 }
 
 double PictureFit::shown(std::size_t point, int level, std::int32_t shade, const Fit& fit) const {
-  double value = static_cast<double>(pattern_luma_[static_cast<std::size_t>(level)][point]);
+  double value = static_cast<double>(pattern_luma_[level][point]);
   if (value < 0) return value;
   const auto light = light_at(point, value);
   for (std::size_t i = 0; i < kLightCount; ++i) value += fit.light[i] * light[i];
@@ -283,9 +276,9 @@ double PictureFit::shown(std::size_t point, int level, std::int32_t shade, const
   if (ramp < 0 || shade == 0) return value;
   const auto shares = inside_at(ramp);
   const double upper = mouth_.upper.y, lower = mouth_.lower.y;
-  const std::array<double, kInsideCount> luma = {upper, 0.5 * (upper + lower), lower};
+  const std::array<double, kInteriorCount> luma = {upper, 0.5 * (upper + lower), lower};
   double inside = 0;
-  for (std::size_t i = 0; i < kInsideCount; ++i) inside += shares[i] * (luma[i] + fit.inside[i]);
+  for (std::size_t i = 0; i < kInteriorCount; ++i) inside += shares[i] * (luma[i] + fit.interior[i]);
   return (value * (256 - shade) + inside * shade) / 256;
 }
 
@@ -300,10 +293,9 @@ HeadVertices PictureFit::deformed(const Fit& fit) const {
   HeadVertices out;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     glm::dvec2 d(0);
-    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-      d += static_cast<double>(head.spread[k].weight) *
-           fit.offsets[static_cast<std::size_t>(head.spread[k].control)];
-    out[v] = glm::dvec3(geometry_.positions[v]) + glm::dvec3(d / static_cast<double>(kSpreadOne), 0);
+    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
+      d += static_cast<double>(head.skinning[k].weight) * fit.offsets[head.skinning[k].control];
+    out[v] = glm::dvec3(geometry_.positions[v]) + glm::dvec3(d / static_cast<double>(kSkinningOne), 0);
   }
   return out;
 }
@@ -324,9 +316,9 @@ void PictureFit::add_priors(const Fit& start, const Fit& fit, Normal& normal) co
     believe(kPoseCount + i, fit.light[i] - start.light[i], kLightNear);
     believe(kPoseCount + i, fit.light[i], kLightRest);
   }
-  for (std::size_t i = 0; i < kInsideCount; ++i) {
-    believe(kFirstInsideColumn + i, fit.inside[i] - start.inside[i], kInsideNear);
-    believe(kFirstInsideColumn + i, fit.inside[i], kInsideRest);
+  for (std::size_t i = 0; i < kInteriorCount; ++i) {
+    believe(kFirstInsideColumn + i, fit.interior[i] - start.interior[i], kInsideNear);
+    believe(kFirstInsideColumn + i, fit.interior[i], kInsideRest);
   }
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
@@ -360,7 +352,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
   std::array<glm::ivec3, kVertexCount> rounded;
   for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
   const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
-  const auto& seen = pattern_luma_[static_cast<std::size_t>(level)];
+  const auto& seen = pattern_luma_[level];
   Block block;
   for (const Patch& patch : patches_) {
     block.begin(kFirstControlColumn + 2 * patch.controls.size());
@@ -370,8 +362,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
       if (value < 0) continue;
       const glm::dvec3 p = points_[k].on(vertices);
       Sample s;
-      if (!sample_with_slope(luma_[static_cast<std::size_t>(level)],
-                             on_level(picture_.to_work(jacobian.projection()(p)), level), s))
+      if (!sample_with_slope(luma_[level], on_level(picture_.to_work(jacobian.projection()(p)), level), s))
         continue;
       const double r = value - static_cast<double>(s.value);
       const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
@@ -394,7 +385,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
     const auto column = [&](std::size_t i) {
       if (i < kFirstControlColumn) return i;
       const std::size_t c = i - kFirstControlColumn;
-      return static_cast<std::size_t>(column_[static_cast<std::size_t>(patch.controls[c / 2])]) + c % 2;
+      return static_cast<std::size_t>(column_[patch.controls[c / 2]]) + c % 2;
     };
     for (std::size_t i = 0; i < block.n; ++i) {
       normal.right[column(i)] += static_cast<double>(block.right[i]);
@@ -412,8 +403,8 @@ bool PictureFit::step(int level, const Fit& start, Fit& fit) const {
   cv::completeSymm(left);
   if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return false;
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
-  for (int i = 0; i < kLightCount; ++i) fit.light[static_cast<std::size_t>(i)] += x(kPoseCount + i);
-  for (int i = 0; i < kInsideCount; ++i) fit.inside[static_cast<std::size_t>(i)] += x(kFirstInsideColumn + i);
+  for (int i = 0; i < kLightCount; ++i) fit.light[i] += x(kPoseCount + i);
+  for (int i = 0; i < kInteriorCount; ++i) fit.interior[i] += x(kFirstInsideColumn + i);
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (column_[c] < 0) continue;
     for (int axis = 0; axis < 2; ++axis)
@@ -470,15 +461,13 @@ FitForm PictureFit::form_at(const Fit& fit) const {
   cv::Mat1d all(unknowns_, unknowns_, normal.left.data());
   cv::completeSymm(all);
   std::vector<int> place(static_cast<std::size_t>(unknowns_));
-  for (int i = 0; i < kFitOffsets; ++i) place[static_cast<std::size_t>(i)] = i;
+  for (int i = 0; i < kFitOffsets; ++i) place[i] = i;
   for (int c = 0; c < kControlCount; ++c)
     for (int axis = 0; axis < 2; ++axis)
-      if (const int column = column_[static_cast<std::size_t>(c)]; column >= 0)
-        place[static_cast<std::size_t>(column + axis)] = kFitOffsets + 2 * c + axis;
+      if (const int column = column_[c]; column >= 0) place[column + axis] = kFitOffsets + 2 * c + axis;
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
   for (int i = 0; i < unknowns_; ++i)
-    for (int j = 0; j < unknowns_; ++j)
-      own(place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)]) = all(i, j);
+    for (int j = 0; j < unknowns_; ++j) own(place[i], place[j]) = all(i, j);
   // add_picture() weighs by the noise and counts points, each of which stands for so many samples.
   const double samples = kPointSpacing * kPointSpacing / (picture_.scale * picture_.scale);
   return form_of(fit, cv::Mat1d(own * samples * kNoise * kNoise));

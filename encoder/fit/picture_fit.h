@@ -46,7 +46,7 @@ class PictureFit {
  private:
   static constexpr int kLevels = 2;
   static constexpr int kFirstInsideColumn = kPoseCount + kLightCount;
-  static constexpr int kFirstControlColumn = kFirstInsideColumn + kInsideCount;
+  static constexpr int kFirstControlColumn = kFirstInsideColumn + kInteriorCount;
   /// The points of one triangle, and how the control points that move it move each.
   struct Patch {
     std::size_t first, end;              ///< points
@@ -84,7 +84,7 @@ class PictureFit {
   /// What one unit of each light adds at a point.
   [[nodiscard]] std::array<double, kLightCount> light_at(std::size_t point, double pattern) const;
   /// Shares of the numbers of the mouth's inside at a place of the ramp from upper (0) to lower lip (1).
-  [[nodiscard]] static std::array<double, kInsideCount> inside_at(double ramp);
+  [[nodiscard]] static std::array<double, kInteriorCount> inside_at(double ramp);
   /// Robust mean of squared differences on the fine level.
   [[nodiscard]] double difference(const Fit& fit) const;
 

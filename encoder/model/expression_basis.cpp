@@ -16,8 +16,7 @@ const std::array<Block, kExpressionPartCount>& blocks() {
       const ExpressionPart& part = generic_head().expression[p];
       const int n = 2 * part.control_count;
       cv::Mat1d rows(n, n);
-      for (int i = 0; i < n * n; ++i)
-        rows(i / n, i % n) = part.rows[static_cast<std::size_t>(i)] / static_cast<double>(kSpreadOne);
+      for (int i = 0; i < n * n; ++i) rows(i / n, i % n) = part.rows[i] / static_cast<double>(kSkinningOne);
       out[p] = {2 * part.first_control, rows, cv::Mat1d(rows.inv())};
     }
     return out;
@@ -33,10 +32,10 @@ std::array<double, kCoefficientCount> to_coefficients(const Offsets& offsets) {
     for (int k = 0; k < b.inverse.cols; ++k) {
       double sum = 0;
       for (int c = 0; c < b.inverse.rows; ++c) {
-        const glm::dvec2& o = offsets[static_cast<std::size_t>((b.first + c) / 2)];
+        const glm::dvec2& o = offsets[(b.first + c) / 2];
         sum += b.inverse(c, k) * (c % 2 == 0 ? o.x : o.y);
       }
-      out[static_cast<std::size_t>(b.first + k)] = sum;
+      out[b.first + k] = sum;
     }
   }
   return out;

@@ -75,9 +75,7 @@ const std::vector<Action>& actions() {
 }
 
 Place place_of(const GenericHead& head, FeatureId id, std::size_t v) {
-  const auto at = [&](std::size_t landmark) {
-    return head.vertices[static_cast<std::size_t>(head.landmark_vertex[landmark])].position;
-  };
+  const auto at = [&](std::size_t landmark) { return head.vertices[vertex_of_landmark(landmark)].position; };
   const HeadVertex& vertex = head.vertices[v];
   Place p{.feature = id};
   if (p.is_brow()) {
@@ -97,7 +95,7 @@ cv::Mat1d precision() {
   for (const FeatureId id :
        {FeatureId::kMouthOuter, FeatureId::kMouthInner, FeatureId::kBrowRight, FeatureId::kBrowLeft}) {
     for (const FeatureVertex& fv : feature(id).vertices) {
-      vertices.push_back(static_cast<std::size_t>(fv.vertex));
+      vertices.push_back(fv.vertex);
       places.push_back(place_of(head, id, vertices.back()));
     }
   }
@@ -105,10 +103,10 @@ cv::Mat1d precision() {
   const int n = static_cast<int>(vertices.size());
   cv::Mat1d follow = cv::Mat1d::zeros(n, kControls);
   for (int i = 0; i < n; ++i) {
-    const std::size_t v = vertices[static_cast<std::size_t>(i)];
-    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-      if (head.spread[k].control < kControls)
-        follow(i, head.spread[k].control) = head.spread[k].weight / static_cast<double>(kSpreadOne);
+    const std::size_t v = vertices[i];
+    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
+      if (head.skinning[k].control < kControls)
+        follow(i, head.skinning[k].control) = head.skinning[k].weight / static_cast<double>(kSkinningOne);
   }
   // An action in control points: those that move the vertices as it says.
   const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
@@ -116,7 +114,7 @@ cv::Mat1d precision() {
   for (const Action& action : actions()) {
     cv::Mat1d moved(n, 2), offsets;
     for (int i = 0; i < n; ++i) {
-      const glm::dvec2 d = action(places[static_cast<std::size_t>(i)]);
+      const glm::dvec2 d = action(places[i]);
       moved(i, 0) = d.x;
       moved(i, 1) = d.y;
     }

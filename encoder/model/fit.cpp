@@ -19,7 +19,7 @@ std::array<double, kParameterCount> values_of(const Fit& fit) {
   const auto pose = numbers_of(fit.pose);
   auto to = std::copy(pose.begin(), pose.end(), out.begin());
   for (const double light : fit.light) *to++ = 16 * light;
-  for (const double inside : fit.inside) *to++ = 16 * inside;
+  for (const double inside : fit.interior) *to++ = 16 * inside;
   const auto expression = to_coefficients(fit.offsets);
   std::copy(expression.begin(), expression.end(), out.begin() + kFirstCoefficient);
   return out;
@@ -33,7 +33,7 @@ State state_of(const Fit& fit) {
   const auto pose = numbers_of(fit.pose);
   std::transform(pose.begin(), pose.end(), state.pose.begin(), whole);
   for (std::size_t i = 0; i < kLightCount; ++i) state.light[i] = whole(16 * fit.light[i]);
-  for (std::size_t i = 0; i < kInsideCount; ++i) state.inside[i] = whole(16 * fit.inside[i]);
+  for (std::size_t i = 0; i < kInteriorCount; ++i) state.interior[i] = whole(16 * fit.interior[i]);
   for (std::size_t c = 0; c < kControlCount; ++c)
     state.control[c] = {whole(fit.offsets[c].x), whole(fit.offsets[c].y)};
   return state;
@@ -48,8 +48,7 @@ FitForm form_unseen(const Fit& fit) {
                                              unit.roll * eye,  unit.shift.x,
                                              unit.shift.y,     unit.log2_scale * eye * std::numbers::ln2};
   FitForm out{values_of(fit), cv::Mat1d::zeros(kParameterCount, kParameterCount)};
-  for (int i = 0; i < kPoseCount; ++i)
-    out.form(i, i) = kSamples * px[static_cast<std::size_t>(i)] * px[static_cast<std::size_t>(i)];
+  for (int i = 0; i < kPoseCount; ++i) out.form(i, i) = kSamples * px[i] * px[i];
   return out;
 }
 
@@ -59,8 +58,8 @@ FitForm form_of(const Fit& fit, const cv::Mat1d& fitted) {
   std::fill(unit.begin() + kPoseCount, unit.end(), 1 / 16.0);
   cv::Mat1d own = fitted.clone();
   for (int i = 0; i < kFitOffsets; ++i) {
-    own.row(i) *= unit[static_cast<std::size_t>(i)];
-    own.col(i) *= unit[static_cast<std::size_t>(i)];
+    own.row(i) *= unit[i];
+    own.col(i) *= unit[i];
   }
   const cv::Range ours(0, kFitOffsets), offsets(kFitOffsets, kFitNumbers);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);

@@ -14,7 +14,7 @@ namespace fbs {
 struct Fit {
   Pose pose;
   std::array<double, kLightCount> light{};
-  std::array<double, kInsideCount> inside{};
+  std::array<double, kInteriorCount> interior{};
   Offsets offsets{};
 };
 
@@ -34,7 +34,7 @@ struct FitForm {
 
 /// Numbers of a fit in the order in which PictureFit solves for them: pose (radians, pixels, log2), light,
 /// the mouth's inside, offsets.
-inline constexpr int kFitOffsets = kPoseCount + kLightCount + kInsideCount;
+inline constexpr int kFitOffsets = kPoseCount + kLightCount + kInteriorCount;
 inline constexpr int kFitNumbers = kFitOffsets + kCoefficientCount;
 
 /// @param own  kFitNumbers x kFitNumbers, symmetric: the form over the fit's own numbers

@@ -24,8 +24,7 @@ PoseJacobian::PoseJacobian(const Pose& pose) : projection_(pose) {
   for (int k = 0; k < 3; ++k) {
     PoseStep d;
     d[k] = kStep;
-    by_angle_[static_cast<std::size_t>(k)] =
-        (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
+    by_angle_[k] = (PoseProjection(moved(pose, d)).matrix - projection_.matrix) / kStep;
   }
 }
 

@@ -14,14 +14,14 @@ using HeadVertices = std::array<glm::dvec3, kVertexCount>;  ///< head units
 
 /// A point fixed on a triangle of the mesh.
 struct SurfacePoint {
-  std::int16_t triangle;
-  std::array<std::int16_t, 3> corner;
+  std::uint16_t triangle;
+  HeadTriangle corner;
   std::array<float, 3> barycentric;
 
   [[nodiscard]] glm::dvec3 on(const HeadVertices& v) const {
-    return static_cast<double>(barycentric[0]) * v[static_cast<std::size_t>(corner[0])] +
-           static_cast<double>(barycentric[1]) * v[static_cast<std::size_t>(corner[1])] +
-           static_cast<double>(barycentric[2]) * v[static_cast<std::size_t>(corner[2])];
+    return static_cast<double>(barycentric[0]) * v[corner[0]] +
+           static_cast<double>(barycentric[1]) * v[corner[1]] +
+           static_cast<double>(barycentric[2]) * v[corner[2]];
   }
 };
 

@@ -11,7 +11,7 @@ constexpr std::int64_t kEnough = 3;  // pictures
 constexpr int kSteps = 24;           // along the middle line
 
 glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::size_t landmark) {
-  const glm::ivec3 p = vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])];
+  const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
   return glm::dvec2(p.x, p.y) / 64.0;
 }
 

@@ -54,8 +54,8 @@ class Plan {
   using Row = std::array<double, kN>;
 
   [[nodiscard]] bool coded(std::size_t part) const { return (limits_.parts >> part & 1) != 0; }
-  static std::size_t first(std::size_t part) { return static_cast<std::size_t>(kPartFirst[part]); }
-  static std::size_t size(std::size_t part) { return static_cast<std::size_t>(kPartSizes[part]); }
+  static std::size_t first(std::size_t part) { return kPartFirst[part]; }
+  static std::size_t size(std::size_t part) { return kPartSizes[part]; }
 
   [[nodiscard]] Knot anchor_of(std::size_t part) const { return anchor_knot(group_.anchor, part); }
 
@@ -113,26 +113,26 @@ class Plan {
     std::vector<Way> best(static_cast<std::size_t>(n) + 1);
     best[0] = {0, 0, 0};
     Way end;  // holding to the end
-    const auto value = [&](int k) -> const Values& { return at[static_cast<std::size_t>(k)]; };
+    const auto value = [&](int k) -> const Values& { return at[k]; };
     const auto bits = [&](const Values& a, const Values& b, int to) {
       return lambda_ * rate_.knot(part, Knot{0, a}, Knot{to - 1, b}, n);
     };
     for (int from = 0; from < n; ++from) {
-      const double before = best[static_cast<std::size_t>(from)].cost;
+      const double before = best[from].cost;
       double held = 0;
       for (int to = from + 1; to <= n; ++to) {
         const auto offer = [&](double cost, int held_to) {
-          Way& w = best[static_cast<std::size_t>(to)];
+          Way& w = best[to];
           if (cost < w.cost) w = {cost, from, held_to};
         };
         const double cost = before + bits(value(from), value(to), to);
-        if (cost < best[static_cast<std::size_t>(to)].cost)
+        if (cost < best[to].cost)
           offer(cost + span_distortion(part, from - 1, value(from), to - 1, value(to)), from);
         // Held until the picture before `to`.
         if (to - 1 > from) {
           const double jump =
               before + held + bits(value(from), value(from), to - 1) + bits(value(from), value(to), to);
-          if (jump < best[static_cast<std::size_t>(to)].cost)
+          if (jump < best[to].cost)
             offer(jump + span_distortion(part, to - 2, value(from), to - 1, value(to)), to - 1);
         }
         std::array<double, kMaxPartSize> x{};
@@ -144,12 +144,12 @@ class Plan {
     }
     Track& track = group_.tracks[part];
     int k = n;
-    if (end.cost < best[static_cast<std::size_t>(n)].cost) {
+    if (end.cost < best[n].cost) {
       track.push_back({n - 1, value(end.from)});
       k = end.from;
     }
     while (k > 0) {
-      const Way& w = best[static_cast<std::size_t>(k)];
+      const Way& w = best[k];
       track.push_back({k - 1, value(k)});
       if (w.held_to > w.from) track.push_back({w.held_to - 1, value(w.from)});
       k = w.from;
@@ -218,8 +218,8 @@ class Plan {
     const std::size_t i = first(part) + place;
     for (int t = r.first; t <= r.last; ++t) {
       const double d = by * r.share(t);
-      Row& slope = slope_[static_cast<std::size_t>(t)];
-      const float* row = &form_[static_cast<std::size_t>(t)][i * kN];
+      Row& slope = slope_[t];
+      const float* row = &form_[t][i * kN];
       for (std::size_t j = 0; j < kN; ++j) slope[j] += d * static_cast<double>(row[j]);
     }
   }
@@ -243,8 +243,8 @@ class Plan {
     double sum = 0;
     for (int t = r.first; t <= r.last; ++t) {
       const double share = r.share(t);
-      const float* form = form_[static_cast<std::size_t>(t)].data();
-      const Row& slope = slope_[static_cast<std::size_t>(t)];
+      const float* form = form_[t].data();
+      const Row& slope = slope_[t];
       for (std::size_t a = 0; a < count; ++a) {
         const std::size_t i = first(part) + moved[a];
         const double da = share * (to[moved[a]] - from[moved[a]]);
@@ -302,8 +302,7 @@ class Plan {
   [[nodiscard]] bool downhill(std::size_t part, std::size_t k, std::size_t place) const {
     const Reach r = reach(part, k);
     double slope = 0;
-    for (int t = r.first; t <= r.last; ++t)
-      slope += r.share(t) * slope_[static_cast<std::size_t>(t)][first(part) + place];
+    for (int t = r.first; t <= r.last; ++t) slope += r.share(t) * slope_[t][first(part) + place];
     return slope < 0;
   }
 
@@ -331,8 +330,7 @@ class Plan {
       const double bits = rate_.knot(part, a, c, pictures_) - rate_.knot(part, a, b, pictures_) -
                           rate_.knot(part, b, c, pictures_);
       if (distortion + lambda_ * bits < 0) {
-        for (int t = a.picture + 1; t < c.picture; ++t)
-          shift_slope(part, t, shifts[static_cast<std::size_t>(t - a.picture - 1)]);
+        for (int t = a.picture + 1; t < c.picture; ++t) shift_slope(part, t, shifts[t - a.picture - 1]);
         track.erase(track.begin() + static_cast<std::ptrdiff_t>(k));
         changed = true;
       } else {
@@ -344,8 +342,8 @@ class Plan {
 
   /// Change of the distortion at picture t when a part's numbers change by d there.
   [[nodiscard]] double shifted(std::size_t part, int t, const std::array<double, kMaxPartSize>& d) const {
-    const float* form = form_[static_cast<std::size_t>(t)].data();
-    const Row& slope = slope_[static_cast<std::size_t>(t)];
+    const float* form = form_[t].data();
+    const Row& slope = slope_[t];
     double sum = 0;
     for (std::size_t p = 0; p < size(part); ++p) {
       const std::size_t i = first(part) + p;
@@ -358,10 +356,10 @@ class Plan {
   }
 
   void shift_slope(std::size_t part, int t, const std::array<double, kMaxPartSize>& d) {
-    Row& slope = slope_[static_cast<std::size_t>(t)];
+    Row& slope = slope_[t];
     for (std::size_t p = 0; p < size(part); ++p) {
       if (d[p] == 0) continue;
-      const float* row = &form_[static_cast<std::size_t>(t)][(first(part) + p) * kN];
+      const float* row = &form_[t][(first(part) + p) * kN];
       for (std::size_t j = 0; j < kN; ++j) slope[j] += d[p] * static_cast<double>(row[j]);
     }
   }

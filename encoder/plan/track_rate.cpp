@@ -58,8 +58,8 @@ double TrackRate::knot(std::size_t part, const Knot& from, const Knot& to, std::
   const bool moves = to.value != from.value;
   double bits = span(part, moves, to.picture == pictures - 1);
   if (!moves) return bits;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(kPartSizes[part]); ++k)
-    bits += change(static_cast<std::size_t>(kPartFirst[part]) + k, to.value[k] - from.value[k]);
+  for (std::size_t k = 0; k < kPartSizes[part]; ++k)
+    bits += change(kPartFirst[part] + k, to.value[k] - from.value[k]);
   return bits;
 }
 
@@ -75,8 +75,8 @@ void TrackRate::learn(const MotionGroup& group) {
       spans_[part] += 1;
       moved_[part] += moves ? 1 : 0;
       ended_[part] += knot.picture == group.pictures - 1 ? 1 : 0;
-      for (std::size_t k = 0; moves && k < static_cast<std::size_t>(kPartSizes[part]); ++k) {
-        const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + k;
+      for (std::size_t k = 0; moves && k < kPartSizes[part]; ++k) {
+        const std::size_t i = kPartFirst[part] + k;
         const int size = std::abs(knot.value[k] - last.value[k]);
         seen_[i] += 1;
         changed_[i] += size > 0 ? 1 : 0;

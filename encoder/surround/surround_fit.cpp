@@ -102,8 +102,7 @@ class MapFit {
     std::vector<glm::dvec2> out;
     for (int r = 0; r <= map_.rows; ++r)
       for (int c = 0; c <= map_.columns; ++c)
-        out.push_back(
-            glm::dvec2(with_margin[static_cast<std::size_t>((r + 1) * (map_.columns + 3) + c + 1)]) / 64.0);
+        out.push_back(glm::dvec2(with_margin[(r + 1) * (map_.columns + 3) + c + 1]) / 64.0);
     return out;
   }
 
@@ -130,8 +129,8 @@ class MapFit {
       if (i > 0) continue;
       const auto vertices = scene.project_vertices(picture.state);
       std::vector<cv::Point> outline;
-      for (const std::int16_t v : generic_head().outline) {
-        const auto& p = vertices[static_cast<std::size_t>(v)];
+      for (const std::uint16_t v : generic_head().outline) {
+        const auto& p = vertices[v];
         outline.emplace_back(p.x / (64 * factor_), p.y / (64 * factor_));
       }
       later.hidden = cv::Mat::zeros(later.luma.size(), CV_8U);
@@ -161,9 +160,8 @@ class MapFit {
   [[nodiscard]] std::array<std::size_t, 4> corners_of(int column, int row) const {
     std::array<std::size_t, 4> k{};
     for (int i = 0; i < 4; ++i)
-      k[static_cast<std::size_t>(i)] =
-          static_cast<std::size_t>(std::clamp(row + i / 2, 0, map_.rows)) * stride_ +
-          static_cast<std::size_t>(std::clamp(column + i % 2, 0, map_.columns));
+      k[i] = static_cast<std::size_t>(std::clamp(row + i / 2, 0, map_.rows)) * stride_ +
+             static_cast<std::size_t>(std::clamp(column + i % 2, 0, map_.columns));
     return k;
   }
 

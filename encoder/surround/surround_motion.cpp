@@ -116,7 +116,7 @@ SurroundMotion::SurroundMotion(const Picture& first, const State& seen)
       else if (v < 0.75 && (u < kRim || u > 1 - kRim))
         piece = (u < 0.5 ? 4 : 7) + std::min(2, static_cast<int>(4 * v));
       spot.rim = piece >= 0 && spot.prior[kGroundLayer] > 0.5F;
-      if (spot.rim) ++on_rim[static_cast<std::size_t>(piece)];
+      if (spot.rim) ++on_rim[piece];
       spots_.push_back(spot);
     }
   }
@@ -126,8 +126,8 @@ SurroundMotion::SurroundMotion(const Picture& first, const State& seen)
 
 glm::dvec2 SurroundMotion::way_of(const Spot& spot, const Flat& f) const {
   const glm::dvec2 d = spot.from_head;
-  return glm::dvec2(f[kWayX] + f[kGrowth] * d.x - f[kTurn] * d.y,
-                    f[kWayY] + f[kGrowth] * d.y + f[kTurn] * d.x) /
+  return glm::dvec2(f[kDisplacementX] + f[kSimilarityScale] * d.x - f[kSimilarityRotation] * d.y,
+                    f[kDisplacementY] + f[kSimilarityScale] * d.y + f[kSimilarityRotation] * d.x) /
          static_cast<double>(factor_);
 }
 
@@ -141,7 +141,7 @@ SurroundMotion::Flat SurroundMotion::aligned(Layer layer, const Flat& start, con
     for (int step = 0; step < kSteps[level]; ++step) {
       cv::Matx44d left = cv::Matx44d::zeros();
       cv::Vec4d right(0, 0, 0, 0);
-      for (int i = 0; i < kSurroundCount; ++i) {
+      for (int i = 0; i < kSimilarityCount; ++i) {
         const auto k = static_cast<std::size_t>(i);
         left(i, i) = 1 / (sigma[k] * sigma[k]);
         right(i) = (near[k] - flat[k]) * left(i, i);
@@ -166,7 +166,7 @@ SurroundMotion::Flat SurroundMotion::aligned(Layer layer, const Flat& start, con
         for (int j = 0; j < i; ++j) left(i, j) = left(j, i);
       cv::Vec4d x;
       if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) return start;
-      for (int i = 0; i < 4; ++i) flat[static_cast<std::size_t>(i)] += x(i);
+      for (int i = 0; i < 4; ++i) flat[i] += x(i);
     }
   }
   return flat;
@@ -277,7 +277,7 @@ void SurroundMotion::believe(const SurroundMap& map) {
 }
 
 void SurroundMotion::add_to(State& state) const {
-  for (std::size_t i = 0; i < kSurroundCount; ++i) {
+  for (std::size_t i = 0; i < kSimilarityCount; ++i) {
     state.body[i] = static_cast<std::int32_t>(std::lround(64 * shown_body_[i]));
     state.ground[i] = static_cast<std::int32_t>(std::lround(64 * shown_ground_[i]));
   }
@@ -307,14 +307,14 @@ void SurroundMotion::add_to(FitForm& form) const {
           for (int j = 0; j < 4; ++j)
             rise[4 * a + i][4 * b + j] += part[a] * part[b] * one[std::min(i, j)][std::max(i, j)];
   }
-  constexpr int kFirst = kPartFirst[static_cast<std::size_t>(PartId::kBody)];
-  static_assert(kPartFirst[static_cast<std::size_t>(PartId::kGround)] == kFirst + kSurroundCount);
+  constexpr int kFirst = first_of(PartId::kBody);
+  static_assert(first_of(PartId::kGround) == kFirst + kSimilarityCount);
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j)
       form.form(kFirst + i, kFirst + j) = rise[std::min(i, j)][std::max(i, j)] / (64 * 64);
-  for (std::size_t i = 0; i < kSurroundCount; ++i) {
+  for (std::size_t i = 0; i < kSimilarityCount; ++i) {
     form.value[kFirst + i] = 64 * shown_body_[i];
-    form.value[kFirst + kSurroundCount + i] = 64 * shown_ground_[i];
+    form.value[kFirst + kSimilarityCount + i] = 64 * shown_ground_[i];
   }
 }
 

@@ -46,7 +46,7 @@ class SurroundMotion {
   static constexpr std::size_t kLayers = 3;
   enum Layer : std::uint8_t { kHeadLayer, kBodyLayer, kGroundLayer };
   /// As State::body and State::ground, but in pixels.
-  using Flat = std::array<double, kSurroundCount>;
+  using Flat = std::array<double, kSimilarityCount>;
 
   struct Look {
     float value = 0, dx = 0, dy = 0;  ///< luma and its slope per work pixel of the level

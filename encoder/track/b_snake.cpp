@@ -63,7 +63,7 @@ Four combine(const float (&basis)[4][4], const std::array<Four, 4>& c) {
 glm::dvec2 combine(const SplineBasis& b, const std::array<double, 4>& weight,
                    const std::vector<glm::dvec2>& control) {
   glm::dvec2 sum(0);
-  for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * control[static_cast<std::size_t>(b.control[k])];
+  for (std::size_t k = 0; k < 4; ++k) sum += weight[k] * control[b.control[k]];
   return sum;
 }
 
@@ -112,7 +112,7 @@ SnakeCurve::SnakeCurve(bool is_closed, int controls, int pinned, std::vector<Spl
   for (std::size_t h = 0; h < points_.size(); ++h)
     for (std::size_t k = 0; k < 4; ++k)
       if (std::abs(points_[h].value[k]) > 1e-9)
-        support_[static_cast<std::size_t>(points_[h].control[k])].push_back(static_cast<int>(h));
+        support_[points_[h].control[k]].push_back(static_cast<int>(h));
 }
 
 SnakeCurve SnakeCurve::closed(int controls, int points) {
@@ -170,8 +170,8 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
   for (const FacingPair& pair : facing_) {
     // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have
     // crossed are driven apart again and not farther through each other.
-    const SplineBasis& from = curve_.points()[static_cast<std::size_t>(pair.from)];
-    const SplineBasis& to = curve_.points()[static_cast<std::size_t>(pair.to)];
+    const SplineBasis& from = curve_.points()[pair.from];
+    const SplineBasis& to = curve_.points()[pair.to];
     const double lacks =
         pair.least_gap - dot(curve_point(to, control) - curve_point(from, control), pair.direction);
     if (lacks <= 0) continue;
@@ -179,8 +179,8 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
     if (gradient == nullptr) continue;
     const glm::dvec2 slope = -2 * weights_.repulsion * lacks * pair.direction;
     for (std::size_t k = 0; k < 4; ++k) {
-      (*gradient)[static_cast<std::size_t>(to.control[k])] += to.value[k] * slope;
-      (*gradient)[static_cast<std::size_t>(from.control[k])] -= from.value[k] * slope;
+      (*gradient)[to.control[k]] += to.value[k] * slope;
+      (*gradient)[from.control[k]] -= from.value[k] * slope;
     }
   }
   return energy;
@@ -198,7 +198,7 @@ double BSnake::external(const Vectors& control, Vectors* gradient) const {
   for (const PointQuad& q : curve_.quads()) {
     std::array<Four, 4> x, y;
     for (std::size_t k = 0; k < 4; ++k) {
-      const glm::dvec2 c = control[static_cast<std::size_t>(q.control[k])];
+      const glm::dvec2 c = control[q.control[k]];
       x[k] = cv::v_setall_f32(static_cast<float>(c.x));
       y[k] = cv::v_setall_f32(static_cast<float>(c.y));
     }
@@ -234,8 +234,8 @@ double BSnake::external(const Vectors& control, Vectors* gradient) const {
     h_by_vs_y *= contrast_weight * say;
     for (std::size_t k = 0; k < 4; ++k) {
       const Four value = cv::v_load_aligned(q.value[k]), d1 = cv::v_load_aligned(q.d1[k]);
-      (*gradient)[static_cast<std::size_t>(q.control[k])] -= glm::dvec2(
-          cv::v_reduce_sum(value * by_x + d1 * h_by_vs_x), cv::v_reduce_sum(value * by_y + d1 * h_by_vs_y));
+      (*gradient)[q.control[k]] -= glm::dvec2(cv::v_reduce_sum(value * by_x + d1 * h_by_vs_x),
+                                              cv::v_reduce_sum(value * by_y + d1 * h_by_vs_y));
     }
   }
   return -weights_.contrast * static_cast<double>(cv::v_reduce_sum(contrast)) -

@@ -61,7 +61,7 @@ class SnakeCurve {
   [[nodiscard]] int end_free() const { return controls_ - pinned_; }
   [[nodiscard]] const std::vector<SplineBasis>& points() const { return points_; }
   /// Indices of the points that control point i moves.
-  [[nodiscard]] const std::vector<int>& support(int i) const { return support_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const std::vector<int>& support(int i) const { return support_[i]; }
   /// Parameter distance between neighbouring points: ds of the sums that stand for the integrals.
   [[nodiscard]] double ds() const { return ds_; }
   [[nodiscard]] bool is_closed() const { return closed_; }
@@ -70,9 +70,7 @@ class SnakeCurve {
   /// Gram matrix of the basis functions' n-th derivatives, row after row: sum over the points of
   /// B_i(s) B_j(s). So sum |v|^2 = c' G c of either coordinate, and internal energies need no points.
   /// @param derivative  0, 1 or 2
-  [[nodiscard]] const std::vector<double>& gram(int derivative) const {
-    return gram_[static_cast<std::size_t>(derivative)];
-  }
+  [[nodiscard]] const std::vector<double>& gram(int derivative) const { return gram_[derivative]; }
 
  private:
   SnakeCurve(bool is_closed, int controls, int pinned, std::vector<SplineBasis> points, double ds);

@@ -108,9 +108,7 @@ class CoarseLook {
     low_ = {1 << 20, 1 << 20};
     high_ = {-(1 << 20), -(1 << 20)};
     for (const Point& p : points_) {
-      const auto corner = [&](std::size_t i) {
-        return projection(vertices_[static_cast<std::size_t>(p.corner[i])]);
-      };
+      const auto corner = [&](std::size_t i) { return projection(vertices_[p.corner[i]]); };
       const glm::dvec2 a = corner(0), e = corner(1) - a, f = corner(2) - a;
       if (e.x * f.y - e.y * f.x <= 0) continue;  // clockwise in the picture seen from the front
       const glm::dvec2 at = now_.at(projection(p.place), kLevel);

@@ -30,7 +30,7 @@ Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask, int p
     for (int x = 0; x < mask.cols; ++x) {
       if (mask.at<std::uint8_t>(y, x) == 0) continue;
       cv::Vec3d v(0, 0, 0);
-      for (int k = 0; k < planes; ++k) v[k] = patch[static_cast<std::size_t>(k)].at<std::uint8_t>(y, x);
+      for (int k = 0; k < planes; ++k) v[k] = patch[k].at<std::uint8_t>(y, x);
       sum += v;
       product += v * v.t();
       ++c.count;

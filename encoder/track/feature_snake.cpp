@@ -118,8 +118,8 @@ std::vector<cv::Point> polygon(const FeatureSnake& s) {
 }
 
 void add_pair(FeatureSnake& s, int from, int to, glm::dvec2 direction, double share) {
-  const glm::dvec2 gap = curve_point(s.curve.points()[static_cast<std::size_t>(to)], s.rest) -
-                         curve_point(s.curve.points()[static_cast<std::size_t>(from)], s.rest);
+  const glm::dvec2 gap =
+      curve_point(s.curve.points()[to], s.rest) - curve_point(s.curve.points()[from], s.rest);
   s.facing.push_back({from, to, direction, share * (gap.x * direction.x + gap.y * direction.y)});
 }
 
@@ -212,8 +212,8 @@ std::vector<glm::dvec2> fit_control(const Feature& f, const SnakeCurve& curve,
     for (int end = 0; end < 2; ++end) {
       const int i = end == 0 ? 0 : n - 1;
       a(i, i) += kPinned;
-      b(i, 0) += kPinned * ends[static_cast<std::size_t>(end)].x;
-      b(i, 1) += kPinned * ends[static_cast<std::size_t>(end)].y;
+      b(i, 0) += kPinned * ends[end].x;
+      b(i, 1) += kPinned * ends[end].y;
     }
   }
   cv::Mat1d x;
@@ -230,15 +230,14 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
   s.below_vertices = is_brow(id) ? kBrowBelowMarks : 0;
   std::vector<glm::dvec2> target;
   for (const FeatureVertex& v : f.vertices) {
-    const auto vertex = static_cast<std::size_t>(v.vertex);
+    const auto vertex = v.vertex;
     target.push_back(on_head(geometry, vertex) + glm::dvec2(0, s.below_vertices));
     s.depth += geometry.positions[vertex].z / static_cast<double>(f.vertices.size());
   }
   const auto corner = corners_of(id);
   std::array<glm::dvec2, 2> ends{};
   for (std::size_t k = 0; k < 2; ++k)
-    ends[k] = on_head(geometry, static_cast<std::size_t>(
-                                    generic_head().landmark_vertex[static_cast<std::size_t>(corner[k])]));
+    ends[k] = on_head(geometry, static_cast<std::size_t>(vertex_of_landmark(corner[k])));
   s.rest = s.now = fit_control(f, s.curve, target, ends);
 
   std::vector<glm::dvec2> extent = target;
@@ -253,12 +252,7 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
   if (s.curve.first_free() > 0) {
     const int lower = id == FeatureId::kUpperLidLeft ? 46 : 40;
     s.lowest = -kLidsApart;
-    for (const int k : {lower, lower + 1})
-      s.lowest +=
-          on_head(geometry,
-                  static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)]))
-              .y /
-          2;
+    for (const int k : {lower, lower + 1}) s.lowest += on_head(geometry, vertex_of_landmark(k)).y / 2;
   }
   if (is_brow(id)) add_pair(s, 0, kind.points - 1, {1, 0}, kBrowLeastLength);
   return s;
@@ -268,8 +262,7 @@ void FeatureSnake::limit(std::vector<glm::dvec2>& control) const {
   // The middle of a clamped cubic moves by 3/4 of what both inner control points do.
   const double beyond = curve_point(clamped_basis(true, 0.5), control).y - lowest;
   if (beyond <= 0) return;
-  for (int i = curve.first_free(); i < curve.end_free(); ++i)
-    control[static_cast<std::size_t>(i)].y -= beyond / 0.75;
+  for (int i = curve.first_free(); i < curve.end_free(); ++i) control[i].y -= beyond / 0.75;
 }
 
 FeaturePatch FeatureSnake::patch(const WorkFrame& frame, const Pose& pose) const {

@@ -15,17 +15,15 @@ const std::vector<std::vector<double>>& inner_lip_follow() {
     const GenericHead& head = generic_head();
     const Feature &inner = feature(FeatureId::kMouthInner), &outer = feature(FeatureId::kMouthOuter);
     const SnakeCurve curve = SnakeCurve::closed(inner.control_count, 32);
-    std::vector<std::vector<double>> follow(
-        static_cast<std::size_t>(inner.control_count),
-        std::vector<double>(static_cast<std::size_t>(outer.control_count)));
-    for (std::size_t c = 0; c < static_cast<std::size_t>(outer.control_count); ++c) {
+    std::vector<std::vector<double>> follow(inner.control_count, std::vector<double>(outer.control_count));
+    for (std::size_t c = 0; c < outer.control_count; ++c) {
       std::vector<glm::dvec2> target;
       for (const FeatureVertex& fv : inner.vertices) {
-        const auto v = static_cast<std::size_t>(fv.vertex);
+        const auto v = fv.vertex;
         double weight = 0;
-        for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-          if (head.spread[k].control == outer.first_control + static_cast<int>(c))
-            weight = head.spread[k].weight / static_cast<double>(kSpreadOne);
+        for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
+          if (head.skinning[k].control == outer.first_control + static_cast<int>(c))
+            weight = head.skinning[k].weight / static_cast<double>(kSkinningOne);
         target.emplace_back(weight, 0);
       }
       const auto control = fit_control(inner, curve, target, {});
@@ -43,8 +41,7 @@ bool is_lid(FeatureId id) {
 /// The eye shut: far below, brought back to the limit.
 std::vector<glm::dvec2> shut(const FeatureSnake& s) {
   std::vector<glm::dvec2> control = s.rest;
-  for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i)
-    control[static_cast<std::size_t>(i)].y += 16;
+  for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i) control[i].y += 16;
   s.limit(control);
   return control;
 }
@@ -88,7 +85,7 @@ std::vector<glm::dvec2> FeatureTracker::predict(const FeatureSnake& s, const Pos
   const int n = s.curve.controls();
   cv::Mat1d a = cv::Mat1d::eye(n, n) * 0.15, b = cv::Mat1d::zeros(n, 2);  // what the flow leaves open stays
   for (const FeatureVertex& fv : feature(s.id).vertices) {
-    const auto v = static_cast<std::size_t>(fv.vertex);
+    const auto v = fv.vertex;
     if (std::isnan(flow[v].x)) continue;
     const SplineBasis basis = basis_at(s.curve, static_cast<double>(fv.s));
     const glm::dvec2 offset = curve_point(basis, s.now) - curve_point(basis, s.rest);
@@ -107,8 +104,7 @@ std::vector<glm::dvec2> FeatureTracker::predict(const FeatureSnake& s, const Pos
   cv::Mat1d x;
   cv::solve(a, b, x, cv::DECOMP_CHOLESKY);
   std::vector<glm::dvec2> out = s.now;
-  for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i)
-    out[static_cast<std::size_t>(i)] += glm::dvec2(x(i, 0), x(i, 1));
+  for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i) out[i] += glm::dvec2(x(i, 0), x(i, 1));
   return out;
 }
 
@@ -143,8 +139,7 @@ std::array<glm::dvec2, kControlCount> FeatureTracker::offsets() const {
     const auto rest = carried_rest(s);
     auto to = out.begin() + feature(s.id).first_control;
     for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i)
-      *to++ =
-          (s.now[static_cast<std::size_t>(i)] - rest[static_cast<std::size_t>(i)]) * kHeadUnitsPerSnakeUnit;
+      *to++ = (s.now[i] - rest[i]) * kHeadUnitsPerSnakeUnit;
   }
   return out;
 }
@@ -154,8 +149,7 @@ void FeatureTracker::set_offsets(const std::array<glm::dvec2, kControlCount>& of
     const auto rest = carried_rest(s);
     auto from = offsets.begin() + feature(s.id).first_control;
     for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i)
-      s.now[static_cast<std::size_t>(i)] =
-          rest[static_cast<std::size_t>(i)] + *from++ / kHeadUnitsPerSnakeUnit;
+      s.now[i] = rest[i] + *from++ / kHeadUnitsPerSnakeUnit;
   }
 }
 
@@ -165,7 +159,7 @@ std::vector<std::pair<std::size_t, glm::dvec3>> FeatureTracker::vertices() const
     for (const FeatureVertex& fv : feature(s.id).vertices) {
       const glm::dvec2 p =
           curve_point(basis_at(s.curve, static_cast<double>(fv.s)), s.now) - glm::dvec2(0, s.below_vertices);
-      out.emplace_back(static_cast<std::size_t>(fv.vertex), glm::dvec3(p * kHeadUnitsPerSnakeUnit, s.depth));
+      out.emplace_back(fv.vertex, glm::dvec3(p * kHeadUnitsPerSnakeUnit, s.depth));
     }
   }
   return out;

@@ -168,9 +168,7 @@ class AlignmentSums {
 
 /// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
 glm::dvec3 face_centre(const HeadVertices& vertices) {
-  const auto at = [&](int ibug) {
-    return vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)])];
-  };
+  const auto at = [&](int ibug) { return vertices[vertex_of_landmark(ibug)]; };
   return (at(36) + at(45) + at(30)) / 3.0;
 }
 
@@ -178,8 +176,8 @@ glm::dvec3 face_centre(const HeadVertices& vertices) {
 /// is not where the mesh has it.
 float weight_of(const HeadTriangle& t) {
   float least = 1;
-  for (const std::int16_t v : t) {
-    const HeadVertex& vertex = generic_head().vertices[static_cast<std::size_t>(v)];
+  for (const std::uint16_t v : t) {
+    const HeadVertex& vertex = generic_head().vertices[v];
     const bool eye = vertex.landmark >= 36 && vertex.landmark < 48;
     const bool chin = vertex.landmark >= 4 && vertex.landmark <= 12;
     if (vertex.feature >= 0 || eye || chin) least = std::min(least, kMoving);
@@ -217,11 +215,11 @@ HeadTracker::HeadTracker(const Geometry& geometry, const Pose& pose, const WorkF
   const LevelledFrame levelled(first);
   const std::vector<glm::dvec3> points = surface(vertices);
   for (int level = 0; level < kLevels; ++level) {
-    auto& seen = seen_[static_cast<std::size_t>(level)];
+    auto& seen = seen_[level];
     for (const glm::dvec3& p : points) {
       const glm::dvec2 x = levelled.at(projection(p), level);
       Sample s;
-      const bool inside = sample_with_slope(levelled.levels[static_cast<std::size_t>(level)], x, s);
+      const bool inside = sample_with_slope(levelled.levels[level], x, s);
       seen.push_back(inside ? static_cast<float>(s.value) : -1.0F);
     }
   }
@@ -281,10 +279,10 @@ Pose HeadTracker::fit_flow(const Pose& start, const HeadVertices& vertices) cons
 
 Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level,
                         const Pose& start, const std::vector<glm::dvec3>& points) const {
-  const cv::Mat& luma = pyramid[static_cast<std::size_t>(level)];
-  const std::vector<float>& seen = seen_[static_cast<std::size_t>(level)];
+  const cv::Mat& luma = pyramid[level];
+  const std::vector<float>& seen = seen_[level];
   const double to_level = now.scale / (1 << level);
-  const std::size_t every = kEvery[static_cast<std::size_t>(level)];
+  const std::size_t every = kEvery[level];
   const double eye = start.eye_distance_px();
   Pose pose = start;
   double gain = 1, offset = 0, sigma = 20;

@@ -67,9 +67,7 @@ class HeadTracker {
   /// On which triangle each of them lies.
   [[nodiscard]] std::span<const SurfacePoint> points() const { return points_; }
   /// What they looked like in picture 0 at a level of LevelledFrame, of its 8 bits; negative where not seen.
-  [[nodiscard]] std::span<const float> seen(int level) const {
-    return seen_[static_cast<std::size_t>(level)];
-  }
+  [[nodiscard]] std::span<const float> seen(int level) const { return seen_[level]; }
   /// How much each says of the head, 0..1.
   [[nodiscard]] std::span<const float> weights() const { return weight_; }
 

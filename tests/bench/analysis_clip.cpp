@@ -29,13 +29,13 @@ AnalysisClip::AnalysisClip()
   round_.resize(kRound);
   for (int i = 1; i <= 2 * kRound; ++i) {
     const int phase = i % kRound;
-    AnalysedPicture& p = round_[static_cast<std::size_t>(phase)];
+    AnalysedPicture& p = round_[phase];
     p.picture = clip_[phase < kPictures ? phase : kRound - phase];
     p.frame = WorkFrame::cut(p.picture, head.pose().shift, eye_distance_px(), true);
     p.tracked = head.track(p.frame, neutral_);
     p.flow = head.flow();
     features.track(p.frame, p.tracked.pose, p.flow);
-    p.tracked_fit = {p.tracked.pose, now.light, now.inside, features.offsets()};
+    p.tracked_fit = {p.tracked.pose, now.light, now.interior, features.offsets()};
     fit.look_at(p.frame, setup_.mouth);
     now = fit.refine(p.tracked_fit);
     p.form = fit.form_at(now);

@@ -76,7 +76,7 @@ void HeadTriangles(benchmark::State& state) {
     for (const auto& triangle : head_mesh().triangles) {
       RasterTriangle t;
       for (std::size_t i = 0; i < 3; ++i) {
-        const auto v = static_cast<std::size_t>(triangle[i]);
+        const auto v = triangle[i];
         t[i] = {glm::ivec2(now.head[v]), glm::ivec2(seen.head[v]), now.head[v].z};
       }
       draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, &depth);

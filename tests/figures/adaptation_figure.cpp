@@ -29,12 +29,12 @@ cv::Rect2d head_part(const Pose& pose) {
 Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& followed) {
   const Picture& picture = footage.pictures.front();
   auto finder = FaceFinder::create();
-  if (!finder) return tl::unexpected<Error>(finder.error());
+  if (!finder) return fail(finder.error());
   const auto faces = finder->find(picture);
   if (faces.empty()) return fail(ErrorCode::kNoFace, "no face in the first picture");
   const Marks marks = find_marks(picture, faces.front());
   const auto adapted = adapt_head(marks);
-  if (!adapted) return tl::unexpected<Error>(adapted.error());
+  if (!adapted) return fail(adapted.error());
 
   const cv::Rect2d part = head_part(adapted->pose) & whole_picture(footage.format);
   const auto canvas = [&] { return Canvas(picture, footage.format, part, kPanelWidth); };

@@ -84,8 +84,7 @@ void Canvas::wire_frame(std::span<const glm::dvec2> vertices, const cv::Scalar& 
   for (const HeadTriangle& t : generic_head().triangles)
     for (std::size_t i = 0; i < 3; ++i) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
   for (const auto& [a, b] : edges)
-    cv::line(image_, fixed(vertices[static_cast<std::size_t>(a)]),
-             fixed(vertices[static_cast<std::size_t>(b)]), colour, 1, cv::LINE_AA, kShift);
+    cv::line(image_, fixed(vertices[a]), fixed(vertices[b]), colour, 1, cv::LINE_AA, kShift);
 }
 
 }  // namespace fbs::figures

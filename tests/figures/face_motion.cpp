@@ -30,7 +30,7 @@ Stretch stretch_before(int last, const std::vector<double>& measure, const std::
     const int begin = k + 1 == levels.size() ? last : std::max(last - kLongest + 1, static_cast<int>(k));
     const int end = out.pictures.empty() ? last + 1 : out.pictures.back();
     for (int i = begin; i < end; ++i) {
-      const double d = std::abs(measure[static_cast<std::size_t>(i)] - levels[k]);
+      const double d = std::abs(measure[i] - levels[k]);
       if (d < least) {
         least = d;
         best = i;

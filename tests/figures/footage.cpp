@@ -20,8 +20,7 @@ constexpr double kTrusted = 0.7;  // confidence from which on what was tracked m
 /// The mesh's landmarks; lips and brows by their snakes, which show what was seen and not what was coded.
 Landmarks landmarks_of(const PictureAnalysis& analysis) {
   Landmarks out;
-  for (std::size_t k = 0; k < kLandmarkCount; ++k)
-    out[k] = analysis.vertices[static_cast<std::size_t>(generic_head().landmark_vertex[k])];
+  for (std::size_t k = 0; k < kLandmarkCount; ++k) out[k] = analysis.vertices[vertex_of_landmark(k)];
   const auto& lips = snake_of(analysis, FeatureId::kMouthOuter);
   const auto &right = snake_of(analysis, FeatureId::kBrowRight),
              &left = snake_of(analysis, FeatureId::kBrowLeft);
@@ -57,11 +56,11 @@ Footage talker_footage() {
 
 Result<Footage> clip_footage(const std::string& path) {
   auto source = open_video_source(path);
-  if (!source) return tl::unexpected<Error>(source.error());
+  if (!source) return fail(source.error());
   Footage out{std::filesystem::path(path).stem().string(), (*source)->format(), {}, {}};
   while (out.pictures.size() < kMostPictures) {
     auto next = (*source)->next();
-    if (!next) return tl::unexpected<Error>(next.error());
+    if (!next) return fail(next.error());
     if (!*next) break;
     out.pictures.push_back(std::move((*next)->picture));
   }
@@ -72,15 +71,15 @@ Result<Footage> clip_footage(const std::string& path) {
 
 Result<Followed> follow(const Footage& footage) {
   auto encoder = Encoder::create(footage.format, {});
-  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  if (!encoder) return fail(encoder.error());
   Followed out;
   for (const Picture& p : footage.pictures) {
-    if (auto pushed = encoder->push(p); !pushed) return tl::unexpected<Error>(pushed.error());
+    if (auto pushed = encoder->push(p); !pushed) return fail(pushed.error());
     if (!encoder->analysis().face)
       return fail(ErrorCode::kNoFace, "no face in the first picture of " + footage.name);
     out.analysis.push_back(encoder->analysis());
   }
-  if (auto finished = encoder->finish(); !finished) return tl::unexpected<Error>(finished.error());
+  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
   out.stream = encoder->take();
 
   StreamDecoder decoder;
@@ -88,7 +87,7 @@ Result<Followed> follow(const Footage& footage) {
   decoder.close();
   for (;;) {
     const auto status = decoder.next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     if (*status != DecodeStatus::kPicture) break;
     out.geometry = decoder.scene().geometry->geometry();
     out.poses.push_back(pose_of(decoder.state()));
@@ -104,7 +103,7 @@ Result<std::vector<Picture>> decode(const std::vector<std::uint8_t>& stream,
   std::vector<Picture> out;
   for (int i = 0; out.size() < numbers.size(); ++i) {
     const auto status = decoder.next();
-    if (!status) return tl::unexpected<Error>(status.error());
+    if (!status) return fail(status.error());
     if (*status != DecodeStatus::kPicture) return fail(ErrorCode::kInternal, "the stream lacks pictures");
     if (numbers[out.size()] == i) decoder.render(out.emplace_back());
   }
@@ -113,7 +112,7 @@ Result<std::vector<Picture>> decode(const std::vector<std::uint8_t>& stream,
 
 const std::vector<glm::dvec2>& snake_of(const PictureAnalysis& analysis, FeatureId id) {
   const auto at = std::find(kSnakeFeatures.begin(), kSnakeFeatures.end(), id) - kSnakeFeatures.begin();
-  return analysis.snakes[static_cast<std::size_t>(at)];
+  return analysis.snakes[at];
 }
 
 std::vector<double> measure(const Footage& footage, const Followed& followed, double FaceMotion::*what) {

@@ -14,7 +14,7 @@ constexpr int kPanelWidth = 240;  // pixels
 cv::Rect2d face_part(const Followed& followed, const std::vector<int>& numbers, const cv::Rect2d& whole) {
   glm::dvec2 low(1e9), high(-1e9);
   for (const int i : numbers) {
-    for (const glm::dvec2 p : followed.analysis[static_cast<std::size_t>(i)].vertices) {
+    for (const glm::dvec2 p : followed.analysis[i].vertices) {
       low = glm::dvec2(std::min(low.x, p.x), std::min(low.y, p.y));
       high = glm::dvec2(std::max(high.x, p.x), std::max(high.y, p.y));
     }
@@ -45,7 +45,7 @@ Result<cv::Mat3b> pairs(const Footage& footage, const Followed& followed, const 
   std::sort(ascending.begin(), ascending.end());
   ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
   const auto decoded = decode(followed.stream, ascending);
-  if (!decoded) return tl::unexpected<Error>(decoded.error());
+  if (!decoded) return fail(decoded.error());
 
   const cv::Rect2d part = face_part(followed, numbers, whole_picture(footage.format));
   std::vector<Panel> above, below;
@@ -54,7 +54,7 @@ Result<cv::Mat3b> pairs(const Footage& footage, const Followed& followed, const 
     const auto at = std::find(ascending.begin(), ascending.end(), numbers[k]) - ascending.begin();
     Canvas source(footage.pictures[i], footage.format, part, kPanelWidth);
     draw_snakes(source, followed.analysis[i]);
-    const Canvas synthesised((*decoded)[static_cast<std::size_t>(at)], footage.format, part, kPanelWidth);
+    const Canvas synthesised((*decoded)[at], footage.format, part, kPanelWidth);
     const int column = static_cast<int>(k);
     above.push_back({source.image(), letter(2 * column) + captions[k]});
     below.push_back({synthesised.image(), letter(2 * column + 1) + "synthesised"});

@@ -23,7 +23,7 @@ const cv::Scalar kSkin(160, 110, 150), kLips(105, 116, 168), kTeeth(212, 122, 13
 using Outline = std::vector<glm::dvec2>;  // eye distances, head frame
 
 glm::dvec2 vertex(int landmark) {
-  const auto v = static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(landmark)]);
+  const auto v = vertex_of_landmark(landmark);
   const glm::ivec3 p = generic_head().vertices[v].position;
   return glm::dvec2(p.x, p.y) / static_cast<double>(kUnitsPerEyeDistance);
 }

@@ -41,8 +41,7 @@ Panel mouth_panel(const Footage& footage, const Followed& followed, int picture,
 std::vector<double> true_heights(const Footage& footage, const RepulsionRun& run) {
   std::vector<double> out;
   if (footage.truth.empty()) return out;
-  for (const int i : run.pictures)
-    out.push_back(face_motion(footage.truth[static_cast<std::size_t>(i)]).mouth_height);
+  for (const int i : run.pictures) out.push_back(face_motion(footage.truth[i]).mouth_height);
   return out;
 }
 

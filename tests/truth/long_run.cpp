@@ -82,7 +82,7 @@ class ToAndFro {
 
   [[nodiscard]] Picture at(int i) const {
     const int phase = i % round(), last = static_cast<int>(clip_.size()) - 1;
-    Picture p = clip_[static_cast<std::size_t>(phase <= last ? phase : round() - phase)];
+    Picture p = clip_[phase <= last ? phase : round() - phase];
     if (noise_ == 0) return p;
     auto place = talker::hash(static_cast<std::uint32_t>(i));
     for (Plane* plane : {&p.y, &p.u, &p.v})
@@ -216,9 +216,7 @@ int main(int argc, char** argv) {
   int i = 0;
   const auto error = run(*options, source, rounds * source.round() + 1, [&](const Shown& now) {
     if (i / source.round() == 1) second.push_back(now);
-    if (i >= source.round())
-      seen[static_cast<std::size_t>(i / source.round())].take(
-          now, second[static_cast<std::size_t>(i % source.round())]);
+    if (i >= source.round()) seen[i / source.round()].take(now, second[i % source.round()]);
     if (!first) first = now;
     last = now;
     ++i;
@@ -233,8 +231,7 @@ int main(int argc, char** argv) {
   std::puts(
       " round   degrees  shift px  verts px   degrees  shift px  verts px   degrees  shift px   vert px");
   for (int r = 2; r < rounds; ++r)
-    if (r == 2 || r == rounds - 1 || r % std::max(1, rounds / 10) == 0)
-      seen[static_cast<std::size_t>(r)].print(r + 1);
+    if (r == 2 || r == rounds - 1 || r % std::max(1, rounds / 10) == 0) seen[r].print(r + 1);
   const Apart end(*last, *first);
   std::printf("after %d pictures: %.3f degrees, shift %.3f px, vertices %.3f px from the first picture\n", i,
               end.degrees, end.shift_px, end.vertices_px);

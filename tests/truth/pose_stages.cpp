@@ -96,7 +96,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
     const TrackedPose tracked = tracker.track(frame, fit.deformed(now));
     features.track(frame, tracked.pose, tracker.flow());
     fit.look_at(frame, setup.mouth);
-    now = fit.refine({tracked.pose, now.light, now.inside, features.offsets()});
+    now = fit.refine({tracked.pose, now.light, now.interior, features.offsets()});
     fits.push_back(fit.form_at(now));
     truths.push_back(clip.pose(i));
     stages[0].take(tracked.pose, truths.back());

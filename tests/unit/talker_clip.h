@@ -38,8 +38,7 @@ class TalkerClip {
   [[nodiscard]] Marks marks(int frame) const {
     Marks m;
     const auto points = talker_.points(frame);
-    for (int k = 0; k < kLandmarkCount; ++k)
-      m.set_landmark(k, glm::dvec2(points[static_cast<std::size_t>(k)]) + 0.5);
+    for (int k = 0; k < kLandmarkCount; ++k) m.set_landmark(k, glm::dvec2(points[k]) + 0.5);
     return m;
   }
 

@@ -112,8 +112,8 @@ MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, con
     for (std::int32_t t = 0; t < group.pictures; ++t) {
       if (t + 1 < group.pictures && random() % 3 != 0) continue;
       Knot knot{.picture = t, .value = {}};
-      for (std::size_t k = 0; k < static_cast<std::size_t>(kPartSizes[part]); ++k) {
-        const std::size_t i = static_cast<std::size_t>(kPartFirst[part]) + k;
+      for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
+        const std::size_t i = kPartFirst[part] + k;
         const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
         knot.value[k] = random() % 6 == 0   ? limits.most[i]
                         : random() % 6 == 0 ? limits.least[i]

@@ -12,7 +12,7 @@ constexpr int kIoBufferSize = 64 * 1024;
 Result<std::unique_ptr<AvMuxer>> AvMuxer::create(const std::string& output, const char* container) {
   av_log_set_level(AV_LOG_QUIET);
   auto file = AtomicFile::create(output);
-  if (!file) return tl::unexpected(file.error());
+  if (!file) return fail(file.error());
   std::unique_ptr<AvMuxer> muxer(new AvMuxer(std::move(*file)));
   if (avformat_alloc_output_context2(&muxer->context_, nullptr, container, output.c_str()) < 0) {
     return muxer->error(std::string("this libav has no container ") + container);

@@ -86,7 +86,7 @@ class AvSink final : public VideoSink {
 
 Result<void> AvSink::open(const std::string& output, const SinkOptions& options) {
   auto muxer = AvMuxer::create(output, output.ends_with(".mp4") ? "mp4" : "matroska");
-  if (!muxer) return tl::unexpected(muxer.error());
+  if (!muxer) return fail(muxer.error());
   muxer_ = std::move(*muxer);
   stream_ = muxer_->add_stream();
   if (stream_ == nullptr) return muxer_->error("out of memory");
@@ -99,7 +99,7 @@ Result<void> AvSink::open(const std::string& output, const SinkOptions& options)
   }
   if (!options.sound_source.empty()) {
     auto sound = AvSound::open(options.sound_source, *muxer_);
-    if (!sound) return tl::unexpected(sound.error());
+    if (!sound) return fail(sound.error());
     sound_ = std::move(*sound);
   }
   return muxer_->write_header();
@@ -206,7 +206,7 @@ Result<void> AvSink::encode(const AVFrame* frame) {
 Result<std::unique_ptr<VideoSink>> open_av_sink(const std::string& output, const VideoFormat& format,
                                                 const SinkOptions& options) {
   auto sink = std::make_unique<AvSink>(format);
-  if (auto opened = sink->open(output, options); !opened) return tl::unexpected(opened.error());
+  if (auto opened = sink->open(output, options); !opened) return fail(opened.error());
   return sink;
 }
 

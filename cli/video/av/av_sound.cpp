@@ -38,7 +38,7 @@ Result<void> AvSound::copy_until(std::int64_t end, AvMuxer& muxer) {
   while (!ended_) {
     if (!waiting_) {
       auto found = read();
-      if (!found) return tl::unexpected(found.error());
+      if (!found) return fail(found.error());
       if (!*found) break;
     }
     waiting_ = packet_->dts != AV_NOPTS_VALUE && av_rescale_q(packet_->dts, from_->time_base, kTick) >= end;

@@ -107,7 +107,7 @@ Result<void> AvSource::open(const SourceOptions& options) {
   }
   if (auto opened = open_decoder(options); !opened) return opened;
   auto decoded = decode();
-  if (!decoded) return tl::unexpected(decoded.error());
+  if (!decoded) return fail(decoded.error());
   if (!*decoded) return error(ErrorCode::kUnsupported, "holds no picture that can be decoded");
   frame_waiting_ = true;
   describe(*frame_);
@@ -156,7 +156,7 @@ void AvSource::describe(const AVFrame& first) {
 Result<std::optional<TimedPicture>> AvSource::next() {
   if (!std::exchange(frame_waiting_, false)) {
     const auto decoded = decode();
-    if (!decoded) return tl::unexpected(decoded.error());
+    if (!decoded) return fail(decoded.error());
     if (!*decoded) return std::nullopt;
   }
   auto picture = converter_.convert(*frame_);
@@ -178,7 +178,7 @@ Result<bool> AvSource::decode() {
       ++damaged_packets_;
       continue;
     }
-    if (auto fed = feed(); !fed) return tl::unexpected(fed.error());
+    if (auto fed = feed(); !fed) return fail(fed.error());
   }
 }
 
@@ -246,7 +246,7 @@ std::optional<std::int64_t> AvSource::frame_count_estimate() const {
 
 Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, const SourceOptions& options) {
   auto source = std::make_unique<AvSource>(input);
-  if (auto opened = source->open(options); !opened) return tl::unexpected(opened.error());
+  if (auto opened = source->open(options); !opened) return fail(opened.error());
   return source;
 }
 

@@ -55,7 +55,7 @@ class ImageSink final : public VideoSink {
  private:
   Result<void> create_next() {
     auto file = AtomicFile::create(pattern_.name(static_cast<std::int64_t>(files_.size()) + 1));
-    if (!file) return tl::unexpected(file.error());
+    if (!file) return fail(file.error());
     files_.push_back(std::move(*file));
     return {};
   }
@@ -101,7 +101,7 @@ Result<std::unique_ptr<VideoSink>> open_image_sink(const std::string& output, co
     return fail(ErrorCode::kUnsupported, "cannot write " + output + ": no such kind of image; use .png");
   }
   auto sink = std::make_unique<ImageSink>(std::move(*pattern), std::move(writer), format);
-  if (auto opened = sink->open(); !opened) return tl::unexpected(opened.error());
+  if (auto opened = sink->open(); !opened) return fail(opened.error());
   return sink;
 }
 

@@ -61,7 +61,7 @@ class ImageSource final : public VideoSource {
     const std::string& file = files_[index_];
     try {
       auto picture = read(file);
-      if (!picture) return tl::unexpected(picture.error());
+      if (!picture) return fail(picture.error());
       const auto number = static_cast<std::int64_t>(index_++);
       return TimedPicture{std::move(*picture), regular_pts(number, format_.frame_rate)};
     } catch (const std::exception& problem) {
@@ -114,9 +114,9 @@ Result<std::unique_ptr<VideoSource>> open_image_source(const std::string& input,
                                                        const SourceOptions& options) {
   OIIO::attribute("threads", 1);
   auto files = image_sequence_files(input, is_image_suffix);
-  if (!files) return tl::unexpected(files.error());
+  if (!files) return fail(files.error());
   auto source = std::make_unique<ImageSource>(std::move(*files), options.sequence_rate);
-  if (auto opened = source->open(); !opened) return tl::unexpected(opened.error());
+  if (auto opened = source->open(); !opened) return fail(opened.error());
   return source;
 }
 

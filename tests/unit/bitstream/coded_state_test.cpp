@@ -37,11 +37,11 @@ TEST(CodedState, EachNumberHasTheStepOfItsKind) {
 
 TEST(CodedState, StateHasItsNumbersTimesTheSteps) {
   CodedState coded{};
-  for (int i = 0; i < kFirstCoefficient; ++i) coded[static_cast<std::size_t>(i)] = i - 4;
+  for (int i = 0; i < kFirstCoefficient; ++i) coded[i] = i - 4;
   const State s = state_of(coded, kSteps);
   EXPECT_EQ(s.pose, (std::array{-4 * 3, -3 * 3, -2 * 3, -1 * 5, 0, 1 * 7}));
   EXPECT_EQ(s.light, (std::array{2 * 11, 3 * 11, 4 * 11, 5 * 11, 6 * 11, 7 * 11, 8 * 11}));
-  EXPECT_EQ(s.inside, (std::array{9 * 11, 10 * 11, 11 * 11}));
+  EXPECT_EQ(s.interior, (std::array{9 * 11, 10 * 11, 11 * 11}));
   EXPECT_EQ(s.body, (std::array{12 * 5, 13 * 5, 14 * 5, 15 * 5}));
   EXPECT_EQ(s.ground, (std::array{16 * 5, 17 * 5, 18 * 5, 19 * 5}));
   for (const glm::ivec2 c : s.control) EXPECT_EQ(c, glm::ivec2(0));
@@ -56,10 +56,9 @@ State plain_state(const CodedState& values) {
     for (std::size_t c = 0; c < n; ++c) {
       double sum = 0;
       for (std::size_t k = 0; k < n; ++k)
-        sum += values[first + k] * (part.rows[k * n + c] / static_cast<double>(kSpreadOne));
+        sum += values[first + k] * (part.rows[k * n + c] / static_cast<double>(kSkinningOne));
       const double clamped = std::clamp<double>(std::floor(sum + 0.5), -kMaxControl, kMaxControl);
-      s.control[static_cast<std::size_t>(part.first_control) + c / 2][static_cast<int>(c % 2)] =
-          static_cast<int>(clamped);
+      s.control[part.first_control + c / 2][static_cast<int>(c % 2)] = static_cast<int>(clamped);
     }
     first += n;
   }
@@ -87,11 +86,10 @@ TEST(CodedState, OneCoefficientLeavesOtherPartsAlone) {
     CodedState values{};
     values[k] = 1000;
     const State state = state_of_values(values);
-    const ExpressionPart& part =
-        generic_head().expression[static_cast<std::size_t>(kPartOf[k] - kFirstExpressionPart)];
+    const ExpressionPart& part = generic_head().expression[kPartOf[k] - kFirstExpressionPart];
     int moved = 0;
     for (int c = 0; c < kControlCount; ++c) {
-      if (state.control[static_cast<std::size_t>(c)] == glm::ivec2(0)) continue;
+      if (state.control[c] == glm::ivec2(0)) continue;
       ++moved;
       EXPECT_TRUE(c >= part.first_control && c < part.first_control + part.control_count) << k << ' ' << c;
     }
@@ -108,7 +106,7 @@ TEST(CodedLimits, AreThoseOfTheStateInWholeSteps) {
   EXPECT_EQ(limits.least[kLogScale], 0) << "the eyes are never less than a pixel apart";
   EXPECT_EQ(limits.most[kPoseCount], kMaxLight / 11);
   EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxLight / 11)) << "the mouth's inside";
-  EXPECT_EQ(limits.least[kPoseCount + kLightCount + kInsideCount], -(kMaxTranslation / 5));
+  EXPECT_EQ(limits.least[kPoseCount + kLightCount + kInteriorCount], -(kMaxTranslation / 5));
   EXPECT_EQ(limits.most[kFirstCoefficient], 8 * kMaxControl / 13);
   for (std::size_t i = 0; i < kParameterCount; ++i) EXPECT_LE(limits.least[i], 0) << i;
 }

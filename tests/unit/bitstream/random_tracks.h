@@ -30,12 +30,12 @@ inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits,
       if (t + 1 < pictures && !one_in(habits.knot_one_in)) continue;
       knot.picture = t;
       const bool moves = one_in(habits.moves_one_in);
-      for (int k = 0; moves && k < kPartSizes[part]; ++k) {
+      for (std::size_t k = 0; moves && k < kPartSizes[part]; ++k) {
         if (one_in(2)) continue;
-        const auto i = static_cast<std::size_t>(kPartFirst[part] + k);
+        const auto i = kPartFirst[part] + k;
         const int change =
             static_cast<int>(random() % static_cast<unsigned>(2 * habits.reach + 1)) - habits.reach;
-        std::int32_t& value = knot.value[static_cast<std::size_t>(k)];
+        std::int32_t& value = knot.value[k];
         value = std::clamp(value + change, limits.least[i], limits.most[i]);
       }
       group.tracks[part].push_back(knot);

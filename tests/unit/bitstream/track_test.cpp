@@ -92,7 +92,7 @@ TEST(StatesOf, PartsGoTheirOwnWays) {
   group.tracks[gaze] = {{3, {4096}}};
   const auto states = states_of(group, kFinest);
   EXPECT_EQ(yaws(states), (std::vector{2, 4, 6, 8}));
-  for (int t = 0; t < 4; ++t) EXPECT_EQ(states[static_cast<std::size_t>(t)].light[kLightOffset], t);
+  for (int t = 0; t < 4; ++t) EXPECT_EQ(states[t].light[kLightOffset], t);
   CodedState a_quarter{}, whole{};
   a_quarter[kPartFirst[gaze]] = 1024;
   whole[kPartFirst[gaze]] = 4096;

@@ -97,7 +97,7 @@ TEST_F(VideoSinkFiles, FullDiskIsAnErrorNamingTheFileAndTheCause) {
     fs::create_symlink("/dev/full", path(name));
     auto sink = open_video_sink(path(name), kFormat);
     Result<void> state;
-    if (!sink) state = tl::unexpected(sink.error());
+    if (!sink) state = fail(sink.error());
     for (int i = 0; state && i < 200; ++i) state = (*sink)->write(Picture(96, 64), i * 3600);
     if (state) state = (*sink)->finish();
     ASSERT_FALSE(state) << name;

@@ -174,7 +174,7 @@ TEST_F(VideoSourceFiles, ImageSequenceRoundTrips) {
       const std::vector<TimedPicture> pictures = read_all(**source);
       ASSERT_EQ(pictures.size(), 12U);
       for (int i = 0; i < 12; ++i) {
-        const TimedPicture& timed = pictures[static_cast<std::size_t>(i)];
+        const TimedPicture& timed = pictures[i];
         const Picture expected = moving_ramp(width, height, i);
         EXPECT_EQ(timed.pts, i * 3600);
         EXPECT_LT(mean_difference(timed.picture.y, expected.y), 1);

@@ -69,7 +69,7 @@ TEST(Bspline, ClosedBasisTakesParametersAHairBelowZero) {
 double curve(const SplineBasis& b, const std::array<double, 4>& weight,
              const std::array<double, 10>& position) {
   double x = 0;
-  for (std::size_t k = 0; k < 4; ++k) x += weight[k] * position[static_cast<std::size_t>(b.control[k])];
+  for (std::size_t k = 0; k < 4; ++k) x += weight[k] * position[b.control[k]];
   return x;
 }
 

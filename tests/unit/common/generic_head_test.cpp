@@ -35,19 +35,18 @@ int mirror_control(int c) {
 }
 
 const HeadVertex& vertex(int v) {
-  return generic_head().vertices[static_cast<std::size_t>(v)];
+  return generic_head().vertices[v];
 }
 
 int landmark(int i) {
-  return generic_head().landmark_vertex[static_cast<std::size_t>(i)];
+  return vertex_of_landmark(i);
 }
 
 std::map<int, int> weights(int v) {
   const GenericHead& head = generic_head();
   std::map<int, int> row;
-  for (auto i = head.spread_begin[static_cast<std::size_t>(v)];
-       i < head.spread_begin[static_cast<std::size_t>(v) + 1]; ++i) {
-    row[head.spread[i].control] = head.spread[i].weight;
+  for (auto i = head.skinning_begin[v]; i < head.skinning_begin[static_cast<std::size_t>(v) + 1]; ++i) {
+    row[head.skinning[i].control] = head.skinning[i].weight;
   }
   return row;
 }
@@ -75,7 +74,7 @@ Points moved(const Offsets& offsets) {
     glm::dvec2 p(vertex(v).position.x, vertex(v).position.y);
     p /= kUnitsPerEyeDistance;
     for (const auto& [control, weight] : weights(v)) {
-      p += offsets[static_cast<std::size_t>(control)] * (static_cast<double>(weight) / kSpreadOne);
+      p += offsets[control] * (static_cast<double>(weight) / kSkinningOne);
     }
     out.push_back(p);
   }
@@ -88,16 +87,16 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 
 /// Positive when the triangle is clockwise in the picture, where y points down.
 double area(const Points& p, const HeadTriangle& t) {
-  const glm::dvec2 a = p[static_cast<std::size_t>(t[0])];
-  return cross(p[static_cast<std::size_t>(t[1])] - a, p[static_cast<std::size_t>(t[2])] - a) / 2;
+  const glm::dvec2 a = p[t[0]];
+  return cross(p[t[1]] - a, p[t[2]] - a) / 2;
 }
 
 double smallest_angle_deg(const Points& p, const HeadTriangle& t) {
   double smallest = 180;
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec2 a = p[static_cast<std::size_t>(t[i])];
-    const glm::dvec2 u = p[static_cast<std::size_t>(t[(i + 1) % 3])] - a;
-    const glm::dvec2 v = p[static_cast<std::size_t>(t[(i + 2) % 3])] - a;
+    const glm::dvec2 a = p[t[i]];
+    const glm::dvec2 u = p[t[(i + 1) % 3]] - a;
+    const glm::dvec2 v = p[t[(i + 2) % 3]] - a;
     const double angle = std::atan2(std::abs(cross(u, v)), u.x * v.x + u.y * v.y);
     smallest = std::min(smallest, angle * 180 / std::numbers::pi);
   }
@@ -133,7 +132,7 @@ TEST(GenericHead, HasEachLandmarkOnce) {
   for (int v = 0; v < kVertexCount; ++v) {
     if (vertex(v).landmark < 0) continue;
     ASSERT_LT(vertex(v).landmark, kLandmarkCount);
-    ++seen[static_cast<std::size_t>(vertex(v).landmark)];
+    ++seen[vertex(v).landmark];
     EXPECT_EQ(landmark(vertex(v).landmark), v);
   }
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), kLandmarkCount);
@@ -230,7 +229,7 @@ TEST(GenericHead, OutlineIsOneClockwiseLoopOfBorderEdges) {
     const int b = outline[(i + 1) % outline.size()];
     EXPECT_TRUE(edges.contains({a, b}) && !edges.contains({b, a}))
         << vertex(a).name << ", " << vertex(b).name;
-    twice_area += cross(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
+    twice_area += cross(points[a], points[b]);
   }
   EXPECT_GT(twice_area, 0);
 }
@@ -238,7 +237,7 @@ TEST(GenericHead, OutlineIsOneClockwiseLoopOfBorderEdges) {
 TEST(GenericHead, FeaturesNameTheirVertices) {
   int next_control = 0;
   for (int f = 0; f < kFeatureCount; ++f) {
-    const Feature& feature = generic_head().features[static_cast<std::size_t>(f)];
+    const Feature& feature = generic_head().features[f];
     EXPECT_EQ(feature.first_control, next_control);
     next_control += feature.control_count;
     EXPECT_TRUE(std::is_sorted(feature.vertices.begin(), feature.vertices.end(),
@@ -262,14 +261,14 @@ TEST(GenericHead, SpreadIsSymmetric) {
 
 TEST(GenericHead, SpreadWeightsAreInOrderAndInRange) {
   const GenericHead& head = generic_head();
-  EXPECT_EQ(head.spread_begin.front(), 0);
-  EXPECT_EQ(head.spread_begin.back(), head.spread.size());
+  EXPECT_EQ(head.skinning_begin.front(), 0);
+  EXPECT_EQ(head.skinning_begin.back(), head.skinning.size());
   for (std::size_t v = 0; v < kVertexCount; ++v) {
-    for (std::size_t i = head.spread_begin[v]; i < head.spread_begin[v + 1]; ++i) {
-      EXPECT_GE(head.spread[i].control, i > head.spread_begin[v] ? head.spread[i - 1].control + 1 : 0);
-      EXPECT_LT(head.spread[i].control, kControlCount);
-      EXPECT_GE(head.spread[i].weight, 16);
-      EXPECT_LE(head.spread[i].weight, kSpreadOne);
+    for (std::size_t i = head.skinning_begin[v]; i < head.skinning_begin[v + 1]; ++i) {
+      EXPECT_GE(head.skinning[i].control, i > head.skinning_begin[v] ? head.skinning[i - 1].control + 1 : 0);
+      EXPECT_LT(head.skinning[i].control, kControlCount);
+      EXPECT_GE(head.skinning[i].weight, 16);
+      EXPECT_LE(head.skinning[i].weight, kSkinningOne);
     }
   }
 }
@@ -278,12 +277,12 @@ TEST(GenericHead, CurvesArePartitionsOfUnity) {
   using enum FeatureId;
   for (const FeatureId id : {kMouthOuter, kMouthInner, kBrowRight, kBrowLeft, kPupilRight, kPupilLeft}) {
     for (const FeatureVertex& point : feature(id).vertices) {
-      EXPECT_EQ(weight_of(point.vertex, controls(id)), kSpreadOne) << vertex(point.vertex).name;
+      EXPECT_EQ(weight_of(point.vertex, controls(id)), kSkinningOne) << vertex(point.vertex).name;
     }
   }
   for (const FeatureVertex& point :
        feature(kMouthInner).vertices) {  // the inner lips follow the outer wholly
-    EXPECT_EQ(weight_of(point.vertex, controls(kMouthOuter)), kSpreadOne) << vertex(point.vertex).name;
+    EXPECT_EQ(weight_of(point.vertex, controls(kMouthOuter)), kSkinningOne) << vertex(point.vertex).name;
   }
 }
 
@@ -293,7 +292,7 @@ TEST(GenericHead, SpreadWeightsAreTheCurvesBasis) {
       double t = std::abs(point.s - static_cast<float>(control));
       t = std::min(t, 10 - t);
       const double basis = t < 1 ? 2.0 / 3 - t * t + t * t * t / 2 : std::pow(2 - t, 3) / 6;
-      EXPECT_NEAR(weight, basis * kSpreadOne, 4) << vertex(point.vertex).name;
+      EXPECT_NEAR(weight, basis * kSkinningOne, 4) << vertex(point.vertex).name;
     }
   }
 }
@@ -319,7 +318,7 @@ TEST(GenericHead, EyeCornersEarsNoseAndHairlineStay) {
 }
 
 TEST(GenericHead, ChinFollowsTheLowerLip) {
-  EXPECT_NEAR(weight_of(landmark(8), range(6, 9)), 0.7 * kSpreadOne, 0.1 * kSpreadOne);
+  EXPECT_NEAR(weight_of(landmark(8), range(6, 9)), 0.7 * kSkinningOne, 0.1 * kSkinningOne);
   EXPECT_LT(weight_of(landmark(4), range(6, 9)), weight_of(landmark(6), range(6, 9)));
 }
 
@@ -334,7 +333,7 @@ TEST(GenericHead, LidsCloseWithoutFolding) {
       };
       const double a = fall(upper_a, lower_a);  // = 4/9 of the first control point + 2/9 of the second
       const double b = fall(upper_b, lower_b);  // = 2/9 and 4/9
-      offsets[static_cast<std::size_t>(first)].y = 3 * a - 1.5 * b;
+      offsets[first].y = 3 * a - 1.5 * b;
       offsets[static_cast<std::size_t>(first) + 1].y = 3 * b - 1.5 * a;
     }
     expect_nothing_folds(offsets);
@@ -393,7 +392,7 @@ double mean_stretch(const ExpressionPart& part) {
       if (std::abs(m[r * n + k]) > std::abs(m[pivot * n + k])) pivot = r;
     if (m[pivot * n + k] == 0) return 0;
     for (std::size_t c = 0; c < n; ++c) std::swap(m[k * n + c], m[pivot * n + c]);
-    log_sum += std::log(std::abs(m[k * n + k]) / kSpreadOne);
+    log_sum += std::log(std::abs(m[k * n + k]) / kSkinningOne);
     for (std::size_t r = k + 1; r < n; ++r) {
       const double f = m[r * n + k] / m[k * n + k];
       for (std::size_t c = k; c < n; ++c) m[r * n + c] -= f * m[k * n + c];

@@ -147,7 +147,7 @@ TEST(Light, IsThatOfThePlainRuleOnHostileTriangles) {
     draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, {0, 0, 32, 24}, &depth, {.light = &light});
     for (int y = 0; y < 24; ++y) {
       for (int x = 0; x < 32; ++x) {
-        if (depth.depth[static_cast<std::size_t>(y * 32 + x)] != 0) continue;
+        if (depth.depth[y * 32 + x] != 0) continue;
         ++drawn;
         const std::int64_t grey = pattern.samples[0];
         const std::int64_t sum = (grey << 12) + (plain_light(t, light.offset, x, y) >> 8) +
@@ -176,7 +176,7 @@ Scene grey_scene(std::uint8_t grey, const std::array<std::int32_t, kLightCount>&
 /// Luma where a landmark is.
 int luma_at(const Scene& scene, const State& state, std::size_t landmark) {
   const auto vertices = scene.geometry->project_vertices(state);
-  const glm::ivec3 p = vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])];
+  const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
   return rendered(scene, state).y.row(p.y >> 6)[p.x >> 6];
 }
 
@@ -202,8 +202,7 @@ TEST(RendererLight, FadesOverTheRing) {
   const Picture out = rendered(scene, state);
   const ScreenMesh mesh = scene.geometry->project(state);
   for (std::size_t i = 0; i < generic_head().outline.size(); ++i) {
-    const glm::ivec2 edge(mesh.head[static_cast<std::size_t>(generic_head().outline[i])]),
-        ring(mesh.head[kVertexCount + i]);
+    const glm::ivec2 edge(mesh.head[generic_head().outline[i]]), ring(mesh.head[kVertexCount + i]);
     const glm::ivec2 middle = (edge + ring) / 2 / 64;
     EXPECT_NEAR(out.y.row(middle.y)[middle.x], 115, 9) << i;
   }

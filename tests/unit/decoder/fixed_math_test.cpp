@@ -11,7 +11,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi / 65536;
+constexpr double kSimilarityRotation = 2 * std::numbers::pi / 65536;
 
 TEST(RoundShift, RoundsToNearestAndHalvesUpwards) {
   EXPECT_EQ(round_shift(5, 2), 1);
@@ -24,8 +24,8 @@ TEST(RoundShift, RoundsToNearestAndHalvesUpwards) {
 
 TEST(SineTable, IsTheRoundedSineOfTheFirstQuarter) {
   for (std::size_t i = 0; i < kSineTable.size(); ++i)
-    EXPECT_EQ(kSineTable[i],
-              std::lround(std::sin(static_cast<double>(i) * 64 * kTurn) * (1 << kRotationOneLog2)));
+    EXPECT_EQ(kSineTable[i], std::lround(std::sin(static_cast<double>(i) * 64 * kSimilarityRotation) *
+                                         (1 << kRotationOneLog2)));
 }
 
 TEST(Exp2Table, IsTheRoundedPowerOverOneOctave) {
@@ -36,8 +36,8 @@ TEST(Exp2Table, IsTheRoundedPowerOverOneOctave) {
 // Half a unit from the table, half from the interpolation's rounding, 0.08 from the chord.
 TEST(Sine, IsWithin1Point1UnitsOfTheSineAtEveryAngle) {
   for (std::int32_t a = 0; a < 65536; ++a) {
-    ASSERT_NEAR(sine(a), std::sin(a * kTurn) * 16384, 1.1) << a;
-    ASSERT_NEAR(cosine(a), std::cos(a * kTurn) * 16384, 1.1) << a;
+    ASSERT_NEAR(sine(a), std::sin(a * kSimilarityRotation) * 16384, 1.1) << a;
+    ASSERT_NEAR(cosine(a), std::cos(a * kSimilarityRotation) * 16384, 1.1) << a;
   }
 }
 

@@ -94,7 +94,7 @@ TEST(MouthInside, IsARampOverTheTriangle) {
     const double area = ab.x * ac.y - ab.y * ac.x;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
-        if (depth.depth[static_cast<std::size_t>(y * kWidth + x)] != 0) continue;
+        if (depth.depth[y * kWidth + x] != 0) continue;
         ++compared;
         const glm::dvec2 d = glm::dvec2((x + 0.5) * unit, (y + 0.5) * unit) - a;
         const double ramp = (128 * (d.x * ac.y - d.y * ac.x) + 256 * (ab.x * d.y - ab.y * d.x)) / area;
@@ -145,7 +145,7 @@ Scene even_scene(const MouthInterior& mouth) {
 State open_mouth() {
   State state = toy_state(80, 56);
   const Feature& inner = feature(FeatureId::kMouthInner);
-  for (const int c : {4, 5, 6, 7}) state.control[static_cast<std::size_t>(inner.first_control + c)].y = 1200;
+  for (const int c : {4, 5, 6, 7}) state.control[inner.first_control + c].y = 1200;
   return state;
 }
 
@@ -153,9 +153,7 @@ State open_mouth() {
 std::vector<int> down_the_mouth(const Scene& scene, const State& state) {
   const Picture out = rendered(scene, state);
   const auto vertices = scene.geometry->project_vertices(state);
-  const auto at = [&](std::size_t landmark) {
-    return glm::ivec2(vertices[static_cast<std::size_t>(generic_head().landmark_vertex[landmark])]);
-  };
+  const auto at = [&](std::size_t landmark) { return glm::ivec2(vertices[vertex_of_landmark(landmark)]); };
   const glm::ivec2 top = at(62), bottom = at(66);
   std::vector<int> column;
   for (int y = (top.y + 95) / 64; y * 64 + 96 < bottom.y; ++y) column.push_back(out.y.row(y)[top.x / 64]);
@@ -183,7 +181,7 @@ TEST(RendererMouth, StateAddsAtTheUpperLipHalfWayAndAtTheLowerLip) {
   const Scene scene = even_scene({kGrey, kGrey});
   State state = open_mouth();
   for (const int v : down_the_mouth(scene, state)) EXPECT_EQ(v, 100);
-  state.inside = {0, 16 * 60, 0};
+  state.interior = {0, 16 * 60, 0};
   auto column = down_the_mouth(scene, state);
   const auto top = std::max_element(column.begin(), column.end());
   EXPECT_GT(*top, 145);
@@ -192,11 +190,11 @@ TEST(RendererMouth, StateAddsAtTheUpperLipHalfWayAndAtTheLowerLip) {
               std::is_sorted(column.rbegin(), std::reverse_iterator(top)));
   EXPECT_LT(column.front(), 125);
   EXPECT_LT(column.back(), 125);
-  state.inside = {16 * 60, 0, 0};
+  state.interior = {16 * 60, 0, 0};
   column = down_the_mouth(scene, state);
   EXPECT_GT(column.front(), 135);
   EXPECT_EQ(column.back(), 100);
-  state.inside = {0, 0, -16 * 60};
+  state.interior = {0, 0, -16 * 60};
   column = down_the_mouth(scene, state);
   EXPECT_EQ(column.front(), 100);
   EXPECT_LT(column.back(), 65);
@@ -204,9 +202,9 @@ TEST(RendererMouth, StateAddsAtTheUpperLipHalfWayAndAtTheLowerLip) {
 
 // 1/16 grey level, rounded to nearest with halves up; the middle from the mean of both colours.
 TEST(RendererMouth, StateIsInSixteenthsAndRounded) {
-  const auto even = [](YuvColour upper, YuvColour lower, std::array<std::int32_t, kInsideCount> inside) {
+  const auto even = [](YuvColour upper, YuvColour lower, std::array<std::int32_t, kInteriorCount> inside) {
     State state = open_mouth();
-    state.inside = inside;
+    state.interior = inside;
     const std::vector<int> column = down_the_mouth(even_scene({upper, lower}), state);
     EXPECT_EQ(std::count(column.begin(), column.end(), column[0]),
               static_cast<std::ptrdiff_t>(column.size()));
@@ -221,9 +219,9 @@ TEST(RendererMouth, StateIsInSixteenthsAndRounded) {
 
 TEST(RendererMouth, StateIsClampedToBlackAndWhite) {
   State state = open_mouth();
-  state.inside = {kMaxLight, kMaxLight, kMaxLight};
+  state.interior = {kMaxLight, kMaxLight, kMaxLight};
   for (const int v : down_the_mouth(even_scene({kGrey, kGrey}), state)) EXPECT_EQ(v, 255);
-  state.inside = {-kMaxLight, -kMaxLight, -kMaxLight};
+  state.interior = {-kMaxLight, -kMaxLight, -kMaxLight};
   for (const int v : down_the_mouth(even_scene({kGrey, kGrey}), state)) EXPECT_EQ(v, 0);
 }
 
@@ -231,7 +229,7 @@ TEST(RendererMouth, StateLeavesChromaAndAllElseAlone) {
   const Scene scene = even_scene({kGrey, kGrey});
   State state = open_mouth();
   const Picture plain = rendered(scene, state);
-  state.inside = {-1600, 1600, 1000};
+  state.interior = {-1600, 1600, 1000};
   const Picture changed = rendered(scene, state);
   EXPECT_EQ(changed.u, plain.u);
   EXPECT_EQ(changed.v, plain.v);
@@ -248,7 +246,7 @@ TEST(RendererMouth, StateSaysNothingWhileTheLipsAreShut) {
   const Scene scene = even_scene({kGrey, kGrey});
   State state = toy_state(83, 55);
   const Picture plain = rendered(scene, state);
-  state.inside = {1600, -1600, 1600};
+  state.interior = {1600, -1600, 1600};
   EXPECT_EQ(rendered(scene, state), plain);
 }
 

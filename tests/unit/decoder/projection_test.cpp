@@ -29,9 +29,9 @@ TEST(Deform, AddsEachControlPointByItsWeight) {
     if (head.vertices[v].feature >= static_cast<int>(FeatureId::kPupilRight))
       continue;  // kept between the lids
     glm::dvec2 offset(0);
-    for (std::size_t k = head.spread_begin[v]; k < head.spread_begin[v + 1]; ++k)
-      offset += glm::dvec2(state.control[static_cast<std::size_t>(head.spread[k].control)]) *
-                (head.spread[k].weight / static_cast<double>(kSpreadOne));
+    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
+      offset += glm::dvec2(state.control[head.skinning[k].control]) *
+                (head.skinning[k].weight / static_cast<double>(kSkinningOne));
     EXPECT_NEAR(moved[v].x - neutral[v].x, offset.x, 0.501);
     EXPECT_NEAR(moved[v].y - neutral[v].y, offset.y, 0.501);
     EXPECT_EQ(moved[v].z, neutral[v].z);
@@ -48,8 +48,7 @@ TEST(Deform, KeepsPupilsBetweenTheLids) {
     const auto vertices = deform(toy_geometry().positions, state);
     const auto y_of = [&](FeatureId id) {
       std::vector<int> y;
-      for (const FeatureVertex& v : feature(id).vertices)
-        y.push_back(vertices[static_cast<std::size_t>(v.vertex)].y);
+      for (const FeatureVertex& v : feature(id).vertices) y.push_back(vertices[v.vertex].y);
       return y;
     };
     const auto upper = y_of(FeatureId::kUpperLidLeft), lower = y_of(FeatureId::kLowerLidLeft);
@@ -75,8 +74,7 @@ TEST(Mouth, GapIsThatOfTheInnerLips) {
   const auto neutral = toy_geometry().positions;
   for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(v.vertex));
   for (int i = 0; i < inner.control_count; ++i)
-    open.control[static_cast<std::size_t>(inner.first_control + i)].y =
-        i >= inner.control_count / 2 ? 800 : 0;
+    open.control[inner.first_control + i].y = i >= inner.control_count / 2 ? 800 : 0;
   EXPECT_GT(mouth_gap(deform(neutral, open)), mouth_gap(neutral) + 400);
   for (std::int16_t v = kVertexCount; v < head_mesh().vertex_count; ++v)
     EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
@@ -92,8 +90,8 @@ TEST(HeadMesh, FacesTheViewerFromTheFront) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     RasterTriangle corners;
     for (std::size_t i = 0; i < 3; ++i) {
-      ASSERT_TRUE(mesh.triangles[t][i] >= 0 && mesh.triangles[t][i] < mesh.vertex_count);
-      const glm::ivec3 p = screen.head[static_cast<std::size_t>(mesh.triangles[t][i])];
+      ASSERT_TRUE(mesh.triangles[t][i] < mesh.vertex_count);
+      const glm::ivec3 p = screen.head[mesh.triangles[t][i]];
       corners[i] = {{p.x, p.y}, {}, p.z};
     }
     EXPECT_TRUE(faces_viewer(corners)) << (t < ring_begins ? "head " : "ring ") << t;
@@ -105,8 +103,7 @@ TEST(SceneGeometry, RingLiesOutsideTheOutlineAndBehindIt) {
   const ScreenMesh rest = geometry.project(toy_state());
   const auto outline = generic_head().outline;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::ivec3 ring = rest.head[kVertexCount + i],
-                     edge = rest.head[static_cast<std::size_t>(outline[i])];
+    const glm::ivec3 ring = rest.head[kVertexCount + i], edge = rest.head[outline[i]];
     EXPECT_GT(ring.z, edge.z) << "the face hides it";
     const glm::dvec2 centre = glm::dvec2(80, 50) * 64.0;
     const glm::dvec2 inner = glm::dvec2(edge) - centre, outer = glm::dvec2(ring) - centre;

@@ -148,9 +148,7 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
     std::vector<RasterTriangle> mesh;
     for (int r = 0; r < kCells; ++r) {
       for (int c = 0; c < kCells; ++c) {
-        const auto at = [&](int i, int j) {
-          return p[static_cast<std::size_t>((r + j) * (kCells + 1) + c + i)];
-        };
+        const auto at = [&](int i, int j) { return p[(r + j) * (kCells + 1) + c + i]; };
         mesh.push_back(in_place(at(0, 0), at(1, 0), at(1, 1)));
         mesh.push_back(in_place(at(0, 0), at(1, 1), at(0, 1)));
       }

@@ -24,8 +24,7 @@ TEST(Renderer, StateOfThePatternReproducesItWhateverThePoseWas) {
   Renderer renderer;
   for (int i = 0; i < 40; ++i) {
     State seen = toy_state();
-    for (const int k : {kPitch, kYaw, kRoll})
-      seen.pose[static_cast<std::size_t>(k)] = static_cast<int>(random() % 12000) - 6000;
+    for (const int k : {kPitch, kYaw, kRoll}) seen.pose[k] = static_cast<int>(random() % 12000) - 6000;
     for (glm::ivec2& c : seen.control)
       c = {static_cast<int>(random() % 801) - 400, static_cast<int>(random() % 801) - 400};
     Scene scene;
@@ -73,8 +72,7 @@ int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
 
 std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
   std::vector<glm::ivec2> out;
-  for (const std::int16_t v : generic_head().outline)
-    out.emplace_back(mesh.head[static_cast<std::size_t>(v)]);
+  for (const std::int16_t v : generic_head().outline) out.emplace_back(mesh.head[v]);
   return out;
 }
 
@@ -139,7 +137,7 @@ TEST(Renderer, StillGroundStaysWhereTheHeadIsNot) {
     std::vector<std::vector<glm::ivec2>> triangles;
     for (const auto& t : head_mesh().triangles) {
       triangles.emplace_back();
-      for (const std::int16_t v : t) triangles.back().emplace_back(now.head[static_cast<std::size_t>(v)]);
+      for (const std::int16_t v : t) triangles.back().emplace_back(now.head[v]);
     }
     int compared = 0;
     for (int y = 0; y < 128; ++y) {
@@ -204,9 +202,7 @@ TEST(Renderer, ShowsTheNearestTriangle) {
       int layers = 0;
       bool on_edge = false;
       for (const auto& t : head_mesh().triangles) {
-        const auto corner = [&](const ScreenMesh& m, std::size_t i) {
-          return m.head[static_cast<std::size_t>(t[i])];
-        };
+        const auto corner = [&](const ScreenMesh& m, std::size_t i) { return m.head[t[i]]; };
         const glm::dvec2 a(corner(now, 0)), b(corner(now, 1)), c(corner(now, 2));
         const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };
         const double area = cross(b - a, c - a);

@@ -75,7 +75,7 @@ TEST(Surround, SeenStateGivesTheRegularGridAndItsMargin) {
       const int y = kInset + (r < 0   ? -127 * 32
                               : r > 5 ? 127 * 96 - 2 * kInset
                                       : (127 * 64 - 2 * kInset) * r / 5);
-      EXPECT_EQ(grid[static_cast<std::size_t>((r + 1) * 10 + c + 1)], glm::ivec2(x, y)) << c << ' ' << r;
+      EXPECT_EQ(grid[(r + 1) * 10 + c + 1], glm::ivec2(x, y)) << c << ' ' << r;
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(Surround, TextureIsWhereThingsWereSeenAndInTheMarginTheBorders) {
   for (int r = 0; r <= 7; ++r) {
     for (int c = 0; c <= 9; ++c) {
       const auto k = static_cast<std::size_t>((on_picture(r, 5) + 1) * 10 + on_picture(c, 7) + 1);
-      EXPECT_EQ(surround.texture()[static_cast<std::size_t>(r * 10 + c)], grid[k]) << r << ' ' << c;
+      EXPECT_EQ(surround.texture()[r * 10 + c], grid[k]) << r << ' ' << c;
     }
   }
   EXPECT_EQ(surround.texture().front(), glm::ivec2(kInset));
@@ -104,7 +104,7 @@ TEST(Surround, FollowsAShiftOfTheHeadByItsShare) {
       for (int c = 0; c <= 10; ++c) {
         const bool inside = r > 1 && c > 1 && r < 9 && c < 9;
         const glm::ivec2 expected = inside ? glm::ivec2(8 * 16 * share, -4 * 16 * share) : glm::ivec2(0);
-        EXPECT_EQ(way[static_cast<std::size_t>(r * 11 + c)], expected) << r << ' ' << c;
+        EXPECT_EQ(way[r * 11 + c], expected) << r << ' ' << c;
       }
     }
   }
@@ -181,9 +181,7 @@ TEST(Surround, MarginMovesAsTheBorderDoes) {
     const auto way = ways(surround, state);
     for (int r = 0; r <= 6; ++r)
       for (int c = 0; c <= 7; ++c)
-        ASSERT_EQ(way[static_cast<std::size_t>(r * 8 + c)],
-                  way[static_cast<std::size_t>((on_picture(r, 4) + 1) * 8 + on_picture(c, 5) + 1)])
-            << r << ' ' << c;
+        ASSERT_EQ(way[r * 8 + c], way[(on_picture(r, 4) + 1) * 8 + on_picture(c, 5) + 1]) << r << ' ' << c;
   }
 }
 
@@ -193,8 +191,7 @@ TEST(Surround, WhatFollowsWhollyMovesAsTheHeadsPlane) {
   for (int i = 0; i < 200; ++i) {
     State seen = toy_state(), now = toy_state();
     for (State* s : {&seen, &now}) {
-      for (const int k : {kPitch, kYaw, kRoll})
-        s->pose[static_cast<std::size_t>(k)] = static_cast<int>(random() % 10000) - 5000;
+      for (const int k : {kPitch, kYaw, kRoll}) s->pose[k] = static_cast<int>(random() % 10000) - 5000;
       s->pose[kShiftX] += static_cast<int>(random() % 2000) - 1000;
       s->pose[kShiftY] += static_cast<int>(random() % 2000) - 1000;
       s->pose[kLogScale] += static_cast<int>(random() % 2000) - 1000;

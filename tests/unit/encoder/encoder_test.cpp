@@ -47,7 +47,7 @@ Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFor
                                           const EncoderSettings& settings,
                                           const std::vector<std::uint32_t>& durations = {}) {
   auto encoder = Encoder::create(format, settings);
-  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  if (!encoder) return fail(encoder.error());
   std::vector<std::uint8_t> stream;
   const auto take = [&] {
     const auto bytes = encoder->take();
@@ -55,10 +55,10 @@ Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFor
   };
   for (std::size_t i = 0; i < source.size(); ++i) {
     if (auto pushed = encoder->push(source[i], durations.empty() ? 0 : durations[i]); !pushed)
-      return tl::unexpected<Error>(pushed.error());
+      return fail(pushed.error());
     take();
   }
-  if (auto finished = encoder->finish(); !finished) return tl::unexpected<Error>(finished.error());
+  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
   take();
   return stream;
 }
@@ -248,8 +248,7 @@ TEST(Encoder, FollowsTheFaceMarkedByHand) {
   EXPECT_EQ(seen.iterations.size(), seen.snakes.size());
   for (int k = 0; k < kLandmarkCount; ++k) {
     const glm::dvec2 mark = *settings.marks->landmark(k);
-    const glm::dvec2 vertex =
-        seen.vertices[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])];
+    const glm::dvec2 vertex = seen.vertices[vertex_of_landmark(k)];
     EXPECT_LT(std::hypot(mark.x - vertex.x, mark.y - vertex.y), 0.04 * clip.pose(0).eye_distance_px()) << k;
   }
 }

@@ -56,9 +56,7 @@ double worst_mark(const Marks& marks, const AdaptedHead& head) {
 int folded_triangles(const Geometry& geometry) {
   int folded = 0;
   for (const HeadTriangle& t : generic_head().triangles) {
-    const auto at = [&](std::size_t i) {
-      return glm::ivec2(geometry.positions[static_cast<std::size_t>(t[i])]);
-    };
+    const auto at = [&](std::size_t i) { return glm::ivec2(geometry.positions[t[i]]); };
     const glm::ivec2 a = at(1) - at(0), b = at(2) - at(0);
     if (std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x <= 0) ++folded;
   }
@@ -67,7 +65,7 @@ int folded_triangles(const Geometry& geometry) {
 
 TEST(EdgeDistances, AreAMetricOverTheMesh) {
   const auto& d = edge_distances();
-  const auto at = [&](int a, int b) { return d[static_cast<std::size_t>(a * kVertexCount + b)]; };
+  const auto at = [&](int a, int b) { return d[a * kVertexCount + b]; };
   ASSERT_EQ(d.size(), static_cast<std::size_t>(kVertexCount * kVertexCount));
   for (int a = 0; a < kVertexCount; ++a) {
     EXPECT_EQ(at(a, a), 0);
@@ -164,7 +162,7 @@ TEST(AdaptHead, ReachesTheTalkersPoints) {
 
 // Vertices without marks of their own go along with their neighbours.
 TEST(AdaptHead, SpreadsAMarksForceOverItsNeighbourhood) {
-  const auto mouth = static_cast<std::size_t>(generic_head().landmark_vertex[57]);  // middle of the lower lip
+  const auto mouth = vertex_of_landmark(57);  // middle of the lower lip
   const Marks marks = marks_of(seen_at(100, 80, 40), [&](std::size_t v, glm::dvec2 p) {
     return p +
            glm::dvec2(0, generic_head().vertices[v].landmark >= 48 && p.y > generic(mouth).y - 600 ? 400 : 0);
@@ -175,7 +173,7 @@ TEST(AdaptHead, SpreadsAMarksForceOverItsNeighbourhood) {
   const auto head = adapt_head(eyes_and_lip), still = adapt_head(plain_marks(seen_at(100, 80, 40)));
   ASSERT_TRUE(head && still);
   const auto moved = [&](int ibug) {
-    const auto v = static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(ibug)]);
+    const auto v = vertex_of_landmark(ibug);
     return head->geometry.positions[v].y - still->geometry.positions[v].y;
   };
   EXPECT_GT(moved(8), 40) << "the chin, unmarked, follows";
@@ -212,9 +210,7 @@ TEST(AdaptHead, AbsurdMarksFoldNoTriangle) {
 
 TEST(AdaptHead, RefusesMarksWithoutAnEye) {
   Marks marks = plain_marks(seen_at(100, 80, 40));
-  for (int k = 36; k < 42; ++k)
-    marks.vertex[static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)])]
-        .reset();
+  for (int k = 36; k < 42; ++k) marks.vertex[vertex_of_landmark(k)].reset();
   EXPECT_EQ(adapt_head(marks).error().code, ErrorCode::kDegenerateInput);
   EXPECT_EQ(adapt_head(plain_marks(seen_at(100, 80, 3))).error().code, ErrorCode::kDegenerateInput);
 }

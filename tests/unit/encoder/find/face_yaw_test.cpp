@@ -24,8 +24,8 @@ TEST(FindTurn, TellsTheSideAndSomeOfTheAngle) {
     if (clip.pose(i).yaw > clip.pose(leftmost).yaw) leftmost = i;
     if (clip.pose(i).yaw < clip.pose(rightmost).yaw) rightmost = i;
   }
-  const double left = std::atan(find_turn(frame_of(clip, leftmost)).tangent);
-  const double right = std::atan(find_turn(frame_of(clip, rightmost)).tangent);
+  const double left = std::atan(estimate_yaw(frame_of(clip, leftmost)).tangent);
+  const double right = std::atan(estimate_yaw(frame_of(clip, rightmost)).tangent);
   ASSERT_GT(clip.pose(leftmost).yaw - clip.pose(rightmost).yaw, 0.4);
   EXPECT_GT(left, 0.5 * clip.pose(leftmost).yaw);
   EXPECT_LT(right, 0.5 * clip.pose(rightmost).yaw);
@@ -33,7 +33,7 @@ TEST(FindTurn, TellsTheSideAndSomeOfTheAngle) {
 
 TEST(FindTurn, FrontalFaceIsNearlyFrontal) {
   TalkerClip clip(talker_settings(352, 288, 1));
-  const FaceTurn turn = find_turn(frame_of(clip, 0));
+  const FaceYaw turn = estimate_yaw(frame_of(clip, 0));
   EXPECT_NEAR(turn.tangent, 0, 0.08);
   EXPECT_NEAR(turn.shift, 0, 0.05);
 }
@@ -42,7 +42,7 @@ TEST(FindTurn, FlatPictureSaysNothing) {
   Picture grey(200, 200);
   for (Plane* plane : {&grey.y, &grey.u, &grey.v})
     std::fill(plane->samples.begin(), plane->samples.end(), std::uint8_t{128});
-  EXPECT_EQ(find_turn(FaceFrame(grey, {80, 90}, {120, 90})).tangent, 0);
+  EXPECT_EQ(estimate_yaw(FaceFrame(grey, {80, 90}, {120, 90})).tangent, 0);
 }
 
 }  // namespace

@@ -44,9 +44,7 @@ std::string sixty_eight(int count, const std::string& last = "[1, 2]") {
 
 /// Names that mark both eyes.
 std::string with_eyes(const std::string& more) {
-  const auto name = [](std::size_t ibug) {
-    return generic_head().vertices[static_cast<std::size_t>(generic_head().landmark_vertex[ibug])].name;
-  };
+  const auto name = [](std::size_t ibug) { return generic_head().vertices[vertex_of_landmark(ibug)].name; };
   std::ostringstream text;
   text << "{\"" << name(36) << "\": [80, 60], \"" << name(45) << "\": [120.5, 61]" << more << '}';
   return text.str();
@@ -82,8 +80,8 @@ TEST_F(MarksFile, ReadsWhatTheTalkerWrites) {
   ASSERT_TRUE(marks) << marks.error().text;
   const auto truth = clip.talker().points(0);
   for (int k = 0; k < kLandmarkCount; ++k) {
-    EXPECT_NEAR(marks->landmark(k)->x, static_cast<double>(truth[static_cast<std::size_t>(k)].x), 0.51);
-    EXPECT_NEAR(marks->landmark(k)->y, static_cast<double>(truth[static_cast<std::size_t>(k)].y), 0.51);
+    EXPECT_NEAR(marks->landmark(k)->x, static_cast<double>(truth[k].x), 0.51);
+    EXPECT_NEAR(marks->landmark(k)->y, static_cast<double>(truth[k].y), 0.51);
   }
 }
 
@@ -175,7 +173,7 @@ TEST(FindMarks, FlatPictureKeepsTheProportionsOfTheGenericHead) {
   const Marks marks = find_marks(flat, face);
   for (int k = 0; k < kLandmarkCount; ++k) {
     ASSERT_TRUE(marks.landmark(k)) << k;
-    const auto v = static_cast<std::size_t>(generic_head().landmark_vertex[static_cast<std::size_t>(k)]);
+    const auto v = vertex_of_landmark(k);
     const glm::ivec3 p = generic_head().vertices[v].position;
     EXPECT_LT(distance(*marks.landmark(k), glm::dvec2(100, 60) + glm::dvec2(p.x, p.y) * (40.0 / 4096)), 8)
         << k;

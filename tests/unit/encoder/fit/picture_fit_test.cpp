@@ -22,14 +22,14 @@ State other_state(const FittedScene& s) {
   state.pose[kShiftY] -= 64;
   for (const FeatureId id : {FeatureId::kBrowRight, FeatureId::kBrowLeft})
     for (int i = 0; i < feature(id).control_count; ++i)
-      state.control[static_cast<std::size_t>(feature(id).first_control + i)] = {0, -350};
+      state.control[feature(id).first_control + i] = {0, -350};
   return state;
 }
 
 /// With the lower lip hanging.
 State with_open_mouth(State state) {
   const Feature& inner = feature(FeatureId::kMouthInner);
-  for (const int c : {4, 5, 6, 7}) state.control[static_cast<std::size_t>(inner.first_control + c)].y = 1000;
+  for (const int c : {4, 5, 6, 7}) state.control[inner.first_control + c].y = 1000;
   return state;
 }
 
@@ -37,7 +37,7 @@ State with_open_mouth(State state) {
 Fit fit_of(const State& state) {
   Fit fit{pose_of(state), {}, {}};
   for (std::size_t i = 0; i < kLightCount; ++i) fit.light[i] = state.light[i] / 16.0;
-  for (std::size_t i = 0; i < kInsideCount; ++i) fit.inside[i] = state.inside[i] / 16.0;
+  for (std::size_t i = 0; i < kInteriorCount; ++i) fit.interior[i] = state.interior[i] / 16.0;
   for (std::size_t c = 0; c < kControlCount; ++c) fit.offsets[c] = glm::dvec2(state.control[c]);
   return fit;
 }
@@ -56,8 +56,7 @@ TEST(PictureFit, RefineFindsPoseAndExpression) {
   const Picture source = s.drawn(truth);
   EXPECT_LT(squares(s.drawn(state_of(found)), source), 0.35 * squares(s.drawn(s.seen), source));
   double brow = 0;
-  for (int i = 0; i < 4; ++i)
-    brow += found.offsets[static_cast<std::size_t>(feature(FeatureId::kBrowRight).first_control + i)].y / 4;
+  for (int i = 0; i < 4; ++i) brow += found.offsets[feature(FeatureId::kBrowRight).first_control + i].y / 4;
   EXPECT_LT(brow, -100) << "raised";
 }
 
@@ -82,7 +81,7 @@ TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
   const Feature& inner = feature(FeatureId::kMouthInner);
   Fit strayed = start;
   for (const int c : {5, 6, 7})  // of the lower lip
-    strayed.offsets[static_cast<std::size_t>(inner.first_control + c)].y = -400;
+    strayed.offsets[inner.first_control + c].y = -400;
   const auto gap = [&](const Fit& fit) {
     return std::abs(mouth_gap(deform(toy_geometry().positions, state_of(fit))) -
                     mouth_gap(deform(toy_geometry().positions, truth)));
@@ -103,7 +102,7 @@ TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
   const ExpressionPart& brows = generic_head().expression[1];
   for (int i = 0; i < kControlCount; ++i) {
     const bool sent = i >= brows.first_control && i < brows.first_control + brows.control_count;
-    EXPECT_EQ(found.offsets[static_cast<std::size_t>(i)] != glm::dvec2(0), sent) << i;
+    EXPECT_EQ(found.offsets[i] != glm::dvec2(0), sent) << i;
   }
 }
 
@@ -124,7 +123,7 @@ TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
   FittedScene s;
   State state = other_state(s);
   state.light = {-100, 7, 80, 16};
-  state.inside = {33, -50, 4};
+  state.interior = {33, -50, 4};
   EXPECT_EQ(state_of(fit_of(state)), state);
   Fit fit = fit_of(state);
   fit.light[0] += 0.4 / 16;
@@ -134,13 +133,13 @@ TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
 
 TEST(PictureFit, MouthsInsideIsFound) {
   FittedScene s;
-  for (const std::array<int, kInsideCount>& inside : {std::array{40, 0, 0}, {0, 40, 0}, {-30, -30, 40}}) {
+  for (const std::array<int, kInteriorCount>& inside : {std::array{40, 0, 0}, {0, 40, 0}, {-30, -30, 40}}) {
     State truth = with_open_mouth(s.seen);
     const Fit start = fit_of(truth);
-    for (std::size_t i = 0; i < kInsideCount; ++i) truth.inside[i] = 16 * inside[i];
+    for (std::size_t i = 0; i < kInteriorCount; ++i) truth.interior[i] = 16 * inside[i];
     s.look_at(truth);
     const Fit found = s.fit.refine(start);
-    for (std::size_t i = 0; i < kInsideCount; ++i) EXPECT_NEAR(found.inside[i], inside[i], 15) << i;
+    for (std::size_t i = 0; i < kInteriorCount; ++i) EXPECT_NEAR(found.interior[i], inside[i], 15) << i;
   }
 }
 
@@ -157,8 +156,8 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   ASSERT_TRUE(cv::eigen(form.form, values));
   EXPECT_GT(values(kParameterCount - 1), -1e-9 * values(0));
   for (int i = 0; i < kParameterCount; ++i) {
-    const bool surround = kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kBody) ||
-                          kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kGround);
+    const bool surround =
+        kPartOf[i] == static_cast<int>(PartId::kBody) || kPartOf[i] == static_cast<int>(PartId::kGround);
     EXPECT_EQ(form.form(i, i) > 0, !surround) << i;
   }
 }
@@ -168,7 +167,7 @@ TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
   s.look_at(s.seen);
   const FitForm form = s.fit.form_at(fit_of(s.seen));
   for (int i = 0; i < kParameterCount; ++i)
-    if (kPartOf[static_cast<std::size_t>(i)] == static_cast<int>(PartId::kInside)) {
+    if (kPartOf[i] == static_cast<int>(PartId::kMouthInterior)) {
       EXPECT_EQ(cv::countNonZero(form.form.row(i)), 0) << i;
     }
 }
@@ -177,7 +176,7 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   FittedScene s;
   State state = other_state(s);
   state.light = {160, -32, 80, 16};
-  state.inside = {48, -16, 7};
+  state.interior = {48, -16, 7};
   s.look_at(state);
   for (const FitForm& form : {s.fit.form_at(fit_of(state)), form_unseen(fit_of(state))}) {
     CodedState values;
@@ -186,7 +185,7 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
     const State back = state_of_values(values);
     EXPECT_EQ(back.pose, state.pose);
     EXPECT_EQ(back.light, state.light);
-    EXPECT_EQ(back.inside, state.inside);
+    EXPECT_EQ(back.interior, state.interior);
     for (std::size_t c = 0; c < kControlCount; ++c) {
       EXPECT_NEAR(back.control[c].x, state.control[c].x, 4) << c;
       EXPECT_NEAR(back.control[c].y, state.control[c].y, 4) << c;
@@ -258,8 +257,7 @@ TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
     State state = s.seen;
     for (const FeatureId id : lids)
       for (int i = 0; i < 2; ++i)
-        state.control[static_cast<std::size_t>(feature(id).first_control + i)] = {
-            0, static_cast<int>(std::lround(by))};
+        state.control[feature(id).first_control + i] = {0, static_cast<int>(std::lround(by))};
     return state;
   };
   const double down = 0.12 * kUnitsPerEyeDistance;
@@ -267,11 +265,10 @@ TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
     s.look_at(lowered(truth));
     Fit start{pose_of(s.seen), {}, {}};
     for (const FeatureId id : lids)
-      for (std::size_t i = 0; i < 2; ++i)
-        start.offsets[static_cast<std::size_t>(feature(id).first_control) + i] = {0, down - truth};
+      for (std::size_t i = 0; i < 2; ++i) start.offsets[feature(id).first_control + i] = {0, down - truth};
     const Fit found = s.fit.with_best_lids(start);
     for (const FeatureId id : lids)
-      EXPECT_NEAR(found.offsets[static_cast<std::size_t>(feature(id).first_control)].y, truth, 0.35 * down);
+      EXPECT_NEAR(found.offsets[feature(id).first_control].y, truth, 0.35 * down);
   }
 }
 

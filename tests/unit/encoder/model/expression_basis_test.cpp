@@ -26,8 +26,8 @@ Offsets moved_by(const Coefficients& coefficients) {
     const auto n = static_cast<std::size_t>(2 * part.control_count);
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t c = 0; c < n; ++c)
-        out[static_cast<std::size_t>(part.first_control) + c / 2][static_cast<int>(c % 2)] +=
-            coefficients[first + k] * part.rows[k * n + c] / kSpreadOne;
+        out[part.first_control + c / 2][static_cast<int>(c % 2)] +=
+            coefficients[first + k] * part.rows[k * n + c] / kSkinningOne;
     first += n;
   }
   return out;
@@ -35,7 +35,7 @@ Offsets moved_by(const Coefficients& coefficients) {
 
 cv::Mat1d column_of(const Offsets& offsets) {
   cv::Mat1d out(kCoefficientCount, 1);
-  for (int i = 0; i < kCoefficientCount; ++i) out(i) = offsets[static_cast<std::size_t>(i / 2)][i % 2];
+  for (int i = 0; i < kCoefficientCount; ++i) out(i) = offsets[i / 2][i % 2];
   return out;
 }
 

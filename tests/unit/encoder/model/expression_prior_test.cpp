@@ -12,11 +12,11 @@ using Offsets = std::array<glm::dvec2, kControlCount>;
 constexpr double kUnit = kUnitsPerEyeDistance;
 
 std::size_t first_of(FeatureId id) {
-  return static_cast<std::size_t>(feature(id).first_control);
+  return feature(id).first_control;
 }
 
 std::size_t end_of(FeatureId id) {
-  return first_of(id) + static_cast<std::size_t>(feature(id).control_count);
+  return first_of(id) + feature(id).control_count;
 }
 
 Offsets shifted(FeatureId id, glm::dvec2 by) {

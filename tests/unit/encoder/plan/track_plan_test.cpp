@@ -65,8 +65,8 @@ double distortion(const MotionGroup& group, const std::vector<FitForm>& fits) {
       for (auto knot = group.tracks[part].begin(); b.picture < static_cast<int>(t); ++knot) a = b, b = *knot;
       const double share =
           b.picture == a.picture ? 1 : (static_cast<int>(t) - a.picture) / (1.0 * b.picture - a.picture);
-      for (int k = 0; k < kPartSizes[part]; ++k) {
-        const auto i = static_cast<std::size_t>(kPartFirst[part] + k), p = static_cast<std::size_t>(k);
+      for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
+        const auto i = kPartFirst[part] + k, p = k;
         e(static_cast<int>(i)) =
             in_units(i, a.value[p] + share * (b.value[p] - a.value[p])) - fits[t].value[i];
       }
@@ -234,9 +234,9 @@ TEST(TrackPlanner, NumbersStayWithinTheirLimits) {
   const MotionGroup group = planned(fits);
   for (std::size_t part = 0; part < kPartCount; ++part) {
     for (const Knot& knot : group.tracks[part]) {
-      for (int k = 0; k < kPartSizes[part]; ++k) {
-        const auto i = static_cast<std::size_t>(kPartFirst[part] + k);
-        const std::int32_t value = knot.value[static_cast<std::size_t>(k)];
+      for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
+        const auto i = kPartFirst[part] + k;
+        const std::int32_t value = knot.value[k];
         EXPECT_TRUE(value >= limits.least[i] && value <= limits.most[i]) << i << ' ' << value;
       }
     }

@@ -54,7 +54,7 @@ TEST(FitSurround, HairFollowsTheHeadAndTheGroundStays) {
       const double x = kWidth * c / static_cast<double>(map.columns),
                    y = kHeight * r / static_cast<double>(map.rows);
       const double distance = std::hypot((x - 160) / 62, (y - 118) / 82);
-      const int follow = map.head[static_cast<std::size_t>(r * (map.columns + 1) + c)];
+      const int follow = map.head[r * (map.columns + 1) + c];
       if (distance < 0.75) {
         ++hair;
         followed += follow / static_cast<double>(kFollowOne);
@@ -77,7 +77,7 @@ TEST(FitSurround, BorderAlwaysStays) {
   for (int r = 0; r <= map.rows; ++r)
     for (int c = 0; c <= map.columns; ++c)
       if (r == 0 || c == 0 || r == map.rows || c == map.columns) {
-        EXPECT_EQ(map.head[static_cast<std::size_t>(r * (map.columns + 1) + c)], 0);
+        EXPECT_EQ(map.head[r * (map.columns + 1) + c], 0);
       }
 }
 
@@ -89,7 +89,7 @@ TEST(FitSurround, GuessesByDistanceWithoutLaterPictures) {
   const auto at = [&](double x, double y) {
     const int c = static_cast<int>(std::lround(x * map.columns / kWidth)),
               r = static_cast<int>(std::lround(y * map.rows / kHeight));
-    return map.head[static_cast<std::size_t>(r * (map.columns + 1) + c)];
+    return map.head[r * (map.columns + 1) + c];
   };
   EXPECT_EQ(at(160, 105), kFollowOne);
   EXPECT_EQ(at(20, 20), 0);

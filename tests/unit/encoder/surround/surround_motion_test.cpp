@@ -14,11 +14,10 @@ namespace {
 constexpr int kWidth = 320, kHeight = 240;
 constexpr double kEyePx = 30;
 constexpr glm::dvec2 kHeadAt(160, 100);
-constexpr int kFirstBody = kPartFirst[static_cast<std::size_t>(PartId::kBody)],
-              kFirstGround = kPartFirst[static_cast<std::size_t>(PartId::kGround)];
+constexpr int kFirstBody = first_of(PartId::kBody), kFirstGround = first_of(PartId::kGround);
 
 /// As State::body and State::ground, but in pixels.
-using Flat = std::array<double, kSurroundCount>;
+using Flat = std::array<double, kSimilarityCount>;
 
 /// Waves in all directions: known between the pixels, too.
 class Paint {
@@ -47,9 +46,10 @@ class Paint {
 
 /// The place in the first picture of what is now at `p`.
 glm::dvec2 before(glm::dvec2 p, const Flat& flat) {
-  const glm::dvec2 way(flat[kWayX], flat[kWayY]);
+  const glm::dvec2 way(flat[kDisplacementX], flat[kDisplacementY]);
   const glm::dvec2 d = p - kHeadAt - way;
-  const auto q = std::complex(d.x, d.y) / (1.0 + std::complex(flat[kGrowth], flat[kTurn]) / kEyePx);
+  const auto q = std::complex(d.x, d.y) /
+                 (1.0 + std::complex(flat[kSimilarityScale], flat[kSimilarityRotation]) / kEyePx);
   return kHeadAt + glm::dvec2(q.real(), q.imag());
 }
 
@@ -117,15 +117,16 @@ State state_of_motion(const SurroundMotion& motion) {
 }
 
 /// The farthest that a part of the state is from where it should be, over the points of a rectangle; pixels.
-double error_over(const std::array<std::int32_t, kSurroundCount>& found, const Flat& truth, glm::dvec2 low,
+double error_over(const std::array<std::int32_t, kSimilarityCount>& found, const Flat& truth, glm::dvec2 low,
                   glm::dvec2 high) {
   double most = 0;
   for (const glm::dvec2 corner : {low, {high.x, low.y}, {low.x, high.y}, high}) {
     const glm::dvec2 d = (corner - kHeadAt) / kEyePx;
-    std::array<double, kSurroundCount> off{};
-    for (std::size_t i = 0; i < kSurroundCount; ++i) off[i] = found[i] / 64.0 - truth[i];
-    most = std::max(most, std::hypot(off[kWayX] + off[kGrowth] * d.x - off[kTurn] * d.y,
-                                     off[kWayY] + off[kGrowth] * d.y + off[kTurn] * d.x));
+    std::array<double, kSimilarityCount> off{};
+    for (std::size_t i = 0; i < kSimilarityCount; ++i) off[i] = found[i] / 64.0 - truth[i];
+    most = std::max(
+        most, std::hypot(off[kDisplacementX] + off[kSimilarityScale] * d.x - off[kSimilarityRotation] * d.y,
+                         off[kDisplacementY] + off[kSimilarityScale] * d.y + off[kSimilarityRotation] * d.x));
   }
   return most;
 }
@@ -216,7 +217,7 @@ TEST(SurroundMotion, DoesNotDrift) {
   for (int i = 0; i < 24; ++i) {
     Shown now;
     const double part = std::sin(6.2832 * i / 12);
-    for (std::size_t k = 0; k < kSurroundCount; ++k) now.ground[k] = now.body[k] = part * away[k];
+    for (std::size_t k = 0; k < kSimilarityCount; ++k) now.ground[k] = now.body[k] = part * away[k];
     motion.look_at(picture_of(now), head_of(now));
   }
   motion.look_at(picture_of({}), head_of({}));
@@ -251,7 +252,7 @@ TEST(SurroundMotion, FormIsSymmetricAndPositiveSemidefinite) {
     ASSERT_TRUE(cv::eigen(form.form, values));
     EXPECT_GT(values(kParameterCount - 1), -1e-9 * values(0));
     for (int i = 0; i < kParameterCount; ++i) {
-      const bool flat = i >= kFirstBody && i < kFirstGround + kSurroundCount;
+      const bool flat = i >= kFirstBody && i < kFirstGround + kSimilarityCount;
       EXPECT_EQ(form.form(i, i) > 0, flat) << i;
     }
   }
@@ -261,7 +262,7 @@ TEST(SurroundMotion, FormHasTheNumbersOfTheState) {
   const SurroundMotion motion = looked_at({{5, 2}, {4.3, 2.6, 0, 0}, {-2.4, 1.1, 0, 0.3}});
   const FitForm form = form_of(motion);
   const State state = state_of_motion(motion);
-  for (std::size_t i = 0; i < kSurroundCount; ++i) {
+  for (std::size_t i = 0; i < kSimilarityCount; ++i) {
     EXPECT_EQ(std::lround(form.value[kFirstBody + i]), state.body[i]) << i;
     EXPECT_EQ(std::lround(form.value[kFirstGround + i]), state.ground[i]) << i;
   }
@@ -296,7 +297,7 @@ TEST(SurroundMotion, FormPredictsTheChangeOfTheSquaredDifference) {
   for (const Flat& by :
        {Flat{1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, 0.25, 0}, {0, 0, 0, 0.25}, {0.7, 0.7, 0, 0}}) {
     cv::Mat1d e = cv::Mat1d::zeros(kParameterCount, 1);
-    for (std::size_t i = 0; i < kSurroundCount; ++i) e(kFirstGround + static_cast<int>(i)) = 64 * by[i];
+    for (std::size_t i = 0; i < kSimilarityCount; ++i) e(kFirstGround + static_cast<int>(i)) = 64 * by[i];
     const double predicted = cv::Mat1d(e.t() * form.form * e)(0);
     EXPECT_NEAR(squares(picture_of({{}, {}, by}, 0, false), first) / predicted, 1, 0.4)
         << by[0] << ' ' << by[2];

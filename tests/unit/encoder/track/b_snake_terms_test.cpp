@@ -227,7 +227,7 @@ TEST(BSnakeTerms, StepsBeginAtOneUnitAndShrinkByAQuarter) {
     const SnakeOutcome out = Slope(steepness).fall();
     if (out.restarts > 0) break;
     ASSERT_LE(out.iterations, kMostIterations);
-    met[static_cast<std::size_t>(out.iterations)] = true;
+    met[out.iterations] = true;
     EXPECT_NEAR(Slope::way(out), (1 - std::pow(0.75, out.iterations)) / 0.25, 1e-9) << steepness;
   }
   for (std::size_t n = 1; n <= 4; ++n) EXPECT_TRUE(met[n]) << n << " iterations";

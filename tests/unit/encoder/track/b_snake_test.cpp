@@ -15,9 +15,9 @@ TEST(SnakeCurve, SupportIsWhereAControlPointMovesTheCurve) {
   for (const SnakeCurve& curve : {SnakeCurve::closed(kControls, kPoints), SnakeCurve::clamped(13)}) {
     for (int i = 0; i < curve.controls(); ++i) {
       Control still(static_cast<std::size_t>(curve.controls())), one = still;
-      one[static_cast<std::size_t>(i)] = {1, 1};
+      one[i] = {1, 1};
       for (int h = 0; h < static_cast<int>(curve.points().size()); ++h) {
-        const bool moves = length(curve_point(curve.points()[static_cast<std::size_t>(h)], one)) > 1e-9;
+        const bool moves = length(curve_point(curve.points()[h], one)) > 1e-9;
         const auto& support = curve.support(i);
         EXPECT_EQ(std::find(support.begin(), support.end(), h) != support.end(), moves) << i << ' ' << h;
       }

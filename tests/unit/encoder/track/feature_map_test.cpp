@@ -20,10 +20,10 @@ struct TwoHalves {
     left(cv::Rect(0, 0, 30, 40)) = 255;
     right(cv::Rect(30, 0, 30, 40)) = 255;
     for (int k = 0; k < 3; ++k) {
-      patch[static_cast<std::size_t>(k)] = cv::Mat(40, 60, CV_8UC1);
+      patch[k] = cv::Mat(40, 60, CV_8UC1);
       for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 60; ++x)
-          patch[static_cast<std::size_t>(k)].at<std::uint8_t>(y, x) =
+          patch[k].at<std::uint8_t>(y, x) =
               cv::saturate_cast<std::uint8_t>((x < 30 ? feature : skin)[k] + normal(random));
     }
   }

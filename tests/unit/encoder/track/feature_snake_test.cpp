@@ -99,8 +99,7 @@ TEST(FeatureSnake, ALidIsHeldAboveTheLowerLid) {
   std::vector<glm::dvec2> control = lid.rest;
   lid.limit(control);
   EXPECT_EQ(control, lid.rest) << "an open eye is left alone";
-  for (int i = lid.curve.first_free(); i < lid.curve.end_free(); ++i)
-    control[static_cast<std::size_t>(i)].y += 20;
+  for (int i = lid.curve.first_free(); i < lid.curve.end_free(); ++i) control[i].y += 20;
   lid.limit(control);
   EXPECT_NEAR(curve_point(clamped_basis(true, 0.5), control).y, lid.lowest, 1e-9);
   EXPECT_EQ(control.front(), lid.rest.front()) << "corners are pinned";

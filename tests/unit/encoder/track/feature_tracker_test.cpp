@@ -55,7 +55,7 @@ struct Followed {
     std::vector<double> out;
     for (const auto& o : offsets) {
       double sum = 0;
-      for (int i = from; i < to; ++i) sum += o[static_cast<std::size_t>(feature(id).first_control + i)].y;
+      for (int i = from; i < to; ++i) sum += o[feature(id).first_control + i].y;
       out.push_back(sum / (to - from) / kUnitsPerEyeDistance);
     }
     return out;
@@ -108,7 +108,7 @@ double farthest(const Followed& f, FeatureId id) {
   double most = 0;
   for (const auto& offsets : f.offsets) {
     for (int i = 0; i < feature(id).control_count; ++i) {
-      const glm::dvec2 o = offsets[static_cast<std::size_t>(feature(id).first_control + i)];
+      const glm::dvec2 o = offsets[feature(id).first_control + i];
       most = std::max(most, std::hypot(o.x, o.y) / kUnitsPerEyeDistance);
     }
   }
@@ -146,8 +146,7 @@ TEST(FeatureTracker, GivesBackTheOffsetsItWasSetTo) {
     EXPECT_EQ(o, glm::dvec2(0)) << "at rest after the first picture";
   std::array<glm::dvec2, kControlCount> wanted{};
   const Feature& brow = feature(FeatureId::kBrowRight);
-  for (int i = 0; i < brow.control_count; ++i)
-    wanted[static_cast<std::size_t>(brow.first_control + i)] = {30, -200};
+  for (int i = 0; i < brow.control_count; ++i) wanted[brow.first_control + i] = {30, -200};
   features.set_offsets(wanted);
   const auto got = features.offsets();
   for (std::size_t i = 0; i < kControlCount; ++i) {
