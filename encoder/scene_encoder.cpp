@@ -69,7 +69,7 @@ cv::Mat1d wrong_expression() {
   const cv::Mat1d even = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kTolerance * kTolerance);
   cv::Mat1d form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
-  form_of_coefficients(even).copyTo(form(coefficients, coefficients));
+  quadratic_of_coefficients(even).copyTo(form(coefficients, coefficients));
   return form;
 }
 
@@ -121,8 +121,8 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
   scene.now_.pose = seen_pose;
   scene.lambda_ = point.lambda;
-  scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda);
-  scene.expression_form_ = wrong_expression() * point.lambda / 2;
+  scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda,
+                         wrong_expression() * point.lambda / 2);
   scene.first_ = first;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return fail(added.error());
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
@@ -219,13 +219,13 @@ Fit SceneEncoder::relaxed() {
   return fit;
 }
 
-Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
+Fit SceneEncoder::analyse(const Picture& picture, PictureCost& cost) {
   const HeadVertices vertices = fit_->deformed(now_);
   WorkFrame frame = WorkFrame::cut(picture, head_->pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> seen = follow_head(picture, vertices, frame);
   if (!seen) {
     const Fit fit = relaxed();
-    form = form_unseen(fit);
+    cost = cost_unseen(fit);
     return fit;
   }
   Fit tracked{seen->pose, now_.light, now_.interior, now_.offsets};
@@ -240,7 +240,7 @@ Fit SceneEncoder::analyse(const Picture& picture, FitForm& form) {
   fit_->look_at(frame, scene_.setup.mouth);
   tracked = fit_->with_best_lids(tracked);
   const Fit fit = settings_.refine ? fit_->refine_mouth(tracked) : tracked;
-  form = fit_->form_at(fit);
+  cost = fit_->cost_at(fit);
   return fit;
 }
 
@@ -262,22 +262,21 @@ void SceneEncoder::report(const State& state) {
 
 Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) {
   if (scene_.geometry) {
-    FitForm form;
+    PictureCost cost;
     if (pictures_ > 0) {
-      now_ = analyse(picture, form);
+      now_ = analyse(picture, cost);
     } else {
       fit_->look_at(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), scene_.setup.mouth);
-      form = fit_->form_at(now_);
+      cost = fit_->cost_at(now_);
       analysis_.confidence = 1;
     }
-    form.form += expression_form_;
     State state = state_of(now_);
     if (surround_) {
       surround_->look_at(picture, now_.pose);
-      surround_->add_to(form);
+      surround_->add_to(cost);
       surround_->add_to(state);
     }
-    fits_.push_back(std::move(form));
+    costs_.push_back(std::move(cost));
     report(state);
     if (!started_) {
       mouth_colours_.add(picture, scene_.geometry->project_vertices(state),
@@ -309,12 +308,12 @@ MotionGroup SceneEncoder::plan_group(const CodedState& anchor, bool key) {
   MotionGroup group;
   const auto bits_at = [&](double lambda) {
     planner_->set_lambda(lambda);
-    group = planner_->plan(anchor, fits_, rate_);
+    group = planner_->plan(anchor, costs_, rate_);
     finish_group(group, key);
     const auto payload = MotionCoder(*coder_).encode(group);
     return 8.0 * static_cast<double>((payload ? payload->size() : 0) + kPacketBytes);
   };
-  if (!budget_) return planner_->plan(anchor, fits_, rate_);
+  if (!budget_) return planner_->plan(anchor, costs_, rate_);
   double seconds = 0;
   for (const std::uint32_t d : durations_)
     seconds += (d > 0 ? d : nominal_duration(scene_.setup.format.frame_rate)) / 90000.0;
@@ -335,7 +334,7 @@ Result<void> SceneEncoder::end_group() {
   if (!payload) return fail(payload.error());
   rate_.learn(group);
   write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, *payload);
-  fits_.clear();
+  costs_.clear();
   durations_.clear();
   return {};
 }

@@ -55,8 +55,8 @@ class SceneEncoder {
                                                        WorkFrame& frame);
   /// Of a lost picture: held, and the expression a little weaker. Never a wild face.
   [[nodiscard]] Fit relaxed();
-  /// What the next picture shows, and in `form` how surely.
-  [[nodiscard]] Fit analyse(const Picture& picture, FitForm& form);
+  /// What the next picture shows, and in `cost` how surely.
+  [[nodiscard]] Fit analyse(const Picture& picture, PictureCost& cost);
   void report(const State& state);
   Result<void> start();
   Result<void> end_group();
@@ -79,14 +79,13 @@ class SceneEncoder {
   std::optional<PictureFit> fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
-  cv::Mat1d expression_form_;  ///< what a viewer sees of lips and lids that are not where they should be
 
   std::optional<MotionCoder> coder_;
   std::optional<TrackPlanner> planner_;
   TrackRate rate_;
   double lambda_ = 0;                 ///< that the quality stands for
   std::optional<RateBudget> budget_;  ///< of the motion, where a rate is set
-  std::vector<FitForm> fits_;         ///< of the group's pictures
+  std::vector<PictureCost> costs_;    ///< of the group's pictures
   std::vector<std::uint32_t> durations_;
   std::uint64_t pictures_ = 0;
 

@@ -62,6 +62,12 @@ double near_of(int control) {
   return kElseNear;
 }
 
+/// Squared, and from kHuber on linear.
+double huber(double difference) {
+  const double r = std::abs(difference);
+  return r < kHuber ? r * r : kHuber * (2 * r - kHuber);
+}
+
 /// Area of a triangle on the screen; zero when it faces away.
 double visible_area(glm::dvec2 p, glm::dvec2 q, glm::dvec2 r) {
   const glm::dvec2 a = q - p, b = r - p;
@@ -365,6 +371,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
       if (!sample_with_slope(luma_[level], on_level(picture_.to_work(jacobian.projection()(p)), level), s))
         continue;
       const double r = value - static_cast<double>(s.value);
+      normal.cost += huber(r);
       const double w = std::min(1.0, kHuber / (std::abs(r) + 1e-9)) / (kNoise * kNoise);
       float* row = block.row.data();
       for (const glm::dvec2& by : jacobian.at(p))
@@ -426,8 +433,7 @@ double PictureFit::difference(const Fit& fit) const {
     Sample s;
     if (value < 0 || !sample_with_slope(luma_[0], picture_.to_work(projection(points_[k].on(vertices))), s))
       continue;
-    const double r = std::abs(value - static_cast<double>(s.value));
-    sum += r < kHuber ? r * r : kHuber * (2 * r - kHuber);
+    sum += huber(value - static_cast<double>(s.value));
     ++count;
   }
   return count > 0 ? sum / count : 0;
@@ -455,7 +461,7 @@ Fit PictureFit::refine_mouth(const Fit& start) const {
   return difference(carried) < difference(fit) ? carried : fit;
 }
 
-FitForm PictureFit::form_at(const Fit& fit) const {
+PictureCost PictureFit::cost_at(const Fit& fit) const {
   Normal normal(static_cast<std::size_t>(unknowns_));
   add_picture(0, fit, normal);
   cv::Mat1d all(unknowns_, unknowns_, normal.left.data());
@@ -470,7 +476,7 @@ FitForm PictureFit::form_at(const Fit& fit) const {
     for (int j = 0; j < unknowns_; ++j) own(place[i], place[j]) = all(i, j);
   // add_picture() weighs by the noise and counts points, each of which stands for so many samples.
   const double samples = kPointSpacing * kPointSpacing / (picture_.scale * picture_.scale);
-  return form_of(fit, cv::Mat1d(own * samples * kNoise * kNoise));
+  return cost_of(fit, 0, normal.cost * samples, cv::Mat1d(own * samples * kNoise * kNoise));
 }
 
 }  // namespace fbs

@@ -7,6 +7,7 @@
 #include "decoder/animate/projection.h"
 #include "encoder/image/work_frame.h"
 #include "encoder/model/fit.h"
+#include "encoder/model/picture_cost.h"
 #include "encoder/model/surface.h"
 
 namespace fbs {
@@ -38,7 +39,7 @@ class PictureFit {
   [[nodiscard]] Fit refine_mouth(const Fit& start) const;
 
   /// How the picture changes round a fit.
-  [[nodiscard]] FitForm form_at(const Fit& fit) const;
+  [[nodiscard]] PictureCost cost_at(const Fit& fit) const;
 
   /// The head's vertices in the head frame, head units.
   [[nodiscard]] HeadVertices deformed(const Fit& fit) const;
@@ -71,6 +72,7 @@ class PictureFit {
     double& at(std::size_t row, std::size_t column) { return left[row * n + column]; }
     std::size_t n;
     std::vector<double> left, right;
+    double cost = 0;  ///< robust squared differences, of all points
   };
   /// What is believed before looking: near the start, and an expression that faces make.
   void add_priors(const Fit& start, const Fit& fit, Normal& normal) const;

@@ -50,7 +50,7 @@ cv::Mat1d rows_of_coefficients(const cv::Mat1d& rows) {
   return out;
 }
 
-cv::Mat1d form_of_coefficients(const cv::Mat1d& form) {
+cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& form) {
   const cv::Mat1d half = rows_of_coefficients(form);
   return rows_of_coefficients(cv::Mat1d(half.t()));
 }

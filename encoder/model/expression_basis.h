@@ -19,7 +19,7 @@ using Offsets = std::array<glm::dvec2, kControlCount>;
 
 /// A quadratic form over the offsets as one over the coefficients.
 /// @param form  kCoefficientCount x kCoefficientCount, symmetric
-[[nodiscard]] cv::Mat1d form_of_coefficients(const cv::Mat1d& form);
+[[nodiscard]] cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& form);
 
 /// Rows of a matrix over the offsets, one for each other number, over the coefficients.
 /// @param rows  n x kCoefficientCount

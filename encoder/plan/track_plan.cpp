@@ -15,21 +15,23 @@ constexpr int kSweeps = 3;
 /// A group while its knots are being chosen; all numbers in steps.
 class Plan {
  public:
-  Plan(const CodedState& anchor, std::span<const FitForm> fits, const std::array<double, kN>& step,
-       const CodedLimits& limits, double lambda, const TrackRate& rate)
-      : limits_(limits), lambda_(lambda), rate_(rate), pictures_(static_cast<int>(fits.size())) {
+  Plan(const CodedState& anchor, std::span<const PictureCost> pictures, const cv::Mat1d& penalty,
+       const std::array<double, kN>& step, const CodedLimits& limits, double lambda, const TrackRate& rate)
+      : limits_(limits), lambda_(lambda), rate_(rate), pictures_(static_cast<int>(pictures.size())) {
     group_.anchor = anchor;
     group_.pictures = pictures_;
-    target_.resize(fits.size());
-    form_.resize(fits.size());
-    slope_.resize(fits.size());
-    for (std::size_t t = 0; t < fits.size(); ++t) {
+    target_.resize(pictures.size());
+    form_.resize(pictures.size());
+    slope_.resize(pictures.size());
+    for (std::size_t t = 0; t < pictures.size(); ++t) {
+      cv::Mat1d quadratic = pictures[t].quadratic();
+      if (!penalty.empty()) quadratic += penalty;
       form_[t].resize(kN * kN);
       for (std::size_t i = 0; i < kN; ++i) {
-        target_[t][i] = fits[t].value[i] / step[i];
+        target_[t][i] = pictures[t].fit[i] / step[i];
         for (std::size_t j = 0; j < kN; ++j)
           form_[t][i * kN + j] =
-              static_cast<float>(fits[t].form(static_cast<int>(i), static_cast<int>(j)) * step[i] * step[j]);
+              static_cast<float>(quadratic(static_cast<int>(i), static_cast<int>(j)) * step[i] * step[j]);
       }
     }
   }
@@ -376,14 +378,14 @@ class Plan {
 
 }  // namespace
 
-TrackPlanner::TrackPlanner(const QuantiserSteps& steps, PartMask parts, double lambda)
-    : limits_(steps, parts), lambda_(lambda) {
+TrackPlanner::TrackPlanner(const QuantiserSteps& steps, PartMask parts, double lambda, cv::Mat1d penalty)
+    : limits_(steps, parts), lambda_(lambda), penalty_(std::move(penalty)) {
   for (std::size_t i = 0; i < kParameterCount; ++i) step_[i] = step_of(steps, i);
 }
 
-MotionGroup TrackPlanner::plan(const CodedState& anchor, std::span<const FitForm> fits,
+MotionGroup TrackPlanner::plan(const CodedState& anchor, std::span<const PictureCost> pictures,
                                const TrackRate& rate) const {
-  return Plan(anchor, fits, step_, limits_, lambda_, rate).solve();
+  return Plan(anchor, pictures, penalty_, step_, limits_, lambda_, rate).solve();
 }
 
 }  // namespace fbs

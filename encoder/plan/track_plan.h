@@ -5,23 +5,24 @@
 #include <span>
 #include <vector>
 
-#include "encoder/model/fit.h"
+#include "encoder/model/picture_cost.h"
 #include "encoder/plan/track_rate.h"
 
 namespace fbs {
 
-/// Minimises  sum over pictures of (x - fit)^T form (x - fit)  +  lambda * bits  over knots and their
+/// Minimises  sum over pictures of their cost  +  lambda * bits  over knots and their
 /// numbers: for each part the best chain of straight spans by dynamic programming, then all numbers of all
 /// parts together downhill in whole steps, dropping knots that do not pay.
 class TrackPlanner {
  public:
   /// @param lambda  squared luma differences that a bit is worth
-  TrackPlanner(const QuantiserSteps& steps, PartMask parts, double lambda);
+  /// @param penalty  added to each picture's quadratic, kParameterCount x kParameterCount; empty: none
+  TrackPlanner(const QuantiserSteps& steps, PartMask parts, double lambda, cv::Mat1d penalty = {});
 
   /// @param anchor  the coded state before the first picture
-  /// @param fits    of the group's pictures, 1..kMaxGroupPictures
+  /// @param pictures  costs of the group's pictures, 1..kMaxGroupPictures
   /// @param rate    what knots cost
-  [[nodiscard]] MotionGroup plan(const CodedState& anchor, std::span<const FitForm> fits,
+  [[nodiscard]] MotionGroup plan(const CodedState& anchor, std::span<const PictureCost> pictures,
                                  const TrackRate& rate) const;
 
   void set_lambda(double lambda) { lambda_ = lambda; }
@@ -31,6 +32,7 @@ class TrackPlanner {
   CodedLimits limits_;
   std::array<double, kParameterCount> step_{};
   double lambda_;
+  cv::Mat1d penalty_;
 };
 
 }  // namespace fbs

@@ -283,7 +283,7 @@ void SurroundMotion::add_to(State& state) const {
   }
 }
 
-void SurroundMotion::add_to(FitForm& form) const {
+void SurroundMotion::add_to(PictureCost& cost) const {
   // A square of the work picture stands for factor^2 times as many samples, whose slopes are as much less.
   double rise[8][8] = {};
   for (const Spot& spot : spots_) {
@@ -309,12 +309,14 @@ void SurroundMotion::add_to(FitForm& form) const {
   }
   constexpr int kFirst = first_of(PartId::kBody);
   static_assert(first_of(PartId::kGround) == kFirst + kSimilarityCount);
+  RegionCost of{Region::kSurround, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)};
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j)
-      form.form(kFirst + i, kFirst + j) = rise[std::min(i, j)][std::max(i, j)] / (64 * 64);
+      of.quadratic(kFirst + i, kFirst + j) = rise[std::min(i, j)][std::max(i, j)] / (64 * 64);
+  cost.regions.push_back(std::move(of));
   for (std::size_t i = 0; i < kSimilarityCount; ++i) {
-    form.value[kFirst + i] = 64 * shown_body_[i];
-    form.value[kFirst + kSimilarityCount + i] = 64 * shown_ground_[i];
+    cost.fit[kFirst + i] = 64 * shown_body_[i];
+    cost.fit[kFirst + kSimilarityCount + i] = 64 * shown_ground_[i];
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "bitstream/syntax.h"
 #include "common/picture.h"
-#include "encoder/model/fit.h"
+#include "encoder/model/picture_cost.h"
 #include "encoder/model/pose.h"
 
 namespace fbs {
@@ -35,10 +35,10 @@ class SurroundMotion {
   /// What decides from now on how much of a spot goes with what.
   void believe(const SurroundMap& map);
 
-  /// Puts what was seen in the last picture into a state, and into the rows of body and ground of a form: how
-  /// the squared luma difference rises, over the samples of the full picture.
+  /// Puts what was seen in the last picture into a state, and what other ways of body and ground would cost
+  /// into those of a picture.
   void add_to(State& state) const;
-  void add_to(FitForm& form) const;
+  void add_to(PictureCost& cost) const;
 
  private:
   static constexpr int kLongSide = 256;  ///< work pixels

@@ -95,7 +95,7 @@ void FitFormAt(benchmark::State& state) {
   PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
   each_picture(state, [&](const AnalysedPicture& p) {
     fit.look_at(p.frame, clip.setup().mouth);
-    benchmark::DoNotOptimize(fit.form_at(p.tracked_fit));
+    benchmark::DoNotOptimize(fit.cost_at(p.tracked_fit));
   });
 }
 BENCHMARK(FitFormAt)->Unit(benchmark::kMicrosecond);
@@ -104,8 +104,8 @@ void TrackPlan(benchmark::State& state) {
   constexpr int kGroup = 30;
   const AnalysisClip& clip = analysis_clip();
   const TrackPlanner planner(clip.setup().steps, clip.setup().parts, clip.lambda());
-  std::vector<FitForm> fits;
-  for (std::size_t i = 1; i <= kGroup; ++i) fits.push_back(clip.round()[i].form);
+  std::vector<PictureCost> fits;
+  for (std::size_t i = 1; i <= kGroup; ++i) fits.push_back(clip.round()[i].cost);
   for (auto _ : state) benchmark::DoNotOptimize(planner.plan(clip.seen_coded(), fits, TrackRate()));
   state.SetItemsProcessed(state.iterations() * kGroup);
 }

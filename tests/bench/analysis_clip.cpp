@@ -38,7 +38,7 @@ AnalysisClip::AnalysisClip()
     p.tracked_fit = {p.tracked.pose, now.light, now.interior, features.offsets()};
     fit.look_at(p.frame, setup_.mouth);
     now = fit.refine(p.tracked_fit);
-    p.form = fit.form_at(now);
+    p.cost = fit.cost_at(now);
   }
 }
 

@@ -20,8 +20,8 @@ struct AnalysedPicture {
   WorkFrame frame;  ///< with colour
   TrackedPose tracked;
   std::array<glm::dvec2, kVertexCount> flow{};
-  Fit tracked_fit;  ///< pose and snakes, the light of the picture before
-  FitForm form;     ///< round the refined fit
+  Fit tracked_fit;   ///< pose and snakes, the light of the picture before
+  PictureCost cost;  ///< round the refined fit
 };
 
 class AnalysisClip {

@@ -89,7 +89,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   const TrackPlanner planner(setup.steps, setup.parts, point.lambda);
   TrackRate rate;
   Fit now{pose_of(seen), {}, {}, {}};
-  std::vector<FitForm> fits;
+  std::vector<PictureCost> fits;
   std::vector<Pose> truths;
   for (int i = 1; i < clip.count(); ++i) {
     const WorkFrame frame = WorkFrame::cut(clip[i], tracker.pose().shift, eye, true);
@@ -97,7 +97,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
     features.track(frame, tracked.pose, tracker.flow());
     fit.look_at(frame, setup.mouth);
     now = fit.refine({tracked.pose, now.light, now.interior, features.offsets()});
-    fits.push_back(fit.form_at(now));
+    fits.push_back(fit.cost_at(now));
     truths.push_back(clip.pose(i));
     stages[0].take(tracked.pose, truths.back());
     stages[1].take(now.pose, truths.back());

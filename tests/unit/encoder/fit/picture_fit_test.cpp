@@ -149,26 +149,26 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   State truth = with_open_mouth(other_state(s));
   truth.light = {160, 0, 80, 0};
   s.look_at(truth);
-  const FitForm form = s.fit.form_at(fit_of(truth));
-  ASSERT_EQ(form.form.rows, kParameterCount);
-  EXPECT_LT(cv::norm(form.form - form.form.t()), 1e-9 * cv::norm(form.form));
+  const PictureCost cost = s.fit.cost_at(fit_of(truth));
+  ASSERT_EQ(cost.quadratic().rows, kParameterCount);
+  EXPECT_LT(cv::norm(cost.quadratic() - cost.quadratic().t()), 1e-9 * cv::norm(cost.quadratic()));
   cv::Mat1d values;
-  ASSERT_TRUE(cv::eigen(form.form, values));
+  ASSERT_TRUE(cv::eigen(cost.quadratic(), values));
   EXPECT_GT(values(kParameterCount - 1), -1e-9 * values(0));
   for (int i = 0; i < kParameterCount; ++i) {
     const bool surround =
         kPartOf[i] == static_cast<int>(PartId::kBody) || kPartOf[i] == static_cast<int>(PartId::kGround);
-    EXPECT_EQ(form.form(i, i) > 0, !surround) << i;
+    EXPECT_EQ(cost.quadratic()(i, i) > 0, !surround) << i;
   }
 }
 
 TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
   FittedScene s;
   s.look_at(s.seen);
-  const FitForm form = s.fit.form_at(fit_of(s.seen));
+  const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   for (int i = 0; i < kParameterCount; ++i)
     if (kPartOf[i] == static_cast<int>(PartId::kMouthInterior)) {
-      EXPECT_EQ(cv::countNonZero(form.form.row(i)), 0) << i;
+      EXPECT_EQ(cv::countNonZero(cost.quadratic().row(i)), 0) << i;
     }
 }
 
@@ -178,10 +178,10 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   state.light = {160, -32, 80, 16};
   state.interior = {48, -16, 7};
   s.look_at(state);
-  for (const FitForm& form : {s.fit.form_at(fit_of(state)), form_unseen(fit_of(state))}) {
+  for (const PictureCost& cost : {s.fit.cost_at(fit_of(state)), cost_unseen(fit_of(state))}) {
     CodedState values;
     for (std::size_t i = 0; i < kParameterCount; ++i)
-      values[i] = static_cast<std::int32_t>(std::lround(form.value[i]));
+      values[i] = static_cast<std::int32_t>(std::lround(cost.fit[i]));
     const State back = state_of_values(values);
     EXPECT_EQ(back.pose, state.pose);
     EXPECT_EQ(back.light, state.light);
@@ -193,12 +193,12 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   }
 }
 
-TEST(PictureFit, FormUnseenHoldsThePoseAlone) {
+TEST(PictureFit, CostUnseenHoldsThePoseAlone) {
   FittedScene s;
-  const cv::Mat1d form = form_unseen(fit_of(s.seen)).form;
+  const cv::Mat1d cost = cost_unseen(fit_of(s.seen)).quadratic();
   for (int i = 0; i < kParameterCount; ++i)
     for (int j = 0; j < kParameterCount; ++j)
-      EXPECT_EQ(form(i, j) > 0, i == j && i < kPoseCount) << i << ' ' << j;
+      EXPECT_EQ(cost(i, j) > 0, i == j && i < kPoseCount) << i << ' ' << j;
 }
 
 // What the encoder weighs bits against is what the decoder's picture shows: it looks at some thousand points
@@ -207,17 +207,17 @@ TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
   FittedScene s;
   s.look_at(s.seen);
   const Picture source = s.drawn(s.seen);
-  const FitForm form = s.fit.form_at(fit_of(s.seen));
+  const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   const auto compare = [&](std::size_t first, std::int32_t by, std::size_t second = 0,
                            std::int32_t and_by = 0) {
     CodedState values;
     for (std::size_t i = 0; i < kParameterCount; ++i)
-      values[i] = static_cast<std::int32_t>(std::lround(form.value[i]));
+      values[i] = static_cast<std::int32_t>(std::lround(cost.fit[i]));
     values[first] += by;
     values[second] += and_by;
     cv::Mat1d e = cv::Mat1d::zeros(kParameterCount, 1);
-    for (std::size_t i = 0; i < kParameterCount; ++i) e(static_cast<int>(i)) = values[i] - form.value[i];
-    const double predicted = cv::Mat1d(e.t() * form.form * e)(0);
+    for (std::size_t i = 0; i < kParameterCount; ++i) e(static_cast<int>(i)) = values[i] - cost.fit[i];
+    const double predicted = cv::Mat1d(e.t() * cost.quadratic() * e)(0);
     const double shown = squares(s.drawn(state_of_values(values)), source);
     EXPECT_NEAR(shown / predicted, 1, 0.5) << first << ' ' << second;
   };

@@ -91,7 +91,7 @@ TEST(ExpressionBasis, RestHasNoCoefficients) {
 TEST(ExpressionBasis, FormIsTheSameInEitherBasis) {
   std::mt19937 random(2);
   const cv::Mat1d root = random_matrix(random, kCoefficientCount);
-  const cv::Mat1d form = root.t() * root, changed = form_of_coefficients(form);
+  const cv::Mat1d form = root.t() * root, changed = quadratic_of_coefficients(form);
   EXPECT_LT(cv::norm(changed - changed.t()), 1e-9 * cv::norm(changed)) << "symmetric";
   for (int i = 0; i < 20; ++i) {
     const Offsets offsets = random_offsets(random, 500);

@@ -24,12 +24,12 @@ double in_units(std::size_t parameter, double steps) {
 }
 
 /// A picture that says the same of every number: a step beside the fit costs `weight`.
-FitForm even_fit(double weight) {
-  FitForm fit;
-  fit.form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+PictureCost even_fit(double weight) {
+  PictureCost fit;
+  fit.regions = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     const double step = step_of(kSteps, i);
-    fit.form(static_cast<int>(i), static_cast<int>(i)) = weight / (step * step);
+    fit.regions.front().quadratic(static_cast<int>(i), static_cast<int>(i)) = weight / (step * step);
   }
   return fit;
 }
@@ -41,21 +41,21 @@ CodedState anchor_of() {
 }
 
 /// Pictures that all say what the anchor has.
-std::vector<FitForm> still_fits(int count, double weight = 50) {
-  std::vector<FitForm> fits(static_cast<std::size_t>(count));
-  for (FitForm& fit : fits) {
+std::vector<PictureCost> still_fits(int count, double weight = 50) {
+  std::vector<PictureCost> fits(static_cast<std::size_t>(count));
+  for (PictureCost& fit : fits) {
     fit = even_fit(weight);
-    fit.value[kLogScale] = in_units(kLogScale, 2560);
+    fit.fit[kLogScale] = in_units(kLogScale, 2560);
   }
   return fits;
 }
 
-MotionGroup planned(const std::vector<FitForm>& fits, double lambda = 1, PartMask parts = kAllParts) {
+MotionGroup planned(const std::vector<PictureCost>& fits, double lambda = 1, PartMask parts = kAllParts) {
   return TrackPlanner(kSteps, parts, lambda).plan(anchor_of(), fits, TrackRate());
 }
 
 /// What the viewer sees of a group: the sum over pictures of the forms.
-double distortion(const MotionGroup& group, const std::vector<FitForm>& fits) {
+double distortion(const MotionGroup& group, const std::vector<PictureCost>& fits) {
   double sum = 0;
   for (std::size_t t = 0; t < fits.size(); ++t) {
     cv::Mat1d e(kParameterCount, 1);
@@ -67,11 +67,10 @@ double distortion(const MotionGroup& group, const std::vector<FitForm>& fits) {
           b.picture == a.picture ? 1 : (static_cast<int>(t) - a.picture) / (1.0 * b.picture - a.picture);
       for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
         const auto i = kPartFirst[part] + k, p = k;
-        e(static_cast<int>(i)) =
-            in_units(i, a.value[p] + share * (b.value[p] - a.value[p])) - fits[t].value[i];
+        e(static_cast<int>(i)) = in_units(i, a.value[p] + share * (b.value[p] - a.value[p])) - fits[t].fit[i];
       }
     }
-    sum += cv::Mat1d(e.t() * fits[t].form * e)(0);
+    sum += cv::Mat1d(e.t() * fits[t].quadratic() * e)(0);
   }
   return sum;
 }
@@ -103,33 +102,33 @@ std::size_t knots_of(const MotionGroup& group) {
 }
 
 /// Fits that wander, every number, with forms that couple them.
-std::vector<FitForm> wandering_fits(int count, unsigned seed) {
+std::vector<PictureCost> wandering_fits(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  std::vector<FitForm> fits = still_fits(count, 20);
+  std::vector<PictureCost> fits = still_fits(count, 20);
   std::array<double, kParameterCount> at{};
   at[kLogScale] = 2560;
-  for (FitForm& fit : fits) {
+  for (PictureCost& fit : fits) {
     for (int k = 0; k < 40; ++k) {
       cv::Mat1d row(1, kParameterCount);
       for (std::size_t i = 0; i < kParameterCount; ++i)
         row(static_cast<int>(i)) = normal(random) / step_of(kSteps, i);
-      fit.form += row.t() * row;
+      fit.regions.front().quadratic += row.t() * row;
     }
     for (std::size_t i = 0; i < kParameterCount; ++i) {
       at[i] += (i < kPoseCount ? 1.5 : 0.5) * normal(random);
-      fit.value[i] = in_units(i, at[i]);
+      fit.fit[i] = in_units(i, at[i]);
     }
   }
   return fits;
 }
 
 /// A group with the fits in whole steps at every picture.
-MotionGroup rounded_everywhere(const std::vector<FitForm>& fits) {
+MotionGroup rounded_everywhere(const std::vector<PictureCost>& fits) {
   std::vector<CodedState> states(fits.size());
   for (std::size_t t = 0; t < fits.size(); ++t)
     for (std::size_t i = 0; i < kParameterCount; ++i)
-      states[t][i] = static_cast<std::int32_t>(std::lround(fits[t].value[i] / step_of(kSteps, i)));
+      states[t][i] = static_cast<std::int32_t>(std::lround(fits[t].fit[i] / step_of(kSteps, i)));
   return knots_everywhere(anchor_of(), states, kAllParts);
 }
 
@@ -144,8 +143,8 @@ TEST(TrackPlanner, WhatHoldsHasOnlyTheKnotAtTheEnd) {
 TEST(TrackPlanner, StraightMotionNeedsOneKnot) {
   auto fits = still_fits(20);
   for (std::size_t t = 0; t < 20; ++t) {
-    fits[t].value[kYaw] = in_units(kYaw, 1.5 * (static_cast<double>(t) + 1));
-    fits[t].value[kFirstCoefficient] = in_units(kFirstCoefficient, -0.5 * (static_cast<double>(t) + 1));
+    fits[t].fit[kYaw] = in_units(kYaw, 1.5 * (static_cast<double>(t) + 1));
+    fits[t].fit[kFirstCoefficient] = in_units(kFirstCoefficient, -0.5 * (static_cast<double>(t) + 1));
   }
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kPose]), (std::vector{19}));
@@ -157,7 +156,7 @@ TEST(TrackPlanner, StraightMotionNeedsOneKnot) {
 TEST(TrackPlanner, BendIsAKnot) {
   auto fits = still_fits(20);
   for (std::size_t t = 0; t < 20; ++t)
-    fits[t].value[kYaw] = in_units(kYaw, t < 9 ? 2.0 * (static_cast<double>(t) + 1) : 18);
+    fits[t].fit[kYaw] = in_units(kYaw, t < 9 ? 2.0 * (static_cast<double>(t) + 1) : 18);
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kPose]), (std::vector{8, 19}));
   EXPECT_EQ(group.tracks[kPose][0].value[kYaw], 18);
@@ -167,7 +166,7 @@ TEST(TrackPlanner, BendIsAKnot) {
 // A blink or a cut of the mouth must not be smeared over the pictures before.
 TEST(TrackPlanner, JumpIsKept) {
   auto fits = still_fits(20);
-  for (std::size_t t = 10; t < 20; ++t) fits[t].value[kFirstCoefficient] = in_units(kFirstCoefficient, 20);
+  for (std::size_t t = 10; t < 20; ++t) fits[t].fit[kFirstCoefficient] = in_units(kFirstCoefficient, 20);
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kMouth]), (std::vector{9, 10, 19}));
   EXPECT_EQ(group.tracks[kMouth][0].value[0], 0);
@@ -179,7 +178,7 @@ TEST(TrackPlanner, JumpIsKept) {
 TEST(TrackPlanner, WhatDoesNotPayIsNotCoded) {
   std::mt19937 random(3);
   auto fits = still_fits(30, 0.01);
-  for (FitForm& fit : fits) fit.value[kYaw] = in_units(kYaw, static_cast<double>(random() % 5) - 2);
+  for (PictureCost& fit : fits) fit.fit[kYaw] = in_units(kYaw, static_cast<double>(random() % 5) - 2);
   EXPECT_EQ(pictures_of(planned(fits, 100).tracks[kPose]), (std::vector{29}));
   EXPECT_GT(planned(fits, 1e-6).tracks[kPose].size(), 15U) << "it pays when bits cost nothing";
 }
@@ -229,7 +228,7 @@ TEST(TrackPlanner, GroupCanBeCoded) {
 TEST(TrackPlanner, NumbersStayWithinTheirLimits) {
   auto fits = still_fits(10);
   for (std::size_t t = 0; t < 10; ++t)
-    for (std::size_t i = 0; i < kParameterCount; ++i) fits[t].value[i] = t < 5 ? 1e9 : -1e9;
+    for (std::size_t i = 0; i < kParameterCount; ++i) fits[t].fit[i] = t < 5 ? 1e9 : -1e9;
   const CodedLimits limits(kSteps, kAllParts);
   const MotionGroup group = planned(fits);
   for (std::size_t part = 0; part < kPartCount; ++part) {
@@ -250,13 +249,13 @@ TEST(TrackPlanner, NumbersMakeUpForEachOther) {
        {std::pair<std::size_t, std::size_t>{kYaw, kShiftX}, {kYaw, kPoseCount + kLightOffset}}) {
     for (const double sign : {1.0, -1.0}) {
       auto fits = still_fits(1, 0);
-      FitForm& fit = fits[0];
-      fit.value[first] = in_units(first, 0.5);
-      fit.value[second] = in_units(second, 0.5 * sign);
+      PictureCost& fit = fits[0];
+      fit.fit[first] = in_units(first, 0.5);
+      fit.fit[second] = in_units(second, 0.5 * sign);
       cv::Mat1d sum = cv::Mat1d::zeros(1, kParameterCount);
       sum(static_cast<int>(first)) = 10.0 / step_of(kSteps, first);
       sum(static_cast<int>(second)) = sign * 10.0 / step_of(kSteps, second);
-      fit.form = sum.t() * sum;
+      fit.regions.front().quadratic = sum.t() * sum;
       const MotionGroup group = planned(fits, 0.01);
       EXPECT_LT(distortion(group, fits), 1e-6) << first << ' ' << second << ' ' << sign;
       const CodedState last = last_of(group);
@@ -270,10 +269,10 @@ TEST(TrackPlanner, NumbersMakeUpForEachOther) {
 TEST(TrackPlanner, GoesStraightPastPicturesThatSayNothing) {
   auto fits = still_fits(20);
   for (std::size_t t = 0; t < 20; ++t) {
-    fits[t].value[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
+    fits[t].fit[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
     if (t > 4 && t < 15) {
-      fits[t].form = 0;
-      fits[t].value[kYaw] = in_units(kYaw, -40);
+      fits[t].regions.front().quadratic = 0;
+      fits[t].fit[kYaw] = in_units(kYaw, -40);
     }
   }
   const MotionGroup group = planned(fits);
@@ -285,9 +284,9 @@ TEST(TrackPlanner, GoesStraightPastPicturesThatSayNothing) {
 // bend there; its knot does not pay.
 TEST(TrackPlanner, KnotThatDoesNotPayIsDropped) {
   auto fits = still_fits(20, 0.5);
-  for (std::size_t t = 0; t < 19; ++t) fits[t].value[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
-  fits[19].value[kYaw] = in_units(kYaw, -40);
-  fits[19].form = 0;
+  for (std::size_t t = 0; t < 19; ++t) fits[t].fit[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
+  fits[19].fit[kYaw] = in_units(kYaw, -40);
+  fits[19].regions.front().quadratic = 0;
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kPose]), (std::vector{19}));
   EXPECT_NEAR(group.tracks[kPose].back().value[kYaw], 20, 1);
@@ -297,7 +296,7 @@ TEST(TrackPlanner, KnotThatDoesNotPayIsDropped) {
 TEST(TrackPlanner, JumpIsKeptBehindNoise) {
   auto fits = still_fits(20, 2);
   for (std::size_t t = 0; t < 20; ++t)
-    fits[t].value[kFirstCoefficient] = in_units(kFirstCoefficient, t < 10 ? (t % 2 == 0 ? -0.8 : 0.8) : 30);
+    fits[t].fit[kFirstCoefficient] = in_units(kFirstCoefficient, t < 10 ? (t % 2 == 0 ? -0.8 : 0.8) : 30);
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kMouth]), (std::vector{9, 10, 19}));
   EXPECT_EQ(group.tracks[kMouth][0].value[0], 0);

@@ -139,11 +139,10 @@ double body_error(const State& state, const Flat& truth) {
   return error_over(state.body, truth, {80, 190}, {240, kHeight});
 }
 
-FitForm form_of(const SurroundMotion& motion) {
-  FitForm form;
-  form.form = cv::Mat1d::zeros(kParameterCount, kParameterCount);
-  motion.add_to(form);
-  return form;
+PictureCost cost_of(const SurroundMotion& motion) {
+  PictureCost cost;
+  motion.add_to(cost);
+  return cost;
 }
 
 SurroundMap map_of(std::uint8_t head, std::uint8_t body) {
@@ -238,7 +237,7 @@ TEST(SurroundMotion, NothingToSeeMovesNothing) {
   for (const Picture& picture : {flat, wall(90, 2), wall(99, 3), picture_of({})}) {
     motion.look_at(picture, head_of({}));
     EXPECT_EQ(state_of_motion(motion), seen_state());
-    EXPECT_EQ(cv::countNonZero(form_of(motion).form), 0);
+    EXPECT_EQ(cv::countNonZero(cost_of(motion).quadratic()), 0);
   }
 }
 
@@ -246,25 +245,25 @@ TEST(SurroundMotion, FormIsSymmetricAndPositiveSemidefinite) {
   SurroundMotion motion = looked_at({{5, 2}, {4.3, 2.6, 0, 0}, {-2.4, 1.1, 0, 0.3}});
   for (const bool mapped : {false, true}) {
     if (mapped) motion.believe(map_of(1, 2));
-    const FitForm form = form_of(motion);
-    EXPECT_LT(cv::norm(form.form - form.form.t()), 1e-9 * cv::norm(form.form));
+    const PictureCost cost = cost_of(motion);
+    EXPECT_LT(cv::norm(cost.quadratic() - cost.quadratic().t()), 1e-9 * cv::norm(cost.quadratic()));
     cv::Mat1d values;
-    ASSERT_TRUE(cv::eigen(form.form, values));
+    ASSERT_TRUE(cv::eigen(cost.quadratic(), values));
     EXPECT_GT(values(kParameterCount - 1), -1e-9 * values(0));
     for (int i = 0; i < kParameterCount; ++i) {
       const bool flat = i >= kFirstBody && i < kFirstGround + kSimilarityCount;
-      EXPECT_EQ(form.form(i, i) > 0, flat) << i;
+      EXPECT_EQ(cost.quadratic()(i, i) > 0, flat) << i;
     }
   }
 }
 
 TEST(SurroundMotion, FormHasTheNumbersOfTheState) {
   const SurroundMotion motion = looked_at({{5, 2}, {4.3, 2.6, 0, 0}, {-2.4, 1.1, 0, 0.3}});
-  const FitForm form = form_of(motion);
+  const PictureCost cost = cost_of(motion);
   const State state = state_of_motion(motion);
   for (std::size_t i = 0; i < kSimilarityCount; ++i) {
-    EXPECT_EQ(std::lround(form.value[kFirstBody + i]), state.body[i]) << i;
-    EXPECT_EQ(std::lround(form.value[kFirstGround + i]), state.ground[i]) << i;
+    EXPECT_EQ(std::lround(cost.fit[kFirstBody + i]), state.body[i]) << i;
+    EXPECT_EQ(std::lround(cost.fit[kFirstGround + i]), state.ground[i]) << i;
   }
   EXPECT_NE(state.ground, seen_state().ground) << "the case must occur";
 }
@@ -273,7 +272,7 @@ TEST(SurroundMotion, MapSaysWhatMattersToWhat) {
   SurroundMotion motion(picture_of({}), seen_state());
   motion.look_at(picture_of({}), head_of({}));
   const auto matters = [&](int first) {
-    return cv::trace(form_of(motion).form(cv::Rect(first, first, 4, 4)))[0];
+    return cv::trace(cost_of(motion).quadratic()(cv::Rect(first, first, 4, 4)))[0];
   };
   motion.believe(map_of(0, 0));
   const double all = matters(kFirstGround);
@@ -293,12 +292,12 @@ TEST(SurroundMotion, FormPredictsTheChangeOfTheSquaredDifference) {
   SurroundMotion motion(first, seen_state());
   motion.believe(map_of(0, 0));
   motion.look_at(first, head_of({}));
-  const FitForm form = form_of(motion);
+  const PictureCost cost = cost_of(motion);
   for (const Flat& by :
        {Flat{1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, 0.25, 0}, {0, 0, 0, 0.25}, {0.7, 0.7, 0, 0}}) {
     cv::Mat1d e = cv::Mat1d::zeros(kParameterCount, 1);
     for (std::size_t i = 0; i < kSimilarityCount; ++i) e(kFirstGround + static_cast<int>(i)) = 64 * by[i];
-    const double predicted = cv::Mat1d(e.t() * form.form * e)(0);
+    const double predicted = cv::Mat1d(e.t() * cost.quadratic() * e)(0);
     EXPECT_NEAR(squares(picture_of({{}, {}, by}, 0, false), first) / predicted, 1, 0.4)
         << by[0] << ' ' << by[2];
   }

@@ -1,0 +1,44 @@
+// What other states than the fitted one would cost in a picture: what the planner weighs against bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "encoder/model/fit.h"
+
+namespace fbs {
+
+/// A part of the picture that is drawn from one pattern.
+enum class Region : std::uint8_t { kHead, kSurround };
+
+/// Squared luma difference over a region, in samples of the full picture, when it is drawn from `pattern` in
+/// a state x near the picture's fit:  constant + (x - fit)^T quadratic (x - fit).
+struct RegionCost {
+  Region region = Region::kHead;
+  int pattern = 0;
+  double constant = 0;  ///< at the fit itself: what this pattern cannot show, whatever the state
+  cv::Mat1d quadratic;  ///< kParameterCount x kParameterCount; zero for numbers that do not move the region
+};
+
+/// One picture. Its cost is the sum over the regions.
+struct PictureCost {
+  std::array<double, kParameterCount>
+      fit{};  ///< numbers of the coded state, in units of State and head units
+  std::vector<RegionCost> regions;
+
+  /// Sum of the regions' quadratics.
+  [[nodiscard]] cv::Mat1d quadratic() const;
+  [[nodiscard]] double constant() const;
+};
+
+/// Of a fit that no picture speaks for: only the pose is held a little.
+[[nodiscard]] PictureCost cost_unseen(const Fit& fit);
+
+/// Of the head, drawn from a pattern.
+/// @param constant  at the fit
+/// @param own  kFitNumbers x kFitNumbers, symmetric: the quadratic over the fit's own numbers
+[[nodiscard]] PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& own);
+
+}  // namespace fbs
