@@ -5,7 +5,8 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
-#include "encoder/scene_encoder.h"
+#include "encoder/face_scene.h"
+#include "encoder/still_scene.h"
 
 namespace fbs {
 namespace {
@@ -18,7 +19,7 @@ struct Encoder::Impl {
   VideoFormat format;
   EncoderSettings settings;
   FaceFinder finder;
-  std::optional<SceneEncoder> scene;
+  std::unique_ptr<SceneEncoder> scene;
   bool face_seen = false;
   std::uint64_t pictures = 0;
   std::vector<std::uint8_t> ready;
@@ -42,10 +43,10 @@ struct Encoder::Impl {
       if (auto ended = scene->finish(); !ended) return ended;
       take_from_scene();
     }
-    auto begun = marks ? SceneEncoder::begin(format, settings, finder, picture, *marks)
-                       : SceneEncoder::begin_without_face(format, settings, picture);
+    auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks)
+                       : StillScene::begin(format, settings, picture);
     if (!begun) return fail(begun.error());
-    scene.emplace(std::move(*begun));
+    scene = std::move(*begun);
     face_seen = face_seen || marks.has_value();
     return {};
   }

@@ -6,9 +6,9 @@
 namespace fbs {
 namespace {
 
-constexpr double kOpen = 0.10;       // eye distances that the outer lips have parted beyond rest
-constexpr std::int64_t kEnough = 3;  // pictures
-constexpr int kSteps = 24;           // along the middle line
+constexpr double kOpen = 0.10;            // eye distances by which the outer lips have parted beyond rest
+constexpr std::int64_t kMinPictures = 3;  // fewer may be a tongue or a shadow
+constexpr int kSteps = 24;                // along the midline
 
 glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::size_t landmark) {
   const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
@@ -20,10 +20,15 @@ glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::si
 void MouthColours::Sum::add(const Picture& picture, glm::dvec2 at) {
   const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
   if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) return;
-  yuv[0] += picture.y.row(y)[x];
-  yuv[1] += picture.u.row(y / 2)[x / 2];
-  yuv[2] += picture.v.row(y / 2)[x / 2];
+  u += picture.u.row(y / 2)[x / 2];
+  v += picture.v.row(y / 2)[x / 2];
   ++count;
+}
+
+void MouthColours::Sum::set_chroma(YuvColour& colour) const {
+  if (count < kMinPictures) return;
+  colour.u = static_cast<std::uint8_t>((u + count / 2) / count);
+  colour.v = static_cast<std::uint8_t>((v + count / 2) / count);
 }
 
 std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices) {
@@ -50,18 +55,9 @@ void MouthColours::add(const Picture& picture, const std::array<glm::ivec3, kVer
   upper_.add(picture, 0.5 * (darkest + seen_at(vertices, 62)));
 }
 
-MouthInterior MouthColours::colours() const {
-  MouthInterior mouth;
-  const auto mean = [](const Sum& s, YuvColour& c) {
-    if (s.count < kEnough) return;
-    const auto of = [&](std::size_t k) {
-      return static_cast<std::uint8_t>((s.yuv[k] + s.count / 2) / s.count);
-    };
-    c = {of(0), of(1), of(2)};
-  };
-  mean(upper_, mouth.upper);
-  mean(lower_, mouth.lower);
-  return mouth;
+void MouthColours::set_chroma(MouthInterior& mouth) const {
+  upper_.set_chroma(mouth.upper);
+  lower_.set_chroma(mouth.lower);
 }
 
 }  // namespace fbs

@@ -1,38 +1,41 @@
-// What shows between the lips: mean colours of open mouths seen so far.
+// Colour of the mouth interior: means over open mouths seen so far.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "bitstream/syntax.h"
 #include "common/picture.h"
 
 namespace fbs {
 
+/// Chroma only: luma is part of the state (State::interior), relative to the luma in the setup.
 class MouthColours {
  public:
-  /// Adds what a picture shows between parted lips: the darkest place on the mouth's middle line, and what
-  /// lies half way from there to the upper inner lip, where teeth are. Only the outer lips are trusted to say
-  /// that the mouth is open.
-  /// @param vertices  where the head's vertices are seen, 1/64 pixel
+  /// Adds what a picture shows between parted lips: the darkest place on the mouth's midline, and the place
+  /// half way from there to the upper inner lip, where teeth are. Inner lips are tracked less reliably, so
+  /// the outer ones decide whether the mouth is open.
+  /// @param vertices  screen positions of the head's vertices, 1/64 pixel
   /// @param rest_height  between the outer lips' middles in the pattern, 1/64 pixel
-  /// @param eye_distance_px  of the head as it is seen
+  /// @param eye_distance_px  of the head on the screen
   void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices,
            std::int32_t rest_height, double eye_distance_px);
 
-  /// Means at the upper and at the lower lip; MouthInterior's defaults until enough has been seen.
-  [[nodiscard]] MouthInterior colours() const;
+  /// Sets the chroma of either lip's colour once enough has been seen of it.
+  void set_chroma(MouthInterior& mouth) const;
 
  private:
   struct Sum {
-    std::array<std::int64_t, 3> yuv{};
-    std::int64_t count = 0;
+    std::int64_t u = 0, v = 0, count = 0;
     void add(const Picture& picture, glm::dvec2 at);
+    void set_chroma(YuvColour& colour) const;
   };
   Sum upper_, lower_;
 };
 
-/// Distance of the outer lips' middles, 1/64 pixel.
+/// Distance between the outer lips' middles, 1/64 pixel.
 [[nodiscard]] std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices);
 
 }  // namespace fbs

@@ -6,21 +6,47 @@
 namespace fbs {
 namespace {
 
-/// Rate that motion takes at a quality, about; measured on ten clips.
+constexpr double kSecondsUnknown = 10;  // over which the startup is spread where the length is unknown
+constexpr double kMinMotion = 0.15;     // of the total rate, whatever the startup takes
+
+double kbps_of(std::size_t bytes, double seconds) {
+  return 8e-3 * static_cast<double>(bytes) / seconds;
+}
+
+/// Rate that motion takes at a quality, about; measured on the ten clips with the tracks of format 3.
 double usual_motion_kbps(int quality) {
   return 1.0 * std::exp2((quality - 50) / 30.0);
 }
 
 }  // namespace
 
-int quality_for(double kbps, double seconds, const std::function<std::size_t(int)>& startup) {
-  const auto fits = [&](int quality) {
-    return 8e-3 * static_cast<double>(startup(quality)) / seconds + usual_motion_kbps(quality) <= kbps;
+Result<RatePlan> plan_rate(const RateTarget& target, std::size_t other_bytes,
+                           const PatternBytes& pattern_bytes) {
+  const auto plan_at = [&](int quality, double motion_kbps) {
+    return RatePlan{OperatingPoint::at(quality, target.eye_distance_px), motion_kbps};
   };
-  int low = 0, high = 101;  // the first that is not known to be too much
+  if (target.bitrate_kbps <= 0) return plan_at(target.quality, target.motion_kbps);
+  const double seconds = target.seconds > 0 ? target.seconds : kSecondsUnknown;
+  const auto startup = [&](int quality) -> Result<std::size_t> {
+    const auto pattern = pattern_bytes(OperatingPoint::at(quality, target.eye_distance_px).pattern_quantiser);
+    if (!pattern) return fail(pattern.error());
+    return other_bytes + *pattern;
+  };
+  const auto quality = quality_for(target.bitrate_kbps, seconds, startup);
+  if (!quality) return fail(quality.error());
+  const auto bytes = startup(*quality);
+  if (!bytes) return fail(bytes.error());
+  return plan_at(*quality,
+                 std::max(target.bitrate_kbps - kbps_of(*bytes, seconds), kMinMotion * target.bitrate_kbps));
+}
+
+Result<int> quality_for(double kbps, double seconds, const std::function<Result<std::size_t>(int)>& startup) {
+  int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    (fits(middle) ? low : high) = middle;
+    const auto bytes = startup(middle);
+    if (!bytes) return fail(bytes.error());
+    (kbps_of(*bytes, seconds) + usual_motion_kbps(middle) <= kbps ? low : high) = middle;
   }
   return low;
 }
@@ -32,25 +58,6 @@ double RateBudget::allowed(double seconds) const {
 
 void RateBudget::spend(double bits, double seconds) {
   left_ += bits_per_second_ * seconds - bits;
-}
-
-double lambda_for(double allowed, double lambda, double rest, const std::function<double(double)>& bits) {
-  constexpr double kClose = 0.03;
-  const double least = rest / 64, most = rest * 4096;
-  double low = 0, high = 0;  // too many bits, few enough; zero: not known
-  for (int i = 0; i < 9; ++i) {
-    const double b = bits(lambda);
-    if (b <= allowed && b >= (1 - kClose) * allowed) return lambda;
-    (b > allowed ? low : high) = lambda;
-    if (low > 0 && high > 0) {
-      lambda = std::sqrt(low * high);
-    } else {
-      const double next = std::clamp(b > allowed ? lambda * 4 : lambda / 4, least, most);
-      if (next == lambda) return lambda;
-      lambda = next;
-    }
-  }
-  return high > 0 ? high : lambda;
 }
 
 }  // namespace fbs

@@ -1,18 +1,48 @@
-// Rates in kilobits a second: which quality fits one, and what each group of motion may take.
+// Rates in kilobits a second: which operating point meets a target, and what each group of motion may take.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <optional>
+
+#include "common/result.h"
+#include "encoder/plan/operating_point.h"
 
 namespace fbs {
+
+/// What was asked for.
+struct RateTarget {
+  int quality = 50;            ///< 0..100; where no bitrate is set
+  double bitrate_kbps = 0;     ///< total; 0: quality decides
+  double seconds = 0;          ///< length of the video; 0: unknown
+  double motion_kbps = 0;      ///< of motion alone, where no bitrate is set; 0: quality decides
+  double eye_distance_px = 0;  ///< in the scene's first picture
+};
+
+struct RatePlan {
+  OperatingPoint point;
+  double motion_kbps = 0;  ///< that groups are held to; 0: lambda alone decides
+};
+
+/// Bytes of the first pattern at a quantiser of 0..63.
+using PatternBytes = std::function<Result<std::size_t>(int quantiser)>;
+
+/// @param other_bytes  of the startup beside the pattern
+/// @return errors of pattern_bytes
+[[nodiscard]] Result<RatePlan> plan_rate(const RateTarget& target, std::size_t other_bytes,
+                                         const PatternBytes& pattern_bytes);
 
 /// The highest quality at which startup and the motion that goes with it fit a total rate; 0 when none does.
 /// @param kbps     total rate
 /// @param seconds  over which the startup is spread, > 0
-/// @param startup  bytes before the first picture at a quality of 0..100; called some seven times
-[[nodiscard]] int quality_for(double kbps, double seconds, const std::function<std::size_t(int)>& startup);
+/// @param startup  bytes before the first picture at a quality of 0..100; called at most 7 times
+/// @return errors of startup
+[[nodiscard]] Result<int> quality_for(double kbps, double seconds,
+                                      const std::function<Result<std::size_t>(int)>& startup);
 
-/// Spreads a rate over groups: what one leaves or takes too much, the next ones make up for.
+/// Spreads a rate over groups: later groups make up for what earlier ones left over or overspent.
 class RateBudget {
  public:
   /// @param kbps  of the motion, > 0
@@ -24,14 +54,41 @@ class RateBudget {
 
  private:
   double bits_per_second_;
-  double left_ = 0;  ///< bits not yet taken; negative: too many
+  double left_ = 0;  ///< bits not yet taken; negative: overspent
 };
 
-/// The lambda at which a group takes what it may.
-/// @param lambda  of the group before
-/// @param rest    of the scene, which bounds what comes out: 1/64 .. 4096 of it
-/// @param bits    of the group at a lambda; falls with it; called some eight times
-[[nodiscard]] double lambda_for(double allowed, double lambda, double rest,
-                                const std::function<double(double)>& bits);
+/// The plan whose bits come closest to what is allowed, by bisection over the logarithm of lambda; rather too
+/// few bits than too many.
+/// @param lambda  to start from: that of the group before
+/// @param base    of the scene, which bounds the search to base / 64 .. 4096 base
+/// @param plan    takes a lambda, returns a value with a member `bits` that falls with lambda; called at most
+///                10 times
+template <class Plan>
+[[nodiscard]] auto plan_within(double allowed_bits, double lambda, double base, Plan&& plan) {
+  constexpr double kTolerance = 0.03;  // of the allowed bits, below them
+  constexpr int kMaxTrials = 9;
+  const double min = base / 64, max = base * 4096;
+  double too_many = 0, few_enough = 0;  // lambdas; 0: unknown
+  std::optional<decltype(plan(lambda))> best;
+  for (int trial = 0; trial < kMaxTrials; ++trial) {
+    auto planned = plan(lambda);
+    const bool over = planned.bits > allowed_bits;
+    if (!over && planned.bits >= (1 - kTolerance) * allowed_bits) return planned;
+    if (over) {
+      too_many = lambda;
+    } else {
+      few_enough = lambda;
+      best = planned;
+    }
+    if (too_many > 0 && few_enough > 0) {
+      lambda = std::sqrt(too_many * few_enough);
+    } else {
+      const double next = std::clamp(over ? lambda * 4 : lambda / 4, min, max);
+      if (next == lambda) return planned;
+      lambda = next;
+    }
+  }
+  return best ? *std::move(best) : plan(lambda);
+}
 
 }  // namespace fbs

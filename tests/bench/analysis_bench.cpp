@@ -4,7 +4,7 @@
 #include <string>
 
 #include "encoder/encoder.h"
-#include "encoder/plan/track_plan.h"
+#include "encoder/plan/track_planner.h"
 #include "tests/bench/analysis_clip.h"
 
 namespace fbs {
@@ -103,10 +103,11 @@ BENCHMARK(FitFormAt)->Unit(benchmark::kMicrosecond);
 void TrackPlan(benchmark::State& state) {
   constexpr int kGroup = 30;
   const AnalysisClip& clip = analysis_clip();
-  const TrackPlanner planner(clip.setup().steps, clip.setup().parts, clip.lambda());
+  const TrackPlanner planner(clip.setup().steps, clip.setup().parts);
   std::vector<PictureCost> fits;
   for (std::size_t i = 1; i <= kGroup; ++i) fits.push_back(clip.round()[i].cost);
-  for (auto _ : state) benchmark::DoNotOptimize(planner.plan(clip.seen_coded(), fits, TrackRate()));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(planner.plan(clip.seen_coded(), fits, TrackRate(), clip.lambda()));
   state.SetItemsProcessed(state.iterations() * kGroup);
 }
 BENCHMARK(TrackPlan)->Unit(benchmark::kMillisecond);

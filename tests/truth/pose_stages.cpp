@@ -18,7 +18,7 @@
 #include "encoder/find/adapt.h"
 #include "encoder/fit/picture_fit.h"
 #include "encoder/plan/operating_point.h"
-#include "encoder/plan/track_plan.h"
+#include "encoder/plan/track_planner.h"
 #include "encoder/track/feature_tracker.h"
 #include "encoder/track/head_tracker.h"
 #include "tests/unit/talker_clip.h"
@@ -86,7 +86,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   HeadTracker tracker(head.geometry, head.pose, first);
   FeatureTracker features(head.geometry, head.pose, first);
   PictureFit fit(setup, head.geometry, first, seen);
-  const TrackPlanner planner(setup.steps, setup.parts, point.lambda);
+  const TrackPlanner planner(setup.steps, setup.parts);
   TrackRate rate;
   Fit now{pose_of(seen), {}, {}, {}};
   std::vector<PictureCost> fits;
@@ -102,7 +102,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
     stages[0].take(tracked.pose, truths.back());
     stages[1].take(now.pose, truths.back());
     if (fits.size() < kGroup && i + 1 < clip.count()) continue;
-    const MotionGroup group = planner.plan(anchor, fits, rate);
+    const MotionGroup group = planner.plan(anchor, fits, rate, point.lambda);
     const std::vector<State> chosen = states_of(group, setup.steps);
     for (std::size_t t = 0; t < chosen.size(); ++t) stages[2].take(pose_of(chosen[t]), truths[t]);
     rate.learn(group);

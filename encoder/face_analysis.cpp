@@ -1,0 +1,129 @@
+#include "encoder/face_analysis.h"
+
+#include "decoder/animate/projection.h"
+
+namespace fbs {
+namespace {
+
+WorkFrame first_frame(const AnalysisStart& start, const Picture& picture, bool with_colour) {
+  return WorkFrame::cut(picture, start.centre, start.eye_distance_px, with_colour);
+}
+
+}  // namespace
+
+FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder,
+                           const AnalysisStart& start)
+    : snakes_(settings.snakes),
+      refine_(settings.refine),
+      eye_distance_px_(start.eye_distance_px),
+      geometry_(start.geometry),
+      mouth_(start.setup.mouth),
+      head_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
+      search_(finder),
+      features_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
+      fit_(start.setup, start.geometry, first_frame(start, start.pattern, false), start.seen) {
+  now_.pose = pose_of(start.seen);
+  if (settings.surround) surround_.emplace(start.first, start.seen);
+}
+
+FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
+  Observation seen;
+  seen.cost = begun_ ? fit_next(picture) : fit_first(picture);
+  begun_ = true;
+  seen.state = state_of(now_);
+  if (surround_) {
+    surround_->look_at(picture, now_.pose);
+    surround_->add_to(seen.cost);
+    surround_->add_to(seen.state);
+  }
+  write_report(seen.state);
+  return seen;
+}
+
+void FaceAnalysis::set_surround_map(const SurroundMap& map) {
+  if (surround_) surround_->believe(map);
+}
+
+PictureCost FaceAnalysis::fit_first(const Picture& picture) {
+  fit_.look_at(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), mouth_);
+  report_.confidence = 1;
+  return fit_.cost_at(now_);
+}
+
+PictureCost FaceAnalysis::fit_next(const Picture& picture) {
+  const HeadVertices vertices = fit_.deformed(now_);
+  WorkFrame frame = WorkFrame::cut(picture, head_.pose().shift, eye_distance_px_, true);
+  const std::optional<TrackedPose> head = follow_head(picture, vertices, frame);
+  if (!head) {
+    now_ = relaxed();
+    return cost_unseen(now_);
+  }
+  Fit start = tracked(frame, *head);
+  fit_.look_at(frame, mouth_);
+  start = fit_.with_best_lids(start);
+  now_ = refine_ ? fit_.refine_mouth(start) : start;
+  return fit_.cost_at(now_);
+}
+
+std::optional<TrackedPose> FaceAnalysis::follow_head(const Picture& picture, const HeadVertices& vertices,
+                                                     WorkFrame& frame) {
+  const Pose last_good = now_.pose;
+  // Flow between pictures that do not show the head is meaningless: once lost, the head is searched for.
+  if (!search_.lost()) {
+    const TrackedPose tracked = head_.track(frame, vertices);
+    report_.confidence = tracked.confidence;
+    if (tracked.confidence >= FaceSearch::kLostBelow) return tracked;
+  }
+  const FaceSearch::Find found = search_.find(picture, head_, last_good, vertices);
+  report_.confidence = found.head.confidence;
+  if (!found.believed) {
+    head_.restart(last_good, frame);
+    return std::nullopt;
+  }
+  search_.rest();
+  frame = WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true);
+  head_.restart(found.head.pose, frame);
+  const TrackedPose tracked = head_.track(frame, vertices);
+  report_.confidence = tracked.confidence;
+  return tracked;
+}
+
+Fit FaceAnalysis::relaxed() {
+  constexpr double kRemains = 0.85;  // of the expression, per picture: at rest after half a second
+  Fit fit = now_;
+  for (glm::dvec2& o : fit.offsets) o *= kRemains;
+  features_.set_offsets(fit.offsets);
+  return fit;
+}
+
+Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
+  Fit fit{head.pose, now_.light, now_.interior, now_.offsets};
+  if (!snakes_) return fit;
+  features_.track(frame, fit.pose, head_.flow());
+  fit.offsets = features_.offsets();
+  // Pupils have no contour: the fit to the picture moves them.
+  for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft}) {
+    const std::size_t c = feature(id).first_control;
+    fit.offsets[c] = now_.offsets[c];
+  }
+  return fit;
+}
+
+void FaceAnalysis::write_report(const State& state) {
+  report_.face = true;
+  const HeadProjection on_screen(head_pose(state));
+  const auto vertices = deform(geometry_.positions, state);
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    const glm::ivec3 p = on_screen(vertices[v]);
+    report_.vertices[v] = glm::dvec2(p.x, p.y) / static_cast<double>(1 << kScreenOneLog2);
+  }
+  const PoseProjection projection(head_.pose());
+  report_.snakes.clear();
+  for (std::size_t i = 0; i < features_.count(); ++i) {
+    SnakeOutline outline{{}, features_.is_closed(i), features_.iterations(i)};
+    for (const glm::dvec3& p : features_.outline(i)) outline.points.push_back(projection(p));
+    report_.snakes.push_back(std::move(outline));
+  }
+}
+
+}  // namespace fbs

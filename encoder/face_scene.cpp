@@ -1,0 +1,185 @@
+#include "encoder/face_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
+#include "encoder/plan/expression_penalty.h"
+#include "encoder/rate_target.h"
+#include "encoder/surround/surround_fit.h"
+#include "encoder/track/snake_marks.h"
+
+namespace fbs {
+namespace {
+
+/// Pictures that the surround's map is fitted to, spread over the look-ahead. More cost time and change
+/// little.
+constexpr std::uint64_t kSurroundPictures = 12;
+
+/// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
+PartMask parts_of(const EncoderSettings& settings) {
+  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
+  const auto add = [&](std::initializer_list<PartId> ids) {
+    for (const PartId id : ids) parts = static_cast<PartMask>(parts | mask_of(id));
+  };
+  if (settings.surround) add({PartId::kBody, PartId::kGround});
+  if (settings.snakes) add({PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze});
+  return parts;
+}
+
+/// The pose in whole steps, all else at rest.
+CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
+  CodedState coded{};
+  const auto numbers = numbers_of(pose);
+  for (std::size_t i = 0; i < kPoseCount; ++i)
+    coded[i] = static_cast<std::int32_t>(std::lround(numbers[i] / step_of(steps, i)));
+  return coded;
+}
+
+}  // namespace
+
+struct FaceScene::Parts {
+  Scene scene;
+  CodedState seen;
+  PatternCoder patterns;
+  const Picture& first;
+  glm::dvec2 centre;  ///< of the head in it, pixels
+  double eye_distance_px;
+  RatePlan rate;
+  SceneHead head;
+};
+
+Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format,
+                                                       const EncoderSettings& settings,
+                                                       const FaceFinder& finder, const Picture& first,
+                                                       const Marks& marks) {
+  const auto adapted = settings.marks ? adapt_head(marks) : adapt_with_snakes(first, marks);
+  if (!adapted) return fail(adapted.error());
+  auto geometry = encode_geometry(adapted->geometry);
+  if (!geometry) return fail(geometry.error());
+
+  FirstPattern first_pattern(format, first);
+  const double eye = adapted->pose.eye_distance_px();
+  const auto rate = plan_rate(rate_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
+                              [&](int quantiser) { return first_pattern.bytes(quantiser); });
+  if (!rate) return fail(rate.error());
+  auto coded = first_pattern.take(rate->point.pattern_quantiser);
+  if (!coded) return fail(coded.error());
+
+  Scene scene;
+  scene.setup.format = format;
+  scene.setup.parts = parts_of(settings);
+  scene.setup.steps = rate->point.steps;
+  const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
+  const State seen = state_of(seen_coded, scene.setup.steps);
+  auto pattern = encode_pattern({0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
+  if (!pattern) return fail(pattern.error());
+  // Until pictures have shown more, the surround is a guess by distance from the face.
+  const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, {&first, seen}, {});
+  scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
+  scene.patterns.push_back({std::move(coded->pattern.decoded), scene.geometry->project(seen)});
+
+  SceneHead head;
+  head.geometry = std::move(geometry->payload);
+  head.pattern = std::move(*pattern);
+  return std::unique_ptr<FaceScene>(new FaceScene(SceneTiming(format, settings), finder, settings,
+                                                  {std::move(scene), seen_coded, std::move(coded->coder),
+                                                   first, adapted->pose.shift, eye, *rate, std::move(head)}));
+}
+
+FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
+                     Parts parts)
+    : timing_(timing),
+      still_surround_(!settings.surround),
+      scene_(std::move(parts.scene)),
+      seen_(parts.seen),
+      eye_distance_px_(parts.eye_distance_px),
+      patterns_(std::move(parts.patterns)),
+      analysis_(settings, finder,
+                {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
+                 state_of(seen_, scene_.setup.steps), parts.centre, parts.eye_distance_px}),
+      coder_(scene_.setup, seen_),
+      planner_(scene_.setup.steps, scene_.setup.parts, expression_penalty(parts.rate.point.lambda)),
+      base_lambda_(parts.rate.point.lambda),
+      lambda_(base_lambda_),
+      first_(parts.first),
+      head_(std::move(parts.head)) {
+  if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
+}
+
+Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
+  FaceAnalysis::Observation seen = analysis_.observe(picture);
+  costs_.push_back(std::move(seen.cost));
+  durations_.push_back(duration);
+  if (!packets_.started()) learn(picture, seen.state);
+  ++pictures_;
+  if (timing_.group_ends(durations_.size(), pictures_))
+    if (auto ended = end_group(); !ended) return ended;
+  return !packets_.started() && pictures_ >= timing_.lookahead ? start() : Result<void>{};
+}
+
+void FaceScene::learn(const Picture& picture, const State& state) {
+  const SceneGeometry& geometry = *scene_.geometry;
+  const State seen = state_of(seen_, scene_.setup.steps);
+  mouth_colours_.add(picture, geometry.project_vertices(state), mouth_height(geometry.project_vertices(seen)),
+                     eye_distance_px_);
+  const std::uint64_t every = std::max<std::uint64_t>(1, timing_.lookahead / kSurroundPictures);
+  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state);
+}
+
+MotionGroup FaceScene::plan_next_group() {
+  const GroupInput input{coder_, costs_, durations_, timing_.nominal_duration, rate_};
+  if (!budget_) return plan_group(planner_, input, lambda_);
+  const double seconds = seconds_of(durations_, timing_.nominal_duration);
+  PlannedGroup planned = plan_group_within(planner_, input, budget_->allowed(seconds), lambda_, base_lambda_);
+  budget_->spend(planned.bits, seconds);
+  lambda_ = planned.lambda;
+  return std::move(planned.group);
+}
+
+Result<void> FaceScene::end_group() {
+  if (durations_.empty()) return {};
+  const MotionGroup group = plan_next_group();
+  const auto payload = coder_.encode(group);
+  if (!payload) return fail(payload.error());
+  rate_.learn(group);
+  packets_.add_motion(*payload);
+  costs_.clear();
+  durations_.clear();
+  return {};
+}
+
+Result<void> FaceScene::start() {
+  mouth_colours_.set_chroma(scene_.setup.mouth);
+  const State seen = state_of(seen_, scene_.setup.steps);
+  const Geometry geometry = scene_.geometry->geometry();
+  std::vector<SeenPicture> later;
+  for (const auto& [picture, state] : later_) later.push_back({&picture, state});
+  const SurroundMap map =
+      still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, {&*first_, seen}, later);
+  analysis_.set_surround_map(map);
+  scene_.geometry.emplace(scene_.setup, geometry, map, seen);
+  scene_.patterns.front().seen = scene_.geometry->project(seen);
+
+  auto setup = encode_setup(scene_.setup);
+  if (!setup) return fail(setup.error());
+  head_.setup = std::move(*setup);
+  auto surround = encode_surround(map);
+  if (!surround) return fail(surround.error());
+  head_.surround = std::move(*surround);
+  packets_.start(head_);
+  head_ = {};
+  later_.clear();
+  first_.reset();
+  return {};
+}
+
+Result<void> FaceScene::finish() {
+  if (auto ended = end_group(); !ended) return ended;
+  return packets_.started() ? Result<void>{} : start();
+}
+
+}  // namespace fbs

@@ -1,0 +1,72 @@
+// A scene with a face: joins analysis, patterns, planning and packets.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "bitstream/payload/motion_payload.h"
+#include "decoder/renderer.h"
+#include "encoder/face_analysis.h"
+#include "encoder/patterns/mouth_colours.h"
+#include "encoder/patterns/pattern_coder.h"
+#include "encoder/plan/group_plan.h"
+#include "encoder/plan/rate_control.h"
+#include "encoder/scene_encoder.h"
+#include "encoder/scene_packets.h"
+#include "encoder/scene_timing.h"
+
+namespace fbs {
+
+class FaceScene : public SceneEncoder {
+ public:
+  /// @param finder  used again when the face is lost; must outlive the scene
+  /// @param marks   on the first picture
+  static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
+                                                     const EncoderSettings& settings,
+                                                     const FaceFinder& finder, const Picture& first,
+                                                     const Marks& marks);
+
+  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> finish() override;
+  [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
+  [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_.report(); }
+
+ private:
+  /// What begin() has made.
+  struct Parts;
+  FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
+            Parts parts);
+
+  /// Until the scene starts: mouth colours, and what the surround's map is fitted to.
+  void learn(const Picture& picture, const State& state);
+  Result<void> end_group();
+  [[nodiscard]] MotionGroup plan_next_group();
+  /// Fixes what the scene's head says and writes it.
+  Result<void> start();
+
+  SceneTiming timing_;
+  bool still_surround_;
+  Scene scene_;             ///< as the decoder has it; until start() the surround's map is a guess
+  CodedState seen_;         ///< of pattern 0
+  double eye_distance_px_;  ///< in it
+  PatternCoder patterns_;
+  FaceAnalysis analysis_;
+
+  MotionCoder coder_;
+  TrackPlanner planner_;
+  TrackRate rate_;
+  double base_lambda_;                    ///< that the quality stands for
+  double lambda_;                         ///< of the last group
+  std::optional<RateBudget> budget_;      ///< of the motion, where a rate is set
+  std::vector<PictureCost> costs_;        ///< of the group's pictures
+  std::vector<std::uint32_t> durations_;  ///< of the same, 1/90000 s; 0: nominal
+  std::uint64_t pictures_ = 0;
+
+  MouthColours mouth_colours_;
+  std::optional<Picture> first_;  ///< until start()
+  std::vector<std::pair<Picture, State>> later_;
+  SceneHead head_;
+  ScenePackets packets_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,27 @@
+// What the analysis saw in a picture: for overlays and measurements.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "common/generic_head.h"
+
+namespace fbs {
+
+/// A snake as it came to rest.
+struct SnakeOutline {
+  std::vector<glm::dvec2> points;  ///< pixels of the picture, in order along the curve
+  bool closed = false;
+  int iterations = 0;  ///< of the last descent
+};
+
+/// Positions in pixels of the picture.
+struct PictureAnalysis {
+  bool face = false;
+  double confidence = 0;                            ///< 0..1
+  std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
+  std::vector<SnakeOutline> snakes;                 ///< as tracked
+};
+
+}  // namespace fbs

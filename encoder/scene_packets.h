@@ -1,0 +1,32 @@
+// The packets of one scene in stream order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fbs {
+
+/// Payloads that come before all motion. Empty ones are not written.
+struct SceneHead {
+  std::vector<std::uint8_t> setup, geometry, surround, pattern;
+};
+
+/// Holds motion back until the scene has started: what its head says is learned from the first seconds.
+class ScenePackets {
+ public:
+  void add_motion(std::span<const std::uint8_t> payload);
+
+  /// Writes the head, then the motion held back.
+  void start(const SceneHead& head);
+  [[nodiscard]] bool started() const { return started_; }
+
+  /// Whole packets that are ready; forgets them.
+  [[nodiscard]] std::vector<std::uint8_t> take();
+
+ private:
+  std::vector<std::uint8_t> held_back_, ready_;
+  bool started_ = false;
+};
+
+}  // namespace fbs

@@ -1,0 +1,26 @@
+#include "encoder/scene_timing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bitstream/syntax.h"
+
+namespace fbs {
+namespace {
+
+/// What is seen before the surround's map and the mouth's colours are fixed. Longer sees more open mouths and
+/// more of what moves; the first bytes come as much later.
+constexpr double kLookaheadSeconds = 2;
+
+}  // namespace
+
+SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& settings)
+    : nominal_duration(fbs::nominal_duration(format.frame_rate)) {
+  const double fps = static_cast<double>(format.frame_rate.num) / static_cast<double>(format.frame_rate.den);
+  group_pictures = settings.group_pictures > 0
+                       ? settings.group_pictures
+                       : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
+  lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
+}
+
+}  // namespace fbs

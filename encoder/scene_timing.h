@@ -1,0 +1,27 @@
+// How a scene's pictures fall into groups.
+#pragma once
+
+#include <cstdint>
+
+#include "common/picture.h"
+#include "encoder/settings.h"
+
+namespace fbs {
+
+struct SceneTiming {
+  std::size_t group_pictures;      ///< pictures in a motion packet, after the first, which has its own
+  std::uint64_t lookahead;         ///< pictures that are seen before the scene's head is written
+  std::uint32_t nominal_duration;  ///< of a picture, 1/90000 s
+
+  SceneTiming(const VideoFormat& format, const EncoderSettings& settings);
+
+  /// Whether a group ends with the picture pushed last. The scene's first picture is a group of its own, so
+  /// that a viewer need not wait for more.
+  /// @param in_group  pictures of the group so far
+  /// @param in_scene  pictures of the scene so far
+  [[nodiscard]] bool group_ends(std::size_t in_group, std::uint64_t in_scene) const {
+    return in_scene == 1 || in_group == group_pictures;
+  }
+};
+
+}  // namespace fbs

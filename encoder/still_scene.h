@@ -1,0 +1,37 @@
+// A scene without a face: its first picture is shown as long as it lasts.
+#pragma once
+
+#include <memory>
+
+#include "bitstream/payload/motion_payload.h"
+#include "encoder/scene_encoder.h"
+#include "encoder/scene_packets.h"
+#include "encoder/scene_timing.h"
+
+namespace fbs {
+
+class StillScene : public SceneEncoder {
+ public:
+  static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
+                                                     const EncoderSettings& settings, const Picture& first);
+
+  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> finish() override { return end_group(); }
+  [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
+  [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }
+
+ private:
+  StillScene(const Setup& setup, const SceneTiming& timing);
+  /// The state of every picture is that of the pattern.
+  Result<void> end_group();
+
+  SceneTiming timing_;
+  PartMask parts_;
+  MotionCoder coder_;
+  std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
+  std::uint64_t pictures_ = 0;
+  ScenePackets packets_;
+  PictureAnalysis analysis_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,49 @@
+#include "encoder/scene_packets.h"
+
+#include <gtest/gtest.h>
+
+#include "bitstream/packet.h"
+
+namespace fbs {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Types of the packets that a scene has written.
+std::vector<PacketType> types_of(const Bytes& packets) {
+  Bytes stream;
+  write_signature(stream);
+  stream.insert(stream.end(), packets.begin(), packets.end());
+  PacketReader reader;
+  reader.feed(stream);
+  reader.close();
+  std::vector<PacketType> types;
+  for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next())
+    types.push_back(read->packet.type);
+  return types;
+}
+
+const Bytes kPayload = {1, 2, 3};
+
+TEST(ScenePackets, HoldsMotionBackUntilTheSceneStarts) {
+  ScenePackets packets;
+  packets.add_motion(kPayload);
+  EXPECT_FALSE(packets.started());
+  EXPECT_TRUE(packets.take().empty());
+  packets.start({kPayload, kPayload, kPayload, kPayload});
+  EXPECT_TRUE(packets.started());
+  packets.add_motion(kPayload);
+  EXPECT_EQ(types_of(packets.take()),
+            (std::vector{PacketType::kSetup, PacketType::kGeometry, PacketType::kSurround,
+                         PacketType::kPattern, PacketType::kMotion, PacketType::kMotion}));
+  EXPECT_TRUE(packets.take().empty()) << "they are forgotten";
+}
+
+TEST(ScenePackets, LeavesOutWhatTheSceneLacks) {
+  ScenePackets packets;
+  packets.start({kPayload, {}, {}, kPayload});
+  EXPECT_EQ(types_of(packets.take()), (std::vector{PacketType::kSetup, PacketType::kPattern}));
+}
+
+}  // namespace
+}  // namespace fbs
