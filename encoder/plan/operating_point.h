@@ -11,7 +11,7 @@ struct OperatingPoint {
   double lambda;  ///< squared luma levels per bit of motion
 
   /// @param quality          0..100
-  /// @param eye_distance_px  in the scene's first picture: steps are a share of a pixel where it matters
+  /// @param eye_distance_px  in the scene's first picture: steps are fractions of a pixel on the face
   static OperatingPoint at(int quality, double eye_distance_px);
 };
 

@@ -8,12 +8,15 @@
 namespace fbs {
 namespace {
 
-constexpr double kMemory = 0.85;     // what a group's counts still weigh a group later
-constexpr double kBelief = 6;        // observations that the expectation before the first is worth
-constexpr double kLengthBits = 2.5;  // of a span's length that is not to the end
-// Of coefficients by place in their part; those of other parts are like the first.
-constexpr double kChangesFirst = 0.5, kChangesFalls = 0.88;
-constexpr double kSizeFirst = 2.0;
+constexpr double kMemory = 0.85;     // weight of a group's counts a group later; lower follows changes faster
+constexpr double kPriorWeight = 6;   // observations that the priors below are worth
+constexpr double kLengthBits = 2.5;  // of a span's length when it does not reach the group's end
+constexpr double kPriorMoves = 0.5;  // probability that a part moves over a span
+constexpr double kPriorToEnd = 0.3;  // probability that a span reaches the group's end
+// Probability that a number changes when its part moves: falls along an expression part, whose coefficients
+// are sorted by variance.
+constexpr double kPriorChange = 0.5, kPriorChangeFall = 0.88;
+constexpr double kPriorSize = 2.0;  // mean magnitude of a change, steps
 
 double bits_of(double probability) {
   return -std::log2(std::clamp(probability, 0.002, 0.998));
@@ -34,19 +37,20 @@ void TrackRate::update() {
     const std::size_t part = kPartOf[i];
     const auto place = static_cast<int>(i) - kPartFirst[part];
     const double expected = static_cast<int>(part) < kFirstExpressionPart
-                                ? kChangesFirst
-                                : kChangesFirst * std::pow(kChangesFalls, place);
-    const double changes = (changed_[i] + kBelief * expected) / (seen_[i] + kBelief);
+                                ? kPriorChange
+                                : kPriorChange * std::pow(kPriorChangeFall, place);
+    const double changes = (changed_[i] + kPriorWeight * expected) / (seen_[i] + kPriorWeight);
     zero_[i] = bits_of(1 - changes);
     // Magnitudes as a geometric distribution of their mean.
-    const double size = (size_[i] + kBelief * expected * kSizeFirst) / (changed_[i] + kBelief * expected);
+    const double size =
+        (size_[i] + kPriorWeight * expected * kPriorSize) / (changed_[i] + kPriorWeight * expected);
     const double stop = 1 / std::max(size, 1.05);
     not_zero_[i] = bits_of(changes) + 1 + bits_of(stop);
     more_[i] = bits_of(1 - stop);
   }
   for (std::size_t p = 0; p < kPartCount; ++p) {
-    const double moves = (moved_[p] + 0.5 * kBelief) / (spans_[p] + kBelief);
-    const double ends = (ended_[p] + 0.3 * kBelief) / (spans_[p] + kBelief);
+    const double moves = (moved_[p] + kPriorMoves * kPriorWeight) / (spans_[p] + kPriorWeight);
+    const double ends = (ended_[p] + kPriorToEnd * kPriorWeight) / (spans_[p] + kPriorWeight);
     moves_[p] = bits_of(moves);
     holds_[p] = bits_of(1 - moves);
     to_end_[p] = bits_of(ends);

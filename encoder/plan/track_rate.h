@@ -1,5 +1,4 @@
-// What knots cost, about: a model that can be asked thousands of times, learned from the knots that were
-// coded.
+// Estimated bits of knots: a model that is cheap enough to be asked thousands of times a group.
 #pragma once
 
 #include <array>
@@ -9,7 +8,7 @@
 
 namespace fbs {
 
-/// Estimates the bits of TrackCoder, which adapts as it codes, by the frequencies of what was coded before.
+/// Estimates what the adaptive TrackCoder will spend, from the frequencies of what it has coded before.
 class TrackRate {
  public:
   TrackRate();
@@ -39,10 +38,10 @@ class TrackRate {
   static double log2_of(int value);
   void update();
 
-  // What was seen, with older groups counting less.
+  // Counts, with older groups weighing less.
   std::array<double, kParameterCount> seen_{}, changed_{}, size_{};
   std::array<double, kPartCount> spans_{}, moved_{}, ended_{};
-  // And its consequence, bits.
+  // What follows from them, bits.
   std::array<double, kParameterCount> zero_{}, not_zero_{}, more_{};
   std::array<double, kPartCount> moves_{}, holds_{}, to_end_{}, not_to_end_{};
 };

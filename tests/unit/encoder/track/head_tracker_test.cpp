@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// The tracker on a clip, begun with true marks: the analysis of SceneEncoder without its features.
+/// The tracker on a clip, begun with true marks: the analysis of FaceAnalysis without its features.
 class Track {
  public:
   explicit Track(TalkerClip& clip)
