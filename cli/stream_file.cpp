@@ -20,7 +20,7 @@ Result<StreamFile> StreamFile::open(const std::string& name) {
   if (file.number() < 0) return fail(ErrorCode::kIo, name + ": cannot open: " + std::strerror(errno));
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
-    return fail(ErrorCode::kIo, name + ": cannot read: it is a folder");
+    return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
   return StreamFile(name, std::move(file));
 }
 

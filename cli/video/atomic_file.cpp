@@ -15,13 +15,13 @@ namespace fbs {
 namespace {
 
 constexpr std::size_t kBufferSize = 256 * 1024;
-constexpr mode_t kNewFileMode = 0666;  // less the umask
+constexpr mode_t kNewFileMode = 0666;  // before the umask
 
 struct FreeDeleter {
   void operator()(char* text) const { std::free(text); }
 };
 
-/// The name with symbolic links followed; the name itself when there is no such file yet.
+/// The name after following symbolic links; the name itself when there is no such file yet.
 std::string follow_links(const std::string& name) {
   const std::unique_ptr<char, FreeDeleter> real(realpath(name.c_str(), nullptr));
   return real ? std::string(real.get()) : name;

@@ -54,7 +54,8 @@ struct StoredPlane {
   }
 };
 
-/// Averages what lies under each sample of `plane`, which has one sample per 2^shift pixels each way.
+/// Averages the samples under each sample of `plane`, which has one sample per 2^shift pixels in each
+/// direction.
 void reduce(const StoredPlane& stored, int shift, Plane& plane) {
   const auto first = [shift](int position, int stored_shift) { return (position << shift) >> stored_shift; };
   const auto last = [shift](int position, int stored_shift, int size) {

@@ -57,7 +57,7 @@ class DamagedStream(ProgramTest):
             pictures, report = self.keep_going(stream)
             self.assertEqual(pictures[:1], self.whole.pictures[:1])
             self.assertIn(f"bad.fbs: packet is damaged (at byte {packet[1]})", report)
-            self.assertIn(f"{len(self.whole.pictures) - len(pictures)} of {len(self.whole.pictures)} pictures are missing", report)
+            self.assertIn(f"{len(self.whole.pictures) - len(pictures)} of {len(self.whole.pictures)} pictures missing", report)
 
     def test_damage_without_keep_going_leaves_nothing(self):
         for packet in packets(self.stream):
