@@ -38,7 +38,7 @@ Result<void> encode(const EncodeArguments& arguments) {
     settings.marks = *marks;
   }
   SourceOptions options;
-  options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
+  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
   auto source = open_video_source(arguments.input, options);
   if (!source) return fail(source.error());
   if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {

@@ -22,6 +22,7 @@ std::vector<fs::path> module_folders() {
 }
 
 std::string linker_reason() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): modules are loaded by the main thread alone
   const char* text = dlerror();
   return text != nullptr ? text : "unknown reason";
 }

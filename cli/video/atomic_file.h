@@ -18,6 +18,8 @@ class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::string& name);
 
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();

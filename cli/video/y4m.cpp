@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -152,7 +152,7 @@ Result<std::optional<std::string>> Y4mSource::read_line() {
   std::string line;
   for (int c = std::getc(file_.get()); c != '\n'; c = std::getc(file_.get())) {
     if (c == EOF) {
-      if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::strerror(errno));
+      if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::generic_category().message(errno));
       if (line.empty()) return std::nullopt;
       return ended_early();
     }
@@ -164,7 +164,7 @@ Result<std::optional<std::string>> Y4mSource::read_line() {
 
 Result<void> Y4mSource::read_bytes(std::vector<std::uint8_t>& bytes) {
   if (std::fread(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size()) return {};
-  if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::strerror(errno));
+  if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::generic_category().message(errno));
   return ended_early();
 }
 
@@ -217,7 +217,8 @@ Result<std::unique_ptr<VideoSource>> open_y4m_source(const std::string& input) {
   const bool piped = input == "-";
   const std::string name = piped ? "standard input" : input;
   File file(piped ? stdin : std::fopen(input.c_str(), "rbe"));
-  if (!file) return fail(ErrorCode::kIo, "cannot read " + name + ": " + std::strerror(errno));
+  if (!file)
+    return fail(ErrorCode::kIo, "cannot read " + name + ": " + std::generic_category().message(errno));
   auto source = std::make_unique<Y4mSource>(name, std::move(file));
   if (auto read = source->read_header(); !read) return fail(read.error());
   return source;

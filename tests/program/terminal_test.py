@@ -51,8 +51,8 @@ class Terminal(ProgramTest):
     def test_encode_closes_with_one_line(self):
         done = self.fbs("encode", TALK_Y4M, "out.fbs")
         size = os.path.getsize(self.folder / "out.fbs")
-        self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, [\d.]+ kbit/s .*PSNR face [\d.]+ dB,"
-                                               r" frame [\d.]+ dB\n\Z")
+        self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, total [\d.]+ kbit/s \(motion [\d.]+\), PSNR face"
+                                               r" [\d.]+ dB, frame [\d.]+ dB\n\Z")
 
     def test_bar_on_a_terminal(self):
         try:

@@ -138,8 +138,9 @@ Result<void> AvSource::open_decoder(const SourceOptions& options) {
 
 void AvSource::describe(const AVFrame& first) {
   orientation_ = orientation_of(*stream_, first);
-  const AVRational aspect =
-      av_guess_sample_aspect_ratio(container_.get(), stream_, const_cast<AVFrame*>(&first));
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav only reads the frame, but does not say so
+  auto* const frame = const_cast<AVFrame*>(&first);
+  const AVRational aspect = av_guess_sample_aspect_ratio(container_.get(), stream_, frame);
   format_.width = first.width;
   format_.height = first.height;
   format_.frame_rate = choose_frame_rate(container_.get(), stream_);
