@@ -133,7 +133,8 @@ glm::vec2 strength(const std::vector<Event>& events, float time_s, float flat) {
 float turn(float time_s, int axis) {
   constexpr float kTurnSeconds = 3.0f;
   const float in_round = std::fmod(time_s, 3 * kTurnSeconds);
-  return static_cast<int>(in_round / kTurnSeconds) == axis ? std::sin(2 * kPi * in_round / kTurnSeconds) : 0.0f;
+  return static_cast<int>(in_round / kTurnSeconds) == axis ? std::sin(2 * kPi * in_round / kTurnSeconds)
+                                                           : 0.0f;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""What is wrong is said in one line, with exit code 2, and nothing is left behind."""
+"""Bad input gives one line of error and exit code 2, and leaves no files behind."""
 import os
 import wave
 
@@ -13,12 +13,12 @@ def marks(text):
 
 
 def cut(end):
-    """A part of the talker's stream; made late, since the table is read before there is one."""
+    """A part of the talker's stream; a function, since the table below is read before the stream exists."""
     return lambda: TALK_FBS.read_bytes()[:end]
 
 
-# name: (files to make, arguments, words that the error line must hold)
-# A file's content is bytes, a function that returns them, or the name that a link leads to.
+# name: (files to create, arguments, words that the error line must contain)
+# The content of a file is bytes, a function that returns them, or the target of a link.
 TABLE = {
     # INPUT of encode
     "encode_missing_file":      ({}, "encode absent.mkv out.fbs", ["absent.mkv", NO_FILE]),

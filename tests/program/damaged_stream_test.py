@@ -1,4 +1,4 @@
-"""Every whole packet of a damaged stream still decodes, and the damage is reported with its place."""
+"""Every intact packet of a damaged stream still decodes, and the damage is reported with its position."""
 from harness import FAILED, MOTION, TALK_FBS, ProgramTest, Y4m, packets
 
 
@@ -11,7 +11,7 @@ class DamagedStream(ProgramTest):
         self.assertGreaterEqual(len(self.motion), 3, "too few groups to test with")
 
     def keep_going(self, stream):
-        """Decodes what can be decoded. Returns the pictures and what was reported."""
+        """Decodes as much as possible. Returns the pictures and the messages."""
         self.write("bad.fbs", stream)
         done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,4 +1,4 @@
-"""The paper's figures can be drawn, and the one with the teeth shows what the repulsion is for."""
+"""The paper's figures can be drawn, and the one with teeth shows the effect of repulsion."""
 import re
 import struct
 import subprocess

@@ -1,5 +1,5 @@
-"""A second of black in real clips: the face is found again within half a second. What is asked for is where the same
-clip is followed without the black. Skipped where ../shared/clips is missing; FBS_SHARED names another place."""
+"""A second of black in real clips: the face is found again within half a second. The reference is
+the pose tracked without the black. Skipped where ../shared/clips is missing; FBS_SHARED names another folder."""
 import pathlib
 import statistics
 import sys

@@ -11,20 +11,20 @@ NOT_REACHABLE = "kbit/s not reachable, got "
 
 class Rate(ProgramTest):
     def encode(self, source, *options):
-        """Encodes; returns what inspect tells of the stream and what encode said."""
+        """Encodes; returns the output of inspect and the messages of encode."""
         done = self.fbs("encode", source, "out.fbs", "--quiet", *options)
         error = done.stderr.decode()
         self.assertEqual(done.returncode, 0, error)
         return json.loads(self.succeed("inspect", "out.fbs", "--json")), error
 
-    def rate(self, told, part="total"):
-        return told["bytes"][part] * 8e-3 / told["seconds"]
+    def rate(self, reported, part="total"):
+        return reported["bytes"][part] * 8e-3 / reported["seconds"]
 
     def total(self, source, kbps):
         """The rate is met, or the program says that it is not, with the rate it got."""
-        told, said = self.encode(source, "--bitrate", kbps)
-        self.assertGreater(told["seconds"], 4.99)
-        rate = self.rate(told)
+        reported, said = self.encode(source, "--bitrate", kbps)
+        self.assertGreater(reported["seconds"], 4.99)
+        rate = self.rate(reported)
         if said:
             self.assertRegex(said, r"\Afbs: out\.fbs: [^\n]+\n\Z")
             self.assertIn(f"target {kbps:.2f} {NOT_REACHABLE}", said)
@@ -52,9 +52,9 @@ class Rate(ProgramTest):
     def motion(self, source):
         worse = 0
         for kbps in (0.3, 0.6, 1.2):
-            told, said = self.encode(source, "--motion-bitrate", kbps)
+            reported, said = self.encode(source, "--motion-bitrate", kbps)
             self.assertEqual(said, "")
-            self.assertAlmostEqual(self.rate(told, "motion") / kbps, 1, delta=WITHIN, msg=f"of {kbps} kbit/s")
+            self.assertAlmostEqual(self.rate(reported, "motion") / kbps, 1, delta=WITHIN, msg=f"of {kbps} kbit/s")
             point = json.loads(self.succeed("evaluate", source, "out.fbs", "--json"))["points"][0]
             self.assertGreater(point["psnr_face"], worse, "bits buy pictures")
             worse = point["psnr_face"]

@@ -4,7 +4,7 @@ import io
 import json
 import subprocess
 
-from harness import BUILD, SECONDS_AT_MOST, TALK_FBS, ProgramTest, ffmpeg, talker
+from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, ffmpeg, talker
 
 PICTURES = 120  # of TALK_FBS
 PIXELS = 176 * 144
@@ -13,7 +13,7 @@ PIXELS = 176 * 144
 class Samples(ProgramTest):
     def sample(self, name, *arguments):
         return subprocess.run([BUILD / name, *arguments], cwd=self.folder, check=True, capture_output=True, text=True,
-                              timeout=SECONDS_AT_MOST).stdout
+                              timeout=MAX_SECONDS).stdout
 
     def rgb(self, images):
         """Bytes of all pictures of a sequence of PNG files."""
@@ -45,6 +45,6 @@ class Samples(ProgramTest):
     def test_encode_frames_encodes_all_of_them(self):
         self.sample("encode_frames", "frames.fbs")
         talker(self.folder / "frames.y4m", "--size", "176x144", "--frames", "75")
-        told = json.loads(self.succeed("evaluate", "frames.y4m", "frames.fbs", "--json"))["points"][0]
-        self.assertEqual(told["frames"], 75)
-        self.assertGreater(told["psnr_face"], 28)
+        reported = json.loads(self.succeed("evaluate", "frames.y4m", "frames.fbs", "--json"))["points"][0]
+        self.assertEqual(reported["frames"], 75)
+        self.assertGreater(reported["psnr_face"], 28)

@@ -1,4 +1,4 @@
-"""What the program says: help that teaches, a bar for people only, and nothing when told to be quiet."""
+"""Output on the terminal: help, a progress bar for terminals only, and silence with --quiet."""
 import os
 import pty
 import subprocess
@@ -58,7 +58,7 @@ class Terminal(ProgramTest):
         try:
             ours, theirs = pty.openpty()
         except OSError as lacking:
-            raise unittest.SkipTest(f"no terminal to be had here: {lacking}")
+            raise unittest.SkipTest(f"no pseudo-terminal available: {lacking}")
         subprocess.run([FBS, "encode", TALK_Y4M, "out.fbs"], stderr=theirs, cwd=self.folder, check=True)
         os.close(theirs)
         text = os.read(ours, 1 << 16).decode()
