@@ -12,7 +12,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr double kRateTolerance = 0.1;  // relative to --bitrate; beyond it the user is told
+constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
 void print_summary(const std::string& output, const Measure& m) {
   std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f)", output.c_str(),

@@ -19,7 +19,7 @@ constexpr int kWantedHeight = 576;
 
 bool has_display() {
   const auto set = [](const char* name) {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread of ours changes the environment
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0';
   };

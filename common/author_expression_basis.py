@@ -34,12 +34,12 @@ def symmetric(lower, n):
 
 def mirror(vertices, first, count):
     """The control point offsets (x0, y0, x1, y1 ...) of the mirrored face."""
-    spread = np.zeros((len(vertices), count))
+    skinning = np.zeros((len(vertices), count))
     for v, vertex in enumerate(vertices):
         for control, weight in vertex["skinning"]:
             if first <= control < first + count:
-                spread[v, control - first] = weight
-    swap = np.linalg.pinv(spread) @ spread[[v["mirror"] for v in vertices]]
+                skinning[v, control - first] = weight
+    swap = np.linalg.pinv(skinning) @ skinning[[v["mirror"] for v in vertices]]
     out = np.zeros((2 * count, 2 * count))
     out[0::2, 0::2], out[1::2, 1::2] = -swap, swap
     return out

@@ -40,7 +40,7 @@ enum class FeatureId : std::uint8_t {
 };
 inline constexpr int kFeatureCount = 10;
 
-/// One vertex that lies on a feature's curve.
+/// A vertex on the curve of a feature.
 struct FeatureVertex {
   std::uint16_t vertex;
   float s;  ///< curve parameter; closed: 0 <= s < control_count; clamped: 0..1; only the encoder uses it
@@ -59,7 +59,7 @@ struct HeadVertex {
   glm::ivec3 position;    ///< head frame
   std::int16_t mirror;    ///< index of the mirror partner; itself on the midline
   std::int16_t landmark;  ///< 0..67, or -1
-  std::int16_t feature;   ///< index of the feature it lies on, or -1
+  std::int16_t feature;   ///< index of its feature, or -1
 };
 
 /// Vertex indices, clockwise in the picture when the head is seen from the front.

@@ -1,4 +1,4 @@
-// Turning pictures upright: phones store video as the sensor sees it and a matrix that says how it was held.
+// Turns pictures upright: phones store video in sensor orientation, with a matrix for its display.
 #pragma once
 
 #include <array>

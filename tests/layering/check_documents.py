@@ -39,7 +39,7 @@ def braces(path):
 
 
 def exists(path):
-    """As it stands, as a pattern, or without the suffix of a source."""
+    """A path, a glob pattern, or a source without its suffix."""
     path = path.rstrip(".")
     return any(glob.glob(str(ROOT / (path + suffix))) for suffix in ("", ".h", ".cpp"))
 

@@ -90,7 +90,7 @@ class AvSource final : public VideoSource {
   VideoFormat format_;
   Orientation orientation_;
   bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
-  bool drained_ = false;        ///< the decoder was told that no packet follows
+  bool drained_ = false;        ///< the decoder has got its end-of-stream packet
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;
@@ -138,7 +138,7 @@ Result<void> AvSource::open_decoder(const SourceOptions& options) {
 
 void AvSource::describe(const AVFrame& first) {
   orientation_ = orientation_of(*stream_, first);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav only reads the frame, but does not say so
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav only reads the frame
   auto* const frame = const_cast<AVFrame*>(&first);
   const AVRational aspect = av_guess_sample_aspect_ratio(container_.get(), stream_, frame);
   format_.width = first.width;

@@ -139,7 +139,7 @@ TEST_F(VideoSourceFiles, VariableFrameRateKeepsItsTimes) {
     times.push_back(time);
     time += 1800 + 97 * (i * i % 41);
   }
-  // Matroska rounds to 1 ms, and what lies within 1 ms of the regular grid is put there.
+  // Matroska rounds to 1 ms; times within 1 ms of the regular grid are moved onto it.
   for (const auto& [name, tolerance] : {std::pair{"a.mp4", 0}, std::pair{"a.mkv", 135}}) {
     ASSERT_NO_FATAL_FAILURE(write_video(path(name), format, times));
     auto source = open_video_source(path(name));
