@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the release program (build/release/fbs) and runs all tests, then builds with the
+# Installs missing packages, builds the release program (build/release/fbs) and runs all tests. Then builds with the
 # address and undefined-behaviour sanitizers and runs all but the slow tests again.
-# The last line: N passed, N failed, N skipped, over both runs. Exits with 1 when a test failed.
+# Last line: N passed, N failed, N skipped, over both runs. Exit code 1 when a test failed.
 set -euo pipefail
 cd "$(dirname "$0")"
 jobs=$(nproc)
@@ -9,7 +9,7 @@ status=0
 
 scripts/install_packages.sh
 
-# test_preset PRESET [ctest option ...]: builds, runs ctest, leaves its counts in build/PRESET/tests.xml
+# test_preset PRESET [ctest option ...]: builds, runs ctest, writes its counts to build/PRESET/tests.xml
 test_preset() {
   local preset=$1
   shift
@@ -19,10 +19,10 @@ test_preset() {
   echo "== $preset: tests"
   rm -f "build/$preset/tests.xml"
   ctest --preset "$preset" --parallel "$jobs" --no-tests=error --output-junit tests.xml "$@" || status=1
-  [ -s "build/$preset/tests.xml" ] || { echo "$preset: ctest did not end as it should"; exit 1; }
+  [ -s "build/$preset/tests.xml" ] || { echo "$preset: ctest did not finish"; exit 1; }
 }
 
-# count NAME: the sum of this attribute of both reports
+# count NAME: the sum of this attribute over both reports
 count() {
   local report sum=0
   for report in build/{release,asan}/tests.xml; do

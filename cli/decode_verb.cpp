@@ -1,4 +1,4 @@
-// fbs decode: a stream becomes pictures.
+// fbs decode: stream to pictures.
 #include <cstdio>
 
 #include "cli/progress.h"
@@ -25,9 +25,10 @@ Result<void> run_decode(const DecodeArguments& arguments) {
           status.error().code == ErrorCode::kNotFbs)
         return fail(status.error());
       progress.finish();
-      std::fprintf(stderr, "fbs: %s; going on\n", status.error().text.c_str());
+      std::fprintf(stderr, "fbs: %s; continuing\n", status.error().text.c_str());
       if (status.error().code == ErrorCode::kTruncated) break;
-      if (++faults >= 1000) return fail(ErrorCode::kInvalidStream, file->name() + ": damaged throughout");
+      if (++faults >= 1000)
+        return fail(ErrorCode::kInvalidStream, file->name() + ": too many errors, giving up");
       continue;
     }
     if (*status == DecodeStatus::kEnd) break;
@@ -41,12 +42,12 @@ Result<void> run_decode(const DecodeArguments& arguments) {
     pts += decoder.duration();
     progress.update(static_cast<std::int64_t>(decoder.pictures()));
   }
-  if (!sink) return fail(ErrorCode::kInvalidStream, file->name() + ": holds no picture");
+  if (!sink) return fail(ErrorCode::kInvalidStream, file->name() + ": contains no pictures");
   progress.finish();
   if (auto finished = sink->finish(); !finished) return finished;
   const auto announced = decoder.announced_pictures();
   if (announced && *announced != decoder.pictures())
-    std::fprintf(stderr, "fbs: %s: %llu of %llu pictures are missing\n", file->name().c_str(),
+    std::fprintf(stderr, "fbs: %s: %llu of %llu pictures missing\n", file->name().c_str(),
                  static_cast<unsigned long long>(*announced - decoder.pictures()),
                  static_cast<unsigned long long>(*announced));
   return {};

@@ -7,7 +7,7 @@
 namespace fbs::cli {
 namespace {
 
-/// Durations as the encoder wants them: 0 where pictures come as the frame rate says, to a tick or two.
+/// Duration as the encoder expects it: 0 where the pictures follow the frame rate to within two ticks.
 std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t nominal) {
   const std::int64_t d = next_pts - pts, difference = d - nominal;
   const bool regular = difference >= -2 && difference <= 2;
@@ -22,7 +22,7 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
   if (!encoder) return fail(encoder.error());
   StreamDecoder decoder;
   StreamMeter meter(decoder, with_ssim);
-  std::deque<Picture> waiting;  // pushed, and not yet back from the decoder
+  std::deque<Picture> waiting;  // pushed, not yet decoded
   Progress progress("encoding", source.frame_count_estimate(), quiet);
 
   const auto pass_on = [&]() -> Result<void> {
@@ -33,10 +33,10 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
     for (;;) {
       auto status = decoder.next();
       if (!status)
-        return fail(ErrorCode::kInternal, "our own stream does not decode: " + status.error().text);
+        return fail(ErrorCode::kInternal, "the encoded stream does not decode: " + status.error().text);
       if (*status != DecodeStatus::kPicture) return {};
       if (waiting.empty())
-        return fail(ErrorCode::kInternal, "our own stream has more pictures than its source");
+        return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
       meter.compare(waiting.front());
       waiting.pop_front();
     }
@@ -62,7 +62,7 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
   if (auto finished = encoder->finish(); !finished) return fail(finished.error());
   if (auto passed = pass_on(); !passed) return fail(passed.error());
   if (!waiting.empty())
-    return fail(ErrorCode::kInternal, "our own stream has fewer pictures than its source");
+    return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
   return meter.result();
 }
 

@@ -1,4 +1,4 @@
-// Source to bytes, measured on the way: what `encode` and `evaluate` share.
+// Encodes a source and measures the result: shared by `encode` and `evaluate`.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,10 @@ namespace fbs::cli {
 using TakeBytes = std::function<Result<void>(std::span<const std::uint8_t>)>;
 using SeePicture = std::function<Result<void>(const TimedPicture&, const PictureAnalysis&)>;
 
-/// Encodes all of `source`, hands every piece of the stream to `take` and measures it against the source.
+/// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and compares it with the
+/// source.
 /// @param see        called with every picture after its analysis; may be empty
-/// @param with_ssim  SSIM costs more than encoding does
+/// @param with_ssim  computing SSIM takes longer than encoding
 [[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings,
                                             const TakeBytes& take, const SeePicture& see, bool with_ssim,
                                             bool quiet);

@@ -1,4 +1,4 @@
-// fbs encode: a video becomes a stream.
+// fbs encode: video to stream.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -12,10 +12,10 @@
 namespace fbs::cli {
 namespace {
 
-constexpr double kRateTolerance = 0.1;  // of --bitrate
+constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
-void print_closing_line(const std::string& output, const Measure& m) {
-  std::fprintf(stderr, "%s: %llu pictures, %llu bytes, %.2f kbit/s (motion %.2f)", output.c_str(),
+void print_summary(const std::string& output, const Measure& m) {
+  std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f)", output.c_str(),
                static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total),
                m.kbps(), m.rate(m.bytes.motion));
   if (m.face.count > 0) std::fprintf(stderr, ", PSNR face %.2f dB", m.face.psnr());
@@ -38,7 +38,7 @@ Result<void> encode(const EncodeArguments& arguments) {
     settings.marks = *marks;
   }
   SourceOptions options;
-  options.sequence_rate = {static_cast<std::uint32_t>(arguments.sequence_rate * 1000 + 0.5), 1000};
+  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
   auto source = open_video_source(arguments.input, options);
   if (!source) return fail(source.error());
   if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {
@@ -62,7 +62,7 @@ Result<void> encode(const EncodeArguments& arguments) {
       arguments.quiet);
   if (!measure) {
     Error error = measure.error();
-    // Errors of files name their file already; those of the codec are about the input.
+    // File errors already name their file; codec errors are about the input.
     if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input))
       error.text = arguments.input + ": " + error.text;
     return fail(std::move(error));
@@ -71,12 +71,12 @@ Result<void> encode(const EncodeArguments& arguments) {
     if (auto finished = overlay->finish(); !finished) return finished;
   if (auto committed = file->commit(); !committed) return committed;
   if ((*source)->damaged_packets() > 0)
-    std::fprintf(stderr, "fbs: %s: %lld damaged packets were passed over\n", arguments.input.c_str(),
+    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
                  static_cast<long long>((*source)->damaged_packets()));
   if (arguments.bitrate > 0 && std::abs(measure->kbps() / arguments.bitrate - 1) > kRateTolerance)
-    std::fprintf(stderr, "fbs: %s: %.2f kbit/s cannot be had of these pictures; it became %.2f\n",
-                 arguments.output.c_str(), arguments.bitrate, measure->kbps());
-  if (!arguments.quiet) print_closing_line(arguments.output, *measure);
+    std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
+                 arguments.bitrate, measure->kbps());
+  if (!arguments.quiet) print_summary(arguments.output, *measure);
   return {};
 }
 

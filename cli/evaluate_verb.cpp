@@ -1,4 +1,4 @@
-// fbs evaluate: what a stream costs and how near it comes to its source.
+// fbs evaluate: rate and distortion of a stream against its source.
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -30,12 +30,12 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
     const bool ended = *status == DecodeStatus::kEnd;
     if (ended && !*picture) return meter.result();
     if (ended || !*picture)
-      return fail(ErrorCode::kInvalidArgument, arguments.stream + ": holds " + (ended ? "fewer" : "more") +
+      return fail(ErrorCode::kInvalidArgument, arguments.stream + ": has " + (ended ? "fewer" : "more") +
                                                    " pictures than " + arguments.source);
     const VideoFormat &a = file->decoder().format(), &b = (*source)->format();
     if (a.width != b.width || a.height != b.height)
       return fail(ErrorCode::kInvalidArgument,
-                  arguments.stream + ": its pictures are not of the size of " + arguments.source);
+                  arguments.stream + ": picture size differs from " + arguments.source);
     meter.compare((*picture)->picture);
     progress.update(n);
   }

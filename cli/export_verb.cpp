@@ -1,4 +1,4 @@
-// fbs export: a stream's motion as a table.
+// fbs export: the motion of a stream as a table.
 #include <cmath>
 #include <cstdio>
 
@@ -44,7 +44,7 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
 
 Result<void> run_export(const ExportArguments& arguments) {
   if (!arguments.output.ends_with(".csv"))
-    return fail(ErrorCode::kUnsupported, arguments.output + ": only .csv can be exported so far");
+    return fail(ErrorCode::kUnsupported, arguments.output + ": unknown format; use .csv");
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   auto out = AtomicFile::create(arguments.output);

@@ -1,4 +1,4 @@
-// fbs inspect: what is in a stream, bytes by part.
+// fbs inspect: what a stream contains and the size of each part.
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -22,7 +22,8 @@ struct Summary {
   PartCosts motion{};  ///< 1/256 bit
 };
 
-/// Bytes of the motion by part of the state, then durations, then all else: headers, checks, ends of codes.
+/// Bytes of motion for each part of the state, for durations, and for the rest: packet headers, checksums,
+/// code terminations.
 std::vector<std::pair<std::string, double>> motion_by_part(const Summary& s) {
   std::vector<std::pair<std::string, double>> out;
   double rest = static_cast<double>(s.bytes.motion);
@@ -87,9 +88,10 @@ void print(const std::string& name, const Summary& s) {
   line("index", b.index);
   line("other", b.other);
   line("total", b.total);
-  std::printf("  before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
+  std::printf("  needed before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
   std::printf(
-      "  steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of the eye "
+      "  quantiser steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of "
+      "the eye "
       "distance\n",
       s.steps.rotation * 360.0 / 65536, s.steps.translation / 64.0, s.steps.log_scale * 69.3 / 4096,
       s.steps.control * 100.0 / kUnitsPerEyeDistance);

@@ -1,7 +1,10 @@
-// The program fbs: reads the command line and hands over to a verb.
+// The program fbs: parses the command line and runs one verb.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "cli/verbs.h"
 
@@ -17,108 +20,118 @@ using fbs::cli::PlayArguments;
 constexpr int kFailed = 2;
 
 constexpr const char* kAbout =
-    "fbs, a video codec for talking heads: it sends a person once, and then only how the person moves.\n";
+    "fbs, a video codec for talking heads. It sends a picture of the person once, then only the motion.\n";
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  fbs encode talk.mkv talk.fbs                    encode; prints bytes, kbit/s and PSNR\n"
-    "  fbs encode talk.mkv talk.fbs --quality 70       better and larger\n"
-    "  fbs encode talk.mkv talk.fbs --overlay see.mp4  and look at what the tracker saw\n"
+    "  fbs encode talk.mkv talk.fbs                    print size, bitrate and PSNR when done\n"
+    "  fbs encode talk.mkv talk.fbs --quality 70       higher quality, larger file\n"
+    "  fbs encode talk.mkv talk.fbs --bitrate 5        aim for a total of 5 kbit/s\n"
+    "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
-    "  fbs decode talk.fbs - | mpv -                   decode into a player\n"
-    "  fbs play talk.fbs                               in a window\n"
+    "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
+    "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
-    "  fbs inspect talk.fbs                            bytes by part\n"
-    "  fbs export talk.fbs talk.csv                    pose and 68 landmarks per picture\n"
+    "  fbs inspect talk.fbs                            size of each part of the stream\n"
+    "  fbs export talk.fbs talk.csv                    head pose and 68 landmarks per picture\n"
     "\n"
-    "`fbs VERB --help` tells more. Exit code: 0 done, 2 failed, with one line on standard error.";
+    "Run `fbs VERB --help` for the options of a verb.\n"
+    "Exit code: 0 on success; 2 on failure, with one line on standard error.";
+
+constexpr const char* kHiddenGroup = "for measurements";
+
+/// Leaves out the hidden options. CLI11's own way, an empty group, would also leave their names out of
+/// errors.
+class HidingFormatter : public CLI::Formatter {
+ public:
+  [[nodiscard]] std::string make_group(std::string group, bool is_positional,
+                                       std::vector<const CLI::Option*> options) const override {
+    return group == kHiddenGroup ? "" : Formatter::make_group(group, is_positional, options);
+  }
+};
 
 using Run = std::function<fbs::Result<void>()>;
 
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("encode", "Encode a video");
-  verb->add_option(
-          "INPUT", a.input,
-          "Video file, .y4m, - (Y4M on standard input), camera:0, or images (frame_%05d.png, a folder)")
+  verb->add_option("INPUT", a.input,
+                   "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
       ->required();
-  verb->add_option("OUTPUT", a.output, "The stream to write, .fbs")->required();
-  verb->add_option("--quality", a.quality, "0 (smallest) to 100 (best)")
+  verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
+  verb->add_option("--quality", a.quality, "From 0 (smallest file) to 100 (best pictures)")
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
-  verb->add_option("--bitrate", a.bitrate, "Aim at this many kbit/s in all instead of a quality")
+  verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
       ->check(CLI::Range(0.1, 10000.0))
       ->excludes("--quality");
-  verb->add_option("--patterns", a.patterns, "Pictures of the person to send; so far there is one, the first")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"auto", "1"}));
-  verb->add_option("--marks", a.marks,
-                   "JSON file of points on the first picture, {\"nose_tip\": [x, y], ...} or {\"landmarks\": "
-                   "[68 points]}; "
-                   "found automatically otherwise");
-  verb->add_option("--face", a.face, "Which face to follow; 0 is the largest")
+  verb->add_option(
+      "--marks", a.marks,
+      "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "
+      "...} or {\"landmarks\": [68 points]}; detected automatically if not given");
+  verb->add_option("--face", a.face, "Face to track; 0 is the largest")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));
   verb->add_option("--overlay", a.overlay,
-                   "Also write the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
-  verb->add_option("--rate", a.sequence_rate, "Pictures per second of an image sequence")
+                   "Also write a video of the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1000.0));
   verb->add_flag("--allow-no-face", a.allow_no_face,
-                 "Code a video without a face as a still picture instead of failing");
-  verb->add_flag("--quiet", a.quiet, "No progress bar, no closing line");
-  verb->add_flag("!--no-snakes", a.snakes)->group("");
-  verb->add_flag("!--no-refine", a.refine)->group("");
-  verb->add_flag("!--still-surround", a.surround)->group("");
-  verb->add_option("--motion-bitrate", a.motion_bitrate)->check(CLI::Range(0.05, 1000.0))->group("");
+                 "Encode a video without a face as a still picture instead of failing");
+  verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary");
+  verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
+  verb->add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
+  verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
+  verb->add_option("--motion-bitrate", a.motion_bitrate)
+      ->check(CLI::Range(0.05, 1000.0))
+      ->group(kHiddenGroup);
   verb->callback([&] { run = [&] { return run_encode(a); }; });
 }
 
 void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
-  CLI::App* verb = app.add_subcommand("decode", "Decode a stream into pictures");
-  verb->add_option("INPUT", a.input, "The stream, or - for standard input")->required();
+  CLI::App* verb = app.add_subcommand("decode", "Decode a stream");
+  verb->add_option("INPUT", a.input, "Stream to decode, or - for standard input")->required();
   verb->add_option("OUTPUT", a.output,
-                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null:")
+                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
       ->required();
-  verb->add_option("--sound", a.sound, "Put the sound of this file beside the pictures (.mp4, .mkv)");
-  verb->add_flag("--keep-going", a.keep_going, "Write what can be decoded of a damaged or truncated stream");
-  verb->add_flag("--quiet", a.quiet, "No progress bar");
+  verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
+  verb->add_flag("--keep-going", a.keep_going, "Decode as much as possible of a damaged or truncated stream");
+  verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->callback([&] { run = [&] { return run_decode(a); }; });
 }
 
 void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate, InspectArguments& inspect,
                 ExportArguments& table, Run& run) {
   CLI::App* verb =
-      app.add_subcommand("play", "Show a stream in a window (space pauses, . steps, r again, q quits)");
-  verb->add_option("INPUT", play.input, "The stream")->required();
+      app.add_subcommand("play", "Play a stream in a window (space: pause, .: step, r: restart, q: quit)");
+  verb->add_option("INPUT", play.input, "Stream to play")->required();
   verb->callback([&] { run = [&] { return run_play(play); }; });
 
   verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
-  verb->add_option("SOURCE", evaluate.source, "The source video")->required();
-  verb->add_option("STREAM", evaluate.stream,
-                   "The stream to measure; without it the source is encoded first");
-  verb->add_option("--quality", evaluate.qualities, "Qualities to encode with, one or several")
+  verb->add_option("SOURCE", evaluate.source, "Source video")->required();
+  verb->add_option("STREAM", evaluate.stream, "Stream to measure; if not given, the source is encoded first");
+  verb->add_option("--quality", evaluate.qualities, "One or more qualities to encode with")
       ->capture_default_str()
       ->check(CLI::Range(0, 100))
       ->expected(1, 16);
   verb->add_flag("--json", evaluate.json, "Print JSON");
-  verb->add_flag("--quiet", evaluate.quiet, "No progress bar");
+  verb->add_flag("--quiet", evaluate.quiet, "Print no progress bar");
   verb->callback([&] { run = [&] { return run_evaluate(evaluate); }; });
 
-  verb = app.add_subcommand("inspect", "Show what is in a stream, bytes by part");
-  verb->add_option("INPUT", inspect.input, "The stream")->required();
+  verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
+  verb->add_option("INPUT", inspect.input, "Stream to inspect, or - for standard input")->required();
   verb->add_flag("--json", inspect.json, "Print JSON");
   verb->callback([&] { run = [&] { return run_inspect(inspect); }; });
 
-  verb = app.add_subcommand("export", "Write pose and landmarks of every picture as a table");
-  verb->add_option("INPUT", table.input, "The stream")->required();
-  verb->add_option("OUTPUT", table.output, "The table, .csv")->required();
+  verb = app.add_subcommand("export", "Write head pose and landmarks of every picture as a table");
+  verb->add_option("INPUT", table.input, "Stream to export, or - for standard input")->required();
+  verb->add_option("OUTPUT", table.output, "Table to write (.csv)")->required();
   verb->callback([&] { run = [&] { return run_export(table); }; });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app{kAbout, "fbs"};
+  app.formatter(std::make_shared<HidingFormatter>());
   app.footer(kExamples);
   app.set_version_flag("--version", "fbs " FBS_VERSION);
   app.require_subcommand(1);
@@ -144,4 +157,15 @@ int main(int argc, char** argv) {
   if (result) return 0;
   std::fprintf(stderr, "fbs: %s\n", result.error().text.c_str());
   return kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::exception& problem) {  // out of memory, say
+    std::fprintf(stderr, "fbs: %s\n", problem.what());
+    return kFailed;
+  }
 }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders to look in, best first; empty when the system does not tell where the executable is.
+/// Folders to search, in order; empty when the location of the executable is unknown.
 std::vector<fs::path> module_folders() {
   std::error_code ignored;
   const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
@@ -22,6 +22,7 @@ std::vector<fs::path> module_folders() {
 }
 
 std::string linker_reason() {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): modules are loaded by the main thread alone
   const char* text = dlerror();
   return text != nullptr ? text : "unknown reason";
 }
@@ -33,7 +34,8 @@ Result<void*> open_module(const fs::path& file) {
   }
   auto* const version = reinterpret_cast<const char* (*)()>(dlsym(module, "fbs_module_version"));
   if (version == nullptr || std::string_view(version()) != FBS_VERSION) {
-    return fail(ErrorCode::kUnsupported, "module " + file.string() + " is not of version " FBS_VERSION);
+    return fail(ErrorCode::kUnsupported,
+                "module " + file.string() + " does not belong to version " FBS_VERSION);
   }
   return module;
 }
@@ -41,23 +43,23 @@ Result<void*> open_module(const fs::path& file) {
 }  // namespace
 
 Result<void*> load_module_symbol(const std::string& name, const char* symbol) {
-  std::string looked;
+  std::string searched;
   for (const fs::path& folder : module_folders()) {
     const fs::path file = folder / (name + ".so");
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
-      looked += (looked.empty() ? "" : " and ") + folder.lexically_normal().string();
+      searched += (searched.empty() ? "" : " and ") + folder.lexically_normal().string();
       continue;
     }
     return open_module(file).and_then([&](void* module) -> Result<void*> {
       void* const address = dlsym(module, symbol);
       if (address == nullptr) {
-        return fail(ErrorCode::kUnsupported, "module " + file.string() + " lacks " + symbol);
+        return fail(ErrorCode::kUnsupported, "module " + file.string() + " has no function " + symbol);
       }
       return address;
     });
   }
-  return fail(ErrorCode::kUnsupported, "module " + name + ".so is missing; looked in " + looked);
+  return fail(ErrorCode::kUnsupported, "module " + name + ".so not found; searched " + searched);
 }
 
 }  // namespace fbs

@@ -1,5 +1,5 @@
-// The verbs that need OpenCV: loaded only when asked for, since its libraries take longer to load than most
-// streams take to decode.
+// The verbs that need OpenCV, loaded on demand: its libraries take longer to load than most streams take to
+// decode.
 #include "cli/module.h"
 #include "cli/verbs.h"
 

@@ -1,4 +1,4 @@
-// Compiled into every module: lets the loader refuse a module of another version of the program.
+// Compiled into every module, so that the loader can refuse one of another version.
 #include "cli/module.h"
 
 FBS_MODULE_EXPORT const char* fbs_module_version() {

@@ -42,6 +42,7 @@ Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const Pict
                  fixed(analysis.vertices[t[(i + 1) % 3]], zoom_), kMeshColour, 1, cv::LINE_AA, kShift);
     for (const SnakeOutline& snake : analysis.snakes) {
       std::vector<cv::Point> points;
+      points.reserve(snake.points.size());
       for (const glm::dvec2 p : snake.points) points.push_back(fixed(p, zoom_));
       cv::polylines(large, points, snake.closed, kSnakeColour, 2, cv::LINE_AA, kShift);
     }

@@ -1,4 +1,4 @@
-// The source with mesh and snakes drawn on it, for looking.
+// A video of the source with mesh and snakes drawn on it, for visual inspection.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace fbs::cli {
 
-/// Writes a video of the source, enlarged when small, with the projected mesh (thin), the snakes (thick) and
-/// the tracker's confidence.
+/// Writes the source, enlarged when small, with the projected mesh (thin), the snakes (thick) and the
+/// tracker's confidence.
 class Overlay {
  public:
   static Result<Overlay> create(const std::string& name, const VideoFormat& format);

@@ -1,4 +1,4 @@
-// fbs play: a window.
+// fbs play: shows a stream in a window.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,18 +14,19 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kKeys = "space pause   . step   r again   q quit";
+constexpr const char* kKeys = "space: pause   .: step   r: restart   q: quit";
 constexpr int kWantedHeight = 576;
 
 bool has_display() {
   const auto set = [](const char* name) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
     const char* value = std::getenv(name);
     return value != nullptr && *value != '\0';
   };
   return set("DISPLAY") || set("WAYLAND_DISPLAY") || set("QT_QPA_PLATFORM");
 }
 
-enum class Leave : std::uint8_t { kQuit, kAgain };
+enum class Leave : std::uint8_t { kQuit, kRestart };
 
 /// Shows the stream once.
 Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
@@ -41,7 +42,7 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
     if (!status) return fail(status.error());
     const bool ended = *status == DecodeStatus::kEnd;
     if (ended && decoder.pictures() == 0)
-      return fail(ErrorCode::kInvalidStream, arguments.input + ": holds no picture");
+      return fail(ErrorCode::kInvalidStream, arguments.input + ": contains no pictures");
     if (!ended) {
       decoder.render(picture);
       const VideoFormat& f = decoder.format();
@@ -58,7 +59,7 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
       const int key = cv::waitKey(waiting ? 50 : static_cast<int>(std::clamp<long long>(left, 1, 1000)));
       if (key == 'q' || key == 27 || cv::getWindowProperty(window, cv::WND_PROP_VISIBLE) < 1)
         return Leave::kQuit;
-      if (key == 'r') return Leave::kAgain;
+      if (key == 'r') return Leave::kRestart;
       if (key == ' ') {
         paused = !paused;
         due = Clock::now();
@@ -73,12 +74,12 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
 }
 
 Result<void> play(const PlayArguments& arguments) {
-  // The stream is looked at first, so that a bad one gives its error and no window.
+  // Decode one picture first, so that a bad stream gives an error and no window.
   auto probe = StreamFile::open(arguments.input);
   if (!probe) return fail(probe.error());
   if (auto first = probe->next(); !first) return fail(first.error());
-  // The window's library aborts the program where there is no display.
-  if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: there is no display");
+  // highgui aborts the program when there is no display.
+  if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: no display");
   try {
     const std::string window = "fbs: " + arguments.input;
     cv::namedWindow(window, cv::WINDOW_AUTOSIZE);

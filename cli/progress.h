@@ -1,4 +1,4 @@
-// The progress bar: percent, pictures per second and the time left, on standard error.
+// Progress on standard error: percent, pictures per second and time left.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,11 @@
 namespace fbs {
 
 /// One line of standard error, redrawn in place at most ten times a second. Draws nothing when standard error
-/// is not a terminal or `quiet` is set; the line is wiped by finish() or the destructor.
+/// is not a terminal or `quiet` is set; finish() and the destructor clear the line.
 class Progress {
  public:
-  /// @param label   what is being done, such as "encoding"
-  /// @param total   pictures expected; without it the bar shows counts and speed only
+  /// @param label   the activity, such as "encoding"
+  /// @param total   expected pictures; without it only count and speed are shown
   Progress(std::string label, std::optional<std::int64_t> total, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
@@ -22,7 +22,7 @@ class Progress {
   /// @param done  pictures finished so far; may exceed the total, which is only an estimate
   void update(std::int64_t done);
 
-  /// Wipes the line. Calling it again does nothing.
+  /// Clears the line. Calling it again does nothing.
   void finish();
 
  private:
@@ -36,7 +36,7 @@ class Progress {
   Clock::time_point last_drawn_;
 };
 
-/// The text of the bar, without control characters: "encoding  42 %  123/300  51.2 pictures/s  3 s left".
+/// The text of the line, without control characters: "encoding  42 %  123/300  51.2 pictures/s  3 s left".
 /// @param columns  width of the terminal; the text is cut to fit
 std::string progress_text(const std::string& label, std::int64_t done, std::optional<std::int64_t> total,
                           double seconds, int columns);

@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 namespace fbs::cli {
 
@@ -17,10 +17,11 @@ StreamFile::Descriptor::~Descriptor() {
 Result<StreamFile> StreamFile::open(const std::string& name) {
   if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO));
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.number() < 0) return fail(ErrorCode::kIo, name + ": cannot open: " + std::strerror(errno));
+  if (file.number() < 0)
+    return fail(ErrorCode::kIo, name + ": cannot open: " + std::generic_category().message(errno));
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
-    return fail(ErrorCode::kIo, name + ": cannot read: it is a folder");
+    return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
   return StreamFile(name, std::move(file));
 }
 
@@ -36,7 +37,7 @@ Result<DecodeStatus> StreamFile::next() {
     else if (n == 0)
       decoder_.close();
     else if (errno != EINTR)
-      return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::strerror(errno));
+      return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::generic_category().message(errno));
   }
 }
 

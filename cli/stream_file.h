@@ -1,4 +1,4 @@
-// A stream read from a file or a pipe, a piece at a time.
+// A stream read piecewise from a file or a pipe.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace fbs::cli {
 
-/// Reads `name` (`-`: standard input) into a decoder as the decoder asks for it. Errors name the file and,
-/// where the stream is damaged, the byte.
+/// Reads `name` (`-`: standard input) into a decoder on demand. Errors name the file and, where the stream is
+/// damaged, the byte.
 class StreamFile {
  public:
   static Result<StreamFile> open(const std::string& name);
@@ -21,10 +21,12 @@ class StreamFile {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  /// A file descriptor that is closed in the end, but for standard input's.
+  /// A file descriptor, closed by the destructor unless it is standard input.
   class Descriptor {
    public:
     explicit Descriptor(int number) : number_(number) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
     Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
     Descriptor& operator=(Descriptor&&) = delete;
     ~Descriptor();
@@ -36,7 +38,7 @@ class StreamFile {
   StreamFile(std::string name, Descriptor file) : name_(std::move(name)), file_(std::move(file)) {}
 
   std::string name_;
-  Descriptor file_;  ///< not a FILE: what a pipe has is taken at once, and not only when a buffer is full
+  Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on what a pipe has
   StreamDecoder decoder_;
 };
 

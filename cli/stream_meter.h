@@ -1,4 +1,4 @@
-// Compares a stream's pictures with the source's while both pass by.
+// Compares decoded pictures with the source, one at a time.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace fbs::cli {
 
-/// What a stream costs and how near it comes.
+/// Rate and distortion of a stream.
 struct Measure {
   std::uint64_t pictures = 0;
   double seconds = 0;
@@ -26,13 +26,13 @@ struct Measure {
   }
 };
 
-/// Compares what a decoder shows with the source, picture by picture.
+/// Sums up the differences between decoded pictures and the source.
 class StreamMeter {
  public:
   /// @param decoder  must outlive the object
   StreamMeter(StreamDecoder& decoder, bool with_ssim) : decoder_(decoder), with_ssim_(with_ssim) {}
 
-  /// Compares the picture that the decoder announces with `source`.
+  /// Compares the current picture of the decoder with `source`.
   void compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;

@@ -1,4 +1,4 @@
-// What each verb of the program is asked to do. main.cpp fills these in, one file per verb carries them out.
+// Arguments of each verb of the program. main.cpp fills them in; one file per verb carries it out.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,14 @@ namespace fbs::cli {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
-  double bitrate = 0;  ///< kbit/s in all; 0: as quality says
-  std::string patterns = "auto";
+  double bitrate = 0;  ///< target of the total, kbit/s; 0: none, quality decides
   int face = 0;
   std::string marks;    ///< file; empty: automatic
-  std::string overlay;  ///< video of the source with mesh and snakes; empty: none
+  std::string overlay;  ///< video of the source with mesh and snakes drawn on it; empty: none
   double sequence_rate = 25;
   bool allow_no_face = false;
   // For measurements; not shown by --help.
-  double motion_bitrate = 0;  ///< kbit/s of the motion alone
+  double motion_bitrate = 0;  ///< target of the motion alone, kbit/s; 0: none
   bool snakes = true;
   bool refine = true;
   bool surround = true;
@@ -30,8 +29,8 @@ struct EncodeArguments {
 
 struct DecodeArguments {
   std::string input, output;
-  std::string sound;        ///< file whose sound goes beside the pictures
-  bool keep_going = false;  ///< write what can be decoded of a damaged stream
+  std::string sound;        ///< file whose sound is copied into the output
+  bool keep_going = false;  ///< decode as much as possible of a damaged stream
   bool quiet = false;
 };
 
@@ -46,8 +45,8 @@ struct ExportArguments {
 
 struct EvaluateArguments {
   std::string source;
-  std::string stream;              ///< empty: encode the source first
-  std::vector<int> qualities{50};  ///< to encode with, without a stream
+  std::string stream;              ///< empty: encode the source
+  std::vector<int> qualities{50};  ///< to encode with when there is no stream
   bool json = false;
   bool quiet = false;
 };
@@ -56,7 +55,7 @@ struct PlayArguments {
   std::string input;
 };
 
-/// Errors carry a whole line for the user: what file, what is wrong.
+/// Error texts are complete lines for the user: which file, and what is wrong with it.
 Result<void> run_encode(const EncodeArguments& arguments);
 Result<void> run_decode(const DecodeArguments& arguments);
 Result<void> run_inspect(const InspectArguments& arguments);
@@ -64,7 +63,7 @@ Result<void> run_export(const ExportArguments& arguments);
 Result<void> run_evaluate(const EvaluateArguments& arguments);
 Result<void> run_play(const PlayArguments& arguments);
 
-/// Verbs that need OpenCV live in modules; these are what the modules export.
+/// Verbs that need OpenCV are in modules; these are the functions that the modules export.
 inline constexpr const char* kEncoderModule = "fbs_encoder";
 inline constexpr const char* kEncodeSymbol = "fbs_run_encode";
 inline constexpr const char* kEvaluateSymbol = "fbs_run_evaluate";

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Authors the expression basis of generic_head.gltf: the directions in which control points move together.
 
-Run by hand after author_generic_head.py; the output is committed. Needs numpy.
+Run by hand after author_generic_head.py; commit the output. Needs numpy.
 
     common/author_expression_basis.py            writes extras.expression of common/generic_head.gltf
 
 Input is common/expression_statistics.json: for each part of the face, over talking faces, the covariance of its
 control points and their effect on the picture (the mean Gauss-Newton Hessian of squared luma differences). It was
-measured on the fits of ten clips, each of the same weight; a third of the mean effect is added evenly, for what a viewer
-sees of a shape beyond squared differences. Lower lids, which are not tracked yet, are as the upper ones. The basis
-is the Karhunen-Loeve transform in the metric of that effect: coefficients are uncorrelated, the first vary most, and
-one step of any of them changes the picture as much as one step of any other. Statistics are made the same for a face
-and its mirror image. The basis is complete, so that a face that moves otherwise is only dearer, never out of reach.
+measured on the fits of ten clips with equal weights. A third of the mean effect is added to all directions, since viewers
+notice shapes beyond squared differences. Lower eyelids are not tracked yet and use the statistics of the upper ones. The
+basis is the Karhunen-Loeve transform in the metric of that effect: coefficients are uncorrelated, the first vary most,
+and a step of any of them changes the picture by the same amount. Statistics are symmetrised between a face and its
+mirror image. The basis is complete: unusual expressions cost more bits, but all can be coded.
 """
 
 import argparse
@@ -33,13 +33,13 @@ def symmetric(lower, n):
 
 
 def mirror(vertices, first, count):
-    """What the control points' offsets (x0, y0, x1, y1 ...) become in the mirror image of the face."""
-    spread = np.zeros((len(vertices), count))
+    """The control point offsets (x0, y0, x1, y1 ...) of the mirrored face."""
+    skinning = np.zeros((len(vertices), count))
     for v, vertex in enumerate(vertices):
         for control, weight in vertex["skinning"]:
             if first <= control < first + count:
-                spread[v, control - first] = weight
-    swap = np.linalg.pinv(spread) @ spread[[v["mirror"] for v in vertices]]
+                skinning[v, control - first] = weight
+    swap = np.linalg.pinv(skinning) @ skinning[[v["mirror"] for v in vertices]]
     out = np.zeros((2 * count, 2 * count))
     out[0::2, 0::2], out[1::2, 1::2] = -swap, swap
     return out
@@ -52,7 +52,7 @@ def basis(covariance, effect, flip):
     variance, modes = np.linalg.eigh(root.T @ covariance @ root)
     modes = np.linalg.solve(root.T, modes[:, np.argsort(-variance)])
     modes /= np.exp(np.mean(np.log(np.linalg.norm(modes, axis=0))))
-    # Of either sign take the one whose largest number is positive.
+    # Choose the sign that makes the largest number positive.
     largest = modes[np.argmax(np.abs(modes), axis=0), np.arange(modes.shape[1])]
     return np.round(ONE * modes * np.sign(largest)).astype(int).T
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Authors generic_head.gltf: the 105 vertices of the generic head, its triangles, features and spread weights.
+"""Authors generic_head.gltf: the 105 vertices of the generic head, its triangles, features and skinning weights.
 
 Run by hand; the output is committed. Needs nothing but Python; --preview OUT.png also needs numpy and OpenCV.
 
     common/author_generic_head.py                        writes common/generic_head.gltf
     common/author_generic_head.py --preview head.png     and draws it: neutral, lids closed, mouth open
 
-The shape is drawn by us after adult anthropometric proportions, with the roles CANDIDE gives its vertices and the
-68 landmarks of iBUG. glTF frame: x to the right of the picture (the subject's left), y up, z toward the viewer,
+The shape is our own drawing after adult anthropometric proportions, with the vertex roles of CANDIDE and the 68
+landmarks of iBUG. glTF frame: x to the right of the picture (the subject's left), y up, z toward the viewer,
 1 unit = the distance between the eye centres, origin midway between the eyes in x and y and in mid-head in z.
-Only the subject's left half is written down; the right half is its mirror image, exactly.
+Only the subject's left half is listed; the right half is its exact mirror image.
 """
 
 import argparse
@@ -217,8 +217,8 @@ BROWS = [17, 18, 19, 20, 21, 22, 23, 24, 25, 26]
 UPPER_LIDS = {"left": [43, 44], "right": [37, 38]}
 LOWER_LIDS = {"left": [46, 47], "right": [40, 41]}
 
-# How vertices on no feature follow: name -> [(sources, sigma of the mean, sigma of the falloff, factor)].
-# Sources of both sides stand for one feature here, so that two raised brows lift the glabella once, not twice.
+# How vertices outside all features follow: name -> [(sources, sigma of the mean, sigma of the falloff, factor)].
+# Sources of both sides count as one feature here, so that two raised brows lift the glabella once, not twice.
 FOLLOW = {
     "philtrum": [(UPPER_LIP, 0.20, 0.22, 1.0)],
     "subnasale": [(UPPER_LIP, 0.20, 0.22, 0.5)],
@@ -281,7 +281,7 @@ class Head:
         self.centre_eyes()
 
     def centre_eyes(self):
-        """Takes up the rounding in one lid point, so that the eye centres are exactly one unit apart at y = 0."""
+        """Compensates for rounding in one eyelid point, so that the eye centres are exactly one unit apart at y = 0."""
         lid = 47
         for axis, target in ((0, 6 * UNIT // 2), (1, 0)):
             self.position[lid][axis] += target - sum(self.position[v][axis] for v in range(42, 48))
@@ -334,7 +334,7 @@ class Head:
                 self.skinning[v] = dict(sorted((CONTROL_MIRROR[c], w) for c, w in row.items()))
 
     def find_neighbours(self):
-        """Edges for distances: all but those across the mouth's opening."""
+        """Edges used for distances: all but those across the opening of the mouth."""
         upper, lower = {61, 62, 63}, {65, 66, 67}
         self.neighbours = [{} for _ in range(105)]
         for triangle in self.triangles:
@@ -370,7 +370,7 @@ class Head:
         return {c: w / sum(row.values()) for c, w in row.items()}
 
     def follow_lids(self, v, own):
-        """The pupil keeps its place between the lids, so that no triangle of the eye folds as they close."""
+        """The pupil keeps its relative position between the eyelids, so that no triangle of the eye folds as they close."""
         side = self.names[v].rsplit("_", 1)[1]
         height = lambda lid: sum(self.position[u][1] for u in lid[side]) / 2
         up = (self.position[v][1] - height(LOWER_LIDS)) / (height(UPPER_LIDS) - height(LOWER_LIDS))
@@ -494,7 +494,7 @@ def to_gltf(head):
 
 
 def to_json(value, depth=0):
-    """JSON with a line per element of the outer levels, so that diffs can be read."""
+    """JSON with one line per element of the outer levels, for readable diffs."""
     flat = json.dumps(value)
     if len(flat) < 100 or depth > 5 or not isinstance(value, (dict, list)):
         return flat
@@ -518,7 +518,7 @@ def moved(head, offsets):
 
 
 def closed_lids(head, amount):
-    """Offsets of the upper lids that bring their vertices this share of the way to the lower ones."""
+    """Offsets of the upper eyelids that bring their vertices this fraction of the distance to the lower ones."""
     offsets = {}
     for first, pairs in ((26, ((37, 41), (38, 40))), (28, ((43, 47), (44, 46)))):
         a, b = (amount * (head.position[low][1] - head.position[up][1]) / UNIT for up, low in pairs)

@@ -1,4 +1,4 @@
-// Cubic B-splines as the features use them: x(s) = sum X_i B_i(s), paper section 2.
+// Cubic B-splines of the features: x(s) = sum X_i B_i(s), paper section 2.
 #pragma once
 
 #include <array>
@@ -6,9 +6,9 @@
 
 namespace fbs {
 
-/// The up to four basis functions that are not zero at one s, with first and second derivative.
+/// The basis functions that are not zero at one s, at most four, with first and second derivatives.
 struct SplineBasis {
-  std::array<int, 4> control{-1, -1, -1, -1};  ///< index of the control point; -1: pinned, does not move
+  std::array<int, 4> control{-1, -1, -1, -1};  ///< index of the control point; -1: pinned
   std::array<double, 4> value{};               ///< B_i(s)
   std::array<double, 4> d1{};                  ///< dB_i/ds
   std::array<double, 4> d2{};                  ///< d2B_i/ds2

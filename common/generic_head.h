@@ -1,9 +1,9 @@
 // The generic head: 105 vertices, their triangles, and how control points move them. Paper section 2.1,
 // Fig. 2.
 //
-// It is authored in common/generic_head.gltf (made by common/author_generic_head.py, drawn by us after the
-// published roles of CANDIDE's vertices) and turned into tables at build time by common/head_table_tool.cpp.
-// The tables are integers and part of the format: SPEC.md gives their hash.
+// Its source is common/generic_head.gltf (made by common/author_generic_head.py; our own drawing, with the
+// published roles of CANDIDE's vertices). common/head_table_tool.cpp turns it into tables at build time. The
+// tables are integers and part of the format: SPEC.md gives their hash.
 //
 // Head frame: x to the right of the picture (the subject's left), y down, z away from the viewer;
 // right-handed. Origin: midway between the eye centres in x and y, in the middle of the head in z. Unit:
@@ -23,9 +23,9 @@ inline constexpr int kVertexCount = 105;
 inline constexpr int kLandmarkCount = 68;  ///< iBUG-68
 inline constexpr int kUnitsPerEyeDistance = 4096;
 inline constexpr int kControlCount = 36;   ///< control points of all features together
-inline constexpr int kSkinningOne = 4096;  ///< a weight of one in the spread tables
+inline constexpr int kSkinningOne = 4096;  ///< a skinning weight of one
 
-/// What a control point belongs to. Order is that of the stream (SPEC 5.1).
+/// The feature that a control point belongs to, in the order of the stream (SPEC 5.1).
 enum class FeatureId : std::uint8_t {
   kMouthOuter,     ///< closed cubic B-spline, 10 control points
   kMouthInner,     ///< closed cubic B-spline, 8 control points
@@ -40,7 +40,7 @@ enum class FeatureId : std::uint8_t {
 };
 inline constexpr int kFeatureCount = 10;
 
-/// One vertex that lies on a feature's curve.
+/// A vertex on the curve of a feature.
 struct FeatureVertex {
   std::uint16_t vertex;
   float s;  ///< curve parameter; closed: 0 <= s < control_count; clamped: 0..1; only the encoder uses it
@@ -59,22 +59,22 @@ struct HeadVertex {
   glm::ivec3 position;    ///< head frame
   std::int16_t mirror;    ///< index of the mirror partner; itself on the midline
   std::int16_t landmark;  ///< 0..67, or -1
-  std::int16_t feature;   ///< index of the feature it lies on, or -1
+  std::int16_t feature;   ///< index of its feature, or -1
 };
 
-/// Corner indices, clockwise in the picture when the head is seen from the front.
+/// Vertex indices, clockwise in the picture when the head is seen from the front.
 using HeadTriangle = std::array<std::uint16_t, 3>;
 
-/// One control point's share in one vertex: vertex displacement += control offset * weight / kSkinningOne.
-/// A Gaussian of edge distance on the generic mesh, fixed (paper section 2.1, design section 4).
+/// Weight of one control point at one vertex: vertex displacement += control offset * weight / kSkinningOne.
+/// A fixed Gaussian of edge distance on the generic mesh (paper section 2.1).
 struct SkinningWeight {
   std::uint16_t control;
   std::int16_t weight;
 };
 
-/// A part of the face that moves as one, and the directions in which it does: row k of `rows` is what one
-/// unit of coefficient k adds to the part's control points, x0, y0, x1, y1 ..., in 1/kSkinningOne. A complete
-/// basis, the coefficient that varies most first (author_expression_basis.py).
+/// A part of the face and the basis of its expression: row k of `rows` is what one unit of coefficient k adds
+/// to the control points of the part, x0, y0, x1, y1 ..., in 1/kSkinningOne. The basis is complete and sorted
+/// by variance, largest first (author_expression_basis.py).
 struct ExpressionPart {
   std::string_view name;  ///< "mouth", "brows", "upper_lids", "lower_lids", "gaze"
   std::uint16_t first_control;
@@ -83,7 +83,7 @@ struct ExpressionPart {
 };
 inline constexpr int kExpressionPartCount = 5;
 
-/// The tables; everything lives as long as the program. No allocation.
+/// The tables, valid as long as the program runs. No allocation.
 struct GenericHead {
   std::span<const HeadVertex, kVertexCount> vertices;
   std::span<const HeadTriangle> triangles;
@@ -106,7 +106,7 @@ struct GenericHead {
 ///   length of the outline; its vertices
 ///   10; for each feature: closed (0 or 1), first control, number of controls, number of vertices, its
 ///   vertices
-///   for each vertex: number of spread weights; for each: control, weight (controls ascend)
+///   for each vertex: number of skinning weights; for each: control, weight (controls ascend)
 ///   5; for each part of the expression: first control, number of controls, the rows
 [[nodiscard]] std::uint64_t generic_head_hash();
 

@@ -1,6 +1,6 @@
-// Build-time tool: reads generic_head.gltf and writes generic_head_table.cpp. Copies integers, computes
-// nothing but the change of axes: the file has y up, z toward the viewer and counter-clockwise fronts, the
-// table y down, z away and clockwise fronts.
+// Build-time tool: reads generic_head.gltf and writes generic_head_table.cpp. It copies integers and changes
+// only the axes: the file has y up, z toward the viewer and counter-clockwise fronts; the table y down, z
+// away and clockwise fronts.
 #include <tiny_gltf.h>
 
 #include <array>
@@ -22,7 +22,7 @@ using tinygltf::Value;
 constexpr int kVertexCount = 105;
 constexpr int kUnitsPerEyeDistance = 4096;
 
-/// The bytes of one accessor, or nothing when its type is not what we write.
+/// The bytes of one accessor, or nothing when its type is not the one that our script writes.
 const unsigned char* accessor_data(const Model& model, int index, int component_type, int type) {
   const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
   if (accessor.componentType != component_type || accessor.type != type) return nullptr;
@@ -31,7 +31,7 @@ const unsigned char* accessor_data(const Model& model, int index, int component_
          accessor.byteOffset;
 }
 
-/// Vertex positions in the head frame; nothing when one is not a whole number of units.
+/// Vertex positions in the head frame; nothing when a coordinate is not a whole number of units.
 std::optional<std::vector<std::array<int, 3>>> read_positions(const Model& model) {
   const int index = model.meshes.at(0).primitives.at(0).attributes.at("POSITION");
   const unsigned char* bytes = accessor_data(model, index, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);

@@ -1,4 +1,4 @@
-// Pictures as the codec sees them: 8-bit planar 4:2:0, and the format that describes a whole video.
+// Pictures inside the codec: 8-bit planar 4:2:0, and the format of a whole video.
 #pragma once
 
 #include <cassert>
@@ -34,7 +34,7 @@ struct Plane {
 };
 
 /// A 4:2:0 picture. Chroma planes are (width + 1) / 2 by (height + 1) / 2; their samples lie at the centre of
-/// the four luma samples they belong to. Sample values are those of the video's own range and matrix.
+/// the four luma samples they belong to. Samples use the range and matrix of the video.
 struct Picture {
   Plane y, u, v;
 
@@ -59,7 +59,7 @@ struct Rational {
 enum class ColourRange : std::uint8_t { kLimited = 0, kFull = 1 };
 enum class ColourMatrix : std::uint8_t { kUnspecified = 0, kBt601 = 1, kBt709 = 2 };
 
-/// What stays the same for every picture of a video.
+/// Properties shared by all pictures of a video.
 struct VideoFormat {
   int width = 0;                ///< pixels, kMinPictureSize..kMaxPictureSize
   int height = 0;               ///< pixels, kMinPictureSize..kMaxPictureSize

@@ -24,7 +24,7 @@ std::array<float, 2 * kRadius + 1> gaussian() {
   return k;
 }
 
-/// Index mirrored at the border without repeating it, as OpenCV's default.
+/// Index mirrored at the border without repeating the border sample, like OpenCV's default.
 int reflected(int i, int n) {
   if (n == 1) return 0;
   while (i < 0 || i >= n) i = i < 0 ? -i : 2 * n - 2 - i;

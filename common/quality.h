@@ -1,4 +1,4 @@
-// How near two pictures are: PSNR and SSIM.
+// Similarity of two pictures: PSNR and SSIM.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct SquaredError {
     return *this;
   }
 
-  /// 10 log10(255^2 / mean); 99 when nothing differs; 0 without samples. dB.
+  /// 10 log10(255^2 / mean); 99 for identical pictures; 0 without samples. dB.
   [[nodiscard]] double psnr() const;
 };
 

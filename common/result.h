@@ -1,4 +1,4 @@
-// How functions of fbs fail: Result<T> is a value or an Error; nothing throws across a public header.
+// Errors: Result<T> is a value or an Error; no exception crosses a public header.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 namespace fbs {
 
 enum class ErrorCode : std::uint8_t {
-  kInvalidArgument,  ///< a caller's setting is out of its documented range
-  kNotFbs,           ///< the bytes are not an fbs stream at all
+  kInvalidArgument,  ///< a setting is outside its documented range
+  kNotFbs,           ///< not an fbs stream
   kTruncated,        ///< the stream ends inside a packet
   kInvalidStream,    ///< a packet is damaged or breaks a rule of SPEC.md
   kUnsupported,      ///< a newer version or a feature this build lacks
   kTooLarge,         ///< a count or dimension beyond its limit in SPEC.md
-  kDegenerateInput,  ///< points collinear, empty range and the like
-  kNoFace,           ///< no face was found where one is needed
+  kDegenerateInput,  ///< collinear points, an empty range and the like
+  kNoFace,           ///< no face where one is needed
   kIo,               ///< a file could not be read or written
-  kInternal,         ///< our own invariant is broken: always a bug
+  kInternal,         ///< a broken invariant of our own: always a bug
 };
 
 struct [[nodiscard]] Error {
   ErrorCode code;
-  std::string text;               ///< one line, no final stop, no file name
-  std::uint64_t byte_offset = 0;  ///< where in the stream, when the error is about a stream
+  std::string text;               ///< one line, without full stop or file name
+  std::uint64_t byte_offset = 0;  ///< position in the stream, for errors about a stream
 };
 
 template <class T>
@@ -36,7 +36,7 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(Error{code, std::move(text), byte_offset});
 }
 
-/// Passes the error of one result on as that of another: `if (!parsed) return fail(parsed.error())`.
+/// Passes on the error of another result: `if (!parsed) return fail(parsed.error())`.
 [[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
   return tl::unexpected<Error>(std::move(error));
 }

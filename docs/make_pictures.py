@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes what is made in docs/: talker.png, head.svg and the list of vertices in marks.md.
+"""Makes the generated parts of docs/: talker.png, head.svg and the list of vertices in marks.md.
 
-    docs/make_pictures.py [BUILD]       BUILD holds the programs fbs and talker; build/release unless given
+    docs/make_pictures.py [BUILD]       BUILD contains the programs fbs and talker; default build/release
 
-Needs ffmpeg with drawtext and the font DejaVu Sans. The talker is rendered by samples/, nobody was filmed.
+Needs ffmpeg with drawtext and the font DejaVu Sans. The talker is rendered by samples/talker.
 """
 
 import base64
@@ -23,7 +23,7 @@ FEATURES = ["outer lips", "inner lips", "right brow", "left brow", "right upper 
 
 
 def talker_picture(build, target):
-    """Original, mesh and decoded picture SHOWN side by side, with what the stream costs."""
+    """Source, mesh and decoded picture SHOWN side by side, labelled with the bitrate."""
     with tempfile.TemporaryDirectory() as folder:
         at = lambda name: str(pathlib.Path(folder) / name)
         run = lambda *args: subprocess.run(args, check=True, capture_output=True, text=True).stdout
@@ -33,8 +33,8 @@ def talker_picture(build, target):
         seen = json.loads(run(f"{build}/fbs", "inspect", at("a.fbs"), "--json"))
         total = seen["bytes"]["total"] * 8 / seen["seconds"] / 1000
         bits = seen["bytes"]["motion"] * 8 / seen["frames"]
-        labels = [f"original, picture {SHOWN} of {PICTURES}", "mesh and snakes",
-                  f"decoded: {total:.1f} kbit/s in all, {bits:.0f} bits of motion a picture"]
+        labels = [f"source, picture {SHOWN} of {PICTURES}", "mesh and snakes",
+                  f"decoded: total {total:.1f} kbit/s, {bits:.0f} bits of motion per picture"]
         chains = [f"[{i}:v]select=eq(n\\,{SHOWN}),scale={SIZE}:{SIZE},setsar=1,pad=iw:ih+34:0:34:white,"
                   f"drawtext=fontfile={FONT}:text='{text.replace(':', chr(92) + ':')}':fontsize=17:x=8:y=9[v{i}]"
                   for i, text in enumerate(labels)]

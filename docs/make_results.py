@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts what measure.py printed into README.md.
+"""Writes the output of measure.py into docs/results.md. The shorter table in README.md is edited by hand.
 
     python3 ../shared/measure/measure.py build/release/fbs > measured.txt
     docs/make_results.py measured.txt
@@ -9,12 +9,12 @@ import pathlib
 import re
 import sys
 
-README = pathlib.Path(__file__).resolve().parent.parent / "README.md"
+RESULTS = pathlib.Path(__file__).resolve().parent / "results.md"
 COLUMNS = ["kbit/s", "startup", "pattern", "motion", "face", "peers", "still", "frame", "peers", "SSIM", "peers", "uv",
            "enc/s", "dec/s"]
 SHOWN = [0, 3, 1, 4, 5, 6, 7, 8, 12, 13]
-HEADS = ["clip", "kbit/s", "of it motion", "startup, bytes", "face", "face, peers", "face, first picture held", "frame",
-         "frame, peers", "encoded/s", "decoded/s"]
+HEADS = ["clip", "kbit/s", "motion", "startup", "face", "face, peers", "face, first picture held", "frame", "frame, peers",
+         "encoded/s", "decoded/s"]
 
 rows = []
 for line in pathlib.Path(sys.argv[1]).read_text().splitlines():
@@ -24,7 +24,7 @@ for line in pathlib.Path(sys.argv[1]).read_text().splitlines():
         rows.append([words[0]] + [numbers[i].replace("<", "-") for i in SHOWN])
 assert rows, "no clip in " + sys.argv[1]
 table = ["| " + " | ".join(row) + " |" for row in [HEADS, ["---"] * len(HEADS)] + rows]
-text = README.read_text()
+text = RESULTS.read_text()
 begin, end = "<!-- results: docs/make_results.py -->\n", "<!-- end of results -->"
 head, rest = text.split(begin)
-README.write_text(head + begin + "\n".join(table) + "\n" + end + rest.split(end)[1])
+RESULTS.write_text(head + begin + "\n".join(table) + "\n" + end + rest.split(end)[1])

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs what packages.txt names and this machine lacks. With nothing missing it needs neither network nor root.
+# Installs those packages of packages.txt that are missing. When none is, it needs neither network nor root.
 set -euo pipefail
 cd "$(dirname "$0")"
 
 if ! command -v dpkg-query >/dev/null; then
-  echo "not a Debian system: taking it that the likes of scripts/packages.txt are installed" >&2
+  echo "not a Debian system: assuming that the equivalents of scripts/packages.txt are installed" >&2
   exit 0
 fi
 
@@ -16,7 +16,7 @@ done
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || { echo "as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  command -v sudo >/dev/null || { echo "run as root: apt-get install ${missing[*]}" >&2; exit 1; }
   as_root=(sudo)
 fi
 echo "== installing ${missing[*]}"

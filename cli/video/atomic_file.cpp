@@ -7,24 +7,21 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <memory>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace fbs {
 namespace {
 
 constexpr std::size_t kBufferSize = 256 * 1024;
-constexpr mode_t kNewFileMode = 0666;  // less the umask
+constexpr mode_t kNewFileMode = 0666;  // before the umask
 
-struct FreeDeleter {
-  void operator()(char* text) const { std::free(text); }
-};
-
-/// The name with symbolic links followed; the name itself when there is no such file yet.
+/// The name after following symbolic links; the name itself when there is no such file yet.
 std::string follow_links(const std::string& name) {
-  const std::unique_ptr<char, FreeDeleter> real(realpath(name.c_str(), nullptr));
-  return real ? std::string(real.get()) : name;
+  std::error_code missing;
+  const std::filesystem::path real = std::filesystem::canonical(name, missing);
+  return missing ? name : real.string();
 }
 
 }  // namespace
@@ -137,7 +134,7 @@ Result<void> AtomicFile::write_through(std::span<const std::uint8_t> bytes) {
 }
 
 tl::unexpected<Error> AtomicFile::system_error(int code) const {
-  return fail(ErrorCode::kIo, "cannot write " + name_ + ": " + std::strerror(code));
+  return fail(ErrorCode::kIo, "cannot write " + name_ + ": " + std::generic_category().message(code));
 }
 
 void AtomicFile::discard() noexcept {

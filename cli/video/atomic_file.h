@@ -18,6 +18,8 @@ class AtomicFile {
  public:
   static Result<AtomicFile> create(const std::string& name);
 
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
@@ -25,7 +27,7 @@ class AtomicFile {
   /// Appends at the cursor. Bytes may wait in a buffer of 256 KiB.
   Result<void> write(std::span<const std::uint8_t> bytes);
 
-  /// Moves the cursor, for containers that fill in sizes late.
+  /// Moves the cursor, for containers that write sizes last.
   /// @param offset  bytes from the start of the file
   Result<void> seek(std::uint64_t offset);
 
@@ -36,7 +38,7 @@ class AtomicFile {
   /// appear together.
   Result<void> close();
 
-  /// Closes if need be, and renames. Once.
+  /// Closes if needed, and renames. Call it once.
   Result<void> commit();
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -50,11 +52,11 @@ class AtomicFile {
   void discard() noexcept;
 
   std::string name_;     ///< as the user gave it
-  std::string target_;   ///< the same with links followed
-  std::string partial_;  ///< what is being written; empty when there is nothing to remove
+  std::string target_;   ///< the same after following links
+  std::string partial_;  ///< name of the file being written; empty when there is nothing to remove
   int descriptor_ = -1;
   bool direct_ = false;               ///< a pipe or device: no renaming
-  std::vector<std::uint8_t> buffer_;  ///< bytes for the place of the cursor, not yet written
+  std::vector<std::uint8_t> buffer_;  ///< bytes to be written at the cursor
 };
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// The module fbs_camera: live pictures through OpenCV, which may throw; nothing leaves here.
+// The module fbs_camera: live pictures through OpenCV, which may throw; no exception leaves this file.
 
 #include <algorithm>
 #include <charconv>
@@ -19,9 +19,9 @@
 namespace fbs {
 namespace {
 
-constexpr double kUsualRate = 30;  // pictures per second, for cameras that do not say
+constexpr double kDefaultRate = 30;  // pictures per second, for cameras that do not report theirs
 
-/// OpenCV hands over BGR; it becomes limited-range BT.601. Pictures are timed by the clock as they arrive.
+/// Converts the BGR of OpenCV to limited-range BT.601. Pictures get the time of their arrival.
 class CameraSource final : public VideoSource {
  public:
   explicit CameraSource(std::string name) : name_(std::move(name)) {}
@@ -32,8 +32,8 @@ class CameraSource final : public VideoSource {
       return fail(ErrorCode::kIo, "cannot read " + name_ + ": no such camera, or no permission to use it");
     }
     image_waiting_ = true;
-    const double told = camera_.get(cv::CAP_PROP_FPS);
-    const double rate = told >= 1 && told <= 1000 ? told : kUsualRate;
+    const double reported = camera_.get(cv::CAP_PROP_FPS);
+    const double rate = reported >= 1 && reported <= 1000 ? reported : kDefaultRate;
     format_.width = image_.cols;
     format_.height = image_.rows;
     format_.frame_rate = {static_cast<std::uint32_t>(std::lround(rate * 1000)), 1000};
@@ -76,7 +76,7 @@ class CameraSource final : public VideoSource {
   std::string name_;
   cv::VideoCapture camera_;
   cv::Mat image_;
-  bool image_waiting_ = false;  ///< image_ was read on opening and not yet handed over
+  bool image_waiting_ = false;  ///< image_ was read by open() and not yet returned
   VideoFormat format_;
   Clock::time_point begun_;
   std::int64_t last_pts_ = -1;

@@ -26,7 +26,7 @@ enum class ChannelOrder : std::uint8_t { kRgb, kBgr };
 RgbImage rgb_from_picture(const Picture& picture, ColourRange range, ColourMatrix matrix,
                           ChannelOrder order = ChannelOrder::kRgb);
 
-/// The other way; chroma is the mean of the (up to) four pixels it belongs to.
+/// The inverse; chroma is the mean of the (up to) four pixels it belongs to.
 /// @param rgb  3 * width * height bytes
 Picture picture_from_rgb(std::span<const std::uint8_t> rgb, int width, int height, ColourRange range,
                          ColourMatrix matrix, ChannelOrder order = ChannelOrder::kRgb);

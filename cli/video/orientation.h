@@ -1,4 +1,4 @@
-// Turning pictures upright: phones store video as the sensor sees it and a matrix that says how it was held.
+// Turns pictures upright: phones store video in sensor orientation, with a matrix for its display.
 #pragma once
 
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace fbs {
 
-/// One of the eight ways to lay a picture down: first mirrored, then, if `transposed`, columns become rows.
+/// One of the eight orientations of a picture: first mirrored, then, if `transposed`, rows and columns
+/// swapped.
 struct Orientation {
   bool flip_x = false;  ///< left and right exchanged
   bool flip_y = false;  ///< top and bottom exchanged

@@ -1,4 +1,4 @@
-// The one place where pictures outside the codec's size limits are turned away.
+// Rejects pictures outside the size limits of the codec.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ inline Result<void> check_picture_size(const std::string& input, int width, int 
                                         std::to_string(kMaxPictureSize) + " are supported");
 }
 
-/// The error of a video whose pictures change size on the way.
+/// The error of a video whose pictures change size midway.
 inline tl::unexpected<Error> size_change(const std::string& input, const VideoFormat& format, int width,
                                          int height) {
   return fail(ErrorCode::kUnsupported, input + ": picture size changes from " + std::to_string(format.width) +

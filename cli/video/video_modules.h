@@ -1,4 +1,4 @@
-// What the program and its video modules agree on: the names of the modules and of the functions in them.
+// The interface between the program and its video modules: the names of the modules and of their functions.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ inline constexpr const char* kCameraModule = "fbs_camera";  ///< OpenCV: cameras
 inline constexpr const char* kOpenSourceSymbol = "fbs_open_source";
 inline constexpr const char* kOpenSinkSymbol = "fbs_open_sink";
 
-/// `source` is set, whatever it held. A C function cannot return it.
+/// Sets `source`: a function with C linkage cannot return it.
 using OpenSourceFunction = void(const std::string& input, const SourceOptions& options,
                                 Result<std::unique_ptr<VideoSource>>& source);
 

@@ -1,4 +1,4 @@
-// Where pictures go: files, image sequences, pipes and nowhere behind one interface.
+// One interface to the destinations of pictures: files, image sequences, pipes and nowhere.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace fbs {
 
-/// Takes pictures in order of showing. Nothing stands under the final name before finish() has succeeded:
-/// files grow as `NAME.part`, and the destructor removes what was not finished. Errors name the output.
+/// Takes pictures in presentation order. No file has its final name before finish() has succeeded: files are
+/// written as `NAME.part`, and the destructor removes unfinished ones. Errors name the output.
 class VideoSink {
  public:
   virtual ~VideoSink() = default;
@@ -22,18 +22,18 @@ class VideoSink {
   ///         after an error the sink must not be used further
   virtual Result<void> write(const Picture& picture, std::int64_t pts) = 0;
 
-  /// Completes the output and gives it its final name. To be called once, last.
+  /// Completes the output and gives it its final name. Call it once, last.
   virtual Result<void> finish() = 0;
 };
 
 struct SinkOptions {
-  std::string sound_source;  ///< .mp4 and .mkv: file whose sound goes beside the pictures; none when empty
+  std::string sound_source;  ///< .mp4 and .mkv: file whose sound is copied into the output; none when empty
 };
 
 /// Opens `output`:
-///   `null:`             throws the pictures away
+///   `null:`             discards the pictures
 ///   `-`, `name.y4m`     Y4M, on standard output or in a file
-///   `name.mp4`, `.mkv`  H.264 (x264, CRF 12), made for looking at: pictures are no longer exact.
+///   `name.mp4`, `.mkv`  H.264 (x264, CRF 12), for viewing: pictures are not exact.
 ///                       4:2:0, or 4:4:4 when a side is odd, since H.264 cannot crop half a chroma sample
 ///   `frame_%05d.png`    image sequence numbered from 1 through OpenImageIO, or another suffix that it writes
 ///

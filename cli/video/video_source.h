@@ -1,4 +1,4 @@
-// Where pictures come from: files, image sequences, pipes and cameras behind one interface.
+// One interface to the sources of pictures: files, image sequences, pipes and cameras.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace fbs {
 
 struct TimedPicture {
   Picture picture;
-  std::int64_t pts = 0;  ///< when it is shown, 1/90000 s after the start of the source; see timestamps.h
+  std::int64_t pts = 0;  ///< presentation time, 1/90000 s from the start of the source; see timestamps.h
 };
 
-/// Pictures in order of showing, all of the same size. 8-bit 4:2:0 sources are handed over exactly as
+/// Pictures in presentation order, all of the same size. 8-bit 4:2:0 pictures are returned exactly as
 /// decoded; other formats are converted. Errors name the input.
 class VideoSource {
  public:
   virtual ~VideoSource() = default;
 
   /// Known once the source is open; width and height are within kMinPictureSize..kMaxPictureSize.
-  /// For variable frame rates, frame_rate is the mean and pts tells the times.
+  /// For variable frame rates, frame_rate is the mean and pts gives the times.
   [[nodiscard]] virtual const VideoFormat& format() const = 0;
 
   /// The next picture, with a pts above the one before; nullopt at the clean end, and again if asked again.
@@ -31,15 +31,15 @@ class VideoSource {
   /// kUnsupported when the picture size changes. After an error the source must not be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
 
-  /// Pictures in all as the container claims, for progress bars; nullopt when it does not say.
+  /// Number of pictures according to the container, for progress bars; nullopt when it does not say.
   [[nodiscard]] virtual std::optional<std::int64_t> frame_count_estimate() const = 0;
 
-  /// Damaged packets passed over so far, as players do; worth a warning when not zero.
+  /// Damaged packets skipped so far; worth a warning when not zero.
   [[nodiscard]] virtual std::int64_t damaged_packets() const { return 0; }
 };
 
 struct SourceOptions {
-  Rational sequence_rate{25, 1};  ///< pictures per second of image sequences, which do not say
+  Rational sequence_rate{25, 1};  ///< pictures per second of image sequences
   int decoder_threads = 1;        ///< at least 1
 };
 
@@ -50,9 +50,9 @@ struct SourceOptions {
 ///   `frame_%05d.png`, `*.png` with `*` or `?`, or a folder
 ///                             image sequence through OpenImageIO, in order of number, then name
 ///   anything else             libav: every container, codec and address that ffmpeg opens
-/// Turned phone video is put upright; grey, 4:2:2, 4:4:4, more than 8 bits and RGB become 8-bit 4:2:0.
+/// Rotated phone video is put upright; grey, 4:2:2, 4:4:4, more than 8 bits and RGB become 8-bit 4:2:0.
 ///
-/// @return ErrorCode::kIo when it cannot be read, kUnsupported when it holds no video we take,
+/// @return ErrorCode::kIo when it cannot be read, kUnsupported when it contains no video that we support,
 ///         kTooLarge when the pictures are outside the size limits
 Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
                                                        const SourceOptions& options = {});

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -54,7 +54,8 @@ struct StoredPlane {
   }
 };
 
-/// Averages what lies under each sample of `plane`, which has one sample per 2^shift pixels each way.
+/// Averages the samples under each sample of `plane`, which has one sample per 2^shift pixels in each
+/// direction.
 void reduce(const StoredPlane& stored, int shift, Plane& plane) {
   const auto first = [shift](int position, int stored_shift) { return (position << shift) >> stored_shift; };
   const auto last = [shift](int position, int stored_shift, int size) {
@@ -151,7 +152,7 @@ Result<std::optional<std::string>> Y4mSource::read_line() {
   std::string line;
   for (int c = std::getc(file_.get()); c != '\n'; c = std::getc(file_.get())) {
     if (c == EOF) {
-      if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::strerror(errno));
+      if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::generic_category().message(errno));
       if (line.empty()) return std::nullopt;
       return ended_early();
     }
@@ -163,7 +164,7 @@ Result<std::optional<std::string>> Y4mSource::read_line() {
 
 Result<void> Y4mSource::read_bytes(std::vector<std::uint8_t>& bytes) {
   if (std::fread(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size()) return {};
-  if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::strerror(errno));
+  if (std::ferror(file_.get()) != 0) return error(ErrorCode::kIo, std::generic_category().message(errno));
   return ended_early();
 }
 
@@ -216,7 +217,8 @@ Result<std::unique_ptr<VideoSource>> open_y4m_source(const std::string& input) {
   const bool piped = input == "-";
   const std::string name = piped ? "standard input" : input;
   File file(piped ? stdin : std::fopen(input.c_str(), "rbe"));
-  if (!file) return fail(ErrorCode::kIo, "cannot read " + name + ": " + std::strerror(errno));
+  if (!file)
+    return fail(ErrorCode::kIo, "cannot read " + name + ": " + std::generic_category().message(errno));
   auto source = std::make_unique<Y4mSource>(name, std::move(file));
   if (auto read = source->read_header(); !read) return fail(read.error());
   return source;

@@ -35,7 +35,7 @@ struct ChromaName {
   Y4mLayout layout;
 };
 
-// Longer names first where one begins another.
+// Where one name is a prefix of another, the longer one comes first.
 constexpr std::array<ChromaName, 9> kChromaNames{{
     {"420jpeg", {true, false, 1, 1, 8}},
     {"420mpeg2", {true, false, 1, 1, 8}},
@@ -71,7 +71,7 @@ void parse_extension(std::string_view text, VideoFormat& format) {
   if (text == "MATRIX=BT709") format.matrix = ColourMatrix::kBt709;
 }
 
-/// Text of a file in a form fit for an error message.
+/// Text from a file, made safe for an error message.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMaxQuote = 24;
   std::string quote(text.substr(0, kMaxQuote));
@@ -106,7 +106,7 @@ bool parse_tag(std::string_view tag, Y4mHeader& header) {
     case 'X':
       parse_extension(value, format);
       return true;
-    default:  // 'I', interlacing, does not change the samples; others are for others
+    default:  // 'I', interlacing, does not change the samples; other tags are not ours
       return true;
   }
 }

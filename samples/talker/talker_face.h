@@ -1,11 +1,11 @@
-// What a face can do, and how that moves its skin: the talker's expression and the displacement field.
+// The talker's expression, and the displacement field by which it moves the skin.
 //
 // Head frame: x right in the picture (the subject's left), y down, z away from the viewer; right-handed.
 // Origin: midway between the eye centres in x and y, in the middle of the head in z.
 // Unit: the eye distance. "right" and "left" in names are the subject's own.
 //
 // The field is Eulerian: given a point p of the moved face it says where that skin was at rest, q = p - d(p).
-// The shape and the paint are written for q; a landmark goes the other way, p = q + d(p), by iteration.
+// Shape and paint are defined for q; landmarks need the inverse, p = q + d(p), found by iteration.
 #pragma once
 
 #include <algorithm>
@@ -70,13 +70,13 @@ struct BrowLine {
 inline constexpr float kBrowInnerX = 0.21f, kBrowOuterX = 0.90f;
 [[nodiscard]] BrowLine brow_line(float u);
 
-/// Where the skin at p (on the moved face) is when the face is at rest.
+/// Rest position of the skin that is at p on the moved face.
 [[nodiscard]] glm::vec3 rest_of(glm::vec3 p, const Expression& e);
 
 /// Inverse of rest_of. `lip`: -1 or +1 for a point on the edge of the upper or lower inner lip, else 0.
 [[nodiscard]] glm::vec3 moved(glm::vec3 rest, const Expression& e, int lip = 0);
 
-/// Where p lies with respect to the opening of the mouth.
+/// Position of p relative to the opening of the mouth.
 struct MouthPlace {
   float u;      ///< -1..1 from the right corner to the left
   float upper;  ///< height of the upper lip's edge at u, eye distances

@@ -6,7 +6,7 @@
 namespace fbs::talker {
 namespace {
 
-/// Numbers in a row, each behind a comma.
+/// Numbers in a row, each after a comma.
 void write_numbers(std::ostream& out, std::span<const float> numbers) {
   for (const float number : numbers) out << ',' << number;
 }

@@ -10,7 +10,7 @@ namespace fbs::talker {
 /// The stream header line of a clip; 4:2:0 with chroma in the middle of its four luma samples ("C420jpeg").
 void write_y4m_header(std::ostream& out, const Settings& settings);
 
-/// One picture behind its FRAME line.
+/// One picture, with its FRAME line.
 void write_y4m_frame(std::ostream& out, const Picture& picture);
 
 /// Names of the columns: frame, rx_deg (pitch), ry_deg (yaw), rz_deg (roll), tx_px, ty_px, scale (eye

@@ -1,7 +1,7 @@
 // The talker's head as a surface: distance function, ray hits, landmarks. Frame and unit as in talker_face.h.
 //
 // Skull and jaw are ellipsoids joined smoothly; brow ridge, sockets, nose, cheeks, lips and chin are soft
-// bumps on them; ears and the volume of the hair come on top. Nothing here knows the codec's head.
+// bumps on them; ears and hair are added. Nothing here depends on the codec's head.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct SurfacePoint {
   glm::vec3 rest;      ///< the same skin at rest
 };
 
-/// What a ray finds.
+/// Result of tracing a ray.
 struct Trace {
   std::optional<SurfacePoint> point;  ///< the first point of the head on the ray, if there is one
   float depth = 0;                    ///< its distance from the ray's origin
@@ -40,7 +40,7 @@ struct Trace {
 };
 
 /// Follows the ray origin + t * direction, t >= 0, to the moved head; direction has length 1.
-/// @param near  depth at which a ray less than a pixel away found the head: starts a little before it
+/// @param near  depth at which a neighbouring ray hit the head; tracing starts slightly before it
 [[nodiscard]] Trace trace(glm::vec3 origin, glm::vec3 direction, const Expression& e,
                           std::optional<float> near = std::nullopt);
 

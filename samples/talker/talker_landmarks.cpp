@@ -1,4 +1,4 @@
-// The 68 landmarks of talker_head.h: where they are at rest, found once, and how they move.
+// The 68 landmarks of talker_head.h: their rest positions, computed once, and how they move.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,8 +22,8 @@ bool covered(float x, float y) {
   return false;
 }
 
-/// The border of the face in direction `angle` around the middle of the face; a little inside, where the
-/// surface still is in view when the head turns a few degrees.
+/// The border of the face in direction `angle` from the middle of the face; slightly inside, where the
+/// surface stays visible when the head turns a few degrees.
 glm::vec3 border(float angle) {
   constexpr float kCentreY = 0.20f, kInside = 0.965f;
   const float cx = -std::cos(angle), cy = std::sin(angle);

@@ -1,4 +1,4 @@
-// talker: renders a talking head nobody filmed, with exact truth. See samples/README.md.
+// talker: renders a talking head with exact truth. See samples/README.md.
 #include <fstream>
 #include <iostream>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace fbs::talker;
 
-/// Writes one file by `write`; says so on standard error when that fails.
+/// Writes one file with `write`; reports failure on standard error.
 template <class Write>
 bool write_file(const std::string& path, Write write) {
   std::ofstream out(path, std::ios::binary);

@@ -131,9 +131,10 @@ glm::vec2 strength(const std::vector<Event>& events, float time_s, float flat) {
 
 /// One axis after the other, 3 s each: 0 .. 1 .. 0 .. -1 .. 0.
 float turn(float time_s, int axis) {
-  constexpr float kTurn_s = 3.0f;
-  const float in_round = std::fmod(time_s, 3 * kTurn_s);
-  return static_cast<int>(in_round / kTurn_s) == axis ? std::sin(2 * kPi * in_round / kTurn_s) : 0.0f;
+  constexpr float kTurnSeconds = 3.0f;
+  const float in_round = std::fmod(time_s, 3 * kTurnSeconds);
+  return static_cast<int>(in_round / kTurnSeconds) == axis ? std::sin(2 * kPi * in_round / kTurnSeconds)
+                                                           : 0.0f;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the talker does over time: settings, head pose and expression of every frame. This is the exact truth.
+// Motion of the talker: settings, head pose and expression of every frame. This is the exact truth.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 namespace fbs::talker {
 
 enum class Motion : std::uint8_t {
-  kDefault,  ///< talks, raises brows, blinks, looks about, turns the head
+  kDefault,  ///< talks, raises brows, blinks, looks around, turns the head
   kTurns,    ///< turns the head about one axis after the other, face neutral
   kTalk,     ///< talks and blinks; the head moves by a quarter of its amplitudes
   kBrows,    ///< raises both brows, the right, the left, ...; head held
   kBlink,    ///< blinks every 0.8 s, sometimes with one eye; head held
-  kLong,     ///< as default, but played to and fro: the last frame equals the first
+  kLong,     ///< like default, but forwards and then backwards: the last frame equals the first
 };
 
 struct Settings {
@@ -34,7 +34,7 @@ struct Settings {
   float scale = 0.06f;         ///< amplitude of the change of size, fraction
   float light = 0;             ///< amplitude of the change of light, fraction
   float eye_distance = 0.15f;  ///< of the frontal face in frame 0, fraction of the picture's height
-  bool still = false;          ///< pose stays that of frame 0; the face goes on
+  bool still = false;          ///< the pose stays that of frame 0; the face keeps moving
   Motion motion = Motion::kDefault;
 };
 

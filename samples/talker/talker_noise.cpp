@@ -6,7 +6,7 @@ namespace fbs::talker {
 
 namespace {
 
-/// Random numbers on a 32 x 32 x 32 lattice that repeats; small enough to stay in the nearest cache.
+/// Random numbers on a 32 x 32 x 32 lattice that repeats; small enough for the first-level cache.
 constexpr std::uint32_t kLatticeBits = 5, kLatticeMask = (1u << kLatticeBits) - 1;
 
 struct Lattice {
@@ -29,7 +29,7 @@ float value_noise(glm::vec3 p, std::uint32_t seed) {
   };
   const std::int32_t kx = floor_of(p.x), ky = floor_of(p.y), kz = floor_of(p.z);
   const auto fx = static_cast<float>(kx), fy = static_cast<float>(ky), fz = static_cast<float>(kz);
-  const std::uint32_t shift = hash(seed);  // seeds look at different places of the lattice
+  const std::uint32_t shift = hash(seed);  // different seeds use different parts of the lattice
   const std::uint32_t ix = static_cast<std::uint32_t>(kx) + shift;
   const std::uint32_t iy = static_cast<std::uint32_t>(ky) + (shift >> 8);
   const std::uint32_t iz = static_cast<std::uint32_t>(kz) + (shift >> 16);

@@ -1,4 +1,4 @@
-// What the talker's head is painted with: skin, brows, eyes, lips, teeth, hair. Colours are linear RGB, 0..1.
+// The paint of the talker's head: skin, brows, eyes, lips, teeth, hair. Colours are linear RGB, 0..1.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ struct Look {
   std::uint32_t seed = 1;
 };
 
-/// One of a few looks; the same seed always gives the same person.
+/// One of a few appearances; the same seed always gives the same person.
 [[nodiscard]] Look look_of(std::uint32_t seed);
 
-/// What the light meets at a point of the surface.
+/// Material at a point of the surface.
 struct Material {
   glm::vec3 albedo{0.5f};
   float occlusion = 1;   ///< factor on all light
@@ -26,17 +26,18 @@ struct Material {
   glm::vec3 normal{0};   ///< head frame; the surface's own when zero
 };
 
-/// How a ray arrives at the surface.
+/// A ray arriving at the surface.
 struct Arrival {
   glm::vec3 direction;    ///< of the ray, head frame, length 1
   glm::vec3 highlight;    ///< direction halfway between the key light and the viewer, head frame, length 1
-  float pixels_per_unit;  ///< pixels in an eye distance: detail finer than a pixel is left out
+  float pixels_per_unit;  ///< pixels per eye distance: limits the detail
 };
 
 [[nodiscard]] Material paint(const SurfacePoint& point, const Expression& e, const Look& look,
                              const Arrival& arrival);
 
-/// Noise of `octaves` frequencies from `frequency` lumps per unit up, without what pixels cannot show.
+/// Noise of `octaves` frequencies, starting at `frequency` lumps per unit; detail finer than a pixel is left
+/// out.
 [[nodiscard]] float texture_noise(glm::vec3 p, float frequency, int octaves, float pixels_per_unit,
                                   std::uint32_t seed);
 

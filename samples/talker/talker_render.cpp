@@ -57,9 +57,9 @@ class FrameRenderer {
     body_ = {in_body({0, 1.1f, 0.25f}), in_body(moved({0, 1.82f, -0.6f}, moment.expression)), unit_px_};
   }
 
-  /// Display colour of the pixel at `centre`, given what is behind everything. What the first sample finds
-  /// helps the others: they start near its depth, share its normal on the same piece of surface, or need no
-  /// ray when it passed far from the head.
+  /// Display colour of the pixel at `centre`, given the background. The first sample speeds up the others:
+  /// they start near its depth, share its normal on the same piece of surface, or need no ray when it passed
+  /// far from the head.
   [[nodiscard]] glm::vec3 colour(glm::vec2 centre, glm::vec3 behind) const {
     glm::vec3 sum{0};
     std::optional<SurfacePoint> first;

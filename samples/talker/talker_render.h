@@ -14,8 +14,8 @@
 
 namespace fbs::talker {
 
-/// A clip of somebody who was never filmed, with its truth. Frames may be asked for in any order; the same
-/// settings give the same bytes on the same machine.
+/// A rendered clip of a talking head, with its truth. Frames may be requested in any order; the same settings
+/// give the same bytes on the same machine.
 class Talker {
  public:
   explicit Talker(const Settings& settings);
@@ -28,7 +28,7 @@ class Talker {
   /// iBUG-68 points in pixels, (0, 0) at the centre of the top left pixel; may lie on hidden skin.
   [[nodiscard]] std::array<glm::vec2, kLandmarkTotal> points(int frame) const;
 
-  /// Which of points(frame) the viewer sees; false when the head itself hides them.
+  /// Which of points(frame) are visible; false when the head itself hides them.
   [[nodiscard]] std::array<bool, kLandmarkTotal> visible(int frame) const;
 
   [[nodiscard]] Picture picture(int frame) const;

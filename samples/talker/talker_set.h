@@ -12,8 +12,8 @@ namespace fbs::talker {
 /// Linear colour of the wall; place in picture heights, x from the middle, y from the top.
 [[nodiscard]] glm::vec3 background(glm::vec2 place, const Look& look, float pixels_per_height);
 
-/// How the body stands in a frame; body frame: eye distances of frame 0, origin where the head's origin
-/// rests.
+/// Position of the body in a frame; body frame: eye distances of frame 0, origin at the head's origin at
+/// rest.
 struct BodyState {
   glm::vec2 neck_top;  ///< where the neck meets the head
   glm::vec2 chin;      ///< lowest point of the chin: below it is shadow

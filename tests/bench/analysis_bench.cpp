@@ -1,4 +1,5 @@
-// The stages of the analysis, picture after picture of a CIF talker, and all of it together: Encoder::push.
+// The stages of the analysis, one picture of a CIF talker after the other, and all of them together:
+// Encoder::push.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -10,7 +11,7 @@
 namespace fbs {
 namespace {
 
-/// Goes round the clip, one picture an iteration, and says pictures per second.
+/// Loops over the clip, one picture per iteration, and reports pictures per second.
 template <class Stage>
 void each_picture(benchmark::State& state, Stage stage) {
   const auto& round = analysis_clip().round();
@@ -56,7 +57,7 @@ void FeatureTrack(benchmark::State& state) {
 }
 BENCHMARK(FeatureTrack)->Unit(benchmark::kMicrosecond);
 
-/// One feature by itself: patch and feature map with `look`, else the descent alone from where it was.
+/// One feature by itself: patch and feature map with `look`, else the descent alone from its last position.
 void one_snake(benchmark::State& state, FeatureId id, bool look) {
   const AnalysisClip& clip = analysis_clip();
   FeatureSnake snake = FeatureSnake::make(id, clip.geometry());
@@ -112,8 +113,8 @@ void TrackPlan(benchmark::State& state) {
 }
 BENCHMARK(TrackPlan)->Unit(benchmark::kMillisecond);
 
-/// Everything that a picture costs once the scene is under way: analysis, its share of the motion coder. The
-/// two seconds that the surround is learned from lie before the clock starts.
+/// Total time per picture once the scene has started: analysis and its share of motion coding. The two
+/// seconds from which the surround is learned come before the clock starts.
 void EncoderPush(benchmark::State& state, bool snakes) {
   AnalysisClip& clip = analysis_clip();
   EncoderSettings settings;
@@ -140,7 +141,7 @@ void EncoderPush(benchmark::State& state, bool snakes) {
 BENCHMARK_CAPTURE(EncoderPush, all, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(EncoderPush, without_snakes, false)->Unit(benchmark::kMicrosecond);
 
-/// Registers a pair of benchmarks for each kind of snake; right and left cost alike.
+/// Registers a pair of benchmarks for each kind of snake; right and left take the same time.
 const bool kRegistered = [] {
   for (const FeatureId id :
        {FeatureId::kMouthOuter, FeatureId::kMouthInner, FeatureId::kBrowRight, FeatureId::kUpperLidRight}) {

@@ -1,5 +1,5 @@
-// The talker as the analysis meets it, to and fro, with what each stage hands to the next worked out once: so
-// that every stage can be timed alone, on what it really gets.
+// The talker, forwards and backwards, with the output of each stage computed once, so that each stage can be
+// timed alone on its real input.
 #pragma once
 
 #include <array>
@@ -30,8 +30,7 @@ class AnalysisClip {
 
   AnalysisClip();
 
-  /// A round is 2 (kPictures - 1) pictures, behind which the first follows again as the neighbour of the
-  /// last.
+  /// A round is 2 (kPictures - 1) pictures; then the first follows again, as the neighbour of the last.
   [[nodiscard]] const std::vector<AnalysedPicture>& round() const { return round_; }
 
   [[nodiscard]] const Setup& setup() const { return setup_; }
@@ -57,7 +56,7 @@ class AnalysisClip {
   std::vector<AnalysedPicture> round_;
 };
 
-/// Made when it is asked for first: benchmarks that are filtered out cost nothing.
+/// Made on first use: benchmarks that are filtered out cost nothing.
 [[nodiscard]] AnalysisClip& analysis_clip();
 
 }  // namespace fbs

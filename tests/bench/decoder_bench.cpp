@@ -21,7 +21,7 @@ void rasterise(benchmark::State& state, Reading reading) {
   Plane target(kWidth, kHeight);
   const PlanePair pair{&pattern, &target};
   const SampleArea area{0, 0, kWidth, kHeight};
-  // Half the picture; the texture a little turned.
+  // Half the picture; the texture slightly rotated.
   const int in = reading == Reading::kAtBorder ? 0 : 256;
   RasterTriangle t;
   t[0] = {{0, 0}, {in, in}, 0};
@@ -30,7 +30,7 @@ void rasterise(benchmark::State& state, Reading reading) {
   DepthPlane depth;
   depth.reset(kWidth, kHeight, area);
   for (auto _ : state) {
-    for (RasterVertex& v : t) --v.depth;  // always nearer than before
+    for (RasterVertex& v : t) --v.depth;  // always closer than before
     draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, reading == Reading::kWithDepth ? &depth : nullptr);
     benchmark::DoNotOptimize(target.samples.data());
   }

@@ -25,7 +25,7 @@ CodedState seen() {
   return state;
 }
 
-/// Groups as an encoder writes them: a knot in four pictures or so, small changes.
+/// Groups like those of the encoder: about one knot in four pictures, small changes.
 std::vector<MotionGroup> groups(const Setup& setup, int count) {
   std::mt19937 random(1);
   const CodedLimits limits(setup.steps, setup.parts);

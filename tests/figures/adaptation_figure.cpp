@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kPanelWidth = 300;  // pixels
 
-/// The generic head where the eyes say it is and as large as they say.
+/// The generic head, positioned and scaled by the eyes.
 std::vector<glm::dvec2> scaled_head(const Pose& pose) {
   const PoseProjection projection(pose);
   std::vector<glm::dvec2> out;
@@ -18,7 +18,7 @@ std::vector<glm::dvec2> scaled_head(const Pose& pose) {
   return out;
 }
 
-/// The whole head with some of what is round it.
+/// The whole head with some margin.
 cv::Rect2d head_part(const Pose& pose) {
   const double eye = pose.eye_distance_px();
   return {pose.shift.x - 1.9 * eye, pose.shift.y - 1.9 * eye, 3.8 * eye, 4.4 * eye};

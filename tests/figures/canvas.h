@@ -1,4 +1,4 @@
-// A piece of a picture, enlarged, to draw on in the picture's own coordinates.
+// An enlarged part of a picture, to draw on in picture coordinates.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -25,7 +25,7 @@ class Canvas {
   /// @param width_px  of the canvas, even; its height follows from the part's shape
   Canvas(const Picture& picture, const VideoFormat& format, const cv::Rect2d& part, int width_px);
 
-  /// A blank one.
+  /// A blank canvas.
   Canvas(const cv::Rect2d& part, int width_px, const cv::Scalar& paper);
 
   void curve(std::span<const glm::dvec2> points, bool closed, const cv::Scalar& colour, int width_px = 2);

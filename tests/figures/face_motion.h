@@ -11,7 +11,7 @@ namespace fbs::figures {
 
 using Landmarks = std::array<glm::dvec2, kLandmarkCount>;  ///< iBUG-68, pixels
 
-/// Measures that do not change with size, place and roll; eye distances.
+/// Measures independent of size, position and roll; eye distances.
 struct FaceMotion {
   double mouth_height = 0;  ///< between the middles of the outer lips
   double brow_raise = 0;    ///< from the eyes' corners to the brows, mean of both
@@ -20,12 +20,12 @@ struct FaceMotion {
 
 [[nodiscard]] FaceMotion face_motion(const Landmarks& points);
 
-/// Below it are `share` of the values that are not nan.
+/// Quantile: `share` of the values that are not nan are below it.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 /// Pictures of one motion in which the measure rises in even steps from its low values (5 % of all are lower)
-/// to its high ones (2 % are higher). Of all stretches of a second the one that comes nearest to these steps.
-/// @param measure  of each picture; nan where it is not known, but not everywhere
+/// to its high ones (2 % are higher). Of all intervals of a second, the one closest to these steps.
+/// @param measure  of each picture; nan where unknown, but not everywhere
 /// @param count    at least 2, at most as many as there are pictures
 [[nodiscard]] std::vector<int> rising(const std::vector<double>& measure, int count);
 

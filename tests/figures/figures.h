@@ -1,4 +1,4 @@
-// The paper's figures, drawn from what this codec does. Figure 2 needs no footage, the others one each.
+// The paper's figures, drawn by this codec. Figure 2 needs no footage, the others one each.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@ namespace fbs::figures {
 
 /// Lips' height with and without repulsion where teeth appear; eye distances.
 struct TeethHeights {
-  double truth = 0;  ///< 0 when nobody knows
+  double truth = 0;  ///< 0 when unknown
   double without = 0, with = 0;
 };
 
@@ -22,7 +22,7 @@ struct SnakeFigure {
 };
 [[nodiscard]] SnakeFigure snake_figure(const Footage& footage, const Followed& followed);
 
-/// Also Figure 1: the painted mouth in which nothing but the teeth changes.
+/// Also Figure 1: the painted mouth, in which only the teeth change.
 [[nodiscard]] SnakeFigure painted_snake_figure();
 
 /// Figure 2: the generic wire-frame, front and side view; hidden lines show.
@@ -31,7 +31,7 @@ struct SnakeFigure {
 /// Figure 3: (a) source, (b) reference points, (c) scaled wire-frame, (d) adapted wire-frame.
 [[nodiscard]] Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& followed);
 
-/// Figure 5: the mouth opens. Above the sources with their snakes, below what the decoder makes of them.
+/// Figure 5: the mouth opens. Above the sources with their snakes, below the decoded pictures.
 [[nodiscard]] Result<cv::Mat3b> mouth_figure(const Footage& footage, const Followed& followed);
 
 /// Figure 6: the brows rise, and a blink.

@@ -1,5 +1,4 @@
-// What the figures are made of: a sequence of pictures, what is true about it, and what the codec makes of
-// it.
+// Input of the figures: a sequence of pictures, its truth, and the codec's results.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +15,13 @@
 namespace fbs::figures {
 
 struct Footage {
-  std::string name;  ///< begins the names of its figures' files
+  std::string name;  ///< prefix of the file names of its figures
   VideoFormat format;
   std::vector<Picture> pictures;
-  std::vector<Landmarks> truth;  ///< of each picture; empty when nobody knows
+  std::vector<Landmarks> truth;  ///< of each picture; empty when unknown
 };
 
-/// A talking head of samples/, near enough to fill the picture.
+/// A talking head of samples/, close enough to fill the picture.
 [[nodiscard]] Footage talker_footage();
 
 /// The first pictures of a video file.
@@ -37,7 +36,7 @@ struct Followed {
   std::vector<Pose> poses;  ///< of each picture, as decoded
 };
 
-/// @return kNoFace when the first picture shows none: there would be nothing to adapt the wire-frame to
+/// @return kNoFace when the first picture shows none: the wire-frame cannot be adapted
 [[nodiscard]] Result<Followed> follow(const Footage& footage);
 
 /// Decodes these pictures of a stream, in ascending order of number, each once.
@@ -47,7 +46,7 @@ struct Followed {
 /// The curve of a feature that has a snake, as tracked, pixels.
 [[nodiscard]] const std::vector<glm::dvec2>& snake_of(const PictureAnalysis& analysis, FeatureId id);
 
-/// The truth where it is known; otherwise as tracked, nan where the tracker did not trust itself.
+/// The truth where it is known; otherwise as tracked, nan where the tracker's confidence was low.
 [[nodiscard]] std::vector<double> measure(const Footage& footage, const Followed& followed,
                                           double FaceMotion::*what);
 

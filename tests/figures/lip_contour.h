@@ -1,4 +1,4 @@
-// The outer lips' snake by itself, with its repulsion as strong as one likes: what the term is for.
+// The snake of the outer lips alone, with adjustable repulsion, to show the effect of this term.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,12 @@
 
 namespace fbs {
 
-/// Follows the outer lips from picture to picture as the paper does: a descent starts where the one before
-/// has ended. The encoder's own tracker also tries where the optical flow took the lips; that help is left
-/// out, so that nothing but the energies holds the curve.
+/// Tracks the outer lips as in the paper: each descent starts where the last one ended. The encoder's tracker
+/// also starts from the optical flow; this is left out here, so that only the energies hold the curve.
 class LipContour {
  public:
-  /// @param first      with the mouth closed; what lips look like is learned from it
-  /// @param repulsion  factor on the encoder's own weight: 0 is the paper's model before it had the term
+  /// @param first      with the mouth closed; the appearance of the lips is learned from it
+  /// @param repulsion  factor on the encoder's own weight: 0 switches the term off
   LipContour(const Geometry& geometry, const Pose& pose, const Picture& first, double repulsion);
 
   void track(const Picture& picture, const Pose& pose);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kPanelWidth = 240;  // pixels
 
-/// What all chosen pictures show of the face, so that its motion is seen against the panels' borders.
+/// The common part of the face in all chosen pictures, so that its motion is visible against the panel
+/// borders.
 cv::Rect2d face_part(const Followed& followed, const std::vector<int>& numbers, const cv::Rect2d& whole) {
   glm::dvec2 low(1e9), high(-1e9);
   for (const int i : numbers) {

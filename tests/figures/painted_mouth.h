@@ -8,15 +8,15 @@
 
 namespace fbs {
 
-/// The generic head as it is: every vertex of the painted mouth lies where its table has it.
+/// The unchanged generic head: every vertex of the painted mouth is at its table position.
 [[nodiscard]] Geometry painted_geometry();
 
 /// Frontal, in the middle of the picture.
 [[nodiscard]] Pose painted_pose();
 
 /// BT.601, limited range.
-/// @param open  how far the lower lip's middle has sunk, eye distances; 0: closed
-/// @param teeth  share of the gap between the lips that they fill, from above; the rest is dark
+/// @param open  how far the middle of the lower lip has moved down, eye distances; 0: closed
+/// @param teeth  fraction of the gap between the lips that they fill, from above; the rest is dark
 [[nodiscard]] Picture painted_mouth(double open, double teeth);
 
 /// Height of the outer lips in their middle, eye distances.

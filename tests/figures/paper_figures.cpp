@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Exceptions end here, in the program that nobody links.
+/// Exceptions end here.
 template <class T>
 T must(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().text);
@@ -52,7 +52,7 @@ std::vector<fs::path> videos(const fs::path& folder) {
   return out;
 }
 
-/// One clip that fails does not spoil the others.
+/// A clip that fails does not affect the others.
 int draw_clips(const fs::path& folder, const fs::path& out) {
   int failed = 0;
   for (const fs::path& video : videos(folder)) {

@@ -29,8 +29,8 @@ struct RepulsionRun {
                                    std::string caption) const;
 };
 
-/// As many pictures a second as the paper's machine tracked, 12: with 30 the lips part slowly enough for the
-/// snake to hold without help.
+/// The paper's 12 pictures per second: at 30 the lips part slowly enough for the snake to follow without
+/// help.
 [[nodiscard]] RepulsionRun run_at_papers_rate(const Footage& footage, const Followed& followed);
 
 /// The painted mouth as it opens, stays open for a moment and shuts slowly, teeth in it.
@@ -42,8 +42,7 @@ struct PaintedRun {
 };
 /// @param step  how much farther it opens from one picture to the next, eye distances
 [[nodiscard]] PaintedRun run_painted_mouth(double step);
-inline constexpr double kPaintedOpen =
-    0.40;  ///< how far it opens, eye distances; talking seldom goes farther
+inline constexpr double kPaintedOpen = 0.40;  ///< how far it opens, eye distances; rarely exceeded in speech
 
 /// 4 : 3 about the middle of points.
 [[nodiscard]] cv::Rect2d part_around(const std::vector<glm::dvec2>& points, double width);

@@ -37,7 +37,7 @@ Panel mouth_panel(const Footage& footage, const Followed& followed, int picture,
   return {canvas.image(), caption + ", picture " + std::to_string(picture)};
 }
 
-/// True heights of the outer lips at a run's pictures, eye distances; empty when nobody knows them.
+/// True heights of the outer lips at a run's pictures, eye distances; empty when unknown.
 std::vector<double> true_heights(const Footage& footage, const RepulsionRun& run) {
   std::vector<double> out;
   if (footage.truth.empty()) return out;
@@ -50,7 +50,7 @@ std::vector<double> true_heights(const Footage& footage, const RepulsionRun& run
 SnakeFigure snake_figure(const Footage& footage, const Followed& followed) {
   const auto mouth = rising(measure(footage, followed, &FaceMotion::mouth_height), 2);
   const auto brow = rising(measure(footage, followed, &FaceMotion::brow_raise), 2);
-  // Where nobody knows the truth, a mouth that the snake has lost may count as closed.
+  // Without truth, a mouth that the snake has lost may count as closed.
   const std::string tracked = footage.truth.empty() ? " as tracked" : "";
   const std::vector<Panel> snakes = {mouth_panel(footage, followed, mouth.front(), "(a) closed" + tracked),
                                      mouth_panel(footage, followed, mouth.back(), "(b) opened" + tracked),
@@ -75,7 +75,7 @@ SnakeFigure painted_snake_figure() {
   const PaintedRun fast = run_painted_mouth(kPaintedOpen), slow = run_painted_mouth(kSlowOpening);
   VideoFormat format;
   format.matrix = ColourMatrix::kBt601;
-  // The open mouth's curve where nothing has gone wrong shows where to look.
+  // The correct curve of the open mouth tells which part of the picture to show.
   const cv::Rect2d part =
       part_around(slow.run.outline_with[slow.open_at], kPartWidth * painted_pose().eye_distance_px());
   const auto panel = [&](const PaintedRun& painted, std::size_t at, bool with, std::string caption) {

@@ -74,7 +74,7 @@ void mutate(Bytes& bytes, std::mt19937& random) {
   if (random() % 12 == 0) bytes.resize(random() % (bytes.size() + 1));
 }
 
-/// An exactly sized copy, so that a sanitizer sees a read one byte behind the end.
+/// An exactly sized copy, so that a sanitizer sees a read one byte past the end.
 void run(const Bytes& bytes) {
   const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
   std::copy(bytes.begin(), bytes.end(), exact.get());

@@ -1,6 +1,6 @@
 # cmake -D ROOT=<repository> -P check_includes.cmake
-# Folders are floors, and so are the rooms inside them: a file includes what lies on its own floor or below. The lowest
-# comes first. What stands directly in bitstream/ (the plain data of the syntax) is below its payloads; what stands
+# Folders are floors, and so are the rooms inside them: a file includes files on its own floor or below. The lowest comes
+# first. What is directly in bitstream/ (the plain data of the syntax) is below its payloads; what stands
 # directly in decoder/ and encoder/ joins their rooms and is above them.
 cmake_minimum_required(VERSION 3.25)
 set(floors

@@ -1,5 +1,5 @@
 # cmake -D PROGRAM=<executable that links fbs_decoder alone> -D READELF=<readelf> -D LDD=<ldd> -P check_links.cmake
-# What goes into players and phones needs no OpenCV, OpenImageIO or tinygltf: neither by name nor behind another library.
+# The decoder, which goes into players and phones, links no OpenCV, OpenImageIO or tinygltf, directly or indirectly.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${READELF} -d ${PROGRAM} OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${LDD} ${PROGRAM} OUTPUT_VARIABLE all COMMAND_ERROR_IS_FATAL ANY)

@@ -1,4 +1,4 @@
-"""The real clips and what is asked of each: clip_floors.txt."""
+"""The real clips and the requirements on each: clip_floors.txt."""
 import dataclasses
 import json
 import pathlib
@@ -14,10 +14,10 @@ REASON_TO_SKIP = "the clips are not part of the repository; FBS_SHARED=FOLDER na
 @dataclasses.dataclass
 class Row:
     clip: str
-    frames: int           # the first so many are coded
-    face_db: float        # PSNR of luma in the decoded mesh, at least
-    frame_db: float       # over the whole picture, at least
-    startup_bytes: int    # at most, as all that follow
+    frames: int           # number of pictures to encode
+    face_db: float        # minimum luma PSNR in the decoded mesh
+    frame_db: float       # minimum over the whole picture
+    startup_bytes: int    # maximum, like all that follow
     motion_kbps: float
     total_kbps: float
 
@@ -41,8 +41,8 @@ FLOORS = read_floors()
 
 
 def first_pictures(test, clip, frames):
-    """Makes a Y4M file of the first `frames` pictures of `clip` in the folder of `test`, which is skipped where there is
-    no such clip. Returns its path."""
+    """Makes a Y4M file of the first `frames` pictures of `clip` in the folder of `test`, which is skipped where the clip
+    is missing. Returns its path."""
     path, out = CLIPS / (clip + ".mkv"), test.folder / "in.y4m"
     if not path.exists():
         raise unittest.SkipTest(f"no {path}: {REASON_TO_SKIP}")
@@ -52,7 +52,7 @@ def first_pictures(test, clip, frames):
 
 def measure(test, clip, frames):
     """Encodes and decodes the first `frames` pictures of `clip` at the default quality, in the folder of `test`, a
-    ProgramTest, which fails unless as many pictures of the same size and rate come back. Returns a Row."""
+    ProgramTest, which fails unless the same number of pictures, of the same size and rate, comes back. Returns a Row."""
     source = read_y4m(first_pictures(test, clip, frames)).shape
     test.succeed("encode", "in.y4m", "out.fbs")
     test.succeed("decode", "out.fbs", "out.y4m")

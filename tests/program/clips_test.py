@@ -1,5 +1,5 @@
-"""Real clips, from outside the repository: they come back whole, and no worse or larger than clip_floors.txt says.
-Skipped where ../shared/clips is missing; FBS_SHARED names another place."""
+"""Real clips from outside the repository: all pictures come back, within the limits of clip_floors.txt.
+Skipped where ../shared/clips is missing; FBS_SHARED names another folder."""
 from clips import FLOORS, Row, measure
 from harness import ProgramTest
 

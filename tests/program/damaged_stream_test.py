@@ -1,4 +1,4 @@
-"""Every whole packet of a damaged stream still decodes, and the damage is reported with its place."""
+"""Every intact packet of a damaged stream still decodes, and the damage is reported with its position."""
 from harness import FAILED, MOTION, TALK_FBS, ProgramTest, Y4m, packets
 
 
@@ -11,7 +11,7 @@ class DamagedStream(ProgramTest):
         self.assertGreaterEqual(len(self.motion), 3, "too few groups to test with")
 
     def keep_going(self, stream):
-        """Decodes what can be decoded. Returns the pictures and what was reported."""
+        """Decodes as much as possible. Returns the pictures and the messages."""
         self.write("bad.fbs", stream)
         done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -57,7 +57,7 @@ class DamagedStream(ProgramTest):
             pictures, report = self.keep_going(stream)
             self.assertEqual(pictures[:1], self.whole.pictures[:1])
             self.assertIn(f"bad.fbs: packet is damaged (at byte {packet[1]})", report)
-            self.assertIn(f"{len(self.whole.pictures) - len(pictures)} of {len(self.whole.pictures)} pictures are missing", report)
+            self.assertIn(f"{len(self.whole.pictures) - len(pictures)} of {len(self.whole.pictures)} pictures missing", report)
 
     def test_damage_without_keep_going_leaves_nothing(self):
         for packet in packets(self.stream):

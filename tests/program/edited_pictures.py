@@ -32,7 +32,7 @@ def covered(data, width, height, box, colour):
 
 
 def pushed_aside(data, width, height, by):
-    """The picture `by` (even) pixels farther right; its left column fills what comes in."""
+    """The picture moved `by` (even) pixels to the right; its left column fills the gap."""
     rows = Rows(data, width, height)
     for plane, step in zip(rows.planes, (by, by // 2, by // 2)):
         for row in plane:

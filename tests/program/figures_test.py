@@ -1,9 +1,9 @@
-"""The paper's figures can be drawn, and the one with the teeth shows what the repulsion is for."""
+"""The paper's figures can be drawn, and the one with teeth shows the effect of repulsion."""
 import re
 import struct
 import subprocess
 
-from harness import BUILD, SECONDS_AT_MOST, ProgramTest
+from harness import BUILD, MAX_SECONDS, ProgramTest
 
 TALKERS = ("talker_figure1.png", "talker_figure3.png", "talker_figure5.png", "talker_figure6.png")
 FIGURES = ("figure2.png", "painted_figure1.png", *TALKERS)
@@ -17,7 +17,7 @@ def png_size(data):
 class Figures(ProgramTest):
     def test_paper_figures(self):
         done = subprocess.run([BUILD / "paper_figures", self.folder / "out"], capture_output=True, text=True,
-                              timeout=SECONDS_AT_MOST)
+                              timeout=MAX_SECONDS)
         self.assertEqual(done.returncode, 0, done.stderr)
         files = self.files()
         self.assertEqual(sorted(files), sorted("out/" + name for name in FIGURES))

@@ -1,4 +1,4 @@
-"""Runs fbs as a user does and reads what it wrote. Python's standard library only."""
+"""Runs fbs as a user would, and reads its output. Python's standard library only."""
 import json
 import math
 import os
@@ -18,12 +18,11 @@ TALK_Y4M, TALK_FBS, TALK_TRUTH = (MATERIAL / name for name in ("talk.y4m", "talk
 CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
 
 FAILED = 2             # exit code of fbs
-SECONDS_AT_MOST = 240  # of any one command
+MAX_SECONDS = 240      # for any one command
 
 
 def make_material():
-    """A talker of 120 QCIF pictures, what is true about it, and its stream; and 150 pictures of one who is nearer and
-    turns more."""
+    """A talker of 120 QCIF pictures with its truth and its stream, and 150 pictures of one who is closer and turns more."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
     talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
@@ -32,17 +31,17 @@ def make_material():
 
 
 def talker(*arguments):
-    subprocess.run([TALKER, *arguments], check=True, timeout=SECONDS_AT_MOST)
+    subprocess.run([TALKER, *arguments], check=True, timeout=MAX_SECONDS)
 
 
 def ffmpeg(*arguments):
-    subprocess.run(["ffmpeg", "-v", "error", "-nostdin", "-y", *arguments], check=True, timeout=SECONDS_AT_MOST)
+    subprocess.run(["ffmpeg", "-v", "error", "-nostdin", "-y", *arguments], check=True, timeout=MAX_SECONDS)
 
 
 def ffprobe(path, entries, *options):
     """The JSON that ffprobe prints about the video stream of `path`."""
     done = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", entries, "-of", "json",
-                           *options, path], check=True, capture_output=True, timeout=SECONDS_AT_MOST)
+                           *options, path], check=True, capture_output=True, timeout=MAX_SECONDS)
     return json.loads(done.stdout)
 
 
@@ -88,7 +87,7 @@ def flat_y4m(width, height, pictures, luma=lambda x, y: 128):
 
 
 def packets(stream):
-    """(type, begin, end) of each packet of a whole stream (SPEC 3.1), check included."""
+    """(type, begin, end) of each packet of a complete stream (SPEC 3.1), checksum included."""
     at, found = 4, []
     while at < len(stream):
         begin, kind, length, shift = at, stream[at], 0, 0
@@ -108,7 +107,7 @@ MOTION = 5  # packet type
 
 
 class ProgramTest(unittest.TestCase):
-    """Each test has an empty folder, which is the working folder of what it runs."""
+    """Each test runs its programs in a new, empty folder."""
 
     def setUp(self):
         self._temporary = tempfile.TemporaryDirectory(prefix="fbs-test-")
@@ -116,13 +115,13 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(self._temporary.name)
 
     def fbs(self, *arguments, stdin=b"", stdout=subprocess.PIPE, environment=None, largest_file=None):
-        """Runs fbs to its end, whatever the outcome. `largest_file`, bytes, stands for a disk that fills."""
+        """Runs fbs to its end, whatever the outcome. `largest_file`, bytes, simulates a full disk."""
         def limit():
             if largest_file is not None:
                 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
                 resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
         return subprocess.run([FBS, *map(str, arguments)], input=stdin, stdout=stdout, stderr=subprocess.PIPE,
-                              cwd=self.folder, timeout=SECONDS_AT_MOST, preexec_fn=limit, env=environment)
+                              cwd=self.folder, timeout=MAX_SECONDS, preexec_fn=limit, env=environment)
 
     def succeed(self, *arguments, **keywords):
         """Runs fbs, which must exit with 0; returns its standard output."""
@@ -131,8 +130,8 @@ class ProgramTest(unittest.TestCase):
         return done.stdout
 
     def fail_cleanly(self, *arguments, says=(), **keywords):
-        """Runs fbs, which must fail as it promises: exit code 2, one line on standard error that holds the words of
-        `says`, nothing on standard output, and the folder as it was."""
+        """Runs fbs, which must fail cleanly: exit code 2, one line on standard error that contains the words of `says`,
+        nothing on standard output, and no change in the folder."""
         before = self.files()
         done = self.fbs(*arguments, **keywords)
         error = done.stderr.decode(errors="replace")

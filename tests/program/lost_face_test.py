@@ -1,7 +1,7 @@
-"""A face that is lost is found again, and the pictures in between are sane.
+"""A lost face is found again, and the pictures in between stay plausible.
 
-The talker's pictures are covered, pushed aside or blacked out; what is true about the face stays known all the time.
-Each test prints what it saw picture by picture where that is out of bounds."""
+The talker's pictures are covered, shifted or blacked out; the true position of the face is known all the time. Each test
+prints the pictures that are out of bounds."""
 import math
 import pathlib
 import statistics
@@ -13,14 +13,14 @@ from harness import CLOSE_TRUTH, CLOSE_Y4M, ProgramTest, read_y4m
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "truth"))
 import truth  # noqa: E402  (lives beside the programs that measure)
 
-FIRST_LOST = 70          # behind the two seconds that the encoder looks at before it writes
+FIRST_LOST = 70          # after the two seconds that the encoder collects first
 GONE = 30                # pictures, one second
-WITHIN = 15              # pictures from the return until it must have been found: half a second
+WITHIN = 15              # pictures from its return until it must be found: half a second
 FOUND_PERCENT = 8.0      # mean landmark error in eye distances; undisturbed it is 6.8
 SIZE_OFF, PLACE_OFF = 0.30, 1.0  # of the last good size; eye distances from the last good place
 FACE = range(17, 68)     # without the jaw, which is hidden at times
-GAP_DB = 16              # luma of the face in between, against what would be seen without the hand
-WORSE_DB = 1.0           # by how much the pictures after the return may be worse than without the loss
+GAP_DB = 16              # luma PSNR of the face in between, against the picture without the hand
+WORSE_DB = 1.0           # allowed loss of PSNR after the return, against the run without a loss
 
 
 def box_of(true, margin):
@@ -73,7 +73,7 @@ class LostFace(ProgramTest):
                 continue
             if abs(f.scale / good.scale - 1) > SIZE_OFF:
                 complaints.append(f"picture {i}: size {f.scale:.1f} px, was {good.scale:.1f}")
-            # Wild is what lies neither where the face was nor where it is: it may be found again elsewhere.
+            # A wild pose is neither where the face was nor where it is: the face may return elsewhere.
             farthest = max(min(truth.distance(p, q), truth.distance(p, true[i].points[k]))
                            for k, (p, q) in enumerate(zip(f.points, good.points)) if math.isfinite(p[0] + q[0]))
             if farthest > PLACE_OFF * good.scale:
@@ -87,7 +87,7 @@ class LostFace(ProgramTest):
         self.assertEqual(complaints, [])
 
     def check_pictures(self, decoded, sources, lost, back):
-        """`sources`: for each picture what may be shown, of which the nearest counts."""
+        """`sources`: the acceptable pictures for each picture; the closest one counts."""
         plain = self.decoded_plain()
         box = [box_of(t, 4) for t in self.true]
         box = [(max(0, l), max(0, t), min(self.width, r), min(self.height, b)) for l, t, r, b in box]
@@ -102,12 +102,12 @@ class LostFace(ProgramTest):
         self.assertGreater(ours, theirs - WORSE_DB)
 
     def decoded_plain(self):
-        """The clip that never lost the face."""
+        """The clip in which the face is never lost."""
         self.succeed("encode", CLOSE_Y4M, "plain.fbs", "--quiet")
         return self.decoded("plain.fbs")
 
     def test_without_a_loss_every_picture_is_good(self):
-        """Else the others say nothing."""
+        """Otherwise the other tests prove nothing."""
         found, _ = self.coded(self.clip.pictures)
         errors = [self.error(f, t) for f, t in zip(found, self.true, strict=True)]
         print(f"mean {statistics.fmean(errors):.1f} %, worst {max(errors):.1f} % at picture {errors.index(max(errors))}")
@@ -130,7 +130,7 @@ class LostFace(ProgramTest):
         self.cover(hand)
 
     def test_covered_before_the_stream_begins(self):
-        """In the two seconds from which the encoder learns what follows the head."""
+        """Within the two seconds from which the encoder learns the layers."""
         self.cover(hand, first=15)
 
     def test_a_hand_over_mouth_and_chin(self):
@@ -157,7 +157,7 @@ class LostFace(ProgramTest):
         self.check(found, self.true, lost, back)
 
     def cut_to_black(self, elsewhere=0):
-        """`elsewhere`: how far right of where it would be the face comes back, pixels."""
+        """`elsewhere`: how far to the right of its expected position the face returns, pixels."""
         pictures, back = list(self.clip.pictures), FIRST_LOST + GONE
         pictures[FIRST_LOST:back] = [black(pictures[0], self.width, self.height)] * GONE
         for i in range(back, len(pictures)):
@@ -172,5 +172,5 @@ class LostFace(ProgramTest):
         self.check_pictures(decoded, [self.clip.pictures, pictures], FIRST_LOST, FIRST_LOST + GONE)
 
     def test_cut_to_black_and_back_elsewhere(self):
-        """One and a half eye distances away: flow and alignment cannot reach that, the search must."""
+        """One and a half eye distances away: out of reach for flow and alignment, so the search must find it."""
         self.cut_to_black(elsewhere=2 * round(0.75 * self.true[0].scale))

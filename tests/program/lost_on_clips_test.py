@@ -1,5 +1,5 @@
-"""A second of black in real clips: the face is found again within half a second. What is asked for is where the same
-clip is followed without the black. Skipped where ../shared/clips is missing; FBS_SHARED names another place."""
+"""A second of black in real clips: the face is found again within half a second. The reference is
+the pose tracked without the black. Skipped where ../shared/clips is missing; FBS_SHARED names another folder."""
 import pathlib
 import statistics
 import sys
@@ -38,7 +38,7 @@ class LostOnClips(ProgramTest):
                for here, there in zip(found, plain, strict=True)]
         print("from the return on:", *(f"{v:.0f}" for v in off[BACK:]))
         late = [i - BACK for i in range(BACK + WITHIN, PICTURES) if not off[i] <= PERCENT]
-        self.assertEqual(late, [], "pictures behind the return in which the face is not where it is")
+        self.assertEqual(late, [], "pictures after the return in which the face is in the wrong place")
 
 
 for name in SAME_CLIPS:

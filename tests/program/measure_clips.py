@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Prints what the clips of clip_floors.txt measure now (FBS_BUILD says where fbs is, build/release without it).
+"""Measures the clips of clip_floors.txt (FBS_BUILD is the folder of fbs; default build/release).
 
-    measure_clips.py             the table
-    measure_clips.py --update    and writes it into clip_floors.txt, with the margins below
+    measure_clips.py             prints the table
+    measure_clips.py --update    also writes it into clip_floors.txt, with the margins below
 """
 import dataclasses
 import sys

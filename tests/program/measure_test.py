@@ -1,4 +1,4 @@
-"""What inspect, export and evaluate tell about a stream."""
+"""The output of inspect, export and evaluate."""
 import csv
 import json
 import math
@@ -20,22 +20,22 @@ def rows(path):
 
 class Measure(ProgramTest):
     def test_inspect_parts_sum_to_the_file(self):
-        told = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
+        reported = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
         size = os.path.getsize(TALK_FBS)
-        self.assertEqual(sum(told["bytes"][part] for part in PARTS), size)
-        self.assertEqual(told["bytes"]["total"], size)
-        self.assertTrue(0 < told["bytes"]["startup"] < size)
-        self.assertEqual((told["width"], told["height"], told["frames"], told["fps"]), (176, 144, 120, 30))
+        self.assertEqual(sum(reported["bytes"][part] for part in PARTS), size)
+        self.assertEqual(reported["bytes"]["total"], size)
+        self.assertTrue(0 < reported["bytes"]["startup"] < size)
+        self.assertEqual((reported["width"], reported["height"], reported["frames"], reported["fps"]), (176, 144, 120, 30))
 
     def test_inspect_motion_by_part_sums_to_the_motion(self):
-        told = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
-        self.assertEqual(set(told["motion"]), {*STATE, "durations", "packets"})
+        reported = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
+        self.assertEqual(set(reported["motion"]), {*STATE, "durations", "packets"})
         # Each is rounded to a byte.
-        self.assertAlmostEqual(sum(told["motion"].values()), told["bytes"]["motion"], delta=len(told["motion"]) / 2)
-        self.assertTrue(all(size >= 0 for size in told["motion"].values()), told["motion"])
-        self.assertGreater(told["motion"]["pose"], 50)
-        self.assertGreater(told["motion"]["mouth"], 50)
-        self.assertEqual(told["motion"]["durations"], 0, "a constant frame rate")
+        self.assertAlmostEqual(sum(reported["motion"].values()), reported["bytes"]["motion"], delta=len(reported["motion"]) / 2)
+        self.assertTrue(all(size >= 0 for size in reported["motion"].values()), reported["motion"])
+        self.assertGreater(reported["motion"]["pose"], 50)
+        self.assertGreater(reported["motion"]["mouth"], 50)
+        self.assertEqual(reported["motion"]["durations"], 0, "a constant frame rate")
 
     def test_startup_is_what_the_first_picture_needs(self):
         stream = TALK_FBS.read_bytes()
@@ -87,8 +87,8 @@ class Measure(ProgramTest):
             self.assertLess(math.sqrt(sum(v * v for v in off) / len(off)), degrees, angle)
 
     def test_evaluate_a_stream(self):
-        told = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--json"))
-        (point,) = told["points"]
+        reported = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--json"))
+        (point,) = reported["points"]
         size = os.path.getsize(TALK_FBS)
         self.assertEqual((point["frames"], point["bytes"]["total"]), (120, size))
         self.assertAlmostEqual(point["kbps"], size * 8 / 4 / 1000, places=6)

@@ -1,4 +1,4 @@
-"""Pictures in, stream, pictures out: same size, count and rate, whatever carries them."""
+"""Encoding and decoding keep size, number and rate of the pictures, for every kind of file and pipe."""
 import os
 import select
 import signal
@@ -46,7 +46,7 @@ class RoundTrip(ProgramTest):
 
     def test_pictures_are_decoded_as_the_stream_arrives(self):
         decoder = subprocess.Popen([FBS, "decode", "-", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        decoder.stdin.write(TALK_FBS.read_bytes()[:-10])  # the last group is not whole, and the pipe stays open
+        decoder.stdin.write(TALK_FBS.read_bytes()[:-10])  # the last group is incomplete, and the pipe stays open
         decoder.stdin.flush()
         came, _, _ = select.select([decoder.stdout], [], [], 10)
         decoder.kill()

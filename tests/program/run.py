@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs the whole-program tests.
 
-    run.py [NAME ...]          all, or those named; FBS_BUILD says where fbs is, build/release without it
-    run.py --list              the names
-    run.py --make-material     what the tests share; run.py alone makes it when it is missing
+    run.py [NAME ...]          runs all tests, or those named; FBS_BUILD is the folder of fbs, default build/release
+    run.py --list              lists the names
+    run.py --make-material     makes the files that the tests share; run.py alone does so when they are missing
 """
 import pathlib
 import sys

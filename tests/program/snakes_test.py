@@ -1,4 +1,4 @@
-"""The contours carry the mouth: without them it does not move as the speaker's does."""
+"""The mouth moves because of its contours: without them it does not follow the speaker."""
 import csv
 
 from harness import ProgramTest, read_y4m, talker
@@ -16,7 +16,7 @@ class Snakes(ProgramTest):
         self.assertGreater(with_snakes.luma_psnr(source, mouth), without.luma_psnr(source, mouth) + 1)
 
     def mouth(self):
-        """The box that holds the lips of all pictures, from the talker's truth."""
+        """The bounding box of the lips of all pictures, from the talker's truth."""
         with open(self.folder / "talk.csv", newline="") as table:
             rows = list(csv.DictReader(table))
         xs, ys = ([float(row[axis + str(k)]) for row in rows for k in range(48, 68)] for axis in "xy")

@@ -9,7 +9,7 @@ class SourceKinds(ProgramTest):
         ffmpeg("-i", TALK_Y4M, "-frames:v", "20", self.short)
 
     def comes_back(self, source, at_least=28):
-        """Encodes and decodes `source`; the pictures must be near those of short.y4m."""
+        """Encodes and decodes `source`; the pictures must be close to those of short.y4m."""
         self.succeed("encode", source, "out.fbs")
         out, plain = self.decoded("out.fbs"), read_y4m(self.short)
         self.assertEqual(out.shape, plain.shape)
@@ -64,7 +64,7 @@ class SourceKinds(ProgramTest):
                 ffmpeg("-i", self.short, "-vf", "transpose=" + turn, "-c:v", "libx264", "-crf", "12", self.folder / "lying.mp4")
                 ffmpeg("-i", self.folder / "lying.mp4", "-c", "copy", "-metadata:s:v", "rotate=" + degrees,
                        self.folder / "in.mp4")
-                ffmpeg("-i", self.folder / "in.mp4", self.folder / "upright.y4m")  # turns as the file asks for
+                ffmpeg("-i", self.folder / "in.mp4", self.folder / "upright.y4m")  # rotates as the file requires
                 upright = read_y4m(self.folder / "upright.y4m")
                 self.assertGreater(upright.luma_psnr(read_y4m(self.short)), 28, "the test's own video is wrong")
                 self.comes_back("in.mp4")

@@ -1,4 +1,4 @@
-"""What the program says: help that teaches, a bar for people only, and nothing when told to be quiet."""
+"""Output on the terminal: help, a progress bar for terminals only, and silence with --quiet."""
 import os
 import pty
 import subprocess
@@ -51,14 +51,14 @@ class Terminal(ProgramTest):
     def test_encode_closes_with_one_line(self):
         done = self.fbs("encode", TALK_Y4M, "out.fbs")
         size = os.path.getsize(self.folder / "out.fbs")
-        self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, [\d.]+ kbit/s .*PSNR face [\d.]+ dB,"
-                                               r" frame [\d.]+ dB\n\Z")
+        self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, total [\d.]+ kbit/s \(motion [\d.]+\), PSNR face"
+                                               r" [\d.]+ dB, frame [\d.]+ dB\n\Z")
 
     def test_bar_on_a_terminal(self):
         try:
             ours, theirs = pty.openpty()
         except OSError as lacking:
-            raise unittest.SkipTest(f"no terminal to be had here: {lacking}")
+            raise unittest.SkipTest(f"no pseudo-terminal available: {lacking}")
         subprocess.run([FBS, "encode", TALK_Y4M, "out.fbs"], stderr=theirs, cwd=self.folder, check=True)
         os.close(theirs)
         text = os.read(ours, 1 << 16).decode()

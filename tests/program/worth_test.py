@@ -1,4 +1,4 @@
-"""What parts of the encoder are worth: without one the stream still decodes, and shows worse pictures."""
+"""Each optional part of the encoder improves the pictures; without it the stream still decodes."""
 import json
 
 from clips import first_pictures

@@ -1,11 +1,11 @@
-// long_run: a talker's clip played to and fro for ten minutes. Does the state end where it began?
+// long_run: a talker's clip played forwards and backwards for ten minutes. Does the state drift?
 //
 //   long_run [--pictures 15000] [--clip 150] [--size 176x144] [--noise 2] [--seed 1] [--quality 50]
 //
-// Each picture gets noise of its own, so that no two are alike and a walk would be seen. Nothing is kept but
-// one clip: pictures go into the encoder, its bytes into the decoder, and the decoded states are compared
-// with those of the second round at the same phase (in the first, what has no contour, like a pupil, still
-// finds its place). Exit code 1 when the end is not where the beginning was.
+// Each picture gets noise of its own, so that no two are identical and drift can accumulate. The pictures are
+// encoded and decoded, and the states compared with those of the second round at the same phase. (In the
+// first round, parts without a contour, such as pupils, are still converging.) Exit code 1 when the end
+// differs from the beginning.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -66,7 +66,7 @@ std::optional<Options> parse(int argc, char** argv) {
   return argc % 2 == 1 ? std::optional(o) : std::nullopt;
 }
 
-/// The clip to and fro: picture i, with noise that never comes again.
+/// The clip forwards and backwards: picture i, with noise that never repeats.
 class ToAndFro {
  public:
   explicit ToAndFro(const Options& o) : noise_(o.noise) {
@@ -77,7 +77,7 @@ class ToAndFro {
           std::lround(static_cast<float>(o.noise) * talker::normal_noise(i, o.talker.seed, 0, 0))));
   }
 
-  /// Pictures until the clip is where it was.
+  /// Pictures in one round.
   [[nodiscard]] int round() const { return 2 * (static_cast<int>(clip_.size()) - 1); }
 
   [[nodiscard]] Picture at(int i) const {
@@ -92,13 +92,13 @@ class ToAndFro {
   }
 
  private:
-  static constexpr std::uint32_t kTable = 65521;  // a prime: rows do not fall in step with it
+  static constexpr std::uint32_t kTable = 65521;  // a prime, so that rows do not align with it
   int noise_;
   std::vector<Picture> clip_;
   std::vector<int> table_;
 };
 
-/// A decoded state as it shows: pose, and where the vertices lie.
+/// A decoded state: pose and positions of the vertices.
 struct Shown {
   Pose pose;
   std::array<glm::dvec2, kVertexCount> vertices{};
@@ -110,7 +110,7 @@ struct Shown {
   }
 };
 
-/// How far apart two pictures are shown.
+/// Difference between two pictures.
 struct Apart {
   double degrees = 0, shift_px = 0, vertices_px = 0;
 
@@ -132,13 +132,13 @@ struct Apart {
   }
 };
 
-/// One round against the second.
+/// Differences between one round and the second.
 struct Round {
   int pictures = 0;
   Apart sum, worst;
-  glm::dvec3 turn{0};  ///< sums of signed differences: what does not average out is drift
+  glm::dvec3 turn{0};  ///< sums of signed differences: drift does not average out
   glm::dvec2 shift{0};
-  std::array<glm::dvec2, kVertexCount> moved{};  ///< of each vertex, the same sums, the pose's share included
+  std::array<glm::dvec2, kVertexCount> moved{};  ///< the same sums for each vertex, with the pose
 
   void take(const Shown& now, const Shown& first) {
     const Apart a(now, first);
@@ -152,7 +152,7 @@ struct Round {
   }
   [[nodiscard]] double drift_degrees() const { return kDegrees * glm::length(turn) / pictures; }
   [[nodiscard]] double drift_px() const { return glm::length(shift) / pictures; }
-  /// The vertex that has drifted farthest: what is off by itself is lost in a mean over 105.
+  /// The vertex that has drifted farthest: a single bad vertex would vanish in a mean over 105.
   [[nodiscard]] std::size_t strayed() const {
     const auto far = [](glm::dvec2 a, glm::dvec2 b) { return glm::length(a) < glm::length(b); };
     return static_cast<std::size_t>(std::max_element(moved.begin(), moved.end(), far) - moved.begin());
@@ -166,7 +166,7 @@ struct Round {
   }
 };
 
-/// Codes and decodes; `see` gets every decoded picture. Returns what went wrong.
+/// Encodes and decodes; `see` gets every decoded picture.
 template <class See>
 std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures, See see) {
   VideoFormat format;

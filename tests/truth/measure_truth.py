@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
-"""Measures the analysis on the generated talker, whose truth is exact, at several levels of camera noise.
+"""Compares the analysis with the exact truth of the generated talker, at several levels of camera noise.
 
     measure_truth.py [--build build/release] [--noise 0 3 6] [--seeds 1 2 3] [--frames 300] [--size 352x288]
                      [--talker "ARGS"] [--encode "ARGS"] [--true-marks] [--json OUT]
 
---talker  of the talker; by default --yaw 25 --pitch 15 --roll 15 --scale 0.2
---encode  of fbs encode, e.g. "--quality 90"; the default quality trades precision of the state for bits
---true-marks  gives the encoder the true points of the first picture: what is left is no fault of finding and marking
+--talker  arguments of talker; default --yaw 25 --pitch 15 --roll 15 --scale 0.2
+--encode  arguments of fbs encode, e.g. "--quality 90"; the default quality trades precision of the state for bits
+--true-marks  gives the encoder the true points of the first picture, which excludes errors of detection and marking
 
 Columns, means over all pictures of all seeds:
-    rotation, degrees   raw: angle between exported and true rotation. first: the same of the rotations since the
-                        first picture, which fbs takes as frontal; a constant difference of the head frames drops out.
-                        rx, ry, rz: of each axis, since the first picture. 95 %: of 'first'
-    translation, px     raw: exported against true place of the head frame's origin. The two heads have it in
-                        different places. first: of the shift since the first picture. origin: with that constant
-                        difference, three numbers for a clip, taken out. face: of the mean of nose and eye corners
-                        since the first picture, which depends on no frame
-    scale, percent      since the first picture
-    landmarks, percent of the eye distance, of the points that the talker shows: per feature, all, and 'moved', with
-                        each point's mean offset over the clip taken out; 'moved*' is that without the jaw
-    r                   correlation of the openings of mouth, brows and eyes with the true ones
+    rotation, degrees   raw: angle between exported and true rotation. first: the same for rotations relative to the
+                        first picture, which fbs takes as frontal; this removes a constant difference of the head
+                        frames. rx, ry, rz: per axis, relative to the first picture. 95 %: percentile of 'first'
+    translation, px     raw: exported against true position of the head frame's origin, which differs between the two
+                        heads. first: relative to the first picture. origin: with that constant difference, three
+                        numbers per clip, removed. face: mean of nose and eye corners relative to the first picture,
+                        which does not depend on a head frame
+    scale, percent      relative to the first picture
+    landmarks, percent of the eye distance, of the visible points: per feature, all, and 'moved', with each
+                        point's mean offset over the clip removed; 'moved*' is the same without the jaw
+    r                   correlation of mouth opening, brow height and eye opening with the true values
 """
 import argparse
 import collections

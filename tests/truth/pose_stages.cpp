@@ -1,10 +1,10 @@
-// pose_stages: how exact the pose is behind each stage of the analysis, on the talker with true marks.
+// pose_stages: accuracy of the pose after each stage of the analysis, on the talker with true marks.
 //
 //   pose_stages [NOISE ...]
 //
 // Head tracker (flow and alignment with the first picture), fit to the pattern, what the encoder chooses.
-// Each stage goes on from the tracker's own pose, as in the encoder. Degrees and percent, mean and 95th of a
-// hundred over three seeds; `gain` is the slope of found against true angles: 1 when depth is right.
+// Each stage starts from the tracker's own pose, as in the encoder. Degrees and percent, mean and 95th
+// percentile over three seeds; `gain` is the slope of found against true angles: 1 when depth is right.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,7 +69,7 @@ struct Stage {
   }
 };
 
-/// The analysis of SceneEncoder, with every stage's pose taken down.
+/// The analysis of the encoder, recording the pose after each stage.
 void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   const AdaptedHead head = *adapt_head(clip.marks(0));
   const double eye = head.pose.eye_distance_px();

@@ -1,10 +1,10 @@
-// snake_iterations: how many iterations the snakes need per picture, beside the paper's 10 to 15.
+// snake_iterations: how many iterations the snakes need per picture, compared with the paper's 10 to 15.
 //
 //   snake_iterations [FOLDER | VIDEO ...]
 //
-// Without videos the talker at noise 0, 3 and 6. A line for each kind of snake: the median, the 95th of a
-// hundred, shares, over all pictures but the first. A restarted descent (more than 15) counts as one with all
-// its iterations.
+// Without videos it uses the talker at noise 0, 3 and 6. One line for each kind of snake: median, 95th
+// percentile and shares, over all pictures but the first. A restarted descent (more than 15) counts as one,
+// with all its iterations.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -22,8 +22,8 @@ namespace {
 
 using namespace fbs;
 
-constexpr double kBelieved = 0.55;  // confidence under which no snake is run
-/// Upper ends of the histogram's classes.
+constexpr double kMinConfidence = 0.55;  // below it no snake is run
+/// Upper limits of the histogram's bins.
 constexpr std::array<int, 6> kClasses = {4, 9, 15, 20, 30, 45};
 
 /// Snakes of one kind: left and right count together.
@@ -42,7 +42,7 @@ struct Counts {
   std::array<std::vector<int>, kKinds.size()> iterations;
 
   void take(const PictureAnalysis& analysis) {
-    if (!analysis.face || analysis.confidence < kBelieved) return;
+    if (!analysis.face || analysis.confidence < kMinConfidence) return;
     for (std::size_t s = 0; s < std::min(analysis.snakes.size(), kSnakeFeatures.size()); ++s)
       for (std::size_t k = 0; k < kKinds.size(); ++k)
         if (std::ranges::find(kKinds[k].features, kSnakeFeatures[s]) != kKinds[k].features.end())
@@ -82,7 +82,7 @@ void print(const std::string& source, Counts counts) {
   std::fflush(stdout);
 }
 
-/// Analyses pictures until `next` has none. Says on standard error what goes wrong.
+/// Analyses pictures until `next` has no more. Reports errors on standard error.
 bool analyse(const VideoFormat& format, const std::function<bool(Picture&)>& next, Counts& counts) {
   EncoderSettings settings;
   settings.allow_no_face = true;

@@ -1,4 +1,4 @@
-"""Tables of poses and landmarks, and how far one is from another. Python's standard library only.
+"""Tables of poses and landmarks, and their differences. Python's standard library only.
 
 The talker counts (0, 0) at the centre of the first pixel, fbs at its corner: read_truth() adds the half.
 """
@@ -13,7 +13,7 @@ ANGLES = ("rx_deg", "ry_deg", "rz_deg")
 
 class Picture:
     """One row: angles in degrees (pitch, yaw, roll), shift in pixels, scale = eye distance in pixels when frontal,
-    68 points in pixels, and which of them are seen."""
+    68 points in pixels, and which of them are visible."""
 
     def __init__(self, row, half):
         value = lambda name: float(row[name])
@@ -43,7 +43,7 @@ def rotation(angles):
 
 
 def turn(a, b):
-    """a * transpose(b): the rotation that leads from b to a."""
+    """a * transpose(b): the rotation from b to a."""
     return tuple(tuple(sum(a[i][k] * b[j][k] for k in range(3)) for j in range(3)) for i in range(3))
 
 
@@ -54,7 +54,7 @@ def degrees(r):
 
 
 def angle(r):
-    """By how much a rotation turns, degrees. From its antisymmetric part, which is exact for small turns."""
+    """Angle of a rotation, degrees. From its antisymmetric part, which is exact for small angles."""
     sine = math.hypot(r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]) / 2
     return math.degrees(math.atan2(sine, (r[0][0] + r[1][1] + r[2][2] - 1) / 2))
 
@@ -64,7 +64,7 @@ def distance(a, b):
 
 
 def origin_between(found, truth):
-    """Where the found head frame has its origin, in the true one (eye distances): the 3-vector c that makes
+    """Origin of the found head frame in the true one (eye distances): the 3-vector c that makes
     found.shift = truth.shift + truth.scale * R * c hold best over all pictures. Two heads need not agree on it, and a
     turn shows the difference as a shift. Least squares, with so little of a prior that a head that never turns has
     no depth."""
@@ -89,7 +89,7 @@ def origin_between(found, truth):
 
 
 def mean_offsets(found, truth):
-    """Mean of found - true of each point, pixels: trackers differ in where a landmark sits, not in how it moves."""
+    """Mean of found - true of each point, pixels: trackers disagree on where a landmark is, not on how it moves."""
     out = []
     for k in range(68):
         off = [(f.points[k][0] - t.points[k][0], f.points[k][1] - t.points[k][1])
@@ -99,7 +99,7 @@ def mean_offsets(found, truth):
 
 
 def landmark_error(f, t, points, offsets=None):
-    """Distances of a picture's points to the true ones that are seen, percent of the eye distance."""
+    """Distances of the points of a picture to the visible true ones, percent of the eye distance."""
     out = []
     for k in points:
         if f.seen[k] and t.seen[k]:
@@ -109,7 +109,7 @@ def landmark_error(f, t, points, offsets=None):
 
 
 def openings(picture):
-    """Expression read off the landmarks, over the eye distance: mouth, brows, eyes."""
+    """Expression measured on the landmarks, relative to the eye distance: mouth, brows, eyes."""
     p = picture.points
     middle = lambda ks: tuple(statistics.fmean(p[k][axis] for k in ks) for axis in range(2))
     eye = distance(middle(range(36, 42)), middle(range(42, 48)))

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Writes all vectors anew with the present encoder: make.sh [BUILD], BUILD being a configured build folder.
-# For after a change of the format; say in the commit why the old ones may go.
+# make.sh [BUILD]: remakes all vectors with the current encoder. BUILD is a configured build folder, default build/release.
+# Only for changes of the format; the commit says why.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${1:-$here/../../build/release}

@@ -1,4 +1,4 @@
-// The doors of the module fbs_av.
+// The functions that the module fbs_av exports.
 
 #include "cli/module.h"
 #include "cli/video/av/av_sink.h"

@@ -23,7 +23,7 @@ bool is_grey(AVPixelFormat format) {
   return description != nullptr && description->nb_components <= 2 && !is_rgb(format);
 }
 
-/// The J formats say full range a second time; without it swscale leaves the range alone.
+/// The J formats also imply full range; without them swscale leaves the range alone.
 AVPixelFormat without_range(AVPixelFormat format) {
   switch (format) {
     case AV_PIX_FMT_YUVJ411P:

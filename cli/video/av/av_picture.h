@@ -1,4 +1,4 @@
-// From libav's frames to pictures of ours. Part of the module fbs_av.
+// Converts libav's frames to our pictures. Part of the module fbs_av.
 #pragma once
 
 #include "cli/video/av/av_support.h"
@@ -19,10 +19,11 @@ class FramePicture {
   AvFrame scaled_;
 };
 
-/// Range of the samples that convert() hands over.
+/// Range of the samples that convert() returns.
 ColourRange colour_range(const AVFrame& frame);
 
-/// Matrix of the samples that convert() hands over; BT.2020 and others that we cannot name are kUnspecified.
+/// Matrix of the samples that convert() returns; kUnspecified for BT.2020 and others that we have no name
+/// for.
 ColourMatrix colour_matrix(const AVFrame& frame);
 
 }  // namespace fbs

@@ -22,7 +22,7 @@ constexpr const char* kQualityCrf = "12";
 constexpr const char* kPreset = "veryfast";
 constexpr int kFallbackQuantiser = 2;  // MPEG-4 part 2, best of 1..31 in practice
 
-/// A clock of which both a picture period and a 1/90000 s tick are (nearly) whole numbers.
+/// A clock in which a picture period and a 1/90000 s tick are both (nearly) whole numbers.
 AVRational fine_time_base(Rational rate) {
   const std::int64_t per_second = std::max<std::int64_t>(rate.num, 1);
   std::int64_t factor = (kTicksPerSecond + per_second - 1) / per_second;
@@ -69,7 +69,7 @@ class AvSink final : public VideoSink {
 
  private:
   Result<void> open_encoder();
-  /// Sends a frame, or the end, to the encoder and writes what comes out.
+  /// Sends a frame, or the end, to the encoder and writes the packets it returns.
   Result<void> encode(const AVFrame* frame);
   [[nodiscard]] std::int64_t encoder_pts(std::int64_t pts) const;
 
@@ -150,7 +150,7 @@ Result<void> AvSink::open_encoder() {
 
 Result<void> AvSink::write(const Picture& picture, std::int64_t pts) {
   if (picture.width() != format_.width || picture.height() != format_.height) {
-    return fail(ErrorCode::kInvalidArgument, "picture is not of the size of the video");
+    return fail(ErrorCode::kInvalidArgument, "picture size differs from the video's");
   }
   if (av_frame_make_writable(frame_.get()) < 0) return muxer_->error("out of memory");
   copy_plane(picture.y, *frame_, 0);

@@ -11,7 +11,7 @@ Result<AvSound> AvSound::open(const std::string& source, AvMuxer& muxer) {
   sound.container_ = open_av_input(source, code);
   if (!sound.container_) return fail(ErrorCode::kIo, "cannot read " + source + ": " + av_reason(code));
   const int index = av_find_best_stream(sound.container_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
-  if (index < 0) return fail(ErrorCode::kUnsupported, source + ": holds no sound");
+  if (index < 0) return fail(ErrorCode::kUnsupported, source + ": contains no sound");
   for (unsigned i = 0; i < sound.container_->nb_streams; ++i) {
     if (static_cast<int>(i) != index) sound.container_->streams[i]->discard = AVDISCARD_ALL;
   }

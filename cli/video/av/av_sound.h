@@ -1,4 +1,4 @@
-// The sound of a source, copied beside pictures of ours. Part of the module fbs_av.
+// Copies the sound of a source into our output. Part of the module fbs_av.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace fbs {
 
-/// Copies packets without recoding. Times count from the start of the source, as those of VideoSource do, so
-/// sound and pictures stay together.
+/// Copies packets without re-encoding. Times count from the start of the source, as in VideoSource, so that
+/// sound and pictures stay in sync.
 class AvSound {
  public:
   /// Finds the main sound stream of `source` and adds one for it to the muxer.

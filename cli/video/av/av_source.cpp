@@ -28,7 +28,7 @@ Rational as_rational(AVRational value) {
 }
 
 /// The nominal rate when it agrees with the mean, else the mean: for variable rates the nominal one is only
-/// the finest grid that holds all timestamps.
+/// the finest grid that contains all timestamps.
 Rational choose_frame_rate(AVFormatContext* container, AVStream* stream) {
   const AVRational nominal = av_guess_frame_rate(container, stream, nullptr);
   const AVRational mean = stream->avg_frame_rate;
@@ -46,7 +46,7 @@ std::optional<Orientation> orientation_of(const std::uint8_t* matrix_bytes, std:
   return orientation_from_matrix(matrix);
 }
 
-/// The container's display matrix, else the one inside the stream.
+/// The container's display matrix, or else the one inside the stream.
 Orientation orientation_of(const AVStream& stream, const AVFrame& frame) {
   std::size_t size = 0;
   const std::uint8_t* in_stream = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
@@ -72,7 +72,7 @@ class AvSource final : public VideoSource {
   void describe(const AVFrame& first);
   /// Decodes the next frame into frame_. @return false at the end
   Result<bool> decode();
-  /// Hands the next packet, or the end, to the decoder.
+  /// Sends the next packet, or the end, to the decoder.
   Result<void> feed();
   std::int64_t next_pts();
   [[nodiscard]] std::int64_t on_regular_grid(std::int64_t pts) const;
@@ -89,8 +89,8 @@ class AvSource final : public VideoSource {
   FramePicture converter_;
   VideoFormat format_;
   Orientation orientation_;
-  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet handed over
-  bool drained_ = false;        ///< the decoder was told that no packet follows
+  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
+  bool drained_ = false;        ///< the decoder has got its end-of-stream packet
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;
@@ -108,7 +108,7 @@ Result<void> AvSource::open(const SourceOptions& options) {
   if (auto opened = open_decoder(options); !opened) return opened;
   auto decoded = decode();
   if (!decoded) return fail(decoded.error());
-  if (!*decoded) return error(ErrorCode::kUnsupported, "holds no picture that can be decoded");
+  if (!*decoded) return error(ErrorCode::kUnsupported, "contains no picture that can be decoded");
   frame_waiting_ = true;
   describe(*frame_);
   return check_picture_size(name_, format_.width, format_.height);
@@ -138,8 +138,9 @@ Result<void> AvSource::open_decoder(const SourceOptions& options) {
 
 void AvSource::describe(const AVFrame& first) {
   orientation_ = orientation_of(*stream_, first);
-  const AVRational aspect =
-      av_guess_sample_aspect_ratio(container_.get(), stream_, const_cast<AVFrame*>(&first));
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav only reads the frame
+  auto* const frame = const_cast<AVFrame*>(&first);
+  const AVRational aspect = av_guess_sample_aspect_ratio(container_.get(), stream_, frame);
   format_.width = first.width;
   format_.height = first.height;
   format_.frame_rate = choose_frame_rate(container_.get(), stream_);

@@ -1,4 +1,4 @@
-// The doors of the module fbs_image. OpenImageIO may throw; nothing leaves here.
+// The functions that the module fbs_image exports. OpenImageIO may throw; no exception leaves this file.
 
 #include <exception>
 

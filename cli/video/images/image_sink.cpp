@@ -15,19 +15,19 @@
 namespace fbs {
 namespace {
 
-constexpr int kPngCompression = 4;  // zlib level: about 9's size at a third of its time
+constexpr int kPngCompression = 4;  // zlib level: nearly the size of level 9 in a third of the time
 
 class ImageSink final : public VideoSink {
  public:
   ImageSink(NumberPattern pattern, std::unique_ptr<OIIO::ImageOutput> writer, const VideoFormat& format)
       : pattern_(std::move(pattern)), writer_(std::move(writer)), format_(format) {}
 
-  /// Creates the first file at once, so that an unwritable folder is known before the work begins.
+  /// Creates the first file at once, so that an unwritable folder is reported before any work is done.
   Result<void> open() { return create_next(); }
 
   Result<void> write(const Picture& picture, std::int64_t /*pts*/) override {
     if (picture.width() != format_.width || picture.height() != format_.height) {
-      return fail(ErrorCode::kInvalidArgument, "picture is not of the size of the video");
+      return fail(ErrorCode::kInvalidArgument, "picture size differs from the video's");
     }
     if (written_ == files_.size()) {
       if (auto created = create_next(); !created) return created;
@@ -60,7 +60,7 @@ class ImageSink final : public VideoSink {
     return {};
   }
 
-  /// Makes the image file in memory: bytes_.
+  /// Encodes the image file in memory, into bytes_.
   Result<void> encode(const Picture& picture, const std::string& name) {
     const RgbImage image = rgb_from_picture(picture, format_.range, format_.matrix);
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
@@ -81,7 +81,7 @@ class ImageSink final : public VideoSink {
   NumberPattern pattern_;
   std::unique_ptr<OIIO::ImageOutput> writer_;
   VideoFormat format_;
-  std::vector<AtomicFile> files_;  ///< the last one is open while it waits for its picture
+  std::vector<AtomicFile> files_;  ///< the last one is open, waiting for its picture
   std::size_t written_ = 0;
   std::vector<unsigned char> bytes_;
 };
@@ -98,7 +98,7 @@ Result<std::unique_ptr<VideoSink>> open_image_sink(const std::string& output, co
   auto writer = OIIO::ImageOutput::create(pattern->name(1));
   if (!writer || !writer->supports("ioproxy")) {
     OIIO::geterror();
-    return fail(ErrorCode::kUnsupported, "cannot write " + output + ": no such kind of image; use .png");
+    return fail(ErrorCode::kUnsupported, "cannot write " + output + ": unknown image format; use .png");
   }
   auto sink = std::make_unique<ImageSink>(std::move(*pattern), std::move(writer), format);
   if (auto opened = sink->open(); !opened) return fail(opened.error());

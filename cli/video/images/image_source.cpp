@@ -96,9 +96,9 @@ class ImageSource final : public VideoSource {
                   "cannot read " + file + ": " + (reason.empty() ? "damaged image" : reason));
     }
     if (channels == 1) {
-      std::vector<std::uint8_t> spread(3 * pixels);
-      for (std::size_t i = 0; i < spread.size(); ++i) spread[i] = samples[i / 3];
-      samples = std::move(spread);
+      std::vector<std::uint8_t> rgb(3 * pixels);
+      for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = samples[i / 3];
+      samples = std::move(rgb);
     }
     return picture_from_rgb(samples, spec.width, spec.height, format_.range, format_.matrix);
   }

@@ -8,10 +8,10 @@
 
 namespace fbs {
 
-/// `before` + the number, filled with zeros to `digits` + `after`. Only %d and %0Nd are understood.
+/// `before` + the number, padded with zeros to `digits` + `after`. Only %d and %0Nd are supported.
 struct NumberPattern {
   std::string before;
-  int digits = 0;  ///< least number of digits, 0..18
+  int digits = 0;  ///< minimum number of digits, 0..18
   std::string after;
 
   [[nodiscard]] std::string name(std::int64_t number) const;

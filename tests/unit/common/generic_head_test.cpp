@@ -251,7 +251,7 @@ TEST(GenericHead, FeaturesNameTheirVertices) {
   EXPECT_EQ(next_control, kControlCount);
 }
 
-TEST(GenericHead, SpreadIsSymmetric) {
+TEST(GenericHead, SkinningIsSymmetric) {
   for (int v = 0; v < kVertexCount; ++v) {
     std::map<int, int> mirrored;
     for (const auto& [control, weight] : weights(v)) mirrored[mirror_control(control)] = weight;
@@ -259,7 +259,7 @@ TEST(GenericHead, SpreadIsSymmetric) {
   }
 }
 
-TEST(GenericHead, SpreadWeightsAreInOrderAndInRange) {
+TEST(GenericHead, SkinningWeightsAreInOrderAndInRange) {
   const GenericHead& head = generic_head();
   EXPECT_EQ(head.skinning_begin.front(), 0);
   EXPECT_EQ(head.skinning_begin.back(), head.skinning.size());
@@ -281,12 +281,12 @@ TEST(GenericHead, CurvesArePartitionsOfUnity) {
     }
   }
   for (const FeatureVertex& point :
-       feature(kMouthInner).vertices) {  // the inner lips follow the outer wholly
+       feature(kMouthInner).vertices) {  // the inner lips follow the outer ones completely
     EXPECT_EQ(weight_of(point.vertex, controls(kMouthOuter)), kSkinningOne) << vertex(point.vertex).name;
   }
 }
 
-TEST(GenericHead, SpreadWeightsAreTheCurvesBasis) {
+TEST(GenericHead, SkinningWeightsAreTheBasisOfTheCurve) {
   for (const FeatureVertex& point : feature(FeatureId::kMouthOuter).vertices) {
     for (const auto& [control, weight] : weights(point.vertex)) {
       double t = std::abs(point.s - static_cast<float>(control));
@@ -297,7 +297,7 @@ TEST(GenericHead, SpreadWeightsAreTheCurvesBasis) {
   }
 }
 
-TEST(GenericHead, UpperAndLowerLipNeverShareASpread) {
+TEST(GenericHead, UpperAndLowerLipShareNoControlPoint) {
   const std::set<int> upper{1, 2, 3, 4, 11, 12, 13};  // all but the corners' control points
   const std::set<int> lower{6, 7, 8, 9, 15, 16, 17};
   for (const int i : {31, 32, 33, 34, 35, 49, 50, 51, 52, 53, 61, 62, 63}) {
@@ -401,7 +401,7 @@ double mean_stretch(const ExpressionPart& part) {
   return std::exp(log_sum / static_cast<double>(n));
 }
 
-// A face that moves as no other did is dearer, never out of reach.
+// Unusual expressions cost more bits, but all can be coded.
 TEST(GenericHead, ExpressionBasisIsCompleteAndOfTheSizeOfControlPoints) {
   for (const ExpressionPart& part : generic_head().expression) {
     const double stretch = mean_stretch(part);

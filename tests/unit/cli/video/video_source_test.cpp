@@ -10,10 +10,6 @@
 #include <limits>
 #include <vector>
 
-#include "cli/module.h"
-#include "cli/video/images/image_sequence.h"
-#include "cli/video/images/number_pattern.h"
-#include "cli/video/orientation.h"
 #include "cli/video/timestamps.h"
 #include "cli/video/video_sink.h"
 
@@ -143,7 +139,7 @@ TEST_F(VideoSourceFiles, VariableFrameRateKeepsItsTimes) {
     times.push_back(time);
     time += 1800 + 97 * (i * i % 41);
   }
-  // Matroska rounds to 1 ms, and what lies within 1 ms of the regular grid is put there.
+  // Matroska rounds to 1 ms; times within 1 ms of the regular grid are moved onto it.
   for (const auto& [name, tolerance] : {std::pair{"a.mp4", 0}, std::pair{"a.mkv", 135}}) {
     ASSERT_NO_FATAL_FAILURE(write_video(path(name), format, times));
     auto source = open_video_source(path(name));
@@ -199,17 +195,6 @@ TEST_F(VideoSourceFiles, ImageOfAnotherSizeIsAnErrorNamingIt) {
   EXPECT_NE(second.error().text.find("b_1.png"), std::string::npos) << second.error().text;
 }
 
-TEST_F(VideoSourceFiles, ImagesAreInOrderOfNumber) {
-  for (const char* name : {"f9.png", "f10.png", "f2.png", "f1.txt", "g1.png"})
-    std::ofstream(path(name)) << "x";
-  const auto files = image_sequence_files(path("f%d.png"), nullptr);
-  ASSERT_TRUE(files);
-  EXPECT_EQ(*files, (std::vector{path("f2.png"), path("f9.png"), path("f10.png")}));
-  const auto all = image_sequence_files(path("?*.png"), nullptr);
-  ASSERT_TRUE(all);
-  EXPECT_EQ(*all, (std::vector{path("f2.png"), path("f9.png"), path("f10.png"), path("g1.png")}));
-}
-
 TEST_F(VideoSourceFiles, MissingInputIsAnErrorNamingItAndTheCause) {
   for (const char* name : {"none.y4m", "none.mkv", "none_%05d.png", "none/*.png"}) {
     const auto source = open_video_source(path(name));
@@ -232,56 +217,6 @@ TEST(VideoSource, MissingCameraIsAnError) {
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().code, ErrorCode::kIo);
   EXPECT_FALSE(open_video_source("camera:front"));
-}
-
-TEST(Module, MissingModuleIsAnErrorNamingIt) {
-  const auto symbol = load_module_symbol("fbs_none", "fbs_open_source");
-  ASSERT_FALSE(symbol);
-  EXPECT_EQ(symbol.error().code, ErrorCode::kUnsupported);
-  EXPECT_NE(symbol.error().text.find("fbs_none.so"), std::string::npos) << symbol.error().text;
-}
-
-TEST(Timestamps, RegularTimesAreRoundedWithoutDrift) {
-  EXPECT_EQ(regular_pts(3, {25, 1}), 10800);
-  EXPECT_EQ(regular_pts(1, {24000, 1001}), 3754);  // 3753.75
-  EXPECT_EQ(regular_pts(24000LL * 3600, {24000, 1001}), 1001LL * 3600 * kTicksPerSecond);
-}
-
-TEST(NumberPattern, FillsAndReadsNumbers) {
-  const auto pattern = parse_number_pattern("frame_%05d.png");
-  ASSERT_TRUE(pattern);
-  EXPECT_EQ(pattern->name(42), "frame_00042.png");
-  EXPECT_EQ(pattern->name(123456), "frame_123456.png");
-  EXPECT_EQ(pattern->number("frame_00042.png"), 42);
-  EXPECT_EQ(pattern->number("frame_42.png"), std::nullopt);
-  EXPECT_EQ(pattern->number("frame_.png"), std::nullopt);
-  for (const char* text :
-       {"frame.png", "%s.png", "%05d_%05d.png", "%99999d.png", "%0999d", "100%", "%5d.png"}) {
-    EXPECT_FALSE(parse_number_pattern(text)) << text;
-  }
-}
-
-// A stored picture 64 wide and 66 high with one bright pixel at the top left.
-TEST(Orientation, QuarterTurnsMoveTheTopLeftCorner) {
-  constexpr std::int32_t kOne = 1 << 16;
-  Picture stored(64, 66);
-  stored.y.row(0)[0] = 200;
-  stored.u.row(0)[0] = 20;
-  const auto shown = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    return oriented(stored, orientation_from_matrix({a, b, 0, c, d, 0, 0, 0, 1 << 30}));
-  };
-  EXPECT_EQ(shown(kOne, 0, 0, kOne), stored);
-  const Picture clockwise = shown(0, kOne, -kOne, 0);
-  EXPECT_EQ(clockwise.width(), 66);
-  EXPECT_EQ(clockwise.height(), 64);
-  EXPECT_EQ(clockwise.y.row(0)[65], 200);
-  EXPECT_EQ(clockwise.u.row(0)[32], 20);
-  const Picture anticlockwise = shown(0, -kOne, kOne, 0);
-  EXPECT_EQ(anticlockwise.y.row(63)[0], 200);
-  const Picture upside_down = shown(-kOne, 0, 0, -kOne);
-  EXPECT_EQ(upside_down.y.row(65)[63], 200);
-  const Picture mirrored = shown(-kOne, 0, 0, kOne);
-  EXPECT_EQ(mirrored.y.row(0)[63], 200);
 }
 
 }  // namespace

@@ -5,10 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <span>
-
-#include "cli/progress.h"
-#include "cli/video/atomic_file.h"
 
 namespace fbs {
 namespace {
@@ -32,10 +28,6 @@ class VideoSinkFiles : public ::testing::Test {
 std::string content(const std::string& name) {
   std::ifstream file(name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 TEST_F(VideoSinkFiles, LeaveNothingWithoutFinish) {
@@ -135,48 +127,6 @@ TEST_F(VideoSinkFiles, MissingSoundSourceIsAnErrorAndLeavesNothing) {
     EXPECT_NE(sink.error().text.find("none.mkv"), std::string::npos);
   }
   EXPECT_TRUE(folder_is_empty());
-}
-
-TEST_F(VideoSinkFiles, AtomicFileAppearsOnCommitWithAllBytes) {
-  auto file = AtomicFile::create(path("a.fbs"));
-  ASSERT_TRUE(file);
-  const std::string large(1000000, 'x');
-  ASSERT_TRUE(file->write(bytes_of("head")));
-  ASSERT_TRUE(file->write(bytes_of(large)));
-  ASSERT_TRUE(file->write(bytes_of("tail")));
-  ASSERT_TRUE(file->seek(0));
-  ASSERT_TRUE(file->write(bytes_of("HEAD")));
-  EXPECT_FALSE(fs::exists(path("a.fbs")));
-  ASSERT_TRUE(file->commit());
-  EXPECT_EQ(content(path("a.fbs")), "HEAD" + large + "tail");
-  EXPECT_FALSE(fs::exists(path("a.fbs.part")));
-}
-
-TEST_F(VideoSinkFiles, AtomicFileReplacesTheTargetOfALink) {
-  std::ofstream(path("target")) << "old";
-  fs::create_symlink(path("target"), path("link"));
-  auto file = AtomicFile::create(path("link"));
-  ASSERT_TRUE(file);
-  ASSERT_TRUE(file->write(bytes_of("new")));
-  ASSERT_TRUE(file->commit());
-  EXPECT_TRUE(fs::is_symlink(path("link")));
-  EXPECT_EQ(content(path("target")), "new");
-}
-
-TEST_F(VideoSinkFiles, AtomicFileLeavesDevicesInPlace) {
-  auto file = AtomicFile::create("/dev/null");
-  ASSERT_TRUE(file);
-  ASSERT_TRUE(file->write(bytes_of("bytes")));
-  ASSERT_TRUE(file->commit());
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
-}
-
-TEST(Progress, ShowsPercentSpeedAndTimeLeft) {
-  EXPECT_EQ(progress_text("encoding", 50, 200, 10, 80), "encoding  25 %  50/200  5.0 pictures/s  30 s left");
-  EXPECT_EQ(progress_text("encoding", 50, std::nullopt, 10, 80), "encoding  50  5.0 pictures/s");
-  EXPECT_EQ(progress_text("encoding", 250, 200, 10, 80),
-            "encoding 100 %  250/250  25.0 pictures/s  0 s left");
-  EXPECT_EQ(progress_text("encoding", 50, 200, 10, 12), "encoding  2");
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+"""The programs of samples/ do what they show."""
+import csv
+import io
+import json
+import subprocess
+
+from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, ffmpeg, talker
+
+PICTURES = 120  # of TALK_FBS
+PIXELS = 176 * 144
+
+
+class Samples(ProgramTest):
+    def sample(self, name, *arguments):
+        return subprocess.run([BUILD / name, *arguments], cwd=self.folder, check=True, capture_output=True, text=True,
+                              timeout=MAX_SECONDS).stdout
+
+    def rgb(self, images):
+        """Bytes of all pictures of a sequence of PNG files."""
+        ffmpeg("-i", self.folder / images, "-f", "rawvideo", "-pix_fmt", "rgb24", self.folder / "out.rgb")
+        return (self.folder / "out.rgb").read_bytes()
+
+    def test_decode_to_png_writes_what_fbs_writes(self):
+        self.sample("decode_to_png", TALK_FBS, ".")
+        self.succeed("decode", TALK_FBS, "fbs_%d.png")
+        ours, theirs = self.rgb("%d.png"), self.rgb("fbs_%d.png")
+        self.assertEqual(len(ours), 3 * PIXELS * PICTURES)
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(ours, theirs, strict=True)), 1)
+
+    def test_print_landmarks_prints_what_fbs_exports(self):
+        printed = self.sample("print_landmarks", TALK_FBS).split("picture ")[1:]
+        self.succeed("export", TALK_FBS, "out.csv")
+        rows = list(csv.DictReader(io.StringIO((self.folder / "out.csv").read_text())))
+        self.assertEqual((len(printed), len(rows)), (PICTURES, PICTURES))
+        for text, row in zip(printed, rows):
+            head, *points = text.splitlines()
+            words = head.split()
+            for angle, column in (("pitch", "rx_deg"), ("yaw", "ry_deg"), ("roll", "rz_deg")):
+                self.assertAlmostEqual(float(words[words.index(angle) + 1]), float(row[column]), delta=0.051)
+            self.assertEqual(len(points), 68)
+            for k, point in enumerate(points):
+                for value, column in zip(point.split(), (f"x{k}", f"y{k}")):
+                    self.assertAlmostEqual(float(value), float(row[column]), delta=0.0051)
+
+    def test_encode_frames_encodes_all_of_them(self):
+        self.sample("encode_frames", "frames.fbs")
+        talker(self.folder / "frames.y4m", "--size", "176x144", "--frames", "75")
+        reported = json.loads(self.succeed("evaluate", "frames.y4m", "frames.fbs", "--json"))["points"][0]
+        self.assertEqual(reported["frames"], 75)
+        self.assertGreater(reported["psnr_face"], 28)
