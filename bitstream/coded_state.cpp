@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-/// Coefficients reach farther than the control points that they move, which are clamped.
+/// Larger than the limit of the control points, which are clamped.
 constexpr std::int32_t kMaxCoefficient = 8 * kMaxControl;
 
 std::int32_t limit_of(std::size_t i) {
@@ -53,10 +53,10 @@ State state_of_values(const CodedState& values) {
   take(state.body);
   take(state.ground);
   for (const ExpressionPart& part : generic_head().expression) {
-    const auto n = static_cast<std::size_t>(2 * part.control_count);
+    const std::size_t n = 2 * part.control_count;
     std::array<std::int64_t, kMaxPartSize> sum{};
     for (std::size_t k = 0; k < n; ++k) {
-      const std::int64_t coefficient = from[static_cast<std::ptrdiff_t>(k)];
+      const std::int64_t coefficient = from[k];
       if (coefficient == 0) continue;
       for (std::size_t c = 0; c < n; ++c) sum[c] += coefficient * part.rows[k * n + c];
     }

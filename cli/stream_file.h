@@ -8,20 +8,20 @@
 
 namespace fbs::cli {
 
-/// Reads `name` (`-`: standard input) into a decoder as the decoder asks for it. Errors name the file and,
-/// where the stream is damaged, the byte.
+/// Reads `name` (`-`: standard input) into a decoder as needed. Errors name the file and, where the stream is
+/// damaged, the byte.
 class StreamFile {
  public:
   static Result<StreamFile> open(const std::string& name);
 
-  /// As StreamDecoder::next(), never kNeedMore.
+  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore.
   Result<DecodeStatus> next();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  /// A file descriptor that is closed in the end, but for standard input's.
+  /// A file descriptor, closed at the end unless it is standard input.
   class Descriptor {
    public:
     explicit Descriptor(int number) : number_(number) {}
@@ -36,7 +36,7 @@ class StreamFile {
   StreamFile(std::string name, Descriptor file) : name_(std::move(name)), file_(std::move(file)) {}
 
   std::string name_;
-  Descriptor file_;  ///< not a FILE: what a pipe has is taken at once, and not only when a buffer is full
+  Descriptor file_;  ///< not a FILE: read() returns what a pipe has without waiting for a full buffer
   StreamDecoder decoder_;
 };
 

@@ -1,10 +1,7 @@
-// Compares a stream's pictures with the source's while both pass by.
+// Compares the pictures of a stream with those of its source.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
+#include <cstdint>
 
 #include "common/picture.h"
 #include "common/quality.h"
@@ -12,12 +9,12 @@
 
 namespace fbs::cli {
 
-/// What a stream costs and how near it comes.
+/// Rate and distortion of a stream.
 struct Measure {
   std::uint64_t pictures = 0;
   double seconds = 0;
   ByteCount bytes;
-  SquaredError frame, face;              ///< luma; the face is the area of the decoded mesh
+  SquaredError frame, face;              ///< luma; the face is the area inside the mesh's outline
   double ssim_frame = 0, ssim_face = 0;  ///< means over the pictures; 0 unless asked for
 
   [[nodiscard]] double kbps() const { return rate(bytes.total); }
@@ -26,13 +23,13 @@ struct Measure {
   }
 };
 
-/// Compares what a decoder shows with the source, picture by picture.
+/// Compares decoded pictures with the source, one by one.
 class StreamMeter {
  public:
   /// @param decoder  must outlive the object
   StreamMeter(StreamDecoder& decoder, bool with_ssim) : decoder_(decoder), with_ssim_(with_ssim) {}
 
-  /// Compares the picture that the decoder announces with `source`.
+  /// Compares the current picture of the decoder with `source`.
   void compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;

@@ -310,7 +310,7 @@ MotionGroup SceneEncoder::plan_group(const CodedState& anchor, bool key) {
     planner_->set_lambda(lambda);
     group = planner_->plan(anchor, costs_, rate_);
     finish_group(group, key);
-    const auto payload = MotionCoder(*coder_).encode(group);
+    const auto payload = MotionEncoder(*coder_).encode(group);
     return 8.0 * static_cast<double>((payload ? payload->size() : 0) + kPacketBytes);
   };
   if (!budget_) return planner_->plan(anchor, costs_, rate_);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "common/result.h"
 #include "decoder/renderer.h"
 #include "encoder/encoder.h"
@@ -80,7 +80,7 @@ class SceneEncoder {
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
 
-  std::optional<MotionCoder> coder_;
+  std::optional<MotionEncoder> coder_;
   std::optional<TrackPlanner> planner_;
   TrackRate rate_;
   double lambda_ = 0;                 ///< that the quality stands for

@@ -12,7 +12,7 @@ constexpr std::uint8_t kFullRangeFlag = 1;
 constexpr int kMatrixShift = 1;
 constexpr std::uint8_t kMaxMatrix = static_cast<std::uint8_t>(ColourMatrix::kBt709);
 
-// A number that does not fit becomes one that check_setup refuses.
+// A number that does not fit becomes one that check_setup rejects.
 std::int32_t to_int(std::uint64_t value) {
   return static_cast<std::int32_t>(std::min<std::uint64_t>(value, std::numeric_limits<std::int32_t>::max()));
 }
@@ -101,7 +101,7 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
 Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   ByteReader reader(payload);
 
-  // SPEC 4.1: the version comes first and is judged before the rest, which another version may lay out anew.
+  // SPEC 4.1: check the version first, since the layout of another version is unknown.
   const std::uint64_t version = reader.varint();
   if (reader.ok() && version != 0 && version != kFormatVersion) {
     return fail(ErrorCode::kUnsupported, version > kFormatVersion ? "stream is of a newer format version"

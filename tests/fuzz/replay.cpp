@@ -1,6 +1,6 @@
-// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] tries every .fbs file of the folder and ROUNDS
-// mutations of each with fixed seeds; TARGET --seeds FOLDER OUT writes the target's seeds as files, to begin
-// a real corpus with.
+// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] runs every .fbs file of the folder and ROUNDS
+// mutations of each from fixed random seeds; TARGET FILE runs one finding; TARGET --seeds FOLDER OUT writes
+// the target's seed inputs as files for a corpus.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -74,7 +74,7 @@ void mutate(Bytes& bytes, std::mt19937& random) {
   if (random() % 12 == 0) bytes.resize(random() % (bytes.size() + 1));
 }
 
-/// An exactly sized copy, so that a sanitizer sees a read one byte behind the end.
+/// Runs an exactly sized copy, so that a sanitizer detects a read one byte past the end.
 void run(const Bytes& bytes) {
   const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
   std::copy(bytes.begin(), bytes.end(), exact.get());

@@ -1,11 +1,11 @@
 # cmake -D ROOT=<repository> -P check_includes.cmake
 # Folders are floors, and so are the rooms inside them: a file includes what lies on its own floor or below. The lowest
-# comes first. What stands directly in bitstream/ (the plain data of the syntax) is below its payloads; what stands
+# comes first. What stands directly in bitstream/ (the plain data of the syntax) is below its payloads and its motion; what stands
 # directly in decoder/ and encoder/ joins their rooms and is above them.
 cmake_minimum_required(VERSION 3.25)
 set(floors
   common
-  bitstream/entropy bitstream bitstream/payload
+  bitstream/entropy bitstream bitstream/payload bitstream/motion
   decoder/animate decoder/raster decoder
   encoder/image encoder/model encoder/find encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan
   encoder

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <random>
 
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/motion_payload.h"
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
@@ -67,7 +67,7 @@ Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& setti
   return encoder.take();
 }
 
-/// A stream taken apart.
+/// One packet of a stream.
 struct Piece {
   PacketType type;
   Bytes payload;
@@ -102,8 +102,8 @@ std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   return joined(pieces).size();
 }
 
-/// Tracks of random knots at and between the limits of every number: what an encoder never writes, and a
-/// decoder must draw alike.
+/// Tracks of random knots at and between the limits of every number. No encoder writes such a group, but all
+/// decoders must draw it alike.
 MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, const CodedState& anchor) {
   MotionGroup group;
   group.anchor = anchor;
@@ -125,7 +125,7 @@ MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, con
   return group;
 }
 
-/// Everything that may be sent at its limits.
+/// All numbers of the state, at and between their limits.
 Bytes limits_stream() {
   Setup setup;
   setup.format.width = 65;
@@ -152,7 +152,7 @@ Bytes limits_stream() {
       {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
       {PacketType::kSurround, must(encode_surround(surround))},
       {PacketType::kPattern, must(encode_pattern({0, seen, must(av1.encode(picture))}, setup))}};
-  MotionCoder coder(setup, seen);
+  MotionEncoder coder(setup, seen);
   for (int i = 0; i < 2; ++i) {
     MotionGroup group = group_at_limits(random, coder.limits(), coder.anchor(i == 0));
     group.key = i == 0;
@@ -168,7 +168,7 @@ class Folder {
         << "# Written by make_vectors. File, first error, pictures, MD5 over the planes of all pictures.\n";
   }
 
-  /// Writes a vector after making sure that it decodes to what its name promises.
+  /// Writes a vector after checking that it decodes to the given number of pictures and error.
   void add(const std::string& file, const Bytes& bytes, std::uint64_t pictures,
            std::string_view error = "-") {
     const StreamDigest d = digest_of(bytes);

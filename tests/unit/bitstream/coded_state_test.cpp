@@ -47,12 +47,12 @@ TEST(CodedState, StateHasItsNumbersTimesTheSteps) {
   for (const glm::ivec2 c : s.control) EXPECT_EQ(c, glm::ivec2(0));
 }
 
-/// What a number of the expression adds to its part's control points, in doubles.
+/// The control points of a state's coefficients, computed in doubles.
 State plain_state(const CodedState& values) {
   State s;
-  auto first = static_cast<std::size_t>(kFirstCoefficient);
+  std::size_t first = kFirstCoefficient;
   for (const ExpressionPart& part : generic_head().expression) {
-    const auto n = static_cast<std::size_t>(2 * part.control_count);
+    const std::size_t n = 2 * part.control_count;
     for (std::size_t c = 0; c < n; ++c) {
       double sum = 0;
       for (std::size_t k = 0; k < n; ++k)
@@ -105,7 +105,7 @@ TEST(CodedLimits, AreThoseOfTheStateInWholeSteps) {
   EXPECT_EQ(limits.most[kLogScale], kMaxLogScale / 7);
   EXPECT_EQ(limits.least[kLogScale], 0) << "the eyes are never less than a pixel apart";
   EXPECT_EQ(limits.most[kPoseCount], kMaxLight / 11);
-  EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxLight / 11)) << "the mouth's inside";
+  EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxLight / 11)) << "mouth interior";
   EXPECT_EQ(limits.least[kPoseCount + kLightCount + kInteriorCount], -(kMaxTranslation / 5));
   EXPECT_EQ(limits.most[kFirstCoefficient], 8 * kMaxControl / 13);
   for (std::size_t i = 0; i < kParameterCount; ++i) EXPECT_LE(limits.least[i], 0) << i;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/track.h"
 #include "tests/unit/toy_scene.h"
 
@@ -217,7 +217,7 @@ TEST(TrackPlanner, GroupCanBeCoded) {
   for (const PartMask parts : {kAllParts, PartMask{1}, PartMask{0x093}}) {
     setup.steps = kSteps;
     setup.parts = parts;
-    MotionCoder coder(setup, anchor_of());
+    MotionEncoder coder(setup, anchor_of());
     MotionGroup group = planned(wandering_fits(17, 8), 3, parts);
     group.key = true;
     EXPECT_TRUE(coder.encode(group)) << parts;
