@@ -1,6 +1,6 @@
 #!/bin/sh
-# Writes all vectors anew with the present encoder: make.sh [BUILD], BUILD being a configured build folder.
-# For after a change of the format; say in the commit why the old ones may go.
+# Rewrites all vectors with the current encoder: make.sh [BUILD], BUILD being a configured build folder.
+# Use it only after a change of the format, and justify it in the commit.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${1:-$here/../../build/release}
