@@ -45,7 +45,7 @@ State state_of_values(const CodedState& values) {
   auto from = values.begin();
   const auto take = [&from](auto& numbers) {
     std::copy_n(from, numbers.size(), numbers.begin());
-    from += static_cast<std::ptrdiff_t>(numbers.size());
+    from += numbers.size();
   };
   take(state.pose);
   take(state.light);
@@ -67,7 +67,7 @@ State state_of_values(const CodedState& values) {
     static_assert(kSkinningOne == 1 << 12);
     for (std::size_t c = 0; c < n; c += 2)
       state.control[part.first_control + c / 2] = {rounded(c), rounded(c + 1)};
-    from += static_cast<std::ptrdiff_t>(n);
+    from += n;
   }
   return state;
 }

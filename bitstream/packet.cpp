@@ -56,8 +56,7 @@ struct PacketReader::Impl {
 Result<ReadResult> PacketReader::Impl::read_signature() {
   const auto bytes = ahead();
   const std::size_t size = std::min(bytes.size(), kSignature.size());
-  const bool same =
-      std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), kSignature.begin());
+  const bool same = std::equal(bytes.begin(), bytes.begin() + size, kSignature.begin());
   if (!same || (closed && bytes.empty())) return refuse(ErrorCode::kNotFbs, "not an fbs stream");
   if (size < kSignature.size()) return need_more("stream ends inside its signature");
   position += kSignature.size();
@@ -99,7 +98,7 @@ void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
   const std::size_t done = s.search ? s.search->first_open() : s.position;
   if (done > s.buffer.size() / 2) {
-    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + static_cast<std::ptrdiff_t>(done));
+    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + done);
     s.dropped += done;
     s.position -= std::min(done, s.position);
     if (s.search) s.search->drop_front(done);

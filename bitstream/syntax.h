@@ -13,15 +13,15 @@
 namespace fbs {
 
 inline constexpr int kFormatVersion = 3;
-inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one motion packet
-inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
-inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each
-inline constexpr std::uint32_t kMaxDuration = 90000 * 60;  ///< of one picture, 1/90000 s
+inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
+inline constexpr int kMaxPatterns = 64;        ///< patterns in one scene
+inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
+inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
 /// Duration of a picture in a group without durations, 1..kMaxDuration in 1/90000 s. SPEC 5.5.
 /// @param rate  pictures per second; not zero
 [[nodiscard]] constexpr std::uint32_t nominal_duration(const Rational& rate) {
-  const std::uint64_t duration = (std::uint64_t{90000} * rate.den + rate.num / 2) / rate.num;
+  const std::uint64_t duration = (std::uint64_t{kTicksPerSecond} * rate.den + rate.num / 2) / rate.num;
   return static_cast<std::uint32_t>(duration < 1 ? 1 : duration > kMaxDuration ? kMaxDuration : duration);
 }
 

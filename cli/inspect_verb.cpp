@@ -100,7 +100,7 @@ Result<void> run_inspect(const InspectArguments& arguments) {
     auto status = file->next();
     if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
-    s.seconds += decoder.duration() / 90000.0;
+    s.seconds += static_cast<double>(decoder.duration()) / kTicksPerSecond;
   }
   s.bytes = decoder.bytes();
   s.format = decoder.format();

@@ -45,7 +45,7 @@ std::vector<Bytes> seeds_of(const fs::path& folder) {
 void mutate(Bytes& bytes, std::mt19937& random) {
   for (unsigned n = 1 + random() % 4; n > 0 && !bytes.empty(); --n) {
     const std::size_t at = random() % bytes.size();
-    const auto there = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto there = bytes.begin() + at;
     switch (random() % 6) {
       case 0:
         bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1U << random() % 8);
@@ -60,13 +60,12 @@ void mutate(Bytes& bytes, std::mt19937& random) {
         bytes.insert(there, static_cast<std::uint8_t>(random()));
         break;
       case 4:
-        bytes.erase(there, there + static_cast<std::ptrdiff_t>(
-                                       std::min<std::size_t>(1 + random() % 4, bytes.size() - at)));
+        bytes.erase(there, there + std::min<std::size_t>(1 + random() % 4, bytes.size() - at));
         break;
       default: {
         const std::size_t from = random() % bytes.size(),
                           count = std::min<std::size_t>(random() % 16, bytes.size() - std::max(from, at));
-        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count, there);
+        std::copy_n(bytes.begin() + from, count, there);
         break;
       }
     }

@@ -11,6 +11,7 @@
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "decoder/animate/head_projection.h"
 #include "encoder/encoder.h"
 #include "encoder/patterns/pattern_encoder.h"
 #include "samples/talker/talker_render.h"
@@ -142,7 +143,7 @@ Bytes limits_stream() {
     surround.body.push_back(surround.head.back() == kFollowOne ? std::uint8_t{0} : share());
   }
   CodedState seen{};
-  seen[kShiftX] = 32 * 64 / setup.steps.translation;
+  seen[kShiftX] = (32 << kScreenOneLog2) / setup.steps.translation;
   seen[kLogScale] = 4 * 4096 / setup.steps.log_scale;
   auto av1 = must(PatternEncoder::create(setup.format, 40));
   const Picture picture = pictures_of(talker_settings(65, 64, 1))[0];
@@ -218,8 +219,7 @@ void add_good(Folder& folder, const Bytes& talk) {
 void add_broken(Folder& folder, const Bytes& talk) {
   const auto pieces = pieces_of(talk);
   const std::size_t third_motion = offset_of(pieces, place_of(pieces, PacketType::kMotion, 2));
-  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)}, 6,
-             "kTruncated");
+  folder.add("truncated.fbs", {talk.begin(), talk.begin() + third_motion + 5}, 6, "kTruncated");
   Bytes flipped = talk;
   flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
   folder.add("flipped_bit.fbs", flipped, 1, "kInvalidStream");
@@ -246,10 +246,10 @@ void add_broken(Folder& folder, const Bytes& talk) {
   no_setup.erase(no_setup.begin());
   folder.add("no_setup.fbs", joined(no_setup), 0, "kInvalidStream");
   auto no_pattern = pieces;
-  no_pattern.erase(no_pattern.begin() + static_cast<std::ptrdiff_t>(place_of(pieces, PacketType::kPattern)));
+  no_pattern.erase(no_pattern.begin() + place_of(pieces, PacketType::kPattern));
   folder.add("no_pattern.fbs", joined(no_pattern), 0, "kInvalidStream");
   auto lost_key = pieces;
-  lost_key.erase(lost_key.begin() + static_cast<std::ptrdiff_t>(place_of(pieces, PacketType::kMotion)));
+  lost_key.erase(lost_key.begin() + place_of(pieces, PacketType::kMotion));
   folder.add("lost_key.fbs", joined(lost_key), 0, "kInvalidStream");
   const Setup setup = must(decode_setup(pieces[0].payload));
   const PatternSyntax pattern =
