@@ -81,14 +81,14 @@ State state_of(const CodedState& coded, const QuantiserSteps& steps) {
 CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent) : parts(sent) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if ((parts >> kPartOf[i] & 1) == 0) continue;
-    most[i] = limit_of(i) / step_of(steps, i);
-    least[i] = i == kLogScale ? 0 : -most[i];
+    max[i] = limit_of(i) / step_of(steps, i);
+    min[i] = i == kLogScale ? 0 : -max[i];
   }
 }
 
 bool CodedLimits::hold(const CodedState& state) const {
   for (std::size_t i = 0; i < kParameterCount; ++i)
-    if (state[i] < least[i] || state[i] > most[i]) return false;
+    if (!hold(i, state[i])) return false;
   return true;
 }
 

@@ -81,12 +81,15 @@ using CodedState = std::array<std::int32_t, kParameterCount>;
 
 /// Limits of the numbers that can be coded, in steps.
 struct CodedLimits {
-  CodedState least{};
-  CodedState most{};
+  CodedState min{};
+  CodedState max{};
   PartMask parts;  ///< that are sent; numbers of the others are zero
 
   CodedLimits(const QuantiserSteps& steps, PartMask parts);
 
+  [[nodiscard]] bool hold(std::size_t parameter, std::int32_t number) const {
+    return number >= min[parameter] && number <= max[parameter];
+  }
   /// True when every number is within its limits.
   [[nodiscard]] bool hold(const CodedState& state) const;
 };

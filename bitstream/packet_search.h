@@ -22,7 +22,7 @@ class PacketSearch {
 
   /// Continues over `stream`, which begins with the bytes of the calls before.
   /// @param closed  no more bytes will come
-  /// @return the begin of the packet found; nothing: call again with more bytes
+  /// @return the position of the packet found; nothing: call again with more bytes
   [[nodiscard]] std::optional<std::size_t> find(std::span<const std::uint8_t> stream, bool closed);
 
   /// No packet that begins before this position can be found.

@@ -1,6 +1,7 @@
 #include "bitstream/track.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fbs {
 

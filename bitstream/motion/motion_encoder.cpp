@@ -10,11 +10,8 @@ namespace {
 
 bool fits(const Knot& knot, std::size_t part, const CodedLimits& limits) {
   for (std::size_t k = 0; k < kMaxPartSize; ++k) {
-    const std::size_t i = kPartFirst[part] + k;
-    const bool in_range = k < kPartSizes[part]
-                              ? knot.value[k] >= limits.least[i] && knot.value[k] <= limits.most[i]
-                              : knot.value[k] == 0;
-    if (!in_range) return false;
+    const bool in_part = k < kPartSizes[part];
+    if (in_part ? !limits.hold(kPartFirst[part] + k, knot.value[k]) : knot.value[k] != 0) return false;
   }
   return true;
 }

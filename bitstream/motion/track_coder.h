@@ -34,7 +34,7 @@ class TrackCoder {
   std::int32_t span(std::size_t part, std::int32_t left, bool first, std::int32_t length);
 
   /// The knot at the end of a span.
-  /// @param from  the knot at the begin of the span
+  /// @param from  the knot at the start of the span
   /// @param to    the knot at its end; its numbers are set by a Coder that reads
   /// @return false when what was read is out of range
   bool knot(std::size_t part, std::int32_t length, const Knot& from, Knot& to);
@@ -97,7 +97,7 @@ bool TrackCoder<Coder>::knot(std::size_t part, std::int32_t length, const Knot& 
     older = past;
     past = delta;
     to.value[k] = from.value[k] + delta;
-    in_range = in_range && to.value[k] >= limits_.least[i] && to.value[k] <= limits_.most[i];
+    in_range = in_range && limits_.hold(i, to.value[k]);
   }
   return in_range;
 }

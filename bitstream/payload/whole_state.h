@@ -23,7 +23,7 @@ bool code_whole_state(Coder& coder, const CodedLimits& limits, CodedState& state
     }
     const std::size_t kind = i <= kRoll ? 0 : i <= kShiftY ? 1 : i == kLogScale ? 2 : 3;
     state[i] = code_wide_integer(coder, contexts[kind], state[i]);
-    in_range = in_range && state[i] >= limits.least[i] && state[i] <= limits.most[i];
+    in_range = in_range && limits.hold(i, state[i]);
   }
   return in_range;
 }

@@ -67,7 +67,7 @@ class Plan {
     for (std::size_t k = 0; k < size(part); ++k) {
       const std::size_t i = first(part) + k;
       v[k] = static_cast<std::int32_t>(
-          std::clamp<double>(std::round(target_[t][i]), limits_.least[i], limits_.most[i]));
+          std::clamp<double>(std::round(target_[t][i]), limits_.min[i], limits_.max[i]));
     }
     return v;
   }
@@ -286,7 +286,7 @@ class Plan {
       for (std::size_t p = 0; p < size(part); ++p) {
         const std::size_t i = first(part) + p;
         const auto offer = [&](std::int32_t value) {
-          if (value < limits_.least[i] || value > limits_.most[i]) return;
+          if (value < limits_.min[i] || value > limits_.max[i]) return;
           Values to = group_.tracks[part][k].value;
           to[p] = value;
           changed = try_values(part, k, to) || changed;

@@ -115,10 +115,10 @@ MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, con
       Knot knot{.picture = t, .value = {}};
       for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
         const std::size_t i = kPartFirst[part] + k;
-        const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
-        knot.value[k] = random() % 6 == 0   ? limits.most[i]
-                        : random() % 6 == 0 ? limits.least[i]
-                                            : limits.least[i] + static_cast<int>(random() % range);
+        const auto range = static_cast<unsigned>(limits.max[i] - limits.min[i] + 1);
+        knot.value[k] = random() % 6 == 0   ? limits.max[i]
+                        : random() % 6 == 0 ? limits.min[i]
+                                            : limits.min[i] + static_cast<int>(random() % range);
       }
       group.tracks[part].push_back(knot);
     }

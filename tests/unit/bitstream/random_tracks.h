@@ -36,7 +36,7 @@ inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits,
         const int change =
             static_cast<int>(random() % static_cast<unsigned>(2 * habits.reach + 1)) - habits.reach;
         std::int32_t& value = knot.value[k];
-        value = std::clamp(value + change, limits.least[i], limits.most[i]);
+        value = std::clamp(value + change, limits.min[i], limits.max[i]);
       }
       group.tracks[part].push_back(knot);
     }

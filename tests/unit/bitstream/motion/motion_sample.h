@@ -25,7 +25,7 @@ inline Setup sample_setup(PartMask parts = kAllParts) {
 /// Seen state of pattern 0: an eye distance of some 50 pixels.
 inline CodedState sample_seen(const Setup& setup) {
   CodedState seen{};
-  seen[kLogScale] = std::min(2900, CodedLimits(setup.steps, setup.parts).most[kLogScale]);
+  seen[kLogScale] = std::min(2900, CodedLimits(setup.steps, setup.parts).max[kLogScale]);
   return seen;
 }
 

@@ -236,11 +236,11 @@ TEST(TrackPlanner, NumbersStayWithinTheirLimits) {
       for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
         const auto i = kPartFirst[part] + k;
         const std::int32_t value = knot.value[k];
-        EXPECT_TRUE(value >= limits.least[i] && value <= limits.most[i]) << i << ' ' << value;
+        EXPECT_TRUE(value >= limits.min[i] && value <= limits.max[i]) << i << ' ' << value;
       }
     }
   }
-  EXPECT_EQ(last_of(group)[kYaw], limits.least[kYaw]);
+  EXPECT_EQ(last_of(group)[kYaw], limits.min[kYaw]);
 }
 
 // Two numbers of which the picture sees the sum: half a step of each is one step of either.
