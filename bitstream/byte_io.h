@@ -1,7 +1,7 @@
 // Whole bytes in and out: fixed-size numbers, LEB128 varints and spans. SPEC 2.1.
 //
-// This is the only file that moves a byte cursor over input. Reading past the end returns zeros and sets a
-// flag that stays set; parsers read a whole structure and check ok() once.
+// Only this file moves a cursor over input bytes. Reading past the end returns zeros and sets a flag that
+// stays set; parsers read a whole structure and check ok() once.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace fbs {
 
-/// Appends to a vector that somebody else owns and that outlives the writer.
+/// Appends to a vector that is owned by the caller and outlives the writer.
 class ByteWriter {
  public:
   explicit ByteWriter(std::vector<std::uint8_t>& out) : out_(out) {}
@@ -36,7 +36,7 @@ class ByteWriter {
   std::vector<std::uint8_t>& out_;
 };
 
-/// Reads from bytes that somebody else owns and that outlive the reader.
+/// Reads bytes that are owned by the caller and outlive the reader.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> data) : data_(data) {}

@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-/// Coefficients reach farther than the control points that they move, which are clamped.
+/// Larger than the limit of the control points, which are clamped.
 constexpr std::int32_t kMaxCoefficient = 8 * kMaxControl;
 
 std::int32_t limit_of(std::size_t i) {
@@ -45,7 +45,7 @@ State state_of_values(const CodedState& values) {
   auto from = values.begin();
   const auto take = [&from](auto& numbers) {
     std::copy_n(from, numbers.size(), numbers.begin());
-    from += static_cast<std::ptrdiff_t>(numbers.size());
+    from += numbers.size();
   };
   take(state.pose);
   take(state.light);
@@ -53,10 +53,10 @@ State state_of_values(const CodedState& values) {
   take(state.body);
   take(state.ground);
   for (const ExpressionPart& part : generic_head().expression) {
-    const auto n = static_cast<std::size_t>(2 * part.control_count);
+    const std::size_t n = 2 * part.control_count;
     std::array<std::int64_t, kMaxPartSize> sum{};
     for (std::size_t k = 0; k < n; ++k) {
-      const std::int64_t coefficient = from[static_cast<std::ptrdiff_t>(k)];
+      const std::int64_t coefficient = from[k];
       if (coefficient == 0) continue;
       for (std::size_t c = 0; c < n; ++c) sum[c] += coefficient * part.rows[k * n + c];
     }
@@ -67,7 +67,7 @@ State state_of_values(const CodedState& values) {
     static_assert(kSkinningOne == 1 << 12);
     for (std::size_t c = 0; c < n; c += 2)
       state.control[part.first_control + c / 2] = {rounded(c), rounded(c + 1)};
-    from += static_cast<std::ptrdiff_t>(n);
+    from += n;
   }
   return state;
 }
@@ -81,14 +81,14 @@ State state_of(const CodedState& coded, const QuantiserSteps& steps) {
 CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent) : parts(sent) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if ((parts >> kPartOf[i] & 1) == 0) continue;
-    most[i] = limit_of(i) / step_of(steps, i);
-    least[i] = i == kLogScale ? 0 : -most[i];
+    max[i] = limit_of(i) / step_of(steps, i);
+    min[i] = i == kLogScale ? 0 : -max[i];
   }
 }
 
 bool CodedLimits::hold(const CodedState& state) const {
   for (std::size_t i = 0; i < kParameterCount; ++i)
-    if (state[i] < least[i] || state[i] > most[i]) return false;
+    if (!hold(i, state[i])) return false;
   return true;
 }
 

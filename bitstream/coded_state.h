@@ -1,4 +1,4 @@
-// The state as the stream codes it: one row of integers in quantiser steps, divided into parts. SPEC 5.1.
+// The state as coded in the stream: a row of integers in quantiser steps, divided into parts. SPEC 5.1.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// What is coded together, and moves between the same pictures.
+/// Numbers that are coded together and share their knots.
 enum class PartId : std::uint8_t {
   kPose,
   kLight,
@@ -23,12 +23,15 @@ enum class PartId : std::uint8_t {
   kGaze,
 };
 inline constexpr int kPartCount = 10;
+[[nodiscard]] constexpr std::size_t index_of(PartId part) {
+  return static_cast<std::size_t>(part);
+}
 
 /// Bit p for part p.
 using PartMask = std::uint16_t;
 inline constexpr PartMask kAllParts = (1 << kPartCount) - 1;
 [[nodiscard]] constexpr PartMask mask_of(PartId part) {
-  return static_cast<PartMask>(1U << static_cast<unsigned>(part));
+  return static_cast<PartMask>(1U << index_of(part));
 }
 
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
@@ -39,7 +42,7 @@ inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
 inline constexpr std::array<std::size_t, kPartCount> kPartSizes = {6, 7, 3, 4, 4, 36, 16, 8, 8, 4};
 inline constexpr std::size_t kMaxPartSize = 36;
 
-inline constexpr int kFirstExpressionPart = static_cast<int>(PartId::kMouth);
+inline constexpr int kFirstExpressionPart = index_of(PartId::kMouth);
 
 /// First number of each part.
 inline constexpr std::array<std::size_t, kPartCount + 1> kPartFirst = [] {
@@ -52,7 +55,7 @@ inline constexpr int kFirstCoefficient = kPartFirst[kFirstExpressionPart];
 static_assert(kParameterCount == 96 && kParameterCount - kFirstCoefficient == 2 * kControlCount);
 
 [[nodiscard]] constexpr std::size_t first_of(PartId part) {
-  return kPartFirst[static_cast<std::size_t>(part)];
+  return kPartFirst[index_of(part)];
 }
 
 /// Part of each number.
@@ -63,28 +66,31 @@ inline constexpr std::array<std::uint8_t, kParameterCount> kPartOf = [] {
   return part;
 }();
 
-/// All numbers of a state in stream order, in steps: pose, light, inside, body, ground, then the coefficients
-/// of the expression's parts.
+/// All numbers of a state in stream order, in steps: pose, light, mouth interior, body, ground, then the
+/// coefficients of the expression's parts.
 using CodedState = std::array<std::int32_t, kParameterCount>;
 
 /// Step of each number.
 [[nodiscard]] std::int32_t step_of(const QuantiserSteps& steps, std::size_t parameter);
 
-/// The state whose numbers, in the units of State and for coefficients in head units, are `values`.
+/// The state of `values`: numbers in the units of State, coefficients in head units.
 [[nodiscard]] State state_of_values(const CodedState& values);
 
-/// The state that is coded as `coded`.
+/// The state of numbers in steps.
 [[nodiscard]] State state_of(const CodedState& coded, const QuantiserSteps& steps);
 
-/// What numbers may be coded, in steps.
+/// Limits of the numbers that can be coded, in steps.
 struct CodedLimits {
-  CodedState least{};
-  CodedState most{};
-  PartMask parts = kAllParts;  ///< that are sent; the others stay zero
+  CodedState min{};
+  CodedState max{};
+  PartMask parts;  ///< that are sent; numbers of the others are zero
 
   CodedLimits(const QuantiserSteps& steps, PartMask parts);
 
-  /// True when every number is within its limits and those of parts not sent are zero.
+  [[nodiscard]] bool hold(std::size_t parameter, std::int32_t number) const {
+    return number >= min[parameter] && number <= max[parameter];
+  }
+  /// True when every number is within its limits.
   [[nodiscard]] bool hold(const CodedState& state) const;
 };
 

@@ -28,10 +28,10 @@ std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
 
 struct PacketReader::Impl {
   std::vector<std::uint8_t> buffer;
-  std::uint64_t dropped = 0;  // bytes of the stream before the buffer
-  std::size_t position = 0;   // in the buffer: where next() stands
+  std::uint64_t dropped = 0;  // bytes of the stream before `buffer`
+  std::size_t position = 0;   // of next(), in `buffer`
   bool closed = false;
-  bool begun = false;          // the signature has been read, or is not asked for any more
+  bool begun = false;          // the signature has been read or is not required any more
   std::optional<Error> error;  // what next() returns until resync() finds a packet
   std::optional<PacketSearch> search;
 
@@ -43,10 +43,9 @@ struct PacketReader::Impl {
     return fail(*error);
   }
 
-  // Not enough bytes for what `where` names.
-  Result<ReadResult> lacking(const char* where) {
+  Result<ReadResult> need_more(const char* text_at_end) {
     if (!closed) return ReadResult{ReadStatus::kNeedMore, {}};
-    return refuse(ErrorCode::kTruncated, where);
+    return refuse(ErrorCode::kTruncated, text_at_end);
   }
 
   Result<ReadResult> read_signature();
@@ -57,10 +56,9 @@ struct PacketReader::Impl {
 Result<ReadResult> PacketReader::Impl::read_signature() {
   const auto bytes = ahead();
   const std::size_t size = std::min(bytes.size(), kSignature.size());
-  const bool same =
-      std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), kSignature.begin());
+  const bool same = std::equal(bytes.begin(), bytes.begin() + size, kSignature.begin());
   if (!same || (closed && bytes.empty())) return refuse(ErrorCode::kNotFbs, "not an fbs stream");
-  if (size < kSignature.size()) return lacking("stream ends inside its signature");
+  if (size < kSignature.size()) return need_more("stream ends inside its signature");
   position += kSignature.size();
   begun = true;
   return ReadResult{};
@@ -75,13 +73,13 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   const std::uint8_t type = reader.u8();
   const std::uint64_t size = reader.varint();
   if (reader.malformed()) return refuse(ErrorCode::kInvalidStream, "packet has a damaged length");
-  if (reader.past_end()) return lacking("stream ends inside a packet");
+  if (reader.past_end()) return need_more("stream ends inside a packet");
   if (size > kMaxPayload) return refuse(ErrorCode::kTooLarge, "packet is too large");
 
-  const auto payload = reader.bytes(static_cast<std::size_t>(size));
+  const auto payload = reader.bytes(size);
   const std::size_t checked = reader.offset();
   const std::uint16_t check = reader.u16();
-  if (reader.past_end()) return lacking("stream ends inside a packet");
+  if (reader.past_end()) return need_more("stream ends inside a packet");
   if (crc16(bytes.first(checked)) != check) return refuse(ErrorCode::kInvalidStream, "packet is damaged");
 
   const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset()};
@@ -97,10 +95,10 @@ PacketReader& PacketReader::operator=(PacketReader&&) noexcept = default;
 void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
-  // Drops what was read when it is the larger half, so that each byte is moved a bounded number of times.
+  // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
   const std::size_t done = s.search ? s.search->first_open() : s.position;
   if (done > s.buffer.size() / 2) {
-    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + static_cast<std::ptrdiff_t>(done));
+    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + done);
     s.dropped += done;
     s.position -= std::min(done, s.position);
     if (s.search) s.search->drop_front(done);

@@ -1,4 +1,4 @@
-// Packets: how a stream is divided. Signature, then type, length, payload, check. SPEC 3.
+// Packets: a signature, then type, length, payload and check of each. SPEC 3.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +26,9 @@ std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
 
 /// One packet whose check is right. Its payload still has to be parsed.
 struct Packet {
-  PacketType type{};                      ///< any byte; callers skip what they do not know
+  PacketType type{};                      ///< any byte; callers skip unknown types
   std::uint64_t offset = 0;               ///< of the type byte, from the start of the stream
-  std::span<const std::uint8_t> payload;  ///< in the reader's memory: valid until the next call of feed()
+  std::span<const std::uint8_t> payload;  ///< in the reader's memory, valid until the next feed()
   std::size_t size = 0;                   ///< bytes of the whole packet: type, length, payload and check
 };
 
@@ -43,17 +43,17 @@ struct ReadResult {
   Packet packet;  ///< set with kPacket
 };
 
-/// Divides a stream into packets. Bytes may come in pieces of any size, as from a pipe.
+/// Divides a stream into packets. Bytes may arrive in pieces of any size, as from a pipe.
 ///
 ///   reader.feed(bytes);                 // or reader.close() at the end of the input
 ///   for (;;) {
-///     auto read = reader.next();        // or resync() after an error, to go on behind the damage
+///     auto read = reader.next();        // or resync() after an error, to continue after the damage
 ///     if (!read || read->status != ReadStatus::kPacket) break;
 ///     use(read->packet);
 ///   }
 ///
-/// Memory: what was fed and not yet taken; a caller that takes all packets before feeding again keeps it
-/// below the largest packet.
+/// Memory: the bytes that were fed and not yet read; less than the largest packet if all packets are read
+/// before more is fed.
 class PacketReader {
  public:
   PacketReader();
@@ -61,7 +61,7 @@ class PacketReader {
   PacketReader(PacketReader&&) noexcept;
   PacketReader& operator=(PacketReader&&) noexcept;
 
-  /// Copies `bytes`. Ends the life of payloads handed out before. Not after close() (assert).
+  /// Copies `bytes` and invalidates the payloads of earlier packets. Not after close() (assert).
   void feed(std::span<const std::uint8_t> bytes);
 
   /// No more bytes will come.
@@ -74,13 +74,13 @@ class PacketReader {
   ///         kTooLarge       payload beyond kMaxPayload; offset of the packet
   [[nodiscard]] Result<ReadResult> next();
 
-  /// After an error of next(): searches behind the damaged place for a packet of a known type with the right
-  /// check and at most kMaxSearchedPayload bytes, and reads it; next() goes on behind it. May also be called
-  /// first of all, to join a stream in its middle.
+  /// After an error of next(): searches past the damage for a packet of a known type with the right check and
+  /// a payload of at most kMaxSearchedPayload bytes, and reads it; next() continues after it. May also be
+  /// called first, to join a stream in its middle.
   /// @return kPacket; kNeedMore (call resync() again after feeding); kEnd when closed and nothing was found
   [[nodiscard]] Result<ReadResult> resync();
 
-  /// Where next() stands, in bytes from the start of the stream.
+  /// Position of next(), in bytes from the start of the stream.
   [[nodiscard]] std::uint64_t offset() const;
 
  private:

@@ -10,7 +10,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::size_t kLookAhead = 5;  // type and the longest length a search believes
+constexpr std::size_t kLookAhead = 5;  // bytes of type and longest length
 
 bool is_known(std::uint8_t type) {
   return type >= static_cast<std::uint8_t>(PacketType::kSetup) &&
@@ -25,7 +25,7 @@ void PacketSearch::add_candidate(std::span<const std::uint8_t> stream) {
   [[maybe_unused]] const std::uint8_t type = reader.u8();
   const std::uint64_t size = reader.varint();
   if (!reader.ok() || size > kMaxSearchedPayload) return;
-  candidates_.push_back({position_, position_ + reader.offset() + static_cast<std::size_t>(size), sum_});
+  candidates_.push_back({position_, position_ + reader.offset() + size, sum_});
   std::push_heap(candidates_.begin(), candidates_.end(), later);
 }
 

@@ -9,32 +9,33 @@
 
 namespace fbs {
 
-/// A search believes lengths up to this many bytes only: it bounds what the search remembers.
+/// Longer payloads are not searched for, which bounds the memory of a search.
 inline constexpr std::size_t kMaxSearchedPayload = std::size_t{1} << 20;
 
-/// Reads bytes once, one after the other, and keeps every place where a packet of a known type may begin
-/// until that packet's end is reached and its check can be tested. Takes the first that ends with the right
-/// check. Time is linear in the bytes times the logarithm of kMaxSearchedPayload, whatever they are.
+/// Reads each byte once and keeps every place where a packet of a known type may begin until the end of that
+/// packet, where its check can be tested. The first packet to end with the right check is found. Time is
+/// O(n log kMaxSearchedPayload) for any n bytes.
 class PacketSearch {
  public:
-  /// Begins at `position` of the stream.
+  /// @param position  first position where a packet may begin
   explicit PacketSearch(std::size_t position) : position_(position) {}
 
-  /// Goes on over `stream`, which has the bytes of the calls before at the same places, maybe more behind.
+  /// Continues over `stream`, which begins with the bytes of the calls before.
   /// @param closed  no more bytes will come
-  /// @return where a packet begins, once one was found; nothing: call again with more bytes
+  /// @return the position of the packet found; nothing: call again with more bytes
   [[nodiscard]] std::optional<std::size_t> find(std::span<const std::uint8_t> stream, bool closed);
 
-  /// No packet can be found that begins before this place.
+  /// No packet that begins before this position can be found.
   [[nodiscard]] std::size_t first_open() const;
 
-  /// The stream has lost its first `count` bytes, count <= first_open(): places are `count` less from now on.
+  /// The caller has dropped the first `count` bytes, count <= first_open(): positions are `count` less from
+  /// now on.
   void drop_front(std::size_t count);
 
  private:
   struct Candidate {
     std::size_t begin;
-    std::size_t end;           // behind the payload, where the check begins
+    std::size_t end;           // of the payload, where the check begins
     std::uint16_t sum_before;  // running sum of the bytes before `begin`
   };
   static bool later(const Candidate& a, const Candidate& b) { return a.end > b.end; }

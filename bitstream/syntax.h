@@ -1,4 +1,4 @@
-// What the packets of a stream say, as plain data. How each is written in bits: SPEC.md.
+// The content of packets as plain data. SPEC.md defines how each is coded.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 namespace fbs {
 
 inline constexpr int kFormatVersion = 3;
-inline constexpr int kMaxGroupPictures = 256;              ///< pictures in one motion packet
-inline constexpr int kMaxPatterns = 64;                    ///< patterns in one scene
-inline constexpr int kMaxSurroundCells = 128;              ///< columns and rows of the surround's grid, each
-inline constexpr std::uint32_t kMaxDuration = 90000 * 60;  ///< of one picture, 1/90000 s
+inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
+inline constexpr int kMaxPatterns = 64;        ///< patterns in one scene
+inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
+inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
-/// Duration of a picture when nothing else is said, 1..kMaxDuration in 1/90000 s.
+/// Duration of a picture in a group without durations, 1..kMaxDuration in 1/90000 s. SPEC 5.5.
 /// @param rate  pictures per second; not zero
 [[nodiscard]] constexpr std::uint32_t nominal_duration(const Rational& rate) {
-  const std::uint64_t duration = (std::uint64_t{90000} * rate.den + rate.num / 2) / rate.num;
+  const std::uint64_t duration = (std::uint64_t{kTicksPerSecond} * rate.den + rate.num / 2) / rate.num;
   return static_cast<std::uint32_t>(duration < 1 ? 1 : duration > kMaxDuration ? kMaxDuration : duration);
 }
 
-inline constexpr int kFollowOne = 4;  ///< a surround point that moves wholly with the head
+inline constexpr int kFollowOne = 4;  ///< weight of a surround point that follows a motion entirely
 
 enum class PacketType : std::uint8_t {
   kSetup = 1,     ///< begins a stream, or a new scene inside one
   kGeometry = 2,  ///< the adapted head; absent in a scene without a face
-  kSurround = 3,  ///< how the picture round the face follows the head
-  kPattern = 4,   ///< one coded picture and the state in which it was seen
+  kSurround = 3,  ///< the motion that each point of the surround follows
+  kPattern = 4,   ///< one coded picture and its seen state
   kMotion = 5,    ///< the states of a group of pictures
   kEnd = 6,       ///< optional: number of pictures
 };
@@ -42,14 +42,14 @@ struct YuvColour {
   friend bool operator==(const YuvColour&, const YuvColour&) = default;
 };
 
-/// What shows between parted lips that the pattern saw closed: one colour at the upper lip (teeth), one at
-/// the lower (dark, tongue), and between their mean; State::inside adds to their luma.
+/// Colours of the mouth interior where the pattern shows closed lips: at the upper lip (teeth) and at the
+/// lower lip (dark, tongue), with their mean half way. State::interior is added to their luma.
 struct MouthInterior {
   YuvColour upper{70, 126, 138}, lower{45, 126, 138};
   friend bool operator==(const MouthInterior&, const MouthInterior&) = default;
 };
 
-/// Begins a scene. All later packets are read in its terms.
+/// Begins a scene. All later packets of the scene depend on it.
 struct Setup {
   VideoFormat format;
   QuantiserSteps steps;
@@ -58,15 +58,15 @@ struct Setup {
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 
-/// The adapted head: where each vertex of the generic head lies for this face, expressionless. Head units.
+/// The adapted head: position of each vertex of the generic head for this face, expressionless. Head units.
 struct Geometry {
   std::array<glm::ivec3, kVertexCount> positions{};  ///< each coordinate within +-4 * kUnitsPerEyeDistance
   friend bool operator==(const Geometry&, const Geometry&) = default;
 };
 
-/// A regular grid of (columns + 1) x (rows + 1) points over the picture, first and last on its borders. Each
-/// point says how much of the head's motion it follows; what it does not follow of the head it shares between
-/// body and ground.
+/// A regular grid of (columns + 1) x (rows + 1) points over the picture, the outermost near its borders. Each
+/// point has the weight of the head's motion and, in the rest, that of the body's; what is left is the
+/// ground's. SPEC 10.1.
 struct SurroundMap {
   std::int32_t columns = 0;  ///< 1..kMaxSurroundCells
   std::int32_t rows = 0;
@@ -75,7 +75,7 @@ struct SurroundMap {
   friend bool operator==(const SurroundMap&, const SurroundMap&) = default;
 };
 
-/// One pattern: a picture, and the state in which it was seen.
+/// One pattern: a picture, and the state of its content, the seen state.
 struct PatternSyntax {
   std::int32_t index = 0;  ///< 0..kMaxPatterns-1
   CodedState state{};
@@ -83,21 +83,22 @@ struct PatternSyntax {
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
 
-/// Numbers of one part at one picture of a group.
+/// Numbers of one part at one picture of a group. Between knots the values are interpolated linearly; not to
+/// be confused with the knots and control points of the B-splines that mark the features of the face.
 struct Knot {
   std::int32_t picture = 0;                        ///< 0 .. pictures of the group - 1
   std::array<std::int32_t, kMaxPartSize> value{};  ///< in steps; the part's numbers, then zeros
   friend bool operator==(const Knot&, const Knot&) = default;
 };
 
-/// A part's way through a group: straight from knot to knot.
+/// The motion of one part through a group: linear from knot to knot.
 using Track = std::vector<Knot>;
 
 /// Consecutive pictures.
 struct MotionGroup {
   bool key = false;     ///< coded without reference to earlier groups
-  CodedState anchor{};  ///< before the first picture: of the picture before the group, in a key group of
-                        ///< pattern 0. Not coded, since both sides know it
+  CodedState anchor{};  ///< state before the first picture: of the last picture of the group before, in a key
+                        ///< group the seen state of pattern 0. Not coded, since both sides know it
   std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
   /// Of each part that is sent: at least one knot, the last in the last picture; of others: none.
   std::array<Track, kPartCount> tracks;

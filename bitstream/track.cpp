@@ -1,11 +1,12 @@
 #include "bitstream/track.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fbs {
 
-std::int32_t between(std::int64_t from, std::int64_t to, std::int64_t way, std::int64_t length) {
-  const std::int64_t twice = 2 * (to - from) * way + length;
+std::int32_t interpolate(std::int64_t from, std::int64_t to, std::int64_t elapsed, std::int64_t length) {
+  const std::int64_t twice = 2 * (to - from) * elapsed + length;
   const std::int64_t quotient = twice / (2 * length);
   const bool below = twice % (2 * length) < 0;
   return static_cast<std::int32_t>(from + quotient - (below ? 1 : 0));
@@ -18,7 +19,7 @@ Knot anchor_knot(const CodedState& anchor, std::size_t part) {
 }
 
 std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps) {
-  std::vector<CodedState> values(static_cast<std::size_t>(group.pictures), CodedState{});
+  std::vector<CodedState> values(group.pictures, CodedState{});
   for (std::size_t part = 0; part < kPartCount; ++part) {
     const auto first = kPartFirst[part];
     Knot last = anchor_knot(group.anchor, part);
@@ -26,9 +27,9 @@ std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& ste
       const std::int32_t length = knot.picture - last.picture;
       for (std::size_t i = 0; i < kPartSizes[part]; ++i) {
         const std::int64_t step = step_of(steps, first + i);
-        for (std::int32_t way = 1; way <= length; ++way)
-          values[last.picture + way][first + i] =
-              between(last.value[i] * step, knot.value[i] * step, way, length);
+        for (std::int32_t elapsed = 1; elapsed <= length; ++elapsed)
+          values[last.picture + elapsed][first + i] =
+              interpolate(last.value[i] * step, knot.value[i] * step, elapsed, length);
       }
       last = knot;
     }

@@ -1,4 +1,4 @@
-// Tracks: what a motion group says of the pictures between its knots. SPEC 5.2.
+// Tracks: piecewise linear motion from knot to knot. SPEC 5.2.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,15 @@
 
 namespace fbs {
 
-/// `from + (to - from) * way / length`, rounded to nearest, halves up. 0 <= way <= length, length > 0.
-[[nodiscard]] std::int32_t between(std::int64_t from, std::int64_t to, std::int64_t way, std::int64_t length);
+/// `from + (to - from) * elapsed / length`, rounded to nearest, halves up.
+/// @param elapsed  0..length pictures; length > 0
+[[nodiscard]] std::int32_t interpolate(std::int64_t from, std::int64_t to, std::int64_t elapsed,
+                                       std::int64_t length);
 
-/// A part of the anchor as a knot: before the first picture.
+/// One part of the anchor as a knot at picture -1.
 [[nodiscard]] Knot anchor_knot(const CodedState& anchor, std::size_t part);
 
-/// The states of a group's pictures.
+/// The state of each picture of a group.
 [[nodiscard]] std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps);
 
 /// The coded state at a group's last picture: the anchor of the next.

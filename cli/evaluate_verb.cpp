@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/byte_count_json.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
 #include "cli/progress.h"
@@ -63,14 +64,7 @@ nlohmann::json to_json(const Point& p) {
                       {"frames", m.pictures},
                       {"seconds", m.seconds},
                       {"kbps", m.kbps()},
-                      {"bytes",
-                       {{"total", m.bytes.total},
-                        {"startup", m.bytes.startup},
-                        {"geometry", m.bytes.geometry},
-                        {"patterns", m.bytes.patterns},
-                        {"motion", m.bytes.motion},
-                        {"index", m.bytes.index},
-                        {"other", m.bytes.other}}},
+                      {"bytes", byte_count_json(m.bytes)},
                       {"psnr_frame", m.frame.psnr()},
                       {"ssim_frame", m.ssim_frame}};
   if (m.face.count > 0) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/byte_count_json.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 
@@ -19,7 +20,7 @@ struct Summary {
   double seconds = 0;
   std::size_t patterns = 0;
   bool face = false;
-  PartCosts motion{};  ///< 1/256 bit
+  PartBitsX256 motion{};
 };
 
 /// Bytes of motion for each part of the state, for durations, and for the rest: packet headers, checksums,
@@ -37,17 +38,9 @@ std::vector<std::pair<std::string, double>> motion_by_part(const Summary& s) {
 }
 
 nlohmann::json to_json(const Summary& s) {
-  const ByteCount& b = s.bytes;
   nlohmann::json by_part;
   for (const auto& [part, bytes] : motion_by_part(s)) by_part[part] = std::lround(bytes);
-  return {{"bytes",
-           {{"total", b.total},
-            {"startup", b.startup},
-            {"geometry", b.geometry},
-            {"patterns", b.patterns},
-            {"motion", b.motion},
-            {"index", b.index},
-            {"other", b.other}}},
+  return {{"bytes", byte_count_json(s.bytes)},
           {"motion", by_part},
           {"frames", s.pictures},
           {"fps", static_cast<double>(s.format.frame_rate.num) / s.format.frame_rate.den},
@@ -85,7 +78,6 @@ void print(const std::string& name, const Summary& s) {
     if (bytes >= 0.5)
       std::printf("    %-11s %5.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
                   s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
-  line("index", b.index);
   line("other", b.other);
   line("total", b.total);
   std::printf("  needed before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
@@ -103,12 +95,13 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
+  decoder.count_motion_bits();
   Summary s;
   for (;;) {
     auto status = file->next();
     if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
-    s.seconds += decoder.duration() / 90000.0;
+    s.seconds += static_cast<double>(decoder.duration()) / kTicksPerSecond;
   }
   s.bytes = decoder.bytes();
   s.format = decoder.format();
@@ -116,7 +109,7 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   s.patterns = decoder.scene().patterns.size();
   s.face = decoder.scene().geometry.has_value();
   s.steps = decoder.scene().setup.steps;
-  s.motion = decoder.motion_costs();
+  s.motion = decoder.motion_bits();
   if (arguments.json)
     std::printf("%s\n", to_json(s).dump(1).c_str());
   else

@@ -33,7 +33,7 @@ Result<DecodeStatus> StreamFile::next() {
     std::array<std::uint8_t, 1 << 16> buffer;
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
     if (n > 0)
-      decoder_.feed(std::span(buffer.data(), static_cast<std::size_t>(n)));
+      decoder_.feed(std::span(buffer).first(n));
     else if (n == 0)
       decoder_.close();
     else if (errno != EINTR)

@@ -14,7 +14,7 @@ class StreamFile {
  public:
   static Result<StreamFile> open(const std::string& name);
 
-  /// As StreamDecoder::next(), never kNeedMore.
+  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore.
   Result<DecodeStatus> next();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace fbs::cli {
 namespace {
@@ -31,7 +32,7 @@ Plane cut(const Plane& p, const cv::Rect& box) {
 void StreamMeter::compare(const Picture& source) {
   decoder_.render(drawn_);
   sum_.frame += squared_error(source.y, drawn_.y);
-  sum_.seconds += decoder_.duration() / 90000.0;
+  sum_.seconds += static_cast<double>(decoder_.duration()) / kTicksPerSecond;
   ++sum_.pictures;
   if (with_ssim_) sum_.ssim_frame += ssim(source.y, drawn_.y);
   const auto& geometry = decoder_.scene().geometry;

@@ -1,10 +1,7 @@
 // Compares decoded pictures with the source, one at a time.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
+#include <cstdint>
 
 #include "common/picture.h"
 #include "common/quality.h"
@@ -17,7 +14,7 @@ struct Measure {
   std::uint64_t pictures = 0;
   double seconds = 0;
   ByteCount bytes;
-  SquaredError frame, face;              ///< luma; the face is the area of the decoded mesh
+  SquaredError frame, face;              ///< luma; the face is the area inside the mesh's outline
   double ssim_frame = 0, ssim_face = 0;  ///< means over the pictures; 0 unless asked for
 
   [[nodiscard]] double kbps() const { return rate(bytes.total); }

@@ -12,6 +12,8 @@ namespace fbs {
 inline constexpr int kMinPictureSize = 64;    ///< width and height, pixels
 inline constexpr int kMaxPictureSize = 8192;  ///< width and height, pixels
 
+inline constexpr std::int64_t kTicksPerSecond = 90000;  ///< unit of times and durations of pictures
+
 /// One plane of 8-bit samples, rows top to bottom without padding.
 struct Plane {
   int width = 0;

@@ -1,6 +1,7 @@
 #include "decoder/stream_decoder.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "bitstream/payload/end_payload.h"
@@ -43,7 +44,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
-      if (!has_setup_ && !damaged_ && !std::exchange(lack_of_setup_told_, true))
+      if (!has_setup_ && !damaged_ && !std::exchange(missing_setup_reported_, true))
         return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
       return DecodeStatus::kEnd;
     }
@@ -64,7 +65,7 @@ void StreamDecoder::render(Picture& out) {
 }
 
 void StreamDecoder::count(const Packet& packet) {
-  // Damage between the last packet and this one is nobody's.
+  // Count skipped bytes as other.
   bytes_.other += packet.offset - bytes_.total;
   bytes_.total = packet.offset + packet.size;
   switch (packet.type) {
@@ -127,6 +128,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   patterns_.emplace(std::move(*patterns));
   scene_ = Scene{*setup, std::nullopt, {}};
   motion_.reset();
+  bit_counter_.reset();
   geometry_.reset();
   surround_.reset();
   has_setup_ = true;
@@ -153,6 +155,7 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
   if (scene_.patterns.empty()) {
     if (auto begun = begin_geometry(seen); !begun) return begun;
     motion_.emplace(scene_.setup, pattern->state);
+    if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
   }
   scene_.patterns.push_back(
       {std::move(*picture), scene_.geometry ? scene_.geometry->project(seen) : ScreenMesh{}});
@@ -162,10 +165,12 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
 Result<void> StreamDecoder::take_motion(const Packet& packet) {
   if (scene_.patterns.empty())
     return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
-  const PartCosts before = motion_->cost_of_parts();
   auto group = motion_->decode(packet.payload);
   if (!group) return at(packet, group.error());
-  for (std::size_t i = 0; i < before.size(); ++i) motion_costs_[i] += motion_->cost_of_parts()[i] - before[i];
+  if (bit_counter_) {
+    const PartBitsX256 bits = bit_counter_->count(*group);
+    std::transform(bits.begin(), bits.end(), motion_bits_.begin(), motion_bits_.begin(), std::plus<>());
+  }
   const std::vector<State> states = states_of(*group, scene_.setup.steps);
   waiting_.assign(states.begin(), states.end());
   if (group->durations.empty())

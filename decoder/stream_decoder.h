@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/motion/motion_bit_counter.h"
+#include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
-#include "bitstream/payload/motion_payload.h"
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"
@@ -23,8 +24,7 @@ struct ByteCount {
   std::uint64_t geometry = 0;  ///< geometry and surround packets
   std::uint64_t patterns = 0;
   std::uint64_t motion = 0;
-  std::uint64_t index = 0;
-  std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and damage
+  std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and skipped bytes
 };
 
 enum class DecodeStatus : std::uint8_t {
@@ -50,6 +50,10 @@ class StreamDecoder {
   /// No more bytes will come.
   void close();
 
+  /// Counts the bits of motion from the next scene on, which takes as long again as to read it. Off by
+  /// default.
+  void count_motion_bits() { counts_motion_bits_ = true; }
+
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup.
   Result<DecodeStatus> next();
@@ -62,8 +66,8 @@ class StreamDecoder {
   [[nodiscard]] const VideoFormat& format() const { return scene_.setup.format; }
   [[nodiscard]] std::uint64_t pictures() const { return pictures_; }  ///< announced so far
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
-  /// What the parts of the motion have cost, in 1/256 bit; as MotionCoder says.
-  [[nodiscard]] const PartCosts& motion_costs() const { return motion_costs_; }
+  /// Bits of the motion read so far by part; zero unless count_motion_bits() was called.
+  [[nodiscard]] const PartBitsX256& motion_bits() const { return motion_bits_; }
   /// Duration of the announced picture in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return duration_; }
   /// Number of pictures that the end packet announces, when it has been read.
@@ -79,14 +83,16 @@ class StreamDecoder {
 
   PacketReader reader_;
   bool damaged_ = false;
-  bool lack_of_setup_told_ = false;
+  bool missing_setup_reported_ = false;
 
   Scene scene_;
   bool has_setup_ = false;
   std::optional<Geometry> geometry_;
   std::optional<SurroundMap> surround_;
   std::optional<PatternDecoder> patterns_;
-  std::optional<MotionCoder> motion_;
+  std::optional<MotionDecoder> motion_;
+  bool counts_motion_bits_ = false;
+  std::optional<MotionBitCounter> bit_counter_;  ///< of the scene, if bits are counted
   Renderer renderer_;
 
   std::deque<State> waiting_;
@@ -96,7 +102,7 @@ class StreamDecoder {
   std::uint64_t pictures_ = 0;
   std::optional<std::uint64_t> announced_;
   ByteCount bytes_;
-  PartCosts motion_costs_{};
+  PartBitsX256 motion_bits_{};
 };
 
 }  // namespace fbs

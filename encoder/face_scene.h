@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "decoder/renderer.h"
 #include "encoder/face_analysis.h"
 #include "encoder/patterns/mouth_colours.h"
@@ -52,7 +52,7 @@ class FaceScene : public SceneEncoder {
   PatternCoder patterns_;
   FaceAnalysis analysis_;
 
-  MotionCoder coder_;
+  MotionEncoder coder_;
   TrackPlanner planner_;
   TrackRate rate_;
   double base_lambda_;                    ///< that the quality stands for

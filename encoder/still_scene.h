@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
 #include "encoder/scene_timing.h"
@@ -27,7 +27,7 @@ class StillScene : public SceneEncoder {
 
   SceneTiming timing_;
   PartMask parts_;
-  MotionCoder coder_;
+  MotionEncoder coder_;
   std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
   std::uint64_t pictures_ = 0;
   ScenePackets packets_;

@@ -1,6 +1,7 @@
 // Signed integers over the binary range coder: zero flag, sign, magnitude. SPEC 2.4.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -10,11 +11,11 @@
 namespace fbs {
 
 inline constexpr int kMaxExponent = 23;
-/// Largest value code_exponential can write.
+/// Largest value that code_exponential can write.
 inline constexpr std::uint32_t kMaxExponential = (std::uint32_t{2} << kMaxExponent) - 2;
 
-/// Contexts of an Exp-Golomb number: one for each place of the unary exponent, one for the highest bit of the
-/// mantissa; the bits below are written without a context.
+/// Contexts of an Exp-Golomb number: for each place of the unary exponent, and for the highest bit of the
+/// mantissa; lower bits are coded without a context.
 struct ExponentialContexts {
   std::array<AdaptiveBit, kMaxExponent> more;
   std::array<AdaptiveBit, 4> top_bit;  ///< by exponent 1, 2, 3, beyond
@@ -32,14 +33,14 @@ std::uint32_t code_exponential(Coder& coder, ExponentialContexts& contexts, std:
   }
   std::uint32_t mantissa = value + 1 - (std::uint32_t{1} << exponent);
   if (exponent > 0) {
-    const auto place = static_cast<std::size_t>(exponent < 4 ? exponent - 1 : 3);
+    const int place = std::min(exponent, 4) - 1;
     const std::uint32_t top = coder.bit(contexts.top_bit[place], (mantissa >> (exponent - 1) & 1) != 0);
     mantissa = top << (exponent - 1) | coder.bypass(exponent - 1, mantissa & ((1u << (exponent - 1)) - 1));
   }
   return (std::uint32_t{1} << exponent) + mantissa - 1;
 }
 
-/// Contexts of a number of which little is known beforehand, such as a pose coded whole.
+/// Contexts of a number without a good prediction, such as one of a state coded whole.
 struct WideIntegerContexts {
   AdaptiveBit not_zero;
   AdaptiveBit negative;

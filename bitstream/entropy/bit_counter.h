@@ -1,4 +1,4 @@
-// Counts what a RangeEncoder would write, without writing it. Same interface; contexts learn in the same way.
+// Counts the bits that a RangeEncoder would write. Same interface; contexts adapt in the same way.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,11 @@ class BitCounter {
     return value;
   }
 
-  /// Sum of all costs so far in 1/65536 bit.
-  [[nodiscard]] std::uint64_t cost() const { return cost_; }
-  /// The same in 1/256 bit, rounded.
+  /// Sum of all costs so far in 1/256 bit, rounded.
   [[nodiscard]] std::uint64_t bits_x256() const { return (cost_ + 128) >> 8; }
 
  private:
-  std::uint64_t cost_ = 0;
+  std::uint64_t cost_ = 0;  // 1/65536 bit
 };
 
 }  // namespace fbs

@@ -1,5 +1,5 @@
-// Logarithms and powers of two, and the logistic function, on integers: for mixing probabilities and for
-// counting bits. The results are part of the format. SPEC 2.5.
+// Logarithm and logistic function to base two, on integers, for mixing probabilities and for counting bits.
+// The results are part of the format. SPEC 2.5.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::uint32_t kMinRange = 1u << 24;  // below this a byte is moved out
+constexpr std::uint32_t kMinRange = 1u << 24;  // below this a byte is output
 constexpr int kCodeBytes = 4;
 
 // Where the interval is split: zeros get the lower part.
@@ -52,10 +52,10 @@ std::uint32_t RangeEncoder::bypass(int count, std::uint32_t value) {
 }
 
 std::vector<std::uint8_t> RangeEncoder::finish() {
-  // The decoder will have taken in this many bytes, of which so many may be virtual.
+  // The decoder will have read this many bytes, of which kMaxVirtualBytes may be virtual.
   const std::size_t read = bytes_.size() + kCodeBytes;
 
-  // Any number in [low, low + range) will do: take the one with the fewest significant bytes.
+  // Any number in [low, low + range) is valid: take the one with the fewest significant bytes.
   const std::uint64_t low = low_;
   for (int size = 0; size <= kCodeBytes; ++size) {
     const std::uint64_t unit = std::uint64_t{1} << 8 * (kCodeBytes - size);

@@ -1,14 +1,14 @@
 // Binary range coder: encoder and decoder. SPEC 2.2.
 //
 // Method: G. N. N. Martin, Range encoding, 1979, in the carry-propagating form of LZMA. Differs: no leading
-// zero byte; the interval is split with 16-bit probabilities by an exact product; the end costs no more bytes
-// than the last interval asks for, since the decoder reads zeros past the end.
+// zero byte; the interval is split with 16-bit probabilities by an exact product; the end has no more bytes
+// than the last interval needs, since the decoder reads zeros past the end.
 //
 // RangeEncoder, RangeDecoder and BitCounter (bit_counter.h) have the same interface, so that one template
 // describes the writing, reading and counting of a structure:
 //
 //   template <class Coder> void code(Coder& coder, Contexts& c, Thing& t) {
-//     t.flag = coder.bit(c.flag, t.flag);   // writes t.flag, reads it, or counts its cost
+//     t.flag = coder.bit(c.flag, t.flag);   // writes t.flag, reads it, or counts its bits
 //   }
 #pragma once
 
@@ -21,7 +21,8 @@
 
 namespace fbs {
 
-/// The decoder may read this many bytes of zeros past the end; the encoder sees to it that this is enough.
+/// The decoder reads at most this many bytes of zeros past the end; the encoder makes sure that it needs no
+/// more.
 inline constexpr std::size_t kMaxVirtualBytes = 16;
 
 class RangeEncoder {
@@ -31,7 +32,7 @@ class RangeEncoder {
   /// Codes `value` with the probability `zero` (1/65536, 1..65535) of a zero. Returns `value`.
   bool raw_bit(std::uint32_t zero, bool value);
 
-  /// Codes `value` in a context, which learns from it. Returns `value`.
+  /// Codes `value` in a context, which adapts to it. Returns `value`.
   bool bit(AdaptiveBit& context, bool value) {
     raw_bit(context.zero(), value);
     context.update(value);
@@ -41,8 +42,8 @@ class RangeEncoder {
   /// Codes the low `count` bits (0..31) of `value`, high bit first, one bit each. Returns `value`.
   std::uint32_t bypass(int count, std::uint32_t value);
 
-  /// Ends the code and returns its bytes, the fewest from which a RangeDecoder reads every bit back. A code
-  /// of likely bits only may have none. The encoder is done after this.
+  /// Ends the code and returns its bytes, the fewest from which a RangeDecoder reads every bit back; none
+  /// when all bits were likely. Call once, after all bits.
   [[nodiscard]] std::vector<std::uint8_t> finish();
 
  private:
@@ -70,10 +71,11 @@ class RangeDecoder {
   }
   std::uint32_t bypass(int count, std::uint32_t = 0);
 
-  /// False when more was read than any encoder leaves out, or the bytes are no code at all. Stays false.
+  /// False after more than kMaxVirtualBytes were read past the end, or when no encoder writes such bytes.
+  /// Stays false.
   [[nodiscard]] bool ok() const { return valid_ && virtual_bytes_ <= kMaxVirtualBytes; }
 
-  /// True when every byte has been taken in, as it must be once all is decoded.
+  /// True when every byte has been read, as required once all is decoded.
   [[nodiscard]] bool at_end() const { return offset_ == data_.size(); }
 
  private:

@@ -13,31 +13,14 @@
 namespace fbs {
 namespace {
 
-// The start of every stream of ours, in Draco's bitstream version 2.3. SPEC 4.2 lists the fields.
+// The start of every Draco stream of a head, bitstream version 2.3. SPEC 4.2 lists the fields.
+// clang-format off
 constexpr std::array<std::uint8_t, 22> kDracoStart = {
-    'D',
-    'R',
-    'A',
-    'C',
-    'O',
-    2,
-    3,
-    0,
-    0,
-    0,
-    0,  // version, point cloud, sequential, no flags
-    kVertexCount,
-    0,
-    0,
-    0,  // points, 32 bits, low byte first
-    1,
-    1,
-    4,
-    5,
-    3,
-    0,
-    0,  // one decoder, one attribute: generic, int32, 3 components, id 0
+    'D', 'R', 'A', 'C', 'O', 2, 3, 0, 0, 0, 0,  // version, point cloud, sequential, no flags
+    kVertexCount, 0, 0, 0,                      // points, 32 bits, low byte first
+    1, 1, 4, 5, 3, 0, 0,                        // one decoder, one attribute: generic, int32, 3 components, id 0
 };
+// clang-format on
 
 Result<std::vector<std::uint8_t>> encode_with(const HeadPoints& points,
                                               draco::PredictionSchemeMethod prediction) {
@@ -56,20 +39,21 @@ Result<std::vector<std::uint8_t>> encode_with(const HeadPoints& points,
   encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
   encoder.SetSpeedOptions(0, 0);
   if (!encoder.SetAttributePredictionScheme(attribute, prediction).ok()) {
-    return fail(ErrorCode::kInternal, "Draco refuses a prediction");
+    return fail(ErrorCode::kInternal, "Draco rejects a prediction scheme");
   }
   draco::EncoderBuffer buffer;
-  if (!encoder.EncodeToBuffer(&buffer).ok()) return fail(ErrorCode::kInternal, "Draco refuses a geometry");
+  if (!encoder.EncodeToBuffer(&buffer).ok())
+    return fail(ErrorCode::kInternal, "Draco cannot encode the geometry");
   return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }
 
 Result<HeadPoints> read_points(const draco::PointCloud& cloud) {
   if (cloud.num_points() != kVertexCount || cloud.num_attributes() != 1) {
-    return fail(ErrorCode::kInvalidStream, "geometry has other than 105 points");
+    return fail(ErrorCode::kInvalidStream, "geometry does not have 105 points");
   }
   const draco::PointAttribute& attribute = *cloud.attribute(0);
   if (attribute.num_components() != 3 || attribute.data_type() != draco::DT_INT32) {
-    return fail(ErrorCode::kInvalidStream, "geometry is no set of integer points");
+    return fail(ErrorCode::kInvalidStream, "geometry is not made of integer points");
   }
   HeadPoints points;
   for (std::uint32_t i = 0; i < kVertexCount; ++i) {
@@ -93,7 +77,7 @@ Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points) try {
   if (difference->size() < shortest->size()) shortest.swap(difference);
   if (shortest->size() < kDracoStart.size() ||
       !std::equal(kDracoStart.begin(), kDracoStart.end(), shortest->begin())) {
-    return fail(ErrorCode::kInternal, "Draco writes another version of its format");
+    return fail(ErrorCode::kInternal, "Draco writes another bitstream version");
   }
   shortest->erase(shortest->begin(), shortest->begin() + kDracoStart.size());
   return shortest;
@@ -108,7 +92,7 @@ Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes) try {
   buffer.Init(stream.data(), stream.size());
   draco::Decoder decoder;
   auto cloud = decoder.DecodePointCloudFromBuffer(&buffer);
-  if (!cloud.ok()) return fail(ErrorCode::kInvalidStream, "Draco refuses the geometry");
+  if (!cloud.ok()) return fail(ErrorCode::kInvalidStream, "Draco cannot decode the geometry");
   return read_points(*cloud.value());
 } catch (const std::exception&) {
   return fail(ErrorCode::kInvalidStream, "Draco threw an exception");

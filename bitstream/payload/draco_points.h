@@ -1,4 +1,4 @@
-// 105 integer points in and out of Draco: the only file that knows Draco. SPEC 4.2.
+// Codes 105 integer points with Draco; the only file that uses Draco. SPEC 4.2.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace fbs {
 
 using HeadPoints = std::array<glm::ivec3, kVertexCount>;
 
-/// Draco's sequential point cloud coding, which keeps the order, of one int32 attribute of three components;
-/// the shorter of Draco's predictions "none" and "difference". The first bytes of a Draco stream, the same
-/// for every head, are left out.
-/// @return kInternal  Draco refuses, or writes another version of its format
+/// Codes one int32 attribute of three components as a sequential point cloud, which keeps the order, with the
+/// shorter of Draco's predictions "none" and "difference". Leaves out the first bytes of the Draco stream,
+/// which are the same for every head.
+/// @return kInternal  Draco fails, or writes another bitstream version
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points);
 
-/// @return kInvalidStream  Draco refuses the bytes
+/// @return kInvalidStream  Draco cannot decode the bytes
 [[nodiscard]] Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// The end packet: closes a complete file. SPEC 4.6.
+// The end packet of a complete stream. SPEC 4.6.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace fbs {
 
 [[nodiscard]] std::vector<std::uint8_t> encode_end(const End& end);
 
-/// Bytes behind the known fields are ignored.
+/// Bytes after the known fields are ignored.
 /// @return kTruncated or kInvalidStream
 [[nodiscard]] Result<End> decode_end(std::span<const std::uint8_t> payload);
 

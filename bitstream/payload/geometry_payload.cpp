@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <optional>
 
 #include "bitstream/byte_io.h"
@@ -14,7 +13,7 @@ namespace {
 
 constexpr int kScaleShift = 12;
 constexpr std::int64_t kMaxScale = 16 << kScaleShift;
-constexpr std::int32_t kMaxResidual = 1 << 20;  // steps, either way
+constexpr std::int32_t kMaxResidual = 1 << 20;  // steps, of either sign
 
 /// How the residual of a vertex is predicted from those before it. SPEC 4.2.
 enum class Prediction : std::uint8_t { kNone = 0, kNeighbours = 1, kMirror = 2 };
@@ -59,7 +58,7 @@ class EarlierNeighbours {
 glm::ivec3 predicted(const HeadPoints& residuals, std::size_t vertex, Prediction prediction,
                      const EarlierNeighbours& neighbours) {
   if (prediction == Prediction::kMirror) {
-    const auto mirror = static_cast<std::size_t>(generic_head().vertices[vertex].mirror);
+    const std::size_t mirror = generic_head().vertices[vertex].mirror;
     if (mirror >= vertex) return {0, 0, 0};
     const glm::ivec3 r = residuals[mirror];
     return {-r.x, r.y, r.z};
@@ -154,7 +153,7 @@ std::optional<HeadPoints> undo_prediction(const HeadPoints& coded, Prediction pr
 Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t step) {
   if (step < 1 || step > kMaxGeometryStep)
     return fail(ErrorCode::kInvalidArgument, "geometry step is out of range");
-  if (!in_range(geometry)) return fail(ErrorCode::kInvalidArgument, "a vertex lies too far out");
+  if (!in_range(geometry)) return fail(ErrorCode::kInvalidArgument, "a vertex is out of range");
 
   const Frame frame{{fitted_scale(geometry, 0), fitted_scale(geometry, 1), fitted_scale(geometry, 2)}, step};
   HeadPoints residuals;
@@ -165,7 +164,7 @@ Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t ste
     }
   }
   const auto decoded = reconstruct(frame, residuals);
-  if (!decoded) return fail(ErrorCode::kInternal, "a quantised vertex lies too far out");
+  if (!decoded) return fail(ErrorCode::kInternal, "a quantised vertex is out of range");
 
   CodedGeometry best{{}, *decoded};
   for (const Prediction prediction : kPredictions) {
@@ -195,12 +194,12 @@ Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload) {
   if (!coded) return fail(coded.error());
 
   const auto residuals = undo_prediction(*coded, Prediction{prediction});
-  if (!residuals) return fail(ErrorCode::kInvalidStream, "a vertex lies too far out");
+  if (!residuals) return fail(ErrorCode::kInvalidStream, "a vertex is out of range");
   const Frame frame{{static_cast<std::int32_t>(scale[0]), static_cast<std::int32_t>(scale[1]),
                      static_cast<std::int32_t>(scale[2])},
                     static_cast<std::int32_t>(step)};
   const auto geometry = reconstruct(frame, *residuals);
-  if (!geometry) return fail(ErrorCode::kInvalidStream, "a vertex lies too far out");
+  if (!geometry) return fail(ErrorCode::kInvalidStream, "a vertex is out of range");
   return *geometry;
 }
 

@@ -15,14 +15,14 @@ inline constexpr std::int32_t kMaxCoordinate = 4 * kUnitsPerEyeDistance;  ///< o
 inline constexpr std::int32_t kDefaultGeometryStep = 16;                  ///< 1/256 eye distance
 inline constexpr std::int32_t kMaxGeometryStep = kUnitsPerEyeDistance;    ///< head units
 
-/// What encode_geometry made: the bytes, and the head that a decoder gets from them.
+/// The payload, and the head that a decoder reconstructs from it.
 struct CodedGeometry {
   std::vector<std::uint8_t> payload;
-  Geometry decoded;  ///< each coordinate within step / 2 of what was asked
+  Geometry decoded;  ///< each coordinate within step / 2 of the source
 };
 
-/// Scales the generic head to fit by least squares for each axis, quantises what remains, and codes it with
-/// the shortest of Draco's sequential codings.
+/// Scales the generic head to fit by least squares for each axis, quantises the residuals, and codes them
+/// with the prediction that gives the shortest payload.
 /// @param step  size of a residual step, head units, 1..kMaxGeometryStep
 /// @return kInvalidArgument  a coordinate beyond kMaxCoordinate, or step out of range
 [[nodiscard]] Result<CodedGeometry> encode_geometry(const Geometry& geometry,
@@ -30,7 +30,8 @@ struct CodedGeometry {
 
 /// @return kTooLarge       more than kMaxGeometryPayload bytes
 ///         kTruncated      the payload ends inside its header
-///         kInvalidStream  Draco refuses the bytes, they hold other than 105 points, or a coordinate lies
+///         kInvalidStream  Draco cannot decode the bytes, the number of points is not 105, or a coordinate
+///         lies
 ///                         beyond kMaxCoordinate
 [[nodiscard]] Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload);
 

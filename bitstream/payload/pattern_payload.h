@@ -1,4 +1,4 @@
-// The pattern packet: one coded picture and the state in which it was seen. SPEC 4.4.
+// The pattern packet: one coded picture and its seen state. SPEC 4.4.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace fbs {
 
-/// @param setup  of the scene: its parts say which numbers are coded, its steps bound them
+/// @param setup  of the scene: parts and steps define which numbers are coded and their limits
 /// @return kInvalidArgument  index outside 0..kMaxPatterns-1, a state beyond CodedLimits, or no AV1 bytes
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_pattern(const PatternSyntax& pattern,
                                                                const Setup& setup);
 
-/// The AV1 bytes are copied and not looked at.
+/// Copies the AV1 bytes without decoding them.
 /// @return kTruncated, kTooLarge (index), kInvalidStream
 [[nodiscard]] Result<PatternSyntax> decode_pattern(std::span<const std::uint8_t> payload, const Setup& setup);
 

@@ -1,6 +1,7 @@
 #include "bitstream/payload/setup_payload.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "bitstream/byte_io.h"
@@ -12,7 +13,7 @@ constexpr std::uint8_t kFullRangeFlag = 1;
 constexpr int kMatrixShift = 1;
 constexpr std::uint8_t kMaxMatrix = static_cast<std::uint8_t>(ColourMatrix::kBt709);
 
-// A number that does not fit becomes one that check_setup refuses.
+// A number that does not fit becomes one that check_setup rejects.
 std::int32_t to_int(std::uint64_t value) {
   return static_cast<std::int32_t>(std::min<std::uint64_t>(value, std::numeric_limits<std::int32_t>::max()));
 }
@@ -42,6 +43,26 @@ YuvColour read_colour(ByteReader& reader) {
   return colour;
 }
 
+// In the order of SPEC 4.1.
+template <class Steps>
+auto in_order(Steps& steps) {
+  return std::array{&steps.rotation, &steps.translation, &steps.log_scale, &steps.light, &steps.control};
+}
+
+// SPEC 4.1: bit 0 is the range, the others are the matrix.
+Result<void> set_colour(VideoFormat& format, std::uint8_t colour) {
+  if (colour >> kMatrixShift > kMaxMatrix) return fail(ErrorCode::kInvalidStream, "colour matrix is unknown");
+  format.range = (colour & kFullRangeFlag) != 0 ? ColourRange::kFull : ColourRange::kLimited;
+  format.matrix = static_cast<ColourMatrix>(colour >> kMatrixShift);
+  return {};
+}
+
+// Errors of check_setup are those of a caller; a stream is invalid instead.
+Error as_stream_error(Error error) {
+  if (error.code == ErrorCode::kInvalidArgument) error.code = ErrorCode::kInvalidStream;
+  return error;
+}
+
 bool is_rate(const Rational& rate) {
   return rate.num > 0 && rate.den > 0 && rate.num <= std::uint64_t{kMaxPicturesPerSecond} * rate.den;
 }
@@ -67,11 +88,8 @@ Result<void> check_setup(const Setup& setup) {
   if (static_cast<std::uint8_t>(f.matrix) > kMaxMatrix) {
     return fail(ErrorCode::kInvalidArgument, "colour matrix is unknown");
   }
-  const QuantiserSteps& s = setup.steps;
-  if (!is_step(s.rotation) || !is_step(s.translation) || !is_step(s.log_scale) || !is_step(s.light) ||
-      !is_step(s.control)) {
-    return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
-  }
+  for (const std::int32_t* step : in_order(setup.steps))
+    if (!is_step(*step)) return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
   if ((setup.parts & ~kAllParts) != 0 || (setup.parts & mask_of(PartId::kPose)) == 0)
     return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
   return {};
@@ -89,10 +107,7 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   write_rational(writer, setup.format.pixel_aspect);
   writer.u8(static_cast<std::uint8_t>((setup.format.range == ColourRange::kFull ? kFullRangeFlag : 0) |
                                       static_cast<int>(setup.format.matrix) << kMatrixShift));
-  for (const std::int32_t step : {setup.steps.rotation, setup.steps.translation, setup.steps.log_scale,
-                                  setup.steps.light, setup.steps.control}) {
-    writer.varint(static_cast<std::uint64_t>(step));
-  }
+  for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
   return payload;
@@ -101,7 +116,7 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
 Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   ByteReader reader(payload);
 
-  // SPEC 4.1: the version comes first and is judged before the rest, which another version may lay out anew.
+  // SPEC 4.1: check the version first, since the layout of another version is unknown.
   const std::uint64_t version = reader.varint();
   if (reader.ok() && version != 0 && version != kFormatVersion) {
     return fail(ErrorCode::kUnsupported, version > kFormatVersion ? "stream is of a newer format version"
@@ -116,10 +131,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   const auto frame_rate = read_rational(reader);
   const auto pixel_aspect = read_rational(reader);
   const std::uint8_t colour = reader.u8();
-  for (std::int32_t* step : {&setup.steps.rotation, &setup.steps.translation, &setup.steps.log_scale,
-                             &setup.steps.light, &setup.steps.control}) {
-    *step = to_int(reader.varint());
-  }
+  for (std::int32_t* step : in_order(setup.steps)) *step = to_int(reader.varint());
   const std::uint64_t parts = reader.varint();
   setup.mouth.upper = read_colour(reader);
   setup.mouth.lower = read_colour(reader);
@@ -128,18 +140,13 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
   if (!frame_rate) return fail(frame_rate.error());
   if (!pixel_aspect) return fail(pixel_aspect.error());
-  if (colour >> kMatrixShift > kMaxMatrix) return fail(ErrorCode::kInvalidStream, "colour matrix is unknown");
+  if (auto set = set_colour(setup.format, colour); !set) return fail(set.error());
   if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 
   setup.format.frame_rate = *frame_rate;
   setup.format.pixel_aspect = *pixel_aspect;
-  setup.format.range = (colour & kFullRangeFlag) != 0 ? ColourRange::kFull : ColourRange::kLimited;
-  setup.format.matrix = static_cast<ColourMatrix>(colour >> kMatrixShift);
   setup.parts = static_cast<PartMask>(parts << 1 | 1);
-  if (auto checked = check_setup(setup); !checked) {
-    const bool large = checked.error().code == ErrorCode::kTooLarge;
-    return fail(large ? ErrorCode::kTooLarge : ErrorCode::kInvalidStream, checked.error().text);
-  }
+  if (auto checked = check_setup(setup); !checked) return fail(as_stream_error(checked.error()));
   return setup;
 }
 

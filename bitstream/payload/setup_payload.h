@@ -1,4 +1,4 @@
-// The setup packet: begins a scene and says in which terms the rest is written. SPEC 4.1.
+// The setup packet: begins a scene and defines its format, steps and parts. SPEC 4.1.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ inline constexpr std::int32_t kMaxStep = 65535;
 /// @return kTooLarge          a side beyond kMaxPictureSize
 ///         kInvalidArgument   a side below kMinPictureSize; a rate of zero or beyond kMaxPicturesPerSecond; a
 ///                            denominator of zero; a step outside 1..kMaxStep; parts without the
-///                            pose or beyond kAllParts; a range or matrix that has no name
+///                            pose or beyond kAllParts; an unknown range or matrix
 [[nodiscard]] Result<void> check_setup(const Setup& setup);
 
 /// @return the payload, about 20 bytes; the errors of check_setup
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup);
 
-/// Bytes behind the known fields are ignored: later versions of the writer may add some.
+/// Bytes after the known fields are ignored: later writers may add some.
 /// @return kUnsupported    another format version, or another generic head
 ///         kTruncated      the payload ends early
 ///         kTooLarge       a side beyond kMaxPictureSize

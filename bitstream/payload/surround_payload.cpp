@@ -13,21 +13,17 @@ namespace {
 constexpr int kValues = kFollowOne + 1;
 
 struct Contexts {
-  std::array<AdaptiveBit, 8> differs;  // by which neighbours are equal
-  std::array<std::array<AdaptiveBit, kValues - 1>, kValues>
-      next;  // by prediction, place in the row of the others
+  std::array<AdaptiveBit, 8> differs;                              // by which neighbours are equal
+  std::array<std::array<AdaptiveBit, kValues - 2>, kValues> next;  // by prediction, place among the others
 };
 
-// The values round a point that come before it; a missing one is as its nearest. SPEC 4.3.
+// The neighbours of a value that are coded before it; a missing one takes the value of the nearest. SPEC 4.3.
 struct Neighbours {
   int left, up, up_left, up_right;
 };
 
 Neighbours neighbours_of(const std::vector<std::uint8_t>& values, int width, int x, int y) {
-  const auto at = [&](int px, int py) -> int {
-    return values[static_cast<std::size_t>(py) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(px)];
-  };
+  const auto at = [&](int px, int py) -> int { return values[py * width + px]; };
   if (x == 0 && y == 0) return {0, 0, 0, 0};
   if (y == 0) return {at(x - 1, 0), at(x - 1, 0), at(x - 1, 0), at(x - 1, 0)};
   const int up = at(x, y - 1);
@@ -44,12 +40,12 @@ int predict(const Neighbours& n) {
   return std::clamp(n.left + n.up - n.up_left, low, high);
 }
 
-// "Differs from the prediction"; then the other values in rising order, "not this one", the last implied.
+// Whether the value differs from the prediction; then for each other value in rising order whether it is not
+// that one, the last being implied.
 template <class Coder>
 int code_value(Coder& coder, Contexts& contexts, const Neighbours& n, int value) {
   const int predicted = predict(n);
-  const auto equal = static_cast<std::size_t>((n.left == n.up ? 1 : 0) | (n.up == n.up_left ? 2 : 0) |
-                                              (n.up == n.up_right ? 4 : 0));
+  const int equal = (n.left == n.up ? 1 : 0) | (n.up == n.up_left ? 2 : 0) | (n.up == n.up_right ? 4 : 0);
   if (!coder.bit(contexts.differs[equal], value != predicted)) return predicted;
   auto& next = contexts.next[predicted];
   const int last = predicted == kFollowOne ? kFollowOne - 1 : kFollowOne;
@@ -61,15 +57,15 @@ int code_value(Coder& coder, Contexts& contexts, const Neighbours& n, int value)
   return last;
 }
 
-/// One layer of the map; where `known` is not null and holds kFollowOne the value is zero and not coded.
+/// Codes one layer of the map. Where `head` is not null and has kFollowOne, the value is zero and not coded.
 template <class Coder>
-void code_layer(Coder& coder, const SurroundMap& map, const std::vector<std::uint8_t>* known,
+void code_layer(Coder& coder, const SurroundMap& map, const std::vector<std::uint8_t>* head,
                 std::vector<std::uint8_t>& values) {
   Contexts contexts;
   std::size_t i = 0;
   for (int y = 0; y <= map.rows; ++y) {
     for (int x = 0; x <= map.columns; ++x, ++i) {
-      const bool implied = known != nullptr && (*known)[i] == kFollowOne;
+      const bool implied = head != nullptr && (*head)[i] == kFollowOne;
       values[i] = implied ? std::uint8_t{0}
                           : static_cast<std::uint8_t>(code_value(
                                 coder, contexts, neighbours_of(values, map.columns + 1, x, y), values[i]));
@@ -86,8 +82,8 @@ void code_values(Coder& coder, SurroundMap& map) {
   if (any) code_layer(coder, map, &map.head, map.body);
 }
 
-std::size_t points(const SurroundMap& map) {
-  return (static_cast<std::size_t>(map.columns) + 1) * (static_cast<std::size_t>(map.rows) + 1);
+std::size_t point_count(const SurroundMap& map) {
+  return (map.columns + 1) * (map.rows + 1);
 }
 
 }  // namespace
@@ -98,13 +94,13 @@ Result<std::vector<std::uint8_t>> encode_surround(const SurroundMap& map) {
   }
   const auto in_range = [](std::uint8_t value) { return value <= kFollowOne; };
   const auto valid = [&](const std::vector<std::uint8_t>& layer) {
-    return layer.size() == points(map) && std::all_of(layer.begin(), layer.end(), in_range);
+    return layer.size() == point_count(map) && std::all_of(layer.begin(), layer.end(), in_range);
   };
   bool apart = valid(map.head) && valid(map.body);
-  for (std::size_t i = 0; apart && i < points(map); ++i) apart = map.head[i] < kFollowOne || map.body[i] == 0;
+  for (std::size_t i = 0; apart && i < point_count(map); ++i)
+    apart = map.head[i] < kFollowOne || map.body[i] == 0;
   if (!apart) {
-    return fail(ErrorCode::kInvalidArgument,
-                "surround's values are out of range or not as many as its points");
+    return fail(ErrorCode::kInvalidArgument, "surround has values out of range or not one for each point");
   }
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
@@ -129,12 +125,12 @@ Result<SurroundMap> decode_surround(std::span<const std::uint8_t> payload) {
   if (std::max(columns, rows) > kMaxSurroundCells) return fail(ErrorCode::kTooLarge, "surround is too large");
 
   SurroundMap map{static_cast<std::int32_t>(columns), static_cast<std::int32_t>(rows), {}, {}};
-  map.head.assign(points(map), 0);
-  map.body.assign(points(map), 0);
+  map.head.assign(point_count(map), 0);
+  map.body.assign(point_count(map), 0);
   RangeDecoder decoder(reader.rest());
   code_values(decoder, map);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "surround packet ends early", payload.size());
-  if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "surround packet has bytes too many");
+  if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "surround packet has excess bytes");
   return map;
 }
 

@@ -1,4 +1,4 @@
-// The surround packet: what the picture round the face moves with. SPEC 4.3.
+// The surround packet: the motion that each point around the face follows. SPEC 4.3.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace fbs {
 
-/// @return kInvalidArgument  columns or rows outside 1..kMaxSurroundCells, layers not of (columns + 1) *
-/// (rows + 1)
-///                           values, a value beyond kFollowOne, or one of the body where the head's is that
+/// @return kInvalidArgument  columns or rows outside 1..kMaxSurroundCells; a layer without exactly
+///                           (columns + 1) * (rows + 1) values; a value beyond kFollowOne; a value of the
+///                           body other than 0 where the head's is kFollowOne
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_surround(const SurroundMap& map);
 
 /// @return kTruncated, kTooLarge (columns or rows beyond kMaxSurroundCells), kInvalidStream

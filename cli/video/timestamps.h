@@ -7,8 +7,6 @@
 
 namespace fbs {
 
-inline constexpr std::int64_t kTicksPerSecond = 90000;
-
 inline constexpr std::uint32_t kMaxRatePart =
     1000000;  ///< of either part of a frame rate: keeps times in 64 bits
 

@@ -45,7 +45,7 @@ PartValues GroupCost::rounded(std::size_t part, std::size_t t, const CodedLimits
   for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
     const std::size_t i = kPartFirst[part] + k;
     v[k] = static_cast<std::int32_t>(
-        std::clamp<double>(std::round(target_[t][i]), limits.least[i], limits.most[i]));
+        std::clamp<double>(std::round(target_[t][i]), limits.min[i], limits.max[i]));
   }
   return v;
 }

@@ -37,7 +37,7 @@ PlannedGroup plan_group_within(const TrackPlanner& planner, const GroupInput& in
                                double lambda, double base) {
   return plan_within(allowed_bits, lambda, base, [&](double at) {
     PlannedGroup planned{plan_group(planner, input, at), at, 0};
-    const auto payload = MotionCoder(input.coder).encode(planned.group);
+    const auto payload = MotionEncoder(input.coder).encode(planned.group);
     planned.bits = 8.0 * static_cast<double>((payload ? payload->size() : 0) + kPacketBytes);
     return planned;
   });

@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "encoder/plan/track_planner.h"
 
 namespace fbs {
 
 /// What a group's plan depends on.
 struct GroupInput {
-  const MotionCoder& coder;  ///< as it is before the group: anchor and contexts
+  const MotionEncoder& coder;  ///< as it is before the group: anchor and contexts
   std::span<const PictureCost> pictures;
   std::span<const std::uint32_t> durations;  ///< of each picture, 1/90000 s; 0: nominal
   std::uint32_t nominal_duration;            ///< 1/90000 s

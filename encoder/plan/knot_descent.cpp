@@ -133,7 +133,7 @@ bool KnotDescent::try_values(std::size_t part, std::size_t k, const PartValues& 
 
 bool KnotDescent::try_number(std::size_t part, std::size_t k, std::size_t place, std::int32_t value) {
   const std::size_t i = kPartFirst[part] + place;
-  if (value < terms_.limits.least[i] || value > terms_.limits.most[i]) return false;
+  if (value < terms_.limits.min[i] || value > terms_.limits.max[i]) return false;
   PartValues to = group_.tracks[part][k].value;
   to[place] = value;
   return try_values(part, k, to);

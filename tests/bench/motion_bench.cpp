@@ -2,7 +2,9 @@
 
 #include <random>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_bit_counter.h"
+#include "bitstream/motion/motion_decoder.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/track.h"
 #include "tests/unit/bitstream/random_tracks.h"
 
@@ -44,10 +46,10 @@ std::vector<MotionGroup> groups(const Setup& setup, int count) {
 void MotionEncode(benchmark::State& state) {
   const Setup setup = setup_of();
   const auto all = groups(setup, 4);
-  MotionCoder before(setup, seen());
+  MotionEncoder before(setup, seen());
   (void)before.encode(all[0]).has_value();
   for (auto _ : state) {
-    MotionCoder coder = before;
+    MotionEncoder coder = before;
     benchmark::DoNotOptimize(coder.encode(all[1]));
   }
   state.SetItemsProcessed(state.iterations() * kGroup);
@@ -57,16 +59,30 @@ BENCHMARK(MotionEncode)->Unit(benchmark::kMicrosecond);
 void MotionDecode(benchmark::State& state) {
   const Setup setup = setup_of();
   const auto all = groups(setup, 2);
-  MotionCoder writer(setup, seen()), before(setup, seen());
+  MotionEncoder writer(setup, seen());
+  MotionDecoder before(setup, seen());
   const auto first = *writer.encode(all[0]), second = *writer.encode(all[1]);
   (void)before.decode(first).has_value();
   for (auto _ : state) {
-    MotionCoder coder = before;
+    MotionDecoder coder = before;
     benchmark::DoNotOptimize(coder.decode(second));
   }
   state.SetItemsProcessed(state.iterations() * kGroup);
 }
 BENCHMARK(MotionDecode)->Unit(benchmark::kMicrosecond);
+
+void MotionCount(benchmark::State& state) {
+  const Setup setup = setup_of();
+  const auto all = groups(setup, 2);
+  MotionBitCounter before(setup, seen());
+  (void)before.count(all[0]);
+  for (auto _ : state) {
+    MotionBitCounter counter = before;
+    benchmark::DoNotOptimize(counter.count(all[1]));
+  }
+  state.SetItemsProcessed(state.iterations() * kGroup);
+}
+BENCHMARK(MotionCount)->Unit(benchmark::kMicrosecond);
 
 void MotionStates(benchmark::State& state) {
   const Setup setup = setup_of();

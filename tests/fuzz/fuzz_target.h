@@ -1,4 +1,4 @@
-// What every fuzz target has, so that one program can replay them all without a fuzzing engine.
+// The interface of every fuzz target, so that one program can replay them all without a fuzzing engine.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ extern const std::uint8_t kSeedPacket;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// A finding: what the input must never be able to do.
+/// Aborts when an input breaks what must always hold: a finding.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "fuzz target: %s\n", what);

@@ -1,4 +1,5 @@
-// Bytes to a head: what decodes is within its limits, and coded again in steps of one it decodes to the same.
+// Bytes to a head: all vertices are within their limits, and a head that was read can be written in steps of
+// one and read back.
 #include "bitstream/payload/geometry_payload.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   for (const glm::ivec3& p : geometry->positions)
     require(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= fbs::kMaxCoordinate,
-            "a vertex beyond its limits");
+            "a vertex out of range");
   const auto coded = fbs::encode_geometry(*geometry, 1);
   require(coded.has_value(), "a head that was read cannot be written");
   require(

@@ -1,6 +1,6 @@
-// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] tries every .fbs file of the folder and ROUNDS
-// mutations of each with fixed seeds; TARGET --seeds FOLDER OUT writes the target's seeds as files, to begin
-// a real corpus with.
+// Runs a fuzz target without an engine: TARGET FOLDER [ROUNDS] runs every .fbs file of the folder and ROUNDS
+// mutations of each from fixed random seeds; TARGET FILE runs one finding; TARGET --seeds FOLDER OUT writes
+// the target's seed inputs as files for a corpus.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -45,7 +45,7 @@ std::vector<Bytes> seeds_of(const fs::path& folder) {
 void mutate(Bytes& bytes, std::mt19937& random) {
   for (unsigned n = 1 + random() % 4; n > 0 && !bytes.empty(); --n) {
     const std::size_t at = random() % bytes.size();
-    const auto there = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto there = bytes.begin() + at;
     switch (random() % 6) {
       case 0:
         bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ 1U << random() % 8);
@@ -60,13 +60,12 @@ void mutate(Bytes& bytes, std::mt19937& random) {
         bytes.insert(there, static_cast<std::uint8_t>(random()));
         break;
       case 4:
-        bytes.erase(there, there + static_cast<std::ptrdiff_t>(
-                                       std::min<std::size_t>(1 + random() % 4, bytes.size() - at)));
+        bytes.erase(there, there + std::min<std::size_t>(1 + random() % 4, bytes.size() - at));
         break;
       default: {
         const std::size_t from = random() % bytes.size(),
                           count = std::min<std::size_t>(random() % 16, bytes.size() - std::max(from, at));
-        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), count, there);
+        std::copy_n(bytes.begin() + from, count, there);
         break;
       }
     }
@@ -74,7 +73,7 @@ void mutate(Bytes& bytes, std::mt19937& random) {
   if (random() % 12 == 0) bytes.resize(random() % (bytes.size() + 1));
 }
 
-/// An exactly sized copy, so that a sanitizer sees a read one byte past the end.
+/// Runs an exactly sized copy, so that a sanitizer detects a read one byte past the end.
 void run(const Bytes& bytes) {
   const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
   std::copy(bytes.begin(), bytes.end(), exact.get());

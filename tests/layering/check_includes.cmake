@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(floors
   common
-  bitstream/entropy bitstream bitstream/payload
+  bitstream/entropy bitstream bitstream/payload bitstream/motion
   decoder/animate decoder/raster decoder
   encoder/image encoder/model encoder/find encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan
   encoder

@@ -100,19 +100,19 @@ inline Scene toy_scene(Picture picture, SurroundMap surround = even_surround(10,
 inline CodedState random_coded(std::mt19937& random, const CodedLimits& limits) {
   CodedState coded;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
-    const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
+    const auto range = static_cast<unsigned>(limits.max[i] - limits.min[i] + 1);
     switch (random() % 5) {
       case 0:
-        coded[i] = limits.most[i];
+        coded[i] = limits.max[i];
         break;
       case 1:
-        coded[i] = limits.least[i];
+        coded[i] = limits.min[i];
         break;
       case 2:
         coded[i] = 0;
         break;
       default:
-        coded[i] = limits.least[i] + static_cast<std::int32_t>(random() % range);
+        coded[i] = limits.min[i] + static_cast<std::int32_t>(random() % range);
     }
   }
   return coded;

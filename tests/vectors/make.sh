@@ -1,6 +1,6 @@
 #!/bin/sh
-# make.sh [BUILD]: remakes all vectors with the current encoder. BUILD is a configured build folder, default build/release.
-# Only for changes of the format; the commit says why.
+# Rewrites all vectors with the current encoder: make.sh [BUILD], BUILD being a configured build folder.
+# Use it only after a change of the format, and justify it in the commit.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${1:-$here/../../build/release}

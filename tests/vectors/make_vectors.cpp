@@ -5,12 +5,13 @@
 #include <iostream>
 #include <random>
 
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/motion_payload.h"
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "decoder/animate/head_projection.h"
 #include "encoder/encoder.h"
 #include "encoder/patterns/pattern_encoder.h"
 #include "samples/talker/talker_render.h"
@@ -67,7 +68,7 @@ Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& setti
   return encoder.take();
 }
 
-/// A stream taken apart.
+/// One packet of a stream.
 struct Piece {
   PacketType type;
   Bytes payload;
@@ -102,8 +103,8 @@ std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   return joined(pieces).size();
 }
 
-/// Tracks of random knots at and between the limits of every number: what an encoder never writes, and a
-/// decoder must draw alike.
+/// Tracks of random knots at and between the limits of every number. No encoder writes such a group, but all
+/// decoders must draw it alike.
 MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, const CodedState& anchor) {
   MotionGroup group;
   group.anchor = anchor;
@@ -114,10 +115,10 @@ MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, con
       Knot knot{.picture = t, .value = {}};
       for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
         const std::size_t i = kPartFirst[part] + k;
-        const auto range = static_cast<unsigned>(limits.most[i] - limits.least[i] + 1);
-        knot.value[k] = random() % 6 == 0   ? limits.most[i]
-                        : random() % 6 == 0 ? limits.least[i]
-                                            : limits.least[i] + static_cast<int>(random() % range);
+        const auto range = static_cast<unsigned>(limits.max[i] - limits.min[i] + 1);
+        knot.value[k] = random() % 6 == 0   ? limits.max[i]
+                        : random() % 6 == 0 ? limits.min[i]
+                                            : limits.min[i] + static_cast<int>(random() % range);
       }
       group.tracks[part].push_back(knot);
     }
@@ -125,7 +126,7 @@ MotionGroup group_at_limits(std::mt19937& random, const CodedLimits& limits, con
   return group;
 }
 
-/// Everything that may be sent at its limits.
+/// All numbers of the state, at and between their limits.
 Bytes limits_stream() {
   Setup setup;
   setup.format.width = 65;
@@ -142,7 +143,7 @@ Bytes limits_stream() {
     surround.body.push_back(surround.head.back() == kFollowOne ? std::uint8_t{0} : share());
   }
   CodedState seen{};
-  seen[kShiftX] = 32 * 64 / setup.steps.translation;
+  seen[kShiftX] = (32 << kScreenOneLog2) / setup.steps.translation;
   seen[kLogScale] = 4 * 4096 / setup.steps.log_scale;
   auto av1 = must(PatternEncoder::create(setup.format, 40));
   const Picture picture = pictures_of(talker_settings(65, 64, 1))[0];
@@ -152,7 +153,7 @@ Bytes limits_stream() {
       {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
       {PacketType::kSurround, must(encode_surround(surround))},
       {PacketType::kPattern, must(encode_pattern({0, seen, must(av1.encode(picture))}, setup))}};
-  MotionCoder coder(setup, seen);
+  MotionEncoder coder(setup, seen);
   for (int i = 0; i < 2; ++i) {
     MotionGroup group = group_at_limits(random, coder.limits(), coder.anchor(i == 0));
     group.key = i == 0;
@@ -168,7 +169,7 @@ class Folder {
         << "# Written by make_vectors. File, first error, pictures, MD5 over the planes of all pictures.\n";
   }
 
-  /// Writes a vector after making sure that it decodes to what its name promises.
+  /// Writes a vector after checking that it decodes to the given number of pictures and error.
   void add(const std::string& file, const Bytes& bytes, std::uint64_t pictures,
            std::string_view error = "-") {
     const StreamDigest d = digest_of(bytes);
@@ -218,8 +219,7 @@ void add_good(Folder& folder, const Bytes& talk) {
 void add_broken(Folder& folder, const Bytes& talk) {
   const auto pieces = pieces_of(talk);
   const std::size_t third_motion = offset_of(pieces, place_of(pieces, PacketType::kMotion, 2));
-  folder.add("truncated.fbs", {talk.begin(), talk.begin() + static_cast<std::ptrdiff_t>(third_motion + 5)}, 6,
-             "kTruncated");
+  folder.add("truncated.fbs", {talk.begin(), talk.begin() + third_motion + 5}, 6, "kTruncated");
   Bytes flipped = talk;
   flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
   folder.add("flipped_bit.fbs", flipped, 1, "kInvalidStream");
@@ -246,10 +246,10 @@ void add_broken(Folder& folder, const Bytes& talk) {
   no_setup.erase(no_setup.begin());
   folder.add("no_setup.fbs", joined(no_setup), 0, "kInvalidStream");
   auto no_pattern = pieces;
-  no_pattern.erase(no_pattern.begin() + static_cast<std::ptrdiff_t>(place_of(pieces, PacketType::kPattern)));
+  no_pattern.erase(no_pattern.begin() + place_of(pieces, PacketType::kPattern));
   folder.add("no_pattern.fbs", joined(no_pattern), 0, "kInvalidStream");
   auto lost_key = pieces;
-  lost_key.erase(lost_key.begin() + static_cast<std::ptrdiff_t>(place_of(pieces, PacketType::kMotion)));
+  lost_key.erase(lost_key.begin() + place_of(pieces, PacketType::kMotion));
   folder.add("lost_key.fbs", joined(lost_key), 0, "kInvalidStream");
   const Setup setup = must(decode_setup(pieces[0].payload));
   const PatternSyntax pattern =

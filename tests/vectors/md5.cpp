@@ -51,9 +51,9 @@ void Md5::block(const std::uint8_t* bytes) {
 
 void Md5::add(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
-    const auto used = static_cast<std::size_t>(size_ % 64);
+    const std::size_t used = size_ % 64;
     const std::size_t take = std::min(bytes.size(), 64 - used);
-    std::copy_n(bytes.begin(), take, buffer_.begin() + static_cast<std::ptrdiff_t>(used));
+    std::copy_n(bytes.begin(), take, buffer_.begin() + used);
     size_ += take;
     bytes = bytes.subspan(take);
     if (size_ % 64 == 0) block(buffer_.data());

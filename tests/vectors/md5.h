@@ -1,4 +1,4 @@
-// MD5 (RFC 1321), for test vectors only: it tells pictures apart, it protects nothing.
+// MD5 (RFC 1321), for test vectors only: it distinguishes pictures and has no cryptographic use.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// What a stream decodes to, in one line: the first error, the number of pictures, the MD5 of all their
-// samples.
+// Digest of a decoded stream: the first error, the number of pictures, the MD5 of all their samples.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ struct StreamDigest {
   friend bool operator==(const StreamDigest&, const StreamDigest&) = default;
 };
 
-/// Decodes to the end, going on behind errors.
+/// Decodes to the end, continuing after errors.
 [[nodiscard]] StreamDigest digest_of(std::span<const std::uint8_t> stream);
 
 [[nodiscard]] std::string_view name_of(ErrorCode code);

@@ -1,6 +1,6 @@
 // stream_md5 FOLDER: decodes every vector of a folder and compares with its vectors.txt.
-// stream_md5 FILE...: prints what each stream decodes to, as vectors.txt has it.
-// Links the decoder and nothing else; built several times by tests/layering/.
+// stream_md5 FILE...: prints the digest of each stream as a line of vectors.txt.
+// Links only the decoder; tests/layering/ builds it several times.
 #include <filesystem>
 #include <iostream>
 

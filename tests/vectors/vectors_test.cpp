@@ -22,7 +22,7 @@ std::string md5_of(const std::string& text) {
 }
 
 // RFC 1321, appendix A.5
-TEST(Md5, HasTheValuesOfItsStandard) {
+TEST(Md5, MatchesItsStandard) {
   EXPECT_EQ(md5_of(""), "d41d8cd98f00b204e9800998ecf8427e");
   EXPECT_EQ(md5_of("abc"), "900150983cd24fb0d6963f7d28e17f72");
   EXPECT_EQ(md5_of("abcdefghijklmnopqrstuvwxyz"), "c3fcd3d76192e4007dfb496cca67e13b");
@@ -31,7 +31,7 @@ TEST(Md5, HasTheValuesOfItsStandard) {
   EXPECT_EQ(md5_of(digits), "57edf4a22be3c955ac49da2e2107b67a");
 }
 
-TEST(Vectors, DecodeToWhatTheirTableSays) {
+TEST(Vectors, DecodeToTheirDigests) {
   const auto vectors = read_vectors(kFolder);
   ASSERT_FALSE(vectors.empty());
   for (const Vector& v : vectors) {
@@ -64,7 +64,7 @@ TEST(Vectors, AreSmall) {
 }
 
 // An old reader on the stream of a later writer.
-TEST(Vectors, WhatALaterWriterAddsChangesNoPicture) {
+TEST(Vectors, AdditionsOfALaterWriterChangeNoPicture) {
   EXPECT_EQ(digest_of(read_bytes(kFolder + "/later_writer.fbs")),
             digest_of(read_bytes(kFolder + "/talk.fbs")));
 }

@@ -4,12 +4,10 @@
 
 #include <limits>
 
-#include "bitstream/crc16.h"
-
 namespace fbs {
 namespace {
 
-TEST(ByteReader, RoundTripsVarints) {
+TEST(ByteIo, RoundTripsVarints) {
   for (const std::uint64_t value :
        {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{300}, std::uint64_t{1} << 32,
         std::numeric_limits<std::uint64_t>::max()}) {
@@ -22,7 +20,7 @@ TEST(ByteReader, RoundTripsVarints) {
   }
 }
 
-TEST(ByteReader, ReportsReadPastEnd) {
+TEST(ByteIo, ReportsReadPastEnd) {
   const std::vector<std::uint8_t> bytes = {7, 0x80};
   ByteReader reader(bytes);
   EXPECT_EQ(reader.u8(), 7);
@@ -35,7 +33,7 @@ TEST(ByteReader, ReportsReadPastEnd) {
   EXPECT_TRUE(reader.past_end());
 }
 
-TEST(ByteReader, ComparesSizesWithoutOverflow) {
+TEST(ByteIo, ComparesSizesWithoutOverflow) {
   const std::vector<std::uint8_t> bytes = {1, 2, 3};
   ByteReader reader(bytes);
   EXPECT_EQ(reader.u8(), 1);
@@ -43,7 +41,7 @@ TEST(ByteReader, ComparesSizesWithoutOverflow) {
   EXPECT_TRUE(reader.past_end());
 }
 
-TEST(ByteReader, RefusesVarintsBeyond64BitsOrPadded) {
+TEST(ByteIo, RefusesVarintsBeyond64BitsOrPadded) {
   const std::vector<std::uint8_t> large = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x02};
   ByteReader reader(large);
   EXPECT_EQ(reader.varint(), 0u);
@@ -56,19 +54,6 @@ TEST(ByteReader, RefusesVarintsBeyond64BitsOrPadded) {
   ByteReader third(padded);
   EXPECT_EQ(third.varint(), 0u);
   EXPECT_TRUE(third.malformed());
-}
-
-TEST(Crc16, HasTheCatalogueCheckValue) {
-  const std::array<std::uint8_t, 9> digits = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
-  EXPECT_EQ(crc16(digits), 0x29B1);
-  EXPECT_EQ(crc16(std::span(digits).subspan(4), crc16(std::span(digits).first(4))), 0x29B1);
-}
-
-TEST(Crc16, SkipsZeroBytesAsIfTheyWereRead) {
-  for (const std::size_t count : {0u, 1u, 2u, 255u, 4097u}) {
-    const std::vector<std::uint8_t> zeros(count, 0);
-    EXPECT_EQ(crc16_skip(0xBEEF, count), crc16(zeros, 0xBEEF)) << count;
-  }
 }
 
 }  // namespace

@@ -47,12 +47,12 @@ TEST(CodedState, StateHasItsNumbersTimesTheSteps) {
   for (const glm::ivec2 c : s.control) EXPECT_EQ(c, glm::ivec2(0));
 }
 
-/// What a number of the expression adds to its part's control points, in doubles.
+/// The control points of a state's coefficients, computed in doubles.
 State plain_state(const CodedState& values) {
   State s;
-  auto first = static_cast<std::size_t>(kFirstCoefficient);
+  std::size_t first = kFirstCoefficient;
   for (const ExpressionPart& part : generic_head().expression) {
-    const auto n = static_cast<std::size_t>(2 * part.control_count);
+    const std::size_t n = 2 * part.control_count;
     for (std::size_t c = 0; c < n; ++c) {
       double sum = 0;
       for (std::size_t k = 0; k < n; ++k)
@@ -99,27 +99,27 @@ TEST(CodedState, OneCoefficientLeavesOtherPartsAlone) {
 
 TEST(CodedLimits, AreThoseOfTheStateInWholeSteps) {
   const CodedLimits limits(kSteps, kAllParts);
-  EXPECT_EQ(limits.most[kYaw], kMaxRotation / 3);
-  EXPECT_EQ(limits.least[kYaw], -(kMaxRotation / 3));
-  EXPECT_EQ(limits.most[kShiftY], kMaxTranslation / 5);
-  EXPECT_EQ(limits.most[kLogScale], kMaxLogScale / 7);
-  EXPECT_EQ(limits.least[kLogScale], 0) << "the eyes are never less than a pixel apart";
-  EXPECT_EQ(limits.most[kPoseCount], kMaxLight / 11);
-  EXPECT_EQ(limits.least[kPoseCount + kLightCount], -(kMaxLight / 11)) << "the mouth's inside";
-  EXPECT_EQ(limits.least[kPoseCount + kLightCount + kInteriorCount], -(kMaxTranslation / 5));
-  EXPECT_EQ(limits.most[kFirstCoefficient], 8 * kMaxControl / 13);
-  for (std::size_t i = 0; i < kParameterCount; ++i) EXPECT_LE(limits.least[i], 0) << i;
+  EXPECT_EQ(limits.max[kYaw], kMaxRotation / 3);
+  EXPECT_EQ(limits.min[kYaw], -(kMaxRotation / 3));
+  EXPECT_EQ(limits.max[kShiftY], kMaxTranslation / 5);
+  EXPECT_EQ(limits.max[kLogScale], kMaxLogScale / 7);
+  EXPECT_EQ(limits.min[kLogScale], 0) << "the eyes are never less than a pixel apart";
+  EXPECT_EQ(limits.max[kPoseCount], kMaxLight / 11);
+  EXPECT_EQ(limits.min[kPoseCount + kLightCount], -(kMaxLight / 11)) << "mouth interior";
+  EXPECT_EQ(limits.min[kPoseCount + kLightCount + kInteriorCount], -(kMaxTranslation / 5));
+  EXPECT_EQ(limits.max[kFirstCoefficient], 8 * kMaxControl / 13);
+  for (std::size_t i = 0; i < kParameterCount; ++i) EXPECT_LE(limits.min[i], 0) << i;
 }
 
 TEST(CodedLimits, HoldUpToTheLimitAndNotBeyond) {
   const CodedLimits limits(kSteps, kAllParts);
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     CodedState s{};
-    s[i] = limits.most[i];
+    s[i] = limits.max[i];
     EXPECT_TRUE(limits.hold(s)) << i;
     ++s[i];
     EXPECT_FALSE(limits.hold(s)) << i;
-    s[i] = limits.least[i];
+    s[i] = limits.min[i];
     EXPECT_TRUE(limits.hold(s)) << i;
     --s[i];
     EXPECT_FALSE(limits.hold(s)) << i;

@@ -1,4 +1,4 @@
-// Motion groups of random tracks, for tests, fuzzing and benchmarks of the motion packet.
+// Motion groups of random tracks, for tests and benchmarks of motion.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace fbs {
 
-/// How tracks go.
+/// Statistics of random tracks.
 struct TrackHabits {
-  int knot_one_in = 6;   ///< pictures between knots, about
-  int moves_one_in = 2;  ///< spans over which a part moves
-  int reach = 3;         ///< the largest change of a number over a span, within its limits
+  int knot_one_in = 6;   ///< one picture in so many has a knot
+  int moves_one_in = 2;  ///< over one span in so many the part moves
+  int reach = 3;         ///< largest change of a number over a span, within its limits
 };
 
-/// A group from `anchor` on; not key.
+/// A group that begins at `anchor`; not key.
 inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits, const CodedState& anchor,
                                 std::int32_t pictures, const TrackHabits& habits) {
   const auto one_in = [&](int n) { return random() % static_cast<unsigned>(n) == 0; };
@@ -36,7 +36,7 @@ inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits,
         const int change =
             static_cast<int>(random() % static_cast<unsigned>(2 * habits.reach + 1)) - habits.reach;
         std::int32_t& value = knot.value[k];
-        value = std::clamp(value + change, limits.least[i], limits.most[i]);
+        value = std::clamp(value + change, limits.min[i], limits.max[i]);
       }
       group.tracks[part].push_back(knot);
     }

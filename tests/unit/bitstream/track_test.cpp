@@ -12,45 +12,46 @@ namespace {
 
 constexpr QuantiserSteps kFinest{1, 1, 1, 1, 1};
 
-TEST(Between, BeginsAndEndsExactly) {
+TEST(Interpolate, BeginsAndEndsExactly) {
   for (const int from : {-1000, -1, 0, 7}) {
     for (const int to : {-999, 0, 3, 1 << 20}) {
       for (const int length : {1, 2, 7, 256}) {
-        EXPECT_EQ(between(from, to, 0, length), from);
-        EXPECT_EQ(between(from, to, length, length), to);
+        EXPECT_EQ(interpolate(from, to, 0, length), from);
+        EXPECT_EQ(interpolate(from, to, length, length), to);
       }
     }
   }
 }
 
-// SPEC 5.2. Halves go up on both sides of zero: a way there and the way back differ, and both are fixed.
-TEST(Between, RoundsHalvesUp) {
-  EXPECT_EQ(between(0, 1, 1, 2), 1);
-  EXPECT_EQ(between(0, -1, 1, 2), 0);
-  EXPECT_EQ(between(-1, 0, 1, 2), 0);
-  EXPECT_EQ(between(-3, -2, 1, 2), -2);
-  EXPECT_EQ(between(0, -3, 1, 2), -1);
-  EXPECT_EQ(between(0, 1, 1, 3), 0);
-  EXPECT_EQ(between(0, -1, 1, 3), 0);
-  EXPECT_EQ(between(0, -2, 1, 3), -1);
+// SPEC 5.2. Halves go up on both sides of zero, so that motion there and back are rounded differently.
+TEST(Interpolate, RoundsHalvesUp) {
+  EXPECT_EQ(interpolate(0, 1, 1, 2), 1);
+  EXPECT_EQ(interpolate(0, -1, 1, 2), 0);
+  EXPECT_EQ(interpolate(-1, 0, 1, 2), 0);
+  EXPECT_EQ(interpolate(-3, -2, 1, 2), -2);
+  EXPECT_EQ(interpolate(0, -3, 1, 2), -1);
+  EXPECT_EQ(interpolate(0, 1, 1, 3), 0);
+  EXPECT_EQ(interpolate(0, -1, 1, 3), 0);
+  EXPECT_EQ(interpolate(0, -2, 1, 3), -1);
 }
 
-TEST(Between, IsTheNearestIntegerToTheStraightLine) {
+TEST(Interpolate, IsTheNearestIntegerToTheStraightLine) {
   std::mt19937 random(1);
   const auto number = [&] { return static_cast<int>(random() % 4001) - 2000; };
   for (int i = 0; i < 20000; ++i) {
     const int from = number(), to = number(), length = 1 + static_cast<int>(random() % 256),
-              way = static_cast<int>(random() % static_cast<unsigned>(length + 1));
-    const double exact = from + (to - from) * (way / static_cast<double>(length));
-    ASSERT_NEAR(between(from, to, way, length), exact, 0.5 + 1e-9);
-    // A shift of both ends shifts what lies between.
-    ASSERT_EQ(between(from + 5000, to + 5000, way, length), between(from, to, way, length) + 5000);
+              elapsed = static_cast<int>(random() % static_cast<unsigned>(length + 1));
+    const double exact = from + (to - from) * (elapsed / static_cast<double>(length));
+    ASSERT_NEAR(interpolate(from, to, elapsed, length), exact, 0.5 + 1e-9);
+    // A shift of both ends shifts the result.
+    ASSERT_EQ(interpolate(from + 5000, to + 5000, elapsed, length),
+              interpolate(from, to, elapsed, length) + 5000);
   }
 }
 
-TEST(Between, HoldsTheLargestNumbers) {
-  EXPECT_EQ(between(kMaxTranslation, -kMaxTranslation, 128, 256), 0);
-  EXPECT_EQ(between(INT32_MIN, INT32_MAX, 1, 2), 0);
+TEST(Interpolate, HoldsTheLargestNumbers) {
+  EXPECT_EQ(interpolate(kMaxTranslation, -kMaxTranslation, 128, 256), 0);
+  EXPECT_EQ(interpolate(INT32_MIN, INT32_MAX, 1, 2), 0);
 }
 
 /// A group in which only the pose is sent, with knots of yaw.
@@ -71,22 +72,22 @@ std::vector<int> yaws(const std::vector<State>& states) {
   return out;
 }
 
-TEST(StatesOf, GoStraightFromKnotToKnot) {
+TEST(StatesOf, AreLinearFromKnotToKnot) {
   MotionGroup group = yaw_group(6, {{1, 10}, {2, -2}, {5, 4}});
   EXPECT_EQ(yaws(states_of(group, kFinest)), (std::vector{5, 10, -2, 0, 2, 4}));
   group.anchor[kYaw] = 20;
   EXPECT_EQ(yaws(states_of(group, kFinest)), (std::vector{15, 10, -2, 0, 2, 4}));
 }
 
-// The units between are not whole steps: a coarse quantiser does not make a motion jerk.
-TEST(StatesOf, AreStraightInTheUnitsOfTheStateAndNotInSteps) {
+// Interpolated values are not whole steps: a coarse quantiser does not make the motion jerky.
+TEST(StatesOf, AreLinearInUnitsOfTheStateAndNotInSteps) {
   const QuantiserSteps coarse{100, 1, 1, 1, 1};
   EXPECT_EQ(yaws(states_of(yaw_group(4, {{3, 1}}), coarse)), (std::vector{25, 50, 75, 100}));
 }
 
-TEST(StatesOf, PartsGoTheirOwnWays) {
+TEST(StatesOf, PartsHaveTheirOwnKnots) {
   MotionGroup group = yaw_group(4, {{3, 8}});
-  const auto light = static_cast<std::size_t>(PartId::kLight), gaze = static_cast<std::size_t>(PartId::kGaze);
+  const std::size_t light = index_of(PartId::kLight), gaze = index_of(PartId::kGaze);
   group.anchor[kPoseCount] = 4;
   group.tracks[light] = {{0, {0}}, {3, {3}}};
   group.tracks[gaze] = {{3, {4096}}};
@@ -100,7 +101,7 @@ TEST(StatesOf, PartsGoTheirOwnWays) {
   EXPECT_EQ(states[3].control, state_of_values(whole).control);
 }
 
-TEST(KnotsEverywhere, GiveTheStatesThatTheyWereMadeOf) {
+TEST(KnotsEverywhere, GiveTheStatesTheyWereMadeFrom) {
   std::mt19937 random(2);
   const QuantiserSteps steps{3, 5, 7, 11, 13};
   for (const PartMask parts : {kAllParts, PartMask{1}, PartMask{0x111}}) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/pattern_payload.h"
@@ -89,7 +91,7 @@ class Writer {
 
  private:
   Setup setup_;
-  std::optional<MotionCoder> motion_;
+  std::optional<MotionEncoder> motion_;
   std::optional<PatternEncoder> av1_;
   int patterns_ = 0;
 };
@@ -145,7 +147,7 @@ Told played(std::span<const std::uint8_t> bytes) {
 }
 
 std::uint64_t sum_of(const ByteCount& b) {
-  return b.geometry + b.patterns + b.motion + b.index + b.other;
+  return b.geometry + b.patterns + b.motion + b.other;
 }
 
 TEST(StreamDecoder, PlaysEveryPicture) {
@@ -169,6 +171,24 @@ TEST(StreamDecoder, CountsEveryByteOnce) {
   EXPECT_EQ(bytes.patterns, b[4] - b[3]);
   EXPECT_EQ(bytes.motion, b[8] - b[4]);
   EXPECT_EQ(bytes.startup, b[5]) << "setup to first motion packet";
+}
+
+TEST(StreamDecoder, CountsMotionBitsOnlyOnRequest) {
+  const auto bits_of = [](bool counts) {
+    StreamDecoder decoder;
+    if (counts) decoder.count_motion_bits();
+    decoder.feed(sample().bytes);
+    decoder.close();
+    while (*decoder.next() == DecodeStatus::kPicture) {
+    }
+    const PartBitsX256& bits = decoder.motion_bits();
+    return std::accumulate(bits.begin(), bits.end(), 0.0) / 256;
+  };
+  EXPECT_EQ(bits_of(false), 0);
+  // Packet headers, checks and the ends of codes are some seven bytes for each of the four groups.
+  const auto& b = sample().begins;
+  EXPECT_NEAR(bits_of(true), 8.0 * static_cast<double>(b[8] - b[4]), 4 * 7 * 8);
+  EXPECT_GT(bits_of(true), 100);
 }
 
 TEST(StreamDecoder, FirstPictureNeedsNoMoreThanTheStartup) {

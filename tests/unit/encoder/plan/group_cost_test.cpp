@@ -41,7 +41,7 @@ TEST(GroupCost, RoundsToTheNearestStepWithinTheLimits) {
   const CodedLimits limits(kFlatSteps, kAllParts);
   const PartValues rounded = GroupCost(pictures, {}, flat_steps()).rounded(0, 0, limits);
   EXPECT_EQ(rounded[kPitch], 3);
-  EXPECT_EQ(rounded[kYaw], limits.least[kYaw]);
+  EXPECT_EQ(rounded[kYaw], limits.min[kYaw]);
 }
 
 TEST(GroupCost, LineRunsThroughBothEnds) {

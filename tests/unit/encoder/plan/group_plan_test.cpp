@@ -39,7 +39,7 @@ TEST(GroupDurations, SumToSeconds) {
 
 TEST(GroupPlan, FirstGroupIsAKeyGroupAndCanBeCoded) {
   const auto pictures = shaking(10);
-  MotionCoder coder(setup_of(), flat_anchor());
+  MotionEncoder coder(setup_of(), flat_anchor());
   const TrackPlanner planner(kFlatSteps, kAllParts);
   const TrackRate rate;
   const Durations durations(10, 0);
@@ -54,7 +54,7 @@ TEST(GroupPlan, FirstGroupIsAKeyGroupAndCanBeCoded) {
 
 TEST(GroupPlan, IsWithinItsBitsAndLeavesTheCoderAsItWas) {
   const auto pictures = shaking(20);
-  const MotionCoder coder(setup_of(), flat_anchor());
+  const MotionEncoder coder(setup_of(), flat_anchor());
   const TrackPlanner planner(kFlatSteps, kAllParts);
   const TrackRate rate;
   const Durations durations(20, 0);
@@ -66,7 +66,7 @@ TEST(GroupPlan, IsWithinItsBitsAndLeavesTheCoderAsItWas) {
     EXPECT_GE(planned.bits, last);
     last = planned.bits;
     EXPECT_EQ(planned.group, plan_group(planner, input, planned.lambda));
-    const auto payload = MotionCoder(coder).encode(planned.group);
+    const auto payload = MotionEncoder(coder).encode(planned.group);
     ASSERT_TRUE(payload);
     EXPECT_EQ(planned.bits, 8.0 * static_cast<double>(payload->size() + 5)) << "with the packet around it";
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/track.h"
 #include "tests/unit/toy_scene.h"
 
@@ -214,7 +214,7 @@ TEST(TrackPlanner, GroupCanBeCoded) {
   for (const PartMask parts : {kAllParts, PartMask{1}, PartMask{0x093}}) {
     setup.steps = kSteps;
     setup.parts = parts;
-    MotionCoder coder(setup, anchor_of());
+    MotionEncoder coder(setup, anchor_of());
     MotionGroup group = planned(wandering_fits(17, 8), 3, parts);
     group.key = true;
     EXPECT_TRUE(coder.encode(group)) << parts;
@@ -233,11 +233,11 @@ TEST(TrackPlanner, NumbersStayWithinTheirLimits) {
       for (std::size_t k = 0; k < kPartSizes[part]; ++k) {
         const auto i = kPartFirst[part] + k;
         const std::int32_t value = knot.value[k];
-        EXPECT_TRUE(value >= limits.least[i] && value <= limits.most[i]) << i << ' ' << value;
+        EXPECT_TRUE(value >= limits.min[i] && value <= limits.max[i]) << i << ' ' << value;
       }
     }
   }
-  EXPECT_EQ(last_of(group)[kYaw], limits.least[kYaw]);
+  EXPECT_EQ(last_of(group)[kYaw], limits.min[kYaw]);
 }
 
 // Two numbers of which the picture sees the sum: half a step of each is one step of either.

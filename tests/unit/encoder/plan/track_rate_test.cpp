@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "bitstream/payload/motion_payload.h"
+#include "bitstream/motion/motion_encoder.h"
 #include "tests/unit/bitstream/random_tracks.h"
 #include "tests/unit/toy_scene.h"
 
@@ -103,7 +103,7 @@ TEST(TrackRate, IsNearWhatTheCoderWrites) {
                                    TrackHabits{.knot_one_in = 10, .moves_one_in = 3, .reach = 1}}) {
     CodedState seen{};
     seen[kLogScale] = 5 * 4096;
-    MotionCoder coder(setup, seen);
+    MotionEncoder coder(setup, seen);
     TrackRate rate;
     std::mt19937 random(4);
     double guessed = 0, written = 0;

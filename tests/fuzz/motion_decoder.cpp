@@ -1,6 +1,8 @@
-// Bytes to states: what decodes is within the limits, and coded again it decodes to the same.
-#include "bitstream/payload/motion_payload.h"
+// Bytes to groups of pictures: all numbers are within their limits, and a group that was read can be written
+// and read back.
+#include "bitstream/motion/motion_decoder.h"
 
+#include "bitstream/motion/motion_encoder.h"
 #include "bitstream/track.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -8,7 +10,7 @@ const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kMot
 
 namespace {
 
-/// A picture in which nothing moves: what a group that is not key may follow.
+/// One picture at rest, for a group that is not key to follow.
 fbs::MotionGroup held_key_group(fbs::PartMask parts) {
   fbs::MotionGroup group;
   group.key = true;
@@ -24,20 +26,21 @@ void decode(fbs::PartMask parts, bool begun, std::span<const std::uint8_t> paylo
   setup.steps = {40, 16, 8, 16, 64};
   setup.parts = parts;
   const fbs::CodedState seen{};
-  fbs::MotionCoder reader(setup, seen), writer(setup, seen), again(setup, seen);
+  fbs::MotionDecoder reader(setup, seen), again(setup, seen);
+  fbs::MotionEncoder writer(setup, seen);
   if (begun) {
     const auto first = *writer.encode(held_key_group(parts));
     require(reader.decode(first) && again.decode(first), "a key group");
   }
-  for (int group = 0; group < 2; ++group) {  // the second as it follows the first
+  for (int group = 0; group < 2; ++group) {  // the second is predicted from the first
     const auto read = reader.decode(payload);
     if (!read) {
       require(read.error().code != fbs::ErrorCode::kInternal, "internal error");
       return;
     }
-    require(reader.limits().hold(fbs::last_of(*read)), "a state beyond its limits");
-    require(fbs::states_of(*read, setup.steps).size() == static_cast<std::size_t>(read->pictures),
-            "states of other pictures");
+    require(writer.limits().hold(fbs::last_of(*read)), "a number out of range");
+    require(std::cmp_equal(fbs::states_of(*read, setup.steps).size(), read->pictures),
+            "not a state for each picture");
     const auto written = writer.encode(*read);
     require(written.has_value(), "a group that was read cannot be written");
     require(*again.decode(*written) == *read, "round trip");

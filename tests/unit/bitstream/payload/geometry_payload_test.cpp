@@ -22,7 +22,7 @@ Geometry plausible_geometry(unsigned seed, double sigma_steps = 6) {
   return geometry;
 }
 
-TEST(GeometryPayload, DecoderSeesWhatTheEncoderSaid) {
+TEST(GeometryPayload, DecodesToTheHeadThatTheEncoderReturned) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const auto coded = encode_geometry(plausible_geometry(seed));
     ASSERT_TRUE(coded);

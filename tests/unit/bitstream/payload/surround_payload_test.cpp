@@ -11,8 +11,7 @@ namespace {
 
 // An oval that follows the head in the middle of still ground, with a soft rim.
 SurroundMap oval(int columns, int rows) {
-  const auto points = static_cast<std::size_t>((columns + 1) * (rows + 1));
-  SurroundMap map{columns, rows, {}, std::vector<std::uint8_t>(points, 0)};
+  SurroundMap map{columns, rows, {}, std::vector<std::uint8_t>((columns + 1) * (rows + 1), 0)};
   for (int y = 0; y <= rows; ++y) {
     for (int x = 0; x <= columns; ++x) {
       const int dx = (2 * x - columns) * 100 / columns;
@@ -24,7 +23,7 @@ SurroundMap oval(int columns, int rows) {
   return map;
 }
 
-// The same with shoulders: the lower third, where it does not follow the head wholly.
+// The same with shoulders: the lower third, where a point does not follow the head entirely.
 SurroundMap oval_with_shoulders(int columns, int rows) {
   SurroundMap map = oval(columns, rows);
   for (std::size_t k = map.body.size() * 2 / 3; k < map.body.size(); ++k)
@@ -63,7 +62,7 @@ TEST(SurroundPayload, CostsLittleWhereNeighboursAgree) {
   EXPECT_LT(both, head + 25);
 }
 
-// What follows the head wholly has no body; nothing is said about it.
+// A point that follows the head entirely has no body value to code.
 TEST(SurroundPayload, BodyUnderTheHeadIsNotCoded) {
   SurroundMap map = oval(22, 18);
   map.head.assign(map.head.size(), kFollowOne);

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
-
-#include "bitstream/entropy/adaptive_integer.h"
-#include "bitstream/entropy/bit_counter.h"
-#include "bitstream/entropy/mixed_bit.h"
+#include <vector>
 
 namespace fbs {
 namespace {
@@ -118,70 +116,6 @@ TEST(RangeCoder, NoticesBytesThatAreNotUsed) {
   bool exact = true;
   decode_bits(bytes, 40, &exact);
   EXPECT_FALSE(exact);
-}
-
-TEST(BitCounter, AgreesWithTheEncoderWithinOnePercent) {
-  for (const double ones : {0.003, 0.1, 0.5}) {
-    const auto bits = skewed_bits(40000, ones, 11);
-    BitCounter counter;
-    AdaptiveBit context;
-    for (const bool bit : bits) counter.bit(context, bit);
-    const double counted = static_cast<double>(counter.bits_x256()) / 256;
-    const double written = static_cast<double>(encode_bits(bits).size()) * 8;
-    EXPECT_NEAR(counted, written, written * 0.01 + 8) << ones;
-  }
-}
-
-TEST(Logistic, CostIsTheLogarithmOfTheProbability) {
-  for (std::uint32_t p = 1; p <= kProbabilityOne; ++p) {
-    EXPECT_NEAR(cost_of(p) / 65536.0, 16 - std::log2(p), 3e-5);
-  }
-}
-
-TEST(Logistic, SquashInvertsStretch) {
-  for (std::uint32_t p = kMinProbability; p <= kProbabilityOne - kMinProbability; ++p) {
-    EXPECT_NEAR(squash(stretch(p)), p, 2) << p;
-  }
-  EXPECT_EQ(squash(INT32_MAX), kProbabilityOne - kMinProbability);
-  EXPECT_EQ(squash(INT32_MIN), kMinProbability);
-}
-
-TEST(Mixer, TrustsTheContextThatKnows) {
-  std::mt19937 random(3);
-  RangeEncoder encoder;
-  BitCounter counter;
-  Mixer<2> mixer;
-  std::array<AdaptiveBit, 2> knowing;
-  AdaptiveBit blind;
-  for (int i = 0; i < 2000; ++i) {
-    const bool state = (random() & 1) != 0;
-    const bool bit = state != (random() % 32 == 0);
-    mixer.code(counter, {&knowing[state ? 1 : 0], &blind}, bit);
-  }
-  EXPECT_LT(static_cast<double>(counter.bits_x256()) / 256, 2000 * 0.2 * 1.15);  // entropy 0.2006 bit
-}
-
-TEST(AdaptiveInteger, RoundTripsAllSizes) {
-  std::vector<std::int32_t> values = {0, 1, -1, 2, -7, 255, -256, 1 << 20, -(1 << 22)};
-  values.push_back(static_cast<std::int32_t>(kMaxExponential));
-  RangeEncoder encoder;
-  WideIntegerContexts contexts;
-  for (const std::int32_t v : values) code_wide_integer(encoder, contexts, v);
-  const auto bytes = encoder.finish();
-  RangeDecoder decoder(bytes);
-  contexts = {};
-  for (const std::int32_t v : values) EXPECT_EQ(code_wide_integer(decoder, contexts, 0), v);
-}
-
-TEST(AdaptiveInteger, StaysBoundedOnArbitraryBytes) {
-  std::mt19937 random(9);
-  for (int i = 0; i < 2000; ++i) {
-    std::vector<std::uint8_t> bytes(12);
-    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random() % 8 == 0 ? random() : 0xFF);
-    RangeDecoder decoder(bytes);
-    ExponentialContexts contexts;
-    for (int k = 0; k < 8; ++k) EXPECT_LE(code_exponential(decoder, contexts, 0), kMaxExponential);
-  }
 }
 
 }  // namespace

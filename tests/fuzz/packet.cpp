@@ -1,6 +1,6 @@
-// Bytes to packets: for any bytes in any pieces, every packet lies within the bytes fed, and the end
-// comes.
+// Bytes, in pieces of any size, to packets: every packet lies within the bytes fed, and the end is reached.
 #include "bitstream/packet.h"
+
 #include "tests/fuzz/fuzz_target.h"
 
 const std::uint8_t kSeedPacket = 0;
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t piece = size == 0 ? 1 : 1 + bytes.back() * std::size_t{7};
   fbs::PacketReader reader;
   bool lost = false;
-  std::uint64_t end = 0;
+  std::uint64_t end_of_last = 0;
   for (std::size_t fed = 0, steps = 0;; ++steps) {
     require(steps < 4 * size + 16, "the reader does not come to an end");
     const auto read = lost ? reader.resync() : reader.next();
@@ -21,9 +21,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return 0;
     } else if (read->status == fbs::ReadStatus::kPacket) {
       lost = false;
-      require(read->packet.offset >= end, "packets overlap");
-      end = read->packet.offset + read->packet.size;
-      require(end <= fed, "a packet that exceeds the bytes fed");
+      require(read->packet.offset >= end_of_last, "packets overlap");
+      end_of_last = read->packet.offset + read->packet.size;
+      require(end_of_last <= fed, "a packet of bytes not yet fed");
     } else if (fed < size) {
       const std::size_t n = piece < size - fed ? piece : size - fed;
       reader.feed(bytes.subspan(fed, n));

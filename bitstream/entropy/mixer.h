@@ -1,10 +1,9 @@
-// One bit predicted by several contexts at once. SPEC 2.5.
+// Codes one bit with a probability mixed from several contexts. SPEC 2.5.
 //
-// A single context must choose between being specific (few bits to learn from) and general. Here each of
-// several contexts gives its estimate, and a small mixer learns whom to believe, depending on how much each
-// has seen.
+// A single context is either specific (few bits to adapt to) or general. A mixer weights the estimates of
+// several, and adapts the weights, which depend on how many bits each context has coded.
 // Method: M. Mahoney, Adaptive Weighing of Context Models for Lossless Data Compression, 2005 (logistic
-// mixing). Differs: integers only, weights by the contexts' experience, log-odds to base two.
+// mixing). Differs: integers only, weights by the experience of the contexts, log-odds to base two.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 
 namespace fbs {
 
-inline constexpr int kExperienceLevels = 6;  ///< 0, 1, 2, 3..5, 6..15, 16 and more bits seen
+inline constexpr int kExperienceLevels = 6;  ///< AdaptiveBit::experience()
 inline constexpr std::int32_t kWeightOne = 1 << 16;
 
 template <std::size_t N>
@@ -25,7 +24,7 @@ class Mixer {
  public:
   using Inputs = std::array<AdaptiveBit*, N>;
 
-  /// Codes `value` from the estimates of `inputs`, then lets them and the weights learn. Returns the value.
+  /// Codes `value` with the mixed estimate of `inputs`, then updates them and the weights. Returns the value.
   template <class Coder>
   bool code(Coder& coder, const Inputs& inputs, bool value) {
     std::array<std::int32_t, N> odds;
@@ -40,7 +39,7 @@ class Mixer {
     const std::uint32_t zero = squash(static_cast<std::int32_t>(std::clamp(sum, -limit, limit) >> 16));
     value = coder.raw_bit(zero, value);
 
-    // Gradient of the cost: (seen - expected) * log-odds.
+    // Gradient of the cost: (coded - expected) * log-odds.
     const std::int32_t error =
         (value ? 0 : static_cast<std::int32_t>(kProbabilityOne)) - static_cast<std::int32_t>(zero);
     for (std::size_t i = 0; i < N; ++i) {
@@ -53,13 +52,13 @@ class Mixer {
   }
 
  private:
-  static constexpr int kRateShift = 22;  // a rate of 1/64
+  static constexpr int kRateShift = 22;  // a learning rate of 1/64
   static constexpr std::int32_t kMaxWeight = 8 * kWeightOne;
 
   using Weights = std::array<std::int32_t, kExperienceLevels>;
   static constexpr std::array<Weights, N> initial() {
     std::array<Weights, N> weights{};
-    // In 1/16 of an even share: the more a context has seen, the more it counts.
+    // In 1/16 of an even share: the more bits a context has coded, the larger its weight.
     constexpr std::array<std::int32_t, kExperienceLevels> kShare = {4, 6, 9, 13, 18, 20};
     for (auto& input : weights) {
       for (std::size_t level = 0; level < kExperienceLevels; ++level) {

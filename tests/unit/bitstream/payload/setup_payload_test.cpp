@@ -5,9 +5,6 @@
 #include <functional>
 #include <random>
 
-#include "bitstream/payload/end_payload.h"
-#include "bitstream/payload/pattern_payload.h"
-
 namespace fbs {
 namespace {
 
@@ -24,7 +21,7 @@ Setup sample_setup() {
   return setup;
 }
 
-TEST(Setup, RoundTrips) {
+TEST(SetupPayload, RoundTrips) {
   const auto payload = encode_setup(sample_setup());
   ASSERT_TRUE(payload);
   EXPECT_LE(payload->size(), 30u);
@@ -33,7 +30,7 @@ TEST(Setup, RoundTrips) {
   EXPECT_EQ(*read, sample_setup());
 }
 
-TEST(Setup, EachBoundIsCheckedBothWays) {
+TEST(SetupPayload, EachBoundIsCheckedBothWays) {
   struct Case {
     std::function<void(fbs::Setup&)> breaks;
     ErrorCode code;
@@ -80,7 +77,7 @@ TEST(Setup, EachBoundIsCheckedBothWays) {
 }
 
 // Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
-TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
+TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
   const std::vector<std::uint8_t> good = {3, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
                                           3, 4, 5,  12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
@@ -116,7 +113,7 @@ TEST(Setup, ReadsKnownBytesAndNamesWhatIsWrong) {
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
 }
 
-TEST(Setup, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
+TEST(SetupPayload, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
   auto payload = *encode_setup(sample_setup());
   for (std::size_t size = 0; size < payload.size(); ++size) {
     const auto read = decode_setup(std::span(payload).first(size));
@@ -127,7 +124,7 @@ TEST(Setup, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
   EXPECT_TRUE(decode_setup(payload));
 }
 
-TEST(Setup, SurvivesRandomBytes) {
+TEST(SetupPayload, SurvivesRandomBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
     auto payload = *encode_setup(sample_setup());
@@ -136,78 +133,6 @@ TEST(Setup, SurvivesRandomBytes) {
     }
     if (const auto read = decode_setup(payload)) {
       EXPECT_TRUE(check_setup(*read));
-    }
-  }
-}
-
-TEST(EndPayload, RoundTrips) {
-  for (const std::uint64_t pictures : {std::uint64_t{0}, std::uint64_t{1800}, ~std::uint64_t{0}}) {
-    EXPECT_EQ(decode_end(encode_end(End{pictures}))->pictures, pictures);
-  }
-  EXPECT_EQ(decode_end({}).error().code, ErrorCode::kTruncated);
-}
-
-PatternSyntax sample_pattern() {
-  PatternSyntax pattern;
-  pattern.index = 5;
-  pattern.state[kYaw] = -2;
-  pattern.state[kShiftX] = 40;
-  pattern.state[kLogScale] = 900;
-  pattern.state[kFirstCoefficient] = -9;
-  pattern.state.back() = 4;
-  pattern.av1 = {0x12, 0x00, 0x0A};
-  return pattern;
-}
-
-Setup fine_setup() {
-  Setup setup = sample_setup();
-  setup.steps = QuantiserSteps{};
-  return setup;
-}
-
-TEST(PatternPayload, RoundTrips) {
-  const auto payload = encode_pattern(sample_pattern(), fine_setup());
-  ASSERT_TRUE(payload);
-  const auto read = decode_pattern(*payload, fine_setup());
-  ASSERT_TRUE(read);
-  EXPECT_EQ(*read, sample_pattern());
-}
-
-TEST(PatternPayload, RefusesWhatBreaksALimit) {
-  const auto code_of = [](const std::function<void(PatternSyntax&)>& breaks) {
-    PatternSyntax pattern = sample_pattern();
-    pattern.state.back() = 0;  // gaze, is not sent
-    breaks(pattern);
-    auto setup = fine_setup();
-    setup.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kMouth));
-    const auto payload = encode_pattern(pattern, setup);
-    return payload ? ErrorCode::kInternal : payload.error().code;
-  };
-  EXPECT_EQ(code_of([](PatternSyntax&) {}), ErrorCode::kInternal) << "all else is in order";
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = kMaxPatterns; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.index = -1; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.av1.clear(); }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kYaw] = 1 << 20; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kLogScale] = -1; }), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(code_of([](PatternSyntax& p) { p.state[kPoseCount] = 1; }), ErrorCode::kInvalidArgument);
-  const std::vector<std::uint8_t> far = {64, 0, 1};
-  EXPECT_EQ(decode_pattern(far, fine_setup()).error().code, ErrorCode::kTooLarge);
-  const std::vector<std::uint8_t> endless = {0, 0x7F, 1};
-  EXPECT_EQ(decode_pattern(endless, fine_setup()).error().code, ErrorCode::kTruncated);
-  const std::vector<std::uint8_t> empty = {0, 0};
-  EXPECT_EQ(decode_pattern(empty, fine_setup()).error().code, ErrorCode::kInvalidStream);
-}
-
-TEST(PatternPayload, SurvivesRandomBytes) {
-  std::mt19937 random(8);
-  const auto good = *encode_pattern(sample_pattern(), fine_setup());
-  for (int i = 0; i < 20000; ++i) {
-    auto payload = good;
-    for (unsigned k = 1 + random() % 6; k > 0; --k) {
-      payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
-    }
-    if (const auto read = decode_pattern(payload, fine_setup())) {
-      EXPECT_TRUE(encode_pattern(*read, fine_setup()));
     }
   }
 }

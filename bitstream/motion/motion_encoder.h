@@ -1,0 +1,39 @@
+// Groups of pictures to motion packets. SPEC 4.5.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitstream/motion/motion_syntax.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// Writes the motion packets of one scene, in stream order. A value: a copy continues independently, so that
+/// an encoder can try what a group would cost.
+class MotionEncoder {
+ public:
+  /// @param setup  of the scene; must satisfy check_setup (assert)
+  /// @param seen   seen state of pattern 0: the anchor of key groups
+  MotionEncoder(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
+
+  /// Codes the next group.
+  /// @return kInvalidArgument  a number of pictures outside 1..kMaxGroupPictures; not a key group where one
+  ///                           is needed; another anchor than anchor(); tracks that are not as defined in
+  ///                           MotionGroup; durations neither empty nor one for each picture, or outside
+  ///                           1..kMaxDuration; numbers outside limits(). The encoder is then unchanged.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> encode(const MotionGroup& group);
+
+  /// The state before the first picture of the next group.
+  [[nodiscard]] const CodedState& anchor(bool key) const { return reference_.anchor(key); }
+
+  /// True before the first group.
+  [[nodiscard]] bool needs_key() const { return reference_.needs_key; }
+
+  [[nodiscard]] const CodedLimits& limits() const { return reference_.limits; }
+
+ private:
+  MotionReference reference_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,23 @@
+#include "bitstream/motion/motion_syntax.h"
+
+#include <cassert>
+
+#include "bitstream/payload/setup_payload.h"
+
+namespace fbs {
+
+MotionReference::MotionReference(const Setup& setup, const CodedState& state)
+    : limits(setup.steps, setup.parts),
+      nominal_duration(fbs::nominal_duration(setup.format.frame_rate)),
+      seen(state),
+      last(state) {
+  assert(check_setup(setup));
+  reset();
+}
+
+void MotionReference::reset() {
+  memory = {};
+  memory.duration_history = {nominal_duration, nominal_duration};
+}
+
+}  // namespace fbs

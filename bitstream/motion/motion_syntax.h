@@ -1,0 +1,119 @@
+// The layout of a motion packet, described once for writing, reading and counting. SPEC 4.5.
+//
+// Coder is RangeEncoder, RangeDecoder or BitCounter; Group is MotionGroup for the one that reads and
+// const MotionGroup for the others.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/motion/duration_coder.h"
+#include "bitstream/motion/track_coder.h"
+#include "bitstream/syntax.h"
+#include "bitstream/track.h"
+
+namespace fbs {
+
+/// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
+inline constexpr std::uint32_t kNotKey = 15 << 12;
+
+/// What adapts from group to group of a scene: contexts, mixers and history.
+struct MotionMemory {
+  AdaptiveBit other_count;
+  AdaptiveBit has_durations;
+  std::int32_t pictures = 0;  ///< of the last group
+  TrackContexts tracks;
+  TrackHistory track_history;
+  DurationContexts durations;
+  DurationHistory duration_history;
+};
+
+/// What the next group of a scene is coded against. Writer, reader and counter of a scene each have one, and
+/// all are equal after the same groups. Plain data: a copy continues independently.
+struct MotionReference {
+  /// @param setup  of the scene; must satisfy check_setup (assert)
+  /// @param seen   seen state of pattern 0
+  MotionReference(const Setup& setup, const CodedState& seen);
+
+  /// The state before the first picture of the next group. SPEC 5.2.
+  [[nodiscard]] const CodedState& anchor(bool key) const { return key ? seen : last; }
+
+  /// Returns contexts, mixers and history to their initial values, as each key group does.
+  void reset();
+
+  CodedLimits limits;
+  std::uint32_t nominal_duration;  ///< 1/90000 s
+  CodedState seen;                 ///< of pattern 0
+  CodedState last;                 ///< of the last picture
+  bool needs_key = true;           ///< only a key group can follow
+  MotionMemory memory;
+};
+
+/// Codes the number of pictures and whether there are durations; returns the latter.
+template <class Coder, class Group>
+bool code_header(Coder& coder, MotionMemory& memory, Group& group) {
+  std::int32_t pictures = memory.pictures;
+  if (coder.bit(memory.other_count, group.pictures != memory.pictures))
+    pictures = static_cast<std::int32_t>(coder.bypass(8, static_cast<std::uint32_t>(group.pictures - 1))) + 1;
+  static_assert(kMaxGroupPictures == 1 << 8);
+  if constexpr (Coder::kReads) group.pictures = pictures;
+  memory.pictures = pictures;
+  return coder.bit(memory.has_durations, !group.durations.empty());
+}
+
+/// Codes the track of one part.
+/// @return false when what was read is out of range or ends early
+template <class Coder, class Group>
+bool code_track(Coder& coder, MotionReference& reference, std::size_t part, Group& group) {
+  TrackCoder<Coder> tracks(coder, reference.limits, reference.memory.tracks, reference.memory.track_history);
+  auto& track = group.tracks[part];
+  Knot last = anchor_knot(group.anchor, part);
+  for (std::size_t k = 0; last.picture + 1 < group.pictures; ++k) {
+    Knot next;
+    if constexpr (!Coder::kReads) next = track[k];
+    const std::int32_t left = group.pictures - 1 - last.picture;
+    const std::int32_t length = tracks.span(part, left, k == 0, next.picture - last.picture);
+    if (length > left) return false;
+    next.picture = last.picture + length;
+    if (!tracks.knot(part, length, last, next)) return false;
+    if constexpr (Coder::kReads) {
+      if (!coder.ok()) return false;
+      track.push_back(next);
+    }
+    last = next;
+  }
+  return true;
+}
+
+/// Codes the duration of each picture.
+/// @return false when what was read is out of range or ends early
+template <class Coder, class Group>
+bool code_durations(Coder& coder, MotionMemory& memory, Group& group) {
+  if constexpr (Coder::kReads) group.durations.resize(group.pictures);
+  for (auto& duration : group.durations) {
+    if (!code_duration(coder, memory.durations, memory.duration_history, duration)) return false;
+    if constexpr (Coder::kReads) {
+      if (!coder.ok()) return false;
+    }
+  }
+  return true;
+}
+
+/// Codes all that follows the key flag.
+/// @param group  its anchor is set, and with a Coder that does not read all else
+/// @param after  is called with the part after each part, and with kPartCount after the durations
+/// @return false when what was read is out of range or ends early
+template <class Coder, class Group, class After>
+bool code_body(Coder& coder, MotionReference& reference, Group& group, After&& after) {
+  const bool has_durations = code_header(coder, reference.memory, group);
+  if (group.pictures < 1) return false;
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    if ((reference.limits.parts >> part & 1) == 0) continue;
+    if (!code_track(coder, reference, part, group)) return false;
+    after(part);
+  }
+  if (has_durations && !code_durations(coder, reference.memory, group)) return false;
+  after(kPartCount);
+  return true;
+}
+
+}  // namespace fbs
