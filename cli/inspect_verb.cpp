@@ -70,7 +70,7 @@ void print(const std::string& name, const Summary& s) {
     return s.seconds > 0 ? 8e-3 * static_cast<double>(bytes) / s.seconds : 0;
   };
   const auto line = [&](const char* part, std::uint64_t bytes) {
-    std::printf("  %-9s %9llu bytes %9.3f kbit/s\n", part, static_cast<unsigned long long>(bytes),
+    std::printf("  %-13s %9llu bytes %9.3f kbit/s\n", part, static_cast<unsigned long long>(bytes),
                 kbps(bytes));
   };
   std::printf("%s: %d x %d, %.3f pictures/s, %llu pictures, %.2f s, %zu pattern%s%s\n", name.c_str(),
@@ -83,7 +83,7 @@ void print(const std::string& name, const Summary& s) {
   line("motion", b.motion);
   for (const auto& [part, bytes] : motion_by_part(s))
     if (bytes >= 0.5)
-      std::printf("    %-11s %5.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
+      std::printf("    %-14s %6.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
                   s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
   line("index", b.index);
   line("other", b.other);

@@ -7,7 +7,7 @@ import os
 from harness import TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest
 
 PARTS = ("geometry", "patterns", "motion", "index", "other")
-STATE = ("pose", "light", "inside", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze")
+STATE = ("pose", "light", "mouth interior", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze")
 POSE = ["frame", "rx_deg", "ry_deg", "rz_deg", "tx_px", "ty_px", "scale"]
 POINTS = [axis + str(k) for k in range(68) for axis in "xy"]
 
