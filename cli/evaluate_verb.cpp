@@ -75,12 +75,12 @@ nlohmann::json to_json(const Point& p) {
 }
 
 void print(const std::vector<Point>& points) {
-  std::printf("%-20s %9s %9s %9s %9s %9s %9s %8s %8s %8s %8s\n", "", "kbit/s", "motion", "startup B",
-              "geometry", "patterns", "total B", "face dB", "SSIM", "frame dB", "SSIM");
+  std::printf("%-20s %9s %9s %9s %9s %9s %9s %8s %9s %8s %10s\n", "", "kbit/s", "motion", "startup B",
+              "geometry", "patterns", "total B", "face dB", "face SSIM", "frame dB", "frame SSIM");
   for (const Point& p : points) {
     const Measure& m = p.measure;
     const auto b = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
-    std::printf("%-20s %9.3f %9.3f %9llu %9llu %9llu %9llu %8.2f %8.4f %8.2f %8.4f\n", p.label.c_str(),
+    std::printf("%-20s %9.3f %9.3f %9llu %9llu %9llu %9llu %8.2f %9.4f %8.2f %10.4f\n", p.label.c_str(),
                 m.kbps(), m.rate(m.bytes.motion), b(m.bytes.startup), b(m.bytes.geometry),
                 b(m.bytes.patterns), b(m.bytes.total), m.face.psnr(), m.ssim_face, m.frame.psnr(),
                 m.ssim_frame);

@@ -75,8 +75,8 @@ glm::vec3 lid_point(int side, float u, float open, bool upper) {
 }  // namespace
 
 std::array<glm::vec3, kLandmarkTotal> landmarks(const Expression& e) {
-  static const Points kRest = rest_points();
-  Points p = kRest;
+  static const Points rest = rest_points();
+  Points p = rest;
   constexpr float kThird = 1.0f / 3.0f;
   const float right = e.eye_open_right, left = e.eye_open_left;
   p[36] = lid_point(-1, 1, right, true);

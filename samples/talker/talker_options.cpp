@@ -64,7 +64,7 @@ struct Option {
 
 const std::array<Option, 14>& valued_options() {
   using Text = std::string_view;
-  static const std::array<Option, 14> kOptions{{
+  static const std::array<Option, 14> options{{
       {"--truth",
        [](Text t, Options& o) {
          o.truth = t;
@@ -88,7 +88,7 @@ const std::array<Option, 14>& valued_options() {
       {"--light", [](Text t, Options& o) { return number(t, 0.0f, 0.9f, o.settings.light); }},
       {"--eye-distance", [](Text t, Options& o) { return number(t, 0.03f, 0.3f, o.settings.eye_distance); }},
   }};
-  return kOptions;
+  return options;
 }
 
 }  // namespace
