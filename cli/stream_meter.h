@@ -33,7 +33,7 @@ class StreamMeter {
   StreamMeter(StreamDecoder& decoder, bool with_ssim) : decoder_(decoder), with_ssim_(with_ssim) {}
 
   /// Compares the picture that the decoder announces with `source`.
-  void compare(const Picture& source);
+  Result<void> compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;
 

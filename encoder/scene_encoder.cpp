@@ -183,8 +183,7 @@ Result<void> SceneEncoder::add_pattern(const Picture& picture, int quantiser) {
   auto payload = encode_pattern({0, seen_coded_, std::move(*av1)}, scene_.setup);
   if (!payload) return fail(payload.error());
   pattern_bytes_ = std::move(*payload);
-  scene_.patterns.push_back(
-      {std::move(*decoded), scene_.geometry ? scene_.geometry->project(seen_) : ScreenMesh{}});
+  scene_.patterns.push_back(make_pattern(std::move(*decoded), seen_, scene_.geometry));
   return {};
 }
 
@@ -361,9 +360,7 @@ Result<void> SceneEncoder::start() {
     if (!surround) return fail(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);
     write_packet(ready_, PacketType::kSurround, *surround);
-    const Geometry geometry = scene_.geometry->geometry();  // outlives the object that emplace destroys
-    scene_.geometry.emplace(scene_.setup, geometry, map, seen_);
-    scene_.patterns.front().seen = scene_.geometry->project(seen_);
+    scene_.set_geometry({scene_.setup, scene_.geometry->geometry(), map, seen_});
   }
   write_packet(ready_, PacketType::kPattern, pattern_bytes_);
   ready_.insert(ready_.end(), held_back_.begin(), held_back_.end());

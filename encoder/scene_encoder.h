@@ -7,7 +7,7 @@
 
 #include "bitstream/payload/motion_payload.h"
 #include "common/result.h"
-#include "decoder/renderer.h"
+#include "decoder/scene.h"
 #include "encoder/encoder.h"
 #include "encoder/find/adapt.h"
 #include "encoder/fit/picture_fit.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 
 #include "decoder/renderer.h"
 
@@ -92,7 +93,7 @@ inline Scene toy_scene(Picture picture, SurroundMap surround = even_surround(10,
   Scene scene;
   scene.setup = toy_setup(picture.width(), picture.height());
   scene.geometry.emplace(scene.setup, toy_geometry(), std::move(surround), toy_state());
-  scene.patterns.push_back({std::move(picture), scene.geometry->project(toy_state())});
+  scene.patterns.push_back(make_pattern(std::move(picture), toy_state(), scene.geometry));
   return scene;
 }
 
@@ -127,7 +128,8 @@ inline State random_state(std::mt19937& random) {
 inline Picture rendered(const Scene& scene, const State& state) {
   Renderer renderer;
   Picture out;
-  renderer.render(scene, state, out);
+  if (const auto drawn = renderer.render(scene, state, out); !drawn)
+    throw std::logic_error(drawn.error().text);
   return out;
 }
 

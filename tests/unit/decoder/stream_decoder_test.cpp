@@ -128,7 +128,7 @@ bool play(StreamDecoder& decoder, Told& told) {
     if (*status == DecodeStatus::kEnd) return true;
     if (*status == DecodeStatus::kNeedMore) return false;
     told.pictures.emplace_back();
-    decoder.render(told.pictures.back());
+    EXPECT_TRUE(decoder.render(told.pictures.back()));
     told.durations.push_back(decoder.duration());
   }
   ADD_FAILURE() << "a decoder that never ends";
@@ -338,8 +338,59 @@ TEST(StreamDecoder, NewSetupBeginsANewScene) {
   EXPECT_EQ(told.pictures[5], told.pictures[7]) << "the geometry of the scene before is forgotten";
 }
 
+TEST(StreamDecoder, NothingIsDrawnBeforeTheFirstPicture) {
+  StreamDecoder decoder;
+  Picture out;
+  const auto refused = [&] {
+    const auto drawn = decoder.render(out);
+    return !drawn && drawn.error().code == ErrorCode::kInvalidArgument && out.empty();
+  };
+  EXPECT_TRUE(refused()) << "no stream at all";
+  const std::span bytes(sample().bytes);
+  for (std::size_t k = 1; k <= 4; ++k) {
+    const std::size_t begin = k == 1 ? 0 : sample().begins[k - 1];
+    decoder.feed(bytes.subspan(begin, sample().begins[k] - begin));
+    ASSERT_EQ(*decoder.next(), DecodeStatus::kNeedMore);
+    EXPECT_TRUE(refused()) << "packet " << k;
+  }
+  decoder.feed(bytes.subspan(sample().begins[4]));
+  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  EXPECT_TRUE(decoder.render(out));
+}
+
+// The state of the old scene means nothing in the new one.
+TEST(StreamDecoder, NothingIsDrawnAfterAnErrorBehindANewSetup) {
+  for (const bool with_pattern : {false, true}) {
+    Writer w;
+    w.setup().geometry().surround().pattern().motion(0, 2, true).setup();
+    if (with_pattern) w.geometry().pattern();
+    w.packet(PacketType::kMotion, Bytes{});
+    StreamDecoder decoder;
+    decoder.feed(w.bytes);
+    decoder.close();
+    Picture out;
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+      ASSERT_TRUE(decoder.render(out));
+    }
+    ASSERT_FALSE(decoder.next());
+    EXPECT_EQ(decoder.render(out).error().code, ErrorCode::kInvalidArgument) << with_pattern;
+    EXPECT_EQ(decoder.render(PictureView(out)).error().code, ErrorCode::kInvalidArgument);
+  }
+}
+
+TEST(StreamDecoder, DrawsIntoTheCallersMemory) {
+  StreamDecoder decoder;
+  decoder.feed(sample().bytes);
+  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  Picture expected, out(kWidth, kHeight);
+  ASSERT_TRUE(decoder.render(expected));
+  ASSERT_TRUE(decoder.render(PictureView(out)));
+  EXPECT_EQ(out, expected);
+}
+
 // SPEC 6: of several before pattern 0 the last counts; what comes behind it changes nothing.
-TEST(StreamDecoder, PatternZeroSettlesTheScene) {
+TEST(StreamDecoder, GeometryIsFixedByPatternZero) {
   Writer plain, late, twice;
   plain.setup().geometry().surround(4).pattern().motion(0, 5, true);
   late.setup().geometry().surround(4).pattern().surround(0).geometry().motion(0, 5, true);

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
 

@@ -1,4 +1,4 @@
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "bitstream/payload/geometry_payload.h"
-#include "tests/unit/decoder/plain_projection.h"
+#include "tests/unit/decoder/head/plain_projection.h"
 
 namespace fbs {
 namespace {
