@@ -7,14 +7,6 @@ namespace {
 
 constexpr std::int64_t kMaxLightRow = std::int64_t{kMaxLight} << kLightOneLog2;
 
-/// @param fx, fy  share of the right and of the lower samples, 1/256
-std::uint8_t bilinear(std::int32_t top_left, std::int32_t top_right, std::int32_t bottom_left,
-                      std::int32_t bottom_right, std::int32_t fx, std::int32_t fy) {
-  const std::int32_t top = top_left * (256 - fx) + top_right * fx;
-  const std::int32_t bottom = bottom_left * (256 - fx) + bottom_right * fx;
-  return static_cast<std::uint8_t>((top * (256 - fy) + bottom * fy + (1 << 15)) >> 16);
-}
-
 std::uint8_t sample_clamped(const ConstPlaneView& p, std::int64_t u, std::int64_t v) {
   u = std::clamp<std::int64_t>(u, 0, std::int64_t{p.width - 1} << 16);
   v = std::clamp<std::int64_t>(v, 0, std::int64_t{p.height - 1} << 16);
@@ -43,17 +35,6 @@ bool within_max_light(const LinearRow& row, int count) {
 void sample_row_clamped(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count) {
   std::int64_t u = at.u.first, v = at.v.first;
   for (int i = 0; i < count; ++i, u += at.u.step, v += at.v.step) out[i] = sample_clamped(texture, u, v);
-}
-
-void sample_row_inside(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count) {
-  auto u = static_cast<std::int32_t>(at.u.first), v = static_cast<std::int32_t>(at.v.first);
-  const auto du = static_cast<std::int32_t>(at.u.step), dv = static_cast<std::int32_t>(at.v.step);
-  const std::uint8_t* const data = texture.data;
-  const std::ptrdiff_t stride = texture.stride;
-  for (int i = 0; i < count; ++i, u += du, v += dv) {
-    const std::uint8_t* s = data + (v >> 16) * stride + (u >> 16);
-    out[i] = bilinear(s[0], s[1], s[stride], s[stride + 1], (u >> 8) & 255, (v >> 8) & 255);
-  }
 }
 
 void light_row_clamped(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count) {

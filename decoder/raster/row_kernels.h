@@ -26,11 +26,32 @@ struct TextureRow {
   LinearRow u, v;
 };
 
+/// Of four neighbours.
+/// @param fx, fy  share of the right and of the lower samples, 1/256
+[[nodiscard]] inline std::uint8_t bilinear(std::int32_t top_left, std::int32_t top_right,
+                                           std::int32_t bottom_left, std::int32_t bottom_right,
+                                           std::int32_t fx, std::int32_t fy) {
+  const std::int32_t top = top_left * (256 - fx) + top_right * fx;
+  const std::int32_t bottom = bottom_left * (256 - fx) + bottom_right * fx;
+  return static_cast<std::uint8_t>((top * (256 - fy) + bottom * fy + (1 << 15)) >> 16);
+}
+
 /// Bilinear, to 1/256 sample. Positions outside the texture repeat its border.
 void sample_row_clamped(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count);
 
 /// The same for a run whose positions, and those of all samples that they mix, lie inside the texture.
-void sample_row_inside(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count);
+/// Inline: most runs are a few samples long.
+inline void sample_row_inside(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out,
+                              int count) {
+  auto u = static_cast<std::int32_t>(at.u.first), v = static_cast<std::int32_t>(at.v.first);
+  const auto du = static_cast<std::int32_t>(at.u.step), dv = static_cast<std::int32_t>(at.v.step);
+  const std::uint8_t* const data = texture.data;
+  const std::ptrdiff_t stride = texture.stride;
+  for (int i = 0; i < count; ++i, u += du, v += dv) {
+    const std::uint8_t* s = data + (v >> 16) * stride + (u >> 16);
+    out[i] = bilinear(s[0], s[1], s[stride], s[stride + 1], (u >> 8) & 255, (v >> 8) & 255);
+  }
+}
 
 inline constexpr int kLightOneLog2 = 16;  ///< light along a run counts 2^-16 of 1/16 grey level
 

@@ -19,9 +19,27 @@ struct RowRun {
   [[nodiscard]] int count() const { return last - first + 1; }
 };
 
+/// Quotient rounded down; b > 0.
+[[nodiscard]] inline std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
 /// The samples of a row within `area` whose centre the triangle covers (top-left rule).
 /// @param triangle  faces the viewer
-[[nodiscard]] RowRun covered_run(const TriangleSetup& triangle, int row, const SampleArea& area);
+[[nodiscard]] inline RowRun covered_run(const TriangleSetup& triangle, int row, const SampleArea& area) {
+  std::int64_t first = area.x0, last = area.x1 - 1;
+  for (const Edge& e : triangle.edges()) {
+    const std::int64_t at_zero = e.b * row + e.c;  // inside: a * column + at_zero >= 0
+    if (e.a > 0)
+      first = std::max(first, -floor_div(at_zero, e.a));
+    else if (e.a < 0)
+      last = std::min(last, floor_div(at_zero, -e.a));
+    else if (at_zero < 0)
+      last = first - 1;
+  }
+  if (first > last) return {0, -1};
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
 
 /// Depth of what has been drawn so far, per sample of a plane.
 struct DepthPlane {

@@ -15,13 +15,14 @@ std::int64_t twice_area(const ScreenTriangle& t) {
 
 }  // namespace
 
-Edge::Edge(glm::ivec2 from, glm::ivec2 to) {
-  a = std::int64_t{from.y} - to.y;
-  b = std::int64_t{to.x} - from.x;
-  c = -(a * from.x + b * from.y);
-  const bool left = a > 0;           // the edge goes up: the inside is to its right
-  const bool top = a == 0 && b > 0;  // the edge goes right: the inside is below
-  if (!left && !top) c -= 1;
+Edge::Edge(glm::ivec2 from, glm::ivec2 to, int position_bits) {
+  const std::int64_t by_x = std::int64_t{from.y} - to.y, by_y = std::int64_t{to.x} - from.x;
+  const bool left = by_x > 0;              // the edge goes up: the inside is to its right
+  const bool top = by_x == 0 && by_y > 0;  // the edge goes right: the inside is below
+  const std::int64_t sample = std::int64_t{1} << position_bits, centre = sample / 2;
+  a = by_x * sample;
+  b = by_y * sample;
+  c = by_x * (centre - from.x) + by_y * (centre - from.y) - (left || top ? 0 : 1);
 }
 
 TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
@@ -32,7 +33,8 @@ TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
       by_(t[2].at.y - t[0].at.y),
       area_(ax_ * by_ - ay_ * bx_),
       position_bits_(static_cast<int>(scale)),
-      edges_{Edge(t[0].at, t[1].at), Edge(t[1].at, t[2].at), Edge(t[2].at, t[0].at)} {
+      edges_{Edge(t[0].at, t[1].at, position_bits_), Edge(t[1].at, t[2].at, position_bits_),
+             Edge(t[2].at, t[0].at, position_bits_)} {
   const int half = 1 << (position_bits_ - 1);
   const auto [low, high] = std::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
   first_row_ = (low - half) >> position_bits_;

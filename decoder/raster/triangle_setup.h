@@ -46,10 +46,12 @@ struct Gradient {
   }
 };
 
-/// One edge as a half plane: a x + b y + c >= 0 holds inside and on top and left edges.
+/// One edge as a half plane: a * column + b * row + c >= 0 holds for samples whose centre lies inside or on a
+/// top or left edge.
 struct Edge {
   std::int64_t a, b, c;
-  Edge(glm::ivec2 from, glm::ivec2 to);
+  /// @param from, to  1/64 luma pixel, clockwise  @param position_bits  log2 of positions per sample
+  Edge(glm::ivec2 from, glm::ivec2 to, int position_bits);
 };
 
 /// Edges and gradients of a triangle in the planes of one scale.

@@ -27,13 +27,11 @@ TEST(CoveredRun, IsWhereAllEdgesHold) {
     const TriangleSetup setup(t, i % 3 == 0 ? PlaneScale::kChroma : PlaneScale::kLuma);
     if (!setup.faces_viewer()) continue;
     const SampleArea area{3, 0, 24, 20};
-    const int row = static_cast<int>(random() % 20), bits = setup.position_bits();
+    const int row = static_cast<int>(random() % 20);
     const RowRun run = covered_run(setup, row, area);
     for (int x = area.x0; x < area.x1; ++x) {
-      const std::int64_t cx = (std::int64_t{x} << bits) + (1 << (bits - 1)),
-                         cy = (std::int64_t{row} << bits) + (1 << (bits - 1));
       bool inside = true;
-      for (const Edge& e : setup.edges()) inside = inside && e.a * cx + e.b * cy + e.c >= 0;
+      for (const Edge& e : setup.edges()) inside = inside && e.a * x + e.b * row + e.c >= 0;
       ASSERT_EQ(x >= run.first && x <= run.last, inside) << i << ": " << x;
       covered += inside ? 1 : 0;
     }

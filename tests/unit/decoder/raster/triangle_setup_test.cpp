@@ -80,15 +80,36 @@ TEST(TriangleSetup, GradientsOfSliversAreClamped) {
   EXPECT_FALSE(g.exact());
 }
 
-// a x + b y + c >= 0 holds left and above, not right and below.
+bool inside(const Edge& e, int column, int row) {
+  return e.a * column + e.b * row + e.c >= 0;
+}
+
+// A square of 10 x 10 luma samples whose edges pass through centres of samples.
 TEST(Edge, TopAndLeftEdgesBelongToTheTriangle) {
-  const auto on = [](const Edge& e, int64_t x, int64_t y) { return e.a * x + e.b * y + e.c >= 0; };
-  const Edge top({0, 0}, {100, 0}), right({100, 0}, {100, 100}), bottom({100, 100}, {0, 100}),
-      left({0, 100}, {0, 0});
-  EXPECT_TRUE(on(top, 50, 0) && on(top, 50, 1) && !on(top, 50, -1));
-  EXPECT_TRUE(on(left, 0, 50) && on(left, 1, 50) && !on(left, -1, 50));
-  EXPECT_TRUE(!on(right, 100, 50) && on(right, 99, 50));
-  EXPECT_TRUE(!on(bottom, 50, 100) && on(bottom, 50, 99));
+  const auto at = [](int x, int y) { return glm::ivec2(64 * x + 32, 64 * y + 32); };
+  const Edge top(at(0, 0), at(10, 0), 6), right(at(10, 0), at(10, 10), 6), bottom(at(10, 10), at(0, 10), 6),
+      left(at(0, 10), at(0, 0), 6);
+  EXPECT_TRUE(inside(top, 5, 0) && !inside(top, 5, -1));
+  EXPECT_TRUE(inside(left, 0, 5) && !inside(left, -1, 5));
+  EXPECT_TRUE(inside(right, 9, 5) && !inside(right, 10, 5));
+  EXPECT_TRUE(inside(bottom, 5, 9) && !inside(bottom, 5, 10));
+}
+
+// SPEC 10.6 at the centre of each sample, luma and chroma.
+TEST(Edge, IsTheFormatsHalfPlane) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const auto p = [&] {
+      return glm::ivec2(random() % 2048, random() % 2048) / (i % 2 == 0 ? 1 : 32) * (i % 2 == 0 ? 1 : 32);
+    };
+    const glm::ivec2 from = p(), to = p();
+    const int bits = i % 3 == 0 ? 7 : 6;
+    const int column = static_cast<int>(random() % 16), row = static_cast<int>(random() % 16);
+    const int64_t x = (column << bits) + (1 << (bits - 1)), y = (row << bits) + (1 << (bits - 1));
+    const int64_t m = (int64_t{from.y} - to.y) * (x - from.x) + (int64_t{to.x} - from.x) * (y - from.y);
+    const bool belongs = to.y < from.y || (to.y == from.y && to.x > from.x);
+    ASSERT_EQ(inside(Edge(from, to, bits), column, row), m > 0 || (m == 0 && belongs)) << i;
+  }
 }
 
 }  // namespace
