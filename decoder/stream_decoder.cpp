@@ -45,7 +45,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
-      if (!has_setup_ && !damaged_ && !std::exchange(lack_of_setup_told_, true))
+      if (!has_setup_ && !damaged_ && !std::exchange(lack_of_setup_reported_, true))
         return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
       return DecodeStatus::kEnd;
     }

@@ -83,7 +83,7 @@ class StreamDecoder {
 
   PacketReader reader_;
   bool damaged_ = false;
-  bool lack_of_setup_told_ = false;
+  bool lack_of_setup_reported_ = false;
 
   Scene scene_;
   bool has_setup_ = false;

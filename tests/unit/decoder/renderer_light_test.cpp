@@ -44,7 +44,7 @@ TEST(RendererLight, FallsOnTheFaceAndOnLumaAlone) {
   for (const auto s : out.y.samples) ASSERT_TRUE(s >= 100 && s <= 130);
 }
 
-// Across the ring the light goes from the outline's to none: no edge shows.
+// Across the ring the light falls from the outline's to none: no edge shows.
 TEST(RendererLight, FadesOverTheRing) {
   const Scene scene = grey_scene(100);
   State state = toy_state();
@@ -80,7 +80,7 @@ TEST(RendererLight, SlopesBrightenOneSide) {
 }
 
 // The pattern is what light is added to: a head that rotates keeps its light.
-TEST(RendererLight, GoesWithTheHead) {
+TEST(RendererLight, MovesWithTheHead) {
   const Scene scene = grey_scene(100);
   State state = toy_state(90, 60);
   state.pose[kYaw] = 2500;
@@ -89,8 +89,8 @@ TEST(RendererLight, GoesWithTheHead) {
   EXPECT_GT(luma_at(scene, state, 54), luma_at(scene, state, 48) + 5) << "corners of the mouth";
 }
 
-// The pattern was seen under a light of its own: what is added is what the picture has more.
-TEST(RendererLight, IsWhatThePatternHadNot) {
+// The pattern was seen under a light of its own: what is added is the difference.
+TEST(RendererLight, IsTheDifferenceToThePatternsLight) {
   const std::array<std::int32_t, kLightCount> own = {16 * 30, 0, 0, 0};
   const Scene scene = grey_scene(100, own);
   State state = toy_state();
@@ -103,7 +103,7 @@ TEST(RendererLight, IsWhatThePatternHadNot) {
   EXPECT_EQ(luma_at(grey_scene(192, {0, 16 * 10, 0, 0}), state, kNoseTip), 198) << "so is the gain";
 }
 
-TEST(RendererLight, ThatOfThePatternReproducesItExactly) {
+TEST(RendererLight, OfThePatternReproducesItExactly) {
   std::mt19937 random(6);
   for (int i = 0; i < 20; ++i) {
     Scene scene = toy_scene(noise_picture(160, 128, 7));

@@ -187,7 +187,7 @@ TEST(Renderer, DependsOnItsArgumentsAlone) {
   EXPECT_EQ(other.width(), 160);
 }
 
-/// Times that the closed polygon goes round the centre of luma sample (x, y), clockwise.
+/// Times that the closed polygon winds round the centre of luma sample (x, y), clockwise.
 int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
   const int px = x * 64 + 32, py = y * 64 + 32;
   int count = 0;
@@ -236,7 +236,7 @@ State random_pose(std::mt19937& random) {
   return state;
 }
 
-// Outline and ring close the mesh: wherever such a polygon goes round a sample, some triangle that faces the
+// Outline and ring close the mesh: wherever such a polygon winds round a sample, some triangle that faces the
 // viewer lies there, and what it shows comes from the head. A crack would show the dark ground.
 TEST(Renderer, MovedHeadShowsNoUncoveredPixel) {
   std::mt19937 random(6);

@@ -21,8 +21,6 @@ struct Mix {
   std::int32_t opacity;
 };
 
-const TexturedTriangle kLarge = in_place({-640, -640}, {5000, -640}, {-640, 5000});  // covers all samples
-
 /// Draws a pattern with colours mixed over it. Samples that were drawn have depth 0.
 Plane mixed(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, const Mix& mix,
             const Colours& colours, DepthPlane& depth) {

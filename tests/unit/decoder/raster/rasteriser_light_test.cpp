@@ -118,10 +118,10 @@ std::int64_t plain_light(const TexturedTriangle& t, const std::array<std::int32_
   using std::int64_t;
   const int64_t ax = t[1].screen.x - t[0].screen.x, ay = t[1].screen.y - t[0].screen.y;
   const int64_t bx = t[2].screen.x - t[0].screen.x, by = t[2].screen.y - t[0].screen.y;
-  const int64_t area = ax * by - ay * bx, most = int64_t{1} << 30;
+  const int64_t area = ax * by - ay * bx, limit = int64_t{1} << 30;
   const int64_t va = v[1] - v[0], vb = v[2] - v[0];
-  const int64_t gx = std::clamp(((va * by - vb * ay) << 22) / area, -most, most),
-                gy = std::clamp(((vb * ax - va * bx) << 22) / area, -most, most);
+  const int64_t gx = std::clamp(((va * by - vb * ay) << 22) / area, -limit, limit),
+                gy = std::clamp(((vb * ax - va * bx) << 22) / area, -limit, limit);
   const int64_t dx = 64 * x + 32 - t[0].screen.x, dy = 64 * y + 32 - t[0].screen.y;
   const int64_t at = (int64_t{v[0]} << 16) + ((gx * dx + gy * dy) >> 6);
   return std::clamp<int64_t>(at, -(kMaxLight << 16), kMaxLight << 16);

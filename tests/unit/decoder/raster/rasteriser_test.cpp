@@ -16,22 +16,6 @@ using std::int64_t;
 
 constexpr int kMaxPosition = 1 << 21;  ///< of what projection gives
 
-/// The rules as text: a sample is covered when its centre is inside, or on an edge that is a top or a left
-/// one.
-bool covers(const TexturedTriangle& t, PlaneScale scale, int x, int y) {
-  const int bits = static_cast<int>(scale);
-  const int64_t px = (int64_t{x} << bits) + (1 << (bits - 1)), py = (int64_t{y} << bits) + (1 << (bits - 1));
-  if (!faces_viewer(screen_of(t))) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::ivec2 from = t[i].screen, to = t[(i + 1) % 3].screen;
-    const int64_t side = int64_t{to.x - from.x} * (py - from.y) - int64_t{to.y - from.y} * (px - from.x);
-    const bool top = from.y == to.y && to.x > from.x;
-    const bool left = to.y < from.y;
-    if (side < 0 || (side == 0 && !top && !left)) return false;
-  }
-  return true;
-}
-
 glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
   const auto within = [&](int n) {
     return (static_cast<int>(random() % static_cast<unsigned>(n + 16)) - 8) * unit;
@@ -39,7 +23,7 @@ glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
   return {within(width * 64 / unit), within(height * 64 / unit)};
 }
 
-TEST(Rasteriser, CoversWhatThePlainRuleSays) {
+TEST(Rasteriser, CoversSamplesByThePlainRule) {
   std::mt19937 random(1);
   const Plane white(24, 20, 255);
   for (int i = 0; i < 3000; ++i) {
@@ -121,11 +105,11 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
     const int sample = 1 << static_cast<int>(scale);
     constexpr int kCells = 8, kSamples = 32;
     const int cell = kSamples * sample / kCells;
-    // Points move by a fifth of a cell at most, so that no triangle turns over; in some rounds by half
+    // Points move by a fifth of a cell at most, so that no triangle flips; in some rounds by half
     // samples or not at all, so that edges meet in centres.
     const auto jitter = [&] {
-      const int unit = round % 3 == 0 ? sample / 2 : 1, most = round % 5 == 0 ? 0 : cell / unit / 5;
-      return (static_cast<int>(random() % static_cast<unsigned>(2 * most + 1)) - most) * unit;
+      const int unit = round % 3 == 0 ? sample / 2 : 1, reach = round % 5 == 0 ? 0 : cell / unit / 5;
+      return (static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach) * unit;
     };
     std::vector<glm::ivec2> p;
     for (int r = 0; r <= kCells; ++r)
@@ -183,8 +167,6 @@ TexturedTriangle shifted_texture(TexturedTriangle t, glm::ivec2 by) {
   for (TexturedVertex& v : t) v.texture += by;
   return t;
 }
-
-const TexturedTriangle kLarge = in_place({-640, -640}, {5000, -640}, {-640, 5000});  // covers 24 x 20 samples
 
 TEST(Rasteriser, ShiftByWholeSamplesCopies) {
   const Plane pattern = noise_plane(24, 20, 6);
@@ -266,7 +248,7 @@ TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
   EXPECT_GT(compared, 50000);
 }
 
-// Two ways of reading: with and without a check at the border. The same texture, once at the pattern's border
+// Reading with and without a check at the border. The same texture, once at the pattern's border
 // and once inside a larger pattern whose margin repeats it.
 TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
   std::mt19937 random(10);
@@ -284,66 +266,6 @@ TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
     draw(shifted_texture(t, glm::ivec2(kMargin * 64)), PlaneScale::kLuma, padded, direct);
     ASSERT_EQ(checked, direct) << i;
   }
-}
-
-TexturedTriangle at_depth(TexturedTriangle t, int a, int b, int c) {
-  t[0].depth = a;
-  t[1].depth = b;
-  t[2].depth = c;
-  return t;
-}
-
-TEST(Rasteriser, NearerHidesFartherInEitherOrder) {
-  const Plane near_paint(24, 20, 200), far_paint(24, 20, 50);
-  const TexturedTriangle small = in_place({300, 200}, {1000, 300}, {500, 900});
-  const auto near_one = at_depth(small, -5, -7, -9), far_one = at_depth(kLarge, 10, 20, 30);
-  std::array<Plane, 2> target = {Plane(24, 20), Plane(24, 20)};
-  for (std::size_t order = 0; order < 2; ++order) {
-    DepthPlane depth;
-    depth.reset(24, 20, whole(target[order]));
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (k == order)
-        draw(near_one, PlaneScale::kLuma, near_paint, target[order], &depth);
-      else
-        draw(far_one, PlaneScale::kLuma, far_paint, target[order], &depth);
-    }
-  }
-  EXPECT_EQ(target[0], target[1]);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 24; ++x)
-      EXPECT_EQ(target[0].row(y)[x], covers(small, PlaneScale::kLuma, x, y) ? 200 : 50);
-}
-
-TEST(Rasteriser, EqualDepthKeepsWhatWasThere) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  EXPECT_EQ(target, Plane(24, 20, 1));
-}
-
-// Depth x against depth 12 samples: they cross in the middle of the picture.
-TEST(Rasteriser, TrianglesThatPassThroughEachOtherMeetWhereDepthsAreEqual) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  auto slanted = kLarge;
-  for (TexturedVertex& v : slanted) v.depth = v.screen.x;
-  draw(at_depth(kLarge, 768, 768, 768), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  draw(slanted, PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(9)[x], x < 12 ? 2 : 1) << x;
-}
-
-TEST(Rasteriser, ResetClearsTheAreaAlone) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  draw(at_depth(kLarge, 0, 0, 0), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  depth.reset(24, 20, {4, 4, 10, 10});
-  draw(at_depth(kLarge, 5, 5, 5), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(y)[x], x >= 4 && x < 10 && y >= 4 && y < 10 ? 2 : 1);
 }
 
 // An embedder's memory: rows of a larger buffer, as target and as texture.

@@ -16,14 +16,14 @@ using std::int64_t;
 constexpr int kMaxCount = 70;
 using Row = std::vector<std::uint8_t>;
 
-/// A number of [least, most].
-int64_t between(std::mt19937& random, int64_t least, int64_t most) {
-  return least + static_cast<int64_t>(random() % static_cast<std::uint64_t>(most - least + 1));
+/// A number of [low, high].
+int64_t between(std::mt19937& random, int64_t low, int64_t high) {
+  return low + static_cast<int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-/// From anywhere to anywhere in [least, most] along a run.
-LinearRow linear_within(std::mt19937& random, int64_t least, int64_t most, int count) {
-  const int64_t first = between(random, least, most), last = between(random, least, most);
+/// From anywhere to anywhere in [low, high] along a run.
+LinearRow linear_within(std::mt19937& random, int64_t low, int64_t high, int count) {
+  const int64_t first = between(random, low, high), last = between(random, low, high);
   return {first, count > 1 ? (last - first) / (count - 1) : between(random, -(1 << 30), 1 << 30)};
 }
 

@@ -100,7 +100,7 @@ TEST(ForEachNearer, UncheckedDepthAgreesWithClamped) {
   }
 }
 
-// Depth leaves its limits on the way: the plain walk must be chosen.
+// Depth leaves its limits within the run: the plain walk must be chosen.
 TEST(ForEachNearer, ChoosesTheClampedWalkForSteepDepth) {
   for (const std::int64_t step : {std::int64_t{1} << 30, -(std::int64_t{1} << 30)}) {
     std::vector<std::int32_t> plain(8, kFar), chosen(8, kFar);

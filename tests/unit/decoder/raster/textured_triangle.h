@@ -27,6 +27,27 @@ inline SampleArea whole(const Plane& p) {
   return {0, 0, p.width, p.height};
 }
 
+/// Covers 24 x 20 luma samples.
+inline const TexturedTriangle kLarge = in_place({-640, -640}, {5000, -640}, {-640, 5000});
+
+/// SPEC 10.6 in its own words: a sample is covered when its centre is inside, or on an edge that is a top or
+/// a left one.
+inline bool covers(const TexturedTriangle& t, PlaneScale scale, int x, int y) {
+  const int bits = static_cast<int>(scale);
+  const std::int64_t px = (std::int64_t{x} << bits) + (1 << (bits - 1)),
+                     py = (std::int64_t{y} << bits) + (1 << (bits - 1));
+  if (!faces_viewer(screen_of(t))) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::ivec2 from = t[i].screen, to = t[(i + 1) % 3].screen;
+    const std::int64_t side =
+        std::int64_t{to.x - from.x} * (py - from.y) - std::int64_t{to.y - from.y} * (px - from.x);
+    const bool top = from.y == to.y && to.x > from.x;
+    const bool left = to.y < from.y;
+    if (side < 0 || (side == 0 && !top && !left)) return false;
+  }
+  return true;
+}
+
 /// Draws one plane; within all of the target.
 inline void draw(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
                  DepthPlane* depth = nullptr, const Finish& finish = {}) {
