@@ -37,7 +37,7 @@ Result<void> run_decode(const DecodeArguments& arguments) {
       if (!opened) return fail(opened.error());
       sink = std::move(*opened);
     }
-    decoder.render(picture);
+    if (auto drawn = decoder.render(picture); !drawn) return drawn;
     if (auto written = sink->write(picture, pts); !written) return written;
     pts += decoder.duration();
     progress.update(static_cast<std::int64_t>(decoder.pictures()));

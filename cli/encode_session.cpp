@@ -37,7 +37,7 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
       if (*status != DecodeStatus::kPicture) return {};
       if (waiting.empty())
         return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
-      meter.compare(waiting.front());
+      if (auto compared = meter.compare(waiting.front()); !compared) return compared;
       waiting.pop_front();
     }
   };

@@ -37,7 +37,7 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
     if (a.width != b.width || a.height != b.height)
       return fail(ErrorCode::kInvalidArgument,
                   arguments.stream + ": picture size differs from " + arguments.source);
-    meter.compare((*picture)->picture);
+    if (auto compared = meter.compare((*picture)->picture); !compared) return fail(compared.error());
     progress.update(n);
   }
 }

@@ -44,7 +44,7 @@ Result<Leave> show(const PlayArguments& arguments, const std::string& window) {
     if (ended && decoder.pictures() == 0)
       return fail(ErrorCode::kInvalidStream, arguments.input + ": contains no pictures");
     if (!ended) {
-      decoder.render(picture);
+      if (auto drawn = decoder.render(picture); !drawn) return fail(drawn.error());
       const VideoFormat& f = decoder.format();
       RgbImage rgb = rgb_from_picture(picture, f.range, f.matrix, ChannelOrder::kBgr);
       cv::Mat image(rgb.height, rgb.width, CV_8UC3, rgb.samples.data()), large;

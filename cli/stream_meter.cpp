@@ -29,18 +29,19 @@ Plane cut(const Plane& p, const cv::Rect& box) {
 
 }  // namespace
 
-void StreamMeter::compare(const Picture& source) {
-  decoder_.render(drawn_);
+Result<void> StreamMeter::compare(const Picture& source) {
+  if (auto drawn = decoder_.render(drawn_); !drawn) return drawn;
   sum_.frame += squared_error(source.y, drawn_.y);
   sum_.seconds += static_cast<double>(decoder_.duration()) / kTicksPerSecond;
   ++sum_.pictures;
   if (with_ssim_) sum_.ssim_frame += ssim(source.y, drawn_.y);
   const auto& geometry = decoder_.scene().geometry;
-  if (!geometry) return;
+  if (!geometry) return {};
   if (mask_.samples.size() != source.y.samples.size()) mask_ = Plane(source.width(), source.height());
   const cv::Rect box = draw_face(*geometry, decoder_.state(), mask_);
   sum_.face += squared_error(source.y, drawn_.y, mask_);
   if (with_ssim_ && !box.empty()) sum_.ssim_face += ssim(cut(source.y, box), cut(drawn_.y, box));
+  return {};
 }
 
 Measure StreamMeter::result() const {

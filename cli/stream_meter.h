@@ -30,7 +30,7 @@ class StreamMeter {
   StreamMeter(StreamDecoder& decoder, bool with_ssim) : decoder_(decoder), with_ssim_(with_ssim) {}
 
   /// Compares the current picture of the decoder with `source`.
-  void compare(const Picture& source);
+  Result<void> compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;
 

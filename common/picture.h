@@ -52,6 +52,57 @@ struct Picture {
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
+/// Samples of a plane in memory of any owner.
+struct PlaneView {
+  std::uint8_t* data = nullptr;  ///< first sample of the top row
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;  ///< samples from one row to the next
+
+  PlaneView() = default;
+  PlaneView(std::uint8_t* samples, int w, int h, std::ptrdiff_t row_stride)
+      : data(samples), width(w), height(h), stride(row_stride) {}
+  PlaneView(Plane& plane)  // NOLINT(google-explicit-constructor): a plane is one in its own memory
+      : PlaneView(plane.samples.data(), plane.width, plane.height, plane.width) {}
+
+  [[nodiscard]] std::uint8_t* row(int y) const {
+    assert(y >= 0 && y < height);
+    return data + y * stride;
+  }
+};
+
+/// The same to read from.
+struct ConstPlaneView {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+
+  ConstPlaneView() = default;
+  ConstPlaneView(const std::uint8_t* samples, int w, int h, std::ptrdiff_t row_stride)
+      : data(samples), width(w), height(h), stride(row_stride) {}
+  ConstPlaneView(const Plane& plane)  // NOLINT(google-explicit-constructor)
+      : ConstPlaneView(plane.samples.data(), plane.width, plane.height, plane.width) {}
+  ConstPlaneView(PlaneView view)  // NOLINT(google-explicit-constructor)
+      : ConstPlaneView(view.data, view.width, view.height, view.stride) {}
+
+  [[nodiscard]] const std::uint8_t* row(int y) const {
+    assert(y >= 0 && y < height);
+    return data + y * stride;
+  }
+};
+
+/// A picture in memory of any owner, sizes as in Picture.
+struct PictureView {
+  PlaneView y, u, v;
+
+  PictureView() = default;
+  PictureView(PlaneView luma, PlaneView first_chroma, PlaneView second_chroma)
+      : y(luma), u(first_chroma), v(second_chroma) {}
+  PictureView(Picture& picture)  // NOLINT(google-explicit-constructor)
+      : y(picture.y), u(picture.u), v(picture.v) {}
+};
+
 struct Rational {
   std::uint32_t num = 0;
   std::uint32_t den = 1;

@@ -1,33 +1,23 @@
 // A picture is a function of (scene, state): this is the function. SPEC 10.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "common/picture.h"
-#include "decoder/animate/projection.h"
-#include "decoder/raster/rasteriser.h"
+#include "common/result.h"
+#include "decoder/raster/row_runs.h"
+#include "decoder/scene.h"
 
 namespace fbs {
-
-/// A decoded picture of the person and where everything lay in it.
-struct Pattern {
-  Picture picture;
-  ScreenMesh seen;  ///< texture coordinates; empty without a face
-};
-
-/// All that the pictures of a stream share until the next setup packet.
-struct Scene {
-  Setup setup;
-  std::optional<SceneGeometry> geometry;  ///< absent: pattern 0 is shown as it is
-  std::vector<Pattern> patterns;          ///< at least one once pictures are drawn
-};
 
 /// Draws pictures of a scene. Keeps scratch memory only: what it draws depends on its arguments alone.
 class Renderer {
  public:
-  /// Draws the picture of `state` into `out`, which takes the size of the scene.
-  void render(const Scene& scene, const State& state, Picture& out);
+  /// Draws the picture of `state` into `out`, whose planes have the sizes of the pattern's.
+  /// @return kInvalidArgument, and `out` untouched, when the scene has no pattern, when its pattern's texture
+  ///         mesh is not one of the scene's geometry, or when `out` has another size
+  [[nodiscard]] Result<void> render(const Scene& scene, const State& state, const PictureView& out);
+
+  /// The same into a picture, which takes the pattern's size.
+  [[nodiscard]] Result<void> render(const Scene& scene, const State& state, Picture& out);
 
  private:
   DepthPlane luma_depth_, chroma_depth_;

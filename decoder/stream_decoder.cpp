@@ -14,6 +14,8 @@
 namespace fbs {
 namespace {
 
+constexpr const char* kNoPicture = "no picture of the current scene has been decoded yet";
+
 /// Adds where in the stream the packet began.
 tl::unexpected<Error> at(const Packet& packet, Error error) {
   error.byte_offset = packet.offset;
@@ -57,11 +59,18 @@ Result<DecodeStatus> StreamDecoder::next() {
   duration_ = durations_.front();
   durations_.pop_front();
   ++pictures_;
+  announced_picture_ = true;
   return DecodeStatus::kPicture;
 }
 
-void StreamDecoder::render(Picture& out) {
-  renderer_.render(scene_, state_, out);
+Result<void> StreamDecoder::render(Picture& out) {
+  if (!announced_picture_) return fail(ErrorCode::kInvalidArgument, kNoPicture);
+  return renderer_.render(scene_, state_, out);
+}
+
+Result<void> StreamDecoder::render(const PictureView& out) {
+  if (!announced_picture_) return fail(ErrorCode::kInvalidArgument, kNoPicture);
+  return renderer_.render(scene_, state_, out);
 }
 
 void StreamDecoder::count(const Packet& packet) {
@@ -132,16 +141,15 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   geometry_.reset();
   surround_.reset();
   has_setup_ = true;
+  announced_picture_ = false;
   return {};
 }
 
-Result<void> StreamDecoder::begin_geometry(const State& seen) {
-  if (!geometry_) return {};
+void StreamDecoder::begin_geometry(const State& rest) {
+  if (!geometry_) return;
   // Without a map of its own the surround stays where it is.
   SurroundMap still{1, 1, {0, 0, 0, 0}, {0, 0, 0, 0}};
-  scene_.geometry.emplace(scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still),
-                          seen);
-  return {};
+  scene_.set_geometry({scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still), rest});
 }
 
 Result<void> StreamDecoder::take_pattern(const Packet& packet) {
@@ -153,12 +161,11 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
   if (!picture) return at(packet, picture.error());
   const State seen = state_of(pattern->state, scene_.setup.steps);
   if (scene_.patterns.empty()) {
-    if (auto begun = begin_geometry(seen); !begun) return begun;
+    begin_geometry(seen);
     motion_.emplace(scene_.setup, pattern->state);
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
   }
-  scene_.patterns.push_back(
-      {std::move(*picture), scene_.geometry ? scene_.geometry->project(seen) : ScreenMesh{}});
+  scene_.patterns.push_back(make_pattern(std::move(*picture), seen, scene_.geometry));
   return {};
 }
 

@@ -37,7 +37,7 @@ enum class DecodeStatus : std::uint8_t {
 ///
 ///   StreamDecoder decoder;
 ///   decoder.feed(bytes);  decoder.close();
-///   while (decoder.next() == DecodeStatus::kPicture) { decoder.render(picture); ... }
+///   while (decoder.next() == DecodeStatus::kPicture && decoder.render(picture)) { ... }
 ///
 /// After an error next() goes on with the first packet behind the damage when it is called again, and returns
 /// kEnd when there is none; pictures that were lost are not replaced.
@@ -59,7 +59,11 @@ class StreamDecoder {
   Result<DecodeStatus> next();
 
   /// Draws the picture that next() announced; `out` takes the format's size.
-  void render(Picture& out);
+  /// @return kInvalidArgument when there is none: before the first picture of the stream or, behind an error,
+  ///         of a new setup
+  [[nodiscard]] Result<void> render(Picture& out);
+  /// The same into memory of the caller, whose planes have the format's size.
+  [[nodiscard]] Result<void> render(const PictureView& out);
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }  ///< valid from the first picture on
@@ -78,7 +82,7 @@ class StreamDecoder {
   Result<void> take_setup(const Packet& packet);
   Result<void> take_pattern(const Packet& packet);
   Result<void> take_motion(const Packet& packet);
-  Result<void> begin_geometry(const State& seen);
+  void begin_geometry(const State& rest);
   void count(const Packet& packet);
 
   PacketReader reader_;
@@ -98,6 +102,7 @@ class StreamDecoder {
   std::deque<State> waiting_;
   std::deque<std::uint32_t> durations_;
   State state_;
+  bool announced_picture_ = false;  ///< state_ is one of scene_
   std::uint32_t duration_ = 0;
   std::uint64_t pictures_ = 0;
   std::optional<std::uint64_t> announced_;

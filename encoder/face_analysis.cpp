@@ -1,6 +1,7 @@
 #include "encoder/face_analysis.h"
 
-#include "decoder/animate/projection.h"
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
 namespace {

@@ -80,7 +80,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   // Until pictures have shown more, the surround is a guess by distance from the face.
   const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, {&first, seen}, {});
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
-  scene.patterns.push_back({std::move(coded->pattern.decoded), scene.geometry->project(seen)});
+  scene.patterns.push_back(make_pattern(std::move(coded->pattern.decoded), seen, scene.geometry));
 
   SceneHead head;
   head.geometry = std::move(geometry->payload);
@@ -161,8 +161,7 @@ Result<void> FaceScene::start() {
   const SurroundMap map =
       still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, {&*first_, seen}, later);
   analysis_.set_surround_map(map);
-  scene_.geometry.emplace(scene_.setup, geometry, map, seen);
-  scene_.patterns.front().seen = scene_.geometry->project(seen);
+  scene_.set_geometry({scene_.setup, geometry, map, seen});
 
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());

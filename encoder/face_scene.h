@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bitstream/motion/motion_encoder.h"
-#include "decoder/renderer.h"
+#include "decoder/scene.h"
 #include "encoder/face_analysis.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/patterns/pattern_coder.h"

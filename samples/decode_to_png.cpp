@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     const auto status = decoder.next();
     if (!status) return std::fprintf(stderr, "%s: %s\n", argv[1], status.error().text.c_str()), 1;
     if (*status == fbs::DecodeStatus::kEnd) return 0;
-    decoder.render(picture);
+    if (auto drawn = decoder.render(picture); !drawn) return 1;
     const std::string name = std::string(argv[2]) + "/" + std::to_string(decoder.pictures()) + ".png";
     const auto rgb = to_rgb(picture, decoder.format());
     const int width = picture.width(), height = picture.height();

@@ -8,33 +8,34 @@
 #include <vector>
 
 #include "bitstream/syntax.h"
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
 
 /// The grid of a SurroundMap, which begins a little inside the picture, with a margin: one more column and
-/// row on each side, half a picture away, which move as the outermost do and show the same, so that what
-/// comes in from outside repeats what is near.
+/// row on each side, half a picture away. A point of the margin repeats the nearest one of the border: it is
+/// displaced as that one is and shows the same, so that what comes in from outside repeats what is near.
 class Surround {
  public:
-  /// @param seen  state of pattern 0, in which the grid is regular
-  Surround(const VideoFormat& format, SurroundMap map, const State& seen);
+  /// @param rest  the rest state: the one in which the grid is regular, that of pattern 0
+  Surround(const VideoFormat& format, SurroundMap map, const State& rest);
 
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.
   void project(const State& state, std::vector<glm::ivec2>& out) const;
 
-  /// What the pattern shows at the grid points: where they are in the seen state; in the margin, what the
-  /// outermost show. 1/64 pixel.
-  [[nodiscard]] const std::vector<glm::ivec2>& texture() const { return texture_; }
+  /// Texture coordinates of the grid points in a pattern, 1/64 pixel: where they were seen; in the margin,
+  /// where the border point that they repeat was seen.
+  /// @param seen  the grid points as project() gives them for the pattern's seen state
+  [[nodiscard]] std::vector<glm::ivec2> texture(std::span<const glm::ivec2> seen) const;
 
-  /// A place that some cell carries.
+  /// A fixed place on the grid: one that some cell carries.
   struct Place {
-    glm::ivec2 seen;              ///< in the seen state, 1/64 pixel
+    glm::ivec2 rest;              ///< in the rest state, 1/64 pixel
     std::array<int, 4> corner{};  ///< grid points of the cell: row by row
-    int across = 0, down = 0;     ///< place in the cell, 0..256
+    int across = 0, down = 0;     ///< position in the cell, 0..256
   };
-  [[nodiscard]] Place place(glm::ivec2 seen) const;
-  /// Where it is when the grid points are at `moved`.
+  [[nodiscard]] Place place(glm::ivec2 rest) const;
+  /// Where it lies when the grid points are at `moved`.
   [[nodiscard]] glm::ivec2 carried(const Place& place, std::span<const glm::ivec2> moved) const;
 
   /// A cell's corners, clockwise from the top left one.
@@ -42,22 +43,25 @@ class Surround {
   /// In the order in which they are drawn: ground, body, head.
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
+  [[nodiscard]] std::size_t point_count() const { return points_.size(); }
   [[nodiscard]] const SurroundMap& map() const { return map_; }
 
  private:
-  /// A grid point: where it is in the seen state, and how it moves.
+  /// A grid point in the rest state, and what displaces it.
   struct Point {
-    glm::ivec2 seen;          ///< 1/64 pixel
-    glm::ivec2 from_head;     ///< the same less the head's origin, in 1/256 eye distance
+    glm::ivec2 rest;          ///< 1/64 pixel
+    glm::ivec2 from_head;     ///< of its base, relative to the head's origin, 1/256 eye distance
     std::int32_t head, body;  ///< shares, of kFollowOne
+    int base;                 ///< itself; in the margin, the border point that it repeats
   };
 
-  [[nodiscard]] std::size_t index(int column, int row) const;
+  void place_points(const VideoFormat& format);
+  void order_cells();
+  [[nodiscard]] int index(int column, int row) const;
 
   SurroundMap map_;
-  State seen_;
+  State rest_;
   std::vector<Point> points_;
-  std::vector<glm::ivec2> texture_;
   std::vector<Cell> cells_;
 };
 

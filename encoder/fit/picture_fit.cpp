@@ -357,7 +357,7 @@ void PictureFit::add_picture(int level, const Fit& fit, Normal& normal) const {
   const double to_level = picture_.scale / (1 << level);
   std::array<glm::ivec3, kVertexCount> rounded;
   for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
-  const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
+  const std::int32_t shade = interior_opacity(mouth_gap(rounded), gap_seen_);
   const auto& seen = pattern_luma_[level];
   Block block;
   for (const Patch& patch : patches_) {
@@ -425,7 +425,7 @@ double PictureFit::difference(const Fit& fit) const {
   const PoseProjection projection(fit.pose);
   std::array<glm::ivec3, kVertexCount> rounded;
   for (std::size_t v = 0; v < kVertexCount; ++v) rounded[v] = glm::ivec3(vertices[v]);
-  const std::int32_t shade = mouth_shade(mouth_gap(rounded), gap_seen_);
+  const std::int32_t shade = interior_opacity(mouth_gap(rounded), gap_seen_);
   double sum = 0;
   int count = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {

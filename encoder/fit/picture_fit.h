@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "decoder/animate/projection.h"
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/mouth_interior.h"
 #include "encoder/image/work_frame.h"
 #include "encoder/model/fit.h"
 #include "encoder/model/picture_cost.h"

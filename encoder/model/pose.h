@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/state.h"
-#include "decoder/animate/projection.h"
 
 namespace fbs {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decoder/head/mouth_interior.h"
+
 namespace fbs {
 
 std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices, const PoseProjection& projection,

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "decoder/animate/projection.h"
+#include "decoder/animate/scene_geometry.h"
 #include "encoder/image/planes.h"
 #include "encoder/model/pose.h"
 #include "encoder/surround/surround_motion.h"
@@ -60,7 +60,7 @@ class MapFit {
     const Pose seen = pose_of(first.state);
     map_.head.assign(points, 0);
     map_.body.assign(points, 0);
-    seen_ = inner(SceneGeometry(setup, geometry, map_, first.state).surround().texture());
+    seen_ = inner(SceneGeometry(setup, geometry, map_, first.state).texture_mesh(first.state).surround);
     for (std::size_t k = 0; k < points; ++k) {
       const auto place = layers_by_place(seen, place_of(k));
       const double rest = std::max(0.01, 1.0 - static_cast<double>(place[0]));
@@ -123,7 +123,7 @@ class MapFit {
       map.head.assign(labels_.size(), wholly[i].head);
       map.body.assign(labels_.size(), wholly[i].body);
       const SceneGeometry scene(setup, geometry, map, seen);
-      later.way[i] = inner(scene.project(picture.state).surround);
+      later.way[i] = inner(scene.screen_mesh(picture.state).surround);
       for (std::size_t k = 0; k < seen_.size(); ++k)
         later.way[i][k] = (later.way[i][k] - seen_[k]) / static_cast<double>(factor_);
       if (i > 0) continue;

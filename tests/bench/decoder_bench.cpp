@@ -5,7 +5,9 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "decoder/head/head_mesh.h"
 #include "decoder/pattern_decoder.h"
+#include "decoder/raster/rasteriser.h"
 #include "tests/unit/toy_scene.h"
 #include "tests/vectors/stream_digest.h"
 
@@ -19,19 +21,22 @@ enum class Reading { kInside, kAtBorder, kWithDepth };
 void rasterise(benchmark::State& state, Reading reading) {
   const Plane pattern = noise_plane(kWidth, kHeight, 1);
   Plane target(kWidth, kHeight);
-  const PlanePair pair{&pattern, &target};
+  const ConstPlaneView from = pattern;
+  const PlaneView to = target;
   const SampleArea area{0, 0, kWidth, kHeight};
   // Half the picture; the texture slightly rotated.
   const int in = reading == Reading::kAtBorder ? 0 : 256;
-  RasterTriangle t;
-  t[0] = {{0, 0}, {in, in}, 0};
-  t[1] = {{kWidth * 64, 0}, {kWidth * 64 - in, 640 + in}, 0};
-  t[2] = {{kWidth * 64, kHeight * 64}, {kWidth * 64 - 640 - in, kHeight * 64 - in}, 0};
+  ScreenTriangle t = {{{{0, 0}}, {{kWidth * 64, 0}}, {{kWidth * 64, kHeight * 64}}}};
+  const TextureSource source{
+      {&from, 1},
+      {glm::ivec2(in, in), {kWidth * 64 - in, 640 + in}, {kWidth * 64 - 640 - in, kHeight * 64 - in}}};
   DepthPlane depth;
   depth.reset(kWidth, kHeight, area);
+  const RasterTarget onto{
+      PlaneScale::kLuma, {&to, 1}, area, reading == Reading::kWithDepth ? &depth : nullptr};
   for (auto _ : state) {
-    for (RasterVertex& v : t) --v.depth;  // always closer than before
-    draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, reading == Reading::kWithDepth ? &depth : nullptr);
+    for (ScreenVertex& v : t) --v.depth;  // always nearer than before
+    draw_triangle(t, source, onto);
     benchmark::DoNotOptimize(target.samples.data());
   }
   state.SetItemsProcessed(state.iterations() * (kWidth * kHeight / 2));
@@ -49,7 +54,7 @@ Scene close_up(int width, int height, int follow) {
   seen.pose[kShiftY] = height * 26;
   seen.pose[kLogScale] = static_cast<std::int32_t>(4096 * std::log2(height / 3.0));
   scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(22, 18, follow), seen);
-  scene.patterns.push_back({noise_picture(width, height, 2), scene.geometry->project(seen)});
+  scene.patterns.push_back(make_pattern(noise_picture(width, height, 2), seen, scene.geometry));
   return scene;
 }
 
@@ -65,21 +70,24 @@ State moved(const Scene& scene, int step) {
 
 void HeadTriangles(benchmark::State& state) {
   const Scene scene = close_up(kWidth, kHeight, 0);
-  const ScreenMesh now = scene.geometry->project(moved(scene, 0));
-  const ScreenMesh& seen = scene.patterns[0].seen;
+  const ScreenMesh mesh = scene.geometry->screen_mesh(moved(scene, 0));
+  const TextureMesh& texture = scene.patterns[0].texture;
   Plane target(kWidth, kHeight);
-  const PlanePair pair{&scene.patterns[0].picture.y, &target};
-  const SampleArea area{0, 0, kWidth, kHeight};
+  const ConstPlaneView from = scene.patterns[0].picture.y;
+  const PlaneView to = target;
   DepthPlane depth;
+  const RasterTarget onto{PlaneScale::kLuma, {&to, 1}, {0, 0, kWidth, kHeight}, &depth};
   for (auto _ : state) {
-    depth.reset(kWidth, kHeight, area);
+    depth.reset(kWidth, kHeight, onto.area);
     for (const auto& triangle : head_mesh().triangles) {
-      RasterTriangle t;
+      ScreenTriangle t;
+      TextureSource source{{&from, 1}, {}};
       for (std::size_t i = 0; i < 3; ++i) {
         const auto v = triangle[i];
-        t[i] = {glm::ivec2(now.head[v]), glm::ivec2(seen.head[v]), now.head[v].z};
+        t[i] = {glm::ivec2(mesh.head[v]), mesh.head[v].z};
+        source.corners[i] = texture.head[v];
       }
-      draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, &depth);
+      draw_triangle(t, source, onto);
     }
     benchmark::DoNotOptimize(target.samples.data());
   }
@@ -92,7 +100,7 @@ void Render(benchmark::State& state) {
   Picture out;
   int step = 0;
   for (auto _ : state) {
-    renderer.render(scene, moved(scene, ++step), out);
+    if (!renderer.render(scene, moved(scene, ++step), out)) state.SkipWithError("not drawn");
     benchmark::DoNotOptimize(out.y.samples.data());
   }
   state.SetItemsProcessed(state.iterations());

@@ -105,7 +105,8 @@ Result<std::vector<Picture>> decode(const std::vector<std::uint8_t>& stream,
     const auto status = decoder.next();
     if (!status) return fail(status.error());
     if (*status != DecodeStatus::kPicture) return fail(ErrorCode::kInternal, "the stream lacks pictures");
-    if (numbers[out.size()] == i) decoder.render(out.emplace_back());
+    if (numbers[out.size()] != i) continue;
+    if (auto drawn = decoder.render(out.emplace_back()); !drawn) return fail(drawn.error());
   }
   return out;
 }

@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (*status == fbs::DecodeStatus::kEnd) break;
     require(*status == fbs::DecodeStatus::kPicture, "a closed stream asks for more");
     if (std::max(decoder.format().width, decoder.format().height) > kMaxSide) break;
-    decoder.render(picture);
+    require(decoder.render(picture).has_value(), "an announced picture is not drawn");
     ++drawn;
     require(picture.width() == decoder.format().width && picture.height() == decoder.format().height,
             "a picture of another size");

@@ -6,12 +6,12 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/motion
-  decoder/animate decoder/raster decoder
+  decoder/head decoder/animate decoder/raster decoder
   encoder/image encoder/model encoder/find encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan
   encoder
   cli/video/images cli/video/av cli/video cli)
 # These stand side by side: neither may include the other.
-set(apart "decoder/animate decoder/raster" "encoder/track encoder/fit" "encoder/fit encoder/surround"
+set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
 set(foreign

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 
 #include "decoder/renderer.h"
 
@@ -24,7 +25,7 @@ inline Picture noise_picture(int width, int height, unsigned seed) {
   return picture;
 }
 
-/// Noise that changes over six samples: places can be told apart, and a shift by a pixel does not destroy
+/// Noise that changes over six samples: places differ, and a shift by a pixel does not destroy
 /// them.
 inline Plane smooth_plane(int width, int height, unsigned seed) {
   constexpr int kGrid = 6;
@@ -43,7 +44,7 @@ inline Plane smooth_plane(int width, int height, unsigned seed) {
   return out;
 }
 
-/// Finest steps, so that tests can say turns, pixels and head units.
+/// Finest steps, so that tests can write angles, pixels and head units.
 inline Setup toy_setup(int width = 160, int height = 128) {
   Setup setup;
   setup.format.width = width;
@@ -74,7 +75,7 @@ inline CodedState coded_pose(const State& state) {
   return coded;
 }
 
-/// The same shares everywhere inside; the border goes with the ground.
+/// The same shares everywhere inside; the border moves with the ground.
 inline SurroundMap even_surround(int columns, int rows, int head, int body = 0) {
   SurroundMap map{columns, rows, {}, {}};
   for (int r = 0; r <= rows; ++r) {
@@ -92,7 +93,7 @@ inline Scene toy_scene(Picture picture, SurroundMap surround = even_surround(10,
   Scene scene;
   scene.setup = toy_setup(picture.width(), picture.height());
   scene.geometry.emplace(scene.setup, toy_geometry(), std::move(surround), toy_state());
-  scene.patterns.push_back({std::move(picture), scene.geometry->project(toy_state())});
+  scene.patterns.push_back(make_pattern(std::move(picture), toy_state(), scene.geometry));
   return scene;
 }
 
@@ -127,7 +128,8 @@ inline State random_state(std::mt19937& random) {
 inline Picture rendered(const Scene& scene, const State& state) {
   Renderer renderer;
   Picture out;
-  renderer.render(scene, state, out);
+  if (const auto drawn = renderer.render(scene, state, out); !drawn)
+    throw std::logic_error(drawn.error().text);
   return out;
 }
 

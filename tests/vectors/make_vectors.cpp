@@ -11,7 +11,7 @@
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 #include "encoder/encoder.h"
 #include "encoder/patterns/pattern_encoder.h"
 #include "samples/talker/talker_render.h"

@@ -49,7 +49,10 @@ StreamDigest digest_of(std::span<const std::uint8_t> stream) {
       continue;
     }
     if (*status != DecodeStatus::kPicture) break;
-    decoder.render(picture);
+    if (const auto drawn = decoder.render(picture); !drawn) {
+      out.error = name_of(drawn.error().code);
+      break;
+    }
     for (const Plane* plane : {&picture.y, &picture.u, &picture.v}) md5.add(plane->samples);
     ++out.pictures;
   }

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <functional>
 
+#include "decoder/head/head_mesh.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -30,44 +31,173 @@ TEST(Renderer, StateOfThePatternReproducesItWhateverThePoseWas) {
     Scene scene;
     scene.setup = toy_setup();
     scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(6, 6, 3), seen);
-    scene.patterns.push_back({noise_picture(160, 128, 3), scene.geometry->project(seen)});
-    renderer.render(scene, seen, out);
+    scene.patterns.push_back(make_pattern(noise_picture(160, 128, 3), seen, scene.geometry));
+    ASSERT_TRUE(renderer.render(scene, seen, out));
     ASSERT_EQ(out, scene.patterns[0].picture) << i;
   }
+}
+
+/// A scene whose only pattern was seen in another state than the rest state.
+Scene scene_seen_in(const State& seen, Picture picture, SurroundMap surround,
+                    const State& rest = toy_state()) {
+  Scene scene;
+  scene.setup = toy_setup(picture.width(), picture.height());
+  scene.geometry.emplace(scene.setup, toy_geometry(), std::move(surround), rest);
+  scene.patterns.push_back(make_pattern(std::move(picture), seen, scene.geometry));
+  return scene;
+}
+
+// Nothing has moved since the pattern was seen, so all cells are still and the head is drawn in its place,
+// whatever the state was and wherever the rest state has the grid.
+TEST(Renderer, SeenStateOfAnyPatternReproducesItsPictureExactly) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 60; ++i) {
+    const State seen = random_state(random);
+    const Scene scene = scene_seen_in(seen, noise_picture(160, 128, 13),
+                                      even_surround(6, 6, static_cast<int>(random() % 5), i % 5));
+    ASSERT_EQ(rendered(scene, seen), scene.patterns[0].picture) << i;
+  }
+}
+
+/// The head far outside the picture, body and ground displaced.
+State ground_at(int x, int y) {
+  State state = toy_state(-5000, 50);
+  state.ground = state.body = {64 * x, 64 * y, 0, 0};
+  return state;
+}
+
+// What counts is the displacement since the pattern was seen, not since rest.
+TEST(Renderer, GroundIsDisplacedFromWhereThePatternSawIt) {
+  const Picture picture = noise_picture(160, 128, 14);
+  const Scene scene = scene_seen_in(ground_at(6, -4), picture, even_surround(8, 6, 0), ground_at(0, 0));
+  const Picture out = rendered(scene, ground_at(10, 2));
+  for (int y = 16; y < 112; ++y)
+    for (int x = 16; x < 144; ++x) ASSERT_EQ(out.y.row(y)[x], picture.y.row(y - 6)[x - 4]) << x << ',' << y;
+  for (int y = 8; y < 56; ++y)
+    for (int x = 8; x < 72; ++x) ASSERT_EQ(out.u.row(y)[x], picture.u.row(y - 3)[x - 2]) << x << ',' << y;
+}
+
+// At rest, but not where the pattern saw it: no cell is still.
+TEST(Renderer, CellsAreStillWhereThePatternSawThemAndNotWhereTheyRest) {
+  const Picture picture = noise_picture(160, 128, 15);
+  const Scene scene = scene_seen_in(ground_at(5, 0), picture, even_surround(8, 6, 0), ground_at(0, 0));
+  const Picture out = rendered(scene, ground_at(0, 0));
+  for (int y = 8; y < 120; ++y)
+    for (int x = 8; x < 144; ++x) ASSERT_EQ(out.y.row(y)[x], picture.y.row(y)[x + 5]) << x << ',' << y;
+  EXPECT_EQ(rendered(scene, ground_at(5, 0)), picture);
+}
+
+// A pattern that was drawn from another, drawn back.
+TEST(Renderer, PatternSeenElsewhereGivesBackTheFirstOne) {
+  Picture smooth(160, 128);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 160; ++x)
+      smooth.y.row(y)[x] = static_cast<std::uint8_t>(128 + 50 * std::sin(x * 0.15) + 50 * std::cos(y * 0.12));
+  State other = toy_state(84, 53);
+  other.pose[kYaw] = 800;
+  other.pose[kRoll] = 500;
+  other.light = {16 * 12, 0, 16 * 5, 0};
+  const Scene first = toy_scene(smooth, even_surround(10, 8, 2));
+  const Scene second = scene_seen_in(other, rendered(first, other), even_surround(10, 8, 2));
+  const Picture back = rendered(second, toy_state());
+  double worst = 0, sum = 0;
+  int count = 0;
+  for (int y = 24; y < 104; ++y) {
+    for (int x = 40; x < 120; ++x) {
+      const double d = std::abs(back.y.row(y)[x] - smooth.y.row(y)[x]);
+      worst = std::max(worst, d);
+      sum += d;
+      ++count;
+    }
+  }
+  EXPECT_LT(sum / count, 1.0);
+  EXPECT_LT(worst, 40) << "at edges that hid what lay behind";
+}
+
+TEST(Renderer, SceneWithoutPatternsIsAnError) {
+  Scene scene = toy_scene(noise_picture(160, 128, 16));
+  scene.patterns.clear();
+  Renderer renderer;
+  Picture out(12, 10);
+  const auto drawn = renderer.render(scene, toy_state(), out);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(out, Picture(12, 10));
+  EXPECT_FALSE(renderer.render(Scene{}, toy_state(), out));
+}
+
+TEST(Renderer, PatternOfAnotherGeometryIsAnError) {
+  Scene scene = toy_scene(noise_picture(160, 128, 17), even_surround(9, 7, 1));
+  scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(8, 7, 1), toy_state());
+  Renderer renderer;
+  Picture out;
+  EXPECT_EQ(renderer.render(scene, toy_state(), out).error().code, ErrorCode::kInvalidArgument);
+  scene.patterns[0].texture = {};
+  EXPECT_EQ(renderer.render(scene, toy_state(), out).error().code, ErrorCode::kInvalidArgument);
+  scene.set_geometry(*scene.geometry);
+  EXPECT_TRUE(renderer.render(scene, toy_state(), out));
+}
+
+TEST(Renderer, DrawsIntoTheCallersMemory) {
+  const Scene scene = toy_scene(noise_picture(161, 127, 18), even_surround(8, 8, 2));
+  State state = toy_state(70, 60);
+  state.pose[kYaw] = 3000;
+  state.ground = {300, 200, 0, 0};
+  const Picture expected = rendered(scene, state);
+  Picture buffer(400, 300);
+  const auto part = [](Plane& p, const Plane& size) {
+    return PlaneView(p.row(11) + 7, size.width, size.height, p.width);
+  };
+  const PictureView out(part(buffer.y, expected.y), part(buffer.u, expected.u), part(buffer.v, expected.v));
+  Renderer renderer;
+  ASSERT_TRUE(renderer.render(scene, state, out));
+  const auto equals = [](const PlaneView& drawn, const Plane& plane) {
+    for (int y = 0; y < plane.height; ++y)
+      if (!std::equal(plane.row(y), plane.row(y) + plane.width, drawn.row(y))) return false;
+    return true;
+  };
+  EXPECT_TRUE(equals(out.y, expected.y) && equals(out.u, expected.u) && equals(out.v, expected.v));
+  // Nothing beside it has been touched.
+  for (int y = 0; y < 127; ++y) std::fill_n(out.y.row(y), 161, std::uint8_t{0});
+  EXPECT_EQ(buffer.y, Plane(400, 300));
+
+  const PictureView narrow(PlaneView(out.y.data, 160, 127, 400), out.u, out.v);
+  EXPECT_EQ(renderer.render(scene, state, narrow).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(renderer.render(scene, state, PictureView()).error().code, ErrorCode::kInvalidArgument);
 }
 
 TEST(Renderer, SceneWithoutGeometryShowsItsPatternAsItIs) {
   Scene scene;
   scene.setup = toy_setup();
-  scene.patterns.push_back({noise_picture(160, 128, 4), {}});
+  scene.patterns.push_back(make_pattern(noise_picture(160, 128, 4), {}, scene.geometry));
   EXPECT_EQ(rendered(scene, toy_state(12, 100)), scene.patterns[0].picture);
 }
 
 TEST(Renderer, DependsOnItsArgumentsAlone) {
   const Scene scene = toy_scene(noise_picture(160, 128, 5), even_surround(8, 8, 2));
-  State turned = toy_state(70, 60);
-  turned.pose[kYaw] = 3000;
+  State rotated = toy_state(70, 60);
+  rotated.pose[kYaw] = 3000;
   Renderer renderer;
   Picture first, other(33, 44), again;
-  renderer.render(scene, turned, first);
-  renderer.render(scene, toy_state(), other);
-  renderer.render(scene, turned, again);
+  ASSERT_TRUE(renderer.render(scene, rotated, first));
+  ASSERT_TRUE(renderer.render(scene, toy_state(), other));
+  ASSERT_TRUE(renderer.render(scene, rotated, again));
   EXPECT_EQ(first, again);
   EXPECT_NE(first, other);
   EXPECT_EQ(other.width(), 160);
 }
 
-/// Times that the closed polygon goes round the centre of luma sample (x, y), clockwise.
+/// Times that the closed polygon winds round the centre of luma sample (x, y), clockwise.
 int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
   const int px = x * 64 + 32, py = y * 64 + 32;
-  int turns = 0;
+  int count = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const glm::ivec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
     const std::int64_t side = std::int64_t{b.x - a.x} * (py - a.y) - std::int64_t{b.y - a.y} * (px - a.x);
-    if (a.y <= py && b.y > py && side > 0) ++turns;
-    if (a.y > py && b.y <= py && side < 0) --turns;
+    if (a.y <= py && b.y > py && side > 0) ++count;
+    if (a.y > py && b.y <= py && side < 0) --count;
   }
-  return turns;
+  return count;
 }
 
 std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
@@ -76,13 +206,15 @@ std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
   return out;
 }
 
-std::vector<glm::ivec2> ring_of(const ScreenMesh& mesh) {
+/// Of a ScreenMesh or a TextureMesh.
+template <class Mesh>
+std::vector<glm::ivec2> ring_of(const Mesh& mesh) {
   return {mesh.head.begin() + kVertexCount, mesh.head.end()};
 }
 
 /// Bright where head and ring are in toy_state() and `reach` pixels round them, dark elsewhere.
 Picture bright_head(int reach) {
-  const auto ring = ring_of(toy_scene(Picture(160, 128)).patterns[0].seen);
+  const auto ring = ring_of(toy_scene(Picture(160, 128)).patterns[0].texture);
   Picture out(160, 128);
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 160; ++x) {
@@ -95,7 +227,7 @@ Picture bright_head(int reach) {
   return out;
 }
 
-State random_look(std::mt19937& random) {
+State random_pose(std::mt19937& random) {
   State state = toy_state(60 + static_cast<int>(random() % 40), 38 + static_cast<int>(random() % 30));
   state.pose[kPitch] = static_cast<int>(random() % 4000) - 2000;
   state.pose[kYaw] = static_cast<int>(random() % 6000) - 3000;
@@ -104,16 +236,16 @@ State random_look(std::mt19937& random) {
   return state;
 }
 
-// Outline and ring close the mesh: wherever such a polygon goes round a sample, some triangle that faces the
+// Outline and ring close the mesh: wherever such a polygon winds round a sample, some triangle that faces the
 // viewer lies there, and what it shows comes from the head. A crack would show the dark ground.
 TEST(Renderer, MovedHeadShowsNoUncoveredPixel) {
   std::mt19937 random(6);
   const Picture bright = bright_head(2);
   for (int i = 0; i < 60; ++i) {
     const Scene scene = toy_scene(bright, even_surround(20, 16, i % 2 == 0 ? 0 : kFollowOne));
-    const State state = random_look(random);
+    const State state = random_pose(random);
     const Picture out = rendered(scene, state);
-    const ScreenMesh now = scene.geometry->project(state);
+    const ScreenMesh now = scene.geometry->screen_mesh(state);
     const auto outline = outline_of(now), ring = ring_of(now);
     int inside = 0;
     for (int y = 0; y < 128; ++y) {
@@ -131,9 +263,9 @@ TEST(Renderer, StillGroundStaysWhereTheHeadIsNot) {
   const Scene scene = toy_scene(noise_picture(160, 128, 7));
   std::mt19937 random(7);
   for (int i = 0; i < 4; ++i) {
-    const State state = random_look(random);
+    const State state = random_pose(random);
     const Picture out = rendered(scene, state);
-    const ScreenMesh now = scene.geometry->project(state);
+    const ScreenMesh now = scene.geometry->screen_mesh(state);
     std::vector<std::vector<glm::ivec2>> triangles;
     for (const auto& t : head_mesh().triangles) {
       triangles.emplace_back();
@@ -176,10 +308,10 @@ TEST(Renderer, DarkBorderIsNotRepeated) {
       if (x == 0 || y == 0 || x == 159 || y == 127) picture.y.row(y)[x] = 10;
   const Scene scene = toy_scene(picture);
   EXPECT_EQ(rendered(scene, toy_state()), picture) << "where nothing moves it is as it was";
-  for (const glm::ivec2 way : {glm::ivec2(10, 7), {-13, -4}, {40, -30}}) {
+  for (const glm::ivec2 by : {glm::ivec2(10, 7), {-13, -4}, {40, -30}}) {
     State state = toy_state();
-    state.ground = {64 * way.x, 64 * way.y, 0, 0};
-    EXPECT_EQ(rendered(scene, state).y, Plane(160, 128, 200)) << way.x;
+    state.ground = {64 * by.x, 64 * by.y, 0, 0};
+    EXPECT_EQ(rendered(scene, state).y, Plane(160, 128, 200)) << by.x;
   }
 }
 
@@ -192,8 +324,8 @@ TEST(Renderer, ShowsTheNearestTriangle) {
   State state = toy_state();
   state.pose[kYaw] = 7000;  // 38 degrees: the nose hides a cheek
   const Picture out = rendered(scene, state);
-  const ScreenMesh now = scene.geometry->project(state);
-  const ScreenMesh& seen = scene.patterns[0].seen;
+  const ScreenMesh now = scene.geometry->screen_mesh(state);
+  const TextureMesh& seen = scene.patterns[0].texture;
   int compared = 0, hidden = 0;
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 160; ++x) {
@@ -202,7 +334,7 @@ TEST(Renderer, ShowsTheNearestTriangle) {
       int layers = 0;
       bool on_edge = false;
       for (const auto& t : head_mesh().triangles) {
-        const auto corner = [&](const ScreenMesh& m, std::size_t i) { return m.head[t[i]]; };
+        const auto corner = [&](const auto& mesh, std::size_t i) { return mesh.head[t[i]]; };
         const glm::dvec2 a(corner(now, 0)), b(corner(now, 1)), c(corner(now, 2));
         const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };
         const double area = cross(b - a, c - a);
@@ -236,11 +368,10 @@ TEST(Renderer, SurvivesEveryStateOfAStream) {
   for (int i = 0; i < 150; ++i) {
     Scene scene;
     scene.setup = toy_setup(65, 64);
-    const State seen = random_state(random);
     scene.geometry.emplace(scene.setup, toy_geometry(), even_surround(4, 3, static_cast<int>(random() % 5)),
-                           seen);
-    scene.patterns.push_back({noise_picture(65, 64, 11), scene.geometry->project(seen)});
-    renderer.render(scene, random_state(random), out);
+                           random_state(random));
+    scene.patterns.push_back(make_pattern(noise_picture(65, 64, 11), random_state(random), scene.geometry));
+    ASSERT_TRUE(renderer.render(scene, random_state(random), out));
     ASSERT_EQ(out.width(), 65);
     ASSERT_EQ(out.u.width, 33);
   }

@@ -107,8 +107,8 @@ const Writer& sample() {
   return w;
 }
 
-/// All that a decoder says of a stream.
-struct Told {
+/// What a decoder returns for a stream.
+struct Played {
   std::vector<Picture> pictures;
   std::vector<std::uint32_t> durations;
   std::vector<Error> errors;
@@ -117,33 +117,33 @@ struct Told {
 };
 
 /// Plays what has arrived; returns true at the end.
-bool play(StreamDecoder& decoder, Told& told) {
+bool play(StreamDecoder& decoder, Played& result) {
   for (int guard = 0; guard < 10000; ++guard) {
     const auto status = decoder.next();
     if (!status) {
       EXPECT_NE(status.error().code, ErrorCode::kInternal) << status.error().text;
-      told.errors.push_back(status.error());
+      result.errors.push_back(status.error());
       continue;
     }
-    told.bytes = decoder.bytes();
-    told.announced = decoder.announced_pictures();
+    result.bytes = decoder.bytes();
+    result.announced = decoder.announced_pictures();
     if (*status == DecodeStatus::kEnd) return true;
     if (*status == DecodeStatus::kNeedMore) return false;
-    told.pictures.emplace_back();
-    decoder.render(told.pictures.back());
-    told.durations.push_back(decoder.duration());
+    result.pictures.emplace_back();
+    EXPECT_TRUE(decoder.render(result.pictures.back()));
+    result.durations.push_back(decoder.duration());
   }
   ADD_FAILURE() << "a decoder that never ends";
   return true;
 }
 
-Told played(std::span<const std::uint8_t> bytes) {
+Played played(std::span<const std::uint8_t> bytes) {
   StreamDecoder decoder;
   decoder.feed(bytes);
   decoder.close();
-  Told told;
-  EXPECT_TRUE(play(decoder, told));
-  return told;
+  Played result;
+  EXPECT_TRUE(play(decoder, result));
+  return result;
 }
 
 std::uint64_t sum_of(const ByteCount& b) {
@@ -151,15 +151,15 @@ std::uint64_t sum_of(const ByteCount& b) {
 }
 
 TEST(StreamDecoder, PlaysEveryPicture) {
-  const Told told = played(sample().bytes);
-  EXPECT_TRUE(told.errors.empty());
-  ASSERT_EQ(told.pictures.size(), 20u);
-  EXPECT_EQ(told.announced, 20u);
-  for (const Picture& p : told.pictures) {
+  const Played result = played(sample().bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 20u);
+  EXPECT_EQ(result.announced, 20u);
+  for (const Picture& p : result.pictures) {
     EXPECT_EQ(p.width(), kWidth);
     EXPECT_EQ(p.height(), kHeight);
   }
-  for (std::size_t i = 1; i < 20; ++i) EXPECT_NE(told.pictures[i], told.pictures[i - 1]) << i;
+  for (std::size_t i = 1; i < 20; ++i) EXPECT_NE(result.pictures[i], result.pictures[i - 1]) << i;
 }
 
 TEST(StreamDecoder, CountsEveryByteOnce) {
@@ -202,48 +202,48 @@ TEST(StreamDecoder, FirstPictureNeedsNoMoreThanTheStartup) {
 
 TEST(StreamDecoder, BytesMayComeOneByOne) {
   StreamDecoder decoder;
-  Told told;
+  Played result;
   for (const std::uint8_t byte : sample().bytes) {
     decoder.feed({&byte, 1});
-    EXPECT_FALSE(play(decoder, told));
+    EXPECT_FALSE(play(decoder, result));
   }
   decoder.close();
-  EXPECT_TRUE(play(decoder, told));
-  EXPECT_TRUE(told.errors.empty());
-  EXPECT_EQ(told.pictures, played(sample().bytes).pictures);
+  EXPECT_TRUE(play(decoder, result));
+  EXPECT_TRUE(result.errors.empty());
+  EXPECT_EQ(result.pictures, played(sample().bytes).pictures);
 }
 
 TEST(StreamDecoder, StreamMayBeCutAnywhere) {
-  const Told whole = played(sample().bytes);
+  const Played whole = played(sample().bytes);
   for (std::size_t size = 0; size < sample().bytes.size(); size += 37) {
-    const Told told = played(std::span(sample().bytes).first(size));
-    ASSERT_LE(told.errors.size(), 1u) << size;
+    const Played result = played(std::span(sample().bytes).first(size));
+    ASSERT_LE(result.errors.size(), 1u) << size;
     const bool at_packet =
         std::find(sample().begins.begin() + 1, sample().begins.end(), size) != sample().begins.end();
-    EXPECT_EQ(told.errors.empty(), at_packet) << size;
-    if (!told.errors.empty()) {
-      EXPECT_EQ(told.errors[0].code, size == 0 ? ErrorCode::kNotFbs : ErrorCode::kTruncated) << size;
+    EXPECT_EQ(result.errors.empty(), at_packet) << size;
+    if (!result.errors.empty()) {
+      EXPECT_EQ(result.errors[0].code, size == 0 ? ErrorCode::kNotFbs : ErrorCode::kTruncated) << size;
     }
     // Every whole motion packet still decodes.
     std::size_t expected = 0;
     for (std::size_t k = 4; k < 8; ++k) expected += sample().begins[k + 1] <= size ? 5 : 0;
-    ASSERT_EQ(told.pictures.size(), expected) << size;
-    EXPECT_TRUE(std::equal(told.pictures.begin(), told.pictures.end(), whole.pictures.begin())) << size;
+    ASSERT_EQ(result.pictures.size(), expected) << size;
+    EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin())) << size;
   }
 }
 
 TEST(StreamDecoder, GoesOnBehindAFlippedBit) {
-  const Told whole = played(sample().bytes);
+  const Played whole = played(sample().bytes);
   for (std::size_t bit = 4 * 8; bit < sample().bytes.size() * 8; bit += 53) {
     Bytes bytes = sample().bytes;
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
-    const Told told = played(bytes);
-    ASSERT_FALSE(told.errors.empty()) << bit;
-    ASSERT_LE(told.pictures.size(), 20u);
+    const Played result = played(bytes);
+    ASSERT_FALSE(result.errors.empty()) << bit;
+    ASSERT_LE(result.pictures.size(), 20u);
     // Damage in a motion packet costs its pictures and those up to the next key group, no more.
     if (bit / 8 >= sample().begins[4] && bit / 8 < sample().begins[8]) {
-      EXPECT_GE(told.pictures.size(), 10u) << bit;
-      for (const Picture& p : told.pictures)
+      EXPECT_GE(result.pictures.size(), 10u) << bit;
+      for (const Picture& p : result.pictures)
         EXPECT_NE(std::find(whole.pictures.begin(), whole.pictures.end(), p), whole.pictures.end())
             << "a wild picture";
     }
@@ -253,9 +253,9 @@ TEST(StreamDecoder, GoesOnBehindAFlippedBit) {
 TEST(StreamDecoder, ErrorsNameTheByteOfTheirPacket) {
   Bytes bytes = sample().bytes;
   bytes[sample().begins[5] + 3] ^= 1;
-  const Told told = played(bytes);
-  ASSERT_GE(told.errors.size(), 1u);
-  EXPECT_EQ(told.errors[0].byte_offset, sample().begins[5]);
+  const Played result = played(bytes);
+  ASSERT_GE(result.errors.size(), 1u);
+  EXPECT_EQ(result.errors[0].byte_offset, sample().begins[5]);
 }
 
 TEST(StreamDecoder, LostGroupCostsThePicturesUpToTheNextKeyGroup) {
@@ -264,18 +264,18 @@ TEST(StreamDecoder, LostGroupCostsThePicturesUpToTheNextKeyGroup) {
     return bytes.begin() + static_cast<std::ptrdiff_t>(sample().begins[packet]);
   };
   bytes.erase(at(4), at(5));  // the first group, key: the second cannot be read
-  const Told told = played(bytes), whole = played(sample().bytes);
-  ASSERT_EQ(told.errors.size(), 1u);
-  EXPECT_EQ(told.errors[0].code, ErrorCode::kInvalidStream);
-  ASSERT_EQ(told.pictures.size(), 10u);
-  EXPECT_TRUE(std::equal(told.pictures.begin(), told.pictures.end(), whole.pictures.begin() + 10));
+  const Played result = played(bytes), whole = played(sample().bytes);
+  ASSERT_EQ(result.errors.size(), 1u);
+  EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);
+  ASSERT_EQ(result.pictures.size(), 10u);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin() + 10));
 }
 
 /// The first error of a stream.
 ErrorCode first_error(const Writer& w) {
-  const Told told = played(w.bytes);
-  EXPECT_FALSE(told.errors.empty());
-  return told.errors.empty() ? ErrorCode::kInternal : told.errors[0].code;
+  const Played result = played(w.bytes);
+  EXPECT_FALSE(result.errors.empty());
+  return result.errors.empty() ? ErrorCode::kInternal : result.errors[0].code;
 }
 
 TEST(StreamDecoder, OrderOfPacketsIsChecked) {
@@ -306,10 +306,10 @@ TEST(StreamDecoder, AnotherSizeInsideAStreamIsUnsupported) {
   other.format.width += 2;
   Writer w;
   w.setup().geometry().surround().pattern().motion(0, 2, true).setup(other);
-  const Told told = played(w.bytes);
-  ASSERT_EQ(told.errors.size(), 1u);
-  EXPECT_EQ(told.errors[0].code, ErrorCode::kUnsupported);
-  EXPECT_EQ(told.pictures.size(), 2u);
+  const Played result = played(w.bytes);
+  ASSERT_EQ(result.errors.size(), 1u);
+  EXPECT_EQ(result.errors[0].code, ErrorCode::kUnsupported);
+  EXPECT_EQ(result.pictures.size(), 2u);
 }
 
 TEST(StreamDecoder, UnknownPacketsAreSkipped) {
@@ -320,30 +320,30 @@ TEST(StreamDecoder, UnknownPacketsAreSkipped) {
       .packet(static_cast<PacketType>(200), Bytes(300));
   w.surround().pattern().motion(0, 5, true).packet(static_cast<PacketType>(0), Bytes{});
   w.motion(5, 10);
-  const Told told = played(w.bytes), whole = played(sample().bytes);
-  EXPECT_TRUE(told.errors.empty());
-  ASSERT_EQ(told.pictures.size(), 10u);
-  EXPECT_TRUE(std::equal(told.pictures.begin(), told.pictures.end(), whole.pictures.begin()));
-  EXPECT_EQ(sum_of(told.bytes), w.bytes.size());
+  const Played result = played(w.bytes), whole = played(sample().bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 10u);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin()));
+  EXPECT_EQ(sum_of(result.bytes), w.bytes.size());
 }
 
 TEST(StreamDecoder, SceneWithoutGeometryShowsItsPattern) {
   Writer w;
   w.setup().pattern().motion(0, 4, true);
-  const Told told = played(w.bytes);
-  EXPECT_TRUE(told.errors.empty());
-  ASSERT_EQ(told.pictures.size(), 4u);
-  for (const Picture& p : told.pictures) EXPECT_EQ(p, told.pictures[0]);
+  const Played result = played(w.bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 4u);
+  for (const Picture& p : result.pictures) EXPECT_EQ(p, result.pictures[0]);
 }
 
 // SPEC 6: a scene without a surround packet stands before still ground.
 TEST(StreamDecoder, SceneWithoutSurroundStandsBeforeStillGround) {
   Writer w;
   w.setup().geometry().pattern().motion(0, 20, true);
-  const Told told = played(w.bytes);
-  ASSERT_EQ(told.pictures.size(), 20u);
-  EXPECT_NE(told.pictures[19], told.pictures[0]);
-  for (int x = 0; x < kWidth; ++x) EXPECT_EQ(told.pictures[19].y.row(2)[x], told.pictures[0].y.row(2)[x]);
+  const Played result = played(w.bytes);
+  ASSERT_EQ(result.pictures.size(), 20u);
+  EXPECT_NE(result.pictures[19], result.pictures[0]);
+  for (int x = 0; x < kWidth; ++x) EXPECT_EQ(result.pictures[19].y.row(2)[x], result.pictures[0].y.row(2)[x]);
 }
 
 TEST(StreamDecoder, NewSetupBeginsANewScene) {
@@ -351,15 +351,66 @@ TEST(StreamDecoder, NewSetupBeginsANewScene) {
   w.setup().geometry().surround().pattern().motion(0, 5, true);
   w.setup().pattern(face_picture(2)).motion(3, 6, true);  // nobody there any more
   w.setup().geometry().surround().pattern().motion(0, 5, true);
-  const Told told = played(w.bytes);
-  EXPECT_TRUE(told.errors.empty());
-  ASSERT_EQ(told.pictures.size(), 13u);
-  EXPECT_TRUE(std::equal(told.pictures.begin(), told.pictures.begin() + 5, told.pictures.begin() + 8));
-  EXPECT_EQ(told.pictures[5], told.pictures[7]) << "the geometry of the scene before is forgotten";
+  const Played result = played(w.bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 13u);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.begin() + 5, result.pictures.begin() + 8));
+  EXPECT_EQ(result.pictures[5], result.pictures[7]) << "the geometry of the scene before is forgotten";
+}
+
+TEST(StreamDecoder, NothingIsDrawnBeforeTheFirstPicture) {
+  StreamDecoder decoder;
+  Picture out;
+  const auto refused = [&] {
+    const auto drawn = decoder.render(out);
+    return !drawn && drawn.error().code == ErrorCode::kInvalidArgument && out.empty();
+  };
+  EXPECT_TRUE(refused()) << "no stream at all";
+  const std::span bytes(sample().bytes);
+  for (std::size_t k = 1; k <= 4; ++k) {
+    const std::size_t begin = k == 1 ? 0 : sample().begins[k - 1];
+    decoder.feed(bytes.subspan(begin, sample().begins[k] - begin));
+    ASSERT_EQ(*decoder.next(), DecodeStatus::kNeedMore);
+    EXPECT_TRUE(refused()) << "packet " << k;
+  }
+  decoder.feed(bytes.subspan(sample().begins[4]));
+  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  EXPECT_TRUE(decoder.render(out));
+}
+
+// The state of the old scene means nothing in the new one.
+TEST(StreamDecoder, NothingIsDrawnAfterAnErrorBehindANewSetup) {
+  for (const bool with_pattern : {false, true}) {
+    Writer w;
+    w.setup().geometry().surround().pattern().motion(0, 2, true).setup();
+    if (with_pattern) w.geometry().pattern();
+    w.packet(PacketType::kMotion, Bytes{});
+    StreamDecoder decoder;
+    decoder.feed(w.bytes);
+    decoder.close();
+    Picture out;
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+      ASSERT_TRUE(decoder.render(out));
+    }
+    ASSERT_FALSE(decoder.next());
+    EXPECT_EQ(decoder.render(out).error().code, ErrorCode::kInvalidArgument) << with_pattern;
+    EXPECT_EQ(decoder.render(PictureView(out)).error().code, ErrorCode::kInvalidArgument);
+  }
+}
+
+TEST(StreamDecoder, DrawsIntoTheCallersMemory) {
+  StreamDecoder decoder;
+  decoder.feed(sample().bytes);
+  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  Picture expected, out(kWidth, kHeight);
+  ASSERT_TRUE(decoder.render(expected));
+  ASSERT_TRUE(decoder.render(PictureView(out)));
+  EXPECT_EQ(out, expected);
 }
 
 // SPEC 6: of several before pattern 0 the last counts; what comes behind it changes nothing.
-TEST(StreamDecoder, PatternZeroSettlesTheScene) {
+TEST(StreamDecoder, GeometryIsFixedByPatternZero) {
   Writer plain, late, twice;
   plain.setup().geometry().surround(4).pattern().motion(0, 5, true);
   late.setup().geometry().surround(4).pattern().surround(0).geometry().motion(0, 5, true);
@@ -379,10 +430,10 @@ TEST(StreamDecoder, LaterPatternsAreDecodedAndNotDrawn) {
       .motion(0, 5, true)
       .pattern(face_picture(2))
       .motion(5, 10);
-  const Told told = played(w.bytes), whole = played(sample().bytes);
-  EXPECT_TRUE(told.errors.empty());
-  ASSERT_EQ(told.pictures.size(), 10u);
-  EXPECT_TRUE(std::equal(told.pictures.begin(), told.pictures.end(), whole.pictures.begin()));
+  const Played result = played(w.bytes), whole = played(sample().bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 10u);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin()));
 }
 
 TEST(StreamDecoder, GivesEachPicturesDuration) {
@@ -406,9 +457,9 @@ TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   Writer w;
   w.packet(PacketType::kSetup, longer);
   w.bytes.insert(w.bytes.end(), s.bytes.begin() + static_cast<std::ptrdiff_t>(s.begins[1]), s.bytes.end());
-  const Told told = played(w.bytes);
-  EXPECT_TRUE(told.errors.empty());
-  EXPECT_EQ(told.pictures, played(s.bytes).pictures);
+  const Played result = played(w.bytes);
+  EXPECT_TRUE(result.errors.empty());
+  EXPECT_EQ(result.pictures, played(s.bytes).pictures);
 }
 
 TEST(StreamDecoder, DamagedAv1IsInvalid) {
@@ -416,10 +467,10 @@ TEST(StreamDecoder, DamagedAv1IsInvalid) {
   w.setup().geometry();
   const PatternSyntax junk{0, coded_at(0), Bytes(50, 0xAB)};
   w.packet(PacketType::kPattern, encode_pattern(junk, setup_of()));
-  const Told told = played(w.bytes);
-  ASSERT_FALSE(told.errors.empty());
-  EXPECT_EQ(told.errors[0].code, ErrorCode::kInvalidStream);
-  EXPECT_EQ(told.errors[0].byte_offset, w.begins[2]);
+  const Played result = played(w.bytes);
+  ASSERT_FALSE(result.errors.empty());
+  EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);
+  EXPECT_EQ(result.errors[0].byte_offset, w.begins[2]);
 }
 
 TEST(StreamDecoder, SurvivesPayloadsThatLieWithRightChecks) {
@@ -445,8 +496,8 @@ TEST(StreamDecoder, SurvivesPayloadsThatLieWithRightChecks) {
           payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
       write_packet(bytes, packet->packet.type, payload);
     }
-    const Told told = played(bytes);
-    EXPECT_LE(told.pictures.size(), 4u * kMaxGroupPictures);
+    const Played result = played(bytes);
+    EXPECT_LE(result.pictures.size(), 4u * kMaxGroupPictures);
   }
 }
 

@@ -74,7 +74,7 @@ Coded decoded(std::vector<std::uint8_t> stream) {
     EXPECT_TRUE(status) << status.error().text;
     if (!status || *status != DecodeStatus::kPicture) break;
     out.pictures.emplace_back();
-    decoder.render(out.pictures.back());
+    EXPECT_TRUE(decoder.render(out.pictures.back()));
     out.durations.push_back(decoder.duration());
   }
   out.bytes = decoder.bytes();

@@ -25,7 +25,7 @@ Shown decoded(const std::vector<std::uint8_t>& packets) {
   Shown shown;
   for (auto status = decoder.next(); status && *status == DecodeStatus::kPicture; status = decoder.next()) {
     Picture picture;
-    decoder.render(picture);
+    EXPECT_TRUE(decoder.render(picture));
     shown.pictures.push_back(picture);
     shown.durations.push_back(decoder.duration());
   }

@@ -16,12 +16,7 @@ struct FittedScene {
 
   FittedScene() : scene(make()), fit(setup, toy_geometry(), frame_of(scene.patterns[0].picture), seen) {}
 
-  [[nodiscard]] Picture drawn(const State& state) const {
-    Renderer renderer;
-    Picture out;
-    renderer.render(scene, state, out);
-    return out;
-  }
+  [[nodiscard]] Picture drawn(const State& state) const { return rendered(scene, state); }
   void look_at(const State& state) { fit.look_at(frame_of(drawn(state)), setup.mouth); }
 
  private:
@@ -32,7 +27,7 @@ struct FittedScene {
     Scene s;
     s.setup = setup;
     s.geometry.emplace(setup, toy_geometry(), even_surround(10, 8, 0), seen);
-    s.patterns.push_back({picture, s.geometry->project(seen)});
+    s.patterns.push_back(make_pattern(picture, seen, s.geometry));
     return s;
   }
   static WorkFrame frame_of(const Picture& picture) { return WorkFrame::cut(picture, {160, 96}, 48, true); }

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "decoder/head/head_projection.h"
+
 namespace fbs {
 namespace {
 

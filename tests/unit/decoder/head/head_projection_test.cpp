@@ -1,4 +1,4 @@
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 #include <gtest/gtest.h>
 
@@ -6,16 +6,16 @@
 #include <random>
 
 #include "bitstream/payload/geometry_payload.h"
-#include "tests/unit/decoder/plain_projection.h"
+#include "tests/unit/decoder/head/plain_projection.h"
 
 namespace fbs {
 namespace {
 
 HeadPose random_pose(std::mt19937& random) {
   const auto within = [&](int a, int b) { return std::uniform_int_distribution<int>(a, b)(random); };
-  const int turn = kMaxRotation;
-  return {within(-turn, turn), within(-turn, turn), within(-turn, turn),
-          within(0, 400 * 64), within(0, 300 * 64), within(3 * 4096, kMaxLogScale)};
+  const int angle = kMaxRotation;
+  return {within(-angle, angle), within(-angle, angle), within(-angle, angle),
+          within(0, 400 * 64),   within(0, 300 * 64),   within(3 * 4096, kMaxLogScale)};
 }
 
 // The rotation is in Q14: its share of the error grows with the head and is 1/32 pixel at 80 pixels between
@@ -45,10 +45,10 @@ TEST(HeadProjection, SignsOfRotationAreThoseOfTheDocumentation) {
   EXPECT_GT(HeadProjection(pose)(nose).y, 0) << "looks down";
   pose.pitch = 0;
   pose.yaw = 1000;
-  EXPECT_LT(HeadProjection(pose)(nose).x, 0) << "turns to the picture's left";
+  EXPECT_LT(HeadProjection(pose)(nose).x, 0) << "looks to the picture's left";
   pose.yaw = 0;
   pose.roll = 1000;
-  EXPECT_GT(HeadProjection(pose)(left_eye).y, 0) << "turns clockwise";
+  EXPECT_GT(HeadProjection(pose)(left_eye).y, 0) << "rolls clockwise";
 }
 
 TEST(HeadProjection, ScreenPositionsAreClamped) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/unit/decoder/raster/textured_triangle.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -13,38 +14,7 @@ namespace {
 
 using std::int64_t;
 
-constexpr int kMostScreen = 1 << 21;
-
-SampleArea whole(const Plane& p) {
-  return {0, 0, p.width, p.height};
-}
-
-void draw(const RasterTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
-          DepthPlane* depth = nullptr) {
-  const PlanePair pair{&pattern, &target};
-  draw_triangle(t, scale, {&pair, 1}, whole(target), depth);
-}
-
-/// A triangle whose texture lies where it is on the screen.
-RasterTriangle in_place(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c) {
-  return {{{a, a}, {b, b}, {c, c}}};
-}
-
-/// The rules as text: a sample is covered when its centre is inside, or on an edge that is a top or a left
-/// one.
-bool covers(const RasterTriangle& t, PlaneScale scale, int x, int y) {
-  const int bits = static_cast<int>(scale);
-  const int64_t px = (int64_t{x} << bits) + (1 << (bits - 1)), py = (int64_t{y} << bits) + (1 << (bits - 1));
-  if (!faces_viewer(t)) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::ivec2 from = t[i].screen, to = t[(i + 1) % 3].screen;
-    const int64_t side = int64_t{to.x - from.x} * (py - from.y) - int64_t{to.y - from.y} * (px - from.x);
-    const bool top = from.y == to.y && to.x > from.x;
-    const bool left = to.y < from.y;
-    if (side < 0 || (side == 0 && !top && !left)) return false;
-  }
-  return true;
-}
+constexpr int kMaxPosition = 1 << 21;  ///< of what projection gives
 
 glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
   const auto within = [&](int n) {
@@ -53,7 +23,7 @@ glm::ivec2 random_point(std::mt19937& random, int width, int height, int unit) {
   return {within(width * 64 / unit), within(height * 64 / unit)};
 }
 
-TEST(Rasteriser, CoversWhatThePlainRuleSays) {
+TEST(Rasteriser, CoversSamplesByThePlainRule) {
   std::mt19937 random(1);
   const Plane white(24, 20, 255);
   for (int i = 0; i < 3000; ++i) {
@@ -61,7 +31,7 @@ TEST(Rasteriser, CoversWhatThePlainRuleSays) {
     const int unit = i % 2 == 0 ? 1 : 32;
     const PlaneScale scale = i % 3 == 0 ? PlaneScale::kChroma : PlaneScale::kLuma;
     const auto p = [&] { return random_point(random, 24, 20, unit); };
-    const RasterTriangle t = in_place(p(), p(), p());
+    const TexturedTriangle t = in_place(p(), p(), p());
     Plane target(24, 20);
     draw(t, scale, white, target);
     for (int y = 0; y < 20; ++y)
@@ -74,14 +44,16 @@ TEST(Rasteriser, DrawsOnlyInsideTheArea) {
   std::mt19937 random(2);
   const Plane white(24, 20, 255);
   for (int i = 0; i < 500; ++i) {
-    const RasterTriangle t = in_place(random_point(random, 24, 20, 1), random_point(random, 24, 20, 1),
-                                      random_point(random, 24, 20, 1));
+    const TexturedTriangle t = in_place(random_point(random, 24, 20, 1), random_point(random, 24, 20, 1),
+                                        random_point(random, 24, 20, 1));
     const int x0 = static_cast<int>(random() % 24), y0 = static_cast<int>(random() % 20);
     const SampleArea area{x0, y0, x0 + static_cast<int>(random() % static_cast<unsigned>(25 - x0)),
                           y0 + static_cast<int>(random() % static_cast<unsigned>(21 - y0))};
     Plane target(24, 20);
-    const PlanePair pair{&white, &target};
-    draw_triangle(t, PlaneScale::kLuma, {&pair, 1}, area, nullptr);
+    const ConstPlaneView from = white;
+    const PlaneView to = target;
+    draw_triangle(screen_of(t), {{&from, 1}, {t[0].texture, t[1].texture, t[2].texture}},
+                  {PlaneScale::kLuma, {&to, 1}, area});
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 24; ++x) {
         const bool in_area = x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
@@ -114,11 +86,11 @@ TEST(Rasteriser, SampleOnAnEdgeBelongsToTheTopOrLeftTriangle) {
 }
 
 /// How often each sample is drawn by a mesh of triangles.
-std::vector<int> times_drawn(const std::vector<RasterTriangle>& mesh, PlaneScale scale, int width,
+std::vector<int> times_drawn(const std::vector<TexturedTriangle>& mesh, PlaneScale scale, int width,
                              int height) {
   const Plane one(width, height, 1);
   std::vector<int> times(one.samples.size());
-  for (const RasterTriangle& t : mesh) {
+  for (const TexturedTriangle& t : mesh) {
     Plane target(width, height);
     draw(t, scale, one, target);
     for (std::size_t i = 0; i < times.size(); ++i) times[i] += target.samples[i];
@@ -133,11 +105,11 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
     const int sample = 1 << static_cast<int>(scale);
     constexpr int kCells = 8, kSamples = 32;
     const int cell = kSamples * sample / kCells;
-    // Points move by a fifth of a cell at most, so that no triangle turns over; in some rounds by half
+    // Points move by a fifth of a cell at most, so that no triangle flips; in some rounds by half
     // samples or not at all, so that edges meet in centres.
     const auto jitter = [&] {
-      const int unit = round % 3 == 0 ? sample / 2 : 1, most = round % 5 == 0 ? 0 : cell / unit / 5;
-      return (static_cast<int>(random() % static_cast<unsigned>(2 * most + 1)) - most) * unit;
+      const int unit = round % 3 == 0 ? sample / 2 : 1, reach = round % 5 == 0 ? 0 : cell / unit / 5;
+      return (static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach) * unit;
     };
     std::vector<glm::ivec2> p;
     for (int r = 0; r <= kCells; ++r)
@@ -145,7 +117,7 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
         const bool border = r == 0 || c == 0 || r == kCells || c == kCells;
         p.emplace_back(c * cell + (border ? 0 : jitter()), r * cell + (border ? 0 : jitter()));
       }
-    std::vector<RasterTriangle> mesh;
+    std::vector<TexturedTriangle> mesh;
     for (int r = 0; r < kCells; ++r) {
       for (int c = 0; c < kCells; ++c) {
         const auto at = [&](int i, int j) { return p[(r + j) * (kCells + 1) + c + i]; };
@@ -153,7 +125,7 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
         mesh.push_back(in_place(at(0, 0), at(1, 1), at(0, 1)));
       }
     }
-    for (const RasterTriangle& t : mesh) ASSERT_TRUE(faces_viewer(t));
+    for (const TexturedTriangle& t : mesh) ASSERT_TRUE(faces_viewer(screen_of(t)));
     const auto times = times_drawn(mesh, scale, kSamples, kSamples);
     ASSERT_EQ(std::count(times.begin(), times.end(), 1), kSamples * kSamples) << round;
   }
@@ -161,7 +133,7 @@ TEST(Rasteriser, SharedEdgesLeaveNoCrackAndDrawNothingTwice) {
 
 TEST(Rasteriser, FanAboutASampleCentreDrawsItOnce) {
   const glm::ivec2 hub(8 * 64 + 32, 8 * 64 + 32);
-  std::vector<RasterTriangle> fan;
+  std::vector<TexturedTriangle> fan;
   constexpr int kBlades = 16;
   const auto rim = [&](int i) {
     const double a = 2 * 3.14159265358979 * i / kBlades;
@@ -180,7 +152,7 @@ TEST(Rasteriser, TextureInItsPlaceReproducesThePatternBitForBit) {
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
     const int bits = static_cast<int>(scale) - 6;
     const auto p = [&] { return random_point(random, 40 << bits, 30 << bits, 1); };
-    const RasterTriangle t = in_place(p(), p(), p());
+    const TexturedTriangle t = in_place(p(), p(), p());
     Plane target(40, 30);
     DepthPlane depth;
     depth.reset(40, 30, whole(target));
@@ -191,12 +163,10 @@ TEST(Rasteriser, TextureInItsPlaceReproducesThePatternBitForBit) {
   }
 }
 
-RasterTriangle shifted_texture(RasterTriangle t, glm::ivec2 by) {
-  for (RasterVertex& v : t) v.texture += by;
+TexturedTriangle shifted_texture(TexturedTriangle t, glm::ivec2 by) {
+  for (TexturedVertex& v : t) v.texture += by;
   return t;
 }
-
-const RasterTriangle kLarge = in_place({-640, -640}, {5000, -640}, {-640, 5000});  // covers 24 x 20 samples
 
 TEST(Rasteriser, ShiftByWholeSamplesCopies) {
   const Plane pattern = noise_plane(24, 20, 6);
@@ -225,7 +195,7 @@ TEST(Rasteriser, ReadingOutsideRepeatsTheBorder) {
 }
 
 /// Bilinear in doubles at the texture position that belongs to the sample's centre.
-double plain_texel(const RasterTriangle& t, const Plane& pattern, PlaneScale scale, int x, int y) {
+double plain_texel(const TexturedTriangle& t, const Plane& pattern, PlaneScale scale, int x, int y) {
   const double unit = 1 << static_cast<int>(scale);
   const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
   const glm::dvec2 p((x + 0.5) * unit, (y + 0.5) * unit);
@@ -260,8 +230,8 @@ TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
   for (int i = 0; i < 1500; ++i) {
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
     const int bits = static_cast<int>(scale) - 6;
-    RasterTriangle t;
-    for (RasterVertex& v : t)
+    TexturedTriangle t;
+    for (TexturedVertex& v : t)
       v = {random_point(random, 30 << bits, 30 << bits, 1), random_point(random, 60 << bits, 50 << bits, 1),
            0};
     Plane target(30, 30);
@@ -278,7 +248,7 @@ TEST(Rasteriser, WarpedTextureIsThatOfThePlainRasteriser) {
   EXPECT_GT(compared, 50000);
 }
 
-// Two ways of reading: with and without a check at the border. The same texture, once at the pattern's border
+// Reading with and without a check at the border. The same texture, once at the pattern's border
 // and once inside a larger pattern whose margin repeats it.
 TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
   std::mt19937 random(10);
@@ -289,8 +259,8 @@ TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
     for (int x = 0; x < padded.width; ++x)
       padded.row(y)[x] = pattern.row(std::clamp(y - kMargin, 0, 19))[std::clamp(x - kMargin, 0, 19)];
   for (int i = 0; i < 1000; ++i) {
-    RasterTriangle t;
-    for (RasterVertex& v : t) v = {random_point(random, 20, 20, 1), random_point(random, 20, 20, 1), 0};
+    TexturedTriangle t;
+    for (TexturedVertex& v : t) v = {random_point(random, 20, 20, 1), random_point(random, 20, 20, 1), 0};
     Plane checked(20, 20), direct(20, 20);
     draw(t, PlaneScale::kLuma, pattern, checked);
     draw(shifted_texture(t, glm::ivec2(kMargin * 64)), PlaneScale::kLuma, padded, direct);
@@ -298,72 +268,45 @@ TEST(Rasteriser, CheckedAndUncheckedReadingAgree) {
   }
 }
 
-RasterTriangle at_depth(RasterTriangle t, int a, int b, int c) {
-  t[0].depth = a;
-  t[1].depth = b;
-  t[2].depth = c;
-  return t;
-}
-
-TEST(Rasteriser, NearerHidesFartherInEitherOrder) {
-  const Plane near_paint(24, 20, 200), far_paint(24, 20, 50);
-  const RasterTriangle small = in_place({300, 200}, {1000, 300}, {500, 900});
-  const auto near_one = at_depth(small, -5, -7, -9), far_one = at_depth(kLarge, 10, 20, 30);
-  std::array<Plane, 2> target = {Plane(24, 20), Plane(24, 20)};
-  for (std::size_t order = 0; order < 2; ++order) {
+// An embedder's memory: rows of a larger buffer, as target and as texture.
+TEST(Rasteriser, DrawsIntoPartOfALargerBuffer) {
+  std::mt19937 random(18);
+  const Plane pattern = noise_plane(24, 20, 19);
+  Plane wide_pattern = noise_plane(50, 40, 20);
+  const ConstPlaneView from(wide_pattern.row(7) + 9, 24, 20, wide_pattern.width);
+  for (int y = 0; y < 20; ++y) std::copy_n(pattern.row(y), 24, wide_pattern.row(y + 7) + 9);
+  const Plane untouched = noise_plane(60, 30, 21);
+  for (int i = 0; i < 300; ++i) {
+    TexturedTriangle t;
+    for (TexturedVertex& v : t)
+      v = {random_point(random, 24, 20, 1), random_point(random, 24, 20, 1), static_cast<int>(random() % 99)};
+    Plane expected(24, 20, 77), buffer = untouched;
+    const PlaneView to(buffer.row(5) + 30, 24, 20, buffer.width);
+    for (int y = 0; y < 20; ++y) std::fill_n(to.row(y), 24, std::uint8_t{77});
     DepthPlane depth;
-    depth.reset(24, 20, whole(target[order]));
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (k == order)
-        draw(near_one, PlaneScale::kLuma, near_paint, target[order], &depth);
-      else
-        draw(far_one, PlaneScale::kLuma, far_paint, target[order], &depth);
+    depth.reset(24, 20, whole(expected));
+    draw(t, PlaneScale::kLuma, pattern, expected, i % 2 == 0 ? &depth : nullptr);
+    depth.reset(24, 20, whole(expected));
+    draw_triangle(screen_of(t), {{&from, 1}, {t[0].texture, t[1].texture, t[2].texture}},
+                  {PlaneScale::kLuma, {&to, 1}, whole(expected), i % 2 == 0 ? &depth : nullptr});
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const bool inside = x >= 30 && x < 54 && y >= 5 && y < 25;
+        ASSERT_EQ(buffer.row(y)[x], inside ? expected.row(y - 5)[x - 30] : untouched.row(y)[x])
+            << i << ": " << x << ',' << y;
+      }
     }
   }
-  EXPECT_EQ(target[0], target[1]);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 24; ++x)
-      EXPECT_EQ(target[0].row(y)[x], covers(small, PlaneScale::kLuma, x, y) ? 200 : 50);
-}
-
-TEST(Rasteriser, EqualDepthKeepsWhatWasThere) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  draw(at_depth(kLarge, 7, 7, 7), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  EXPECT_EQ(target, Plane(24, 20, 1));
-}
-
-// Depth x against depth 12 samples: they cross in the middle of the picture.
-TEST(Rasteriser, TrianglesThatPassThroughEachOtherMeetWhereDepthsAreEqual) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  auto slanted = kLarge;
-  for (RasterVertex& v : slanted) v.depth = v.screen.x;
-  draw(at_depth(kLarge, 768, 768, 768), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  draw(slanted, PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(9)[x], x < 12 ? 2 : 1) << x;
-}
-
-TEST(Rasteriser, ResetClearsTheAreaAlone) {
-  Plane target(24, 20);
-  DepthPlane depth;
-  depth.reset(24, 20, whole(target));
-  draw(at_depth(kLarge, 0, 0, 0), PlaneScale::kLuma, Plane(24, 20, 1), target, &depth);
-  depth.reset(24, 20, {4, 4, 10, 10});
-  draw(at_depth(kLarge, 5, 5, 5), PlaneScale::kLuma, Plane(24, 20, 2), target, &depth);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 0; x < 24; ++x) EXPECT_EQ(target.row(y)[x], x >= 4 && x < 10 && y >= 4 && y < 10 ? 2 : 1);
 }
 
 TEST(Rasteriser, DrawsAllPlanesAlike) {
   const Plane pattern = noise_plane(24, 20, 12), inverse = noise_plane(24, 20, 13);
   Plane a(24, 20), b(24, 20), alone(24, 20);
-  const std::array<PlanePair, 2> planes = {PlanePair{&pattern, &a}, PlanePair{&inverse, &b}};
+  const std::array<ConstPlaneView, 2> from = {pattern, inverse};
+  const std::array<PlaneView, 2> to = {a, b};
   const auto t = shifted_texture(kLarge, {77, -40});
-  draw_triangle(t, PlaneScale::kChroma, planes, whole(a), nullptr);
+  draw_triangle(screen_of(t), {from, {t[0].texture, t[1].texture, t[2].texture}},
+                {PlaneScale::kChroma, to, whole(a)});
   draw(t, PlaneScale::kChroma, pattern, alone);
   EXPECT_EQ(a, alone);
   Plane alone_b(24, 20);
@@ -379,18 +322,18 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
   const auto wild = [&] {
     switch (random() % 4) {
       case 0:
-        return kMostScreen;
+        return kMaxPosition;
       case 1:
-        return -kMostScreen;
+        return -kMaxPosition;
       case 2:
         return static_cast<int>(random() % 2048);
       default:
-        return static_cast<int>(random() % (2 * kMostScreen)) - kMostScreen;
+        return static_cast<int>(random() % (2 * kMaxPosition)) - kMaxPosition;
     }
   };
   for (int i = 0; i < 4000; ++i) {
-    RasterTriangle t;
-    for (RasterVertex& v : t) {
+    TexturedTriangle t;
+    for (TexturedVertex& v : t) {
       v = {{wild(), wild()}, {wild(), wild()}, static_cast<std::int32_t>(random())};
       if (random() % 3 == 0)
         v.depth = random() % 2 == 0 ? std::numeric_limits<std::int32_t>::max()
@@ -403,10 +346,10 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
     depth.reset(32, 24, whole(drawn));
     draw(t, scale, white, covered);
     draw(t, scale, pattern, drawn, &depth);
-    const Shade shade{{256, 0, 128}, 200};
-    const PlanePair pair{&pattern, &drawn, {3, 90, 250}};
+    const std::array<std::uint8_t, kInteriorCount> colours = {3, 90, 250};
+    const InteriorMix mix{{256, 0, 128}, 200, {&colours, 1}};
     depth.reset(32, 24, whole(drawn));
-    draw_triangle(t, scale, {&pair, 1}, whole(drawn), &depth, {.shade = &shade});
+    draw(t, scale, pattern, drawn, &depth, {.interior = &mix});
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 32; ++x) ASSERT_EQ(covered.row(y)[x] != 0, covers(t, scale, x, y)) << i;
   }
@@ -420,12 +363,12 @@ TEST(Rasteriser, SliversReadInsideThePattern) {
   int drawn = 0;
   for (int i = 0; i < 4000; ++i) {
     const int x = static_cast<int>(random() % 64) * 64 + 30,
-              far = kMostScreen - static_cast<int>(random() % 1000);
-    RasterTriangle t;
+              far = kMaxPosition - static_cast<int>(random() % 1000);
+    TexturedTriangle t;
     t[0].screen = {x, -far};
     t[1].screen = {x + 1 + static_cast<int>(random() % 6), far};
     t[2].screen = {x, far};
-    for (RasterVertex& v : t)
+    for (TexturedVertex& v : t)
       v.texture = {static_cast<int>(random() % (8190 * 64)), static_cast<int>(random() % 256)};
     Plane target(64, 48);
     draw(t, PlaneScale::kLuma, pattern, target);

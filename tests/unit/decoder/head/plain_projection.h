@@ -1,4 +1,4 @@
-// The documentation of HeadPose in doubles: what the decoder's integers are compared with.
+// HeadProjection in doubles: what the decoder's integers are compared with.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
 
@@ -17,8 +17,8 @@ struct PlainProjection {
   glm::dvec2 shift;
 
   explicit PlainProjection(const HeadPose& pose)
-      : rotation(about(2, pose.roll * kSimilarityRotation) * about(1, pose.yaw * kSimilarityRotation) *
-                 about(0, pose.pitch * kSimilarityRotation)),
+      : rotation(about(2, pose.roll * kAngleUnit) * about(1, pose.yaw * kAngleUnit) *
+                 about(0, pose.pitch * kAngleUnit)),
         scale(std::exp2(pose.log_scale / 4096.0) / kUnitsPerEyeDistance),
         shift(pose.shift_x / 64.0, pose.shift_y / 64.0) {}
 
@@ -26,7 +26,7 @@ struct PlainProjection {
   [[nodiscard]] glm::dvec2 operator()(glm::dvec3 p) const { return glm::dvec2(rotation * p) * scale + shift; }
 
  private:
-  static constexpr double kSimilarityRotation = 2 * std::numbers::pi / 65536;
+  static constexpr double kAngleUnit = 2 * std::numbers::pi / 65536;
 
   static glm::dmat3 about(int axis, double angle) {
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;

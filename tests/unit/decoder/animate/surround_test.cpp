@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/unit/decoder/plain_projection.h"
+#include "tests/unit/decoder/head/plain_projection.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -31,8 +31,9 @@ std::vector<glm::ivec2> projected(const Surround& surround, const State& state) 
   return out;
 }
 
-/// How far each point has gone since the seen state, margin included.
-std::vector<glm::ivec2> ways(const Surround& surround, const State& state, const State& seen = toy_state()) {
+/// Displacement of each point since the rest state, margin included.
+std::vector<glm::ivec2> displacements(const Surround& surround, const State& state,
+                                      const State& seen = toy_state()) {
   const auto before = projected(surround, seen);
   auto after = projected(surround, state);
   for (std::size_t k = 0; k < after.size(); ++k) after[k] -= before[k];
@@ -60,7 +61,7 @@ int on_picture(int place, int last) {
   return std::clamp(place - 1, 0, last);
 }
 
-TEST(Surround, SeenStateGivesTheRegularGridAndItsMargin) {
+TEST(Surround, RestStateGivesTheRegularGridAndItsMargin) {
   State seen = toy_state(70, 60);
   seen.pose[kYaw] = 900;
   seen.pose[kRoll] = -1500;
@@ -81,49 +82,64 @@ TEST(Surround, SeenStateGivesTheRegularGridAndItsMargin) {
 }
 
 // In the margin the border's samples repeat, those that lie a little inside the picture.
-TEST(Surround, TextureIsWhereThingsWereSeenAndInTheMarginTheBorders) {
-  State seen = toy_state(70, 60);
-  seen.pose[kYaw] = 900;
-  const Surround surround = surround_of(whole_map(7, 5, kFollowOne), seen);
-  const auto grid = projected(surround, seen);
-  ASSERT_EQ(surround.texture().size(), grid.size());
+TEST(Surround, TextureOfTheRestStateIsTheRegularGridAndInTheMarginItsBorder) {
+  State rest = toy_state(70, 60);
+  rest.pose[kYaw] = 900;
+  const Surround surround = surround_of(whole_map(7, 5, kFollowOne), rest);
+  const auto grid = projected(surround, rest), texture = surround.texture(grid);
+  ASSERT_EQ(texture.size(), grid.size());
   for (int r = 0; r <= 7; ++r) {
     for (int c = 0; c <= 9; ++c) {
-      const auto k = static_cast<std::size_t>((on_picture(r, 5) + 1) * 10 + on_picture(c, 7) + 1);
-      EXPECT_EQ(surround.texture()[r * 10 + c], grid[k]) << r << ' ' << c;
+      const auto regular = [](int place, int last, int size) {
+        return kInset + (size * 64 - 2 * kInset) * on_picture(place, last) / last;
+      };
+      EXPECT_EQ(texture[r * 10 + c], glm::ivec2(regular(c, 7, kWidth), regular(r, 5, kHeight)))
+          << r << ' ' << c;
     }
   }
-  EXPECT_EQ(surround.texture().front(), glm::ivec2(kInset));
-  EXPECT_EQ(surround.texture().back(), glm::ivec2(kWidth, kHeight) * 64 - kInset);
+  EXPECT_EQ(texture.front(), glm::ivec2(kInset));
+  EXPECT_EQ(texture.back(), glm::ivec2(kWidth, kHeight) * 64 - kInset);
+}
+
+TEST(Surround, TextureOfAnyStateIsItsGridAndInTheMarginItsBorder) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 50; ++i) {
+    const Surround surround = surround_of(random_map(random, 7, 5));
+    const auto grid = projected(surround, random_state(random)), texture = surround.texture(grid);
+    ASSERT_EQ(texture.size(), surround.point_count());
+    for (int r = 0; r <= 7; ++r)
+      for (int c = 0; c <= 9; ++c)
+        ASSERT_EQ(texture[r * 10 + c], grid[(on_picture(r, 5) + 1) * 10 + on_picture(c, 7) + 1]);
+  }
 }
 
 TEST(Surround, FollowsAShiftOfTheHeadByItsShare) {
   for (int share = 0; share <= kFollowOne; ++share) {
-    const auto way = ways(surround_of(even_surround(8, 8, share)), toy_state(88, 46));
+    const auto moved = displacements(surround_of(even_surround(8, 8, share)), toy_state(88, 46));
     for (int r = 0; r <= 10; ++r) {
       for (int c = 0; c <= 10; ++c) {
         const bool inside = r > 1 && c > 1 && r < 9 && c < 9;
         const glm::ivec2 expected = inside ? glm::ivec2(8 * 16 * share, -4 * 16 * share) : glm::ivec2(0);
-        EXPECT_EQ(way[r * 11 + c], expected) << r << ' ' << c;
+        EXPECT_EQ(moved[r * 11 + c], expected) << r << ' ' << c;
       }
     }
   }
 }
 
 TEST(Surround, HeadMayMoveTheBorderToo) {
-  for (const glm::ivec2 way : ways(surround_of(whole_map(4, 4, kFollowOne)), toy_state(88, 46)))
-    EXPECT_EQ(way, glm::ivec2(8 * 64, -4 * 64));
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(4, 4, kFollowOne)), toy_state(88, 46)))
+    EXPECT_EQ(d, glm::ivec2(8 * 64, -4 * 64));
 }
 
 TEST(Surround, GroundMovesAllThatFollowsNeitherHeadNorBody) {
   State state = toy_state();
   state.ground = {200, -64, 0, 0};
-  for (const glm::ivec2 way : ways(surround_of(whole_map(6, 5, 0)), state))
-    EXPECT_EQ(way, glm::ivec2(200, -64)) << "margin and border, too";
-  for (const glm::ivec2 way : ways(surround_of(whole_map(6, 5, 0, kFollowOne)), state))
-    EXPECT_EQ(way, glm::ivec2(0)) << "body stays";
-  for (const glm::ivec2 way : ways(surround_of(whole_map(6, 5, kFollowOne)), state))
-    EXPECT_EQ(way, glm::ivec2(0)) << "so does the head";
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(6, 5, 0)), state))
+    EXPECT_EQ(d, glm::ivec2(200, -64)) << "margin and border, too";
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(6, 5, 0, kFollowOne)), state))
+    EXPECT_EQ(d, glm::ivec2(0)) << "body stays";
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(6, 5, kFollowOne)), state))
+    EXPECT_EQ(d, glm::ivec2(0)) << "so does the head";
 }
 
 TEST(Surround, PointsShareBetweenBodyAndGround) {
@@ -131,41 +147,42 @@ TEST(Surround, PointsShareBetweenBodyAndGround) {
   state.body = {400, 80, 0, 0};
   state.ground = {0, -160, 0, 0};
   for (int body = 0; body <= kFollowOne; ++body)
-    for (const glm::ivec2 way : ways(surround_of(whole_map(6, 5, 0, body)), state))
-      EXPECT_EQ(way, glm::ivec2(100 * body, -160 + 60 * body));
+    for (const glm::ivec2 d : displacements(surround_of(whole_map(6, 5, 0, body)), state))
+      EXPECT_EQ(d, glm::ivec2(100 * body, -160 + 60 * body));
 }
 
 // What does not follow the head is shared between body and ground.
 TEST(Surround, HeadTakesItsShareOfBodyAndGround) {
   State state = toy_state(84, 50);  // 256
   state.body = {0, 320, 0, 0};
-  for (const glm::ivec2 way : ways(surround_of(whole_map(4, 4, 1, kFollowOne)), state))
-    EXPECT_EQ(way, glm::ivec2(64, 240));
-  for (const glm::ivec2 way : ways(surround_of(whole_map(4, 4, 3, 2)), state))
-    EXPECT_EQ(way, glm::ivec2(192, 40));
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(4, 4, 1, kFollowOne)), state))
+    EXPECT_EQ(d, glm::ivec2(64, 240));
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(4, 4, 3, 2)), state))
+    EXPECT_EQ(d, glm::ivec2(192, 40));
 }
 
-// Growth and turn are the way of a point one eye distance, here 32 pixels, from the head's origin.
-TEST(Surround, BodyAndGroundGrowAndTurnAboutTheHeadsOrigin) {
+// Scale and rotation are the displacement of a point one eye distance, here 32 pixels, from the head's
+// origin.
+TEST(Surround, BodyAndGroundScaleAndRotateAboutTheHeadsOrigin) {
   const Surround ground = surround_of(whole_map(10, 8, 0)),
                  body = surround_of(whole_map(10, 8, 0, kFollowOne));
-  for (const auto& [growth, turn] : {std::pair{640, 0}, {0, 640}, {-300, 500}}) {
+  for (const auto& [scale, rotation] : {std::pair{640, 0}, {0, 640}, {-300, 500}}) {
     State state = toy_state();
-    state.ground = {30, -70, growth, turn};
-    const auto way = ways(ground, state);
+    state.ground = {30, -70, scale, rotation};
+    const auto moved = displacements(ground, state);
     const auto before = projected(ground, toy_state());
     for (int r = 1; r <= 9; ++r) {
       for (int c = 1; c <= 11; ++c) {
         const auto k = static_cast<std::size_t>(r * 13 + c);
         const glm::dvec2 d = (glm::dvec2(before[k]) / 64.0 - glm::dvec2(80, 50)) / 32.0;
         // The distance is in 1/256 eye distance.
-        const double tolerance = 1 + (std::abs(growth) + std::abs(turn)) / 256.0;
-        EXPECT_NEAR(way[k].x, 30 + growth * d.x - turn * d.y, tolerance);
-        EXPECT_NEAR(way[k].y, -70 + growth * d.y + turn * d.x, tolerance);
+        const double tolerance = 1 + (std::abs(scale) + std::abs(rotation)) / 256.0;
+        EXPECT_NEAR(moved[k].x, 30 + scale * d.x - rotation * d.y, tolerance);
+        EXPECT_NEAR(moved[k].y, -70 + scale * d.y + rotation * d.x, tolerance);
       }
     }
     std::swap(state.body, state.ground);
-    EXPECT_EQ(ways(body, state), way);
+    EXPECT_EQ(displacements(body, state), moved);
   }
 }
 
@@ -176,12 +193,13 @@ TEST(Surround, MarginMovesAsTheBorderDoes) {
     const Surround surround = surround_of(random_map(random, 5, 4));
     State state = toy_state(75 + static_cast<int>(random() % 10), 47 + static_cast<int>(random() % 7));
     state.pose[kYaw] = static_cast<int>(random() % 4000) - 2000;
-    for (auto* flat : {&state.body, &state.ground})
-      for (auto& n : *flat) n = static_cast<int>(random() % 800) - 400;
-    const auto way = ways(surround, state);
+    for (auto* similarity : {&state.body, &state.ground})
+      for (auto& n : *similarity) n = static_cast<int>(random() % 800) - 400;
+    const auto moved = displacements(surround, state);
     for (int r = 0; r <= 6; ++r)
       for (int c = 0; c <= 7; ++c)
-        ASSERT_EQ(way[r * 8 + c], way[(on_picture(r, 4) + 1) * 8 + on_picture(c, 5) + 1]) << r << ' ' << c;
+        ASSERT_EQ(moved[r * 8 + c], moved[(on_picture(r, 4) + 1) * 8 + on_picture(c, 5) + 1])
+            << r << ' ' << c;
   }
 }
 
@@ -214,11 +232,11 @@ TEST(Surround, WhatFollowsWhollyMovesAsTheHeadsPlane) {
   }
 }
 
-TEST(Surround, NothingFollowsAHeadThatThePatternSawFromTheSide) {
+TEST(Surround, NothingFollowsAHeadThatIsSeenFromTheSideAtRest) {
   State seen = toy_state(), now = toy_state(90, 50);
   seen.pose[kYaw] = 16000;
-  for (const glm::ivec2 way : ways(surround_of(whole_map(6, 6, kFollowOne), seen), now, seen))
-    EXPECT_EQ(way, glm::ivec2(0));
+  for (const glm::ivec2 d : displacements(surround_of(whole_map(6, 6, kFollowOne), seen), now, seen))
+    EXPECT_EQ(d, glm::ivec2(0));
 }
 
 TEST(Surround, CellsCoverTheGridOnceEach) {
@@ -277,7 +295,7 @@ TEST(Surround, PlaceIsTheCellThatHoldsThePoint) {
   EXPECT_EQ(outside.corner[0], (3 + 1) * 8 + 1) << "the nearest cell of the picture";
   EXPECT_EQ(outside.across, 0);
   EXPECT_EQ(outside.down, 256);
-  EXPECT_EQ(outside.seen, glm::ivec2(-900, 500 * 64));
+  EXPECT_EQ(outside.rest, glm::ivec2(-900, 500 * 64));
 }
 
 TEST(Surround, PlacesAreCarriedByTheirCorners) {
@@ -298,9 +316,10 @@ TEST(Surround, PlacesAreCarriedByTheirCorners) {
     const double x = at.x % 2048 / 2048.0, y = at.y % 2048 / 2048.0;
     const glm::ivec2 place = at + kInset;
     const auto k = static_cast<std::size_t>((at.y / 2048 + 1) * 8 + at.x / 2048 + 1);
-    const auto way = [&](std::size_t j) { return glm::dvec2(moved[j] - seen[j]); };
-    const glm::dvec2 expected = glm::dvec2(place) + (way(k) * (1 - x) + way(k + 1) * x) * (1 - y) +
-                                (way(k + 8) * (1 - x) + way(k + 9) * x) * y;
+    const auto displacement = [&](std::size_t j) { return glm::dvec2(moved[j] - seen[j]); };
+    const glm::dvec2 expected = glm::dvec2(place) +
+                                (displacement(k) * (1 - x) + displacement(k + 1) * x) * (1 - y) +
+                                (displacement(k + 8) * (1 - x) + displacement(k + 9) * x) * y;
     const glm::ivec2 got = surround.carried(surround.place(place), moved);
     EXPECT_NEAR(got.x, expected.x, 1 + 2 * 3000 / 256.0);  // the place is in 1/256 cell
     EXPECT_NEAR(got.y, expected.y, 1 + 2 * 3000 / 256.0);

@@ -1,4 +1,4 @@
-#include "decoder/animate/fixed_math.h"
+#include "decoder/head/fixed_math.h"
 
 #include <algorithm>
 

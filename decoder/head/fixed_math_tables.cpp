@@ -1,5 +1,5 @@
 // Made by the two lines in the comments below, in Python; part of the format (SPEC 9.1).
-#include "decoder/animate/fixed_math.h"
+#include "decoder/head/fixed_math.h"
 
 namespace fbs {
 

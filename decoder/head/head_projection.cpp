@@ -1,8 +1,8 @@
-#include "decoder/animate/head_projection.h"
+#include "decoder/head/head_projection.h"
 
 #include <algorithm>
 
-#include "decoder/animate/fixed_math.h"
+#include "decoder/head/fixed_math.h"
 
 namespace fbs {
 
@@ -29,14 +29,14 @@ HeadProjection::HeadProjection(const HeadPose& pose)
 }
 
 glm::ivec3 HeadProjection::operator()(glm::ivec3 p) const {
-  const auto turned = [&](const std::array<std::int32_t, 3>& row) {
+  const auto rotated = [&](const std::array<std::int32_t, 3>& row) {
     return round_shift(std::int64_t{row[0]} * p.x + std::int64_t{row[1]} * p.y + std::int64_t{row[2]} * p.z,
                        kRotationOneLog2);
   };
-  constexpr int kToScreen = kScaleOneLog2 + 12 - kScreenOneLog2;  // head units are 2^-12 eye distances
-  return {clamp_screen(shift.x + round_shift(scale * turned(rotation[0]), kToScreen)),
-          clamp_screen(shift.y + round_shift(scale * turned(rotation[1]), kToScreen)),
-          static_cast<std::int32_t>(turned(rotation[2]))};
+  constexpr int kToScreen = kScaleOneLog2 + kHeadOneLog2 - kScreenOneLog2;
+  return {clamp_screen(shift.x + round_shift(scale * rotated(rotation[0]), kToScreen)),
+          clamp_screen(shift.y + round_shift(scale * rotated(rotation[1]), kToScreen)),
+          static_cast<std::int32_t>(rotated(rotation[2]))};
 }
 
 }  // namespace fbs

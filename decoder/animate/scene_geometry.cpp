@@ -1,0 +1,76 @@
+#include "decoder/animate/scene_geometry.h"
+
+#include <utility>
+
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/head_mesh.h"
+#include "decoder/head/mouth_interior.h"
+
+namespace fbs {
+namespace {
+
+/// The ring lies this much farther from the head's axis than the outline in the rest pose, in 1/256: room for
+/// the jaw to move in, small enough to stay on the neck. Set by eye on the ten clips.
+constexpr std::int32_t kRingExtension = 36;
+constexpr std::int32_t kRingExtensionOne = 256;
+
+/// The ring lies this much deeper than the outline, head units, so that the face hides it where the head has
+/// moved over it.
+constexpr std::int32_t kRingDepth = kUnitsPerEyeDistance / 2;
+
+}  // namespace
+
+SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest)
+    : geometry_(geometry), surround_(setup.format, std::move(map), rest) {
+  const HeadProjection projection(head_pose(rest));
+  for (const std::uint16_t v : generic_head().outline) {
+    glm::ivec3 p = geometry_.positions[v];
+    p.x += p.x * kRingExtension / kRingExtensionOne;
+    p.y += p.y * kRingExtension / kRingExtensionOne;
+    const glm::ivec3 at = projection(p);
+    ring_.push_back(surround_.place({at.x, at.y}));
+  }
+}
+
+void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    glm::ivec3 p = geometry_.positions[generic_head().outline[i]];
+    p.z += kRingDepth;
+    mesh.head.emplace_back(surround_.carried(ring_[i], mesh.surround), projection(p).z);
+  }
+}
+
+ScreenMesh SceneGeometry::screen_mesh(const State& state) const {
+  const HeadProjection projection(head_pose(state));
+  ScreenMesh mesh;
+  surround_.project(state, mesh.surround);
+  const auto vertices = deform(geometry_.positions, state);
+  mesh.head.reserve(head_mesh().vertex_count);
+  for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
+  project_ring(projection, mesh);
+  mesh.light = vertex_lights(geometry_.positions, state.light);
+  mesh.mouth_gap = mouth_gap(vertices);
+  mesh.interior = state.interior;
+  return mesh;
+}
+
+TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
+  ScreenMesh mesh = screen_mesh(seen);
+  TextureMesh texture;
+  texture.head.reserve(mesh.head.size());
+  for (const glm::ivec3& v : mesh.head) texture.head.emplace_back(v.x, v.y);
+  texture.surround = surround_.texture(mesh.surround);
+  texture.light = std::move(mesh.light);
+  texture.mouth_gap = mesh.mouth_gap;
+  texture.seen_surround = std::move(mesh.surround);
+  return texture;
+}
+
+std::array<glm::ivec3, kVertexCount> SceneGeometry::project_vertices(const State& state) const {
+  const HeadProjection projection(head_pose(state));
+  std::array<glm::ivec3, kVertexCount> points = deform(geometry_.positions, state);
+  for (glm::ivec3& p : points) p = projection(p);
+  return points;
+}
+
+}  // namespace fbs

@@ -1,0 +1,35 @@
+// The two sides of drawing: where the mesh lies on the screen, and where a pattern holds what it shows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/state.h"
+#include "decoder/head/face_light.h"
+
+namespace fbs {
+
+/// Everything of a scene on the screen in the state to be drawn.
+struct ScreenMesh {
+  std::vector<glm::ivec3> head;      ///< head_mesh().vertex_count; x, y: 1/64 pixel, z: head units, depth
+  std::vector<glm::ivec2> surround;  ///< grid points, 1/64 pixel; Surround::project()
+  std::vector<VertexLight> light;    ///< of each vertex of the head; empty: none has any
+  std::int32_t mouth_gap = 0;        ///< between the middles of the inner lips, head units
+  std::array<std::int32_t, kInteriorCount> interior{};  ///< State::interior
+};
+
+/// The same mesh in a pattern, which was seen in a state of its own. Positions are 1/64 pixel of the pattern.
+struct TextureMesh {
+  std::vector<glm::ivec2> head;      ///< head_mesh().vertex_count
+  std::vector<glm::ivec2> surround;  ///< grid points; the margin repeats the border: Surround::texture()
+  std::vector<VertexLight> light;    ///< that the pattern already has; empty: none
+  std::int32_t mouth_gap = 0;        ///< head units
+  /// Where the grid points themselves were seen, margin included: a cell whose points are still there shows
+  /// what the pattern shows there.
+  std::vector<glm::ivec2> seen_surround;
+};
+
+}  // namespace fbs

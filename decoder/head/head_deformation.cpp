@@ -1,0 +1,48 @@
+#include "decoder/head/head_deformation.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "decoder/head/fixed_math.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kSkinningOneLog2 = 12;
+static_assert(kSkinningOne == 1 << kSkinningOneLog2);
+
+/// Keeps the pupil's vertex between the lids, a quarter of the gap from either: a closing eye would fold its
+/// triangles otherwise.
+void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId upper_lid,
+                       FeatureId lower_lid, FeatureId pupil) {
+  const auto y_of = [&](const FeatureVertex& v) { return vertices[v.vertex].y; };
+  std::int32_t upper = INT32_MIN, lower = INT32_MAX;
+  for (const FeatureVertex& v : feature(upper_lid).vertices) upper = std::max(upper, y_of(v));
+  for (const FeatureVertex& v : feature(lower_lid).vertices) lower = std::min(lower, y_of(v));
+  std::int32_t& y = vertices[feature(pupil).vertices.front().vertex].y;
+  const std::int32_t margin = (lower - upper) / 4;
+  y = lower > upper ? std::clamp(y, upper + margin, lower - margin) : upper + (lower - upper) / 2;
+}
+
+}  // namespace
+
+std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
+                                            const State& state) {
+  const GenericHead& head = generic_head();
+  std::array<glm::ivec3, kVertexCount> out = neutral;
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
+    std::int64_t x = 0, y = 0;
+    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k) {
+      const glm::ivec2 c = state.control[head.skinning[k].control];
+      x += std::int64_t{head.skinning[k].weight} * c.x;
+      y += std::int64_t{head.skinning[k].weight} * c.y;
+    }
+    out[v].x += static_cast<std::int32_t>(round_shift(x, kSkinningOneLog2));
+    out[v].y += static_cast<std::int32_t>(round_shift(y, kSkinningOneLog2));
+  }
+  keep_between_lids(out, FeatureId::kUpperLidRight, FeatureId::kLowerLidRight, FeatureId::kPupilRight);
+  keep_between_lids(out, FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft, FeatureId::kPupilLeft);
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,43 @@
+// What shows between parted lips: where, how much of it, and in which colours. SPEC 10.10. Integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "bitstream/syntax.h"
+#include "common/generic_head.h"
+#include "common/state.h"
+
+namespace fbs {
+
+inline constexpr std::int32_t kInteriorOpaque = 256;  ///< opacity: nothing of the pattern shows through
+inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0 upper lip, this lower lip
+
+/// Whether the vertex lies on the inner lips. A triangle of three such vertices is mouth interior.
+[[nodiscard]] bool is_inner_lip(std::size_t vertex);
+
+/// 0 at the upper inner lip, half of kMouthRampEnd at the corners, kMouthRampEnd at the lower inner lip.
+[[nodiscard]] std::int32_t mouth_ramp(std::size_t inner_lip_vertex);
+
+/// Between the middles of the inner lips of a head as deform() returns it, head units.
+[[nodiscard]] std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices);
+
+/// Opacity of the interior over what the pattern shows between the lips: 0..kInteriorOpaque, reached once the
+/// lips have parted by a sixteenth of the eye distance more than in the pattern.
+/// @param gap, gap_seen  mouth_gap() of the picture and of the pattern's seen state
+[[nodiscard]] std::int32_t interior_opacity(std::int32_t gap, std::int32_t gap_seen);
+
+/// One component of the setup's colours at the upper lip, half way and at the lower lip, 1/16 grey level.
+[[nodiscard]] std::array<std::int32_t, kInteriorCount> interior_base(const MouthInterior& mouth,
+                                                                     std::uint8_t YuvColour::*component);
+
+/// The values of one plane at the upper lip, half way and at the lower lip.
+using InteriorColours = std::array<std::uint8_t, kInteriorCount>;
+
+/// interior_base() with the state's offsets added, rounded to grey levels.
+/// @param added  1/16 grey level; State::interior for luma, zero for chroma
+[[nodiscard]] InteriorColours interior_colours(const MouthInterior& mouth, std::uint8_t YuvColour::*component,
+                                               const std::array<std::int32_t, kInteriorCount>& added);
+
+}  // namespace fbs

@@ -1,0 +1,92 @@
+// A triangle made ready for its rows: edges and gradients. SPEC 10.5 to 10.7. Integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+namespace fbs {
+
+/// A corner on the screen, 1/64 luma pixel from the top left corner of the picture (the centre of the first
+/// pixel is at 32, 32).
+struct ScreenVertex {
+  glm::ivec2 at;
+  std::int32_t depth = 0;  ///< larger is farther; any unit
+};
+using ScreenTriangle = std::array<ScreenVertex, 3>;
+
+enum class PlaneScale : std::uint8_t { kLuma = 6, kChroma = 7 };  ///< log2 of positions per sample
+
+/// Samples [x0, x1) x [y0, y1) of a plane.
+struct SampleArea {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+/// Position of a sample's centre relative to corner 0 of a triangle, 1/64 luma pixel.
+struct FromCorner {
+  std::int64_t x, y;
+};
+
+/// Gradients per sample are clamped to +- this; only slivers reach it.
+inline constexpr std::int64_t kMaxGradient = std::int64_t{1} << 30;
+
+/// A quantity that is linear over a triangle, Q16.
+struct Gradient {
+  std::int64_t origin = 0;      ///< at corner 0
+  std::int64_t dx = 0, dy = 0;  ///< per sample
+
+  /// @param position_bits  log2 of positions per sample
+  [[nodiscard]] std::int64_t at(FromCorner p, int position_bits) const {
+    return origin + ((dx * p.x + dy * p.y) >> position_bits);
+  }
+  /// Whether it cannot have been clamped.
+  [[nodiscard]] bool exact() const {
+    return dx > -kMaxGradient && dx < kMaxGradient && dy > -kMaxGradient && dy < kMaxGradient;
+  }
+};
+
+/// One edge as a half plane: a * column + b * row + c >= 0 holds for samples whose centre lies inside or on a
+/// top or left edge.
+struct Edge {
+  std::int64_t a, b, c;
+  /// @param from, to  1/64 luma pixel, clockwise  @param position_bits  log2 of positions per sample
+  Edge(glm::ivec2 from, glm::ivec2 to, int position_bits);
+};
+
+/// Edges and gradients of a triangle in the planes of one scale.
+class TriangleSetup {
+ public:
+  TriangleSetup(const ScreenTriangle& triangle, PlaneScale scale);
+
+  /// Whether the triangle is clockwise in the picture; only then has it edges and gradients.
+  [[nodiscard]] bool faces_viewer() const { return area_ > 0; }
+
+  /// @param value       at the corners, in units of which `1 << value_bits` make 1
+  /// @param value_bits  0..16
+  [[nodiscard]] Gradient gradient(const std::array<std::int32_t, 3>& value, int value_bits) const;
+
+  /// First and last row of the plane that the triangle may cover; none when last < first.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  [[nodiscard]] int last_row() const { return last_row_; }
+  [[nodiscard]] const std::array<Edge, 3>& edges() const { return edges_; }
+  [[nodiscard]] int position_bits() const { return position_bits_; }
+  [[nodiscard]] FromCorner from_corner(int column, int row) const {
+    const std::int64_t half = std::int64_t{1} << (position_bits_ - 1);
+    return {(std::int64_t{column} << position_bits_) + half - corner_.x,
+            (std::int64_t{row} << position_bits_) + half - corner_.y};
+  }
+
+ private:
+  glm::ivec2 corner_;               // corner 0
+  std::int64_t ax_, ay_, bx_, by_;  // from corner 0 to corners 1 and 2
+  std::int64_t area_;               // twice the triangle's, 1/64 pixel squared
+  int position_bits_;
+  int first_row_, last_row_;
+  std::array<Edge, 3> edges_;
+};
+
+/// Whether the triangle faces the viewer (clockwise in the picture).
+[[nodiscard]] bool faces_viewer(const ScreenTriangle& triangle);
+
+}  // namespace fbs

@@ -1,0 +1,34 @@
+// What the pictures of a stream are drawn from, from one setup packet to the next.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/state.h"
+#include "decoder/animate/scene_geometry.h"
+
+namespace fbs {
+
+/// A decoded picture of the person, and all that is needed to draw from it.
+struct Pattern {
+  Picture picture;
+  State seen;           ///< the state it was seen in
+  TextureMesh texture;  ///< of `seen` by the scene's geometry; empty without a face
+};
+
+/// @param geometry  that of the scene; none: a scene without a face
+[[nodiscard]] Pattern make_pattern(Picture picture, const State& seen,
+                                   const std::optional<SceneGeometry>& geometry);
+
+/// All that pictures share until the next setup packet.
+struct Scene {
+  Setup setup;
+  std::optional<SceneGeometry> geometry;  ///< absent: pattern 0 is shown as it is
+  std::vector<Pattern> patterns;          ///< at least one once pictures are drawn
+
+  /// Replaces the geometry; texture meshes of the patterns follow.
+  void set_geometry(SceneGeometry replacement);
+};
+
+}  // namespace fbs

@@ -1,0 +1,51 @@
+#include "decoder/head/mouth_interior.h"
+
+#include <gtest/gtest.h>
+
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/head_mesh.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+TEST(MouthInterior, OpacityGrowsAsTheLipsPart) {
+  EXPECT_EQ(interior_opacity(-500, 100), 0);
+  EXPECT_EQ(interior_opacity(100, 100), 0) << "as the pattern saw it";
+  EXPECT_EQ(interior_opacity(228, 100), 128);
+  EXPECT_EQ(interior_opacity(5000, 100), 256);
+}
+
+TEST(MouthInterior, GapIsThatOfTheInnerLips) {
+  State open;
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  const auto neutral = toy_geometry().positions;
+  for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(v.vertex));
+  for (int i = 0; i < inner.control_count; ++i)
+    open.control[inner.first_control + i].y = i >= inner.control_count / 2 ? 800 : 0;
+  EXPECT_GT(mouth_gap(deform(neutral, open)), mouth_gap(neutral) + 400);
+  for (std::size_t v = kVertexCount; v < head_mesh().vertex_count; ++v)
+    EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
+}
+
+TEST(MouthInterior, RampGoesFromTheUpperToTheLowerInnerLip) {
+  const auto at = [](std::size_t landmark) { return mouth_ramp(vertex_of_landmark(landmark)); };
+  for (const std::size_t upper : {61U, 62U, 63U}) EXPECT_EQ(at(upper), 0);
+  for (const std::size_t corner : {60U, 64U}) EXPECT_EQ(at(corner), kMouthRampEnd / 2);
+  for (const std::size_t lower : {65U, 66U, 67U}) EXPECT_EQ(at(lower), kMouthRampEnd);
+}
+
+// SPEC 10.10: 1/16 grey level, rounded to nearest with halves up.
+TEST(MouthInterior, ColoursAreTheSetupsPlusTheStates) {
+  const MouthInterior mouth{{101, 90, 160}, {20, 93, 250}};
+  EXPECT_EQ(interior_base(mouth, &YuvColour::y), (std::array<std::int32_t, 3>{1616, 968, 320}));
+  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {}), (InteriorColours{101, 61, 20})) << "60.5 goes up";
+  EXPECT_EQ(interior_colours(mouth, &YuvColour::u, {}), (InteriorColours{90, 92, 93}));
+  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {7, -1, -8}), (InteriorColours{101, 60, 20}));
+  EXPECT_EQ(interior_colours(mouth, &YuvColour::v, {kMaxLight, 0, kMaxLight}),
+            (InteriorColours{255, 205, 255}));
+  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {-kMaxLight, 0, -9}), (InteriorColours{0, 61, 19}));
+}
+
+}  // namespace
+}  // namespace fbs
