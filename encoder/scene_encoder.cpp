@@ -113,9 +113,10 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.seen_coded_ = coded_pose(adapted->pose, point.steps);
   scene.seen_ = state_of(scene.seen_coded_, point.steps);
   // Until pictures have shown better, the surround is a guess by distance from the face.
+  scene.observations_.emplace(format).set_first(first, scene.seen_);
   scene.scene_.geometry.emplace(
       scene.scene_.setup, geometry->decoded,
-      fit_surround(scene.scene_.setup, geometry->decoded, {&first, scene.seen_}, {}), scene.seen_);
+      fit_surround(scene.scene_.setup, geometry->decoded, *scene.observations_), scene.seen_);
   const Pose seen_pose = pose_of(scene.seen_);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
@@ -123,7 +124,6 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.lambda_ = point.lambda;
   scene.planner_.emplace(point.steps, scene.scene_.setup.parts, point.lambda,
                          wrong_expression() * point.lambda / 2);
-  scene.first_ = first;
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return fail(added.error());
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
@@ -272,7 +272,7 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     }
     State state = state_of(now_);
     if (surround_) {
-      surround_->look_at(picture, now_.pose);
+      surround_->observe(picture, now_.pose);
       surround_->add_to(cost);
       surround_->add_to(state);
     }
@@ -285,7 +285,7 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     const auto every =
         static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
     if (surround_ && !started_ && pictures_ > 0 && pictures_ % every == 0)
-      later_.emplace_back(picture, state);
+      observations_->add(picture, state);
   }
   durations_.push_back(duration);
   ++pictures_;
@@ -351,12 +351,10 @@ Result<void> SceneEncoder::start() {
   if (!setup) return fail(setup.error());
   write_packet(ready_, PacketType::kSetup, *setup);
   if (scene_.geometry) {
-    std::vector<SeenPicture> later;
-    for (const auto& [picture, state] : later_) later.push_back({&picture, state});
-    const SurroundMap map =
-        surround_ ? fit_surround(scene_.setup, scene_.geometry->geometry(), {&*first_, seen_}, later)
-                  : still_surround();
-    if (surround_) surround_->believe(map);
+    const SurroundMap map = surround_
+                                ? fit_surround(scene_.setup, scene_.geometry->geometry(), *observations_)
+                                : still_surround();
+    if (surround_) surround_->set_map(map);
     auto surround = encode_surround(map);
     if (!surround) return fail(surround.error());
     write_packet(ready_, PacketType::kGeometry, geometry_bytes_);
@@ -368,8 +366,7 @@ Result<void> SceneEncoder::start() {
   write_packet(ready_, PacketType::kPattern, pattern_bytes_);
   ready_.insert(ready_.end(), held_back_.begin(), held_back_.end());
   held_back_.clear();
-  later_.clear();
-  first_.reset();
+  observations_.reset();
   started_ = true;
   return {};
 }

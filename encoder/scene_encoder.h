@@ -16,6 +16,7 @@
 #include "encoder/plan/rate_control.h"
 #include "encoder/plan/track_plan.h"
 #include "encoder/surround/surround_motion.h"
+#include "encoder/surround/surround_observations.h"
 #include "encoder/track/face_search.h"
 #include "encoder/track/feature_tracker.h"
 #include "encoder/track/head_tracker.h"
@@ -90,8 +91,7 @@ class SceneEncoder {
   std::uint64_t pictures_ = 0;
 
   MouthColours mouth_colours_;
-  std::optional<Picture> first_;  ///< kept until the surround has been fitted
-  std::vector<std::pair<Picture, State>> later_;
+  std::optional<SurroundObservations> observations_;  ///< kept until the surround's map has been fitted
   std::vector<std::uint8_t> geometry_bytes_, pattern_bytes_;
   std::vector<std::uint8_t> held_back_;  ///< motion packets that wait for the scene's start
   std::vector<std::uint8_t> ready_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "encoder/find/face_frame.h"
+#include "encoder/image/robust.h"
 
 namespace fbs {
 namespace {
@@ -50,7 +51,7 @@ Turn turn_of(const std::array<std::optional<glm::dvec2>, kVertexCount>& target) 
       if (!target[v]) continue;
       const double x = generic_head().vertices[v].position.x / kUnits, z = behind_eyes(v);
       const double r = (target[v]->x - turn.width * x - turn.tangent * z) / kSigma;
-      const double w = 1 / (1 + r * r);
+      const double w = cauchy_weight(r * r);
       xx += w * x * x;
       xz += w * x * z;
       zz += w * z * z;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/generic_head.h"
+#include "encoder/image/bilinear.h"
 #include "encoder/image/planes.h"
 
 namespace fbs {
@@ -14,12 +15,8 @@ constexpr double kRes = 64;                                               // pix
 constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // eye distances
 
 double at(const cv::Mat& m, double x, double y) {
-  const double u = std::clamp((x - kLeft) * kRes, 0.0, m.cols - 1.001);
-  const double v = std::clamp((y - kTop) * kRes, 0.0, m.rows - 1.001);
-  const int i = static_cast<int>(u), j = static_cast<int>(v);
-  const double fu = u - i, fv = v - j;
-  const float *a = m.ptr<float>(j) + i, *b = m.ptr<float>(j + 1) + i;
-  return (a[0] * (1 - fu) + a[1] * fu) * (1 - fv) + (b[0] * (1 - fu) + b[1] * fu) * fv;
+  const glm::dvec2 pixel((x - kLeft) * kRes, (y - kTop) * kRes);
+  return bilinear<float>(m, BilinearCell(clamped(m, pixel, 1.001)));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "encoder/image/bilinear.h"
+#include "encoder/image/robust.h"
 #include "encoder/model/pose_jacobian.h"
 
 namespace fbs {
@@ -54,10 +55,6 @@ cv::Mat without_light(const cv::Mat& luma) {
   cv::divide(value, variance, value, kGain);
   value.convertTo(out, CV_8U, 1, 128);
   return out;
-}
-
-glm::dvec2 on_level(glm::dvec2 work, int level) {
-  return work / static_cast<double>(1 << level);
 }
 
 /// Where head points are seen in a level of a work frame: affine in the point.
@@ -140,8 +137,7 @@ class AlignmentSums {
       j[6][k] = -seen_[k];
       j[7][k] = -1;
       j[8][k] = difference_[k];
-      const float q = 1 + difference_[k] * difference_[k] * per_variance_;
-      weight_[k] /= q * q;  // Geman-McClure
+      weight_[k] /= geman_mcclure_divisor(difference_[k] * difference_[k] * per_variance_);
     }
     std::size_t to = 0;
     for (std::size_t m = 0; m < kUnknowns; ++m) {
@@ -188,10 +184,8 @@ float weight_of(const HeadTriangle& t) {
 
 }  // namespace
 
-LevelledFrame::LevelledFrame(WorkFrame of) : frame(std::move(of)), levels(kLevels) {
-  levels[0] = without_light(frame.luma);
-  for (std::size_t l = 1; l < levels.size(); ++l) cv::pyrDown(levels[l - 1], levels[l]);
-}
+LevelledFrame::LevelledFrame(WorkFrame of)
+    : frame(std::move(of)), levels(make_pyramid<kLevels>(without_light(frame.luma))) {}
 
 Pose frontal(const Pose& pose, const HeadVertices& vertices) {
   const glm::dvec3 centre = face_centre(vertices);
@@ -262,7 +256,7 @@ Pose HeadTracker::fit_flow(const Pose& start, const HeadVertices& vertices) cons
       if (std::isnan(flow_[v].x)) continue;
       const glm::dvec2 r = flow_[v] - jacobian.projection()(vertices[v]);
       const double q = (r.x * r.x + r.y * r.y) / (sigma * sigma);
-      const double w = 1 / ((1 + q) * (1 + q));  // Geman-McClure
+      const double w = geman_mcclure_weight(q);
       const auto j = jacobian.at(vertices[v]);
       for (std::size_t m = 0; m < 6; ++m) {
         b[static_cast<int>(m)] += w * (j[m].x * r.x + j[m].y * r.y);
@@ -277,8 +271,8 @@ Pose HeadTracker::fit_flow(const Pose& start, const HeadVertices& vertices) cons
   return pose;
 }
 
-Pose HeadTracker::align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level,
-                        const Pose& start, const std::vector<glm::dvec3>& points) const {
+Pose HeadTracker::align(const Pyramid<kLevels>& pyramid, const WorkFrame& now, int level, const Pose& start,
+                        const std::vector<glm::dvec3>& points) const {
   const cv::Mat& luma = pyramid[level];
   const std::vector<float>& seen = seen_[level];
   const double to_level = now.scale / (1 << level);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bitstream/syntax.h"
+#include "encoder/image/pyramid.h"
 #include "encoder/image/work_frame.h"
 #include "encoder/model/surface.h"
 
@@ -32,7 +33,7 @@ struct LevelledFrame {
   [[nodiscard]] glm::dvec2 at(glm::dvec2 picture, int level) const;
 
   WorkFrame frame;
-  std::vector<cv::Mat> levels;  ///< 8 bit, flat is 128; [0] has luma's size, each next one half of it
+  Pyramid<kLevels> levels;  ///< 8 bit, flat is 128; [0] has luma's size, each next one half of it
 };
 
 /// The same place seen from the front: what a pose caught in a turn that is none is compared with.
@@ -83,7 +84,7 @@ class HeadTracker {
 
   [[nodiscard]] Pose fit_flow(const Pose& start, const HeadVertices& vertices) const;
   void follow_flow(const WorkFrame& now, const HeadVertices& vertices);
-  [[nodiscard]] Pose align(const std::vector<cv::Mat>& pyramid, const WorkFrame& now, int level,
+  [[nodiscard]] Pose align(const Pyramid<kLevels>& pyramid, const WorkFrame& now, int level,
                            const Pose& start, const std::vector<glm::dvec3>& points) const;
 
   double eye_distance_px_;
