@@ -40,11 +40,10 @@ Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const Pict
       for (std::size_t i = 0; i < 3; ++i)
         cv::line(large, fixed(analysis.vertices[t[i]], zoom_),
                  fixed(analysis.vertices[t[(i + 1) % 3]], zoom_), kMeshColour, 1, cv::LINE_AA, kShift);
-    for (const auto& snake : analysis.snakes) {
+    for (const SnakeOutline& snake : analysis.snakes) {
       std::vector<cv::Point> points;
-      for (const glm::dvec2 p : snake) points.push_back(fixed(p, zoom_));
-      const bool closed = points.size() > 20;
-      cv::polylines(large, points, closed, kSnakeColour, 2, cv::LINE_AA, kShift);
+      for (const glm::dvec2 p : snake.points) points.push_back(fixed(p, zoom_));
+      cv::polylines(large, points, snake.closed, kSnakeColour, 2, cv::LINE_AA, kShift);
     }
     char text[64];
     std::snprintf(text, sizeof text, "confidence %.2f", analysis.confidence);

@@ -26,13 +26,19 @@ struct EncoderSettings {
   int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
+/// The curve of one tracked feature.
+struct SnakeOutline {
+  std::vector<glm::dvec2> points;
+  bool closed = false;  ///< the last point is joined to the first
+  int iterations = 0;   ///< that the last picture needed
+};
+
 /// What the analysis saw in the picture pushed last; for overlays. Positions in pixels of the picture.
 struct PictureAnalysis {
   bool face = false;
   double confidence = 0;                            ///< 0..1
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
-  std::vector<std::vector<glm::dvec2>> snakes;      ///< each curve as points, as tracked
-  std::vector<int> iterations;                      ///< of each snake
+  std::vector<SnakeOutline> snakes;                 ///< as tracked
 };
 
 /// Encodes one video.

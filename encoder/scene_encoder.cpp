@@ -197,9 +197,9 @@ std::optional<TrackedPose> SceneEncoder::follow_head(const Picture& picture, con
     analysis_.confidence = tracked.confidence;
     if (tracked.confidence >= FaceSearch::kLostBelow) return tracked;
   }
-  const FaceSearch::Find found = search_->find(picture, *head_, last_good, vertices);
+  const FaceSearch::Detection found = search_->find(picture, *head_, last_good, vertices);
   analysis_.confidence = found.head.confidence;
-  if (found.believed) {
+  if (found.accepted) {
     search_->rest();
     frame = WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true);
     head_->restart(found.head.pose, frame);
@@ -251,12 +251,10 @@ void SceneEncoder::report(const State& state) {
     analysis_.vertices[v] = glm::dvec2(points[v].x, points[v].y) / 64.0;
   const PoseProjection projection(head_->pose());
   analysis_.snakes.clear();
-  analysis_.iterations.clear();
   for (std::size_t i = 0; i < features_->count(); ++i) {
-    std::vector<glm::dvec2> curve;
-    for (const glm::dvec3& p : features_->outline(i)) curve.push_back(projection(p));
+    SnakeOutline curve{{}, features_->is_closed(i), features_->iterations(i)};
+    for (const glm::dvec3& p : features_->outline(i)) curve.points.push_back(projection(p));
     analysis_.snakes.push_back(std::move(curve));
-    analysis_.iterations.push_back(features_->iterations(i));
   }
 }
 

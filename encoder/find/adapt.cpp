@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "encoder/find/face_frame.h"
+#include "encoder/find/landmarks.h"
 #include "encoder/image/robust.h"
 
 namespace fbs {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "common/generic_head.h"
 #include "encoder/image/bilinear.h"
 #include "encoder/image/planes.h"
 
@@ -80,23 +79,6 @@ double mean_over(double centre, double half, const std::function<double(double)>
   constexpr int kSamples = 13;
   for (int i = 0; i < kSamples; ++i) sum += value(centre + half * (2.0 * i / (kSamples - 1) - 1));
   return sum / kSamples;
-}
-
-double generic_eye_depth() {
-  static const double depth = [] {
-    const GenericHead& head = generic_head();
-    double sum = 0;
-    for (std::size_t k = 36; k < 48; ++k) sum += head.vertices[vertex_of_landmark(k)].position.z;
-    return sum / 12 / kUnitsPerEyeDistance;
-  }();
-  return depth;
-}
-
-glm::dvec3 generic_landmark(int ibug) {
-  const GenericHead& head = generic_head();
-  const std::size_t v = vertex_of_landmark(ibug);
-  return glm::dvec3(head.vertices[v].position) / static_cast<double>(kUnitsPerEyeDistance) -
-         glm::dvec3(0, 0, generic_eye_depth());
 }
 
 }  // namespace fbs

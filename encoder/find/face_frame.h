@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <opencv2/core.hpp>
 
 #include "common/picture.h"
@@ -38,11 +37,5 @@ class FaceFrame {
 
 /// Mean over [centre - half, centre + half].
 [[nodiscard]] double mean_over(double centre, double half, const std::function<double(double)>& value);
-
-/// Mean depth of the generic head's lids and eye corners in the head frame, eye distances.
-[[nodiscard]] double generic_eye_depth();
-
-/// A landmark of the generic head in that frame; z in eye distances behind the eyes.
-[[nodiscard]] glm::dvec3 generic_landmark(int ibug);
 
 }  // namespace fbs

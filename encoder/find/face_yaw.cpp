@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/find/landmarks.h"
+
 namespace fbs {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "encoder/find/face_yaw.h"
+#include "encoder/find/landmarks.h"
 #include "encoder/find/marks.h"
 
 namespace fbs {

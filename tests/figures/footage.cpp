@@ -112,7 +112,7 @@ Result<std::vector<Picture>> decode(const std::vector<std::uint8_t>& stream,
 
 const std::vector<glm::dvec2>& snake_of(const PictureAnalysis& analysis, FeatureId id) {
   const auto at = std::find(kSnakeFeatures.begin(), kSnakeFeatures.end(), id) - kSnakeFeatures.begin();
-  return analysis.snakes[at];
+  return analysis.snakes[at].points;
 }
 
 std::vector<double> measure(const Footage& footage, const Followed& followed, double FaceMotion::*what) {

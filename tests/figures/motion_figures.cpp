@@ -33,7 +33,7 @@ void draw_snakes(Canvas& canvas, const PictureAnalysis& analysis) {
                                : id == FeatureId::kMouthInner ? kInnerLips
                                : brow                         ? kBrows
                                                               : kLids;
-    canvas.curve(analysis.snakes[s], feature(id).closed, colour, 1);
+    canvas.curve(analysis.snakes[s].points, analysis.snakes[s].closed, colour, 1);
   }
 }
 

@@ -43,10 +43,10 @@ struct Counts {
 
   void take(const PictureAnalysis& analysis) {
     if (!analysis.face || analysis.confidence < kBelieved) return;
-    for (std::size_t s = 0; s < std::min(analysis.iterations.size(), kSnakeFeatures.size()); ++s)
+    for (std::size_t s = 0; s < std::min(analysis.snakes.size(), kSnakeFeatures.size()); ++s)
       for (std::size_t k = 0; k < kKinds.size(); ++k)
         if (std::ranges::find(kKinds[k].features, kSnakeFeatures[s]) != kKinds[k].features.end())
-          iterations[k].push_back(analysis.iterations[s]);
+          iterations[k].push_back(analysis.snakes[s].iterations);
   }
   void add(const Counts& other) {
     for (std::size_t k = 0; k < kKinds.size(); ++k)

@@ -1,4 +1,4 @@
-#include "encoder/track/b_snake.h"
+#include "encoder/track/snake/b_snake.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "encoder/track/feature_map.h"
+#include "encoder/track/snake/feature_map.h"
 
 #include <gtest/gtest.h>
 

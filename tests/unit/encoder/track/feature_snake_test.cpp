@@ -1,5 +1,5 @@
 // One feature's snake: its patch goes with the head, its image holds what the energies of eq. 7 and 8 want.
-#include "encoder/track/feature_snake.h"
+#include "encoder/track/snake/feature_snake.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "encoder/track/b_snake.h"
+#include "encoder/track/snake/b_snake.h"
 
 namespace fbs {
 

@@ -1,4 +1,4 @@
-#include "encoder/track/feature_map.h"
+#include "encoder/track/snake/feature_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,18 @@
 namespace fbs {
 namespace {
 
-/// Noise that every sample is taken to have, grey levels squared: keeps small patches from being
-/// over-explained.
-constexpr double kNoise[3] = {30, 6, 6};
+// Tuned by eye on the ten clips.
+/// Variance that every sample of Y, U, V is taken to have, squared grey levels: regularises the covariances
+/// of small patches.
+constexpr double kSampleVariance[3] = {30, 6, 6};
 
 /// The map is cut off here: a dark open mouth is no more lip than lips are, and teeth are no less lip than
 /// skin is.
-constexpr float kLeast = -0.25F, kMost = 1.1F;
+constexpr float kMinMap = -0.25F, kMaxMap = 1.1F;
+
+/// Lips change colour with light and stretch: variance over that of one picture, and over kSampleVariance.
+constexpr double kLikenessVariance = 3, kLikenessSampleVariance = 4;
+constexpr int kMinSamples = 8;  ///< of a class; with fewer the map stays as it is without learning
 
 struct Class {
   cv::Vec3d mean;
@@ -49,9 +54,9 @@ FeatureMap FeatureMap::discriminant(const std::array<cv::Mat, 3>& patch, const c
   FeatureMap map;
   const int planes = luma_only ? 1 : 3;
   const Class in = statistics(patch, inside, planes), out = statistics(patch, outside, planes);
-  if (in.count < 8 || out.count < 8) return map;
+  if (in.count < kMinSamples || out.count < kMinSamples) return map;
   cv::Matx33d pooled = 0.5 * (in.covariance + out.covariance);
-  for (int k = 0; k < 3; ++k) pooled(k, k) += kNoise[k];
+  for (int k = 0; k < 3; ++k) pooled(k, k) += kSampleVariance[k];
   const cv::Vec3d difference = in.mean - out.mean;
   const cv::Vec3d w = pooled.inv() * difference;
   const double separation = w.dot(difference);
@@ -66,10 +71,9 @@ FeatureMap FeatureMap::likeness(const std::array<cv::Mat, 3>& patch, const cv::M
   FeatureMap map;
   map.is_likeness_ = true;
   const Class in = statistics(patch, inside);
-  if (in.count < 8) return map;
-  // Lips change colour with light and stretch: three times the variance that one picture shows.
-  cv::Matx33d covariance = in.covariance * 3.0;
-  for (int k = 0; k < 3; ++k) covariance(k, k) += 4 * kNoise[k];
+  if (in.count < kMinSamples) return map;
+  cv::Matx33d covariance = in.covariance * kLikenessVariance;
+  for (int k = 0; k < 3; ++k) covariance(k, k) += kLikenessSampleVariance * kSampleVariance[k];
   map.mean_ = in.mean;
   map.inverse_covariance_ = covariance.inv();
   return map;
@@ -94,7 +98,7 @@ cv::Mat1f FeatureMap::operator()(const std::array<cv::Mat, 3>& patch) const {
     } else {
       for (int x = 0; x < out.cols; ++x) {
         const float mix = weight[0] * a[x] + weight[1] * b[x] + weight[2] * c[x] + offset;
-        to[x] = std::min(std::max(mix, kLeast), kMost);
+        to[x] = std::min(std::max(mix, kMinMap), kMaxMap);
       }
     }
   }
