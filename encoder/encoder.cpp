@@ -5,6 +5,7 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "encoder/find/find_marks.h"
 #include "encoder/scene_encoder.h"
 
 namespace fbs {

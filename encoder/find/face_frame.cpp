@@ -59,26 +59,4 @@ cv::Mat FaceFrame::warp(const Plane& plane, double plane_scale) const {
   return out;
 }
 
-double search(double from, double to, double usual, double spread,
-              const std::function<double(double)>& evidence) {
-  constexpr double kStep = 1.0 / 128;
-  double best = usual, best_score = -1e30;
-  for (double p = from; p <= to; p += kStep) {
-    const double d = (p - usual) / spread;
-    const double score = evidence(p) - d * d;
-    if (score > best_score) {
-      best_score = score;
-      best = p;
-    }
-  }
-  return best;
-}
-
-double mean_over(double centre, double half, const std::function<double(double)>& value) {
-  double sum = 0;
-  constexpr int kSamples = 13;
-  for (int i = 0; i < kSamples; ++i) sum += value(centre + half * (2.0 * i / (kSamples - 1) - 1));
-  return sum / kSamples;
-}
-
 }  // namespace fbs

@@ -1,8 +1,6 @@
-// A found face brought into a frame of its own, eyes level and one unit apart, and how evidence is searched
-// there.
+// A found face brought into a frame of its own, eyes level and one unit apart.
 #pragma once
 
-#include <functional>
 #include <glm/vec2.hpp>
 #include <opencv2/core.hpp>
 
@@ -29,13 +27,5 @@ class FaceFrame {
   glm::dvec2 origin_, x_axis_;  // pixels of the picture, per eye distance
   cv::Mat luma_, red_;          // float
 };
-
-/// The place in [from, to] where `evidence` less a penalty for distance from `usual` is largest.
-/// @param spread  distance from the usual place that costs as much as `evidence` of one
-[[nodiscard]] double search(double from, double to, double usual, double spread,
-                            const std::function<double(double)>& evidence);
-
-/// Mean over [centre - half, centre + half].
-[[nodiscard]] double mean_over(double centre, double half, const std::function<double(double)>& value);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// Landmarks by name, and where the generic head has them.
+// Landmarks by name, and their places on the generic head.
 #pragma once
 
 #include <array>

@@ -100,7 +100,7 @@ MapLabel MapLabelling::best_label(std::size_t k) {
 bool MapLabelling::improve() {
   bool changed = false;
   for (std::size_t k = 0; k < labels_.size(); ++k) {
-    if (changed_round(k) < visited_[k]) continue;
+    if (changed_near(k) < visited_[k]) continue;
     visited_[k] = ++visits_;
     const MapLabel best = best_label(k);
     if (best == labels_[k]) continue;
@@ -111,7 +111,7 @@ bool MapLabelling::improve() {
   return changed;
 }
 
-int MapLabelling::changed_round(std::size_t k) const {
+int MapLabelling::changed_near(std::size_t k) const {
   const int column = static_cast<int>(k % grid_.stride()), row = static_cast<int>(k / grid_.stride());
   int last = 0;
   for (int r = std::max(0, row - 1); r <= std::min(grid_.rows, row + 1); ++r)

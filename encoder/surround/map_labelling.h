@@ -30,8 +30,8 @@ class MapLabelling {
   /// Prior, smoothness and the four cells' cost when a point changes to a label.
   [[nodiscard]] double cost_of(std::size_t k, const MapLabel& label);
   [[nodiscard]] MapLabel best_label(std::size_t k);
-  /// The visit in which a point or one of those round it changed last.
-  [[nodiscard]] int changed_round(std::size_t k) const;
+  /// The visit in which a point or one of those around it changed last.
+  [[nodiscard]] int changed_near(std::size_t k) const;
   [[nodiscard]] bool has_neighbour(std::size_t k, const MapLabel& label) const;
 
   MapGrid grid_;

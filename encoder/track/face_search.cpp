@@ -86,7 +86,7 @@ class Detections {
     if (accepted || head.confidence > best_.head.confidence) best_ = {head, accepted};
   }
 
-  /// Round a pose, by a grid.
+  /// Around a pose, by a grid.
   void search(const LevelledFrame& now, const Pose& centre, const PoseGrid& grid) {
     if (best_.accepted) return;
     std::vector<Pose> tried;
@@ -114,7 +114,7 @@ void search_around(const Wanted& w, Detections& detections) {
     if (w.head.correlation(now, there, w.points) > kWorthRefiningInPlace) detections.refine(now, there);
   };
   refine_at(w.last);
-  // Perhaps it was caught in a turn that is none.
+  // The tracker may have been caught at a wrong yaw or pitch.
   if (const Pose front = frontal(w.last, w.vertices); !alike(front, w.last)) refine_at(front);
   detections.search(now, w.last, kGridAround);
 }

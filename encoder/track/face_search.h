@@ -11,7 +11,7 @@
 namespace fbs {
 
 /// A detection is a place at which the picture resembles the head in picture 0, light levelled out. First a
-/// grid over place, turn and size is tried at the coarsest level; then the best of it are refined. The
+/// grid over place, rotation and size is tried at the coarsest level; then the best of it are refined. The
 /// cascade that looks everywhere only proposes places; the head's own appearance decides there too, so that a
 /// hand, a background or another face is not taken for the head.
 class FaceSearch {

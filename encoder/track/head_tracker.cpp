@@ -28,7 +28,7 @@ TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertice
   const Pose& start = explained(guess) >= explained(pose_) ? guess : pose_;
   TrackedPose found = refine(appearance_, levelled, start, points);
   if (found.confidence < head_tuning::kDoubtBelow) {
-    // Perhaps caught in a turn that is none.
+    // The tracker may be caught at a wrong yaw or pitch.
     const TrackedPose other = refine(appearance_, levelled, frontal(found.pose, vertices), points);
     if (other.confidence > found.confidence) found = other;
   }

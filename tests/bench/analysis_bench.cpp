@@ -5,6 +5,7 @@
 
 #include "encoder/encoder.h"
 #include "encoder/plan/track_plan.h"
+#include "encoder/track/snake/snake_descent.h"
 #include "tests/bench/analysis_clip.h"
 
 namespace fbs {

@@ -9,13 +9,14 @@
 
 namespace fbs {
 
-/// Poses round one: steps of turn (rad) and size (log2), and how far the place may be off (eye distances).
+/// Poses around one: steps of rotation (rad) and size (log2), and how far the place may be off (eye
+/// distances).
 struct PoseGrid {
   std::span<const double> yaw, pitch, size;
   double reach;
 };
 
-/// The best place of each turn and size of the grid, the likeliest first. Their confidences are coarse
+/// The best place for each rotation and size of the grid, the likeliest first. Their confidences are coarse
 /// correlations, not to be compared with HeadAppearance's.
 /// @param centre  of the grid
 [[nodiscard]] std::vector<TrackedPose> search_coarsely(const HeadAppearance& head,
@@ -27,10 +28,10 @@ class CoarseCorrelation {
  public:
   CoarseCorrelation(const HeadAppearance& head, const HeadVertices& vertices, const LevelledFrame& now);
 
-  /// The middle of the points, about which the head turns while turns are tried.
+  /// The middle of the points, about which the head is rotated.
   [[nodiscard]] glm::dvec3 centre() const { return centre_; }
 
-  /// The best place within `reach_px` pixels of the picture round that of `pose`.
+  /// The best place within `reach_px` pixels of the picture around that of `pose`.
   [[nodiscard]] TrackedPose best_place(Pose pose, double reach_px);
 
  private:

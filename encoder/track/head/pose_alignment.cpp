@@ -67,7 +67,7 @@ bool solve(AlignmentSums::Matrix& a, const AlignmentSums::Vector& b, AlignmentSu
   return cv::solve(a, b, step, cv::DECOMP_CHOLESKY);
 }
 
-/// Middle of the eyes and the nose, head units: what stays in place while a wrong turn is undone.
+/// Middle of the eyes and the nose, head units: what stays in place in frontal().
 glm::dvec3 face_centre(const HeadVertices& vertices) {
   const auto at = [&](int ibug) { return vertices[vertex_of_landmark(ibug)]; };
   return (at(ibug::kRightEyeOuter) + at(ibug::kLeftEyeOuter) + at(ibug::kNoseTip)) / 3.0;

@@ -25,7 +25,7 @@ namespace fbs {
 [[nodiscard]] TrackedPose refine(const HeadAppearance& head, const LevelledFrame& now, const Pose& start,
                                  std::span<const glm::dvec3> points);
 
-/// The same place seen from the front: what a pose caught in a turn that is none is compared with.
+/// The pose without yaw and pitch, the middle of the face in place: tried when those may be wrong.
 [[nodiscard]] Pose frontal(const Pose& pose, const HeadVertices& vertices);
 
 }  // namespace fbs

@@ -97,7 +97,7 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
     const SplineBasis& from = curve_.points()[pair.from];
     const SplineBasis& to = curve_.points()[pair.to];
     const double lacks =
-        pair.least_gap - dot(curve_point(to, control) - curve_point(from, control), pair.direction);
+        pair.min_gap - dot(curve_point(to, control) - curve_point(from, control), pair.direction);
     if (lacks <= 0) continue;
     energy += weights_.repulsion * lacks * lacks;
     if (gradient == nullptr) continue;

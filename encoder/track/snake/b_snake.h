@@ -42,7 +42,7 @@ struct SnakeImage {
 struct FacingPair {
   int from, to;          ///< indices into SnakeCurve::points()
   glm::dvec2 direction;  ///< unit vector: down for lips, along the brow for brows
-  double least_gap;      ///< snake units
+  double min_gap;        ///< snake units
 };
 
 /// One snake on one picture.

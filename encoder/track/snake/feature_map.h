@@ -1,5 +1,5 @@
-// H of the paper's eq. 7, per feature and per person: what tells a lip from the skin round it, learned on the
-// first picture where the marks say which is which.
+// H of the paper's eq. 7, per feature and per person: what distinguishes a lip from the skin around it,
+// learned on the first picture where the marks say which is which.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ class FeatureMap {
   /// covariances pooled and regularised.
   /// @param patch    8-bit Y, U, V planes of one size
   /// @param inside   8-bit mask of the feature, nonzero where it is
-  /// @param outside  8-bit mask of the skin round it
+  /// @param outside  8-bit mask of the skin around it
   /// @param luma_only  for brows and lids: hair differs from skin in brightness, and chroma only adds noise;
   ///                   U and V may be empty
   static FeatureMap discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,

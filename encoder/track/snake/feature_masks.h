@@ -11,7 +11,7 @@ namespace fbs {
 /// 8 bit, nonzero where it is.
 struct FeatureMasks {
   cv::Mat inside;   ///< the feature
-  cv::Mat outside;  ///< skin round it; empty for inner lips, whose surroundings say nothing
+  cv::Mat outside;  ///< skin around it; empty for inner lips, whose surroundings say nothing
 };
 
 /// @param outline  the curve at rest, pixels of the patch

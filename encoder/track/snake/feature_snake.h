@@ -34,7 +34,7 @@ struct FeatureSnake {
   /// The part of a picture that the snake looks at, in the head's own frame.
   [[nodiscard]] FeaturePatch patch(const WorkFrame& frame, const Pose& pose) const;
 
-  /// Learns from the first picture what tells the feature from what is round it.
+  /// Learns from the first picture what distinguishes the feature from its surroundings.
   void learn(const FeaturePatch& first);
 
   /// Brings control points back to where the feature can be: a lid that has passed the lower lid would fold

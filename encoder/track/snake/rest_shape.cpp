@@ -80,7 +80,7 @@ std::vector<FacingPair> facing_pairs(FeatureId id, const SnakeCurve& curve,
   for (int h = kCornerPoints; h <= points / 2 - kCornerPoints; ++h) {
     FacingPair pair = facing_pair(curve, rest, h, points - h, {0, 1}, kMinLipGap);
     // Inner lips may touch, but not pass each other.
-    pair.least_gap = id == FeatureId::kMouthInner ? 0.0 : std::min(pair.least_gap, kMinLipGap * kThickLips);
+    pair.min_gap = id == FeatureId::kMouthInner ? 0.0 : std::min(pair.min_gap, kMinLipGap * kThickLips);
     out.push_back(pair);
   }
   out.push_back(facing_pair(curve, rest, 0, points / 2, {1, 0}, kMinMouthWidth));

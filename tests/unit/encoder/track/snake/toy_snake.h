@@ -5,14 +5,14 @@
 #include <functional>
 #include <numbers>
 
-#include "encoder/track/snake/b_snake.h"
+#include "encoder/track/snake/snake_descent.h"
 
 namespace fbs {
 
 using Control = std::vector<glm::dvec2>;
 
 inline constexpr int kControls = 10, kPoints = 40;
-inline constexpr int kMostIterations = 15;  // of one descent
+inline constexpr int kMaxIterations = 15;  // of one descent
 
 inline double length(glm::dvec2 v) {
   return std::hypot(v.x, v.y);
@@ -100,10 +100,24 @@ struct ToySnake {
   std::vector<FacingPair> facing;
 
   [[nodiscard]] BSnake snake() const { return {curve, image, weights, rest, before, facing}; }
-  [[nodiscard]] SnakeOutcome minimise(const Control& start) const { return snake().minimise(start); }
-  [[nodiscard]] std::vector<glm::dvec2> settled(const Control& start) const {
+  [[nodiscard]] SnakeOutcome minimise(const Control& start) const { return descend(snake(), start); }
+  [[nodiscard]] std::vector<glm::dvec2> outline_after(const Control& start) const {
     return curve_of(curve, minimise(start).control);
   }
+};
+
+/// A line of four control points from the origin, parallel to x: v_s = (length, 0) everywhere.
+inline Control line(double length_units) {
+  return {{0, 0}, {length_units / 3, 0}, {2 * length_units / 3, 0}, {length_units, 0}};
+}
+
+struct ToyLine : ToySnake {
+  ToyLine() {
+    curve = SnakeCurve::clamped(13);
+    rest = before = Control(4);
+  }
+  /// The sum over the points times ds, of a term that is 1 everywhere.
+  static constexpr double kWhole = 13.0 / 12;
 };
 
 }  // namespace fbs

@@ -39,7 +39,7 @@ TEST(FeatureMap, IsOneOnTheFeatureAndZeroRoundIt) {
   }
 }
 
-// Lips that are as bright as the skin round them are redder all the same.
+// Lips that are as bright as the skin around them are redder all the same.
 TEST(FeatureMap, TellsByColourWhatBrightnessDoesNot) {
   const TwoHalves halves({120, 110, 165}, {120, 112, 145}, 4);
   const cv::Mat1f map =

@@ -1,8 +1,9 @@
 // The paper's case for an energy of repulsion: "a mouth opened where the teeth are visible". Pictures are
 // painted, and go through everything that the lips' snake sees of a picture.
+#include "tests/figures/lip_contour.h"
+
 #include <gtest/gtest.h>
 
-#include "tests/figures/lip_contour.h"
 #include "tests/figures/painted_mouth.h"
 
 namespace fbs {
@@ -31,28 +32,28 @@ Heights follow(double repulsion, double step) {
   return h;
 }
 
-TEST(Teeth, ContourRestsOnTheClosedLips) {
+TEST(LipContour, RestsOnTheClosedLips) {
   EXPECT_NEAR(follow(1, kOpen).closed, painted_height(0), 0.02);
 }
 
-TEST(Teeth, ContourCollapsesOnTheUpperLipWithoutRepulsion) {
+TEST(LipContour, CollapsesOnTheUpperLipWithoutRepulsion) {
   EXPECT_LT(follow(0, kOpen).opened, kUpperLip + 0.02);
 }
 
 // 4/5 of the height at rest is where the repulsion becomes silent; the lower lip itself is out of sight.
-TEST(Teeth, RepulsionKeepsTheContourOpen) {
+TEST(LipContour, RepulsionKeepsItOpen) {
   const Heights h = follow(1, kOpen);
   EXPECT_GT(h.opened, 0.7 * h.closed);
   EXPECT_GT(h.opened, follow(0, kOpen).opened + 0.06);
 }
 
-TEST(Teeth, ContourFindsTheLipsAgainWhenTheyClose) {
+TEST(LipContour, FindsTheLipsAgainWhenTheyClose) {
   const Heights h = follow(1, kOpen);
   EXPECT_NEAR(h.closed_again, h.closed, 0.02);
 }
 
 // Opened slowly, the contrast alone leads the contour: the term is not what moves it.
-TEST(Teeth, ContourFollowsASlowMouthWithAndWithoutRepulsion) {
+TEST(LipContour, FollowsASlowMouthWithAndWithoutRepulsion) {
   EXPECT_NEAR(follow(0, 0.03).opened, painted_height(kOpen), 0.05);
   EXPECT_NEAR(follow(1, 0.03).opened, painted_height(kOpen), 0.05);
 }

@@ -39,8 +39,8 @@ double most(const cv::Mat1f& m) {
 
 TEST(FeatureSnake, SeesNoChangeInTheFirstPictureNorInAPictureThatRepeats) {
   Mouth m;
-  EXPECT_EQ(most(m.snake.look(m.first).change), 0);
-  EXPECT_EQ(most(m.snake.look(m.first).change), 0);
+  EXPECT_EQ(most(m.snake.observe(m.first).change), 0);
+  EXPECT_EQ(most(m.snake.observe(m.first).change), 0);
 }
 
 // Eq. 8's I_t without its sign: there and back again changes as much.
@@ -49,8 +49,8 @@ TEST(FeatureSnake, ChangeHasNoSign) {
   FeaturePatch darker = m.first;
   darker[0] = m.first[0].clone();
   darker[0](cv::Rect(4, 4, 20, 12)) -= cv::Scalar(40);
-  (void)m.snake.look(m.first);
-  const cv::Mat1f there = m.snake.look(darker).change, back = m.snake.look(m.first).change;
+  (void)m.snake.observe(m.first);
+  const cv::Mat1f there = m.snake.observe(darker).change, back = m.snake.observe(m.first).change;
   EXPECT_GT(most(there), 0.05);
   EXPECT_LT(most(there - back), 1e-5);
   double least = 0;
@@ -60,10 +60,10 @@ TEST(FeatureSnake, ChangeHasNoSign) {
 
 TEST(FeatureSnake, ImageIsThePatchInSnakeUnits) {
   Mouth m;
-  const SnakeImage image = m.snake.look(m.first);
-  EXPECT_EQ(image.origin, glm::dvec2(m.snake.region.x, m.snake.region.y));
-  EXPECT_NEAR(image.contrast_x.cols / image.px_per_unit, m.snake.region.width, 1);
-  EXPECT_NEAR(image.contrast_y.rows / image.px_per_unit, m.snake.region.height, 1);
+  const SnakeImage image = m.snake.observe(m.first);
+  EXPECT_EQ(image.origin, glm::dvec2(m.snake.plane.region.x, m.snake.plane.region.y));
+  EXPECT_NEAR(image.contrast_x.cols / image.px_per_unit, m.snake.plane.region.width, 1);
+  EXPECT_NEAR(image.contrast_y.rows / image.px_per_unit, m.snake.plane.region.height, 1);
   EXPECT_TRUE(image.ridge.empty()) << "lips are a border and not a band";
 }
 
