@@ -2,7 +2,7 @@
 // down), luma and Cr in 8-bit levels. Evidence is dimensionless: searches weigh it against the squared
 // distance from the usual place in units of that place's sigma, so that each "per evidence" below says how
 // many levels outweigh one sigma. Where nothing else is said, values were set by eye on the first pictures of
-// the ten clips and kept when the marks' errors on the talker and on ten faces stayed.
+// the ten clips.
 #pragma once
 
 #include <array>
@@ -127,8 +127,8 @@ constexpr double kChinHalf = 0.2, kChinReach = 0.05, kChinPerEvidence = 14, kMax
 // --- Adaptation of the generic head to the marks ---
 
 constexpr int kMaxElasticIterations = 80;
-/// The paper's Gaussian narrows so that the whole face moves first and details last: wider ends in rounder
-/// faces, narrower tears single marks out of theirs.
+/// The Gaussian narrows so that the whole face moves first and details last. The first sigma sets how much of
+/// the face goes with a mark, the last how fine a detail a single mark moves.
 constexpr double kFirstElasticSigma = 0.55, kLastElasticSigma = 0.035, kElasticDecay = 0.93;
 constexpr double kAtRest = 1.0 / 512;   ///< largest force that counts as rest
 constexpr double kMinReach = 1.0 / 64;  ///< of an iteration that would fold a triangle, before it is given up

@@ -5,10 +5,9 @@ namespace fbs::surround {
 
 // --- Keypoints and layers (surround_motion) ---
 
-constexpr int kMotionLongSide =
-    256;                        ///< work pixels; more costs time in proportion and finds the same motion
-constexpr int kSquare = 4;      ///< work pixels; each gives one keypoint at most
-constexpr float kMinSlope = 3;  ///< grey levels per work pixel; flatter squares show no displacement
+constexpr int kMotionLongSide = 256;    ///< work pixels: precision against time, which grows with its square
+constexpr int kSquare = 4;              ///< work pixels; each gives one keypoint at most
+constexpr float kMinSlope = 3;          ///< grey levels per work pixel; flatter squares show no displacement
 constexpr float kMaxHeadPrior = 0.99F;  ///< of a keypoint; beyond, the head covers it and it is left out
 constexpr double kMinWeight = 0.1;      ///< of a keypoint in a layer, to take part in the layer's alignment
 
@@ -30,9 +29,8 @@ constexpr double kScaleSigma = 0.02;        ///< of scale (ratio) and rotation (
 /// moves stops at more than kStopMoving. The first must be the smaller.
 constexpr double kBeginMoving = 0.8, kStopMoving = 0.92;
 static_assert(kBeginMoving < kStopMoving);
-constexpr double kMinGain = 2;  ///< squared grey levels per keypoint, to begin to move
-constexpr double kRestartBody =
-    0.6;  ///< of the cost at rest: a body that leaves more is aligned from elsewhere
+constexpr double kMinGain = 2;        ///< squared grey levels per keypoint, to begin to move
+constexpr double kRestartBody = 0.6;  ///< of the cost at rest; a body that leaves more starts elsewhere too
 constexpr double kBodyPerHead = 0.5;  ///< of the head's displacement: where that alignment starts
 
 /// A camera that moves is seen along the rim of the picture, at its sides and top; hair before an even wall,
@@ -44,15 +42,15 @@ constexpr int kMinRimPieces = 4, kMinRimKeypoints = 3;
 
 // --- The map (surround_fit) ---
 
-constexpr double kCellsAlongLongSide = 22;  ///< finer costs bytes and time, coarser tears hair from head
-constexpr int kMapLongSide = 360;           ///< work pixels
+constexpr double kCellsAlongLongSide = 22;  ///< detail of the map against its bytes and time
+constexpr int kMapLongSide = 360;           ///< work pixels: precision against time and memory
 constexpr int kSamplesAcrossCell = 5;       ///< each way
 constexpr double kTruncation = 45;  ///< grey levels; what differs more is something that has come into view
 constexpr double kMinCellArea = 0.05;  ///< of its area in the first picture; smaller ones count as folded
 /// Trade-off of the labelling, in squared grey levels over a cell, per quarter of a share: what a change
 /// between neighbours costs, and what a departure from the spatial prior does.
 constexpr double kSmoothness = 12, kPlacePrior = 4;
-constexpr int kStartSweeps = 6, kSweeps = 3;  ///< of ICM; it rarely changes anything after
+constexpr int kStartSweeps = 6, kSweeps = 3;  ///< of ICM at most
 constexpr double kMaxLabelChange = 2;         ///< quarters in one step, unless a neighbour has the label
 
 }  // namespace fbs::surround

@@ -12,7 +12,7 @@ namespace fbs::head_tuning {
 
 // --- Appearance: the points that are compared ---
 
-constexpr double kPointSpacing = 3;  ///< work pixels; denser costs time in proportion
+constexpr double kPointSpacing = 3;  ///< work pixels: precision against time
 /// Weights of points on lips, eyes, brows and chin, which move by themselves, and of hair and forehead, which
 /// are not where the mesh has them; others weigh 1.
 constexpr float kMovingWeight = 0.8F, kHairWeight = 0.2F;
@@ -54,8 +54,8 @@ constexpr double kMayLose = 0.002;   ///< correlation that a finer level may cos
 /// What other people and pictures upside down reach. Measured; whatever changes points, weights or levelling
 /// moves it, and kLostBelow with it.
 constexpr double kImpostorsReach = 0.53;
-/// Below, a pose is rejected: the head is lost. Above impostors; lower follows a wrong face, higher loses the
-/// right one in poor light.
+/// Below, a pose is rejected: the head is lost. Trades following an impostor, of which it must stay clear,
+/// against losing the right head.
 constexpr double kLostBelow = 0.55;
 /// Asked of a head that is found elsewhere or at another size, where an impostor is likelier.
 constexpr double kSureFrom = 0.6;
