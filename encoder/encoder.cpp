@@ -6,6 +6,7 @@
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/face_scene.h"
+#include "encoder/find/find_marks.h"
 #include "encoder/still_scene.h"
 
 namespace fbs {

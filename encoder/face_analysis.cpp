@@ -33,7 +33,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   begun_ = true;
   seen.state = state_of(now_);
   if (surround_) {
-    surround_->look_at(picture, now_.pose);
+    surround_->observe(picture, now_.pose);
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);
   }
@@ -42,7 +42,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
 }
 
 void FaceAnalysis::set_surround_map(const SurroundMap& map) {
-  if (surround_) surround_->believe(map);
+  if (surround_) surround_->set_map(map);
 }
 
 PictureCost FaceAnalysis::fit_first(const Picture& picture) {
@@ -75,9 +75,9 @@ std::optional<TrackedPose> FaceAnalysis::follow_head(const Picture& picture, con
     report_.confidence = tracked.confidence;
     if (tracked.confidence >= FaceSearch::kLostBelow) return tracked;
   }
-  const FaceSearch::Find found = search_.find(picture, head_, last_good, vertices);
+  const FaceSearch::Detection found = search_.find(picture, head_, last_good, vertices);
   report_.confidence = found.head.confidence;
-  if (!found.believed) {
+  if (!found.accepted) {
     head_.restart(last_good, frame);
     return std::nullopt;
   }

@@ -50,6 +50,7 @@ struct FaceScene::Parts {
   double eye_distance_px;
   RatePlan rate;
   SceneHead head;
+  SurroundObservations observations;
 };
 
 Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format,
@@ -78,7 +79,9 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   auto pattern = encode_pattern({0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
-  const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, {&first, seen}, {});
+  SurroundObservations observations(format);
+  observations.set_first(first, seen);
+  const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, observations);
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
   scene.patterns.push_back(make_pattern(std::move(coded->pattern.decoded), seen, scene.geometry));
 
@@ -87,7 +90,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   head.pattern = std::move(*pattern);
   return std::unique_ptr<FaceScene>(new FaceScene(SceneTiming(format, settings), finder, settings,
                                                   {std::move(scene), seen_coded, std::move(coded->coder),
-                                                   first, adapted->pose.shift, eye, *rate, std::move(head)}));
+                                                   first, adapted->pose.shift, eye, *rate, std::move(head), std::move(observations)}));
 }
 
 FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
@@ -105,7 +108,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       planner_(scene_.setup.steps, scene_.setup.parts, expression_penalty(parts.rate.point.lambda)),
       base_lambda_(parts.rate.point.lambda),
       lambda_(base_lambda_),
-      first_(parts.first),
+      observations_(std::move(parts.observations)),
       head_(std::move(parts.head)) {
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
@@ -127,7 +130,7 @@ void FaceScene::learn(const Picture& picture, const State& state) {
   mouth_colours_.add(picture, geometry.project_vertices(state), mouth_height(geometry.project_vertices(seen)),
                      eye_distance_px_);
   const std::uint64_t every = std::max<std::uint64_t>(1, timing_.lookahead / kSurroundPictures);
-  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) later_.emplace_back(picture, state);
+  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, state);
 }
 
 MotionGroup FaceScene::plan_next_group() {
@@ -156,10 +159,8 @@ Result<void> FaceScene::start() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
   const State seen = state_of(seen_, scene_.setup.steps);
   const Geometry geometry = scene_.geometry->geometry();
-  std::vector<SeenPicture> later;
-  for (const auto& [picture, state] : later_) later.push_back({&picture, state});
   const SurroundMap map =
-      still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, {&*first_, seen}, later);
+      still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, observations_);
   analysis_.set_surround_map(map);
   scene_.set_geometry({scene_.setup, geometry, map, seen});
 
@@ -171,8 +172,7 @@ Result<void> FaceScene::start() {
   head_.surround = std::move(*surround);
   packets_.start(head_);
   head_ = {};
-  later_.clear();
-  first_.reset();
+  observations_ = SurroundObservations(scene_.setup.format);
   return {};
 }
 

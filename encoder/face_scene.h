@@ -14,6 +14,7 @@
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
 #include "encoder/scene_timing.h"
+#include "encoder/surround/surround_observations.h"
 
 namespace fbs {
 
@@ -63,8 +64,7 @@ class FaceScene : public SceneEncoder {
   std::uint64_t pictures_ = 0;
 
   MouthColours mouth_colours_;
-  std::optional<Picture> first_;  ///< until start()
-  std::vector<std::pair<Picture, State>> later_;
+  SurroundObservations observations_;  ///< empty from start() on
   SceneHead head_;
   ScenePackets packets_;
 };

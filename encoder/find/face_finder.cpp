@@ -6,45 +6,67 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
+#include <optional>
 
+#include "encoder/find/find_tuning.h"
 #include "encoder/image/planes.h"
 
 namespace fbs {
+
+using namespace find_tuning;
+
 namespace {
-
-constexpr int kSearchRows = 480;
-
-// Where eyes lie in the detector's square, measured as the median over the faces it finds.
-constexpr double kEyeX = 0.19, kEyeY = -0.115;
 
 glm::dvec2 centre_of(const cv::Rect& r) {
   return {r.x + r.width / 2.0, r.y + r.height / 2.0};
 }
 
-/// A pair of detections that could be this face's eyes: level within 20 degrees, each in its own half, at a
-/// plausible distance. The most probable by its distance to where eyes usually are.
-bool choose_eyes(const std::vector<cv::Rect>& found, cv::Rect face, glm::dvec2& right, glm::dvec2& left) {
+struct EyePair {
+  glm::dvec2 right, left;
+};
+
+double length(glm::dvec2 v) {
+  return std::hypot(v.x, v.y);
+}
+
+/// A pair of detections that could be this face's eyes: level, each in its own half, at a plausible distance.
+/// The most probable by its distance to where eyes usually are.
+std::optional<EyePair> choose_eyes(const std::vector<cv::Rect>& found, cv::Rect face) {
   const glm::dvec2 c = centre_of(face);
   const double size = face.width;
   const glm::dvec2 usual_right = c + glm::dvec2(-kEyeX, kEyeY) * size,
                    usual_left = c + glm::dvec2(kEyeX, kEyeY) * size;
-  double best = 0.25;  // of the face's size, both distances together
-  bool got = false;
+  double least = kMaxEyesOff;
+  std::optional<EyePair> best;
   for (const cv::Rect& a : found) {
     for (const cv::Rect& b : found) {
       const glm::dvec2 pa = centre_of(a), pb = centre_of(b), d = pb - pa;
-      if (d.x < 0.25 * size || d.x > 0.6 * size || std::abs(d.y) > 0.36 * d.x) continue;
-      const auto length = [](glm::dvec2 v) { return std::hypot(v.x, v.y); };
+      if (d.x < kMinEyesApart * size || d.x > kMaxEyesApart * size || std::abs(d.y) > kMaxEyesTilt * d.x)
+        continue;
       const double cost = (length(pa - usual_right) + length(pb - usual_left)) / size;
-      if (cost < best) {
-        best = cost;
-        right = pa;
-        left = pb;
-        got = true;
+      if (cost < least) {
+        least = cost;
+        best = EyePair{pa, pb};
       }
     }
   }
-  return got;
+  return best;
+}
+
+/// Detections of one of the eye cascades in the upper half of a face.
+std::vector<cv::Rect> detect_eyes(cv::CascadeClassifier& cascade, const cv::Mat& grey, cv::Rect face) {
+  const cv::Rect upper(face.x, face.y + face.height / 8, face.width, face.height / 2);
+  const cv::Rect area = upper & cv::Rect(0, 0, grey.cols, grey.rows);
+  const double zoom = std::max(1.0, kEyeRegionWidth / face.width);
+  cv::Mat region;
+  cv::resize(grey(area), region, {}, zoom, zoom, cv::INTER_CUBIC);
+  std::vector<cv::Rect> eyes;
+  const int least = static_cast<int>(face.width * zoom / 9);
+  cascade.detectMultiScale(region, eyes, 1.05, 3, 0, {least, least});
+  for (cv::Rect& e : eyes)
+    e = cv::Rect(static_cast<int>(e.x / zoom) + area.x, static_cast<int>(e.y / zoom) + area.y,
+                 static_cast<int>(e.width / zoom), static_cast<int>(e.height / zoom));
+  return eyes;
 }
 
 /// A face found in a picture scaled by `scale`, its eyes where they usually are.
@@ -107,37 +129,23 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture) const {
   std::vector<FoundFace> out;
   for (const cv::Rect& f : faces) {
     FoundFace found = with_usual_eyes(f, scale);
-    const cv::Rect upper(f.x, f.y + f.height / 8, f.width, f.height / 2);
-    const cv::Rect eyes_area = upper & cv::Rect(0, 0, grey.cols, grey.rows);
-    glm::dvec2 right, left;
-    // The eyes' cascades want eyes of 20 pixels or more.
-    const double zoom = std::max(1.0, 160.0 / f.width);
-    cv::Mat region;
-    cv::resize(grey(eyes_area), region, {}, zoom, zoom, cv::INTER_CUBIC);
-    for (const cv::CascadeClassifier* cascade : {&cascades_->eye, &cascades_->eye_glasses}) {
-      std::vector<cv::Rect> eyes;
-      const int least = static_cast<int>(f.width * zoom / 9);
-      const_cast<cv::CascadeClassifier*>(cascade)->detectMultiScale(region, eyes, 1.05, 3, 0, {least, least});
-      for (cv::Rect& e : eyes)
-        e = cv::Rect(static_cast<int>(e.x / zoom) + eyes_area.x, static_cast<int>(e.y / zoom) + eyes_area.y,
-                     static_cast<int>(e.width / zoom), static_cast<int>(e.height / zoom));
-      if (choose_eyes(eyes, f, right, left)) {
-        found.right_eye = right / scale;
-        found.left_eye = left / scale;
-        found.eyes_seen = true;
-        break;
-      }
+    for (cv::CascadeClassifier* cascade : {&cascades_->eye, &cascades_->eye_glasses}) {
+      const auto eyes = choose_eyes(detect_eyes(*cascade, grey, f), f);
+      if (!eyes) continue;
+      found.right_eye = eyes->right / scale;
+      found.left_eye = eyes->left / scale;
+      found.eyes_seen = true;
+      break;
     }
     out.push_back(found);
   }
   return out;
 }
 
-std::vector<FoundFace> FaceFinder::find_of_size(const Picture& picture, double least_eye_distance_px,
-                                                double most_eye_distance_px) const {
-  constexpr double kLeastSide = 40;  // of the detector's square: twice what it was trained with
-  const double least = least_eye_distance_px / (2 * kEyeX), most = most_eye_distance_px / (2 * kEyeX);
-  const double scale = kLeastSide / least;
+std::vector<FoundFace> FaceFinder::find_of_size(const Picture& picture, double min_eye_distance_px,
+                                                double max_eye_distance_px) const {
+  const double least = min_eye_distance_px / (2 * kEyeX), most = max_eye_distance_px / (2 * kEyeX);
+  const double scale = kMinDetectorSide / least;
   cv::Mat grey;
   cv::resize(view(picture.y), grey, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
   const auto square = [&](double side_px) {

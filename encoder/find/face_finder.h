@@ -27,9 +27,9 @@ class FaceFinder {
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture) const;
 
   /// Upright faces with an eye distance between two bounds (pixels), the largest first; the eyes are placed
-  /// by proportion. The picture is scaled to suit the least: a fraction of the cost of find().
-  [[nodiscard]] std::vector<FoundFace> find_of_size(const Picture& picture, double least_eye_distance_px,
-                                                    double most_eye_distance_px) const;
+  /// by proportion. The picture is scaled to suit the smallest: a fraction of the cost of find().
+  [[nodiscard]] std::vector<FoundFace> find_of_size(const Picture& picture, double min_eye_distance_px,
+                                                    double max_eye_distance_px) const;
 
  private:
   struct Cascades;

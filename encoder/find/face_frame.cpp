@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "common/generic_head.h"
+#include "encoder/image/bilinear.h"
 #include "encoder/image/planes.h"
 
 namespace fbs {
@@ -14,12 +14,8 @@ constexpr double kRes = 64;                                               // pix
 constexpr double kLeft = -1.6, kTop = -1.4, kWidth = 3.2, kHeight = 4.0;  // eye distances
 
 double at(const cv::Mat& m, double x, double y) {
-  const double u = std::clamp((x - kLeft) * kRes, 0.0, m.cols - 1.001);
-  const double v = std::clamp((y - kTop) * kRes, 0.0, m.rows - 1.001);
-  const int i = static_cast<int>(u), j = static_cast<int>(v);
-  const double fu = u - i, fv = v - j;
-  const float *a = m.ptr<float>(j) + i, *b = m.ptr<float>(j + 1) + i;
-  return (a[0] * (1 - fu) + a[1] * fu) * (1 - fv) + (b[0] * (1 - fu) + b[1] * fu) * fv;
+  const glm::dvec2 pixel((x - kLeft) * kRes, (y - kTop) * kRes);
+  return bilinear<float>(m, BilinearCell(clamped(m, pixel, 1.001)));
 }
 
 }  // namespace
@@ -61,45 +57,6 @@ cv::Mat FaceFrame::warp(const Plane& plane, double plane_scale) const {
   cv::warpAffine(source, out, m, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
   out.convertTo(out, CV_32F);
   return out;
-}
-
-double search(double from, double to, double usual, double spread,
-              const std::function<double(double)>& evidence) {
-  constexpr double kStep = 1.0 / 128;
-  double best = usual, best_score = -1e30;
-  for (double p = from; p <= to; p += kStep) {
-    const double d = (p - usual) / spread;
-    const double score = evidence(p) - d * d;
-    if (score > best_score) {
-      best_score = score;
-      best = p;
-    }
-  }
-  return best;
-}
-
-double mean_over(double centre, double half, const std::function<double(double)>& value) {
-  double sum = 0;
-  constexpr int kSamples = 13;
-  for (int i = 0; i < kSamples; ++i) sum += value(centre + half * (2.0 * i / (kSamples - 1) - 1));
-  return sum / kSamples;
-}
-
-double generic_eye_depth() {
-  static const double depth = [] {
-    const GenericHead& head = generic_head();
-    double sum = 0;
-    for (std::size_t k = 36; k < 48; ++k) sum += head.vertices[vertex_of_landmark(k)].position.z;
-    return sum / 12 / kUnitsPerEyeDistance;
-  }();
-  return depth;
-}
-
-glm::dvec3 generic_landmark(int ibug) {
-  const GenericHead& head = generic_head();
-  const std::size_t v = vertex_of_landmark(ibug);
-  return glm::dvec3(head.vertices[v].position) / static_cast<double>(kUnitsPerEyeDistance) -
-         glm::dvec3(0, 0, generic_eye_depth());
 }
 
 }  // namespace fbs

@@ -1,10 +1,7 @@
-// A found face brought into a frame of its own, eyes level and one unit apart, and how evidence is searched
-// there.
+// A found face brought into a frame of its own, eyes level and one unit apart.
 #pragma once
 
-#include <functional>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <opencv2/core.hpp>
 
 #include "common/picture.h"
@@ -30,19 +27,5 @@ class FaceFrame {
   glm::dvec2 origin_, x_axis_;  // pixels of the picture, per eye distance
   cv::Mat luma_, red_;          // float
 };
-
-/// The place in [from, to] where `evidence` less a penalty for distance from `usual` is largest.
-/// @param spread  distance from the usual place that costs as much as `evidence` of one
-[[nodiscard]] double search(double from, double to, double usual, double spread,
-                            const std::function<double(double)>& evidence);
-
-/// Mean over [centre - half, centre + half].
-[[nodiscard]] double mean_over(double centre, double half, const std::function<double(double)>& value);
-
-/// Mean depth of the generic head's lids and eye corners in the head frame, eye distances.
-[[nodiscard]] double generic_eye_depth();
-
-/// A landmark of the generic head in that frame; z in eye distances behind the eyes.
-[[nodiscard]] glm::dvec3 generic_landmark(int ibug);
 
 }  // namespace fbs

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/picture.h"
+#include "encoder/find/find_tuning.h"
+#include "encoder/find/landmarks.h"
+
 namespace fbs {
 namespace {
-
-std::size_t vertex_of(int ibug) {
-  return vertex_of_landmark(ibug);
-}
 
 std::optional<glm::dvec2> point_of(const nlohmann::json& j) {
   if (!j.is_array() || j.size() != 2 || !j[0].is_number() || !j[1].is_number()) return std::nullopt;
@@ -35,11 +35,11 @@ Result<Marks> landmarks_of(const nlohmann::json& list) {
 }  // namespace
 
 std::optional<glm::dvec2> Marks::landmark(int ibug) const {
-  return vertex[vertex_of(ibug)];
+  return vertex[vertex_of_landmark(ibug)];
 }
 
 void Marks::set_landmark(int ibug, glm::dvec2 p) {
-  vertex[vertex_of(ibug)] = p;
+  vertex[vertex_of_landmark(ibug)] = p;
 }
 
 std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
@@ -47,8 +47,8 @@ std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     glm::dvec2 sum(0);
     int count = 0;
-    for (int k = 0; k < 6; ++k) {
-      if (const auto p = landmark(36 + 6 * static_cast<int>(eye) + k)) {
+    for (int k = 0; k < ibug::kEyePoints; ++k) {
+      if (const auto p = landmark(ibug::kEyesFirst + ibug::kEyePoints * static_cast<int>(eye) + k)) {
         sum += *p;
         ++count;
       }
@@ -83,7 +83,7 @@ Result<Marks> read_marks(const std::string& path) {
   }
   const auto eyes = marks.eyes();
   if (!eyes) return fail(ErrorCode::kInvalidArgument, "no mark on one of the eyes");
-  if ((*eyes)[1].x - (*eyes)[0].x < 4)
+  if ((*eyes)[1].x - (*eyes)[0].x < find_tuning::kMinEyeDistancePx)
     return fail(ErrorCode::kInvalidArgument, "the eyes are less than 4 pixels apart or the wrong way round");
   return marks;
 }

@@ -7,9 +7,7 @@
 #include <string>
 
 #include "common/generic_head.h"
-#include "common/picture.h"
 #include "common/result.h"
-#include "encoder/find/face_finder.h"
 
 namespace fbs {
 
@@ -28,11 +26,5 @@ struct Marks {
 /// Reads marks from JSON: {"nose_tip": [x, y], ...} with the names of the mesh's vertices, or
 /// {"landmarks": [[x, y] x 68]} in iBUG-68 order. Unknown names are an error.
 [[nodiscard]] Result<Marks> read_marks(const std::string& path);
-
-/// Marks a found face from image evidence: its turn first, then mouth line and nose base together, the
-/// borders of the lips (which may be open), corners, brows, chin, face sides; lids by proportion from the
-/// eyes found. Each point is searched near where the generic head has it and stays within anatomical limits;
-/// where the picture says nothing, the proportion is kept.
-[[nodiscard]] Marks find_marks(const Picture& picture, const FoundFace& face);
 
 }  // namespace fbs

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/track/feature_snake.h"
+#include "encoder/track/head/mesh_flow.h"
+#include "encoder/track/snake/feature_snake.h"
 
 namespace fbs {
 
@@ -17,25 +18,24 @@ inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {
 
 class FeatureTracker {
  public:
-  /// Learns what each feature looks like and lets its snake come to rest on the first picture.
+  /// Learns what each feature looks like; its snake descends on the first picture and rests there.
   /// @param first  with colour
   FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first);
 
   /// @param now   with colour
-  /// @param flow  where the optical flow took each vertex (pixels of the picture, nan where lost): moves the
-  /// curves
-  ///              first, as does the pose
-  void track(const WorkFrame& now, const Pose& pose, const std::array<glm::dvec2, kVertexCount>& flow);
+  /// @param flow  of the mesh: moves the curves first, as does the pose
+  void track(const WorkFrame& now, const Pose& pose, const MeshFlow& flow);
 
   /// Offsets of all control points from rest, head units; those of the inner lips from where the outer lips
   /// take them.
   [[nodiscard]] std::array<glm::dvec2, kControlCount> offsets() const;
 
-  /// Moves every snake to where `offsets` (head units) has it.
+  /// Moves every snake to these offsets (head units).
   void set_offsets(const std::array<glm::dvec2, kControlCount>& offsets);
 
   /// The curve of a snake as points in the head frame, head units; for drawing and for marks.
   [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t snake) const;
+  /// Whether its last point is joined to its first.
   [[nodiscard]] bool is_closed(std::size_t snake) const { return snakes_[snake].curve.is_closed(); }
 
   /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head
@@ -49,8 +49,13 @@ class FeatureTracker {
  private:
   /// Where the snake rests when nothing but the features that carry it has moved.
   [[nodiscard]] std::vector<glm::dvec2> carried_rest(const FeatureSnake& s) const;
+  /// Where the flow takes the snake's vertices, its control points follow.
   [[nodiscard]] std::vector<glm::dvec2> predict(const FeatureSnake& s, const Pose& pose,
-                                                const std::array<glm::dvec2, kVertexCount>& flow) const;
+                                                const MeshFlow& flow) const;
+  /// Control points from which a descent may start.
+  [[nodiscard]] std::vector<std::vector<glm::dvec2>> starts(const FeatureSnake& s, const Pose& pose,
+                                                            const MeshFlow& flow,
+                                                            const std::vector<glm::dvec2>& rest) const;
 
   std::vector<FeatureSnake> snakes_;
   std::array<glm::dvec3, kVertexCount> neutral_;  ///< head units

@@ -6,6 +6,7 @@
 
 #include "encoder/encoder.h"
 #include "encoder/plan/track_planner.h"
+#include "encoder/track/snake/snake_descent.h"
 #include "tests/bench/analysis_clip.h"
 
 namespace fbs {
@@ -62,18 +63,17 @@ void one_snake(benchmark::State& state, FeatureId id, bool look) {
   const AnalysisClip& clip = analysis_clip();
   FeatureSnake snake = FeatureSnake::make(id, clip.geometry());
   snake.learn(snake.patch(clip.first(), clip.pose()));
-  (void)snake.look(snake.patch(clip.first(), clip.pose()));
+  (void)snake.observe(snake.patch(clip.first(), clip.pose()));
   std::vector<SnakeImage> images;
   for (const AnalysedPicture& p : clip.round())
-    images.push_back(snake.look(snake.patch(p.frame, p.tracked.pose)));
+    images.push_back(snake.observe(snake.patch(p.frame, p.tracked.pose)));
   int iterations = 0;
   std::size_t i = 0;
   each_picture(state, [&](const AnalysedPicture& p) {
     i = (i + 1) % images.size();
-    if (look) benchmark::DoNotOptimize(images[i] = snake.look(snake.patch(p.frame, p.tracked.pose)));
-    const SnakeOutcome out =
-        BSnake(snake.curve, images[i], snake.weights, snake.rest, snake.now, snake.facing)
-            .minimise(snake.now);
+    if (look) benchmark::DoNotOptimize(images[i] = snake.observe(snake.patch(p.frame, p.tracked.pose)));
+    const SnakeOutcome out = descend(
+        BSnake(snake.curve, images[i], snake.weights, snake.rest, snake.now, snake.facing), snake.now);
     snake.now = out.control;
     snake.limit(snake.now);
     iterations += out.iterations;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "encoder/track/b_snake.h"
+#include "encoder/track/snake/snake_descent.h"
 
 namespace fbs {
 namespace {
@@ -33,7 +33,7 @@ void SnakeMinimise(benchmark::State& state) {
   const std::vector<FacingPair> facing;
   const BSnake snake(curve, image, weights, start, start, facing);
   int iterations = 0;
-  for (auto _ : state) iterations += snake.minimise(start).iterations;
+  for (auto _ : state) iterations += descend(snake, start).iterations;
   state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(state.iterations());
 }
 BENCHMARK(SnakeMinimise)->Unit(benchmark::kMicrosecond);

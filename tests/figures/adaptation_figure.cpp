@@ -1,6 +1,6 @@
 #include "encoder/find/adapt.h"
 #include "encoder/find/face_finder.h"
-#include "encoder/find/marks.h"
+#include "encoder/find/find_marks.h"
 #include "tests/figures/canvas.h"
 #include "tests/figures/figures.h"
 #include "tests/figures/sheet.h"

@@ -1,5 +1,7 @@
 #include "tests/figures/lip_contour.h"
 
+#include "encoder/track/snake/snake_descent.h"
+
 namespace fbs {
 
 LipContour::LipContour(const Geometry& geometry, const Pose& pose, const Picture& first, double repulsion)
@@ -15,9 +17,9 @@ WorkFrame LipContour::frame(const Picture& picture, const Pose& pose) const {
 }
 
 void LipContour::track(const Picture& picture, const Pose& pose) {
-  const SnakeImage image = snake_.look(snake_.patch(frame(picture, pose), pose));
+  const SnakeImage image = snake_.observe(snake_.patch(frame(picture, pose), pose));
   const BSnake energies(snake_.curve, image, snake_.weights, snake_.rest, snake_.now, snake_.facing);
-  snake_.now = energies.minimise(snake_.now).control;
+  snake_.now = descend(energies, snake_.now).control;
 }
 
 double LipContour::height() const {
@@ -32,7 +34,7 @@ std::vector<glm::dvec2> LipContour::outline(const Pose& pose) const {
   const PoseProjection projection(pose);
   std::vector<glm::dvec2> out;
   for (const SplineBasis& b : snake_.curve.points())
-    out.push_back(projection(glm::dvec3(curve_point(b, snake_.now) * kHeadUnitsPerSnakeUnit, snake_.depth)));
+    out.push_back(projection(glm::dvec3(curve_point(b, snake_.now) * kHeadUnitsPerSnakeUnit, snake_.plane.depth)));
   return out;
 }
 

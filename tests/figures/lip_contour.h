@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "encoder/track/feature_snake.h"
+#include "encoder/track/snake/feature_snake.h"
 
 namespace fbs {
 

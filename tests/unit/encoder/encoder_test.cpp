@@ -245,6 +245,7 @@ TEST(Encoder, FollowsTheFaceMarkedByHand) {
   EXPECT_TRUE(seen.face);
   EXPECT_FALSE(seen.snakes.empty());
   EXPECT_TRUE(seen.snakes.front().closed) << "outer lips";
+  for (const SnakeOutline& s : seen.snakes) EXPECT_GT(s.points.size(), 8U);
   EXPECT_FALSE(seen.snakes.back().closed) << "a lid";
   for (int k = 0; k < kLandmarkCount; ++k) {
     const glm::dvec2 mark = *settings.marks->landmark(k);

@@ -15,7 +15,7 @@ FaceFrame frame_of(TalkerClip& clip, int picture) {
 }
 
 // The clip turns to and fro: where the truth is far to one side, so is what is found.
-TEST(FindTurn, TellsTheSideAndSomeOfTheAngle) {
+TEST(EstimateYaw, FindsTheSideAndSomeOfTheAngle) {
   auto settings = talker_settings(352, 288, 120);
   settings.yaw_deg = 22;
   TalkerClip clip(settings);
@@ -31,18 +31,26 @@ TEST(FindTurn, TellsTheSideAndSomeOfTheAngle) {
   EXPECT_LT(right, 0.5 * clip.pose(rightmost).yaw);
 }
 
-TEST(FindTurn, FrontalFaceIsNearlyFrontal) {
+TEST(EstimateYaw, FrontalFaceIsNearlyFrontal) {
   TalkerClip clip(talker_settings(352, 288, 1));
-  const FaceYaw turn = estimate_yaw(frame_of(clip, 0));
-  EXPECT_NEAR(turn.tangent, 0, 0.08);
-  EXPECT_NEAR(turn.shift, 0, 0.05);
+  const FaceYaw yaw = estimate_yaw(frame_of(clip, 0));
+  EXPECT_NEAR(yaw.tangent, 0, 0.08);
+  EXPECT_NEAR(yaw.shift, 0, 0.05);
 }
 
-TEST(FindTurn, FlatPictureSaysNothing) {
+TEST(EstimateYaw, FlatPictureSaysNothing) {
   Picture grey(200, 200);
   for (Plane* plane : {&grey.y, &grey.u, &grey.v})
     std::fill(plane->samples.begin(), plane->samples.end(), std::uint8_t{128});
   EXPECT_EQ(estimate_yaw(FaceFrame(grey, {80, 90}, {120, 90})).tangent, 0);
+}
+
+TEST(FaceYaw, MovesADeepPointAsideAndTheEyesNot) {
+  const FaceYaw yaw = {0.2, 0.05};
+  EXPECT_NEAR(yaw.midline(0), 0.05, 1e-12);
+  EXPECT_NEAR(yaw.midline(-0.5), -0.05, 1e-12);
+  EXPECT_NEAR(yaw.seen({0.4, 1, -0.5}).x, 0.35, 1e-12);
+  EXPECT_EQ(yaw.seen({0.4, 1, -0.5}).y, 1);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/surround/surround_observations.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -31,18 +32,16 @@ SurroundMap fitted() {
   Setup setup = toy_setup(kWidth, kHeight);
   State first = toy_state(160, 100);
   first.pose[kLogScale] = static_cast<std::int32_t>(std::lround(4096 * std::log2(40.0)));
-  const Picture seen = head_before_ground(0, 0);
-  std::vector<Picture> pictures;
-  std::vector<SeenPicture> later;
+  SurroundObservations observations(setup.format);
+  observations.set_first(head_before_ground(0, 0), first);
   const std::array<glm::ivec2, 6> moves = {{{8, 0}, {12, 3}, {4, -6}, {-9, 2}, {-12, -4}, {3, 7}}};
-  for (const glm::ivec2 m : moves) pictures.push_back(head_before_ground(m.x, m.y));
-  for (std::size_t i = 0; i < moves.size(); ++i) {
+  for (const glm::ivec2 m : moves) {
     State s = first;
-    s.pose[kShiftX] += moves[i].x * 64;
-    s.pose[kShiftY] += moves[i].y * 64;
-    later.push_back({&pictures[i], s});
+    s.pose[kShiftX] += m.x * 64;
+    s.pose[kShiftY] += m.y * 64;
+    observations.add(head_before_ground(m.x, m.y), s);
   }
-  return fit_surround(setup, toy_geometry(), {&seen, first}, later);
+  return fit_surround(setup, toy_geometry(), observations);
 }
 
 TEST(FitSurround, HairFollowsTheHeadAndTheGroundStays) {
@@ -84,8 +83,10 @@ TEST(FitSurround, BorderAlwaysStays) {
 // A clip of one picture: nothing tells, so distance from the face decides.
 TEST(FitSurround, GuessesByDistanceWithoutLaterPictures) {
   State first = toy_state(160, 100);
-  const Picture seen = head_before_ground(0, 0);
-  const SurroundMap map = fit_surround(toy_setup(kWidth, kHeight), toy_geometry(), {&seen, first}, {});
+  const fbs::Setup setup = toy_setup(kWidth, kHeight);
+  SurroundObservations observations(setup.format);
+  observations.set_first(head_before_ground(0, 0), first);
+  const SurroundMap map = fit_surround(setup, toy_geometry(), observations);
   const auto at = [&](double x, double y) {
     const int c = static_cast<int>(std::lround(x * map.columns / kWidth)),
               r = static_cast<int>(std::lround(y * map.rows / kHeight));

@@ -43,7 +43,9 @@ struct Lost {
     for (std::size_t v = 0; v < kVertexCount; ++v) neutral[v] = glm::dvec3(head.geometry.positions[v]);
   }
 
-  FaceSearch::Find find(const Picture& picture) { return search.find(picture, tracker, head.pose, neutral); }
+  FaceSearch::Detection find(const Picture& picture) {
+    return search.find(picture, tracker, head.pose, neutral);
+  }
 
   AdaptedHead head;
   HeadTracker tracker;
@@ -75,8 +77,8 @@ TEST(FaceSearch, FindsATurnedHeadBesideWhereItWasAtOnce) {
   Lost lost(clip);
   const double eye = lost.head.pose.eye_distance_px();
   const int aside = static_cast<int>(0.6 * eye);
-  const FaceSearch::Find found = lost.find(pushed_aside(clip[turned], aside));
-  EXPECT_TRUE(found.believed) << found.head.confidence;
+  const FaceSearch::Detection found = lost.find(pushed_aside(clip[turned], aside));
+  EXPECT_TRUE(found.accepted) << found.head.confidence;
   EXPECT_NEAR(found.head.pose.yaw, clip.pose(turned).yaw, 6 * kDegree);
   const glm::dvec2 moved = clip.pose(turned).shift - clip.pose(0).shift + glm::dvec2(aside, 0);
   EXPECT_LT(distance(found.head.pose.shift - lost.head.pose.shift, moved), 0.2 * eye);
@@ -89,13 +91,13 @@ TEST(FaceSearch, FindsAHeadFarAwayWithinAFewPictures) {
   const double eye = lost.head.pose.eye_distance_px();
   const int aside = static_cast<int>(2 * eye);
   const Picture there = pushed_aside(clip[0], aside);
-  FaceSearch::Find found;
+  FaceSearch::Detection found;
   int pictures = 0;
-  while (!found.believed && pictures < 4) {
+  while (!found.accepted && pictures < 4) {
     found = lost.find(there);
     ++pictures;
   }
-  EXPECT_TRUE(found.believed) << found.head.confidence;
+  EXPECT_TRUE(found.accepted) << found.head.confidence;
   EXPECT_LT(distance(found.head.pose.shift - lost.head.pose.shift, {aside, 0}), 0.1 * eye);
 }
 
@@ -104,8 +106,8 @@ TEST(FaceSearch, FindsNothingWhereNothingIsSeen) {
   Lost lost(clip);
   const Picture grey(352, 288);
   for (int i = 0; i < 4; ++i) {
-    const FaceSearch::Find found = lost.find(grey);
-    EXPECT_FALSE(found.believed);
+    const FaceSearch::Detection found = lost.find(grey);
+    EXPECT_FALSE(found.accepted);
     EXPECT_EQ(found.head.confidence, 0);
   }
 }
@@ -115,8 +117,8 @@ TEST(FaceSearch, DoesNotTakeAnythingElseForTheHead) {
   TalkerClip clip(talker_settings(352, 288, 40));
   Lost lost(clip);
   for (int i = 0; i < 40; i += 8) {
-    const FaceSearch::Find found = lost.find(upside_down(clip[i]));
-    EXPECT_FALSE(found.believed) << "picture " << i << ", " << found.head.confidence;
+    const FaceSearch::Detection found = lost.find(upside_down(clip[i]));
+    EXPECT_FALSE(found.accepted) << "picture " << i << ", " << found.head.confidence;
   }
 }
 
@@ -126,15 +128,15 @@ TEST(FaceSearch, DoesNotTakeAnotherSizeForTheHead) {
   settings.eye_distance = 0.3F;
   TalkerClip near(settings);
   Lost lost(clip);
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(lost.find(near[0]).believed);
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(lost.find(near[0]).accepted);
 }
 
 // What leaves most of the picture is held, not followed to where it cannot be seen.
-TEST(FaceSearch, DoesNotBelieveAHeadMostlyOutside) {
+TEST(FaceSearch, DoesNotAcceptAHeadMostlyOutside) {
   TalkerClip clip(talker_settings(352, 288, 1));
   Lost lost(clip);
   const int aside = 352 - static_cast<int>(lost.head.pose.shift.x + 0.2 * lost.head.pose.eye_distance_px());
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(lost.find(pushed_aside(clip[0], aside)).believed);
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(lost.find(pushed_aside(clip[0], aside)).accepted);
 }
 
 TEST(FaceSearch, KnowsWhetherItIsSearching) {

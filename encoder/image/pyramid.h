@@ -1,0 +1,52 @@
+// Pictures at several sizes: the reduced luma that the analysis works on, and its halvings.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "encoder/image/planes.h"
+
+namespace fbs {
+
+/// [0] is the finest level, each next one half of it (Gaussian 5 x 5, then every other sample).
+template <std::size_t kLevels>
+using Pyramid = std::array<cv::Mat, kLevels>;
+
+/// @param finest  becomes level 0 without being copied
+template <std::size_t kLevels>
+[[nodiscard]] Pyramid<kLevels> make_pyramid(const cv::Mat& finest) {
+  Pyramid<kLevels> levels;
+  levels[0] = finest;
+  for (std::size_t l = 1; l < kLevels; ++l) cv::pyrDown(levels[l - 1], levels[l]);
+  return levels;
+}
+
+/// Pixels of level 0 per pixel of a level.
+[[nodiscard]] constexpr double level_scale(int level) {
+  return 1 << level;
+}
+
+/// Where a position of level 0 lies in a level. Pixel centres are whole numbers in both: pyrDown keeps the
+/// samples at even positions where they are.
+[[nodiscard]] inline glm::dvec2 on_level(glm::dvec2 finest, int level) {
+  return finest / level_scale(level);
+}
+
+/// The least whole factor that brings a picture's longer side to `long_side` samples or fewer.
+[[nodiscard]] inline int reduction_factor(int width, int height, int long_side) {
+  return (std::max(width, height) + long_side - 1) / long_side;
+}
+
+/// A plane at 1/factor of its size, each sample the mean of those that it stands for; never a view.
+[[nodiscard]] inline cv::Mat reduced(const Plane& plane, int factor) {
+  const cv::Mat whole = view(plane);
+  if (factor == 1) return whole.clone();
+  cv::Mat out;
+  cv::resize(whole, out, {whole.cols / factor, whole.rows / factor}, 0, 0, cv::INTER_AREA);
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,45 @@
+// Labels the points of the surround's map by iterated conditional modes (Besag 1986).
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "encoder/surround/cell_cost.h"
+#include "encoder/surround/map_grid.h"
+
+namespace fbs {
+
+/// Minimises the cells' costs, plus what neighbours that differ cost, plus departures from a spatial prior.
+class MapLabelling {
+ public:
+  /// @param prior  shares of head and body of each point, quarters
+  MapLabelling(const MapGrid& grid, const CellCost& cell_cost, std::vector<glm::dvec2> prior);
+
+  /// First as if each point's surroundings went with it, then on the cells as they are drawn.
+  [[nodiscard]] std::vector<MapLabel> solve();
+
+ private:
+  [[nodiscard]] double prior_cost(std::size_t k, const MapLabel& label) const;
+  [[nodiscard]] double smoothness(std::size_t k, const MapLabel& label) const;
+  /// Cells' cost of each point and label, as if the point's four cells had the label. [point * labels +
+  /// label]
+  [[nodiscard]] std::vector<double> uniform_costs() const;
+  void start();
+  /// One sweep on the cells as they are drawn; false when nothing changed.
+  bool improve();
+  /// Prior, smoothness and the four cells' cost when a point changes to a label.
+  [[nodiscard]] double cost_of(std::size_t k, const MapLabel& label);
+  [[nodiscard]] MapLabel best_label(std::size_t k);
+  /// The visit in which a point or one of those around it changed last.
+  [[nodiscard]] int changed_near(std::size_t k) const;
+  [[nodiscard]] bool has_neighbour(std::size_t k, const MapLabel& label) const;
+
+  MapGrid grid_;
+  const CellCost& cell_cost_;
+  std::vector<glm::dvec2> prior_;
+  std::vector<MapLabel> labels_;
+  int visits_ = 0;
+  std::vector<int> visited_, changed_;  ///< the visit in which a point was seen last, and changed last
+};
+
+}  // namespace fbs

@@ -1,0 +1,31 @@
+// Aligns the head to its appearance in the first picture: direct alignment, as in Baker & Matthews 2004, but
+// additive, since the pose is no group under weak perspective. Nothing drifts.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+
+#include "encoder/track/head/head_appearance.h"
+
+namespace fbs {
+
+/// How strongly a pose is held where it was guessed: inverse variances of its numbers. Only what the picture
+/// does not determine feels it.
+/// @param sigma_angle  rad; of the scale, log2
+/// @param sigma_shift  eye distances
+[[nodiscard]] cv::Matx66d pose_precision(double eye_distance_px, double sigma_angle, double sigma_shift);
+
+/// Gauss-Newton on the robust luma difference at one level, with gain and offset of the light.
+/// @param points  HeadAppearance::surface() with the present expression
+/// @return `start` when too little of the head is seen
+[[nodiscard]] Pose align(const HeadAppearance& head, const LevelledFrame& now, int level, const Pose& start,
+                         std::span<const glm::dvec3> points);
+
+/// Aligns from the coarsest level on; a level that lowers the correlation is left out.
+[[nodiscard]] TrackedPose refine(const HeadAppearance& head, const LevelledFrame& now, const Pose& start,
+                                 std::span<const glm::dvec3> points);
+
+/// The pose without yaw and pitch, the middle of the face in place: tried when those may be wrong.
+[[nodiscard]] Pose frontal(const Pose& pose, const HeadVertices& vertices);
+
+}  // namespace fbs

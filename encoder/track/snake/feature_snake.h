@@ -1,0 +1,53 @@
+// One feature's snake: its curve, what it looks for, and where it is.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "encoder/track/snake/b_snake.h"
+#include "encoder/track/snake/feature_map.h"
+#include "encoder/track/snake/feature_patch.h"
+#include "encoder/track/snake/rest_shape.h"
+#include "encoder/track/snake/snake_kinds.h"
+
+namespace fbs {
+
+struct FeatureSnake {
+  FeatureId id;
+  SnakeCurve curve;
+  SnakeWeights weights;
+  PatchPlane plane{};  ///< of the patch it looks at
+  FeatureMap map{};
+  std::optional<FeatureMap> skin{};       ///< of a lid: likeness to its own skin, which lies above the edge
+  std::vector<glm::dvec2> rest{}, now{};  ///< control points with pinned ones, snake units
+  std::vector<FacingPair> facing{};
+  double below_vertices = 0;  ///< the curve runs this far below the vertices it moves
+  double lowest = 1e9;        ///< y that a lid's middle does not pass: just above the lower lid
+  cv::Mat1f seen{};           ///< feature map of the picture before; empty when I_t has no weight
+  int iterations = 0;         ///< of the last descent
+
+  /// A snake at rest on the adapted head. It sees nothing before learn().
+  static FeatureSnake make(FeatureId id, const Geometry& geometry);
+
+  /// The part of a picture that the snake looks at, in the head's own frame.
+  [[nodiscard]] FeaturePatch patch(const WorkFrame& frame, const Pose& pose) const;
+
+  /// Learns from the first picture what distinguishes the feature from its surroundings.
+  void learn(const FeaturePatch& first);
+
+  /// Brings control points back to where the feature can be: a lid that has passed the lower lid would fold
+  /// the eye.
+  void limit(std::vector<glm::dvec2>& control) const;
+
+  /// What the energies need of a picture. Remembers it for the next one's I_t.
+  SnakeImage observe(const FeaturePatch& patch);
+
+  /// Where the curve passes a vertex of the feature, snake units.
+  [[nodiscard]] glm::dvec2 at(const FeatureVertex& vertex, const std::vector<glm::dvec2>& control) const {
+    return curve_point(basis_at(curve, static_cast<double>(vertex.s)), control);
+  }
+};
+
+}  // namespace fbs

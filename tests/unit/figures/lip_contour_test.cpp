@@ -1,0 +1,62 @@
+// The paper's case for an energy of repulsion: "a mouth opened where the teeth are visible". Pictures are
+// painted, and go through everything that the lips' snake sees of a picture.
+#include "tests/figures/lip_contour.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/figures/painted_mouth.h"
+
+namespace fbs {
+namespace {
+
+constexpr double kOpen = 0.3;       // eye distances: as high again as the closed lips
+constexpr double kTeeth = 0.9;      // of the gap; the rest is dark
+constexpr double kUpperLip = 0.15;  // its height in the middle, eye distances
+
+/// Heights of the contour, eye distances.
+struct Heights {
+  double closed = 0, opened = 0, closed_again = 0;
+};
+
+/// @param step  how much farther the mouth opens from one picture to the next, eye distances
+Heights follow(double repulsion, double step) {
+  const Pose pose = painted_pose();
+  LipContour lips(painted_geometry(), pose, painted_mouth(0, kTeeth), repulsion);
+  Heights h;
+  h.closed = lips.height();
+  for (int i = 1; i * step < kOpen + step / 2; ++i) lips.track(painted_mouth(i * step, kTeeth), pose);
+  for (int i = 0; i < 3; ++i) lips.track(painted_mouth(kOpen, kTeeth), pose);
+  h.opened = lips.height();
+  for (int i = 0; i < 3; ++i) lips.track(painted_mouth(0, kTeeth), pose);
+  h.closed_again = lips.height();
+  return h;
+}
+
+TEST(LipContour, RestsOnTheClosedLips) {
+  EXPECT_NEAR(follow(1, kOpen).closed, painted_height(0), 0.02);
+}
+
+TEST(LipContour, CollapsesOnTheUpperLipWithoutRepulsion) {
+  EXPECT_LT(follow(0, kOpen).opened, kUpperLip + 0.02);
+}
+
+// 4/5 of the height at rest is where the repulsion becomes silent; the lower lip itself is out of sight.
+TEST(LipContour, RepulsionKeepsItOpen) {
+  const Heights h = follow(1, kOpen);
+  EXPECT_GT(h.opened, 0.7 * h.closed);
+  EXPECT_GT(h.opened, follow(0, kOpen).opened + 0.06);
+}
+
+TEST(LipContour, FindsTheLipsAgainWhenTheyClose) {
+  const Heights h = follow(1, kOpen);
+  EXPECT_NEAR(h.closed_again, h.closed, 0.02);
+}
+
+// Opened slowly, the contrast alone leads the contour: the term is not what moves it.
+TEST(LipContour, FollowsASlowMouthWithAndWithoutRepulsion) {
+  EXPECT_NEAR(follow(0, 0.03).opened, painted_height(kOpen), 0.05);
+  EXPECT_NEAR(follow(1, 0.03).opened, painted_height(kOpen), 0.05);
+}
+
+}  // namespace
+}  // namespace fbs
