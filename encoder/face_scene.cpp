@@ -88,9 +88,10 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   SceneHead head;
   head.geometry = std::move(geometry->payload);
   head.pattern = std::move(*pattern);
-  return std::unique_ptr<FaceScene>(new FaceScene(SceneTiming(format, settings), finder, settings,
-                                                  {std::move(scene), seen_coded, std::move(coded->coder),
-                                                   first, adapted->pose.shift, eye, *rate, std::move(head), std::move(observations)}));
+  return std::unique_ptr<FaceScene>(
+      new FaceScene(SceneTiming(format, settings), finder, settings,
+                    {std::move(scene), seen_coded, std::move(coded->coder), first, adapted->pose.shift, eye,
+                     *rate, std::move(head), std::move(observations)}));
 }
 
 FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
