@@ -127,7 +127,7 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   if (auto added = scene.add_pattern(first, point.pattern_quantiser); !added) return fail(added.error());
   const WorkFrame decoded = WorkFrame::cut(scene.scene_.patterns.front().picture, adapted->pose.shift,
                                            scene.eye_distance_px_, false);
-  scene.fit_.emplace(scene.scene_.setup, geometry->decoded, decoded, scene.seen_);
+  scene.fit_.emplace(scene.scene_.setup, geometry->decoded, SeenPattern{decoded, scene.seen_});
   if (settings.surround) scene.surround_.emplace(first, scene.seen_);
   scene.coder_.emplace(scene.scene_.setup, scene.seen_coded_);
   return scene;
@@ -220,7 +220,7 @@ Fit SceneEncoder::relaxed() {
 }
 
 Fit SceneEncoder::analyse(const Picture& picture, PictureCost& cost) {
-  const HeadVertices vertices = fit_->deformed(now_);
+  const HeadVertices vertices = skinned(scene_.geometry->geometry(), now_.offsets);
   WorkFrame frame = WorkFrame::cut(picture, head_->pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> seen = follow_head(picture, vertices, frame);
   if (!seen) {
@@ -237,7 +237,7 @@ Fit SceneEncoder::analyse(const Picture& picture, PictureCost& cost) {
       tracked.offsets[c] = now_.offsets[c];
     }
   }
-  fit_->look_at(frame, scene_.setup.mouth);
+  fit_->set_picture(frame, scene_.setup.mouth);
   tracked = fit_->with_best_lids(tracked);
   const Fit fit = settings_.refine ? fit_->refine_mouth(tracked) : tracked;
   cost = fit_->cost_at(fit);
@@ -266,7 +266,8 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     if (pictures_ > 0) {
       now_ = analyse(picture, cost);
     } else {
-      fit_->look_at(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), scene_.setup.mouth);
+      fit_->set_picture(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false),
+                        scene_.setup.mouth);
       cost = fit_->cost_at(now_);
       analysis_.confidence = 1;
     }

@@ -82,9 +82,9 @@ void one_snake(benchmark::State& state, FeatureId id, bool look) {
 
 void FitRefine(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
-  PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
+  PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.look_at(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame, clip.setup().mouth);
     benchmark::DoNotOptimize(fit.refine(p.tracked_fit));
   });
 }
@@ -92,9 +92,9 @@ BENCHMARK(FitRefine)->Unit(benchmark::kMicrosecond);
 
 void FitFormAt(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
-  PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
+  PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.look_at(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame, clip.setup().mouth);
     benchmark::DoNotOptimize(fit.cost_at(p.tracked_fit));
   });
 }

@@ -14,7 +14,7 @@ struct FittedScene {
   Scene scene;
   PictureFit fit;
 
-  FittedScene() : scene(make()), fit(setup, toy_geometry(), frame_of(scene.patterns[0].picture), seen) {}
+  FittedScene() : scene(make()), fit(setup, toy_geometry(), {frame_of(scene.patterns[0].picture), seen}) {}
 
   [[nodiscard]] Picture drawn(const State& state) const {
     Renderer renderer;
@@ -22,7 +22,7 @@ struct FittedScene {
     renderer.render(scene, state, out);
     return out;
   }
-  void look_at(const State& state) { fit.look_at(frame_of(drawn(state)), setup.mouth); }
+  void set_picture(const State& state) { fit.set_picture(frame_of(drawn(state)), setup.mouth); }
 
  private:
   Scene make() {

@@ -33,19 +33,10 @@ State with_open_mouth(State state) {
   return state;
 }
 
-/// The fit that says a state.
-Fit fit_of(const State& state) {
-  Fit fit{pose_of(state), {}, {}};
-  for (std::size_t i = 0; i < kLightCount; ++i) fit.light[i] = state.light[i] / 16.0;
-  for (std::size_t i = 0; i < kInteriorCount; ++i) fit.interior[i] = state.interior[i] / 16.0;
-  for (std::size_t c = 0; c < kControlCount; ++c) fit.offsets[c] = glm::dvec2(state.control[c]);
-  return fit;
-}
-
 TEST(PictureFit, RefineFindsPoseAndExpression) {
   FittedScene s;
   const State truth = other_state(s);
-  s.look_at(truth);
+  s.set_picture(truth);
   const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
   const Pose expected = pose_of(truth);
   EXPECT_NEAR(found.pose.yaw, expected.yaw, kDegreeRad);
@@ -62,7 +53,7 @@ TEST(PictureFit, RefineFindsPoseAndExpression) {
 
 TEST(PictureFit, RefineStaysWhereThePictureIsThePattern) {
   FittedScene s;
-  s.look_at(s.seen);
+  s.set_picture(s.seen);
   const Pose start = pose_of(s.seen);
   const Fit found = s.fit.refine({start, {}, {}});
   EXPECT_NEAR(found.pose.yaw, start.yaw, 0.3 * kDegreeRad);
@@ -75,7 +66,7 @@ TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
   FittedScene s;
   State truth = s.seen;
   for (const std::size_t lower : {6U, 7U, 8U, 9U}) truth.control[lower].y = 600;
-  s.look_at(truth);
+  s.set_picture(truth);
   Fit start{pose_of(s.seen), {}, {}, {}};
   for (std::size_t c = 0; c < kControlCount; ++c) start.offsets[c] = glm::dvec2(truth.control[c]);
   const Feature& inner = feature(FeatureId::kMouthInner);
@@ -95,9 +86,9 @@ TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
   FittedScene s;
   fbs::Setup few = s.setup;
   few.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kBrows));
-  PictureFit fit(few, toy_geometry(), WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true),
-                 s.seen);
-  fit.look_at(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
+  PictureFit fit(few, toy_geometry(),
+                 {WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true), s.seen});
+  fit.set_picture(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
   const Fit found = fit.refine({pose_of(s.seen), {}, {}});
   const ExpressionPart& brows = generic_head().expression[1];
   for (int i = 0; i < kControlCount; ++i) {
@@ -112,7 +103,7 @@ TEST(PictureFit, LightIsFound) {
        {std::array{15, 0, 0, 0, 0, 0, 0}, {-12, 8}, {5, -6, 10}, {0, 0, -8, 12}, {0, 0, 0, 0, 10, -8, 6}}) {
     State truth = s.seen;
     for (std::size_t i = 0; i < kLightCount; ++i) truth.light[i] = 16 * light[i];
-    s.look_at(truth);
+    s.set_picture(truth);
     const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
     for (std::size_t i = 0; i < kLightCount; ++i) EXPECT_NEAR(found.light[i], light[i], 1.5) << i;
     EXPECT_NEAR(found.pose.shift.x, pose_of(s.seen).shift.x, 0.2) << "light is not taken for motion";
@@ -137,7 +128,7 @@ TEST(PictureFit, MouthsInsideIsFound) {
     State truth = with_open_mouth(s.seen);
     const Fit start = fit_of(truth);
     for (std::size_t i = 0; i < kInteriorCount; ++i) truth.interior[i] = 16 * inside[i];
-    s.look_at(truth);
+    s.set_picture(truth);
     const Fit found = s.fit.refine(start);
     for (std::size_t i = 0; i < kInteriorCount; ++i) EXPECT_NEAR(found.interior[i], inside[i], 15) << i;
   }
@@ -148,7 +139,7 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   FittedScene s;
   State truth = with_open_mouth(other_state(s));
   truth.light = {160, 0, 80, 0};
-  s.look_at(truth);
+  s.set_picture(truth);
   const PictureCost cost = s.fit.cost_at(fit_of(truth));
   ASSERT_EQ(cost.quadratic().rows, kParameterCount);
   EXPECT_LT(cv::norm(cost.quadratic() - cost.quadratic().t()), 1e-9 * cv::norm(cost.quadratic()));
@@ -164,7 +155,7 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
 
 TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
   FittedScene s;
-  s.look_at(s.seen);
+  s.set_picture(s.seen);
   const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   for (int i = 0; i < kParameterCount; ++i)
     if (kPartOf[i] == static_cast<int>(PartId::kMouthInterior)) {
@@ -177,7 +168,7 @@ TEST(PictureFit, FormHasTheNumbersOfTheFit) {
   State state = other_state(s);
   state.light = {160, -32, 80, 16};
   state.interior = {48, -16, 7};
-  s.look_at(state);
+  s.set_picture(state);
   for (const PictureCost& cost : {s.fit.cost_at(fit_of(state)), cost_unseen(fit_of(state))}) {
     CodedState values;
     for (std::size_t i = 0; i < kParameterCount; ++i)
@@ -205,7 +196,7 @@ TEST(PictureFit, CostUnseenHoldsThePoseAlone) {
 // where the decoder has all samples.
 TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
   FittedScene s;
-  s.look_at(s.seen);
+  s.set_picture(s.seen);
   const Picture source = s.drawn(s.seen);
   const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   const auto compare = [&](std::size_t first, std::int32_t by, std::size_t second = 0,
@@ -242,7 +233,7 @@ TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
 // A face that has left: nothing to fit, nothing that may go wild.
 TEST(PictureFit, FlatPictureMovesNothingFar) {
   FittedScene s;
-  s.fit.look_at(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true), s.setup.mouth);
+  s.fit.set_picture(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true), s.setup.mouth);
   const Pose start = pose_of(s.seen);
   const Fit found = s.fit.refine({start, {}, {}});
   EXPECT_TRUE(std::isfinite(found.pose.yaw) && std::isfinite(found.pose.shift.x));
@@ -262,7 +253,7 @@ TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
   };
   const double down = 0.12 * kUnitsPerEyeDistance;
   for (const double truth : {0.0, down}) {
-    s.look_at(lowered(truth));
+    s.set_picture(lowered(truth));
     Fit start{pose_of(s.seen), {}, {}};
     for (const FeatureId id : lids)
       for (std::size_t i = 0; i < 2; ++i) start.offsets[feature(id).first_control + i] = {0, down - truth};

@@ -1,0 +1,41 @@
+// A pattern, a picture and the points at which they are compared: what all of the fit works on.
+#pragma once
+
+#include "encoder/fit/appearance.h"
+#include "encoder/fit/fit_columns.h"
+#include "encoder/fit/luma_pyramid.h"
+#include "encoder/fit/normal_equations.h"
+#include "encoder/fit/pattern_samples.h"
+#include "encoder/fit/sample_points.h"
+
+namespace fbs {
+
+struct Comparison {
+  Geometry geometry;
+  FitColumns columns;
+  SamplePoints points;
+  PatternSamples pattern;
+  LumaPyramid picture{};
+  MouthInterior mouth{};
+
+  /// What the decoder shows in a fit. Borrows this.
+  /// @param vertices  skinned by the fit
+  [[nodiscard]] Appearance appearance(const Fit& fit, const HeadVertices& vertices) const {
+    return {points, pattern, mouth, fit, vertices};
+  }
+};
+
+/// Squared, and from kHuberLevels on linear.
+[[nodiscard]] double huber(double difference);
+
+/// Robust mean of squared differences on the fine level, each point counted once; zero when none is seen.
+[[nodiscard]] double mean_difference(const Comparison& comparison, const Fit& fit);
+
+/// Robust sum of squared differences over the samples of the full picture that the points stand for.
+[[nodiscard]] double robust_difference(const Comparison& comparison, const Fit& fit);
+
+/// The picture's part of a Gauss-Newton step: robustly weighted luma differences at every point, over
+/// kResidualSigma.
+void add_picture(const Comparison& comparison, int level, const Fit& fit, NormalEquations& normal);
+
+}  // namespace fbs
