@@ -68,6 +68,13 @@ class LevelEquations {
 
 }  // namespace
 
+Comparison Comparison::with(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern) {
+  const FitColumns columns(setup.parts);
+  const SamplePoints points(geometry, columns, PlacedHead(geometry, fit_of(pattern.seen)),
+                            kFitPointSpacing / pattern.frame.scale);
+  return {geometry, columns, points, PatternSamples(points, geometry, pattern)};
+}
+
 double huber(double difference) {
   const double r = std::abs(difference);
   return r < kHuberLevels ? r * r : kHuberLevels * (2 * r - kHuberLevels);

@@ -18,6 +18,11 @@ struct Comparison {
   LumaPyramid picture{};
   MouthInterior mouth{};
 
+  /// Points spread over the head as the pattern saw it, and no picture yet.
+  /// The control points of setup.parts may move.
+  [[nodiscard]] static Comparison with(const Setup& setup, const Geometry& geometry,
+                                       const SeenPattern& pattern);
+
   /// What the decoder shows in a fit. Borrows this.
   /// @param vertices  skinned by the fit
   [[nodiscard]] Appearance appearance(const Fit& fit, const HeadVertices& vertices) const {

@@ -8,13 +8,6 @@
 namespace fbs {
 namespace {
 
-Comparison comparison_of(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern) {
-  const FitColumns columns(setup.parts);
-  const SamplePoints points(geometry, columns, PlacedHead(geometry, fit_of(pattern.seen)),
-                            kFitPointSpacing / pattern.frame.scale);
-  return {geometry, columns, points, PatternSamples(points, geometry, pattern)};
-}
-
 bool inner_lips_strayed(const Fit& fit) {
   const Feature& inner = feature(FeatureId::kMouthInner);
   const auto first = fit.offsets.begin() + inner.first_control;
@@ -26,7 +19,7 @@ bool inner_lips_strayed(const Fit& fit) {
 }  // namespace
 
 PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern)
-    : comparison_(comparison_of(setup, geometry, pattern)), lids_(geometry, comparison_.points) {}
+    : comparison_(Comparison::with(setup, geometry, pattern)), lids_(geometry, comparison_.points) {}
 
 void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mouth) {
   comparison_.picture = LumaPyramid(picture);
