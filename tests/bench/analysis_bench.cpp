@@ -90,7 +90,7 @@ void FitRefine(benchmark::State& state) {
 }
 BENCHMARK(FitRefine)->Unit(benchmark::kMicrosecond);
 
-void FitFormAt(benchmark::State& state) {
+void FitCostAt(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
   PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
@@ -98,7 +98,7 @@ void FitFormAt(benchmark::State& state) {
     benchmark::DoNotOptimize(fit.cost_at(p.tracked_fit));
   });
 }
-BENCHMARK(FitFormAt)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FitCostAt)->Unit(benchmark::kMicrosecond);
 
 void TrackPlan(benchmark::State& state) {
   constexpr int kGroup = 30;
