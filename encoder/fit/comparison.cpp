@@ -16,19 +16,23 @@ class LevelEquations {
       : c_(comparison),
         level_(level),
         jacobian_(fit.pose),
-        vertices_(skinned(comparison.geometry, fit.offsets)),
-        shown_(comparison.appearance(fit, vertices_)),
+        head_(comparison.geometry, fit),
+        shown_(comparison.appearance(fit, head_.vertices)),
         ex_(jacobian_.projection().matrix[0]),
         ey_(jacobian_.projection().matrix[1]) {}
 
+  [[nodiscard]] double samples_per_point(std::size_t patch) const {
+    return c_.points.samples_per_point(patch, head_);
+  }
+
   /// The row of a point and its residual.
-  /// @param shares  of the patch's control points
-  void add_point(std::size_t k, std::span<const float> shares, PatchEquations& out) const {
+  /// @param shares  of the patch's control points  @return the robust squared residual
+  double add_point(std::size_t k, std::span<const float> shares, PatchEquations& out) const {
     const double value = shown_.at(k, level_);
-    if (value < 0) return;
-    const glm::dvec3 p = c_.points[k].on(vertices_);
+    if (value < 0) return 0;
+    const glm::dvec3 p = c_.points[k].on(head_.vertices);
     Sample s;
-    if (!c_.picture.sample(level_, jacobian_.projection()(p), s)) return;
+    if (!c_.picture.sample(level_, jacobian_.projection()(p), s)) return 0;
     const double r = value - static_cast<double>(s.value);
     const double weight =
         std::min(1.0, kHuberLevels / (std::abs(r) + 1e-9)) / (kResidualSigma * kResidualSigma);
@@ -44,6 +48,7 @@ class LevelEquations {
       *row++ = share * by_y;
     }
     out.add(static_cast<float>(weight), static_cast<float>(r));
+    return huber(r);
   }
 
  private:
@@ -61,7 +66,7 @@ class LevelEquations {
   const Comparison& c_;
   int level_;
   PoseJacobian jacobian_;
-  HeadVertices vertices_;
+  PlacedHead head_;
   Appearance shown_;
   glm::dvec2 ex_, ey_;  ///< of the head frame in the picture, pixels per head unit
 };
@@ -95,33 +100,22 @@ double mean_difference(const Comparison& c, const Fit& fit) {
   return count > 0 ? sum / count : 0;
 }
 
-double robust_difference(const Comparison& c, const Fit& fit) {
-  const PlacedHead head(c.geometry, fit);
-  const Appearance shown = c.appearance(fit, head.vertices);
-  double sum = 0;
-  for (std::size_t n = 0; n < c.points.patches().size(); ++n) {
-    const SamplePoints::Patch& patch = c.points.patches()[n];
-    const double samples = c.points.samples_per_point(n, head);
-    for (std::size_t k = patch.first; k < patch.end; ++k) {
-      const double value = shown.at(k, 0);
-      Sample s;
-      if (value >= 0 && c.picture.sample(0, head(c.points[k]), s))
-        sum += samples * huber(value - static_cast<double>(s.value));
-    }
-  }
-  return sum;
-}
-
-void add_picture(const Comparison& c, int level, const Fit& fit, NormalEquations& normal) {
+double add_picture(const Comparison& c, int level, const Fit& fit, NormalEquations& normal) {
   const LevelEquations equations(c, level, fit);
   PatchEquations patch_equations;
-  for (const SamplePoints::Patch& patch : c.points.patches()) {
+  double difference = 0;
+  for (std::size_t i = 0; i < c.points.patches().size(); ++i) {
+    const SamplePoints::Patch& patch = c.points.patches()[i];
     const std::size_t n = patch.controls.size();
     patch_equations.begin(n);
+    double of_patch = 0;
     for (std::size_t k = patch.first; k < patch.end; ++k)
-      equations.add_point(k, std::span(patch.shares).subspan((k - patch.first) * n, n), patch_equations);
+      of_patch +=
+          equations.add_point(k, std::span(patch.shares).subspan((k - patch.first) * n, n), patch_equations);
     patch_equations.add_to(c.columns, patch.controls, normal);
+    difference += equations.samples_per_point(i) * of_patch;
   }
+  return difference;
 }
 
 }  // namespace fbs

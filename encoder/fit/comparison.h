@@ -36,11 +36,9 @@ struct Comparison {
 /// Robust mean of squared differences on the fine level, each point counted once; zero when none is seen.
 [[nodiscard]] double mean_difference(const Comparison& comparison, const Fit& fit);
 
-/// Robust sum of squared differences over the samples of the full picture that the points stand for.
-[[nodiscard]] double robust_difference(const Comparison& comparison, const Fit& fit);
-
-/// The picture's part of a Gauss-Newton step: robustly weighted luma differences at every point, over
+/// Adds the picture's part of a Gauss-Newton step: robustly weighted luma differences at every point, over
 /// kResidualSigma.
-void add_picture(const Comparison& comparison, int level, const Fit& fit, NormalEquations& normal);
+/// @return robust sum of squared differences over the samples of the full picture that the points stand for
+double add_picture(const Comparison& comparison, int level, const Fit& fit, NormalEquations& normal);
 
 }  // namespace fbs

@@ -38,7 +38,7 @@ Fit PictureFit::refine_mouth(const Fit& start) const {
 
 PictureCost PictureFit::cost_at(const Fit& fit) const {
   NormalEquations normal(comparison_.columns.count());
-  add_picture(comparison_, 0, fit, normal);
+  const double constant = add_picture(comparison_, 0, fit, normal);
   const cv::Mat1d all = normal.symmetric();
   const std::vector<int> number = comparison_.columns.numbers();
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
@@ -47,7 +47,7 @@ PictureCost PictureFit::cost_at(const Fit& fit) const {
   // add_picture() weighs by the residual sigma and counts points, each of which stands for so many samples.
   const double scale = comparison_.picture.scale(0);
   const double samples = kFitPointSpacing * kFitPointSpacing / (scale * scale);
-  return cost_of(fit, comparison_.pattern.index(), robust_difference(comparison_, fit),
+  return cost_of(fit, comparison_.pattern.index(), constant,
                  cv::Mat1d(own * samples * kResidualSigma * kResidualSigma));
 }
 
