@@ -2,6 +2,7 @@
 
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/head_projection.h"
+#include "encoder/model/skinning.h"
 
 namespace fbs {
 namespace {
@@ -22,7 +23,7 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
       head_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
       search_(finder),
       features_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
-      fit_(start.setup, start.geometry, first_frame(start, start.pattern, false), start.seen) {
+      fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
   if (settings.surround) surround_.emplace(start.first, start.seen);
 }
@@ -46,13 +47,13 @@ void FaceAnalysis::set_surround_map(const SurroundMap& map) {
 }
 
 PictureCost FaceAnalysis::fit_first(const Picture& picture) {
-  fit_.look_at(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), mouth_);
+  fit_.set_picture(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), mouth_);
   report_.confidence = 1;
   return fit_.cost_at(now_);
 }
 
 PictureCost FaceAnalysis::fit_next(const Picture& picture) {
-  const HeadVertices vertices = fit_.deformed(now_);
+  const HeadVertices vertices = skinned(geometry_, now_.offsets);
   WorkFrame frame = WorkFrame::cut(picture, head_.pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> head = follow_head(picture, vertices, frame);
   if (!head) {
@@ -60,7 +61,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
     return cost_unseen(now_);
   }
   Fit start = tracked(frame, *head);
-  fit_.look_at(frame, mouth_);
+  fit_.set_picture(frame, mouth_);
   start = fit_.with_best_lids(start);
   now_ = refine_ ? fit_.refine_mouth(start) : start;
   return fit_.cost_at(now_);

@@ -50,8 +50,8 @@ cv::Mat1d rows_of_coefficients(const cv::Mat1d& rows) {
   return out;
 }
 
-cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& form) {
-  const cv::Mat1d half = rows_of_coefficients(form);
+cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& quadratic) {
+  const cv::Mat1d half = rows_of_coefficients(quadratic);
   return rows_of_coefficients(cv::Mat1d(half.t()));
 }
 

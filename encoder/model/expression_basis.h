@@ -17,9 +17,9 @@ using Offsets = std::array<glm::dvec2, kControlCount>;
 /// The coefficients, head units, that move the control points by `offsets`.
 [[nodiscard]] std::array<double, kCoefficientCount> to_coefficients(const Offsets& offsets);
 
-/// A quadratic form over the offsets as one over the coefficients.
-/// @param form  kCoefficientCount x kCoefficientCount, symmetric
-[[nodiscard]] cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& form);
+/// A quadratic over the offsets as one over the coefficients.
+/// @param quadratic  kCoefficientCount x kCoefficientCount, symmetric
+[[nodiscard]] cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& quadratic);
 
 /// Rows of a matrix over the offsets, one for each other number, over the coefficients.
 /// @param rows  n x kCoefficientCount

@@ -9,11 +9,12 @@ namespace fbs {
 namespace {
 
 constexpr int kControls = static_cast<int>(kExpressionControls);
-// Standard deviations, eye distances.
-constexpr double kElse = 0.008;  // of a control point past all actions
-constexpr double kLipSeen = 0.02, kInnerLipSeen = 0.02, kBrowSeen = 0.03;  // of contours as seen
+// Standard deviations, eye distances; set by hand. Smaller: fewer odd shapes, less of what is particular.
+constexpr double kControlSigma = 0.008;  // of a control point about what the actions span
+constexpr double kOuterLipTrackSigma = 0.02, kInnerLipTrackSigma = 0.02,
+                 kBrowTrackSigma = 0.03;  // of contours
 
-/// A vertex of lips or brows as the actions see it.
+/// Where a vertex lies on lips or brows, in the coordinates of the actions.
 struct Place {
   FeatureId feature;
   bool upper = false;   ///< lip
@@ -26,10 +27,10 @@ struct Place {
   }
   [[nodiscard]] bool is_outer_lip() const { return feature == FeatureId::kMouthOuter; }
   /// 0 at the mouth's corners, 1 in its middle.
-  [[nodiscard]] double bow() const { return 1 - across * across; }
+  [[nodiscard]] double middle() const { return 1 - across * across; }
 };
 
-/// How far a point goes in one standard deviation of an action, eye distances.
+/// How far a point moves in one standard deviation of an action, eye distances.
 using Action = std::function<glm::dvec2(const Place&)>;
 
 Action of_lips(Action action) {
@@ -44,24 +45,25 @@ const std::vector<Action>& actions() {
   static const std::vector<Action> all = {
       // The jaw drops; the corners come in and down a little.
       of_lips([](const Place& p) {
-        return 0.15 * glm::dvec2(-0.12 * p.across, p.upper ? 0.2 * (1 - p.bow()) : 0.2 + 0.8 * p.bow());
+        return 0.15 * glm::dvec2(-0.12 * p.across, p.upper ? 0.2 * (1 - p.middle()) : 0.2 + 0.8 * p.middle());
       }),
       // The upper lip is raised.
-      of_lips([](const Place& p) { return glm::dvec2(0, p.upper ? -0.045 * p.bow() : 0); }),
+      of_lips([](const Place& p) { return glm::dvec2(0, p.upper ? -0.045 * p.middle() : 0); }),
       // The corners go apart, or together to a pout.
       of_lips([](const Place& p) { return glm::dvec2(0.06 * p.across, 0); }),
       // A smile: corners up and out.
-      of_lips([](const Place& p) { return (1 - p.bow()) * glm::dvec2(0.02 * p.across, -0.045); }),
+      of_lips([](const Place& p) { return (1 - p.middle()) * glm::dvec2(0.02 * p.across, -0.045); }),
       // Either lip grows thicker or rolls in.
       of_lips(
-          [](const Place& p) { return glm::dvec2(0, !p.upper && p.is_outer_lip() ? 0.03 * p.bow() : 0); }),
-      of_lips(
-          [](const Place& p) { return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.bow() : 0); }),
+          [](const Place& p) { return glm::dvec2(0, !p.upper && p.is_outer_lip() ? 0.03 * p.middle() : 0); }),
+      of_lips([](const Place& p) {
+        return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.middle() : 0);
+      }),
       // The whole mouth goes aside, up and down, or tilts.
       of_lips([](const Place&) { return glm::dvec2(0.02, 0); }),
       of_lips([](const Place&) { return glm::dvec2(0, 0.035); }),
       of_lips([](const Place& p) { return glm::dvec2(0, 0.02 * p.across); }),
-      // The opening is wider or narrower than the lips say.
+      // The opening is wider or narrower than the outer lips.
       of_lips([](const Place& p) { return glm::dvec2(p.is_outer_lip() ? 0 : 0.02 * p.across, 0); }),
       // Both brows rise, their inner or their outer ends more; a frown brings them down and together.
       of_brows([](const Place&) { return glm::dvec2(0, -0.06); }),
@@ -108,9 +110,9 @@ cv::Mat1d precision() {
       if (head.skinning[k].control < kControls)
         follow(i, head.skinning[k].control) = head.skinning[k].weight / static_cast<double>(kSkinningOne);
   }
-  // An action in control points: those that move the vertices as it says.
+  // An action in control points: the least-squares offsets that move the vertices by it.
   const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
-  cv::Mat1d covariance = kElse * kElse * cv::Mat1d::eye(2 * kControls, 2 * kControls);
+  cv::Mat1d covariance = kControlSigma * kControlSigma * cv::Mat1d::eye(2 * kControls, 2 * kControls);
   for (const Action& action : actions()) {
     cv::Mat1d moved(n, 2), offsets;
     for (int i = 0; i < n; ++i) {
@@ -125,17 +127,19 @@ cv::Mat1d precision() {
   return cv::Mat1d(covariance.inv(cv::DECOMP_CHOLESKY));
 }
 
-/// Seen offsets to most probable ones: (P + W)^-1 W, with the inverse variances W of what is seen.
+/// Tracked offsets to most probable ones: (P + W)^-1 W, with the inverse variances W of the tracked contours.
 cv::Mat1d filter() {
-  cv::Mat1d seen = cv::Mat1d::zeros(2 * kControls, 2 * kControls);
+  cv::Mat1d tracked = cv::Mat1d::zeros(2 * kControls, 2 * kControls);
   const int inner = feature(FeatureId::kMouthInner).first_control;
   const int brows = feature(FeatureId::kBrowRight).first_control;
-  for (int i = 0; i < seen.rows; ++i) {
-    const double sigma = i / 2 < inner ? kLipSeen : i / 2 < brows ? kInnerLipSeen : kBrowSeen;
-    seen(i, i) = 1 / (sigma * sigma);
+  for (int i = 0; i < tracked.rows; ++i) {
+    const double sigma = i / 2 < inner   ? kOuterLipTrackSigma
+                         : i / 2 < brows ? kInnerLipTrackSigma
+                                         : kBrowTrackSigma;
+    tracked(i, i) = 1 / (sigma * sigma);
   }
-  const cv::Mat1d sum = expression_precision() + seen;
-  return cv::Mat1d(sum.inv(cv::DECOMP_CHOLESKY) * seen);
+  const cv::Mat1d sum = expression_precision() + tracked;
+  return cv::Mat1d(sum.inv(cv::DECOMP_CHOLESKY) * tracked);
 }
 
 }  // namespace
@@ -145,15 +149,15 @@ const cv::Mat1d& expression_precision() {
   return matrix;
 }
 
-std::array<glm::dvec2, kControlCount> most_probable(const std::array<glm::dvec2, kControlCount>& seen) {
+std::array<glm::dvec2, kControlCount> most_probable(const std::array<glm::dvec2, kControlCount>& tracked) {
   static const cv::Mat1d matrix = filter();
-  std::array<glm::dvec2, kControlCount> out = seen;
+  std::array<glm::dvec2, kControlCount> out = tracked;
   for (std::size_t i = 0; i < kExpressionControls; ++i) {
     for (int axis = 0; axis < 2; ++axis) {
       const double* row = matrix[2 * static_cast<int>(i) + axis];
       double sum = 0;
       for (std::size_t j = 0; j < kExpressionControls; ++j)
-        sum += row[2 * j] * seen[j].x + row[2 * j + 1] * seen[j].y;
+        sum += row[2 * j] * tracked[j].x + row[2 * j + 1] * tracked[j].y;
       out[i][axis] = sum;
     }
   }

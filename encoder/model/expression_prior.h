@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// The features whose control points the prior is about: lips and brows, in the order of FeatureId.
+/// Control points of lips and brows, which the prior covers: the first in the order of FeatureId.
 inline constexpr std::size_t kExpressionControls = 26;
 
 /// Inverse covariance of the offsets of the control points of lips and brows about rest, per squared eye
@@ -19,10 +19,10 @@ inline constexpr std::size_t kExpressionControls = 26;
 /// Rows and columns: 2 * control point + axis, for control points 0 .. kExpressionControls - 1.
 [[nodiscard]] const cv::Mat1d& expression_precision();
 
-/// The most probable offsets (head units) given those that contours were seen at, each to within some
-/// hundredths of the eye distance: contrast sees motion across a contour only, so that a closed mouth's line,
-/// say, may slide along itself unseen. Control points past kExpressionControls stay as they are.
+/// The most probable offsets (head units) given those of the tracked contours, each known to within some
+/// hundredths of the eye distance: contrast shows motion across a contour only, so that the line of a closed
+/// mouth may slide along itself unnoticed. Control points past kExpressionControls stay as they are.
 [[nodiscard]] std::array<glm::dvec2, kControlCount> most_probable(
-    const std::array<glm::dvec2, kControlCount>& seen);
+    const std::array<glm::dvec2, kControlCount>& tracked);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// What the analysis has found in a picture: the state in continuous numbers.
+// The state of a picture in continuous numbers, as the analysis estimates it.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Pose, light and the mouth's interior (grey levels, else as in State), offsets of all control points (head
+/// Pose, light and mouth interior (grey levels, else as in State), offsets of all control points (head
 /// units).
 struct Fit {
   Pose pose;
@@ -17,12 +17,18 @@ struct Fit {
   Offsets offsets{};
 };
 
+/// 1/16 grey levels, the unit of State::light and State::interior, per grey level, the fit's.
+inline constexpr double kLightUnitsPerLevel = 16;
+
 /// Numbers of a fit in the order in which PictureFit solves for them: pose (radians, pixels, log2), light,
-/// the mouth's interior, offsets.
+/// mouth interior, offsets.
 inline constexpr int kFitOffsets = kPoseCount + kLightCount + kInteriorCount;
 inline constexpr int kFitNumbers = kFitOffsets + kCoefficientCount;
 
 /// The state nearest to a fit; body and ground stay where pattern 0 saw them.
 [[nodiscard]] State state_of(const Fit& fit);
+
+/// The fit whose state is `state`, body and ground apart.
+[[nodiscard]] Fit fit_of(const State& state);
 
 }  // namespace fbs

@@ -18,8 +18,8 @@ std::array<double, kParameterCount> values_of(const Fit& fit) {
   std::array<double, kParameterCount> out{};
   const auto pose = numbers_of(fit.pose);
   auto to = std::copy(pose.begin(), pose.end(), out.begin());
-  for (const double light : fit.light) *to++ = 16 * light;
-  for (const double inside : fit.interior) *to++ = 16 * inside;
+  for (const double light : fit.light) *to++ = kLightUnitsPerLevel * light;
+  for (const double level : fit.interior) *to++ = kLightUnitsPerLevel * level;
   const auto expression = to_coefficients(fit.offsets);
   std::copy(expression.begin(), expression.end(), out.begin() + kFirstCoefficient);
   return out;
@@ -40,8 +40,8 @@ double PictureCost::constant() const {
 }
 
 PictureCost cost_unseen(const Fit& fit) {
-  // The pose stays rather than to slide to where the face comes back: as if a few samples said so.
-  constexpr double kSamples = 4;
+  // The pose stays instead of sliding to where the face comes back.
+  constexpr double kSamples = 4;  // weight: of so many samples with a slope of one level per pixel
   const Pose unit = one_unit();
   const double eye = fit.pose.eye_distance_px();
   const std::array<double, kPoseCount> px = {unit.pitch * eye, unit.yaw * eye,
@@ -55,7 +55,7 @@ PictureCost cost_unseen(const Fit& fit) {
 PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& fitted) {
   const Pose p = one_unit();
   std::array<double, kFitOffsets> unit = {p.pitch, p.yaw, p.roll, p.shift.x, p.shift.y, p.log2_scale};
-  std::fill(unit.begin() + kPoseCount, unit.end(), 1 / 16.0);
+  std::fill(unit.begin() + kPoseCount, unit.end(), 1 / kLightUnitsPerLevel);
   cv::Mat1d own = fitted.clone();
   for (int i = 0; i < kFitOffsets; ++i) {
     own.row(i) *= unit[i];

@@ -1,4 +1,4 @@
-// What other states than the fitted one would cost in a picture: what the planner weighs against bits.
+// What states other than the fitted one would cost in a picture: what the planner weighs against bits.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace fbs {
 /// A part of the picture that is drawn from one pattern.
 enum class Region : std::uint8_t { kHead, kSurround };
 
-/// Squared luma difference over a region, in samples of the full picture, when it is drawn from `pattern` in
-/// a state x near the picture's fit:  constant + (x - fit)^T quadratic (x - fit).
+/// Robust squared luma difference over a region, in samples of the full picture, when it is drawn from
+/// `pattern` in a state x near the picture's fit:  constant + (x - fit)^T quadratic (x - fit).
 struct RegionCost {
   Region region = Region::kHead;
   int pattern = 0;
@@ -33,7 +33,7 @@ struct PictureCost {
   [[nodiscard]] double constant() const;
 };
 
-/// Of a fit that no picture speaks for: only the pose is held a little.
+/// Of a picture without a fit (the face is lost): only the pose is held a little.
 [[nodiscard]] PictureCost cost_unseen(const Fit& fit);
 
 /// Of the head, drawn from a pattern.

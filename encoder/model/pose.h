@@ -1,5 +1,4 @@
-// Head pose as the analysis sees it: continuous, radians and pixels. The stream's integers are HeadPose and
-// State.
+// Head pose in continuous numbers, radians and pixels. The stream's integers are HeadPose and State.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -12,7 +11,7 @@
 
 namespace fbs {
 
-/// Frame and order of rotation as HeadPose has them.
+/// Frame and order of rotation as in HeadPose.
 struct Pose {
   double pitch = 0, yaw = 0, roll = 0;  ///< rad
   glm::dvec2 shift{0, 0};               ///< where the head frame's origin is seen, pixels

@@ -12,10 +12,10 @@ Pose moved(const Pose& p, const PoseStep& d) {
   out.roll += d[2];
   out.shift += glm::dvec2(d[3], d[4]);
   out.log2_scale += d[5];
-  constexpr double kMaxTurn = 1.2;  // beyond this the face is not seen any more
-  out.pitch = std::clamp(out.pitch, -kMaxTurn, kMaxTurn);
-  out.yaw = std::clamp(out.yaw, -kMaxTurn, kMaxTurn);
-  out.roll = std::clamp(out.roll, -kMaxTurn, kMaxTurn);
+  constexpr double kMaxAngle = 1.2;  // rad; beyond it the face is out of sight
+  out.pitch = std::clamp(out.pitch, -kMaxAngle, kMaxAngle);
+  out.yaw = std::clamp(out.yaw, -kMaxAngle, kMaxAngle);
+  out.roll = std::clamp(out.roll, -kMaxAngle, kMaxAngle);
   return out;
 }
 

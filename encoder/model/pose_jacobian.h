@@ -9,13 +9,13 @@
 
 namespace fbs {
 
-/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; turns are kept within
-/// what still shows a face.
+/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; angles are
+/// clamped to what still shows a face.
 using PoseStep = cv::Vec<double, 6>;
 [[nodiscard]] Pose moved(const Pose& pose, const PoseStep& step);
 
-/// Derivatives of a projected point by the six numbers of PoseStep: the rotations' by difference, the rest
-/// exact.
+/// Derivatives of a projected point by the six numbers of PoseStep: by finite difference for the angles,
+/// exact for the rest.
 class PoseJacobian {
  public:
   explicit PoseJacobian(const Pose& pose);

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "encoder/model/pose.h"
+#include "encoder/model/skinning.h"
 
 namespace fbs {
-
-using HeadVertices = std::array<glm::dvec3, kVertexCount>;  ///< head units
 
 /// A point fixed on a triangle of the mesh.
 struct SurfacePoint {
@@ -27,8 +26,8 @@ struct SurfacePoint {
 
 /// Points spread evenly over the mesh as `projection` sees it.
 /// @param spacing_px  between neighbours, pixels of the picture
-/// @param mouth_rows  points across each triangle of the mouth's inside at least, which may be a mere line
-/// now
+/// @param mouth_rows  least number of points across each triangle of the mouth interior, which has no area
+/// while the lips are closed
 [[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices,
                                                          const PoseProjection& projection, double spacing_px,
                                                          int mouth_rows = 1);

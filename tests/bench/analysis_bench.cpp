@@ -83,23 +83,23 @@ void one_snake(benchmark::State& state, FeatureId id, bool look) {
 
 void FitRefine(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
-  PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
+  PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.look_at(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame, clip.setup().mouth);
     benchmark::DoNotOptimize(fit.refine(p.tracked_fit));
   });
 }
 BENCHMARK(FitRefine)->Unit(benchmark::kMicrosecond);
 
-void FitFormAt(benchmark::State& state) {
+void FitCostAt(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
-  PictureFit fit(clip.setup(), clip.geometry(), clip.first(), clip.seen());
+  PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.look_at(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame, clip.setup().mouth);
     benchmark::DoNotOptimize(fit.cost_at(p.tracked_fit));
   });
 }
-BENCHMARK(FitFormAt)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FitCostAt)->Unit(benchmark::kMicrosecond);
 
 void TrackPlan(benchmark::State& state) {
   constexpr int kGroup = 30;

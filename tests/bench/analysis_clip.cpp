@@ -22,7 +22,7 @@ AnalysisClip::AnalysisClip()
 
   HeadTracker head(head_.geometry, head_.pose, first_);
   FeatureTracker features(head_.geometry, head_.pose, first_);
-  PictureFit fit(setup_, head_.geometry, first_, seen_);
+  PictureFit fit(setup_, head_.geometry, {first_, seen_});
   Fit now{pose_of(seen_), {}, {}};
   // Twice round, so that the first picture too comes from its neighbour.
   constexpr int kRound = 2 * (kPictures - 1);
@@ -36,7 +36,7 @@ AnalysisClip::AnalysisClip()
     p.flow = head.flow();
     features.track(p.frame, p.tracked.pose, p.flow);
     p.tracked_fit = {p.tracked.pose, now.light, now.interior, features.offsets()};
-    fit.look_at(p.frame, setup_.mouth);
+    fit.set_picture(p.frame, setup_.mouth);
     now = fit.refine(p.tracked_fit);
     p.cost = fit.cost_at(now);
   }

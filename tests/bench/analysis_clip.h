@@ -21,7 +21,7 @@ struct AnalysedPicture {
   TrackedPose tracked;
   std::array<glm::dvec2, kVertexCount> flow{};
   Fit tracked_fit;   ///< pose and snakes, the light of the picture before
-  PictureCost cost;  ///< round the refined fit
+  PictureCost cost;  ///< near the refined fit
 };
 
 class AnalysisClip {

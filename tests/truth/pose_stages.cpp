@@ -85,7 +85,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   const WorkFrame first = WorkFrame::cut(clip[0], head.pose.shift, eye, true);
   HeadTracker tracker(head.geometry, head.pose, first);
   FeatureTracker features(head.geometry, head.pose, first);
-  PictureFit fit(setup, head.geometry, first, seen);
+  PictureFit fit(setup, head.geometry, {first, seen});
   const TrackPlanner planner(setup.steps, setup.parts);
   TrackRate rate;
   Fit now{pose_of(seen), {}, {}, {}};
@@ -93,9 +93,9 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
   std::vector<Pose> truths;
   for (int i = 1; i < clip.count(); ++i) {
     const WorkFrame frame = WorkFrame::cut(clip[i], tracker.pose().shift, eye, true);
-    const TrackedPose tracked = tracker.track(frame, fit.deformed(now));
+    const TrackedPose tracked = tracker.track(frame, skinned(head.geometry, now.offsets));
     features.track(frame, tracked.pose, tracker.flow());
-    fit.look_at(frame, setup.mouth);
+    fit.set_picture(frame, setup.mouth);
     now = fit.refine({tracked.pose, now.light, now.interior, features.offsets()});
     fits.push_back(fit.cost_at(now));
     truths.push_back(clip.pose(i));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "encoder/fit/picture_fit.h"
+#include "tests/unit/encoder/fit/seen_scene.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -14,10 +15,10 @@ struct FittedScene {
   Scene scene;
   PictureFit fit;
 
-  FittedScene() : scene(make()), fit(setup, toy_geometry(), frame_of(scene.patterns[0].picture), seen) {}
+  FittedScene() : scene(make()), fit(setup, toy_geometry(), {frame_of(scene.patterns[0].picture), seen}) {}
 
   [[nodiscard]] Picture drawn(const State& state) const { return rendered(scene, state); }
-  void look_at(const State& state) { fit.look_at(frame_of(drawn(state)), setup.mouth); }
+  void set_picture(const State& state) { fit.set_picture(frame_of(drawn(state)), setup.mouth); }
 
  private:
   Scene make() {
@@ -32,5 +33,25 @@ struct FittedScene {
   }
   static WorkFrame frame_of(const Picture& picture) { return WorkFrame::cut(picture, {160, 96}, 48, true); }
 };
+
+/// Turned, shifted, brows raised.
+inline State other_state(const FittedScene& s) {
+  State state = s.seen;
+  state.pose[kYaw] += 3 * kDegree;
+  state.pose[kRoll] += 2 * kDegree;
+  state.pose[kShiftX] += 2 * 64;
+  state.pose[kShiftY] -= 64;
+  for (const FeatureId id : {FeatureId::kBrowRight, FeatureId::kBrowLeft})
+    for (int i = 0; i < feature(id).control_count; ++i)
+      state.control[feature(id).first_control + i] = {0, -350};
+  return state;
+}
+
+/// With the lower lip hanging.
+inline State with_open_mouth(State state) {
+  const Feature& inner = feature(FeatureId::kMouthInner);
+  for (const int c : {4, 5, 6, 7}) state.control[inner.first_control + c].y = 1000;
+  return state;
+}
 
 }  // namespace fbs

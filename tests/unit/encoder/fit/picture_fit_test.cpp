@@ -3,79 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/mouth_interior.h"
 #include "tests/unit/encoder/fit/fitted_scene.h"
+#include "tests/unit/encoder/fit/owner_map.h"
 
 namespace fbs {
 namespace {
-
-constexpr std::int32_t kDegree = 65536 / 360;
-constexpr double kDegreeRad = std::numbers::pi / 180;
-
-/// Turned, shifted, brows raised.
-State other_state(const FittedScene& s) {
-  State state = s.seen;
-  state.pose[kYaw] += 3 * kDegree;
-  state.pose[kRoll] += 2 * kDegree;
-  state.pose[kShiftX] += 2 * 64;
-  state.pose[kShiftY] -= 64;
-  for (const FeatureId id : {FeatureId::kBrowRight, FeatureId::kBrowLeft})
-    for (int i = 0; i < feature(id).control_count; ++i)
-      state.control[feature(id).first_control + i] = {0, -350};
-  return state;
-}
-
-/// With the lower lip hanging.
-State with_open_mouth(State state) {
-  const Feature& inner = feature(FeatureId::kMouthInner);
-  for (const int c : {4, 5, 6, 7}) state.control[inner.first_control + c].y = 1000;
-  return state;
-}
-
-/// The fit that says a state.
-Fit fit_of(const State& state) {
-  Fit fit{pose_of(state), {}, {}};
-  for (std::size_t i = 0; i < kLightCount; ++i) fit.light[i] = state.light[i] / 16.0;
-  for (std::size_t i = 0; i < kInteriorCount; ++i) fit.interior[i] = state.interior[i] / 16.0;
-  for (std::size_t c = 0; c < kControlCount; ++c) fit.offsets[c] = glm::dvec2(state.control[c]);
-  return fit;
-}
-
-TEST(PictureFit, RefineFindsPoseAndExpression) {
-  FittedScene s;
-  const State truth = other_state(s);
-  s.look_at(truth);
-  const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
-  const Pose expected = pose_of(truth);
-  EXPECT_NEAR(found.pose.yaw, expected.yaw, kDegreeRad);
-  EXPECT_NEAR(found.pose.pitch, expected.pitch, kDegreeRad);
-  EXPECT_NEAR(found.pose.roll, expected.roll, 0.5 * kDegreeRad);
-  EXPECT_NEAR(found.pose.shift.x, expected.shift.x, 1);
-  EXPECT_NEAR(found.pose.shift.y, expected.shift.y, 1);
-  const Picture source = s.drawn(truth);
-  EXPECT_LT(squares(s.drawn(state_of(found)), source), 0.35 * squares(s.drawn(s.seen), source));
-  double brow = 0;
-  for (int i = 0; i < 4; ++i) brow += found.offsets[feature(FeatureId::kBrowRight).first_control + i].y / 4;
-  EXPECT_LT(brow, -100) << "raised";
-}
-
-TEST(PictureFit, RefineStaysWhereThePictureIsThePattern) {
-  FittedScene s;
-  s.look_at(s.seen);
-  const Pose start = pose_of(s.seen);
-  const Fit found = s.fit.refine({start, {}, {}});
-  EXPECT_NEAR(found.pose.yaw, start.yaw, 0.3 * kDegreeRad);
-  EXPECT_NEAR(found.pose.shift.x, start.shift.x, 0.1);
-  EXPECT_NEAR(found.pose.shift.y, start.shift.y, 0.1);
-  for (const glm::dvec2 o : found.offsets) EXPECT_LT(std::hypot(o.x, o.y), 0.02 * kUnitsPerEyeDistance);
-}
 
 TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
   FittedScene s;
   State truth = s.seen;
   for (const std::size_t lower : {6U, 7U, 8U, 9U}) truth.control[lower].y = 600;
-  s.look_at(truth);
+  s.set_picture(truth);
   Fit start{pose_of(s.seen), {}, {}, {}};
   for (std::size_t c = 0; c < kControlCount; ++c) start.offsets[c] = glm::dvec2(truth.control[c]);
   const Feature& inner = feature(FeatureId::kMouthInner);
@@ -91,64 +32,12 @@ TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
   EXPECT_EQ(s.fit.refine_mouth(start).offsets, s.fit.refine(start).offsets) << "which have not strayed";
 }
 
-TEST(PictureFit, PartsThatAreNotSentDoNotMove) {
-  FittedScene s;
-  fbs::Setup few = s.setup;
-  few.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kBrows));
-  PictureFit fit(few, toy_geometry(), WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true),
-                 s.seen);
-  fit.look_at(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
-  const Fit found = fit.refine({pose_of(s.seen), {}, {}});
-  const ExpressionPart& brows = generic_head().expression[1];
-  for (int i = 0; i < kControlCount; ++i) {
-    const bool sent = i >= brows.first_control && i < brows.first_control + brows.control_count;
-    EXPECT_EQ(found.offsets[i] != glm::dvec2(0), sent) << i;
-  }
-}
-
-TEST(PictureFit, LightIsFound) {
-  FittedScene s;
-  for (const std::array<int, kLightCount>& light :
-       {std::array{15, 0, 0, 0, 0, 0, 0}, {-12, 8}, {5, -6, 10}, {0, 0, -8, 12}, {0, 0, 0, 0, 10, -8, 6}}) {
-    State truth = s.seen;
-    for (std::size_t i = 0; i < kLightCount; ++i) truth.light[i] = 16 * light[i];
-    s.look_at(truth);
-    const Fit found = s.fit.refine({pose_of(s.seen), {}, {}});
-    for (std::size_t i = 0; i < kLightCount; ++i) EXPECT_NEAR(found.light[i], light[i], 1.5) << i;
-    EXPECT_NEAR(found.pose.shift.x, pose_of(s.seen).shift.x, 0.2) << "light is not taken for motion";
-  }
-}
-
-TEST(PictureFit, StateOfAFitIsItInWholeUnits) {
-  FittedScene s;
-  State state = other_state(s);
-  state.light = {-100, 7, 80, 16};
-  state.interior = {33, -50, 4};
-  EXPECT_EQ(state_of(fit_of(state)), state);
-  Fit fit = fit_of(state);
-  fit.light[0] += 0.4 / 16;
-  fit.offsets[3] += 0.4;
-  EXPECT_EQ(state_of(fit), state);
-}
-
-TEST(PictureFit, MouthsInsideIsFound) {
-  FittedScene s;
-  for (const std::array<int, kInteriorCount>& inside : {std::array{40, 0, 0}, {0, 40, 0}, {-30, -30, 40}}) {
-    State truth = with_open_mouth(s.seen);
-    const Fit start = fit_of(truth);
-    for (std::size_t i = 0; i < kInteriorCount; ++i) truth.interior[i] = 16 * inside[i];
-    s.look_at(truth);
-    const Fit found = s.fit.refine(start);
-    for (std::size_t i = 0; i < kInteriorCount; ++i) EXPECT_NEAR(found.interior[i], inside[i], 15) << i;
-  }
-}
-
 // The least eigenvalue of a sum of squares is not below zero, but for rounding.
-TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
+TEST(PictureFit, CostIsSymmetricAndPositiveSemidefinite) {
   FittedScene s;
   State truth = with_open_mouth(other_state(s));
   truth.light = {160, 0, 80, 0};
-  s.look_at(truth);
+  s.set_picture(truth);
   const PictureCost cost = s.fit.cost_at(fit_of(truth));
   ASSERT_EQ(cost.quadratic().rows, kParameterCount);
   EXPECT_LT(cv::norm(cost.quadratic() - cost.quadratic().t()), 1e-9 * cv::norm(cost.quadratic()));
@@ -162,9 +51,9 @@ TEST(PictureFit, FormIsSymmetricAndPositiveSemidefinite) {
   }
 }
 
-TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
+TEST(PictureFit, CostOfAShutMouthIgnoresItsInterior) {
   FittedScene s;
-  s.look_at(s.seen);
+  s.set_picture(s.seen);
   const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   for (int i = 0; i < kParameterCount; ++i)
     if (kPartOf[i] == static_cast<int>(PartId::kMouthInterior)) {
@@ -172,40 +61,11 @@ TEST(PictureFit, FormSaysNothingOfTheInsideOfAShutMouth) {
     }
 }
 
-TEST(PictureFit, FormHasTheNumbersOfTheFit) {
+// What the encoder weighs bits against is what the decoder's picture shows, though it compares some thousand
+// points where the decoder has all samples.
+TEST(PictureFit, CostPredictsTheChangeOfTheSquaredDifference) {
   FittedScene s;
-  State state = other_state(s);
-  state.light = {160, -32, 80, 16};
-  state.interior = {48, -16, 7};
-  s.look_at(state);
-  for (const PictureCost& cost : {s.fit.cost_at(fit_of(state)), cost_unseen(fit_of(state))}) {
-    CodedState values;
-    for (std::size_t i = 0; i < kParameterCount; ++i)
-      values[i] = static_cast<std::int32_t>(std::lround(cost.fit[i]));
-    const State back = state_of_values(values);
-    EXPECT_EQ(back.pose, state.pose);
-    EXPECT_EQ(back.light, state.light);
-    EXPECT_EQ(back.interior, state.interior);
-    for (std::size_t c = 0; c < kControlCount; ++c) {
-      EXPECT_NEAR(back.control[c].x, state.control[c].x, 4) << c;
-      EXPECT_NEAR(back.control[c].y, state.control[c].y, 4) << c;
-    }
-  }
-}
-
-TEST(PictureFit, CostUnseenHoldsThePoseAlone) {
-  FittedScene s;
-  const cv::Mat1d cost = cost_unseen(fit_of(s.seen)).quadratic();
-  for (int i = 0; i < kParameterCount; ++i)
-    for (int j = 0; j < kParameterCount; ++j)
-      EXPECT_EQ(cost(i, j) > 0, i == j && i < kPoseCount) << i << ' ' << j;
-}
-
-// What the encoder weighs bits against is what the decoder's picture shows: it looks at some thousand points
-// where the decoder has all samples.
-TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
-  FittedScene s;
-  s.look_at(s.seen);
+  s.set_picture(s.seen);
   const Picture source = s.drawn(s.seen);
   const PictureCost cost = s.fit.cost_at(fit_of(s.seen));
   const auto compare = [&](std::size_t first, std::int32_t by, std::size_t second = 0,
@@ -239,37 +99,86 @@ TEST(PictureFit, FormPredictsTheChangeOfTheSquaredDifference) {
   }
 }
 
-// A face that has left: nothing to fit, nothing that may go wild.
-TEST(PictureFit, FlatPictureMovesNothingFar) {
-  FittedScene s;
-  s.fit.look_at(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true), s.setup.mouth);
-  const Pose start = pose_of(s.seen);
-  const Fit found = s.fit.refine({start, {}, {}});
-  EXPECT_TRUE(std::isfinite(found.pose.yaw) && std::isfinite(found.pose.shift.x));
-  for (const glm::dvec2 o : found.offsets) EXPECT_TRUE(std::isfinite(o.x) && std::isfinite(o.y));
+/// A pattern seen somewhere, and a picture of the same face in another paint.
+struct CostCase {
+  SeenScene scene;
+  PictureFit fit;
+  Picture source;
+
+  CostCase(const State& seen, const State& truth, int index = 0)
+      : scene(seen, wave_plane(SeenScene::kWidth, SeenScene::kHeight, 7)),
+        fit(scene.scene.setup, toy_geometry(),
+            {SeenScene::frame_of(scene.scene.patterns[0].picture), seen, index}),
+        source(scene.drawn(truth)) {
+    const Plane other = wave_plane(SeenScene::kWidth, SeenScene::kHeight, 8);
+    for (std::size_t i = 0; i < source.y.samples.size(); ++i)
+      source.y.samples[i] = static_cast<std::uint8_t>(source.y.samples[i] + (other.samples[i] - 128) / 4);
+    set(source);
+  }
+  void set(const Picture& picture) { fit.set_picture(SeenScene::frame_of(picture), scene.scene.setup.mouth); }
+
+  /// Over the samples of the head as the decoder draws it.
+  [[nodiscard]] double drawn_difference(const State& state) const {
+    const OwnerMap owners(scene.scene.geometry->screen_mesh(state));
+    const Picture drawn = scene.drawn(state);
+    double sum = 0;
+    for (std::size_t i = 0; i < drawn.y.samples.size(); ++i)
+      if (owners.on_head(i)) sum += huber(drawn.y.samples[i] - source.y.samples[i]);
+    return sum;
+  }
+};
+
+State some_state(unsigned seed) {
+  StateMaker maker(seed);
+  State state = SeenScene::rest();
+  maker.pose(state);
+  maker.expression(state);
+  maker.light(state);
+  return state;
 }
 
-// A blink is over in three pictures: both lids are found shut, or open again, in one step.
-TEST(PictureFit, LidsAreFoundWhereverTheyWere) {
-  FittedScene s;
-  const auto lids = {FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
-  const auto lowered = [&](double by) {
-    State state = s.seen;
-    for (const FeatureId id : lids)
-      for (int i = 0; i < 2; ++i)
-        state.control[feature(id).first_control + i] = {0, static_cast<int>(std::lround(by))};
-    return state;
-  };
-  const double down = 0.12 * kUnitsPerEyeDistance;
-  for (const double truth : {0.0, down}) {
-    s.look_at(lowered(truth));
-    Fit start{pose_of(s.seen), {}, {}};
-    for (const FeatureId id : lids)
-      for (std::size_t i = 0; i < 2; ++i) start.offsets[feature(id).first_control + i] = {0, down - truth};
-    const Fit found = s.fit.with_best_lids(start);
-    for (const FeatureId id : lids)
-      EXPECT_NEAR(found.offsets[feature(id).first_control].y, truth, 0.35 * down);
+TEST(PictureFit, CostIsTheDifferenceThatTheDecoderDraws) {
+  for (const State& seen : {SeenScene::rest(), some_state(2)}) {
+    const State truth = some_state(1);
+    const CostCase c(seen, truth);
+    const PictureCost cost = c.fit.cost_at(fit_of(truth));
+    const double drawn = c.drawn_difference(truth);
+    EXPECT_NEAR(cost.constant() / drawn, 1, 0.05);
+    // Both sides together: the source is no minimum.
+    const auto expect_near = [&](int number, int by) {
+      State up = truth, down = truth;
+      (number < kPoseCount ? up.pose[number] : up.light[number - kPoseCount]) += by;
+      (number < kPoseCount ? down.pose[number] : down.light[number - kPoseCount]) -= by;
+      const double there = 0.5 * (c.drawn_difference(up) + c.drawn_difference(down));
+      const double predicted = cost.constant() + cost.quadratic()(number, number) * by * by;
+      EXPECT_GT(there, 1.2 * drawn) << number << " moves it enough to tell";
+      // Points of small triangles stand for less than they count in the quadratic.
+      EXPECT_NEAR(predicted / there, 1, 0.65) << number;
+    };
+    expect_near(kShiftX, 96);
+    expect_near(kShiftY, 96);
+    expect_near(kYaw, 3 * kDegree);
+    expect_near(kPoseCount + kLightOffset, 16 * 8);
+    expect_near(kPoseCount + kLightSlopeX, 16 * 12);
   }
+}
+
+TEST(PictureFit, CostNamesThePatternAndIsLowerForTheOneThatShowsMore) {
+  State open = with_open_mouth(some_state(3));
+  open.light = {200, 0, -100};
+  const CostCase shut(SeenScene::rest(), open);
+  // The same face as the source, seen as it is now.
+  const Picture& source = shut.source;
+  const auto cost_of_pattern = [&](const Picture& picture, const State& seen, int index) {
+    PictureFit fit(shut.scene.scene.setup, toy_geometry(), {SeenScene::frame_of(picture), seen, index});
+    fit.set_picture(SeenScene::frame_of(source), shut.scene.scene.setup.mouth);
+    return fit.cost_at(fit_of(open)).regions.at(0);
+  };
+  const RegionCost first = cost_of_pattern(shut.scene.scene.patterns[0].picture, SeenScene::rest(), 0);
+  const RegionCost second = cost_of_pattern(source, open, 3);
+  EXPECT_EQ(first.pattern, 0);
+  EXPECT_EQ(second.pattern, 3);
+  EXPECT_LT(second.constant, 0.1 * first.constant);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// What the decoder shows at the sample points: Renderer's arithmetic in continuous numbers. SPEC 10.
+#pragma once
+
+#include <array>
+
+#include "bitstream/syntax.h"
+#include "encoder/fit/pattern_samples.h"
+
+namespace fbs {
+
+/// What one grey level of each number of the light adds.
+/// @param place  SamplePoints::light_place()  @param luma  of the pattern
+[[nodiscard]] std::array<double, kLightCount> light_basis(glm::dvec2 place, double luma);
+
+/// What one grey level of each number of the mouth interior adds to its colour.
+/// @param ramp  0 at the upper lip to 1 at the lower
+[[nodiscard]] std::array<double, kInteriorCount> interior_basis(double ramp);
+
+/// One state drawn from one pattern. Borrows points and pattern.
+class Appearance {
+ public:
+  Appearance(const SamplePoints& points, const PatternSamples& pattern, const MouthInterior& mouth,
+             const Fit& fit, const HeadVertices& vertices);
+
+  /// Luma; negative where the pattern does not reach.
+  [[nodiscard]] double at(std::size_t point, int level) const;
+
+  /// Share of the mouth interior in what is shown, 0..1.
+  [[nodiscard]] double interior_share(std::size_t point) const {
+    return points_.mouth_ramp(point) < 0 ? 0 : shade_ / kShadeOne;
+  }
+
+ private:
+  static constexpr double kShadeOne = 256;  ///< of interior_opacity()
+
+  const SamplePoints& points_;
+  const PatternSamples& pattern_;
+  std::array<double, kLightCount> light_;        ///< that the state has and the pattern has not
+  std::array<double, kInteriorCount> interior_;  ///< luma at upper lip, half way and lower lip
+  std::int32_t shade_;
+};
+
+}  // namespace fbs

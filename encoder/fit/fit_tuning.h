@@ -1,0 +1,55 @@
+// What the fit was tuned by. Set by eye and by face PSNR on the ten clips unless a line says otherwise.
+#pragma once
+
+#include "common/generic_head.h"
+
+namespace fbs {
+
+// Sample points. Denser: steadier fits, and the time of a step grows with the square.
+inline constexpr int kFitLevels = 2;             ///< of the luma pyramid: the work frame and half its size
+inline constexpr double kFitPointSpacing = 2.5;  ///< work pixels between neighbours
+inline constexpr int kMinMouthRows = 5;          ///< of points across a triangle of the mouth interior
+inline constexpr double kMinSkinningShare =
+    0.01;  ///< a control point that moves no corner by more is left out
+
+// Residuals. The sigma scales the picture against the priors below; from kHuberLevels on, differences (teeth,
+// shadows) pull with constant force.
+inline constexpr double kResidualSigma = 6;  ///< grey levels
+inline constexpr double kHuberLevels = 48;   ///< grey levels
+
+// Priors: standard deviations about the start, which is the tracked pose, contours and the light of the
+// picture before. Smaller: less jitter, slower to follow.
+inline constexpr double kPoseSigma = 0.006;  ///< rad, eye distances, log2; the tracker aligned this picture
+inline constexpr double kOuterLipSigma = 0.012;  ///< eye distances; contours show lips and lids better than
+inline constexpr double kInnerLipSigma = 0.005;  ///< textures do,
+inline constexpr double kLidSigma = 0.007;
+inline constexpr double kBrowSigma = 0.034;   ///< and textures show brows better than contours
+inline constexpr double kOtherSigma = 0.034;  ///< eye distances; lower lids and pupils
+inline constexpr double kLightSigma = 4;      ///< grey levels
+inline constexpr double kInteriorSigma = 8;   ///< grey levels; of the mouth interior
+
+// Priors: standard deviations about rest. Smaller: a fit that the picture leaves free returns sooner.
+inline constexpr double kLightRestSigma = 40;     ///< grey levels; about no light of its own
+inline constexpr double kInteriorRestSigma = 30;  ///< grey levels; about the setup's mouth colours
+inline constexpr double kControlRestSigma =
+    0.12;  ///< eye distances; lids and pupils; the rest: expression_prior.h
+
+// Gauss-Newton.
+inline constexpr int kStepsOfLevel[kFitLevels] = {3, 2};           ///< fine level first
+inline constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;  ///< head units, of a control point
+/// Inner lips farther from where the outer ones carry them are tried from there, too. Eye distances.
+inline constexpr double kInnerLipsStray = 0.04;
+
+// Lids.
+/// Candidates of the search, in shares of the way from open to shut.
+inline constexpr double kLidClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
+/// Squared grey levels for lids that differ by the whole way: larger keeps winks out, and the noise of one
+/// eye.
+inline constexpr double kLidsApartCost = 60;
+inline constexpr double kLidResidualSigma = 30;  ///< grey levels; larger differences hardly count more
+/// By which a shut upper lid passes the lower one, so that nothing of the eye is left between. Eye distances.
+inline constexpr double kLidOverlap = 0.01;
+inline constexpr float kMinLidShare = 0.05F;  ///< of a lid's control point in a sample point that it moves
+inline constexpr int kLidLevel = 1;           ///< coarse: the search compares places, not edges
+
+}  // namespace fbs

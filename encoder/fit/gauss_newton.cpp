@@ -1,0 +1,43 @@
+#include "encoder/fit/gauss_newton.h"
+
+#include <algorithm>
+
+#include "encoder/fit/fit_priors.h"
+#include "encoder/model/pose_jacobian.h"
+
+namespace fbs {
+namespace {
+
+/// @param x  the unknowns' steps
+void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
+  fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
+  for (std::size_t i = 0; i < kLightCount; ++i)
+    fit.light[i] += x(static_cast<int>(FitColumns::kFirstLight + i));
+  for (std::size_t i = 0; i < kInteriorCount; ++i)
+    fit.interior[i] += x(static_cast<int>(FitColumns::kFirstInterior + i));
+  for (std::size_t c = 0; c < kControlCount; ++c) {
+    if (!columns.has(c)) continue;
+    for (int axis = 0; axis < 2; ++axis) {
+      double& offset = fit.offsets[c][axis];
+      offset = std::clamp(offset + x(static_cast<int>(columns.of(c)) + axis), -kMaxOffset, kMaxOffset);
+    }
+  }
+}
+
+}  // namespace
+
+Fit gauss_newton(const Comparison& comparison, const Fit& start) {
+  Fit fit = start;
+  for (int level = kFitLevels - 1; level >= 0; --level)
+    for (int i = 0; i < kStepsOfLevel[level]; ++i) {
+      NormalEquations normal(comparison.columns.count());
+      add_priors(comparison.columns, start, fit, normal);
+      add_picture(comparison, level, fit, normal);
+      const auto x = normal.solve();
+      if (!x) return start;
+      add_step(comparison.columns, *x, fit);
+    }
+  return mean_difference(comparison, fit) < mean_difference(comparison, start) ? fit : start;
+}
+
+}  // namespace fbs

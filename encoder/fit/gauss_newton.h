@@ -1,0 +1,14 @@
+// The fit's descent.
+#pragma once
+
+#include "encoder/fit/comparison.h"
+
+namespace fbs {
+
+/// Minimises the robust squared difference over pose, light, mouth interior and control points together:
+/// Gauss-Newton with additive updates, coarse to fine, held near `start` where the picture says nothing and
+/// near rest everywhere (fit_priors.h).
+/// @return `start` where nothing is gained
+[[nodiscard]] Fit gauss_newton(const Comparison& comparison, const Fit& start);
+
+}  // namespace fbs

@@ -1,0 +1,40 @@
+// A pattern at the sample points, and what of a face it already shows.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "encoder/fit/luma_pyramid.h"
+#include "encoder/fit/sample_points.h"
+
+namespace fbs {
+
+/// A decoded picture and the state in which it was seen.
+struct SeenPattern {
+  const WorkFrame& frame;  ///< of the decoded picture
+  const State& seen;
+  int index = 0;  ///< among the stream's patterns
+};
+
+/// Luma where the mesh lay in the seen state, its expression included; the light and the mouth opening that
+/// are in it.
+class PatternSamples {
+ public:
+  PatternSamples(const SamplePoints& points, const Geometry& geometry, const SeenPattern& pattern);
+
+  /// Negative where the frame does not reach.
+  [[nodiscard]] float luma(int level, std::size_t point) const { return luma_[level][point]; }
+  /// Grey levels.
+  [[nodiscard]] const std::array<double, kLightCount>& light() const { return light_; }
+  /// As mouth_gap() of the decoder gives it, head units.
+  [[nodiscard]] std::int32_t mouth_gap() const { return mouth_gap_; }
+  [[nodiscard]] int index() const { return index_; }
+
+ private:
+  std::array<std::vector<float>, kFitLevels> luma_;
+  std::array<double, kLightCount> light_;
+  std::int32_t mouth_gap_;
+  int index_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,73 @@
+#include "encoder/fit/sample_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "decoder/head/mouth_interior.h"
+#include "encoder/fit/fit_tuning.h"
+
+namespace fbs {
+namespace {
+
+float mouth_ramp_of(const SurfacePoint& p) {
+  if (!std::all_of(p.corner.begin(), p.corner.end(), is_inner_lip)) return -1;
+  constexpr float kRampOne = 256;  // of the decoder's mouth_ramp()
+  float ramp = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    ramp += p.barycentric[i] * static_cast<float>(mouth_ramp(p.corner[i])) / kRampOne;
+  return ramp;
+}
+
+/// Skinning weight of each control point in a vertex.
+std::array<double, kControlCount> weights_of(std::size_t vertex) {
+  const GenericHead& head = generic_head();
+  std::array<double, kControlCount> out{};
+  for (std::size_t w = head.skinning_begin[vertex]; w < head.skinning_begin[vertex + 1]; ++w)
+    out[head.skinning[w].control] = head.skinning[w].weight / static_cast<double>(kSkinningOne);
+  return out;
+}
+
+}  // namespace
+
+SamplePoints::SamplePoints(const Geometry& geometry, const FitColumns& columns, const PlacedHead& seen,
+                           double spacing_px)
+    : points_(spread_over_mesh(seen.vertices, seen.projection, spacing_px, kMinMouthRows)) {
+  const HeadVertices neutral = skinned(geometry, {});
+  for (const SurfacePoint& p : points_) {
+    light_place_.push_back(glm::dvec2(p.on(neutral)) / static_cast<double>(kUnitsPerEyeDistance));
+    mouth_ramp_.push_back(mouth_ramp_of(p));
+  }
+  for (std::size_t k = 0; k < points_.size();) {
+    std::size_t end = k;
+    while (end < points_.size() && points_[end].triangle == points_[k].triangle) ++end;
+    patches_.push_back(patch_of(columns, k, end));
+    k = end;
+  }
+}
+
+double SamplePoints::samples_per_point(std::size_t n, const PlacedHead& head) const {
+  const Patch& patch = patches_[n];
+  return head.visible_area(points_[patch.first].corner) / static_cast<double>(patch.size());
+}
+
+SamplePoints::Patch SamplePoints::patch_of(const FitColumns& columns, std::size_t first,
+                                           std::size_t end) const {
+  const auto& corner = points_[first].corner;
+  const std::array<std::array<double, kControlCount>, 3> weight = {
+      weights_of(corner[0]), weights_of(corner[1]), weights_of(corner[2])};
+  Patch patch{first, end, {}, {}};
+  for (std::size_t c = 0; c < kControlCount; ++c)
+    if (columns.has(c) && std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) >
+                              kMinSkinningShare)
+      patch.controls.push_back(static_cast<std::int16_t>(c));
+  for (std::size_t k = first; k < end; ++k)
+    for (const std::int16_t control : patch.controls) {
+      double share = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        share += static_cast<double>(points_[k].barycentric[i]) * weight[i][control];
+      patch.shares.push_back(static_cast<float>(share));
+    }
+  return patch;
+}
+
+}  // namespace fbs

@@ -1,0 +1,51 @@
+// The points of the head at which patterns and pictures are compared.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "encoder/fit/fit_columns.h"
+#include "encoder/model/placed_head.h"
+
+namespace fbs {
+
+/// Points fixed on the mesh: where the light sees them, which are mouth interior, and what moves them. Know
+/// nothing of any picture, so that several patterns can share them.
+class SamplePoints {
+ public:
+  /// The points of one triangle, and how the control points that move it move each.
+  struct Patch {
+    std::size_t first, end;              ///< points
+    std::vector<std::int16_t> controls;  ///< rising, of those that may move
+    std::vector<float> shares;           ///< of each control point, point by point
+
+    [[nodiscard]] std::size_t size() const { return end - first; }
+  };
+
+  /// Spreads the points evenly over the head as `seen` places it.
+  /// @param spacing_px  pixels of the picture
+  SamplePoints(const Geometry& geometry, const FitColumns& columns, const PlacedHead& seen,
+               double spacing_px);
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const SurfacePoint& operator[](std::size_t k) const { return points_[k]; }
+  /// All points, triangle by triangle.
+  [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
+  /// Where the light's polynomial is evaluated: on the expressionless head, in its frame, eye distances.
+  [[nodiscard]] glm::dvec2 light_place(std::size_t k) const { return light_place_[k]; }
+  /// Samples of the full picture that each point of patch `n` stands for; zero when it faces away.
+  [[nodiscard]] double samples_per_point(std::size_t n, const PlacedHead& head) const;
+  /// Upper lip 0, lower lip 1; negative: not in the mouth interior.
+  [[nodiscard]] double mouth_ramp(std::size_t k) const { return static_cast<double>(mouth_ramp_[k]); }
+
+ private:
+  [[nodiscard]] Patch patch_of(const FitColumns& columns, std::size_t first, std::size_t end) const;
+
+  std::vector<SurfacePoint> points_;
+  std::vector<Patch> patches_;
+  std::vector<glm::dvec2> light_place_;
+  std::vector<float> mouth_ramp_;
+};
+
+}  // namespace fbs

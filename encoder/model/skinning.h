@@ -1,0 +1,21 @@
+// The head moved by its control points: deform() of the decoder in continuous numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "bitstream/syntax.h"
+#include "encoder/model/expression_basis.h"
+
+namespace fbs {
+
+using HeadVertices = std::array<glm::dvec3, kVertexCount>;  ///< head frame, head units
+
+/// @param geometry  the adapted, expressionless head
+[[nodiscard]] HeadVertices skinned(const Geometry& geometry, const Offsets& offsets);
+
+/// Between the middles of the inner lips, in whole head units as interior_opacity() takes them.
+[[nodiscard]] std::int32_t mouth_gap(const HeadVertices& vertices);
+
+}  // namespace fbs

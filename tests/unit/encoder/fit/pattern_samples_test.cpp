@@ -1,0 +1,57 @@
+#include "encoder/fit/pattern_samples.h"
+
+#include <gtest/gtest.h>
+
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/mouth_interior.h"
+#include "tests/unit/encoder/fit/seen_scene.h"
+
+namespace fbs {
+namespace {
+
+/// Drawn from one pattern and taken as another: what is at a point of the face stays.
+TEST(PatternSamples, FollowTheFaceThroughPoseAndExpression) {
+  const SeenScene first(SeenScene::rest(), wave_plane(SeenScene::kWidth, SeenScene::kHeight, 3));
+  StateMaker maker(3);
+  State other = SeenScene::rest();
+  maker.pose(other);
+  maker.expression(other);
+  const WorkFrame frame = SeenScene::frame_of(first.drawn(other));
+  const PatternSamples second(first.comparison.points, toy_geometry(), {frame, other, 1});
+  const PatternSamples wrong(first.comparison.points, toy_geometry(), {frame, SeenScene::rest(), 1});
+  double right = 0, off = 0;
+  const std::size_t n = first.comparison.points.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const float luma = first.comparison.pattern.luma(0, k);
+    right += std::abs(second.luma(0, k) - luma) / static_cast<double>(n);
+    off += std::abs(wrong.luma(0, k) - luma) / static_cast<double>(n);
+  }
+  EXPECT_LT(right, 0.5);
+  EXPECT_GT(off, 5);
+}
+
+TEST(PatternSamples, KnowWhatThePatternAlreadyShows) {
+  StateMaker maker(6);
+  State seen = SeenScene::rest();
+  maker.light(seen);
+  maker.mouth(seen);
+  const SeenScene scene(seen, wave_plane(SeenScene::kWidth, SeenScene::kHeight, 6));
+  const PatternSamples& pattern = scene.comparison.pattern;
+  for (std::size_t i = 0; i < kLightCount; ++i)
+    EXPECT_EQ(pattern.light()[i], seen.light[i] / kLightUnitsPerLevel);
+  EXPECT_EQ(pattern.mouth_gap(), mouth_gap(deform(toy_geometry().positions, seen)));
+  EXPECT_EQ(pattern.index(), 0);
+}
+
+TEST(PatternSamples, AreNegativeBesideTheFrame) {
+  const SeenScene scene(SeenScene::rest(), wave_plane(SeenScene::kWidth, SeenScene::kHeight, 3));
+  Picture picture(SeenScene::kWidth, SeenScene::kHeight);
+  State away = SeenScene::rest();
+  away.pose[kShiftX] += 1000 * 64;
+  const PatternSamples none(scene.comparison.points, toy_geometry(), {SeenScene::frame_of(picture), away});
+  for (std::size_t k = 0; k < scene.comparison.points.size(); ++k)
+    for (int level = 0; level < kFitLevels; ++level) EXPECT_LT(none.luma(level, k), 0);
+}
+
+}  // namespace
+}  // namespace fbs

@@ -1,0 +1,87 @@
+#include "encoder/fit/sample_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/mouth_interior.h"
+#include "encoder/fit/fit_tuning.h"
+#include "tests/unit/encoder/fit/seen_scene.h"
+
+namespace fbs {
+namespace {
+
+struct RestPoints {
+  FitColumns columns{kAllParts};
+  PlacedHead head{toy_geometry(), fit_of(SeenScene::rest())};
+  SamplePoints points{toy_geometry(), columns, head, kFitPointSpacing};
+};
+
+TEST(SamplePoints, PatchesHoldEachPointOnceTriangleByTriangle) {
+  const RestPoints r;
+  std::size_t next = 0;
+  for (const SamplePoints::Patch& patch : r.points.patches()) {
+    EXPECT_EQ(patch.first, next);
+    next = patch.end;
+    EXPECT_EQ(patch.shares.size(), patch.size() * patch.controls.size());
+    for (std::size_t k = patch.first; k < patch.end; ++k)
+      EXPECT_EQ(r.points[k].triangle, r.points[patch.first].triangle);
+  }
+  EXPECT_EQ(next, r.points.size());
+  EXPECT_EQ(r.points.patches().size(), generic_head().triangles.size());
+}
+
+TEST(SamplePoints, SharesSayHowFarAControlPointMovesAPoint) {
+  const RestPoints r;
+  constexpr double kFar = 1000;  // head units
+  for (const SamplePoints::Patch& patch : r.points.patches())
+    for (std::size_t i = 0; i < patch.controls.size(); ++i) {
+      Offsets offsets{};
+      offsets[static_cast<std::size_t>(patch.controls[i])].x = kFar;
+      const HeadVertices moved = skinned(toy_geometry(), offsets);
+      const double by = r.points[patch.first].on(moved).x - r.points[patch.first].on(r.head.vertices).x;
+      EXPECT_NEAR(by, kFar * static_cast<double>(patch.shares[i]), 0.01);
+    }
+}
+
+TEST(SamplePoints, StandForTheSamplesOfTheHead) {
+  const RestPoints r;
+  double samples = 0, area = 0;
+  for (std::size_t n = 0; n < r.points.patches().size(); ++n)
+    samples += r.points.samples_per_point(n, r.head) * static_cast<double>(r.points.patches()[n].size());
+  for (const HeadTriangle& t : generic_head().triangles) area += r.head.visible_area(t);
+  EXPECT_NEAR(samples, area, 1e-6 * area);
+  EXPECT_GT(area, 48 * 48) << "square pixels";
+}
+
+// The decoder evaluates the light on the adapted head, whatever its expression.
+TEST(SamplePoints, LightPlacesStayWhenTheSeenStateHasAnExpression) {
+  StateMaker maker(4);
+  State seen = SeenScene::rest();
+  maker.mouth(seen);
+  const FitColumns columns(kAllParts);
+  const PlacedHead head(toy_geometry(), fit_of(seen));
+  const SamplePoints points(toy_geometry(), columns, head, kFitPointSpacing);
+  const HeadVertices neutral = skinned(toy_geometry(), {});
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const glm::dvec3 p = points[k].on(neutral) / static_cast<double>(kUnitsPerEyeDistance);
+    EXPECT_EQ(points.light_place(k), glm::dvec2(p)) << k;
+  }
+}
+
+TEST(SamplePoints, RampsRiseFromUpperToLowerLipInTheMouthAlone) {
+  const RestPoints r;
+  int mouth = 0;
+  for (std::size_t k = 0; k < r.points.size(); ++k) {
+    const auto& c = r.points[k].corner;
+    const bool inside = std::all_of(c.begin(), c.end(), is_inner_lip);
+    EXPECT_EQ(r.points.mouth_ramp(k) >= 0, inside) << k;
+    EXPECT_LE(r.points.mouth_ramp(k), 1) << k;
+    mouth += inside ? 1 : 0;
+  }
+  EXPECT_GT(mouth, 6 * kMinMouthRows);
+}
+
+}  // namespace
+}  // namespace fbs
