@@ -114,9 +114,9 @@ Result<SceneEncoder> SceneEncoder::begin(const VideoFormat& format, const Encode
   scene.seen_ = state_of(scene.seen_coded_, point.steps);
   // Until pictures have shown better, the surround is a guess by distance from the face.
   scene.observations_.emplace(format).set_first(first, scene.seen_);
-  scene.scene_.geometry.emplace(
-      scene.scene_.setup, geometry->decoded,
-      fit_surround(scene.scene_.setup, geometry->decoded, *scene.observations_), scene.seen_);
+  scene.scene_.geometry.emplace(scene.scene_.setup, geometry->decoded,
+                                fit_surround(scene.scene_.setup, geometry->decoded, *scene.observations_),
+                                scene.seen_);
   const Pose seen_pose = pose_of(scene.seen_);
   scene.head_.emplace(geometry->decoded, seen_pose, frame);
   scene.features_.emplace(geometry->decoded, seen_pose, frame);
@@ -282,8 +282,7 @@ Result<void> SceneEncoder::push(const Picture& picture, std::uint32_t duration) 
     }
     const auto every =
         static_cast<std::uint64_t>(std::max(1, lookahead_ / static_cast<int>(kSurroundPictures)));
-    if (surround_ && !started_ && pictures_ > 0 && pictures_ % every == 0)
-      observations_->add(picture, state);
+    if (surround_ && !started_ && pictures_ > 0 && pictures_ % every == 0) observations_->add(picture, state);
   }
   durations_.push_back(duration);
   ++pictures_;

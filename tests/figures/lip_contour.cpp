@@ -34,7 +34,8 @@ std::vector<glm::dvec2> LipContour::outline(const Pose& pose) const {
   const PoseProjection projection(pose);
   std::vector<glm::dvec2> out;
   for (const SplineBasis& b : snake_.curve.points())
-    out.push_back(projection(glm::dvec3(curve_point(b, snake_.now) * kHeadUnitsPerSnakeUnit, snake_.plane.depth)));
+    out.push_back(
+        projection(glm::dvec3(curve_point(b, snake_.now) * kHeadUnitsPerSnakeUnit, snake_.plane.depth)));
   return out;
 }
 
