@@ -17,7 +17,7 @@ namespace {
 constexpr int kScreenPerPixel = static_cast<int>(kStateUnitsPerPixel);
 
 /// Corner-based positions, as the grid's are; the border is repeated.
-float value(const cv::Mat& luma, glm::vec2 at) {
+inline float value(const cv::Mat& luma, glm::vec2 at) {
   return bilinear<std::uint8_t>(luma, BilinearCell(clamped(luma, at - 0.5F, 1.01F)));
 }
 
