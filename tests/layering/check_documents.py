@@ -8,7 +8,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/*.md", "samples/README.md", "tests/*/README.md"]
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "samples/README.md", "tests/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
 FOLDERS = "bitstream|cli|common|decoder|docs|encoder|samples|scripts|tests"
 SUFFIXES = "cpp|h|py|cmake|sh|md|svg|gltf"
