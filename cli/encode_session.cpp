@@ -14,56 +14,74 @@ std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t
   return regular || d <= 0 ? 0 : static_cast<std::uint32_t>(d);
 }
 
+/// Decodes what is encoded as it comes, and compares it with the source.
+class ClosedLoop {
+ public:
+  ClosedLoop(Encoder encoder, const TakeBytes& take, bool with_ssim)
+      : encoder_(std::move(encoder)), take_(take), meter_(decoder_, with_ssim) {}
+
+  Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
+    if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
+    if (see)
+      if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
+    waiting_.push_back(std::move(now.picture));
+    return pass_on();
+  }
+
+  Result<Measure> finish() {
+    if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
+    if (auto passed = pass_on(); !passed) return fail(passed.error());
+    if (!waiting_.empty())
+      return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
+    return meter_.result();
+  }
+
+ private:
+  Result<void> pass_on() {
+    const auto bytes = encoder_.take();
+    if (bytes.empty()) return {};
+    if (auto taken = take_(bytes); !taken) return taken;
+    decoder_.feed(bytes);
+    for (;;) {
+      auto status = decoder_.next();
+      if (!status)
+        return fail(ErrorCode::kInternal, "the encoded stream does not decode: " + status.error().text);
+      if (*status != DecodeStatus::kPicture) return {};
+      if (waiting_.empty())
+        return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
+      if (auto compared = meter_.compare(waiting_.front()); !compared) return compared;
+      waiting_.pop_front();
+    }
+  }
+
+  Encoder encoder_;
+  const TakeBytes& take_;
+  StreamDecoder decoder_;
+  StreamMeter meter_;
+  std::deque<Picture> waiting_;  ///< pushed, not yet decoded
+};
+
 }  // namespace
 
 Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
                               const SeePicture& see, bool with_ssim, bool quiet) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
-  StreamDecoder decoder;
-  StreamMeter meter(decoder, with_ssim);
-  std::deque<Picture> waiting;  // pushed, not yet decoded
+  ClosedLoop loop(std::move(*encoder), take, with_ssim);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
-
-  const auto pass_on = [&]() -> Result<void> {
-    const auto bytes = encoder->take();
-    if (bytes.empty()) return {};
-    if (auto taken = take(bytes); !taken) return taken;
-    decoder.feed(bytes);
-    for (;;) {
-      auto status = decoder.next();
-      if (!status)
-        return fail(ErrorCode::kInternal, "the encoded stream does not decode: " + status.error().text);
-      if (*status != DecodeStatus::kPicture) return {};
-      if (waiting.empty())
-        return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
-      if (auto compared = meter.compare(waiting.front()); !compared) return compared;
-      waiting.pop_front();
-    }
-  };
-
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
   std::int64_t done = 0;
   auto current = source.next();
   while (current && *current) {
     auto next = source.next();
     if (!next) return fail(next.error());
-    const TimedPicture& now = **current;
-    const std::uint32_t duration = *next ? duration_of(now.pts, (*next)->pts, nominal) : 0;
-    if (auto pushed = encoder->push(now.picture, duration); !pushed) return fail(pushed.error());
-    if (see)
-      if (auto seen = see(now, encoder->analysis()); !seen) return fail(seen.error());
-    waiting.push_back(std::move((*current)->picture));
-    if (auto passed = pass_on(); !passed) return fail(passed.error());
+    const std::uint32_t duration = *next ? duration_of((*current)->pts, (*next)->pts, nominal) : 0;
+    if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());
     progress.update(++done);
     current = std::move(next);
   }
   if (!current) return fail(current.error());
-  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
-  if (auto passed = pass_on(); !passed) return fail(passed.error());
-  if (!waiting.empty())
-    return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
-  return meter.result();
+  return loop.finish();
 }
 
 }  // namespace fbs::cli

@@ -22,7 +22,7 @@ void print_summary(const std::string& output, const Measure& m) {
   std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
 }
 
-Result<void> encode(const EncodeArguments& arguments) {
+Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
   EncoderSettings settings;
   settings.quality = arguments.quality;
   settings.face = arguments.face;
@@ -37,14 +37,35 @@ Result<void> encode(const EncodeArguments& arguments) {
     if (!marks) return fail(about_file(arguments.marks, marks.error()));
     settings.marks = *marks;
   }
+  if (const auto pictures = source.frame_count_estimate(); pictures && *pictures > 0) {
+    const Rational& rate = source.format().frame_rate;
+    settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
+  }
+  return settings;
+}
+
+/// File errors already name their file; codec errors are about the input.
+Error about_input(Error error, const std::string& input) {
+  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
+  return error;
+}
+
+void print_warnings(const EncodeArguments& arguments, const VideoSource& source, const Measure& measure) {
+  if (source.damaged_packets() > 0)
+    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
+                 static_cast<long long>(source.damaged_packets()));
+  if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
+    std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
+                 arguments.bitrate, measure.kbps());
+}
+
+Result<void> encode(const EncodeArguments& arguments) {
   SourceOptions options;
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
   auto source = open_video_source(arguments.input, options);
   if (!source) return fail(source.error());
-  if (const auto pictures = (*source)->frame_count_estimate(); pictures && *pictures > 0) {
-    const Rational& rate = (*source)->format().frame_rate;
-    settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
-  }
+  const auto settings = settings_of(arguments, **source);
+  if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
   if (!file) return fail(file.error());
   std::optional<Overlay> overlay;
@@ -57,25 +78,14 @@ Result<void> encode(const EncodeArguments& arguments) {
       return overlay->write(p.picture, p.pts, a);
     };
   }
-  auto measure = encode_source(
-      **source, settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see, false,
-      arguments.quiet);
-  if (!measure) {
-    Error error = measure.error();
-    // File errors already name their file; codec errors are about the input.
-    if (error.code != ErrorCode::kIo && !error.text.starts_with(arguments.input))
-      error.text = arguments.input + ": " + error.text;
-    return fail(std::move(error));
-  }
+  const auto measure = encode_source(
+      **source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
+      false, arguments.quiet);
+  if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return finished;
   if (auto committed = file->commit(); !committed) return committed;
-  if ((*source)->damaged_packets() > 0)
-    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
-                 static_cast<long long>((*source)->damaged_packets()));
-  if (arguments.bitrate > 0 && std::abs(measure->kbps() / arguments.bitrate - 1) > kRateTolerance)
-    std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
-                 arguments.bitrate, measure->kbps());
+  print_warnings(arguments, **source, *measure);
   if (!arguments.quiet) print_summary(arguments.output, *measure);
   return {};
 }
