@@ -7,10 +7,9 @@
 
 namespace fbs {
 
-std::array<double, kLightCount> light_basis(glm::dvec2 place, double luma) {
-  constexpr double kMiddle = kFaceMiddle / static_cast<double>(kUnitsPerEyeDistance);
-  const double x = place.x, y = place.y, v = y - kMiddle;
-  return {1, (luma - 128) / 64, x, y, x * x, v * v, x * v};
+std::array<double, kLightCount> light_basis(std::array<double, kLightCount> light, double luma) {
+  light[kLightGain] = (luma - 128) / 64;
+  return light;
 }
 
 std::array<double, kInteriorCount> interior_basis(double ramp) {
@@ -32,7 +31,7 @@ Appearance::Appearance(const SamplePoints& points, const PatternSamples& pattern
 double Appearance::at(std::size_t point, int level) const {
   auto value = static_cast<double>(pattern_.luma(level, point));
   if (value < 0) return value;
-  const auto light = light_basis(points_.light_place(point), value);
+  const auto light = light_basis(points_.light(point), value);
   for (std::size_t i = 0; i < kLightCount; ++i) value += light_[i] * light[i];
   value = std::clamp(value, 0.0, 255.0);
   const double ramp = points_.mouth_ramp(point);

@@ -9,8 +9,8 @@
 namespace fbs {
 
 /// What one grey level of each number of the light adds.
-/// @param place  SamplePoints::light_place()  @param luma  of the pattern
-[[nodiscard]] std::array<double, kLightCount> light_basis(glm::dvec2 place, double luma);
+/// @param light  SamplePoints::light()  @param luma  of the pattern
+[[nodiscard]] std::array<double, kLightCount> light_basis(std::array<double, kLightCount> light, double luma);
 
 /// What one grey level of each number of the mouth interior adds to its colour.
 /// @param ramp  0 at the upper lip to 1 at the lower

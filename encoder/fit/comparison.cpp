@@ -56,7 +56,7 @@ class LevelEquations {
   float* add_shading(std::size_t k, float* row) const {
     const double interior = shown_.interior_share(k);
     const auto luma = static_cast<double>(c_.pattern.luma(level_, k));
-    for (const double light : light_basis(c_.points.light_place(k), luma))
+    for (const double light : light_basis(c_.points.light(k), luma))
       *row++ = static_cast<float>(-light * (1 - interior));
     for (const double level : interior_basis(c_.points.mouth_ramp(k)))
       *row++ = static_cast<float>(-level * interior);

@@ -37,7 +37,8 @@ struct Comparison {
 [[nodiscard]] double mean_difference(const Comparison& comparison, const Fit& fit);
 
 /// Adds the picture's part of a Gauss-Newton step: robustly weighted luma differences at every point, over
-/// kResidualSigma.
+/// kResidualSigma. Points count alike, on triangles that face away, too: leaving those out gained 0.06 dB in
+/// the face on the mean of ten clips at three qualities, and lost 0.35 dB on foreman_cif at one.
 /// @return robust sum of squared differences over the samples of the full picture that the points stand for
 double add_picture(const Comparison& comparison, int level, const Fit& fit, NormalEquations& normal);
 

@@ -18,6 +18,23 @@ float mouth_ramp_of(const SurfacePoint& p) {
   return ramp;
 }
 
+/// The light's polynomial at a vertex, but for the gain. SPEC 10.
+std::array<double, kLightCount> light_of_vertex(glm::dvec3 position) {
+  constexpr double kMiddle = kFaceMiddle / static_cast<double>(kUnitsPerEyeDistance);
+  const glm::dvec3 p = position / static_cast<double>(kUnitsPerEyeDistance);
+  const double v = p.y - kMiddle;
+  return {1, 0, p.x, p.y, p.x * p.x, v * v, p.x * v};
+}
+
+std::array<double, kLightCount> light_of(const Geometry& geometry, const SurfacePoint& p) {
+  std::array<double, kLightCount> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto corner = light_of_vertex(glm::dvec3(geometry.positions[p.corner[i]]));
+    for (std::size_t j = 0; j < kLightCount; ++j) out[j] += static_cast<double>(p.barycentric[i]) * corner[j];
+  }
+  return out;
+}
+
 /// Skinning weight of each control point in a vertex.
 std::array<double, kControlCount> weights_of(std::size_t vertex) {
   const GenericHead& head = generic_head();
@@ -32,9 +49,8 @@ std::array<double, kControlCount> weights_of(std::size_t vertex) {
 SamplePoints::SamplePoints(const Geometry& geometry, const FitColumns& columns, const PlacedHead& seen,
                            double spacing_px)
     : points_(spread_over_mesh(seen.vertices, seen.projection, spacing_px, kMinMouthRows)) {
-  const HeadVertices neutral = skinned(geometry, {});
   for (const SurfacePoint& p : points_) {
-    light_place_.push_back(glm::dvec2(p.on(neutral)) / static_cast<double>(kUnitsPerEyeDistance));
+    light_.push_back(light_of(geometry, p));
     mouth_ramp_.push_back(mouth_ramp_of(p));
   }
   for (std::size_t k = 0; k < points_.size();) {

@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// Points fixed on the mesh: where the light sees them, which are mouth interior, and what moves them. Know
+/// Points fixed on the mesh: how the light falls on them, which are mouth interior, and what moves them. Know
 /// nothing of any picture, so that several patterns can share them.
 class SamplePoints {
  public:
@@ -32,8 +32,9 @@ class SamplePoints {
   [[nodiscard]] const SurfacePoint& operator[](std::size_t k) const { return points_[k]; }
   /// All points, triangle by triangle.
   [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
-  /// Where the light's polynomial is evaluated: on the expressionless head, in its frame, eye distances.
-  [[nodiscard]] glm::dvec2 light_place(std::size_t k) const { return light_place_[k]; }
+  /// What one grey level of each number of the light adds, but for the gain, which is zero here: as in the
+  /// decoder, from the corners of the expressionless head, linear between them.
+  [[nodiscard]] const std::array<double, kLightCount>& light(std::size_t k) const { return light_[k]; }
   /// Samples of the full picture that each point of patch `n` stands for; zero when it faces away.
   [[nodiscard]] double samples_per_point(std::size_t n, const PlacedHead& head) const;
   /// Upper lip 0, lower lip 1; negative: not in the mouth interior.
@@ -44,7 +45,7 @@ class SamplePoints {
 
   std::vector<SurfacePoint> points_;
   std::vector<Patch> patches_;
-  std::vector<glm::dvec2> light_place_;
+  std::vector<std::array<double, kLightCount>> light_;
   std::vector<float> mouth_ramp_;
 };
 

@@ -55,18 +55,25 @@ TEST(SamplePoints, StandForTheSamplesOfTheHead) {
   EXPECT_GT(area, 48 * 48) << "square pixels";
 }
 
-// The decoder evaluates the light on the adapted head, whatever its expression.
-TEST(SamplePoints, LightPlacesStayWhenTheSeenStateHasAnExpression) {
+// On the adapted head, whatever the expression of the seen state.
+TEST(SamplePoints, LightIsThatOfTheDecoder) {
   StateMaker maker(4);
   State seen = SeenScene::rest();
   maker.mouth(seen);
-  const FitColumns columns(kAllParts);
-  const PlacedHead head(toy_geometry(), fit_of(seen));
-  const SamplePoints points(toy_geometry(), columns, head, kFitPointSpacing);
-  const HeadVertices neutral = skinned(toy_geometry(), {});
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const glm::dvec3 p = points[k].on(neutral) / static_cast<double>(kUnitsPerEyeDistance);
-    EXPECT_EQ(points.light_place(k), glm::dvec2(p)) << k;
+  const SeenScene scene(seen, Plane(SeenScene::kWidth, SeenScene::kHeight));
+  constexpr std::int32_t kLevels = 1000;
+  for (std::size_t i = 0; i < kLightCount; ++i) {
+    if (i == kLightGain) continue;
+    State lit = SeenScene::rest();
+    lit.light[i] = kLevels;
+    const ScreenMesh mesh = scene.scene.geometry->project(lit);
+    for (std::size_t k = 0; k < scene.comparison.points.size(); ++k) {
+      const SurfacePoint& p = scene.comparison.points[k];
+      double offset = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        offset += static_cast<double>(p.barycentric[c]) * mesh.light[p.corner[c]].offset;
+      EXPECT_NEAR(scene.comparison.points.light(k)[i], offset / kLevels, 1.0 / kLevels) << k << ' ' << i;
+    }
   }
 }
 
