@@ -25,10 +25,10 @@ std::int32_t limit_of(std::size_t i) {
 
 }  // namespace
 
-std::int32_t step_of(const QuantiserSteps& steps, std::size_t i) {
-  switch (static_cast<PartId>(kPartOf[i])) {
+std::int32_t step_of(const QuantiserSteps& steps, std::size_t parameter) {
+  switch (static_cast<PartId>(kPartOf[parameter])) {
     case PartId::kPose:
-      return i <= kRoll ? steps.rotation : i <= kShiftY ? steps.translation : steps.log_scale;
+      return parameter <= kRoll ? steps.rotation : parameter <= kShiftY ? steps.translation : steps.log_scale;
     case PartId::kLight:
     case PartId::kMouthInterior:
       return steps.light;
@@ -78,7 +78,7 @@ State state_of(const CodedState& coded, const QuantiserSteps& steps) {
   return state_of_values(values);
 }
 
-CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent) : parts(sent) {
+CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent_parts) : parts(sent_parts) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if ((parts >> kPartOf[i] & 1) == 0) continue;
     max[i] = limit_of(i) / step_of(steps, i);

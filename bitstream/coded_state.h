@@ -85,7 +85,7 @@ struct CodedLimits {
   CodedState max{};
   PartMask parts;  ///< that are sent; numbers of the others are zero
 
-  CodedLimits(const QuantiserSteps& steps, PartMask parts);
+  CodedLimits(const QuantiserSteps& steps, PartMask sent_parts);
 
   [[nodiscard]] bool hold(std::size_t parameter, std::int32_t number) const {
     return number >= min[parameter] && number <= max[parameter];

@@ -60,6 +60,8 @@ class PacketReader {
   ~PacketReader();
   PacketReader(PacketReader&&) noexcept;
   PacketReader& operator=(PacketReader&&) noexcept;
+  PacketReader(const PacketReader&) = delete;
+  PacketReader& operator=(const PacketReader&) = delete;
 
   /// Copies `bytes` and invalidates the payloads of earlier packets. Not after close() (assert).
   void feed(std::span<const std::uint8_t> bytes);

@@ -20,6 +20,9 @@ void copy_plane(const Dav1dPicture& from, int plane, Plane& to) {
 /// Unreferences a picture when the scope ends.
 struct PictureGuard {
   Dav1dPicture picture{};
+  PictureGuard() = default;
+  PictureGuard(const PictureGuard&) = delete;
+  PictureGuard& operator=(const PictureGuard&) = delete;
   ~PictureGuard() { dav1d_picture_unref(&picture); }
 };
 

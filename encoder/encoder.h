@@ -23,6 +23,8 @@ class Encoder {
   static Result<Encoder> create(const VideoFormat& format, const EncoderSettings& settings);
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
   ~Encoder();
 
   /// @param picture   of the format's size

@@ -12,6 +12,9 @@ namespace fbs {
 
 class SceneEncoder {
  public:
+  SceneEncoder() = default;
+  SceneEncoder(const SceneEncoder&) = delete;
+  SceneEncoder& operator=(const SceneEncoder&) = delete;
   virtual ~SceneEncoder() = default;
 
   /// The scene's first picture is pushed too.

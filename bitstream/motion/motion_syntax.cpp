@@ -6,11 +6,11 @@
 
 namespace fbs {
 
-MotionReference::MotionReference(const Setup& setup, const CodedState& state)
+MotionReference::MotionReference(const Setup& setup, const CodedState& seen_state)
     : limits(setup.steps, setup.parts),
       nominal_duration(fbs::nominal_duration(setup.format.frame_rate)),
-      seen(state),
-      last(state) {
+      seen(seen_state),
+      last(seen_state) {
   assert(check_setup(setup));
   reset();
 }

@@ -31,8 +31,8 @@ struct MotionMemory {
 /// all are equal after the same groups. Plain data: a copy continues independently.
 struct MotionReference {
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  /// @param seen   seen state of pattern 0
-  MotionReference(const Setup& setup, const CodedState& seen);
+  /// @param seen_state  of pattern 0
+  MotionReference(const Setup& setup, const CodedState& seen_state);
 
   /// The state before the first picture of the next group. SPEC 5.2.
   [[nodiscard]] const CodedState& anchor(bool key) const { return key ? seen : last; }

@@ -17,7 +17,7 @@ namespace fbs {
 class SceneGeometry {
  public:
   /// @param rest  the rest state: the surround's grid is regular in it. That of pattern 0.
-  SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap surround, const State& rest);
+  SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest);
 
   /// Where everything is drawn in `state`.
   [[nodiscard]] ScreenMesh screen_mesh(const State& state) const;

@@ -95,7 +95,8 @@ void FaceFinder::Deleter::operator()(Cascades* c) const {
 }
 
 Result<FaceFinder> FaceFinder::create() {
-  const char* set = std::getenv("FBS_CASCADES");
+  // Read once, before any thread of ours could change the environment.
+  const char* set = std::getenv("FBS_CASCADES");  // NOLINT(concurrency-mt-unsafe)
   const std::filesystem::path folder = set != nullptr ? set : "/usr/share/opencv4/haarcascades";
   std::unique_ptr<Cascades, Deleter> c(new Cascades);
   const auto load = [&](cv::CascadeClassifier& cascade, const char* name) {
@@ -156,6 +157,7 @@ std::vector<FoundFace> FaceFinder::find_of_size(const Picture& picture, double m
   cascades_->face.detectMultiScale(grey, faces, 1.1, 3, 0, square(least), square(most));
   largest_first(faces);
   std::vector<FoundFace> out;
+  out.reserve(faces.size());
   for (const cv::Rect& f : faces) out.push_back(with_usual_eyes(f, scale));
   return out;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "common/picture.h"
 #include "encoder/find/find_tuning.h"
@@ -61,7 +61,7 @@ std::optional<std::array<glm::dvec2, 2>> Marks::eyes() const {
 
 Result<Marks> read_marks(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return fail(ErrorCode::kIo, "cannot read: " + std::string(std::strerror(errno)));
+  if (!file) return fail(ErrorCode::kIo, "cannot read: " + std::generic_category().message(errno));
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   if (!json.is_object()) return fail(ErrorCode::kInvalidArgument, "not a JSON object of marks");
   Marks marks;
@@ -70,14 +70,15 @@ Result<Marks> read_marks(const std::string& path) {
     if (!listed) return listed;
     marks = *listed;
   }
-  for (const auto& [name, value] : json.items()) {
+  for (const auto& item : json.items()) {
+    const std::string& name = item.key();
     if (name == "landmarks") continue;
     const auto vertices = generic_head().vertices;
     const auto found =
         std::find_if(vertices.begin(), vertices.end(), [&](const HeadVertex& v) { return v.name == name; });
     if (found == vertices.end())
       return fail(ErrorCode::kInvalidArgument, "no vertex is named \"" + name + "\"");
-    const auto p = point_of(value);
+    const auto p = point_of(item.value());
     if (!p) return fail(ErrorCode::kInvalidArgument, "\"" + name + "\" is not [x, y]");
     marks.vertex[found - vertices.begin()] = *p;
   }

@@ -9,6 +9,8 @@ namespace fbs {
 
 /// A header over the plane's samples; not to be written through, and not to outlive the plane.
 [[nodiscard]] inline cv::Mat view(const Plane& p) {
+  // OpenCV has no view of const samples.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
   return {p.height, p.width, CV_8UC1, const_cast<std::uint8_t*>(p.samples.data())};
 }
 

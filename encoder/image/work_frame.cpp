@@ -37,7 +37,7 @@ cv::Mat resized_crop(const Plane& plane, int x0, int y0, int w, int h, cv::Size 
 WorkFrame WorkFrame::cut(const Picture& picture, glm::dvec2 centre, double eye_distance_px,
                          bool with_colour) {
   // Whole even samples, so that luma and chroma cover the same area exactly.
-  const auto even = [](double v) { return 2 * static_cast<int>(std::lround(v / 2)); };
+  const auto even = [](double x) { return 2 * static_cast<int>(std::lround(x / 2)); };
   const int w = std::max(16, even(2 * kHalfWidth * eye_distance_px));
   const int h = std::max(16, even(2 * kHalfHeight * eye_distance_px));
   const int x0 = even(std::clamp(centre.x, 0.0, 1.0 * picture.width()) - w / 2.0);

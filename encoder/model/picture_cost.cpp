@@ -52,23 +52,24 @@ PictureCost cost_unseen(const Fit& fit) {
   return {values_of(fit), {{Region::kHead, 0, 0, quadratic}}};
 }
 
-PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& fitted) {
+PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& own) {
   const Pose p = one_unit();
   std::array<double, kFitOffsets> unit = {p.pitch, p.yaw, p.roll, p.shift.x, p.shift.y, p.log2_scale};
   std::fill(unit.begin() + kPoseCount, unit.end(), 1 / kLightUnitsPerLevel);
-  cv::Mat1d own = fitted.clone();
+  cv::Mat1d scaled = own.clone();
   for (int i = 0; i < kFitOffsets; ++i) {
-    own.row(i) *= unit[i];
-    own.col(i) *= unit[i];
+    scaled.row(i) *= unit[i];
+    scaled.col(i) *= unit[i];
   }
   const cv::Range ours(0, kFitOffsets), offsets(kFitOffsets, kFitNumbers);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
-  const cv::Mat1d across = rows_of_coefficients(cv::Mat1d(own(ours, offsets)));
+  const cv::Mat1d across = rows_of_coefficients(cv::Mat1d(scaled(ours, offsets)));
   cv::Mat1d quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount);
-  own(ours, ours).copyTo(quadratic(ours, ours));
+  scaled(ours, ours).copyTo(quadratic(ours, ours));
   across.copyTo(quadratic(ours, coefficients));
   cv::Mat(across.t()).copyTo(quadratic(coefficients, ours));
-  quadratic_of_coefficients(cv::Mat1d(own(offsets, offsets))).copyTo(quadratic(coefficients, coefficients));
+  quadratic_of_coefficients(cv::Mat1d(scaled(offsets, offsets)))
+      .copyTo(quadratic(coefficients, coefficients));
   return {values_of(fit), {{Region::kHead, pattern, constant, quadratic}}};
 }
 

@@ -5,13 +5,13 @@
 
 namespace fbs {
 
-Pose moved(const Pose& p, const PoseStep& d) {
-  Pose out = p;
-  out.pitch += d[0];
-  out.yaw += d[1];
-  out.roll += d[2];
-  out.shift += glm::dvec2(d[3], d[4]);
-  out.log2_scale += d[5];
+Pose moved(const Pose& pose, const PoseStep& step) {
+  Pose out = pose;
+  out.pitch += step[0];
+  out.yaw += step[1];
+  out.roll += step[2];
+  out.shift += glm::dvec2(step[3], step[4]);
+  out.log2_scale += step[5];
   constexpr double kMaxAngle = 1.2;  // rad; beyond it the face is out of sight
   out.pitch = std::clamp(out.pitch, -kMaxAngle, kMaxAngle);
   out.yaw = std::clamp(out.yaw, -kMaxAngle, kMaxAngle);

@@ -22,8 +22,9 @@ struct MapLabel {
 [[nodiscard]] inline const std::vector<MapLabel>& map_labels() {
   static const std::vector<MapLabel> all = [] {
     std::vector<MapLabel> out;
-    for (std::uint8_t h = 0; h <= kFollowOne; ++h)
-      for (std::uint8_t b = 0; b <= (h == kFollowOne ? 0 : kFollowOne); ++b) out.push_back({h, b});
+    for (int h = 0; h <= kFollowOne; ++h)
+      for (int b = 0; b <= (h == kFollowOne ? 0 : kFollowOne); ++b)
+        out.push_back({static_cast<std::uint8_t>(h), static_cast<std::uint8_t>(b)});
     return out;
   }();
   return all;

@@ -16,7 +16,7 @@ namespace fbs {
 struct LevelledFrame {
   static constexpr int kLevels = 3;
 
-  explicit LevelledFrame(WorkFrame frame);
+  explicit LevelledFrame(WorkFrame of);
 
   /// Where a position in pixels of the picture lies in a level.
   [[nodiscard]] glm::dvec2 at(glm::dvec2 picture, int level) const {

@@ -28,6 +28,7 @@ std::vector<glm::dvec2> ControlFit::solve() const {
   cv::Mat1d x;
   cv::solve(a_, b_, x, cv::DECOMP_CHOLESKY);
   std::vector<glm::dvec2> control;
+  control.reserve(x.rows);
   for (int i = 0; i < x.rows; ++i) control.emplace_back(x(i, 0), x(i, 1));
   return control;
 }

@@ -59,6 +59,7 @@ SnakeCurve::SnakeCurve(bool is_closed, int controls, int pinned, std::vector<Spl
 
 SnakeCurve SnakeCurve::closed(int controls, int points) {
   std::vector<SplineBasis> basis;
+  basis.reserve(points);
   const double ds = static_cast<double>(controls) / points;
   for (int h = 0; h < points; ++h) basis.push_back(closed_basis(controls, h * ds));
   return {true, controls, 0, std::move(basis), ds};
@@ -66,6 +67,7 @@ SnakeCurve SnakeCurve::closed(int controls, int points) {
 
 SnakeCurve SnakeCurve::clamped(int points, bool free_ends) {
   std::vector<SplineBasis> basis;
+  basis.reserve(points);
   const double ds = 1.0 / (points - 1);
   for (int h = 0; h < points; ++h) basis.push_back(clamped_basis(true, h * ds));
   return {false, 4, free_ends ? 0 : 1, std::move(basis), ds};

@@ -66,7 +66,7 @@ TEST(SamplePoints, LightIsThatOfTheDecoder) {
     if (i == kLightGain) continue;
     State lit = SeenScene::rest();
     lit.light[i] = kLevels;
-    const ScreenMesh mesh = scene.scene.geometry->project(lit);
+    const ScreenMesh mesh = scene.scene.geometry->screen_mesh(lit);
     for (std::size_t k = 0; k < scene.comparison.points.size(); ++k) {
       const SurfacePoint& p = scene.comparison.points[k];
       double offset = 0;
