@@ -47,7 +47,7 @@ class FaceScene : public SceneEncoder {
 
   SceneTiming timing_;
   bool still_surround_;
-  Scene scene_;             ///< as the decoder has it; until start() the surround's map is a guess
+  Scene scene_;             ///< as the decoder builds it; until start() with a guessed surround map
   CodedState seen_;         ///< of pattern 0
   double eye_distance_px_;  ///< in it
   PatternCoder patterns_;

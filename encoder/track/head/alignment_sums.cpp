@@ -11,9 +11,9 @@ AlignmentSums::AlignmentSums(const PoseJacobian& jacobian, double pixels_per_uni
     glm::dvec3 unit(0);
     unit[axis] = 1;
     const auto by = jacobian.at(unit);
-    for (std::size_t m = 0; m < kTurns.size(); ++m) {
-      by_x_[m][axis] = static_cast<float>(pixels_per_unit * by[kTurns[m]].x);
-      by_y_[m][axis] = static_cast<float>(pixels_per_unit * by[kTurns[m]].y);
+    for (std::size_t m = 0; m < kRotationsAndScale.size(); ++m) {
+      by_x_[m][axis] = static_cast<float>(pixels_per_unit * by[kRotationsAndScale[m]].x);
+      by_y_[m][axis] = static_cast<float>(pixels_per_unit * by[kRotationsAndScale[m]].y);
     }
   }
 }
@@ -31,11 +31,12 @@ void AlignmentSums::finish(Matrix& a, Vector& b) {
 void AlignmentSums::flush() {
   const std::size_t n = count_;
   alignas(16) Row j[kUnknowns + 1], weighted;
-  for (std::size_t m = 0; m < kTurns.size(); ++m) {
+  for (std::size_t m = 0; m < kRotationsAndScale.size(); ++m) {
     const std::array<float, 3> bx = by_x_[m], by = by_y_[m];
     for (std::size_t k = 0; k < n; ++k)
-      j[kTurns[m]][k] = dx_[k] * (bx[0] * point_[0][k] + bx[1] * point_[1][k] + bx[2] * point_[2][k]) +
-                        dy_[k] * (by[0] * point_[0][k] + by[1] * point_[1][k] + by[2] * point_[2][k]);
+      j[kRotationsAndScale[m]][k] =
+          dx_[k] * (bx[0] * point_[0][k] + bx[1] * point_[1][k] + bx[2] * point_[2][k]) +
+          dy_[k] * (by[0] * point_[0][k] + by[1] * point_[1][k] + by[2] * point_[2][k]);
   }
   for (std::size_t k = 0; k < n; ++k) {
     j[3][k] = pixels_per_unit_ * dx_[k];

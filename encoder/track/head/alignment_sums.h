@@ -42,7 +42,8 @@ class AlignmentSums {
 
  private:
   static constexpr std::size_t kBlock = 64, kLanes = 8;
-  static constexpr std::array<std::size_t, 4> kTurns = {0, 1, 2, 5};  // these move a point by where it is
+  static constexpr std::array<std::size_t, 4> kRotationsAndScale = {0, 1, 2,
+                                                                    5};  // these move a point by where it is
   using Row = float[kBlock];
 
   void flush();
