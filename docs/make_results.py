@@ -10,9 +10,9 @@ import re
 import sys
 
 RESULTS = pathlib.Path(__file__).resolve().parent / "results.md"
-COLUMNS = ["kbit/s", "startup", "pattern", "motion", "face", "peers", "still", "frame", "peers", "SSIM", "peers", "uv",
-           "enc/s", "dec/s"]
-SHOWN = [0, 3, 1, 4, 5, 6, 7, 8, 12, 13]
+COLUMNS = ["kbit/s", "startup", "pattern", "motion", "face", "peers", "still", "frame", "peers", "SSIM", "peers", "fSSIM",
+           "steady", "uv", "enc/s", "dec/s"]
+SHOWN = [0, 3, 1, 4, 5, 6, 7, 8, 14, 15]
 HEADS = ["clip", "kbit/s", "motion", "startup", "face", "face, peers", "face, first picture held", "frame", "frame, peers",
          "encoded/s", "decoded/s"]
 

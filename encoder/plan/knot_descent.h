@@ -52,7 +52,7 @@ class KnotDescent {
   bool drop_knot(std::size_t part, std::size_t k);
   [[nodiscard]] double distortion_change_at(std::size_t part, int picture, const PartPoint& by) const;
 
-  const PlanTerms& terms_;
+  PlanTerms terms_;
   MotionGroup& group_;
   std::vector<Row> slope_;  ///< of each picture: quadratic * (x - target), half the gradient
 };

@@ -86,7 +86,7 @@ class SpanSearch {
     return track;
   }
 
-  const PlanTerms& terms_;
+  PlanTerms terms_;
   std::size_t part_;
   int nodes_;                      ///< the last one's index: the number of pictures
   std::vector<PartValues> value_;  ///< of each node
