@@ -80,7 +80,7 @@ State state_of(const CodedState& coded, const QuantiserSteps& steps) {
 
 CodedLimits::CodedLimits(const QuantiserSteps& steps, PartMask sent_parts) : parts(sent_parts) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
-    if ((parts >> kPartOf[i] & 1) == 0) continue;
+    if (!has_part(parts, kPartOf[i])) continue;
     max[i] = limit_of(i) / step_of(steps, i);
     min[i] = i == kLogScale ? 0 : -max[i];
   }

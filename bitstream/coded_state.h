@@ -34,6 +34,10 @@ inline constexpr PartMask kAllParts = (1 << kPartCount) - 1;
   return static_cast<PartMask>(1U << index_of(part));
 }
 
+[[nodiscard]] constexpr bool has_part(PartMask parts, std::size_t part) {
+  return (parts >> part & 1) != 0;
+}
+
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
     "pose",  "light", "mouth interior", "body",       "ground",
     "mouth", "brows", "upper lids",     "lower lids", "gaze"};

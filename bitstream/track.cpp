@@ -54,7 +54,7 @@ MotionGroup knots_everywhere(const CodedState& anchor, const std::vector<CodedSt
   group.anchor = anchor;
   group.pictures = static_cast<std::int32_t>(states.size());
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    if ((parts >> part & 1) == 0) continue;
+    if (!has_part(parts, part)) continue;
     for (std::size_t t = 0; t < states.size(); ++t) {
       Knot knot{.picture = static_cast<std::int32_t>(t), .value = {}};
       std::copy_n(states[t].begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());

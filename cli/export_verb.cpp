@@ -33,7 +33,7 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
   line +=
       number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
   const auto vertices = geometry->project_vertices(decoder.state());
-  for (const std::int16_t v : generic_head().landmark_vertex) {
+  for (const std::uint16_t v : generic_head().landmark_vertex) {
     const glm::ivec3 p = vertices[v];
     line += number(p.x / 64.0) + number(p.y / 64.0);
   }

@@ -12,7 +12,7 @@ cv::Rect draw_face(const SceneGeometry& geometry, const State& state, Plane& mas
   std::fill(mask.samples.begin(), mask.samples.end(), std::uint8_t{0});
   const auto vertices = geometry.project_vertices(state);
   std::vector<cv::Point> outline;
-  for (const std::int16_t v : generic_head().outline) {
+  for (const std::uint16_t v : generic_head().outline) {
     const glm::ivec3 p = vertices[v];
     outline.emplace_back(p.x >> kScreenOneLog2, p.y >> kScreenOneLog2);
   }

@@ -114,6 +114,13 @@ struct GenericHead {
   return generic_head().features[static_cast<std::size_t>(id)];
 }
 
+/// Control points that move a vertex.
+[[nodiscard]] inline std::span<const SkinningWeight> skinning_of(std::size_t vertex) {
+  const GenericHead& head = generic_head();
+  return head.skinning.subspan(head.skinning_begin[vertex],
+                               head.skinning_begin[vertex + 1] - head.skinning_begin[vertex]);
+}
+
 /// @param ibug  0..67
 [[nodiscard]] inline std::size_t vertex_of_landmark(std::size_t ibug) {
   return generic_head().landmark_vertex[ibug];

@@ -147,9 +147,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
 
 void StreamDecoder::begin_geometry(const State& rest) {
   if (!geometry_) return;
-  // Without a map of its own the surround stays where it is.
-  SurroundMap still{1, 1, {0, 0, 0, 0}, {0, 0, 0, 0}};
-  scene_.set_geometry({scene_.setup, *geometry_, surround_ ? std::move(*surround_) : std::move(still), rest});
+  scene_.set_geometry({scene_.setup, *geometry_, surround_ ? std::move(*surround_) : still_surround(), rest});
 }
 
 Result<void> StreamDecoder::take_pattern(const Packet& packet) {

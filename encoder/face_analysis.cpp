@@ -1,7 +1,6 @@
 #include "encoder/face_analysis.h"
 
 #include "decoder/head/head_deformation.h"
-#include "decoder/head/head_projection.h"
 #include "encoder/model/skinning.h"
 
 namespace fbs {
@@ -15,14 +14,18 @@ WorkFrame first_frame(const AnalysisStart& start, const Picture& picture, bool w
 
 FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder,
                            const AnalysisStart& start)
+    : FaceAnalysis(settings, finder, start, first_frame(start, start.first, true)) {}
+
+FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder,
+                           const AnalysisStart& start, const WorkFrame& first)
     : snakes_(settings.snakes),
       refine_(settings.refine),
       eye_distance_px_(start.eye_distance_px),
       geometry_(start.geometry),
       mouth_(start.setup.mouth),
-      head_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
+      head_(start.geometry, pose_of(start.seen), first),
       search_(finder),
-      features_(start.geometry, pose_of(start.seen), first_frame(start, start.first, true)),
+      features_(start.geometry, pose_of(start.seen), first),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
   if (settings.surround) surround_.emplace(start.first, start.seen);
@@ -38,7 +41,8 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);
   }
-  write_report(seen.state);
+  seen.vertices = project_vertices(geometry_.positions, seen.state);
+  write_report(seen.vertices);
   return seen;
 }
 
@@ -111,14 +115,10 @@ Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
   return fit;
 }
 
-void FaceAnalysis::write_report(const State& state) {
+void FaceAnalysis::write_report(const std::array<glm::ivec3, kVertexCount>& vertices) {
   report_.face = true;
-  const HeadProjection on_screen(head_pose(state));
-  const auto vertices = deform(geometry_.positions, state);
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    const glm::ivec3 p = on_screen(vertices[v]);
-    report_.vertices[v] = glm::dvec2(p.x, p.y) / static_cast<double>(1 << kScreenOneLog2);
-  }
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    report_.vertices[v] = glm::dvec2(vertices[v].x, vertices[v].y) / kStateUnitsPerPixel;
   const PoseProjection projection(head_.pose());
   report_.snakes.clear();
   for (std::size_t i = 0; i < features_.count(); ++i) {

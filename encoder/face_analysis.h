@@ -32,8 +32,9 @@ class FaceAnalysis {
   FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder, const AnalysisStart& start);
 
   struct Observation {
-    State state;       ///< as fitted, in whole units
-    PictureCost cost;  ///< of other states
+    State state;                                      ///< as fitted, in whole units
+    PictureCost cost;                                 ///< of other states
+    std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
   };
   /// The next picture; the scene's first one first.
   [[nodiscard]] Observation observe(const Picture& picture);
@@ -45,6 +46,9 @@ class FaceAnalysis {
   [[nodiscard]] const PictureAnalysis& report() const { return report_; }
 
  private:
+  /// @param first  work frame of the first picture, with colour
+  FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder, const AnalysisStart& start,
+               const WorkFrame& first);
   /// Where the head is, tracked or found again; nothing while it is lost.
   /// @param frame  cut where the head was; cut anew where it is found elsewhere
   [[nodiscard]] std::optional<TrackedPose> follow_head(const Picture& picture, const HeadVertices& vertices,
@@ -56,7 +60,7 @@ class FaceAnalysis {
   /// Sets now_.
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
-  void write_report(const State& state);
+  void write_report(const std::array<glm::ivec3, kVertexCount>& vertices);
 
   bool snakes_, refine_;
   double eye_distance_px_;

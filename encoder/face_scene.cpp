@@ -99,16 +99,16 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
     : timing_(timing),
       still_surround_(!settings.surround),
       scene_(std::move(parts.scene)),
-      seen_(parts.seen),
-      eye_distance_px_(parts.eye_distance_px),
       patterns_(std::move(parts.patterns)),
       analysis_(settings, finder,
                 {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
-                 state_of(seen_, scene_.setup.steps), parts.centre, parts.eye_distance_px}),
-      coder_(scene_.setup, seen_),
+                 scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),
+      coder_(scene_.setup, parts.seen),
       planner_(scene_.setup.steps, scene_.setup.parts, expression_penalty(parts.rate.point.lambda)),
       base_lambda_(parts.rate.point.lambda),
       lambda_(base_lambda_),
+      mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
+                     parts.eye_distance_px),
       observations_(std::move(parts.observations)),
       head_(std::move(parts.head)) {
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
@@ -118,20 +118,17 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   FaceAnalysis::Observation seen = analysis_.observe(picture);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
-  if (!packets_.started()) learn(picture, seen.state);
+  if (!packets_.started()) learn(picture, seen);
   ++pictures_;
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
   return !packets_.started() && pictures_ >= timing_.lookahead ? start() : Result<void>{};
 }
 
-void FaceScene::learn(const Picture& picture, const State& state) {
-  const SceneGeometry& geometry = *scene_.geometry;
-  const State seen = state_of(seen_, scene_.setup.steps);
-  mouth_colours_.add(picture, geometry.project_vertices(state), mouth_height(geometry.project_vertices(seen)),
-                     eye_distance_px_);
+void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
+  mouth_colours_.add(picture, seen.vertices);
   const std::uint64_t every = std::max<std::uint64_t>(1, timing_.lookahead / kSurroundPictures);
-  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, state);
+  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, seen.state);
 }
 
 MotionGroup FaceScene::plan_next_group() {
@@ -158,12 +155,11 @@ Result<void> FaceScene::end_group() {
 
 Result<void> FaceScene::start() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
-  const State seen = state_of(seen_, scene_.setup.steps);
   const Geometry geometry = scene_.geometry->geometry();
   const SurroundMap map =
       still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, observations_);
   analysis_.set_surround_map(map);
-  scene_.set_geometry({scene_.setup, geometry, map, seen});
+  scene_.set_geometry({scene_.setup, geometry, map, scene_.patterns.front().seen});
 
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());

@@ -39,7 +39,7 @@ class FaceScene : public SceneEncoder {
             Parts parts);
 
   /// Until the scene starts: mouth colours, and what the surround's map is fitted to.
-  void learn(const Picture& picture, const State& state);
+  void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
   [[nodiscard]] MotionGroup plan_next_group();
   /// Fixes what the scene's head says and writes it.
@@ -47,9 +47,7 @@ class FaceScene : public SceneEncoder {
 
   SceneTiming timing_;
   bool still_surround_;
-  Scene scene_;             ///< as the decoder builds it; until start() with a guessed surround map
-  CodedState seen_;         ///< of pattern 0
-  double eye_distance_px_;  ///< in it
+  Scene scene_;  ///< as the decoder builds it; until start() with a guessed surround map
   PatternCoder patterns_;
   FaceAnalysis analysis_;
 

@@ -17,7 +17,7 @@ bool fits(const Knot& knot, std::size_t part, const CodedLimits& limits) {
 }
 
 bool fits(const Track& track, std::size_t part, std::int32_t pictures, const CodedLimits& limits) {
-  if ((limits.parts >> part & 1) == 0) return track.empty();
+  if (!has_part(limits.parts, part)) return track.empty();
   std::int32_t last = -1;
   for (const Knot& knot : track) {
     if (knot.picture <= last || !fits(knot, part, limits)) return false;

@@ -107,7 +107,7 @@ bool code_body(Coder& coder, MotionReference& reference, Group& group, After&& a
   const bool has_durations = code_header(coder, reference.memory, group);
   if (group.pictures < 1) return false;
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    if ((reference.limits.parts >> part & 1) == 0) continue;
+    if (!has_part(reference.limits.parts, part)) continue;
     if (!code_track(coder, reference, part, group)) return false;
     after(part);
   }

@@ -17,7 +17,7 @@ bool code_whole_state(Coder& coder, const CodedLimits& limits, CodedState& state
   WholeStateContexts contexts;
   bool in_range = true;
   for (std::size_t i = 0; i < kParameterCount; ++i) {
-    if ((limits.parts >> kPartOf[i] & 1) == 0) {
+    if (!has_part(limits.parts, kPartOf[i])) {
       state[i] = 0;
       continue;
     }

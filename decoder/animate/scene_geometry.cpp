@@ -67,10 +67,7 @@ TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
 }
 
 std::array<glm::ivec3, kVertexCount> SceneGeometry::project_vertices(const State& state) const {
-  const HeadProjection projection(head_pose(state));
-  std::array<glm::ivec3, kVertexCount> points = deform(geometry_.positions, state);
-  for (glm::ivec3& p : points) p = projection(p);
-  return points;
+  return fbs::project_vertices(geometry_.positions, state);
 }
 
 }  // namespace fbs

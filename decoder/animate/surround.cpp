@@ -28,6 +28,10 @@ std::int64_t regular(std::int64_t size, int k, int cells) {
 
 }  // namespace
 
+SurroundMap still_surround() {
+  return {1, 1, {0, 0, 0, 0}, {0, 0, 0, 0}};
+}
+
 Surround::Surround(const VideoFormat& format, SurroundMap map, const State& rest)
     : map_(std::move(map)), rest_(rest) {
   place_points(format);

@@ -12,6 +12,9 @@
 
 namespace fbs {
 
+/// A map in which nothing moves: a single cell of ground.
+[[nodiscard]] SurroundMap still_surround();
+
 /// The grid of a SurroundMap, which begins a little inside the picture, with a margin: one more column and
 /// row on each side, half a picture away. A point of the margin repeats the nearest one of the border: it is
 /// displaced as that one is and shows the same, so that what comes in from outside repeats what is near.

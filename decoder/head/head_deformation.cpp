@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "decoder/head/fixed_math.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
 namespace {
@@ -28,14 +29,13 @@ void keep_between_lids(std::array<glm::ivec3, kVertexCount>& vertices, FeatureId
 
 std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
                                             const State& state) {
-  const GenericHead& head = generic_head();
   std::array<glm::ivec3, kVertexCount> out = neutral;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     std::int64_t x = 0, y = 0;
-    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k) {
-      const glm::ivec2 c = state.control[head.skinning[k].control];
-      x += std::int64_t{head.skinning[k].weight} * c.x;
-      y += std::int64_t{head.skinning[k].weight} * c.y;
+    for (const SkinningWeight& skinning : skinning_of(v)) {
+      const glm::ivec2 c = state.control[skinning.control];
+      x += std::int64_t{skinning.weight} * c.x;
+      y += std::int64_t{skinning.weight} * c.y;
     }
     out[v].x += static_cast<std::int32_t>(round_shift(x, kSkinningOneLog2));
     out[v].y += static_cast<std::int32_t>(round_shift(y, kSkinningOneLog2));
@@ -43,6 +43,14 @@ std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertex
   keep_between_lids(out, FeatureId::kUpperLidRight, FeatureId::kLowerLidRight, FeatureId::kPupilRight);
   keep_between_lids(out, FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft, FeatureId::kPupilLeft);
   return out;
+}
+
+std::array<glm::ivec3, kVertexCount> project_vertices(const std::array<glm::ivec3, kVertexCount>& neutral,
+                                                      const State& state) {
+  const HeadProjection projection(head_pose(state));
+  std::array<glm::ivec3, kVertexCount> points = deform(neutral, state);
+  for (glm::ivec3& p : points) p = projection(p);
+  return points;
 }
 
 }  // namespace fbs

@@ -15,4 +15,8 @@ namespace fbs {
 [[nodiscard]] std::array<glm::ivec3, kVertexCount> deform(const std::array<glm::ivec3, kVertexCount>& neutral,
                                                           const State& state);
 
+/// The same on the screen: as HeadProjection gives.
+[[nodiscard]] std::array<glm::ivec3, kVertexCount> project_vertices(
+    const std::array<glm::ivec3, kVertexCount>& neutral, const State& state);
+
 }  // namespace fbs

@@ -5,7 +5,7 @@ namespace fbs {
 FitColumns::FitColumns(PartMask parts) {
   of_.fill(-1);
   for (std::size_t p = 0; p < kExpressionPartCount; ++p) {
-    if ((parts >> (kFirstExpressionPart + static_cast<int>(p)) & 1) == 0) continue;
+    if (!has_part(parts, kFirstExpressionPart + p)) continue;
     const ExpressionPart& part = generic_head().expression[p];
     for (int c = 0; c < part.control_count; ++c) {
       of_[part.first_control + c] = count_;

@@ -22,7 +22,7 @@ std::vector<LidSearch::MovedPoints> LidSearch::moved_by(const SamplePoints& poin
     const float* share = patch.shares.data();
     for (std::size_t k = patch.first; k < patch.end; ++k, share += patch.controls.size()) {
       const auto moves = [&](std::size_t i) {
-        const auto c = static_cast<std::size_t>(patch.controls[i]);
+        const std::size_t c = patch.controls[i];
         return (c == control || c == control + 1) && share[i] > kMinLidShare;
       };
       bool any = false;

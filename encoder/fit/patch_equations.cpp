@@ -10,14 +10,13 @@ void PatchEquations::begin(std::size_t controls) {
   for (std::size_t i = 0; i < n_; ++i) std::fill_n(&left_[i * kMaxColumns], n_, 0.0F);
 }
 
-void PatchEquations::add_to(const FitColumns& columns, std::span<const std::int16_t> controls,
+void PatchEquations::add_to(const FitColumns& columns, std::span<const std::uint16_t> controls,
                             NormalEquations& normal) const {
   std::array<std::size_t, kMaxColumns> column;
   for (std::size_t i = 0; i < FitColumns::kFirstControl; ++i) column[i] = i;
   for (std::size_t c = 0; c < controls.size(); ++c)
     for (std::size_t axis = 0; axis < 2; ++axis)
-      column[FitColumns::kFirstControl + 2 * c + axis] =
-          columns.of(static_cast<std::size_t>(controls[c])) + axis;
+      column[FitColumns::kFirstControl + 2 * c + axis] = columns.of(controls[c]) + axis;
   for (std::size_t i = 0; i < n_; ++i) {
     normal.right(column[i]) += static_cast<double>(right_[i]);
     for (std::size_t j = i; j < n_; ++j)

@@ -31,7 +31,7 @@ class PatchEquations {
   }
 
   /// @param controls  rising, so that the upper triangle stays one
-  void add_to(const FitColumns& columns, std::span<const std::int16_t> controls,
+  void add_to(const FitColumns& columns, std::span<const std::uint16_t> controls,
               NormalEquations& normal) const;
 
  private:

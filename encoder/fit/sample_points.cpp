@@ -37,10 +37,9 @@ std::array<double, kLightCount> light_of(const Geometry& geometry, const Surface
 
 /// Skinning weight of each control point in a vertex.
 std::array<double, kControlCount> weights_of(std::size_t vertex) {
-  const GenericHead& head = generic_head();
   std::array<double, kControlCount> out{};
-  for (std::size_t w = head.skinning_begin[vertex]; w < head.skinning_begin[vertex + 1]; ++w)
-    out[head.skinning[w].control] = head.skinning[w].weight / static_cast<double>(kSkinningOne);
+  for (const SkinningWeight& skinning : skinning_of(vertex))
+    out[skinning.control] = skinning.weight / static_cast<double>(kSkinningOne);
   return out;
 }
 
@@ -75,9 +74,9 @@ SamplePoints::Patch SamplePoints::patch_of(const FitColumns& columns, std::size_
   for (std::size_t c = 0; c < kControlCount; ++c)
     if (columns.has(c) && std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) >
                               kMinSkinningShare)
-      patch.controls.push_back(static_cast<std::int16_t>(c));
+      patch.controls.push_back(static_cast<std::uint16_t>(c));
   for (std::size_t k = first; k < end; ++k)
-    for (const std::int16_t control : patch.controls) {
+    for (const std::uint16_t control : patch.controls) {
       double share = 0;
       for (std::size_t i = 0; i < 3; ++i)
         share += static_cast<double>(points_[k].barycentric[i]) * weight[i][control];

@@ -16,9 +16,9 @@ class SamplePoints {
  public:
   /// The points of one triangle, and how the control points that move it move each.
   struct Patch {
-    std::size_t first, end;              ///< points
-    std::vector<std::int16_t> controls;  ///< rising, of those that may move
-    std::vector<float> shares;           ///< of each control point, point by point
+    std::size_t first, end;               ///< points
+    std::vector<std::uint16_t> controls;  ///< rising, of those that may move
+    std::vector<float> shares;            ///< of each control point, point by point
 
     [[nodiscard]] std::size_t size() const { return end - first; }
   };

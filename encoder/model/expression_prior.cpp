@@ -104,12 +104,10 @@ cv::Mat1d precision() {
   // How these vertices follow the control points; the same for x and y.
   const int n = static_cast<int>(vertices.size());
   cv::Mat1d follow = cv::Mat1d::zeros(n, kControls);
-  for (int i = 0; i < n; ++i) {
-    const std::size_t v = vertices[i];
-    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
-      if (head.skinning[k].control < kControls)
-        follow(i, head.skinning[k].control) = head.skinning[k].weight / static_cast<double>(kSkinningOne);
-  }
+  for (int i = 0; i < n; ++i)
+    for (const SkinningWeight& skinning : skinning_of(vertices[i]))
+      if (skinning.control < kControls)
+        follow(i, skinning.control) = skinning.weight / static_cast<double>(kSkinningOne);
   // An action in control points: the least-squares offsets that move the vertices by it.
   const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
   cv::Mat1d covariance = kControlSigma * kControlSigma * cv::Mat1d::eye(2 * kControls, 2 * kControls);

@@ -6,7 +6,8 @@
 namespace fbs {
 namespace {
 
-constexpr double kAngleUnit = 2 * std::numbers::pi / 65536;
+constexpr double kAngleUnit = 2 * std::numbers::pi / 65536;  // rad
+constexpr double kLogScaleOne = 4096;                        // of State::pose, per octave
 
 }  // namespace
 
@@ -31,8 +32,12 @@ glm::dvec2 PoseProjection::operator()(glm::dvec3 p) const {
 }
 
 std::array<double, kPoseCount> numbers_of(const Pose& pose) {
-  return {pose.pitch / kAngleUnit, pose.yaw / kAngleUnit, pose.roll / kAngleUnit,
-          pose.shift.x * 64,       pose.shift.y * 64,     pose.log2_scale * 4096};
+  return {pose.pitch / kAngleUnit,
+          pose.yaw / kAngleUnit,
+          pose.roll / kAngleUnit,
+          pose.shift.x * kStateUnitsPerPixel,
+          pose.shift.y * kStateUnitsPerPixel,
+          pose.log2_scale * kLogScaleOne};
 }
 
 Pose pose_of(const State& state) {
@@ -40,8 +45,8 @@ Pose pose_of(const State& state) {
   return {p[kPitch] * kAngleUnit,
           p[kYaw] * kAngleUnit,
           p[kRoll] * kAngleUnit,
-          {p[kShiftX] / 64.0, p[kShiftY] / 64.0},
-          p[kLogScale] / 4096.0};
+          {p[kShiftX] / kStateUnitsPerPixel, p[kShiftY] / kStateUnitsPerPixel},
+          p[kLogScale] / kLogScaleOne};
 }
 
 }  // namespace fbs

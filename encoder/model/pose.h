@@ -8,8 +8,12 @@
 #include <vector>
 
 #include "common/state.h"
+#include "decoder/head/head_projection.h"
 
 namespace fbs {
+
+/// Positions in State and on the decoder's screen count so many to a pixel.
+inline constexpr double kStateUnitsPerPixel = 1 << kScreenOneLog2;
 
 /// Frame and order of rotation as in HeadPose.
 struct Pose {

@@ -5,12 +5,11 @@
 namespace fbs {
 
 HeadVertices skinned(const Geometry& geometry, const Offsets& offsets) {
-  const GenericHead& head = generic_head();
   HeadVertices out;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     glm::dvec2 d(0);
-    for (std::size_t k = head.skinning_begin[v]; k < head.skinning_begin[v + 1]; ++k)
-      d += static_cast<double>(head.skinning[k].weight) * offsets[head.skinning[k].control];
+    for (const SkinningWeight& skinning : skinning_of(v))
+      d += static_cast<double>(skinning.weight) * offsets[skinning.control];
     out[v] = glm::dvec3(geometry.positions[v]) + glm::dvec3(d / static_cast<double>(kSkinningOne), 0);
   }
   return out;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/model/pose.h"
+
 namespace fbs {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr int kSteps = 24;                // along the midline
 
 glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::size_t landmark) {
   const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
-  return glm::dvec2(p.x, p.y) / 64.0;
+  return glm::dvec2(p.x, p.y) / kStateUnitsPerPixel;
 }
 
 }  // namespace
@@ -32,13 +34,12 @@ void MouthColours::Sum::set_chroma(YuvColour& colour) const {
 }
 
 std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices) {
-  const glm::dvec2 d = 64.0 * (seen_at(vertices, 57) - seen_at(vertices, 51));
+  const glm::dvec2 d = kStateUnitsPerPixel * (seen_at(vertices, 57) - seen_at(vertices, 51));
   return static_cast<std::int32_t>(std::hypot(d.x, d.y));
 }
 
-void MouthColours::add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices,
-                       std::int32_t rest_height, double eye_distance_px) {
-  if (mouth_height(vertices) - rest_height < kOpen * eye_distance_px * 64) return;
+void MouthColours::add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices) {
+  if (mouth_height(vertices) - rest_height_ < kOpen * eye_distance_px_ * kStateUnitsPerPixel) return;
   const glm::dvec2 top = seen_at(vertices, 51), bottom = seen_at(vertices, 57);
   glm::dvec2 darkest = top;
   int least = 256;

@@ -14,14 +14,16 @@ namespace fbs {
 /// Chroma only: luma is part of the state (State::interior), relative to the luma in the setup.
 class MouthColours {
  public:
+  /// @param rest_height  mouth_height() in the pattern
+  /// @param eye_distance_px  of the head in it
+  MouthColours(std::int32_t rest_height, double eye_distance_px)
+      : rest_height_(rest_height), eye_distance_px_(eye_distance_px) {}
+
   /// Adds what a picture shows between parted lips: the darkest place on the mouth's midline, and the place
   /// half way from there to the upper inner lip, where teeth are. Inner lips are tracked less reliably, so
   /// the outer ones decide whether the mouth is open.
   /// @param vertices  screen positions of the head's vertices, 1/64 pixel
-  /// @param rest_height  between the outer lips' middles in the pattern, 1/64 pixel
-  /// @param eye_distance_px  of the head on the screen
-  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices,
-           std::int32_t rest_height, double eye_distance_px);
+  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices);
 
   /// Sets the chroma of either lip's colour once enough has been seen of it.
   void set_chroma(MouthInterior& mouth) const;
@@ -32,6 +34,8 @@ class MouthColours {
     void add(const Picture& picture, glm::dvec2 at);
     void set_chroma(YuvColour& colour) const;
   };
+  std::int32_t rest_height_;
+  double eye_distance_px_;
   Sum upper_, lower_;
 };
 

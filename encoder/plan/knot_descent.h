@@ -29,7 +29,7 @@ class KnotDescent {
     }
   };
 
-  [[nodiscard]] bool coded(std::size_t part) const { return (terms_.limits.parts >> part & 1) != 0; }
+  [[nodiscard]] bool coded(std::size_t part) const { return has_part(terms_.limits.parts, part); }
   [[nodiscard]] Knot before(std::size_t part, std::size_t k) const;
   [[nodiscard]] const Knot* after(std::size_t part, std::size_t k) const;
   [[nodiscard]] Reach reach(std::size_t part, std::size_t k) const;

@@ -23,7 +23,7 @@ MotionGroup TrackPlanner::plan(const CodedState& anchor, std::span<const Picture
   group.anchor = anchor;
   group.pictures = cost.pictures();
   for (std::size_t part = 0; part < kPartCount; ++part)
-    if ((limits_.parts >> part & 1) != 0)
+    if (has_part(limits_.parts, part))
       group.tracks[part] = cheapest_spans(terms, part, anchor_knot(anchor, part).value);
   KnotDescent descent(terms, group);
   for (int sweep = 0; sweep < kMaxSweeps && descent.sweep(); ++sweep) {

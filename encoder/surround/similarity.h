@@ -6,16 +6,14 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "common/state.h"
+#include "encoder/model/pose.h"
 
 namespace fbs {
 
 /// As State::body and State::ground, but in pixels.
 using Similarity = std::array<double, kSimilarityCount>;
 
-/// State counts displacements in 1/64 pixel.
-inline constexpr double kStateUnitsPerPixel = 64;
-
+/// In the units of State::body and State::ground.
 [[nodiscard]] inline std::int32_t to_state(double px) {
   return static_cast<std::int32_t>(std::lround(kStateUnitsPerPixel * px));
 }

@@ -44,8 +44,4 @@ SurroundMap fit_surround(const Setup& setup, const Geometry& geometry,
   return map;
 }
 
-SurroundMap still_surround() {
-  return {1, 1, {0, 0, 0, 0}, {0, 0, 0, 0}};
-}
-
 }  // namespace fbs

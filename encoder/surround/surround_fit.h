@@ -14,7 +14,4 @@ namespace fbs {
 [[nodiscard]] SurroundMap fit_surround(const Setup& setup, const Geometry& geometry,
                                        const SurroundObservations& observations);
 
-/// A map in which nothing moves.
-[[nodiscard]] SurroundMap still_surround();
-
 }  // namespace fbs

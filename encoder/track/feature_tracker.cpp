@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "encoder/model/expression_prior.h"
+#include "encoder/model/skinning.h"
 #include "encoder/track/snake/control_fit.h"
 #include "encoder/track/snake/inner_lip_follow.h"
 #include "encoder/track/snake/snake_descent.h"
@@ -26,8 +27,8 @@ std::vector<glm::dvec2> shut(const FeatureSnake& s) {
 
 }  // namespace
 
-FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first) {
-  for (std::size_t v = 0; v < kVertexCount; ++v) neutral_[v] = glm::dvec3(geometry.positions[v]);
+FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first)
+    : neutral_(skinned(geometry, {})) {
   for (const FeatureId id : kSnakeFeatures) {
     FeatureSnake s = FeatureSnake::make(id, geometry);
     const FeaturePatch seen = s.patch(first, pose);

@@ -1,21 +1,13 @@
 #include "encoder/track/head_tracker.h"
 
+#include "encoder/model/skinning.h"
 #include "encoder/track/head/head_tuning.h"
 #include "encoder/track/head/pose_alignment.h"
 
 namespace fbs {
-namespace {
-
-HeadVertices neutral(const Geometry& geometry) {
-  HeadVertices out;
-  for (std::size_t v = 0; v < kVertexCount; ++v) out[v] = glm::dvec3(geometry.positions[v]);
-  return out;
-}
-
-}  // namespace
 
 HeadTracker::HeadTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first)
-    : appearance_(neutral(geometry), pose, first), pose_(pose), before_(first) {}
+    : appearance_(skinned(geometry, {}), pose, first), pose_(pose), before_(first) {}
 
 TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertices) {
   flow_ = mesh_flow(before_, now, pose_, vertices);

@@ -16,7 +16,7 @@ fbs::MotionGroup held_key_group(fbs::PartMask parts) {
   group.key = true;
   group.pictures = 1;
   for (std::size_t part = 0; part < fbs::kPartCount; ++part)
-    if ((parts >> part & 1) != 0) group.tracks[part].push_back({});
+    if (fbs::has_part(parts, part)) group.tracks[part].push_back({});
   return group;
 }
 

@@ -9,12 +9,9 @@ namespace {
 
 /// Skinning weight of a control point at a vertex, 0..1.
 double skinning_weight(std::size_t vertex, int control) {
-  const GenericHead& head = generic_head();
-  double weight = 0;
-  for (std::size_t k = head.skinning_begin[vertex]; k < head.skinning_begin[vertex + 1]; ++k)
-    if (head.skinning[k].control == control)
-      weight = head.skinning[k].weight / static_cast<double>(kSkinningOne);
-  return weight;
+  for (const SkinningWeight& skinning : skinning_of(vertex))
+    if (skinning.control == control) return skinning.weight / static_cast<double>(kSkinningOne);
+  return 0;
 }
 
 }  // namespace

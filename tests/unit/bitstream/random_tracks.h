@@ -23,7 +23,7 @@ inline MotionGroup random_group(std::mt19937& random, const CodedLimits& limits,
   group.anchor = anchor;
   group.pictures = pictures;
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    if ((limits.parts >> part & 1) == 0) continue;
+    if (!has_part(limits.parts, part)) continue;
     Knot knot;
     std::copy_n(anchor.begin() + kPartFirst[part], kPartSizes[part], knot.value.begin());
     for (std::int32_t t = 0; t < pictures; ++t) {

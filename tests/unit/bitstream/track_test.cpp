@@ -115,7 +115,7 @@ TEST(KnotsEverywhere, GiveTheStatesTheyWereMadeFrom) {
     for (std::size_t t = 0; t < coded.size(); ++t) EXPECT_EQ(states[t], state_of(coded[t], steps));
     EXPECT_EQ(last_of(group), coded.back());
     for (std::size_t p = 0; p < kPartCount; ++p)
-      EXPECT_EQ(group.tracks[p].size(), (parts >> p & 1) != 0 ? coded.size() : 0);
+      EXPECT_EQ(group.tracks[p].size(), has_part(parts, p) ? coded.size() : 0);
   }
 }
 

@@ -202,7 +202,7 @@ int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
 
 std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
   std::vector<glm::ivec2> out;
-  for (const std::int16_t v : generic_head().outline) out.emplace_back(mesh.head[v]);
+  for (const std::uint16_t v : generic_head().outline) out.emplace_back(mesh.head[v]);
   return out;
 }
 
@@ -269,7 +269,7 @@ TEST(Renderer, StillGroundStaysWhereTheHeadIsNot) {
     std::vector<std::vector<glm::ivec2>> triangles;
     for (const auto& t : head_mesh().triangles) {
       triangles.emplace_back();
-      for (const std::int16_t v : t) triangles.back().emplace_back(now.head[v]);
+      for (const std::uint16_t v : t) triangles.back().emplace_back(now.head[v]);
     }
     int compared = 0;
     for (int y = 0; y < 128; ++y) {

@@ -27,7 +27,7 @@ TEST(MotionBitCounter, PartsSumToThePayload) {
   const double counted = static_cast<double>(std::accumulate(sum.begin(), sum.end(), std::uint64_t{0})) / 256;
   EXPECT_NEAR(counted, written, 0.01 * written + 4 * 16) << "key flag and end of the code are not counted";
   for (std::size_t p = 0; p < kPartCount; ++p)
-    EXPECT_EQ(sum[p] > 0, (kSomeParts >> p & 1) != 0) << kPartNames[p];
+    EXPECT_EQ(sum[p] > 0, has_part(kSomeParts, p)) << kPartNames[p];
   EXPECT_GT(sum[kPartCount], 100U * 256) << "durations";
 }
 

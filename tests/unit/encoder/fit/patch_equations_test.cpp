@@ -10,12 +10,12 @@ namespace {
 // Against the sums written out in double precision.
 TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
   const FitColumns columns(mask_of(PartId::kBrows));
-  const auto first = static_cast<std::int16_t>(feature(FeatureId::kBrowRight).first_control);
-  const std::vector<std::int16_t> controls = {static_cast<std::int16_t>(first + 1),
-                                              static_cast<std::int16_t>(first + 5)};
+  const auto first = static_cast<std::uint16_t>(feature(FeatureId::kBrowRight).first_control);
+  const std::vector<std::uint16_t> controls = {static_cast<std::uint16_t>(first + 1),
+                                               static_cast<std::uint16_t>(first + 5)};
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < FitColumns::kFirstControl; ++i) place.push_back(i);
-  for (const std::int16_t c : controls)
+  for (const std::uint16_t c : controls)
     for (std::size_t axis = 0; axis < 2; ++axis)
       place.push_back(columns.of(static_cast<std::size_t>(c)) + axis);
   PatchEquations patch;

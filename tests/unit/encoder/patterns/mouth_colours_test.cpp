@@ -34,10 +34,10 @@ TEST(MouthColours, HeightIsBetweenTheOuterLips) {
 }
 
 TEST(MouthColours, AreMeansOfOpenMouths) {
-  MouthColours colours;
+  MouthColours colours(kRest, kEyeDistance);
   for (const int by : {-4, 0, 4})
     colours.add(open_mouth(static_cast<std::uint8_t>(120 + by), static_cast<std::uint8_t>(140 + by)),
-                lips(kOpen), kRest, kEyeDistance);
+                lips(kOpen));
   MouthInterior mouth;
   colours.set_chroma(mouth);
   EXPECT_EQ(mouth.upper.u, 120);
@@ -46,8 +46,8 @@ TEST(MouthColours, AreMeansOfOpenMouths) {
 }
 
 TEST(MouthColours, LeaveLumaAlone) {
-  MouthColours colours;
-  for (int i = 0; i < 5; ++i) colours.add(open_mouth(120, 140), lips(kOpen), kRest, kEyeDistance);
+  MouthColours colours(kRest, kEyeDistance);
+  for (int i = 0; i < 5; ++i) colours.add(open_mouth(120, 140), lips(kOpen));
   MouthInterior mouth;
   colours.set_chroma(mouth);
   EXPECT_EQ(mouth.upper.y, MouthInterior{}.upper.y);
@@ -55,19 +55,19 @@ TEST(MouthColours, LeaveLumaAlone) {
 }
 
 TEST(MouthColours, NeedThreeOpenMouths) {
-  MouthColours colours;
-  for (int i = 0; i < 9; ++i) colours.add(open_mouth(90, 90), lips(kShut), kRest, kEyeDistance);
-  for (int i = 0; i < 2; ++i) colours.add(open_mouth(90, 90), lips(kOpen), kRest, kEyeDistance);
+  MouthColours colours(kRest, kEyeDistance);
+  for (int i = 0; i < 9; ++i) colours.add(open_mouth(90, 90), lips(kShut));
+  for (int i = 0; i < 2; ++i) colours.add(open_mouth(90, 90), lips(kOpen));
   MouthInterior mouth;
   colours.set_chroma(mouth);
   EXPECT_EQ(mouth, MouthInterior{});
 }
 
 TEST(MouthColours, IgnoreMouthsOutsideThePicture) {
-  MouthColours colours;
+  MouthColours colours(kRest, kEyeDistance);
   auto outside = lips(kOpen);
   for (glm::ivec3& p : outside) p.x -= 64 * 200;
-  for (int i = 0; i < 5; ++i) colours.add(open_mouth(90, 90), outside, kRest, kEyeDistance);
+  for (int i = 0; i < 5; ++i) colours.add(open_mouth(90, 90), outside);
   MouthInterior mouth;
   colours.set_chroma(mouth);
   EXPECT_EQ(mouth, MouthInterior{});

@@ -218,7 +218,7 @@ TEST(TrackPlanner, GroupCanBeCoded) {
     MotionGroup group = planned(wandering_fits(17, 8), 3, parts);
     group.key = true;
     EXPECT_TRUE(coder.encode(group)) << parts;
-    for (std::size_t p = 0; p < kPartCount; ++p) EXPECT_EQ(group.tracks[p].empty(), (parts >> p & 1) == 0);
+    for (std::size_t p = 0; p < kPartCount; ++p) EXPECT_EQ(group.tracks[p].empty(), !has_part(parts, p));
   }
 }
 
