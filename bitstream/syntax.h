@@ -12,9 +12,14 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 3;
+inline constexpr int kFormatVersion = 4;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
-inline constexpr int kMaxPatterns = 64;        ///< patterns in one scene
+/// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
+inline constexpr std::uint32_t kNotKey = 15 << 12;
+inline constexpr int kMaxPatterns = 64;        ///< patterns that a decoder keeps
+inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
+inline constexpr int kMaxWaitingPictures = 4096;  ///< whose motion has arrived but not their blend
+inline constexpr int kKeptPictures = 256;         ///< displayed pictures whose states a pattern may still have
 inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
@@ -34,6 +39,7 @@ enum class PacketType : std::uint8_t {
   kPattern = 4,   ///< one coded picture and its seen state
   kMotion = 5,    ///< the states of a group of pictures
   kEnd = 6,       ///< optional: number of pictures
+  kBlend = 7,     ///< how consecutive pictures are blended from patterns
 };
 
 /// A colour in the video's own range and matrix.
@@ -55,6 +61,7 @@ struct Setup {
   QuantiserSteps steps;
   PartMask parts = kAllParts;  ///< of the state that are sent; the pose always
   MouthInterior mouth;
+  std::int32_t patterns = 1;  ///< that the decoder keeps, 1..kMaxPatterns; 1: pictures need no blend packets
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 
@@ -75,11 +82,12 @@ struct SurroundMap {
   friend bool operator==(const SurroundMap&, const SurroundMap&) = default;
 };
 
-/// One pattern: a picture, and the state of its content, the seen state.
+/// One pattern: a coded picture, and the picture of the scene that it shows.
 struct PatternSyntax {
-  std::int32_t index = 0;  ///< 0..kMaxPatterns-1
-  CodedState state{};
-  std::vector<std::uint8_t> av1;  ///< one AV1 temporal unit (low-overhead OBU format)
+  std::int32_t slot = 0;     ///< place in the decoder's store, 0..patterns of the setup - 1
+  std::int32_t picture = 0;  ///< number of the picture in the scene, whose state is the seen state
+  CodedState state{};        ///< of picture 0 only, which is coded before all motion
+  std::vector<std::uint8_t> av1;  ///< one coded AV1 frame (low-overhead OBU format)
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
 
@@ -105,6 +113,13 @@ struct MotionGroup {
   std::vector<std::uint32_t>
       durations;  ///< of each picture, 1..kMaxDuration, 1/90000 s; empty: constant frame rate
   friend bool operator==(const MotionGroup&, const MotionGroup&) = default;
+};
+
+/// How consecutive pictures are blended.
+struct BlendGroup {
+  bool key = false;                ///< coded without reference to earlier groups
+  std::vector<RegionModes> modes;  ///< of each picture, 1..kMaxGroupPictures
+  friend bool operator==(const BlendGroup&, const BlendGroup&) = default;
 };
 
 /// Closes a complete file.

@@ -25,6 +25,8 @@ void print_summary(const std::string& output, const Measure& m) {
 Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
   EncoderSettings settings;
   settings.quality = arguments.quality;
+  settings.patterns = arguments.patterns;
+  settings.pattern_quantiser = arguments.pattern_quantiser;
   settings.face = arguments.face;
   settings.allow_no_face = arguments.allow_no_face;
   settings.bitrate = arguments.bitrate;

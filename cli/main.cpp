@@ -64,6 +64,9 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
       ->check(CLI::Range(0.1, 10000.0))
       ->excludes("--quality");
+  verb->add_option("--patterns", a.patterns,
+                   "Number of patterns; 1 sends one picture and then only motion (default: chosen by the encoder)")
+      ->check(CLI::Range(1, 64));
   verb->add_option(
       "--marks", a.marks,
       "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "
@@ -82,6 +85,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
   verb->add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
   verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
+  verb->add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
   verb->add_option("--motion-bitrate", a.motion_bitrate)
       ->check(CLI::Range(0.05, 1000.0))
       ->group(kHiddenGroup);

@@ -14,6 +14,7 @@ struct EncodeArguments {
   std::string input, output;
   int quality = 50;
   double bitrate = 0;  ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;    ///< of a scene; 0: chosen by the encoder
   int face = 0;
   std::string marks;    ///< file; empty: automatic
   std::string overlay;  ///< video of the source with mesh and snakes drawn on it; empty: none
@@ -21,6 +22,7 @@ struct EncodeArguments {
   bool allow_no_face = false;
   // For measurements; not shown by --help.
   double motion_bitrate = 0;  ///< target of the motion alone, kbit/s; 0: none
+  int pattern_quantiser = -1; ///< of AV1; -1: quality decides
   bool snakes = true;
   bool refine = true;
   bool surround = true;

@@ -42,6 +42,23 @@ inline constexpr int kInteriorCount = 3;
 enum SimilarityIndex : std::uint8_t { kDisplacementX, kDisplacementY, kSimilarityScale, kSimilarityRotation };
 inline constexpr int kSimilarityCount = 4;
 
+/// Regions of the picture, each of which has its own blend of patterns. SPEC 11.1.
+enum class Region : std::uint8_t { kMouth, kRightEye, kLeftEye, kFace, kHair, kBody, kGround };
+inline constexpr std::size_t kRegionCount = 7;
+
+/// How a region is blended from the patterns. SPEC 11.4.
+enum class BlendMode : std::uint8_t {
+  kByState,      ///< weights follow from the distances of states and times
+  kByTime,       ///< cross-fade from the previous pattern to the next
+  kHalfStill,    ///< half kByState, half the cross-fade without motion
+  kStillBefore,  ///< the previous pattern without motion
+  kStillAfter,   ///< the next pattern without motion
+  kNearest,      ///< this and the following: half kByState, half the nearest pattern, the second nearest, ...
+};
+inline constexpr int kNearestCount = 8;
+inline constexpr int kBlendModeCount = static_cast<int>(BlendMode::kNearest) + kNearestCount;
+using RegionModes = std::array<BlendMode, kRegionCount>;
+
 /// Everything the decoder needs besides the scene to draw one picture. All values are absolute.
 struct State {
   std::array<std::int32_t, kPoseCount> pose{};
@@ -51,6 +68,8 @@ struct State {
   std::array<std::int32_t, kSimilarityCount> ground{};
   /// Offsets from the adapted, expressionless face, x, y in the head frame, head units.
   std::array<glm::ivec2, kControlCount> control{};
+  std::int32_t picture = 0;  ///< number in the scene: the time from which patterns are far or near
+  RegionModes blend{};
 
   friend bool operator==(const State&, const State&) = default;
 };

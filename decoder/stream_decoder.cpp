@@ -37,11 +37,11 @@ void StreamDecoder::close() {
 }
 
 Result<DecodeStatus> StreamDecoder::next() {
-  while (waiting_.empty()) {
+  while (!timeline_.has_next()) {
     auto read = damaged_ ? reader_.resync() : reader_.next();
     if (!read) {
       damaged_ = true;
-      if (motion_) motion_->lose();
+      lose();
       return fail(read.error());
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
@@ -54,10 +54,9 @@ Result<DecodeStatus> StreamDecoder::next() {
     count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
   }
-  state_ = waiting_.front();
-  waiting_.pop_front();
-  duration_ = durations_.front();
-  durations_.pop_front();
+  const Timeline::Entry picture = timeline_.next();
+  state_ = picture.state;
+  duration_ = picture.duration;
   ++pictures_;
   announced_picture_ = true;
   return DecodeStatus::kPicture;
@@ -86,13 +85,13 @@ void StreamDecoder::count(const Packet& packet) {
       bytes_.patterns += packet.size;
       break;
     case PacketType::kMotion:
+    case PacketType::kBlend:
       bytes_.motion += packet.size;
       break;
     default:
       bytes_.other += packet.size;
       break;
   }
-  if (packet.type == PacketType::kMotion && bytes_.startup == 0) bytes_.startup = bytes_.total;
 }
 
 Result<void> StreamDecoder::take(const Packet& packet) {
@@ -104,7 +103,8 @@ Result<void> StreamDecoder::take(const Packet& packet) {
     return {};
   }
   const bool known = packet.type == PacketType::kGeometry || packet.type == PacketType::kSurround ||
-                     packet.type == PacketType::kPattern || packet.type == PacketType::kMotion;
+                     packet.type == PacketType::kPattern || packet.type == PacketType::kMotion ||
+                     packet.type == PacketType::kBlend;
   if (!known) return {};  // SPEC 3.1: skipped
   if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
   switch (packet.type) {
@@ -122,9 +122,16 @@ Result<void> StreamDecoder::take(const Packet& packet) {
     }
     case PacketType::kPattern:
       return take_pattern(packet);
+    case PacketType::kBlend:
+      return take_blend(packet);
     default:
       return take_motion(packet);
   }
+}
+
+void StreamDecoder::lose() {
+  if (motion_) motion_->lose();
+  if (blend_) blend_->lose();
 }
 
 Result<void> StreamDecoder::take_setup(const Packet& packet) {
@@ -137,6 +144,8 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   patterns_.emplace(std::move(*patterns));
   scene_ = Scene{*setup, std::nullopt, {}};
   motion_.reset();
+  blend_.reset();
+  timeline_ = {};
   bit_counter_.reset();
   geometry_.reset();
   surround_.reset();
@@ -153,17 +162,26 @@ void StreamDecoder::begin_geometry(const State& rest) {
 Result<void> StreamDecoder::take_pattern(const Packet& packet) {
   auto pattern = decode_pattern(packet.payload, scene_.setup);
   if (!pattern) return at(packet, pattern.error());
-  if (pattern->index != static_cast<int>(scene_.patterns.size()))
+  const bool first = scene_.patterns.empty();
+  if (first != (pattern->picture == 0) || pattern->slot > static_cast<int>(scene_.patterns.size()))
     return fail(ErrorCode::kInvalidStream, "a pattern out of order", packet.offset);
+  const State* known = first ? nullptr : timeline_.find(pattern->picture);
+  if (!first && known == nullptr)
+    return fail(ErrorCode::kInvalidStream, "a pattern of a picture without a state", packet.offset);
   auto picture = patterns_->decode(pattern->av1);
   if (!picture) return at(packet, picture.error());
-  const State seen = state_of(pattern->state, scene_.setup.steps);
-  if (scene_.patterns.empty()) {
+  const State seen = first ? state_of(pattern->state, scene_.setup.steps) : *known;
+  if (first) {
     begin_geometry(seen);
     motion_.emplace(scene_.setup, pattern->state);
+    if (scene_.setup.patterns > 1) blend_.emplace();
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
   }
-  scene_.patterns.push_back(make_pattern(std::move(*picture), seen, scene_.geometry));
+  Pattern made = make_pattern(std::move(*picture), seen, scene_.geometry);
+  if (pattern->slot < static_cast<int>(scene_.patterns.size()))
+    scene_.patterns[pattern->slot] = std::move(made);
+  else
+    scene_.patterns.push_back(std::move(made));
   return {};
 }
 
@@ -176,13 +194,26 @@ Result<void> StreamDecoder::take_motion(const Packet& packet) {
     const PartBitsX256 bits = bit_counter_->count(*group);
     std::transform(bits.begin(), bits.end(), motion_bits_.begin(), motion_bits_.begin(), std::plus<>());
   }
-  const std::vector<State> states = states_of(*group, scene_.setup.steps);
-  waiting_.assign(states.begin(), states.end());
+  std::vector<State> states = states_of(*group, scene_.setup.steps);
   if (group->durations.empty())
-    durations_.assign(states.size(), nominal_duration(scene_.setup.format.frame_rate));
-  else
-    durations_.assign(group->durations.begin(), group->durations.end());
+    group->durations.assign(states.size(), nominal_duration(scene_.setup.format.frame_rate));
+  if (auto added = timeline_.add(states, group->durations); !added) return at(packet, added.error());
+  if (!blend_) timeline_.release_all();
+  note_startup();
   return {};
+}
+
+Result<void> StreamDecoder::take_blend(const Packet& packet) {
+  if (!blend_) return fail(ErrorCode::kInvalidStream, "a blend packet where nothing is blended", packet.offset);
+  auto group = blend_->decode(packet.payload);
+  if (!group) return at(packet, group.error());
+  if (auto released = timeline_.release(group->modes); !released) return at(packet, released.error());
+  note_startup();
+  return {};
+}
+
+void StreamDecoder::note_startup() {
+  if (bytes_.startup == 0 && timeline_.has_next()) bytes_.startup = bytes_.total;
 }
 
 }  // namespace fbs

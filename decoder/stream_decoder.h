@@ -2,18 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "bitstream/blend/blend_coder.h"
 #include "bitstream/motion/motion_bit_counter.h"
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"
+#include "decoder/timeline.h"
 
 namespace fbs {
 
@@ -23,7 +24,7 @@ struct ByteCount {
   std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
   std::uint64_t geometry = 0;  ///< geometry and surround packets
   std::uint64_t patterns = 0;
-  std::uint64_t motion = 0;
+  std::uint64_t motion = 0;    ///< motion and blend packets
   std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and skipped bytes
 };
 
@@ -82,6 +83,9 @@ class StreamDecoder {
   Result<void> take_setup(const Packet& packet);
   Result<void> take_pattern(const Packet& packet);
   Result<void> take_motion(const Packet& packet);
+  Result<void> take_blend(const Packet& packet);
+  void lose();
+  void note_startup();
   void begin_geometry(const State& rest);
   void count(const Packet& packet);
 
@@ -99,8 +103,8 @@ class StreamDecoder {
   std::optional<MotionBitCounter> bit_counter_;  ///< of the scene, if bits are counted
   Renderer renderer_;
 
-  std::deque<State> waiting_;
-  std::deque<std::uint32_t> durations_;
+  std::optional<BlendDecoder> blend_;
+  Timeline timeline_;  ///< of the scene
   State state_;
   bool announced_picture_ = false;  ///< state_ is one of scene_
   std::uint32_t duration_ = 0;

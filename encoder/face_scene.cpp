@@ -7,6 +7,7 @@
 #include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "bitstream/track.h"
 #include "encoder/plan/expression_penalty.h"
 #include "encoder/rate_target.h"
 #include "encoder/surround/surround_fit.h"
@@ -76,7 +77,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  auto pattern = encode_pattern({0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
+  auto pattern = encode_pattern({0, 0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
   SurroundObservations observations(format);
@@ -110,7 +111,13 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      parts.eye_distance_px),
       observations_(std::move(parts.observations)),
+      seen_(parts.seen),
       head_(std::move(parts.head)) {
+  if (settings.patterns != 1)
+    patterns_pass_.emplace(scene_.setup.format,
+                           PatternPassSettings{settings.patterns == 0 ? 8 : settings.patterns,
+                                               settings.pattern_quantiser < 0 ? parts.rate.point.pattern_quantiser
+                                                                              : settings.pattern_quantiser});
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
 
@@ -118,11 +125,15 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   FaceAnalysis::Observation seen = analysis_.observe(picture);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
-  if (!packets_.started()) learn(picture, seen);
+  if (!fixed_) learn(picture, seen);
+  if (patterns_pass_)
+    if (auto added = patterns_pass_->add(picture); !added) return added;
   ++pictures_;
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
-  return !packets_.started() && pictures_ >= timing_.lookahead ? start() : Result<void>{};
+  if (fixed_ || pictures_ < timing_.lookahead) return {};
+  fix_head();
+  return patterns_pass_ ? Result<void>{} : write_head();
 }
 
 void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
@@ -147,35 +158,47 @@ Result<void> FaceScene::end_group() {
   const auto payload = coder_.encode(group);
   if (!payload) return fail(payload.error());
   rate_.learn(group);
-  packets_.add_motion(*payload);
+  if (patterns_pass_)
+    patterns_pass_->add(states_of(group, scene_.setup.steps), *payload);
+  else
+    packets_.add_motion(*payload);
   costs_.clear();
   durations_.clear();
   return {};
 }
 
-Result<void> FaceScene::start() {
+void FaceScene::fix_head() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
   const Geometry geometry = scene_.geometry->geometry();
-  const SurroundMap map =
-      still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, observations_);
-  analysis_.set_surround_map(map);
-  scene_.set_geometry({scene_.setup, geometry, map, scene_.patterns.front().seen});
+  map_ = still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, observations_);
+  analysis_.set_surround_map(map_);
+  scene_.set_geometry({scene_.setup, geometry, map_, scene_.patterns.front().seen});
+  observations_ = SurroundObservations(scene_.setup.format);
+  fixed_ = true;
+}
 
+Result<void> FaceScene::write_head() {
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   head_.setup = std::move(*setup);
-  auto surround = encode_surround(map);
+  auto surround = encode_surround(map_);
   if (!surround) return fail(surround.error());
   head_.surround = std::move(*surround);
   packets_.start(head_);
   head_ = {};
-  observations_ = SurroundObservations(scene_.setup.format);
   return {};
 }
 
 Result<void> FaceScene::finish() {
   if (auto ended = end_group(); !ended) return ended;
-  return packets_.started() ? Result<void>{} : start();
+  if (!fixed_) fix_head();
+  if (!patterns_pass_) return packets_.started() ? Result<void>{} : write_head();
+  auto packets = patterns_pass_->finish(scene_, seen_);
+  if (!packets) return fail(packets.error());
+  head_.pattern.clear();
+  if (auto written = write_head(); !written) return written;
+  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  return {};
 }
 
 }  // namespace fbs

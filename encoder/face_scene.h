@@ -7,6 +7,7 @@
 #include "bitstream/motion/motion_encoder.h"
 #include "decoder/scene.h"
 #include "encoder/face_analysis.h"
+#include "encoder/pattern_pass.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/patterns/pattern_coder.h"
 #include "encoder/plan/group_plan.h"
@@ -42,8 +43,9 @@ class FaceScene : public SceneEncoder {
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
   [[nodiscard]] MotionGroup plan_next_group();
-  /// Fixes what the scene's head says and writes it.
-  Result<void> start();
+  /// Fixes what the scene's head says.
+  void fix_head();
+  Result<void> write_head();
 
   SceneTiming timing_;
   bool still_surround_;
@@ -63,6 +65,10 @@ class FaceScene : public SceneEncoder {
 
   MouthColours mouth_colours_;
   SurroundObservations observations_;  ///< empty from start() on
+  bool fixed_ = false;                 ///< whether fix_head() has been called
+  SurroundMap map_;
+  CodedState seen_;                     ///< of pattern 0
+  std::optional<PatternPass> patterns_pass_;  ///< nothing with one pattern
   SceneHead head_;
   ScenePackets packets_;
 };

@@ -11,6 +11,11 @@ void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {
   write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, payload);
 }
 
+void ScenePackets::add(PacketType type, std::span<const std::uint8_t> payload) {
+  assert(started_);
+  write_packet(ready_, type, payload);
+}
+
 void ScenePackets::start(const SceneHead& head) {
   assert(!started_);
   for (const auto& [type, payload] : {std::pair{PacketType::kSetup, &head.setup},

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "bitstream/syntax.h"
+
 namespace fbs {
 
 /// Payloads that come before all motion. Empty ones are not written.
@@ -19,6 +21,8 @@ class ScenePackets {
 
   /// Writes the head, then the motion held back.
   void start(const SceneHead& head);
+  /// Writes a packet; the scene has started.
+  void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
 
   /// Whole packets that are ready; forgets them.

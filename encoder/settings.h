@@ -12,6 +12,8 @@ struct EncoderSettings {
   double bitrate = 0;          ///< total kbit/s, from which quality follows; 0: quality decides
   double seconds = 0;          ///< length of the video, for bitrate; 0: unknown, ten are assumed
   double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: quality decides
+  int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
+  int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   int face = 0;                ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing

@@ -36,7 +36,7 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
   auto setup_payload = encode_setup(setup);
   if (!setup_payload) return fail(setup_payload.error());
   head.setup = std::move(*setup_payload);
-  auto pattern_payload = encode_pattern({0, CodedState{}, std::move(coded->pattern.av1)}, setup);
+  auto pattern_payload = encode_pattern({0, 0, CodedState{}, std::move(coded->pattern.av1)}, setup);
   if (!pattern_payload) return fail(pattern_payload.error());
   head.pattern = std::move(*pattern_payload);
 

@@ -13,9 +13,6 @@
 
 namespace fbs {
 
-/// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
-inline constexpr std::uint32_t kNotKey = 15 << 12;
-
 /// What adapts from group to group of a scene: contexts, mixers and history.
 struct MotionMemory {
   AdaptiveBit other_count;

@@ -92,6 +92,8 @@ Result<void> check_setup(const Setup& setup) {
     if (!is_step(*step)) return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
   if ((setup.parts & ~kAllParts) != 0 || (setup.parts & mask_of(PartId::kPose)) == 0)
     return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
+  if (setup.patterns < 1 || setup.patterns > kMaxPatterns)
+    return fail(ErrorCode::kInvalidArgument, "number of patterns is out of range");
   return {};
 }
 
@@ -110,6 +112,7 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
+  if (setup.patterns > 1) writer.varint(static_cast<std::uint64_t>(setup.patterns));
   return payload;
 }
 
@@ -135,6 +138,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   const std::uint64_t parts = reader.varint();
   setup.mouth.upper = read_colour(reader);
   setup.mouth.lower = read_colour(reader);
+  if (reader.remaining() > 0) setup.patterns = to_int(reader.varint());
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");

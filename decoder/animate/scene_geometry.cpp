@@ -1,5 +1,6 @@
 #include "decoder/animate/scene_geometry.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "decoder/head/head_deformation.h"
@@ -18,6 +19,23 @@ constexpr std::int32_t kRingExtensionOne = 256;
 /// moved over it.
 constexpr std::int32_t kRingDepth = kUnitsPerEyeDistance / 2;
 
+/// Vertices whose triangles all face the viewer are visible, those of none are not. SPEC 11.5.
+std::vector<std::uint8_t> visible_vertices(const std::vector<glm::ivec3>& screen) {
+  std::vector<int> facing(screen.size()), all(screen.size());
+  for (const HeadTriangle& t : head_mesh().triangles) {
+    const std::int64_t ax = screen[t[1]].x - screen[t[0]].x, ay = screen[t[1]].y - screen[t[0]].y,
+                       bx = screen[t[2]].x - screen[t[0]].x, by = screen[t[2]].y - screen[t[0]].y;
+    for (const std::uint16_t v : t) {
+      ++all[v];
+      if (ax * by - ay * bx > 0) ++facing[v];
+    }
+  }
+  std::vector<std::uint8_t> out(screen.size());
+  for (std::size_t v = 0; v < screen.size(); ++v)
+    out[v] = static_cast<std::uint8_t>(kVisibleOne * facing[v] / std::max(all[v], 1));
+  return out;
+}
+
 }  // namespace
 
 SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest)
@@ -30,6 +48,8 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
     const glm::ivec3 at = projection(p);
     ring_.push_back(surround_.place({at.x, at.y}));
   }
+  head_shares_.assign(vertex_shares().begin(), vertex_shares().end());
+  for (const Surround::Place& place : ring_) head_shares_.push_back(surround_.shares_at(place));
 }
 
 void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {
@@ -62,6 +82,7 @@ TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
   texture.surround = surround_.texture(mesh.surround);
   texture.light = std::move(mesh.light);
   texture.mouth_gap = mesh.mouth_gap;
+  texture.visible = visible_vertices(mesh.head);
   texture.seen_surround = std::move(mesh.surround);
   return texture;
 }

@@ -28,6 +28,9 @@ class SceneGeometry {
   /// Screen positions of the 105 vertices alone (1/64 pixel; z in head units).
   [[nodiscard]] std::array<glm::ivec3, kVertexCount> project_vertices(const State& state) const;
 
+  /// Shares of the regions at each vertex of head_mesh().
+  [[nodiscard]] const std::vector<RegionShares>& head_shares() const { return head_shares_; }
+
   [[nodiscard]] const Surround& surround() const { return surround_; }
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
 
@@ -37,6 +40,7 @@ class SceneGeometry {
   Geometry geometry_;
   Surround surround_;
   std::vector<Surround::Place> ring_;
+  std::vector<RegionShares> head_shares_;
 };
 
 }  // namespace fbs

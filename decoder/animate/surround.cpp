@@ -36,6 +36,8 @@ Surround::Surround(const VideoFormat& format, SurroundMap map, const State& rest
     : map_(std::move(map)), rest_(rest) {
   place_points(format);
   order_cells();
+  shares_.reserve(points_.size());
+  for (const Point& p : points_) shares_.push_back(surround_shares(p.head, p.body));
 }
 
 void Surround::place_points(const VideoFormat& format) {
@@ -119,6 +121,22 @@ Surround::Place Surround::place(glm::ivec2 rest) const {
   p.across = (inside.x - low.x) * kCellOne / (high.x - low.x);
   p.down = (inside.y - low.y) * kCellOne / (high.y - low.y);
   return p;
+}
+
+RegionShares Surround::shares_at(const Place& p) const {
+  const std::array<int, 4> part = {(kCellOne - p.across) * (kCellOne - p.down), p.across * (kCellOne - p.down),
+                                   (kCellOne - p.across) * p.down, p.across * p.down};
+  RegionShares out{};
+  int left = kShareOne;
+  for (const Region region : {Region::kHair, Region::kBody}) {
+    const auto r = static_cast<std::size_t>(region);
+    int sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) sum += part[i] * shares_[p.corner[i]][r];
+    out[r] = static_cast<std::uint8_t>(std::min(left, static_cast<int>(round_shift(sum, 2 * kCellOneLog2))));
+    left -= out[r];
+  }
+  out[static_cast<std::size_t>(Region::kGround)] = static_cast<std::uint8_t>(left);
+  return out;
 }
 
 glm::ivec2 Surround::carried(const Place& p, std::span<const glm::ivec2> moved) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bitstream/syntax.h"
+#include "decoder/animate/region_shares.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -46,6 +47,11 @@ class Surround {
   /// In the order in which they are drawn: ground, body, head.
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
+  /// Shares of the regions at each grid point, margin included.
+  [[nodiscard]] const std::vector<RegionShares>& shares() const { return shares_; }
+  /// The same at a fixed place: mean of the cell's corners.
+  [[nodiscard]] RegionShares shares_at(const Place& place) const;
+
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
   [[nodiscard]] const SurroundMap& map() const { return map_; }
 
@@ -66,6 +72,7 @@ class Surround {
   State rest_;
   std::vector<Point> points_;
   std::vector<Cell> cells_;
+  std::vector<RegionShares> shares_;
 };
 
 }  // namespace fbs

@@ -1,6 +1,7 @@
 #include "decoder/head/fixed_math.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "common/state.h"
 
@@ -43,6 +44,20 @@ std::int32_t cosine(std::int32_t angle) {
 std::int64_t exp2_q16(std::int32_t exponent) {
   const std::int32_t e = std::clamp(exponent, 0, kMaxLogScale);
   return std::int64_t{interpolate(kExp2Table, e & 4095, 4)} << (e >> 12);
+}
+
+std::int32_t log2_fixed(std::uint64_t x) {
+  constexpr int kDigits = 12, kMantissaLog2 = 31;
+  const int whole = std::bit_width(x) - 1;
+  std::uint64_t mantissa = whole > kMantissaLog2 ? x >> (whole - kMantissaLog2) : x << (kMantissaLog2 - whole);
+  std::int32_t digits = whole;
+  for (int i = 0; i < kDigits; ++i) {  // squaring yields one binary digit after the other
+    mantissa = mantissa * mantissa >> kMantissaLog2;
+    const bool two = mantissa >> (kMantissaLog2 + 1) != 0;
+    if (two) mantissa >>= 1;
+    digits = digits << 1 | static_cast<std::int32_t>(two);
+  }
+  return digits;
 }
 
 }  // namespace fbs

@@ -26,4 +26,7 @@ extern const std::array<std::int32_t, 257> kExp2Table;  ///< 2^0 .. 2^1, Q16
 /// 2^(exponent / 4096) in Q16, for 0 <= exponent <= 13 * 4096; clamped outside.
 [[nodiscard]] std::int64_t exp2_q16(std::int32_t exponent);
 
+/// log2(x) in 1/4096, rounded down; x > 0. SPEC 9.1.
+[[nodiscard]] std::int32_t log2_fixed(std::uint64_t x);
+
 }  // namespace fbs

@@ -9,24 +9,11 @@
 
 #include "common/picture.h"
 #include "common/state.h"
+#include "decoder/raster/row_kernels.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/raster/triangle_setup.h"
 
 namespace fbs {
-
-/// Where the samples of a triangle come from.
-struct TextureSource {
-  std::span<const ConstPlaneView> planes;  ///< all of one size
-  std::array<glm::ivec2, 3> corners;       ///< of the triangle in them, 1/64 luma pixel, as ScreenVertex::at
-};
-
-/// Where they go.
-struct RasterTarget {
-  PlaneScale scale;
-  std::span<const PlaneView> planes;  ///< all of one size; as many as the source has
-  SampleArea area;                    ///< within the planes: the samples that may be drawn
-  DepthPlane* depth = nullptr;  ///< of the planes' size: only samples that are nearer are drawn; null: all
-};
 
 /// What is added to luma, linear over the triangle.
 struct Light {
@@ -47,10 +34,31 @@ struct Finish {
   const InteriorMix* interior = nullptr;  ///< then mixed over all planes
 };
 
-/// Draws the part of each plane of the source that the triangle shows into the target's plane. Samples in the
+inline constexpr std::size_t kMaxTriangleSources = 42;
+
+/// Where the samples of a triangle come from.
+struct TextureSource {
+  std::span<const ConstPlaneView> planes;  ///< all of one size
+  std::array<glm::ivec2, 3> corners;       ///< of the triangle in them, 1/64 luma pixel, as ScreenVertex::at
+  Finish finish;
+  /// Of the source in a blend, at the corners, 0..kWeightOne; linear over the triangle. The last source has
+  /// what the others leave, whatever its own weight.
+  std::array<std::int32_t, 3> weight{};
+};
+
+/// Where they go.
+struct RasterTarget {
+  PlaneScale scale;
+  std::span<const PlaneView> planes;  ///< all of one size; as many as each source has
+  SampleArea area;                    ///< within the planes: the samples that may be drawn
+  DepthPlane* depth = nullptr;  ///< of the planes' size: only samples that are nearer are drawn; null: all
+};
+
+/// Draws the part of each plane of the sources that the triangle shows into the target's plane. Samples in the
 /// target's area whose centre is inside the triangle (top-left rule) are drawn. A triangle that is
 /// anticlockwise on the screen or has no area is not drawn.
-void draw_triangle(const ScreenTriangle& triangle, const TextureSource& source, const RasterTarget& target,
-                   const Finish& finish = {});
+/// @param sources  1..kMaxTriangleSources
+void draw_triangle(const ScreenTriangle& triangle, std::span<const TextureSource> sources,
+                   const RasterTarget& target);
 
 }  // namespace fbs

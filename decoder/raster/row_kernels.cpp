@@ -68,4 +68,23 @@ void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInt
   }
 }
 
+void weight_row(const LinearRow& weight, std::int16_t* left, std::int16_t* out, int count) {
+  for (int i = 0; i < count; ++i) {
+    out[i] = static_cast<std::int16_t>(std::clamp<std::int64_t>(weight.at(i) >> 16, 0, left[i]));
+    left[i] = static_cast<std::int16_t>(left[i] - out[i]);
+  }
+}
+
+void add_weighted_row(const std::uint8_t* samples, const std::int16_t* weights, std::int32_t* sum, int count) {
+  for (int i = 0; i < count; ++i) sum[i] += samples[i] * weights[i];
+}
+
+void add_scaled_row(const std::uint8_t* samples, std::int32_t weight, std::int32_t* sum, int count) {
+  for (int i = 0; i < count; ++i) sum[i] += samples[i] * weight;
+}
+
+void round_row(const std::int32_t* sum, std::uint8_t* out, int count) {
+  for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(sum[i] >> kWeightOneLog2);
+}
+
 }  // namespace fbs

@@ -53,6 +53,9 @@ inline void sample_row_inside(const ConstPlaneView& texture, const TextureRow& a
   }
 }
 
+inline constexpr int kWeightOneLog2 = 12;
+inline constexpr int kWeightOne = 1 << kWeightOneLog2;  ///< weights in a blend sum to this
+
 inline constexpr int kLightOneLog2 = 16;  ///< light along a run counts 2^-16 of 1/16 grey level
 
 /// Adds light to luma in place. Offset and gain are clamped to +-kMaxLight: slivers, whose gradients are
@@ -72,5 +75,20 @@ void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gai
 /// @param ramp     place between upper and lower lip, 0..256 in Q16; clamped
 void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInteriorCount>& colours,
                       std::int32_t opacity, const LinearRow& ramp, int count);
+
+/// Weights of one source of a blend along a run.
+/// @param weight  2^-12 in Q16
+/// @param left    what sources before it have left, 2^-12; takes what this one leaves
+/// @param out     weight, clamped to 0..left
+void weight_row(const LinearRow& weight, std::int16_t* left, std::int16_t* out, int count);
+
+/// sum += samples * weights
+void add_weighted_row(const std::uint8_t* samples, const std::int16_t* weights, std::int32_t* sum, int count);
+
+/// sum += samples * weight
+void add_scaled_row(const std::uint8_t* samples, std::int32_t weight, std::int32_t* sum, int count);
+
+/// Sums of weighted samples, rounding added before, to samples.
+void round_row(const std::int32_t* sum, std::uint8_t* out, int count);
 
 }  // namespace fbs

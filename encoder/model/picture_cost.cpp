@@ -29,13 +29,13 @@ std::array<double, kParameterCount> values_of(const Fit& fit) {
 
 cv::Mat1d PictureCost::quadratic() const {
   cv::Mat1d sum = cv::Mat1d::zeros(kParameterCount, kParameterCount);
-  for (const RegionCost& r : regions) sum += r.quadratic;
+  for (const LayerCost& r : layers) sum += r.quadratic;
   return sum;
 }
 
 double PictureCost::constant() const {
   double sum = 0;
-  for (const RegionCost& r : regions) sum += r.constant;
+  for (const LayerCost& r : layers) sum += r.constant;
   return sum;
 }
 
@@ -49,7 +49,7 @@ PictureCost cost_unseen(const Fit& fit) {
                                              unit.shift.y,     unit.log2_scale * eye * std::numbers::ln2};
   cv::Mat1d quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount);
   for (int i = 0; i < kPoseCount; ++i) quadratic(i, i) = kSamples * px[i] * px[i];
-  return {values_of(fit), {{Region::kHead, 0, 0, quadratic}}};
+  return {values_of(fit), {{CostLayer::kHead, 0, 0, quadratic}}};
 }
 
 PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& own) {
@@ -70,7 +70,7 @@ PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1
   cv::Mat(across.t()).copyTo(quadratic(coefficients, ours));
   quadratic_of_coefficients(cv::Mat1d(scaled(offsets, offsets)))
       .copyTo(quadratic(coefficients, coefficients));
-  return {values_of(fit), {{Region::kHead, pattern, constant, quadratic}}};
+  return {values_of(fit), {{CostLayer::kHead, pattern, constant, quadratic}}};
 }
 
 }  // namespace fbs

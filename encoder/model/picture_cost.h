@@ -11,24 +11,24 @@
 namespace fbs {
 
 /// A part of the picture that is drawn from one pattern.
-enum class Region : std::uint8_t { kHead, kSurround };
+enum class CostLayer : std::uint8_t { kHead, kSurround };
 
-/// Robust squared luma difference over a region, in samples of the full picture, when it is drawn from
+/// Robust squared luma difference over a layer, in samples of the full picture, when it is drawn from
 /// `pattern` in a state x near the picture's fit:  constant + (x - fit)^T quadratic (x - fit).
-struct RegionCost {
-  Region region = Region::kHead;
+struct LayerCost {
+  CostLayer layer = CostLayer::kHead;
   int pattern = 0;
   double constant = 0;  ///< at the fit itself: what this pattern cannot show, whatever the state
-  cv::Mat1d quadratic;  ///< kParameterCount x kParameterCount; zero for numbers that do not move the region
+  cv::Mat1d quadratic;  ///< kParameterCount x kParameterCount; zero for numbers that do not move the layer
 };
 
-/// One picture. Its cost is the sum over the regions.
+/// One picture. Its cost is the sum over the layers.
 struct PictureCost {
   std::array<double, kParameterCount>
       fit{};  ///< numbers of the coded state, in units of State and head units
-  std::vector<RegionCost> regions;
+  std::vector<LayerCost> layers;
 
-  /// Sum of the regions' quadratics.
+  /// Sum of the layers' quadratics.
   [[nodiscard]] cv::Mat1d quadratic() const;
   [[nodiscard]] double constant() const;
 };

@@ -55,18 +55,18 @@ TEST(FaceAnalysis, FirstPictureIsInTheStateItWasSeenIn) {
 TEST(FaceAnalysis, CostsOfHeadAndSurroundAreOfDifferentNumbers) {
   Session session({});
   const PictureCost cost = session.observe(0).cost;
-  ASSERT_EQ(cost.regions.size(), 2U);
-  EXPECT_EQ(cost.regions[0].region, Region::kHead);
-  EXPECT_EQ(cost.regions[1].region, Region::kSurround);
+  ASSERT_EQ(cost.layers.size(), 2U);
+  EXPECT_EQ(cost.layers[0].layer, CostLayer::kHead);
+  EXPECT_EQ(cost.layers[1].layer, CostLayer::kSurround);
   for (int i = 0; i < kParameterCount; ++i)
-    EXPECT_FALSE(cost.regions[0].quadratic(i, i) > 0 && cost.regions[1].quadratic(i, i) > 0) << i;
+    EXPECT_FALSE(cost.layers[0].quadratic(i, i) > 0 && cost.layers[1].quadratic(i, i) > 0) << i;
 }
 
 TEST(FaceAnalysis, StillSurroundHasNoCost) {
   EncoderSettings settings;
   settings.surround = false;
   Session session(settings);
-  EXPECT_EQ(session.observe(0).cost.regions.size(), 1U);
+  EXPECT_EQ(session.observe(0).cost.layers.size(), 1U);
   EXPECT_EQ(session.observe(1).state.body, State{}.body);
 }
 

@@ -172,10 +172,10 @@ TEST(PictureFit, CostNamesThePatternAndIsLowerForTheOneThatShowsMore) {
   const auto cost_of_pattern = [&](const Picture& picture, const State& seen, int index) {
     PictureFit fit(shut.scene.scene.setup, toy_geometry(), {SeenScene::frame_of(picture), seen, index});
     fit.set_picture(SeenScene::frame_of(source), shut.scene.scene.setup.mouth);
-    return fit.cost_at(fit_of(open)).regions.at(0);
+    return fit.cost_at(fit_of(open)).layers.at(0);
   };
-  const RegionCost first = cost_of_pattern(shut.scene.scene.patterns[0].picture, SeenScene::rest(), 0);
-  const RegionCost second = cost_of_pattern(source, open, 3);
+  const LayerCost first = cost_of_pattern(shut.scene.scene.patterns[0].picture, SeenScene::rest(), 0);
+  const LayerCost second = cost_of_pattern(source, open, 3);
   EXPECT_EQ(first.pattern, 0);
   EXPECT_EQ(second.pattern, 3);
   EXPECT_LT(second.constant, 0.1 * first.constant);

@@ -74,7 +74,7 @@ TEST(PictureCost, SumsItsRegions) {
   const double before = cost.quadratic()(kYaw, kYaw);
   cv::Mat1d more = cv::Mat1d::zeros(kParameterCount, kParameterCount);
   more(kYaw, kYaw) = 5;
-  cost.regions.push_back({Region::kSurround, 0, 7, more});
+  cost.layers.push_back({CostLayer::kSurround, 0, 7, more});
   EXPECT_EQ(cost.constant(), 17);
   EXPECT_DOUBLE_EQ(cost.quadratic()(kYaw, kYaw), before + 5);
 }

@@ -44,7 +44,7 @@ std::vector<PictureCost> tangled(int count, unsigned seed) {
     for (int k = 0; k < 30; ++k) {
       cv::Mat1d row(1, kParameterCount);
       for (int i = 0; i < kParameterCount; ++i) row(i) = normal(random) / step_of(kFlatSteps, i);
-      p.regions.front().quadratic += row.t() * row;
+      p.layers.front().quadratic += row.t() * row;
     }
     for (std::size_t i = 0; i < kPoseCount; ++i) p.fit[i] += 2 * normal(random) * step_of(kFlatSteps, i);
   }

@@ -26,10 +26,10 @@ double in_units(std::size_t parameter, double steps) {
 /// A picture that says the same of every number: a step beside the fit costs `weight`.
 PictureCost even_fit(double weight) {
   PictureCost fit;
-  fit.regions = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
+  fit.layers = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     const double step = step_of(kSteps, i);
-    fit.regions.front().quadratic(static_cast<int>(i), static_cast<int>(i)) = weight / (step * step);
+    fit.layers.front().quadratic(static_cast<int>(i), static_cast<int>(i)) = weight / (step * step);
   }
   return fit;
 }
@@ -113,7 +113,7 @@ std::vector<PictureCost> wandering_fits(int count, unsigned seed) {
       cv::Mat1d row(1, kParameterCount);
       for (std::size_t i = 0; i < kParameterCount; ++i)
         row(static_cast<int>(i)) = normal(random) / step_of(kSteps, i);
-      fit.regions.front().quadratic += row.t() * row;
+      fit.layers.front().quadratic += row.t() * row;
     }
     for (std::size_t i = 0; i < kParameterCount; ++i) {
       at[i] += (i < kPoseCount ? 1.5 : 0.5) * normal(random);
@@ -252,7 +252,7 @@ TEST(TrackPlanner, NumbersMakeUpForEachOther) {
       cv::Mat1d sum = cv::Mat1d::zeros(1, kParameterCount);
       sum(static_cast<int>(first)) = 10.0 / step_of(kSteps, first);
       sum(static_cast<int>(second)) = sign * 10.0 / step_of(kSteps, second);
-      fit.regions.front().quadratic = sum.t() * sum;
+      fit.layers.front().quadratic = sum.t() * sum;
       const MotionGroup group = planned(fits, 0.01);
       EXPECT_LT(distortion(group, fits), 1e-6) << first << ' ' << second << ' ' << sign;
       const CodedState last = last_of(group);
@@ -268,7 +268,7 @@ TEST(TrackPlanner, GoesStraightPastPicturesThatSayNothing) {
   for (std::size_t t = 0; t < 20; ++t) {
     fits[t].fit[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
     if (t > 4 && t < 15) {
-      fits[t].regions.front().quadratic = 0;
+      fits[t].layers.front().quadratic = 0;
       fits[t].fit[kYaw] = in_units(kYaw, -40);
     }
   }

@@ -1,0 +1,77 @@
+// The layout of a blend packet, described once for writing and reading. SPEC 4.6.
+//
+// Coder is RangeEncoder or RangeDecoder; Group is BlendGroup for the one that reads and const BlendGroup for
+// the other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "bitstream/entropy/adaptive_bit.h"
+#include "bitstream/syntax.h"
+
+namespace fbs {
+
+/// What adapts from group to group of a scene.
+struct BlendMemory {
+  AdaptiveBit other_count;
+  std::int32_t pictures = 0;  ///< of the last group
+  RegionModes last{};         ///< of the last picture
+  /// By region, and by how many of the regions before it have changed in this picture: none, one, more.
+  std::array<std::array<AdaptiveBit, 3>, kRegionCount> changed;
+  /// Modes as a binary tree of four levels, for the head's regions and for the others.
+  std::array<std::array<AdaptiveBit, 16>, 2> tree;
+};
+
+inline constexpr int kModeBits = 4;
+static_assert(kBlendModeCount <= 1 << kModeBits);
+
+/// Codes the mode of a region in a picture.
+/// @return false when what was read is not a mode
+template <class Coder>
+bool code_mode(Coder& coder, BlendMemory& memory, std::size_t region, int changes, BlendMode& mode) {
+  if (!coder.bit(memory.changed[region][std::min(changes, 2)], mode != memory.last[region])) {
+    if constexpr (Coder::kReads) mode = memory.last[region];
+    return true;
+  }
+  auto& tree = memory.tree[region < static_cast<std::size_t>(Region::kBody) ? 0 : 1];
+  unsigned node = 1;
+  for (int bit = kModeBits - 1; bit >= 0; --bit)
+    node = node << 1 | unsigned{coder.bit(tree[node], (static_cast<unsigned>(mode) >> bit & 1) != 0)};
+  const unsigned value = node & ((1u << kModeBits) - 1);
+  if constexpr (Coder::kReads) mode = static_cast<BlendMode>(value);
+  return value < static_cast<unsigned>(kBlendModeCount);
+}
+
+/// Codes all that follows the key flag.
+/// @return false when what was read is out of range or ends early
+template <class Coder, class Group>
+bool code_blend(Coder& coder, BlendMemory& memory, Group& group) {
+  auto pictures = static_cast<std::int32_t>(group.modes.size());
+  const bool other = coder.bit(memory.other_count, pictures != memory.pictures);
+  static_assert(kMaxGroupPictures == 1 << 8);
+  if (other)
+    pictures = static_cast<std::int32_t>(coder.bypass(8, static_cast<std::uint32_t>(pictures - 1))) + 1;
+  else
+    pictures = memory.pictures;
+  if (pictures < 1) return false;
+  memory.pictures = pictures;
+  if constexpr (Coder::kReads) group.modes.resize(pictures);
+  for (auto& modes : group.modes) {
+    int changes = 0;
+    for (std::size_t region = 0; region < kRegionCount; ++region) {
+      BlendMode mode = modes[region];
+      if (!code_mode(coder, memory, region, changes, mode)) return false;
+      if (mode != memory.last[region]) ++changes;
+      memory.last[region] = mode;
+      if constexpr (Coder::kReads) modes[region] = mode;
+    }
+    if constexpr (Coder::kReads) {
+      if (!coder.ok()) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace fbs

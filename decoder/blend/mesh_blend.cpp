@@ -1,0 +1,83 @@
+#include "decoder/blend/mesh_blend.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace fbs {
+namespace {
+
+bool before(const BlendSource& a, const BlendSource& b) {
+  return 2 * a.pattern + a.still < 2 * b.pattern + b.still;
+}
+
+std::vector<BlendSource> sources_of(const PictureBlend& blend) {
+  std::vector<BlendSource> out;
+  for (const RegionBlend& region : blend)
+    for (const WeightedSource& s : region) out.push_back(s.source);
+  std::sort(out.begin(), out.end(), before);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Weights of the sources in each region.
+using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
+
+RegionWeights region_weights(const PictureBlend& blend, std::span<const BlendSource> sources) {
+  RegionWeights out;
+  for (std::size_t r = 0; r < kRegionCount; ++r) {
+    out[r].resize(sources.size());
+    for (const WeightedSource& s : blend[r])
+      out[r][std::lower_bound(sources.begin(), sources.end(), s.source, before) - sources.begin()] = s.weight;
+  }
+  return out;
+}
+
+PointWeights point_weights(const RegionWeights& regions, std::span<const RegionShares> shares) {
+  PointWeights out;
+  out.sources = regions.front().size();
+  out.weights.resize(shares.size() * out.sources);
+  for (std::size_t p = 0; p < shares.size(); ++p)
+    for (std::size_t r = 0; r < kRegionCount; ++r)
+      if (shares[p][r] != 0)
+        for (std::size_t s = 0; s < out.sources; ++s)
+          out.weights[p * out.sources + s] += shares[p][r] * regions[r][s];
+  return out;
+}
+
+/// Takes weight from sources that do not show the point, unless none does.
+void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t> visible) {
+  std::int64_t sum = 0;
+  for (std::size_t s = 0; s < weights.size(); ++s) sum += std::int64_t{weights[s]} * visible[s];
+  if (sum == 0) return;
+  std::int32_t left = kMeshWeightOne;
+  std::size_t largest = 0;
+  for (std::size_t s = 0; s < weights.size(); ++s) {
+    weights[s] = static_cast<std::int32_t>((std::int64_t{weights[s]} * visible[s] * kMeshWeightOne + sum / 2) / sum);
+    left -= weights[s];
+    if (weights[s] > weights[largest]) largest = s;
+  }
+  weights[largest] += left;
+}
+
+}  // namespace
+
+MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
+                     std::span<const TextureMesh* const> textures) {
+  MeshBlend out;
+  out.sources = sources_of(blend);
+  const RegionWeights regions = region_weights(blend, out.sources);
+  out.surround = point_weights(regions, geometry.surround().shares());
+  out.head = point_weights(regions, geometry.head_shares());
+  out.ground = regions[static_cast<std::size_t>(Region::kGround)];
+  for (std::int32_t& w : out.ground) w *= kShareOne;
+
+  std::vector<std::int32_t> visible(out.sources.size());
+  for (std::size_t v = 0; v < geometry.head_shares().size(); ++v) {
+    for (std::size_t s = 0; s < visible.size(); ++s)
+      visible[s] = out.sources[s].still ? kVisibleOne : textures[out.sources[s].pattern]->visible[v];
+    keep_visible(std::span(out.head.weights).subspan(v * out.head.sources, out.head.sources), visible);
+  }
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,181 @@
+#include "decoder/blend/picture_blend.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "decoder/blend/state_distance.h"
+#include "decoder/head/fixed_math.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kOneLog2 = 16;  // of weights before they are rounded
+constexpr std::int64_t kOne = std::int64_t{1} << kOneLog2;
+
+constexpr std::int64_t kNear = 3277;      // added to squared distances, 2^-16: 0.05
+constexpr std::int64_t kExponent = 307;   // weights fall with this power of the squared distance, 1/256
+constexpr std::int64_t kStateShare = 48;  // of the weights by state in kByState, 1/64; the rest is by time
+constexpr std::size_t kMaxByState = 3;    // sources
+
+/// Relative weights of squared distances, the nearest having the most.
+std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
+  constexpr int kDigits = 12, kOctaves = 13;
+  const auto exponent = [](std::int64_t d) { return log2_fixed(static_cast<std::uint64_t>(d + kNear)); };
+  const std::int64_t least = exponent(*std::min_element(distances.begin(), distances.end()));
+  std::vector<std::int64_t> out;
+  for (const std::int64_t d : distances) {
+    const std::int64_t fall = (exponent(d) - least) * kExponent >> 8;
+    const std::int64_t left = (std::int64_t{kOctaves} << kDigits) - fall;
+    out.push_back(left < 0 ? 0 : exp2_q16(static_cast<std::int32_t>(left)) >> kOctaves);
+  }
+  return out;
+}
+
+/// Keeps the largest three, each less the fourth, so that none appears or vanishes at once.
+void keep_largest(std::vector<std::int64_t>& weights) {
+  if (weights.size() <= kMaxByState) return;
+  std::vector<std::size_t> order(weights.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
+  const std::int64_t next = weights[order[kMaxByState]];
+  const std::size_t first = order.front();
+  for (std::int64_t& w : weights) w = std::max<std::int64_t>(w - next, 0);
+  weights[first] = std::max<std::int64_t>(weights[first], 1);
+}
+
+/// Sum of sources with weights of any scale; the same source may come twice.
+class Mix {
+ public:
+  void add(BlendSource source, std::int64_t weight) {
+    if (weight <= 0) return;
+    const auto place = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.source == source; });
+    if (place != items_.end())
+      place->weight += weight;
+    else
+      items_.push_back({source, weight});
+  }
+  /// Rounded to kBlendOne in all; the largest takes what rounding leaves.
+  [[nodiscard]] RegionBlend rounded() {
+    std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
+      return 2 * a.source.pattern + a.source.still < 2 * b.source.pattern + b.source.still;
+    });
+    std::int64_t sum = 0;
+    for (const Item& i : items_) sum += i.weight;
+    RegionBlend out;
+    std::int32_t left = kBlendOne;
+    std::size_t largest = 0;
+    for (const Item& i : items_) {
+      const auto weight = static_cast<std::int32_t>((i.weight * kBlendOne + sum / 2) / sum);
+      if (weight == 0) continue;
+      out.push_back({i.source, weight});
+      left -= weight;
+      if (weight > out[largest].weight) largest = out.size() - 1;
+    }
+    out[largest].weight += left;
+    return out;
+  }
+
+ private:
+  struct Item {
+    BlendSource source;
+    std::int64_t weight;
+  };
+  std::vector<Item> items_;
+};
+
+BlendSource warped(std::size_t pattern) {
+  return {static_cast<std::uint8_t>(pattern), false};
+}
+BlendSource still(std::size_t pattern) {
+  return {static_cast<std::uint8_t>(pattern), true};
+}
+
+}  // namespace
+
+BlendWeights::BlendWeights(std::span<const State* const> seen, const State& picture)
+    : seen_(seen), picture_(picture) {
+  assert(!seen.empty());
+  std::size_t before = seen.size(), after = seen.size();
+  std::int32_t first = seen[0]->picture, last = first;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const std::int32_t number = seen[k]->picture;
+    first = std::min(first, number);
+    last = std::max(last, number);
+    if (number <= picture.picture) {
+      if (before == seen.size() || number > seen[before]->picture) before = k;
+    } else if (after == seen.size() || number < seen[after]->picture) {
+      after = k;
+    }
+  }
+  const auto gaps = static_cast<std::int32_t>(std::max<std::size_t>(seen.size() - 1, 1));
+  spacing_ = std::max(1, (last - first) / gaps);
+  before_ = before < seen.size() ? before : after;
+  after_ = after < seen.size() ? after : before_;
+  if (before_ != after_)
+    share_after_ = (std::int64_t{picture.picture} - seen[before_]->picture) * kOne /
+                   (std::int64_t{seen[after_]->picture} - seen[before_]->picture);
+}
+
+std::vector<std::int64_t> BlendWeights::distances(Region region) const {
+  std::vector<std::int64_t> out;
+  out.reserve(seen_.size());
+  for (const State* s : seen_) out.push_back(state_distance(region, *s, picture_, spacing_));
+  return out;
+}
+
+/// Sum to about kOne.
+BlendWeights::Weights BlendWeights::by_state(Region region) const {
+  Weights weights = fall_off(distances(region));
+  const std::int64_t sum = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
+  for (std::int64_t& w : weights) w = w * kOne / sum * kStateShare / 64;
+  weights[before_] += (kOne - share_after_) * (64 - kStateShare) / 64;
+  weights[after_] += share_after_ * (64 - kStateShare) / 64;
+  keep_largest(weights);
+  return weights;
+}
+
+RegionBlend BlendWeights::blend(Region region, BlendMode mode) const {
+  Mix mix;
+  const auto cross_fade = [&](bool without_motion, std::int64_t total) {
+    const std::int64_t second = total * share_after_ >> kOneLog2;
+    mix.add({static_cast<std::uint8_t>(before_), without_motion}, total - second);
+    mix.add({static_cast<std::uint8_t>(after_), without_motion}, second);
+  };
+  if (mode == BlendMode::kByTime) {
+    cross_fade(false, kOne);
+  } else if (mode == BlendMode::kStillBefore) {
+    mix.add(still(before_), kOne);
+  } else if (mode == BlendMode::kStillAfter) {
+    mix.add(still(after_), kOne);
+  } else {
+    const Weights weights = by_state(region);
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      mix.add(warped(k), weights[k]);
+      sum += weights[k];
+    }
+    if (mode == BlendMode::kHalfStill) {
+      cross_fade(true, sum);
+    } else if (mode >= BlendMode::kNearest) {
+      const std::vector<std::int64_t> d = distances(region);
+      std::vector<std::size_t> order(d.size());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return d[a] < d[b]; });
+      const std::size_t rank = static_cast<std::size_t>(mode) - static_cast<std::size_t>(BlendMode::kNearest);
+      mix.add(warped(order[std::min(rank, order.size() - 1)]), sum);
+    }
+  }
+  return mix.rounded();
+}
+
+PictureBlend blend_picture(std::span<const State* const> seen, const State& picture) {
+  const BlendWeights weights(seen, picture);
+  PictureBlend out;
+  for (std::size_t r = 0; r < kRegionCount; ++r)
+    out[r] = weights.blend(static_cast<Region>(r), picture.blend[r]);
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,52 @@
+// The second pass over a scene: with all pictures analysed and their motion planned, chooses, codes and places
+// the patterns.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bitstream/motion/motion_encoder.h"
+#include "decoder/scene.h"
+#include "encoder/picture_spool.h"
+
+namespace fbs {
+
+struct PatternPassSettings {
+  int patterns = 8;   ///< of the scene
+  int quantiser = 40; ///< of AV1, 0..63
+};
+
+/// A packet to be written.
+using TypedPayload = std::pair<PacketType, std::vector<std::uint8_t>>;
+
+class PatternPass {
+ public:
+  PatternPass(const VideoFormat& format, const PatternPassSettings& settings)
+      : format_(format), settings_(settings) {}
+
+  /// The next picture of the scene.
+  Result<void> add(const Picture& picture) { return pictures_.add(picture); }
+  /// The next group of them.
+  /// @param states  of its pictures
+  void add(std::vector<State> states, std::vector<std::uint8_t> payload);
+
+  /// @param scene  geometry as it is sent; its patterns are replaced
+  /// @param seen   of pattern 0
+  /// @return all that follows setup, geometry and surround
+  [[nodiscard]] Result<std::vector<TypedPayload>> finish(Scene& scene, const CodedState& seen);
+
+ private:
+  struct Group {
+    std::vector<State> states;
+    std::vector<std::uint8_t> payload;
+  };
+
+  VideoFormat format_;
+  PatternPassSettings settings_;
+  PictureSpool pictures_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,33 @@
+// Pictures kept on disk, to be read again: a video is looked at more than once, and memory is bounded.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+
+#include "common/picture.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// An unnamed temporary file of pictures of one size; it vanishes with the object.
+class PictureSpool {
+ public:
+  /// Appends a picture; all have the size of the first.
+  /// @return kIo when there is no room
+  Result<void> add(const Picture& picture);
+
+  /// @param number  0..count()-1
+  [[nodiscard]] Result<Picture> read(std::size_t number);
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  std::size_t count_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace fbs
