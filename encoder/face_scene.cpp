@@ -117,7 +117,8 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
     patterns_pass_.emplace(scene_.setup.format,
                            PatternPassSettings{settings.patterns == 0 ? 8 : settings.patterns,
                                                settings.pattern_quantiser < 0 ? parts.rate.point.pattern_quantiser
-                                                                              : settings.pattern_quantiser});
+                                                                              : settings.pattern_quantiser,
+                                               base_lambda_});
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
 

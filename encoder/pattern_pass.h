@@ -15,7 +15,15 @@ namespace fbs {
 
 struct PatternPassSettings {
   int patterns = 8;   ///< of the scene
-  int quantiser = 40; ///< of AV1, 0..63
+  int quantiser = 40;  ///< of AV1, 0..63
+  double lambda = 0;   ///< squared luma levels that a bit is worth
+};
+
+/// A pattern as coded.
+struct SequencePattern {
+  std::size_t picture;  ///< of the scene
+  std::vector<std::uint8_t> av1;
+  Picture decoded;
 };
 
 /// A packet to be written.
@@ -42,6 +50,12 @@ class PatternPass {
     std::vector<State> states;
     std::vector<std::uint8_t> payload;
   };
+
+  [[nodiscard]] Result<std::vector<SequencePattern>> code_patterns(std::span<const std::size_t> times);
+  /// Number of patterns, in coding order, that are sent before the pictures of each group.
+  [[nodiscard]] std::vector<std::size_t> arrivals(std::span<const SequencePattern> patterns) const;
+  [[nodiscard]] Result<std::vector<RegionModes>> choose(const Scene& scene, std::span<const State> states,
+                                                        std::span<const std::size_t> arrivals);
 
   VideoFormat format_;
   PatternPassSettings settings_;

@@ -1,0 +1,17 @@
+// Which blend mode each region has in each picture: chosen by rate-distortion cost.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/state.h"
+#include "encoder/blend/mode_errors.h"
+
+namespace fbs {
+
+/// The cheapest sequence of modes of each region (Viterbi, 1967).
+/// @param errors  of consecutive pictures
+/// @param lambda  squared luma levels that a bit is worth
+[[nodiscard]] std::vector<RegionModes> choose_modes(std::span<const ModeErrors> errors, double lambda);
+
+}  // namespace fbs

@@ -1,0 +1,124 @@
+#include "encoder/blend/mode_errors.h"
+
+#include <algorithm>
+
+namespace fbs {
+namespace {
+
+/// The region that has most of a triangle.
+Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {
+  const auto& shares = t.head ? geometry.head_shares() : geometry.surround().shares();
+  std::array<int, kRegionCount> sum{};
+  for (const std::uint16_t c : t.corners)
+    for (std::size_t r = 0; r < kRegionCount; ++r) sum[r] += shares[c][r];
+  return static_cast<Region>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+}
+
+std::array<std::vector<SurfaceRun>, kRegionCount> runs_by_region(const VisibleSurface& surface,
+                                                                 const SceneGeometry& geometry) {
+  std::vector<Region> region;
+  region.reserve(surface.triangles().size());
+  for (const SurfaceTriangle& t : surface.triangles()) region.push_back(region_of(t, geometry));
+  std::array<std::vector<SurfaceRun>, kRegionCount> out;
+  for (const SurfaceRun& run : surface.runs()) out[static_cast<std::size_t>(region[run.triangle])].push_back(run);
+  return out;
+}
+
+using Samples = std::vector<std::int16_t>;
+
+double dot(const Samples& a, const Samples& b) {
+  std::int64_t sum = 0;
+  constexpr std::size_t kPiece = 4096;  // products of errors up to 255 stay within 32 bits
+  for (std::size_t begin = 0; begin < a.size(); begin += kPiece) {
+    const std::size_t end = std::min(a.size(), begin + kPiece);
+    std::int32_t piece = 0;
+    for (std::size_t i = begin; i < end; ++i) piece += std::int32_t{a[i]} * b[i];
+    sum += piece;
+  }
+  return static_cast<double>(sum);
+}
+
+/// Errors of the sources of one region, sampled once each, and their products.
+class RegionGram {
+ public:
+  template <class SampleSource>
+  double error(const RegionBlend& blend, SampleSource&& sample) {
+    double sum = 0;
+    std::vector<std::size_t> index;
+    for (const WeightedSource& s : blend) index.push_back(find(s.source, sample));
+    for (std::size_t i = 0; i < blend.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        sum += (i == j ? 1 : 2) * static_cast<double>(blend[i].weight * blend[j].weight) * product(index[i], index[j]);
+    return sum / (kBlendOne * kBlendOne);
+  }
+
+ private:
+  template <class SampleSource>
+  std::size_t find(BlendSource source, SampleSource&& sample) {
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      if (sources_[i] == source) return i;
+    sources_.push_back(source);
+    errors_.push_back(sample(source));
+    products_.resize(sources_.size() * (sources_.size() + 1) / 2, -1);
+    known_.resize(products_.size(), false);
+    return sources_.size() - 1;
+  }
+  double product(std::size_t i, std::size_t j) {
+    if (i < j) std::swap(i, j);
+    const std::size_t k = i * (i + 1) / 2 + j;
+    if (!known_[k]) {
+      products_[k] = dot(errors_[i], errors_[j]);
+      known_[k] = true;
+    }
+    return products_[k];
+  }
+
+  std::vector<BlendSource> sources_;
+  std::vector<Samples> errors_;
+  std::vector<double> products_;
+  std::vector<bool> known_;
+};
+
+}  // namespace
+
+BlendErrors::BlendErrors(const SceneGeometry& geometry, std::span<const Pattern> patterns, int reduction)
+    : geometry_(geometry), patterns_(patterns), reduction_(reduction) {
+  for (const Pattern& p : patterns) reduced_.push_back({&p.texture, reduce(p.picture.y, reduction)});
+}
+
+ModeErrors BlendErrors::errors(const Plane& source, const State& state,
+                               std::span<const std::size_t> available) const {
+  const ScreenMesh mesh = geometry_.screen_mesh(state);
+  const VisibleSurface surface(geometry_, mesh, source.width, source.height, reduction_);
+  const auto runs = runs_by_region(surface, geometry_);
+  const ReducedPlane target = reduce(source, reduction_);
+  std::vector<const State*> seen;
+  for (const std::size_t k : available) seen.push_back(&patterns_[k].seen);
+  const BlendWeights weights(seen, state);
+
+  ModeErrors out{};
+  const double scale = static_cast<double>(1 << (2 * reduction_));
+  for (std::size_t r = 0; r < kRegionCount; ++r) {
+    if (runs[r].empty()) continue;
+    std::size_t count = 0;
+    for (const SurfaceRun& run : runs[r]) count += run.count;
+    const auto sample = [&](BlendSource s) {
+      const SourceSampler sampler(surface, mesh, reduced_[available[s.pattern]], s.still, reduction_);
+      Samples error(count);
+      std::int16_t* e = error.data();
+      for (const SurfaceRun& run : runs[r]) {
+        sampler.sample(run, e);
+        const std::uint8_t* t = target.row(run.row) + run.first;
+        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - t[i]);
+        e += run.count;
+      }
+      return error;
+    };
+    RegionGram gram;
+    for (int mode = 0; mode < kBlendModeCount; ++mode)
+      out[r][mode] = scale * gram.error(weights.blend(static_cast<Region>(r), static_cast<BlendMode>(mode)), sample);
+  }
+  return out;
+}
+
+}  // namespace fbs

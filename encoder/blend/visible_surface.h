@@ -1,0 +1,53 @@
+// Which triangle of the scene shows at each sample of a picture, at a reduced size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "decoder/animate/scene_geometry.h"
+
+namespace fbs {
+
+/// A triangle of surround or head.
+struct SurfaceTriangle {
+  std::array<std::uint16_t, 3> corners;  ///< points of the surround's grid, or vertices of head_mesh()
+  bool head;
+};
+
+/// Consecutive samples of a row that show the same triangle.
+struct SurfaceRun {
+  std::int32_t row, first, count;
+  std::uint32_t triangle;
+};
+
+/// Position of a sample inside its triangle, linear over the triangle: the weights of corners 1 and 2.
+struct Barycentric {
+  glm::vec2 origin, per_column, per_row;  ///< at sample (0, 0), and what one sample adds
+  [[nodiscard]] glm::vec2 at(float column, float row) const {
+    return origin + column * per_column + row * per_row;
+  }
+};
+
+/// The reduction is by a power of two; sample (c, r) covers that many pixels each way.
+class VisibleSurface {
+ public:
+  /// @param reduction  log2; 0: the size of the picture
+  VisibleSurface(const SceneGeometry& geometry, const ScreenMesh& mesh, int width, int height, int reduction);
+
+  [[nodiscard]] const std::vector<SurfaceRun>& runs() const { return runs_; }
+  [[nodiscard]] const std::vector<SurfaceTriangle>& triangles() const { return *triangles_; }
+  [[nodiscard]] const Barycentric& barycentric(std::uint32_t triangle) const { return barycentric_[triangle]; }
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  std::shared_ptr<const std::vector<SurfaceTriangle>> triangles_;
+  std::vector<Barycentric> barycentric_;
+  std::vector<SurfaceRun> runs_;
+  int width_, height_;
+};
+
+}  // namespace fbs
