@@ -40,6 +40,15 @@ CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
   return coded;
 }
 
+PatternPassSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& point) {
+  PatternPassSettings out;
+  if (settings.patterns > 0) out.patterns = settings.patterns;
+  out.coding.quantiser = settings.pattern_quantiser < 0 ? point.pattern_quantiser : settings.pattern_quantiser;
+  out.coding.reduced = settings.reduced_patterns;
+  out.lambda = point.lambda;
+  return out;
+}
+
 }  // namespace
 
 struct FaceScene::Parts {
@@ -114,11 +123,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       seen_(parts.seen),
       head_(std::move(parts.head)) {
   if (settings.patterns != 1)
-    patterns_pass_.emplace(scene_.setup.format,
-                           PatternPassSettings{settings.patterns == 0 ? 8 : settings.patterns,
-                                               settings.pattern_quantiser < 0 ? parts.rate.point.pattern_quantiser
-                                                                              : settings.pattern_quantiser,
-                                               base_lambda_});
+    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
 

@@ -6,7 +6,6 @@
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/payload/pattern_payload.h"
 #include "encoder/blend/mode_choice.h"
-#include "encoder/patterns/pattern_coder.h"
 
 namespace fbs {
 namespace {
@@ -26,17 +25,16 @@ void PatternPass::add(std::vector<State> states, std::vector<std::uint8_t> paylo
 }
 
 Result<std::vector<SequencePattern>> PatternPass::code_patterns(std::span<const std::size_t> times) {
-  auto coder = PatternCoder::create(format_, settings_.quantiser);
-  if (!coder) return fail(coder.error());
-  std::vector<SequencePattern> out;
+  std::vector<Picture> sources;
   for (const std::size_t time : times) {
-    const auto source = pictures_.read(time);
+    auto source = pictures_.read(time);
     if (!source) return fail(source.error());
-    auto coded = coder->code(*source);
-    if (!coded) return fail(coded.error());
-    out.push_back({time, std::move(coded->av1), std::move(coded->decoded)});
+    sources.push_back(std::move(*source));
   }
-  return out;
+  auto coded = code_pattern_sequence(format_, sources, settings_.coding);
+  if (!coded) return fail(coded.error());
+  for (SequencePattern& p : *coded) p.picture = times[p.picture];
+  return coded;
 }
 
 std::vector<std::size_t> PatternPass::arrivals(std::span<const SequencePattern> patterns) const {

@@ -9,21 +9,15 @@
 
 #include "bitstream/motion/motion_encoder.h"
 #include "decoder/scene.h"
+#include "encoder/patterns/pattern_sequence.h"
 #include "encoder/picture_spool.h"
 
 namespace fbs {
 
 struct PatternPassSettings {
   int patterns = 8;   ///< of the scene
-  int quantiser = 40;  ///< of AV1, 0..63
+  SequenceSettings coding;
   double lambda = 0;   ///< squared luma levels that a bit is worth
-};
-
-/// A pattern as coded.
-struct SequencePattern {
-  std::size_t picture;  ///< of the scene
-  std::vector<std::uint8_t> av1;
-  Picture decoded;
 };
 
 /// A packet to be written.

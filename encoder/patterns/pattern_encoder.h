@@ -1,12 +1,10 @@
-// Codes patterns as one low-delay AV1 sequence with libaom. SPEC 4.4.
+// Codes patterns one by one, each as soon as it comes, with libaom. SPEC 4.4.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "common/picture.h"
-#include "common/result.h"
+#include "encoder/patterns/av1_encoder.h"
 
 namespace fbs {
 
@@ -16,16 +14,12 @@ class PatternEncoder {
   /// @param quantiser  AV1 quantiser on libaom's scale, 0..63, fixed for each picture
   static Result<PatternEncoder> create(const VideoFormat& format, int quantiser);
 
-  /// @return one temporal unit without its delimiter
+  /// @return one coded frame, as PatternDecoder reads it
   Result<std::vector<std::uint8_t>> encode(const Picture& picture);
 
  private:
-  struct Context;
-  struct Deleter {
-    void operator()(Context* c) const;
-  };
-  explicit PatternEncoder(std::unique_ptr<Context, Deleter> context) : context_(std::move(context)) {}
-  std::unique_ptr<Context, Deleter> context_;
+  explicit PatternEncoder(Av1Encoder av1) : av1_(std::move(av1)) {}
+  Av1Encoder av1_;
 };
 
 }  // namespace fbs

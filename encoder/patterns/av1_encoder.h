@@ -1,0 +1,45 @@
+// libaom as the coders of patterns use it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/result.h"
+
+namespace fbs {
+
+struct Av1Settings {
+  int quantiser = 40;  ///< libaom's scale, 0..63
+  int speed = 3;       ///< libaom's --cpu-used, 0 (slow and small) to 9
+  /// Pictures that libaom may hold back to code a later one first; 0: each is coded at once, all at
+  /// `quantiser`.
+  int look_ahead = 0;
+};
+
+/// One AV1 sequence of which only the first frame is a key frame.
+class Av1Encoder {
+ public:
+  using Frames = std::vector<std::vector<std::uint8_t>>;  ///< as coded_frames gives them
+
+  /// @param format  its size, range and matrix are written into the sequence header
+  static Result<Av1Encoder> create(const VideoFormat& format, const Av1Settings& settings);
+
+  /// @param picture  of the format's size; copied
+  /// @return the frames that are coded since the last call, in coding order; without look-ahead exactly one
+  Result<Frames> encode(const Picture& picture);
+
+  /// The rest; no picture may follow.
+  Result<Frames> finish();
+
+ private:
+  struct Context;
+  struct Deleter {
+    void operator()(Context* c) const;
+  };
+  explicit Av1Encoder(std::unique_ptr<Context, Deleter> context) : context_(std::move(context)) {}
+  std::unique_ptr<Context, Deleter> context_;
+};
+
+}  // namespace fbs

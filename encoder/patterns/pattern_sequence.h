@@ -1,0 +1,39 @@
+// Codes a scene's patterns together, with look-ahead: a later one may be coded first and serve those before
+// it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/result.h"
+
+namespace fbs {
+
+inline constexpr int kDefaultSequenceSpeed = 3;
+
+/// libaom's order hints, which tell the pictures apart, have 7 bits.
+inline constexpr std::size_t kMaxSequencePictures = 128;
+
+struct SequenceSettings {
+  int quantiser = 40;                 ///< libaom's scale, 0..63; frames that others refer to get a finer one
+  int speed = kDefaultSequenceSpeed;  ///< libaom's --cpu-used, 0 (slow and small) to 9
+  bool reduced = false;               ///< code all pictures at half width and height
+};
+
+/// A pattern as it is sent and as it is shown.
+struct SequencePattern {
+  std::size_t picture = 0;        ///< index into the pictures, which are in display order
+  std::vector<std::uint8_t> av1;  ///< one coded frame, as PatternDecoder reads it
+  Picture decoded;                ///< full size
+};
+
+/// Codes pictures as one AV1 sequence.
+/// @param pictures  1..kMaxSequencePictures, all of the format's size, in display order
+/// @return one pattern for each picture, in coding order; the first is the key frame, of pictures[0]
+Result<std::vector<SequencePattern>> code_pattern_sequence(const VideoFormat& format,
+                                                           std::span<const Picture> pictures,
+                                                           const SequenceSettings& settings);
+
+}  // namespace fbs
