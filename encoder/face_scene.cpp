@@ -46,6 +46,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.coding.quantiser = settings.pattern_quantiser < 0 ? point.pattern_quantiser : settings.pattern_quantiser;
   out.coding.reduced = settings.reduced_patterns;
   out.lambda = point.lambda;
+  out.rounds = settings.effort;
   return out;
 }
 

@@ -1,6 +1,8 @@
 #include "encoder/pattern_pass.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
 #include "bitstream/blend/blend_coder.h"
@@ -18,23 +20,82 @@ std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count) 
   return out;
 }
 
+/// Size at which blends are compared: log2 of the reduction.
+int reduction_of(const VideoFormat& format) {
+  int reduction = 0;
+  while ((format.width >> reduction) > 240) ++reduction;
+  return reduction;
+}
+
+/// Adds what `now` has over `before`, planes at a reduced size, to a plane at full size.
+void add_change(const ReducedPlane& now, ReducedPlane before, int reduction, Plane& plane) {
+  for (std::size_t i = 0; i < before.samples.size(); ++i) before.samples[i] = now.samples[i] - before.samples[i];
+  const float scale = 1.0F / static_cast<float>(1 << reduction);
+  for (int y = 0; y < plane.height; ++y) {
+    const float v = (static_cast<float>(y) + 0.5F) * scale - 0.5F;
+    std::uint8_t* row = plane.row(y);
+    for (int x = 0; x < plane.width; ++x) {
+      const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
+      row[x] = static_cast<std::uint8_t>(
+          std::clamp(std::lround(static_cast<float>(row[x]) + bilinear(before, u, v)), 0L, 255L));
+    }
+  }
+}
+
 }  // namespace
 
 void PatternPass::add(std::vector<State> states, std::vector<std::uint8_t> payload) {
   groups_.push_back({std::move(states), std::move(payload)});
 }
 
-Result<std::vector<SequencePattern>> PatternPass::code_patterns(std::span<const std::size_t> times) {
-  std::vector<Picture> sources;
-  for (const std::size_t time : times) {
-    auto source = pictures_.read(time);
-    if (!source) return fail(source.error());
-    sources.push_back(std::move(*source));
-  }
-  auto coded = code_pattern_sequence(format_, sources, settings_.coding);
+Result<std::vector<SequencePattern>> PatternPass::code_patterns(std::span<const Picture> pictures,
+                                                                std::span<const std::size_t> times) {
+  auto coded = code_pattern_sequence(format_, pictures, settings_.coding);
   if (!coded) return fail(coded.error());
   for (SequencePattern& p : *coded) p.picture = times[p.picture];
   return coded;
+}
+
+Result<std::vector<Picture>> PatternPass::solve(const Scene& scene, std::span<const State> states,
+                                                std::span<const std::size_t> arrivals) {
+  const int luma_reduction = reduction_of(format_), chroma_reduction = std::max(luma_reduction, 1);
+  PatternSolver luma(scene, luma_reduction), chroma(scene, chroma_reduction);
+  std::vector<std::size_t> all(scene.patterns.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::array<std::vector<ReducedPlane>, 3> targets;
+  std::size_t t = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (std::size_t i = 0; i < groups_[g].states.size(); ++i, ++t) {
+      const auto source = pictures_.read(t);
+      if (!source) return fail(source.error());
+      const auto available = std::span(all).first(arrivals[g]);
+      const glm::ivec2 size(format_.width, format_.height);
+      luma.add_picture(states[t], available, size);
+      if (chroma_reduction != luma_reduction) chroma.add_picture(states[t], available, size);
+      targets[0].push_back(reduce(source->y, luma_reduction));
+      targets[1].push_back(reduce(source->u, chroma_reduction - 1));
+      targets[2].push_back(reduce(source->v, chroma_reduction - 1));
+    }
+  }
+  std::vector<Picture> out;
+  std::array<PatternPlanes, 3> anchors;
+  for (const Pattern& p : scene.patterns) {
+    auto source = pictures_.read(p.seen.picture);
+    if (!source) return fail(source.error());
+    anchors[0].push_back(reduce(source->y, luma_reduction));
+    anchors[1].push_back(reduce(source->u, chroma_reduction - 1));
+    anchors[2].push_back(reduce(source->v, chroma_reduction - 1));
+    out.push_back(std::move(*source));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PatternSolver& solver = i == 0 || chroma_reduction == luma_reduction ? luma : chroma;
+    const PatternPlanes solved = solver.solve(targets[i], anchors[i], i == 0, settings_.solver);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      Plane& plane = i == 0 ? out[k].y : i == 1 ? out[k].u : out[k].v;
+      add_change(solved[k], anchors[i][k], i == 0 ? luma_reduction : chroma_reduction - 1, plane);
+    }
+  }
+  return out;
 }
 
 std::vector<std::size_t> PatternPass::arrivals(std::span<const SequencePattern> patterns) const {
@@ -57,9 +118,7 @@ std::vector<std::size_t> PatternPass::arrivals(std::span<const SequencePattern> 
 
 Result<std::vector<RegionModes>> PatternPass::choose(const Scene& scene, std::span<const State> states,
                                                      std::span<const std::size_t> arrivals) {
-  int reduction = 0;
-  while ((format_.width >> reduction) > 240) ++reduction;
-  const BlendErrors blend(*scene.geometry, scene.patterns, reduction);
+  const BlendErrors blend(scene, reduction_of(format_));
   std::vector<std::size_t> all(scene.patterns.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<ModeErrors> errors;
@@ -80,15 +139,35 @@ Result<std::vector<TypedPayload>> PatternPass::finish(Scene& scene, const CodedS
   const std::vector<std::size_t> times = regular_times(states.size(), settings_.patterns);
   scene.setup.patterns = std::max<int>(2, static_cast<int>(times.size()));
 
-  auto coded = code_patterns(times);
-  if (!coded) return fail(coded.error());
+  std::vector<Picture> pictures;
+  for (const std::size_t time : times) {
+    auto source = pictures_.read(time);
+    if (!source) return fail(source.error());
+    pictures.push_back(std::move(*source));
+  }
   const State rest = scene.patterns.front().seen;
-  scene.patterns.clear();
-  for (const SequencePattern& p : *coded)
-    scene.patterns.push_back(make_pattern(p.decoded, p.picture == 0 ? rest : states[p.picture], scene.geometry));
-  const std::vector<std::size_t> arrived = arrivals(*coded);
-  const auto modes = choose(scene, states, arrived);
-  if (!modes) return fail(modes.error());
+  std::vector<SequencePattern> coded;
+  std::vector<std::size_t> arrived;
+  std::vector<RegionModes> modes;
+  for (int round = 0;; ++round) {
+    auto sequence = code_patterns(pictures, times);
+    if (!sequence) return fail(sequence.error());
+    coded = std::move(*sequence);
+    scene.patterns.clear();
+    for (const SequencePattern& p : coded)
+      scene.patterns.push_back(make_pattern(p.decoded, p.picture == 0 ? rest : states[p.picture], scene.geometry));
+    arrived = arrivals(coded);
+    auto chosen = choose(scene, states, arrived);
+    if (!chosen) return fail(chosen.error());
+    modes = std::move(*chosen);
+    for (std::size_t t = 0; t < states.size(); ++t) states[t].blend = modes[t];
+    if (round == settings_.rounds) break;
+    auto solved = solve(scene, states, arrived);
+    if (!solved) return fail(solved.error());
+    for (std::size_t k = 0; k < coded.size(); ++k)
+      pictures[std::lower_bound(times.begin(), times.end(), coded[k].picture) - times.begin()] =
+          std::move((*solved)[k]);
+  }
 
   std::vector<TypedPayload> out;
   BlendEncoder blend;
@@ -101,7 +180,7 @@ Result<std::vector<TypedPayload>> PatternPass::finish(Scene& scene, const CodedS
   };
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     for (; next_pattern < arrived[g]; ++next_pattern) {
-      SequencePattern& p = (*coded)[next_pattern];
+      SequencePattern& p = coded[next_pattern];
       if (p.picture != 0) add_motion_until(p.picture);
       auto payload = encode_pattern({static_cast<std::int32_t>(next_pattern), static_cast<std::int32_t>(p.picture),
                                      p.picture == 0 ? seen : CodedState{}, std::move(p.av1)},
@@ -113,7 +192,7 @@ Result<std::vector<TypedPayload>> PatternPass::finish(Scene& scene, const CodedS
     add_motion_until(end - 1);
     BlendGroup group;
     group.key = blend.needs_key();
-    group.modes.assign(modes->begin() + blended, modes->begin() + end);
+    group.modes.assign(modes.begin() + blended, modes.begin() + end);
     auto payload = blend.encode(group);
     if (!payload) return fail(payload.error());
     out.emplace_back(PacketType::kBlend, std::move(*payload));

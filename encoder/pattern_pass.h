@@ -9,6 +9,7 @@
 
 #include "bitstream/motion/motion_encoder.h"
 #include "decoder/scene.h"
+#include "encoder/blend/pattern_solver.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/picture_spool.h"
 
@@ -17,6 +18,8 @@ namespace fbs {
 struct PatternPassSettings {
   int patterns = 8;   ///< of the scene
   SequenceSettings coding;
+  int rounds = 0;      ///< of making patterns for their use
+  SolverSettings solver;
   double lambda = 0;   ///< squared luma levels that a bit is worth
 };
 
@@ -45,7 +48,11 @@ class PatternPass {
     std::vector<std::uint8_t> payload;
   };
 
-  [[nodiscard]] Result<std::vector<SequencePattern>> code_patterns(std::span<const std::size_t> times);
+  [[nodiscard]] Result<std::vector<SequencePattern>> code_patterns(std::span<const Picture> pictures,
+                                                                   std::span<const std::size_t> times);
+  /// Pictures to be coded as the patterns of the scene, in its order.
+  [[nodiscard]] Result<std::vector<Picture>> solve(const Scene& scene, std::span<const State> states,
+                                                   std::span<const std::size_t> arrivals);
   /// Number of patterns, in coding order, that are sent before the pictures of each group.
   [[nodiscard]] std::vector<std::size_t> arrivals(std::span<const SequencePattern> patterns) const;
   [[nodiscard]] Result<std::vector<RegionModes>> choose(const Scene& scene, std::span<const State> states,

@@ -81,15 +81,16 @@ class RegionGram {
 
 }  // namespace
 
-BlendErrors::BlendErrors(const SceneGeometry& geometry, std::span<const Pattern> patterns, int reduction)
-    : geometry_(geometry), patterns_(patterns), reduction_(reduction) {
-  for (const Pattern& p : patterns) reduced_.push_back({&p.texture, reduce(p.picture.y, reduction)});
+BlendErrors::BlendErrors(const Scene& scene, int reduction)
+    : geometry_(*scene.geometry), mouth_(scene.setup.mouth), patterns_(scene.patterns), reduction_(reduction) {
+  for (const Pattern& p : scene.patterns) reduced_.push_back({&p.texture, reduce(p.picture.y, reduction)});
 }
 
 ModeErrors BlendErrors::errors(const Plane& source, const State& state,
                                std::span<const std::size_t> available) const {
   const ScreenMesh mesh = geometry_.screen_mesh(state);
   const VisibleSurface surface(geometry_, mesh, source.width, source.height, reduction_);
+  const PictureMesh picture{surface, mesh, mouth_, reduction_};
   const auto runs = runs_by_region(surface, geometry_);
   const ReducedPlane target = reduce(source, reduction_);
   std::vector<const State*> seen;
@@ -103,13 +104,13 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
     std::size_t count = 0;
     for (const SurfaceRun& run : runs[r]) count += run.count;
     const auto sample = [&](BlendSource s) {
-      const SourceSampler sampler(surface, mesh, reduced_[available[s.pattern]], s.still, reduction_);
+      const ReducedPattern& pattern = reduced_[available[s.pattern]];
       Samples error(count);
       std::int16_t* e = error.data();
       for (const SurfaceRun& run : runs[r]) {
-        sampler.sample(run, e);
-        const std::uint8_t* t = target.row(run.row) + run.first;
-        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - t[i]);
+        sample_luma(source_run(picture, run, *pattern.texture, s.still), pattern.luma, run.count, e);
+        const float* t = target.row(run.row) + run.first;
+        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - static_cast<int>(t[i] + 0.5F));
         e += run.count;
       }
       return error;

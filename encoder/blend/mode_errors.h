@@ -18,9 +18,9 @@ using ModeErrors = std::array<std::array<double, kBlendModeCount>, kRegionCount>
 /// Patterns as decoded, at a reduced size.
 class BlendErrors {
  public:
-  /// @param patterns  of the scene, in any order; must outlive the object
+  /// @param scene      must outlive the object
   /// @param reduction  log2
-  BlendErrors(const SceneGeometry& geometry, std::span<const Pattern> patterns, int reduction);
+  BlendErrors(const Scene& scene, int reduction);
 
   /// @param source     the picture
   /// @param available  indices of the patterns that can be used
@@ -29,6 +29,7 @@ class BlendErrors {
 
  private:
   const SceneGeometry& geometry_;
+  const MouthInterior& mouth_;
   std::span<const Pattern> patterns_;
   int reduction_;
   std::vector<ReducedPattern> reduced_;

@@ -4,20 +4,44 @@
 #include <cmath>
 
 #include "decoder/head/head_projection.h"
+#include "decoder/head/mouth_interior.h"
 
 namespace fbs {
 namespace {
 
-float bilinear(const ReducedPlane& plane, float u, float v) {
-  u = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1));
-  v = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
-  const int x = std::min(static_cast<int>(u), plane.width - 2), y = std::min(static_cast<int>(v), plane.height - 2);
-  const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-  const std::uint8_t* a = plane.row(y) + x;
-  const std::uint8_t* b = a + plane.width;
-  const float top = static_cast<float>(a[0]) + fx * static_cast<float>(a[1] - a[0]);
-  const float bottom = static_cast<float>(b[0]) + fx * static_cast<float>(b[1] - b[0]);
-  return top + fy * (bottom - top);
+constexpr float kLevelsPerLightUnit = 1.0F / 16;
+constexpr float kGainLevels = 64;  // State::light counts the gain per so many grey levels
+
+VertexLight light_of(const std::vector<VertexLight>& light, std::size_t vertex) {
+  return light.empty() ? VertexLight{} : light[vertex];
+}
+
+/// Light that the picture has and the pattern has not.
+void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const SurfaceTriangle& t, glm::vec2 at,
+               glm::vec2 step, SourceRun& out) {
+  if (mesh.light.empty() && texture.light.empty()) return;
+  std::array<glm::vec2, 3> l;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexLight now = light_of(mesh.light, t.corners[i]), seen = light_of(texture.light, t.corners[i]);
+    l[i] = glm::vec2(now.offset - seen.offset, now.gain - seen.gain) * kLevelsPerLightUnit;
+  }
+  const glm::vec2 a = l[1] - l[0], b = l[2] - l[0];
+  out.offset = {l[0].x + at.x * a.x + at.y * b.x, step.x * a.x + step.y * b.x};
+  out.gain = (l[0].y + at.x * a.y + at.y * b.y) / kGainLevels;
+}
+
+void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t, SourceRun& out) {
+  if (!std::all_of(t.corners.begin(), t.corners.end(), is_inner_lip)) return;
+  const std::int32_t opacity = interior_opacity(picture.mesh.mouth_gap, texture.mouth_gap);
+  if (opacity == 0) return;
+  const InteriorColours colours = interior_colours(picture.mouth, &YuvColour::y, picture.mesh.interior);
+  std::int32_t ramp = 0;
+  for (const std::uint16_t v : t.corners) ramp += mouth_ramp(v);
+  const float at = 2.0F * static_cast<float>(ramp) / (3.0F * kMouthRampEnd);  // 0 upper lip, 1 half way, 2 lower
+  const auto upper = static_cast<std::size_t>(at < 1 ? 0 : 1);
+  const float share = at - static_cast<float>(upper);
+  out.opacity = static_cast<float>(opacity) / kInteriorOpaque;
+  out.interior = (1 - share) * colours[upper] + share * colours[upper + 1];
 }
 
 }  // namespace
@@ -25,62 +49,65 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
 ReducedPlane reduce(const Plane& plane, int reduction) {
   ReducedPlane out{plane.width >> reduction, plane.height >> reduction, {}};
   out.samples.resize(static_cast<std::size_t>(out.width) * out.height);
-  const int n = 1 << reduction, half = n * n / 2;
+  const int n = 1 << reduction;
+  const float scale = 1.0F / static_cast<float>(n * n);
   std::vector<int> sum(out.width);
   for (int y = 0; y < out.height; ++y) {
-    std::fill(sum.begin(), sum.end(), half);
+    std::fill(sum.begin(), sum.end(), 0);
     for (int i = 0; i < n; ++i) {
       const std::uint8_t* row = plane.row(y * n + i);
       for (int x = 0; x < out.width; ++x)
         for (int k = 0; k < n; ++k) sum[x] += row[x * n + k];
     }
-    for (int x = 0; x < out.width; ++x)
-      out.samples[static_cast<std::size_t>(y) * out.width + x] = static_cast<std::uint8_t>(sum[x] >> (2 * reduction));
+    float* to = out.row(y);
+    for (int x = 0; x < out.width; ++x) to[x] = scale * static_cast<float>(sum[x]);
   }
   return out;
 }
 
-SourceSampler::SourceSampler(const VisibleSurface& surface, const ScreenMesh& mesh, const ReducedPattern& pattern,
-                             bool still, int reduction)
-    : surface_(surface),
-      mesh_(mesh),
-      pattern_(pattern),
-      still_(still),
-      to_samples_(1.0F / static_cast<float>(1 << (kScreenOneLog2 + reduction))) {}
-
-void SourceSampler::sample(const SurfaceRun& run, std::int16_t* out) const {
-  if (still_) {
-    const std::uint8_t* from = pattern_.luma.row(run.row) + run.first;
-    std::copy(from, from + run.count, out);
-    return;
+SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture, bool still) {
+  SourceRun out;
+  if (still) {
+    out.u = {static_cast<float>(run.first), 1};
+    out.v = {static_cast<float>(run.row), 0};
+    return out;
   }
-  const SurfaceTriangle& t = surface_.triangles()[run.triangle];
-  const auto& texture = t.head ? pattern_.texture->head : pattern_.texture->surround;
-  const glm::vec2 p0 = glm::vec2(texture[t.corners[0]]) * to_samples_ - glm::vec2(0.5F),
-                  p1 = glm::vec2(texture[t.corners[1]] - texture[t.corners[0]]) * to_samples_,
-                  p2 = glm::vec2(texture[t.corners[2]] - texture[t.corners[0]]) * to_samples_;
-  const Barycentric& b = surface_.barycentric(run.triangle);
-  const glm::vec2 first = b.at(static_cast<float>(run.first), static_cast<float>(run.row));
-  glm::vec2 at = p0 + first.x * p1 + first.y * p2;
-  const glm::vec2 step = b.per_column.x * p1 + b.per_column.y * p2;
-
-  // Light, as an offset and a gain that are linear over the triangle.
-  float offset = 0, offset_step = 0, gain = 0;
-  if (t.head && !(mesh_.light.empty() && pattern_.texture->light.empty())) {
-    const auto light = [&](std::size_t i) {
-      const std::uint16_t v = t.corners[i];
-      const auto of = [&](const std::vector<VertexLight>& l) { return l.empty() || v >= l.size() ? VertexLight{} : l[v]; };
-      const VertexLight now = of(mesh_.light), seen = of(pattern_.texture->light);
-      return glm::vec2(now.offset - seen.offset, now.gain - seen.gain) / 16.0F;
-    };
-    const glm::vec2 l0 = light(0), l1 = light(1) - l0, l2 = light(2) - l0;
-    offset = l0.x + first.x * l1.x + first.y * l2.x;
-    offset_step = b.per_column.x * l1.x + b.per_column.y * l2.x;
-    gain = (l0.y + first.x * l1.y + first.y * l2.y) / 64.0F;
+  const SurfaceTriangle& t = picture.surface.triangles()[run.triangle];
+  const auto& points = t.head ? texture.head : texture.surround;
+  const float to_samples = 1.0F / static_cast<float>(1 << (kScreenOneLog2 + picture.reduction));
+  const glm::vec2 p0 = glm::vec2(points[t.corners[0]]) * to_samples - glm::vec2(0.5F),
+                  p1 = glm::vec2(points[t.corners[1]] - points[t.corners[0]]) * to_samples,
+                  p2 = glm::vec2(points[t.corners[2]] - points[t.corners[0]]) * to_samples;
+  const Barycentric& b = picture.surface.barycentric(run.triangle);
+  const glm::vec2 at = b.at(static_cast<float>(run.first), static_cast<float>(run.row)), step = b.per_column;
+  const glm::vec2 first = p0 + at.x * p1 + at.y * p2, per_column = step.x * p1 + step.y * p2;
+  out.u = {first.x, per_column.x};
+  out.v = {first.y, per_column.y};
+  if (t.head) {
+    add_light(picture.mesh, texture, t, at, step, out);
+    add_interior(picture, texture, t, out);
   }
-  for (int i = 0; i < run.count; ++i, at += step, offset += offset_step) {
-    const float v = bilinear(pattern_.luma, at.x, at.y);
-    out[i] = static_cast<std::int16_t>(std::lround(v + offset + gain * (v - 128.0F)));
+  return out;
+}
+
+float bilinear(const ReducedPlane& plane, float u, float v) {
+  u = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1));
+  v = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
+  const int x = std::min(static_cast<int>(u), plane.width - 2),
+            y = std::min(static_cast<int>(v), plane.height - 2);
+  const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
+  const float* a = plane.row(y) + x;
+  const float* b = a + plane.width;
+  const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
+  return top + fy * (bottom - top);
+}
+
+void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, std::int16_t* out) {
+  float u = source.u.first, v = source.v.first, offset = source.offset.first;
+  for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step, offset += source.offset.step) {
+    const float sample = bilinear(luma, u, v);
+    const float lit = sample + offset + source.gain * (sample - 128.0F);
+    out[i] = static_cast<std::int16_t>(std::lround(lit + source.opacity * (source.interior - lit)));
   }
 }
 

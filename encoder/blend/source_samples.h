@@ -2,6 +2,7 @@
 // floating point.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,8 +16,9 @@ namespace fbs {
 /// A plane at a reduced size.
 struct ReducedPlane {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> samples;
-  [[nodiscard]] const std::uint8_t* row(int y) const { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  std::vector<float> samples;
+  [[nodiscard]] const float* row(int y) const { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  [[nodiscard]] float* row(int y) { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
 };
 
 /// Means of squares of 2^reduction samples; what does not fill a square is dropped.
@@ -28,23 +30,37 @@ struct ReducedPattern {
   ReducedPlane luma;
 };
 
-/// Luma of one source along a run.
-class SourceSampler {
- public:
-  /// @param pattern  must outlive the object, as must the others
-  /// @param still    not warped
-  SourceSampler(const VisibleSurface& surface, const ScreenMesh& mesh, const ReducedPattern& pattern, bool still,
-                int reduction);
-
-  /// @param out  run.count samples
-  void sample(const SurfaceRun& run, std::int16_t* out) const;
-
- private:
-  const VisibleSurface& surface_;
-  const ScreenMesh& mesh_;
-  const ReducedPattern& pattern_;
-  bool still_;
-  float to_samples_;  ///< per 1/64 pixel
+/// A value that changes linearly along a run.
+struct RunValue {
+  float first = 0, step = 0;
 };
+
+/// How the samples of a run come from a texture: all that is linear along it.
+struct SourceRun {
+  RunValue u, v;            ///< texture position, samples; integers lie on centres
+  RunValue offset;          ///< of the light, grey levels
+  float gain = 0;           ///< of the light, per grey level from 128
+  float opacity = 0;        ///< of the mouth interior, 0..1
+  float interior = 0;       ///< its luma
+};
+
+/// The mesh of a picture and what its light and its mouth need.
+struct PictureMesh {
+  const VisibleSurface& surface;
+  const ScreenMesh& mesh;
+  const MouthInterior& mouth;
+  int reduction;
+};
+
+/// @param still  the texture is not warped
+[[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
+                                   bool still);
+
+/// Bilinear; positions outside repeat the border.
+[[nodiscard]] float bilinear(const ReducedPlane& plane, float u, float v);
+
+/// Luma of one source along a run.
+/// @param out  run.count samples
+void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, std::int16_t* out);
 
 }  // namespace fbs
