@@ -11,25 +11,46 @@ namespace {
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
-/// The share of the texture in a sample.
-float factor(const SourceRun& s, float weight, bool luma) {
-  return luma ? weight * (1 + s.gain) * (1 - s.opacity) : weight * (1 - s.opacity);
+/// The share of the texture in the samples of a run.
+RunValue factor(const SourceRun& s, const RunValue& weight, bool luma) {
+  const float share = (luma ? 1 + s.gain : 1) * (1 - s.opacity);
+  return {share * weight.first, share * weight.step};
 }
 
-/// The four samples that a texture position mixes.
-struct Footprint {
-  std::ptrdiff_t at;
-  float fx, fy;
-  Footprint(const ReducedPlane& plane, float u, float v) {
-    u = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1));
-    v = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
-    const int x = std::min(static_cast<int>(u), plane.width - 2),
-              y = std::min(static_cast<int>(v), plane.height - 2);
-    at = static_cast<std::ptrdiff_t>(y) * plane.width + x;
-    fx = u - static_cast<float>(x);
-    fy = v - static_cast<float>(y);
+/// Whether all samples that a run mixes lie inside the plane.
+bool inside(const SourceRun& s, int count, const ReducedPlane& plane) {
+  const auto end = [&](const RunValue& v) { return v.first + v.step * static_cast<float>(count - 1); };
+  const auto within = [](float a, float b, int size) {
+    return std::min(a, b) >= 0 && std::max(a, b) < static_cast<float>(size - 1);
+  };
+  return within(s.u.first, end(s.u), plane.width) && within(s.v.first, end(s.v), plane.height);
+}
+
+/// Whether the run shows its own samples, unmoved.
+bool is_identity(const SourceRun& s, const SurfaceRun& run) {
+  return s.u.step == 1 && s.v.step == 0 && s.u.first == static_cast<float>(run.first) &&
+         s.v.first == static_cast<float>(run.row);
+}
+
+/// Calls use(i, sample number of the upper left one, fx, fy) for the four samples that each sample of a run
+/// mixes.
+template <class Use>
+void for_each_footprint(const SourceRun& s, int count, const ReducedPlane& plane, Use&& use) {
+  float u = s.u.first, v = s.v.first;
+  const auto at = [&](int i, float x, float y) {
+    const int column = std::min(static_cast<int>(x), plane.width - 2),
+              row = std::min(static_cast<int>(y), plane.height - 2);
+    use(i, static_cast<std::ptrdiff_t>(row) * plane.width + column, x - static_cast<float>(column),
+        y - static_cast<float>(row));
+  };
+  if (inside(s, count, plane)) {
+    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step) at(i, u, v);
+  } else {
+    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step)
+      at(i, std::clamp(u, 0.0F, static_cast<float>(plane.width - 1)),
+         std::clamp(v, 0.0F, static_cast<float>(plane.height - 1)));
   }
-};
+}
 
 void clear(PatternPlanes& planes) {
   for (ReducedPlane& p : planes) std::fill(p.samples.begin(), p.samples.end(), 0.0F);
@@ -79,9 +100,7 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
       const std::size_t k = blend.sources[s].pattern;
       taps.push_back({source_run(picture, run, *textures[k], blend.sources[s].still),
                       {static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), glm::dot(b.per_column, d)},
-                      run.row,
-                      run.first,
-                      run.count,
+                      run,
                       static_cast<std::uint32_t>(available[k])});
     }
   }
@@ -91,10 +110,20 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
 void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) const {
   for (const Tap& t : taps) {
     const ReducedPlane& plane = planes[t.pattern];
-    float* to = out.row(t.row) + t.first;
-    float u = t.source.u.first, v = t.source.v.first, weight = t.weight.first;
-    for (int i = 0; i < t.count; ++i, u += t.source.u.step, v += t.source.v.step, weight += t.weight.step)
-      to[i] += factor(t.source, weight, luma) * bilinear(plane, u, v);
+    const RunValue f = factor(t.source, t.weight, luma);
+    float* to = out.row(t.run.row) + t.run.first;
+    if (is_identity(t.source, t.run)) {
+      const float* from = plane.row(t.run.row) + t.run.first;
+      for (int i = 0; i < t.run.count; ++i) to[i] += (f.first + f.step * static_cast<float>(i)) * from[i];
+      continue;
+    }
+    const float* samples = plane.samples.data();
+    for_each_footprint(t.source, t.run.count, plane, [&](int i, std::ptrdiff_t at, float fx, float fy) {
+      const float* a = samples + at;
+      const float* b = a + plane.width;
+      const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
+      to[i] += (f.first + f.step * static_cast<float>(i)) * (top + fy * (bottom - top));
+    });
   }
 }
 
@@ -102,27 +131,32 @@ void PatternSolver::draw_transposed(const Taps& taps, const ReducedPlane& pictur
                                     PatternPlanes& planes) const {
   for (const Tap& t : taps) {
     ReducedPlane& plane = planes[t.pattern];
-    const float* from = picture.row(t.row) + t.first;
-    float u = t.source.u.first, v = t.source.v.first, weight = t.weight.first;
-    for (int i = 0; i < t.count; ++i, u += t.source.u.step, v += t.source.v.step, weight += t.weight.step) {
-      const Footprint f(plane, u, v);
-      const float value = factor(t.source, weight, luma) * from[i];
-      float* a = plane.samples.data() + f.at;
-      float* b = a + plane.width;
-      const float top = value * (1 - f.fy), bottom = value * f.fy;
-      a[0] += top * (1 - f.fx);
-      a[1] += top * f.fx;
-      b[0] += bottom * (1 - f.fx);
-      b[1] += bottom * f.fx;
+    const RunValue f = factor(t.source, t.weight, luma);
+    const float* from = picture.row(t.run.row) + t.run.first;
+    if (is_identity(t.source, t.run)) {
+      float* to = plane.row(t.run.row) + t.run.first;
+      for (int i = 0; i < t.run.count; ++i) to[i] += (f.first + f.step * static_cast<float>(i)) * from[i];
+      continue;
     }
+    float* samples = plane.samples.data();
+    for_each_footprint(t.source, t.run.count, plane, [&](int i, std::ptrdiff_t at, float fx, float fy) {
+      const float value = (f.first + f.step * static_cast<float>(i)) * from[i];
+      float* a = samples + at;
+      float* b = a + plane.width;
+      const float bottom = value * fy, top = value - bottom, top_right = top * fx, bottom_right = bottom * fx;
+      a[0] += top - top_right;
+      a[1] += top_right;
+      b[0] += bottom - bottom_right;
+      b[1] += bottom_right;
+    });
   }
 }
 
 void PatternSolver::draw_constant(const Taps& taps, ReducedPlane& out) const {
   for (const Tap& t : taps) {
-    float* to = out.row(t.row) + t.first;
+    float* to = out.row(t.run.row) + t.run.first;
     float weight = t.weight.first, offset = t.source.offset.first;
-    for (int i = 0; i < t.count; ++i, weight += t.weight.step, offset += t.source.offset.step)
+    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, offset += t.source.offset.step)
       to[i] += weight * ((1 - t.source.opacity) * (offset - 128.0F * t.source.gain) +
                          t.source.opacity * t.source.interior);
   }
@@ -147,7 +181,7 @@ PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, Patter
   double used = 0;
   std::size_t samples = 0;
   for (const Taps& taps : pictures_)
-    for (const Tap& t : taps) used += static_cast<double>(t.count * t.weight.first);
+    for (const Tap& t : taps) used += static_cast<double>(static_cast<float>(t.run.count) * t.weight.first);
   for (const ReducedPlane& p : sources) samples += p.samples.size();
   const double pull = settings.pull * used / static_cast<double>(samples);
 

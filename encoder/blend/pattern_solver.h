@@ -13,7 +13,7 @@
 namespace fbs {
 
 struct SolverSettings {
-  int iterations = 7;
+  int iterations = 4;
   double pull = 0.2;  ///< towards the source picture, over the mean weight with which a sample is used
 };
 
@@ -43,7 +43,7 @@ class PatternSolver {
   struct Tap {
     SourceRun source;
     RunValue weight;
-    std::int32_t row, first, count;
+    SurfaceRun run;
     std::uint32_t pattern;
   };
   using Taps = std::vector<Tap>;
