@@ -13,15 +13,21 @@ namespace {
 constexpr int kOneLog2 = 16;  // of weights before they are rounded
 constexpr std::int64_t kOne = std::int64_t{1} << kOneLog2;
 
-constexpr std::int64_t kNear = 3277;      // added to squared distances, 2^-16: 0.05
-constexpr std::int64_t kExponent = 307;   // weights fall with this power of the squared distance, 1/256
-constexpr std::int64_t kStateShare = 48;  // of the weights by state in kByState, 1/64; the rest is by time
-constexpr std::size_t kMaxByState = 3;    // sources
+constexpr std::int64_t kExponent = 307;  // weights fall with this power of 1 + the squared distance, 1/256
+
+/// How the weights of a region follow from distances.
+struct Law {
+  std::int64_t state_share;  ///< of the weights by state in kByState, 1/64; the rest is by time
+  std::size_t sources;       ///< at most
+};
+// More sources average out the coding noise of patterns, but take time to draw.
+constexpr std::array<Law, kRegionCount> kLaw = {
+    {{48, 5}, {64, 3}, {64, 3}, {48, 4}, {48, 3}, {48, 3}, {0, 2}}};
 
 /// Relative weights of squared distances, the nearest having the most.
 std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
   constexpr int kDigits = 12, kOctaves = 13;
-  const auto exponent = [](std::int64_t d) { return log2_fixed(static_cast<std::uint64_t>(d + kNear)); };
+  const auto exponent = [](std::int64_t d) { return log2_fixed(static_cast<std::uint64_t>(d + kDistanceOne)); };
   const std::int64_t least = exponent(*std::min_element(distances.begin(), distances.end()));
   std::vector<std::int64_t> out;
   for (const std::int64_t d : distances) {
@@ -32,14 +38,14 @@ std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
   return out;
 }
 
-/// Keeps the largest three, each less the fourth, so that none appears or vanishes at once.
-void keep_largest(std::vector<std::int64_t>& weights) {
-  if (weights.size() <= kMaxByState) return;
+/// Keeps the largest, each less the largest of the others, so that none appears or vanishes at once.
+void keep_largest(std::vector<std::int64_t>& weights, std::size_t count) {
+  if (weights.size() <= count) return;
   std::vector<std::size_t> order(weights.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
-  const std::int64_t next = weights[order[kMaxByState]];
+  const std::int64_t next = weights[order[count]];
   const std::size_t first = order.front();
   for (std::int64_t& w : weights) w = std::max<std::int64_t>(w - next, 0);
   weights[first] = std::max<std::int64_t>(weights[first], 1);
@@ -129,10 +135,11 @@ std::vector<std::int64_t> BlendWeights::distances(Region region) const {
 BlendWeights::Weights BlendWeights::by_state(Region region) const {
   Weights weights = fall_off(distances(region));
   const std::int64_t sum = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
-  for (std::int64_t& w : weights) w = w * kOne / sum * kStateShare / 64;
-  weights[before_] += (kOne - share_after_) * (64 - kStateShare) / 64;
-  weights[after_] += share_after_ * (64 - kStateShare) / 64;
-  keep_largest(weights);
+  const Law& law = kLaw[static_cast<std::size_t>(region)];
+  for (std::int64_t& w : weights) w = w * kOne / sum * law.state_share / 64;
+  weights[before_] += (kOne - share_after_) * (64 - law.state_share) / 64;
+  weights[after_] += share_after_ * (64 - law.state_share) / 64;
+  keep_largest(weights, law.sources);
   return weights;
 }
 

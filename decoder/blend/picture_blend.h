@@ -28,7 +28,7 @@ struct WeightedSource {
 /// Sources of one region; weights sum to kBlendOne. At most kMaxRegionSources, distinct, by rising pattern,
 /// warped before still.
 using RegionBlend = std::vector<WeightedSource>;
-inline constexpr std::size_t kMaxRegionSources = 6;
+inline constexpr std::size_t kMaxRegionSources = 8;
 
 /// Of each region.
 using PictureBlend = std::array<RegionBlend, kRegionCount>;

@@ -8,11 +8,11 @@
 
 namespace fbs {
 
-inline constexpr int kDistanceOneLog2 = 16;  ///< squared distances count 2^-16
+inline constexpr std::int64_t kDistanceOne = 1 << 16;  ///< squared distances count 2^-16
 
 /// Squared distance, for what a region looks like. Shift and scale of the head do not count: they change
 /// where it is, not how it looks.
 /// @param spacing  mean number of pictures from one pattern to the next, at least 1
-[[nodiscard]] std::int64_t state_distance(Region region, const State& a, const State& b, std::int32_t spacing);
+[[nodiscard]] std::int64_t state_distance(Region region, const State& pattern, const State& picture, std::int32_t spacing);
 
 }  // namespace fbs

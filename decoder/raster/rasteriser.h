@@ -34,7 +34,7 @@ struct Finish {
   const InteriorMix* interior = nullptr;  ///< then mixed over all planes
 };
 
-inline constexpr std::size_t kMaxTriangleSources = 42;
+inline constexpr std::size_t kMaxTriangleSources = 56;
 
 /// Where the samples of a triangle come from.
 struct TextureSource {
