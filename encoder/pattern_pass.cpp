@@ -153,27 +153,41 @@ Result<std::vector<TypedPayload>> PatternPass::finish(Scene& scene, const CodedS
     pictures.push_back(std::move(*source));
   }
   const State rest = scene.patterns.front().seen;
+  // Before anything is coded, patterns are taken to come in display order and without loss.
   std::vector<SequencePattern> coded;
-  std::vector<std::size_t> arrived;
-  std::vector<RegionModes> modes;
-  for (int round = 0;; ++round) {
-    auto sequence = code_patterns(pictures, times);
-    if (!sequence) return fail(sequence.error());
-    coded = std::move(*sequence);
+  for (std::size_t k = 0; k < times.size(); ++k) coded.push_back({times[k], {}, pictures[k]});
+  std::vector<std::size_t> arrived = arrivals(coded);
+  const auto take_patterns = [&] {
     scene.patterns.clear();
-    for (const SequencePattern& p : coded)
-      scene.patterns.push_back(make_pattern(p.decoded, p.picture == 0 ? rest : states[p.picture], scene.geometry));
-    arrived = arrivals(coded);
+    for (SequencePattern& p : coded)
+      scene.patterns.push_back(
+          make_pattern(std::move(p.decoded), p.picture == 0 ? rest : states[p.picture], scene.geometry));
+  };
+  take_patterns();
+  std::vector<RegionModes> modes;
+  const auto choose_again = [&]() -> Result<void> {
     auto chosen = choose(scene, states, arrived);
     if (!chosen) return fail(chosen.error());
     modes = std::move(*chosen);
     for (std::size_t t = 0; t < states.size(); ++t) states[t].blend = modes[t];
-    if (round == settings_.rounds) break;
-    auto solved = solve(scene, states, arrived);
-    if (!solved) return fail(solved.error());
-    for (std::size_t k = 0; k < coded.size(); ++k)
-      pictures[std::lower_bound(times.begin(), times.end(), coded[k].picture) - times.begin()] =
-          std::move((*solved)[k]);
+    return {};
+  };
+  if (settings_.rounds > 0)
+    if (auto chosen = choose_again(); !chosen) return fail(chosen.error());
+  for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
+    if (settings_.rounds > 0) {
+      auto solved = solve(scene, states, arrived);
+      if (!solved) return fail(solved.error());
+      for (std::size_t k = 0; k < coded.size(); ++k)
+        pictures[std::lower_bound(times.begin(), times.end(), coded[k].picture) - times.begin()] =
+            std::move((*solved)[k]);
+    }
+    auto sequence = code_patterns(pictures, times);
+    if (!sequence) return fail(sequence.error());
+    coded = std::move(*sequence);
+    arrived = arrivals(coded);
+    take_patterns();
+    if (auto chosen = choose_again(); !chosen) return fail(chosen.error());
   }
 
   std::vector<TypedPayload> out;

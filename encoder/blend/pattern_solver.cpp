@@ -17,15 +17,6 @@ RunValue factor(const SourceRun& s, const RunValue& weight, bool luma) {
   return {share * weight.first, share * weight.step};
 }
 
-/// Whether all samples that a run mixes lie inside the plane.
-bool inside(const SourceRun& s, int count, const ReducedPlane& plane) {
-  const auto end = [&](const RunValue& v) { return v.first + v.step * static_cast<float>(count - 1); };
-  const auto within = [](float a, float b, int size) {
-    return std::min(a, b) >= 0 && std::max(a, b) < static_cast<float>(size - 1);
-  };
-  return within(s.u.first, end(s.u), plane.width) && within(s.v.first, end(s.v), plane.height);
-}
-
 /// Whether the run shows its own samples, unmoved.
 bool is_identity(const SourceRun& s, const SurfaceRun& run) {
   return s.u.step == 1 && s.v.step == 0 && s.u.first == static_cast<float>(run.first) &&
@@ -43,7 +34,7 @@ void for_each_footprint(const SourceRun& s, int count, const ReducedPlane& plane
     use(i, static_cast<std::ptrdiff_t>(row) * plane.width + column, x - static_cast<float>(column),
         y - static_cast<float>(row));
   };
-  if (inside(s, count, plane)) {
+  if (is_inside(s, count, plane)) {
     for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step) at(i, u, v);
   } else {
     for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step)

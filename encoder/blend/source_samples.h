@@ -56,6 +56,9 @@ struct PictureMesh {
 [[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
                                    bool still);
 
+/// Whether all samples that a run mixes lie inside the plane.
+[[nodiscard]] bool is_inside(const SourceRun& source, int count, const ReducedPlane& plane);
+
 /// Bilinear; positions outside repeat the border.
 [[nodiscard]] float bilinear(const ReducedPlane& plane, float u, float v);
 
