@@ -24,7 +24,7 @@ struct EncodeArguments {
   double motion_bitrate = 0;  ///< target of the motion alone, kbit/s; 0: none
   int pattern_quantiser = -1; ///< of AV1; -1: quality decides
   bool reduced_patterns = false;
-  int effort = 0;
+  int effort = 1;
   bool snakes = true;
   bool refine = true;
   bool surround = true;

@@ -40,12 +40,20 @@ CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
   return coded;
 }
 
-PatternPassSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& point) {
+/// What quality means for the motion and the first pattern.
+RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
+  RateTarget target = rate_target(settings, eye_distance_px);
+  if (settings.patterns != 1) target.quality = PatternPoint::at(settings.quality).motion_quality;
+  return target;
+}
+
+PatternPassSettings pass_settings(const EncoderSettings& settings, double lambda) {
   PatternPassSettings out;
-  if (settings.patterns > 0) out.patterns = settings.patterns;
-  out.coding.quantiser = settings.pattern_quantiser < 0 ? point.pattern_quantiser : settings.pattern_quantiser;
+  out.point = PatternPoint::at(settings.quality);
+  out.count = settings.patterns;
+  out.coding.quantiser = settings.pattern_quantiser < 0 ? out.point.quantiser : settings.pattern_quantiser;
   out.coding.reduced = settings.reduced_patterns;
-  out.lambda = point.lambda;
+  out.lambda = lambda;
   out.rounds = settings.effort;
   return out;
 }
@@ -75,7 +83,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
 
   FirstPattern first_pattern(format, first);
   const double eye = adapted->pose.eye_distance_px();
-  const auto rate = plan_rate(rate_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
+  const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });
   if (!rate) return fail(rate.error());
   auto coded = first_pattern.take(rate->point.pattern_quantiser);
@@ -124,7 +132,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       seen_(parts.seen),
       head_(std::move(parts.head)) {
   if (settings.patterns != 1)
-    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
+    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point.lambda));
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
 
@@ -171,7 +179,7 @@ Result<void> FaceScene::end_group() {
     packets_.add_motion(*payload);
   costs_.clear();
   durations_.clear();
-  return {};
+  return patterns_pass_ && patterns_pass_->segment_ends() ? end_segment() : Result<void>{};
 }
 
 void FaceScene::fix_head() {
@@ -196,16 +204,24 @@ Result<void> FaceScene::write_head() {
   return {};
 }
 
-Result<void> FaceScene::finish() {
-  if (auto ended = end_group(); !ended) return ended;
+Result<void> FaceScene::end_segment() {
   if (!fixed_) fix_head();
-  if (!patterns_pass_) return packets_.started() ? Result<void>{} : write_head();
-  auto packets = patterns_pass_->finish(scene_, seen_);
+  if (!packets_.started()) {
+    scene_.setup.patterns = patterns_pass_->store();
+    head_.pattern.clear();  // the first segment brings its own
+    if (auto written = write_head(); !written) return written;
+  }
+  const auto packets = patterns_pass_->end_segment(scene_, seen_);
   if (!packets) return fail(packets.error());
-  head_.pattern.clear();
-  if (auto written = write_head(); !written) return written;
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   return {};
+}
+
+Result<void> FaceScene::finish() {
+  if (auto ended = end_group(); !ended) return ended;
+  if (patterns_pass_) return end_segment();
+  if (!fixed_) fix_head();
+  return packets_.started() ? Result<void>{} : write_head();
 }
 
 }  // namespace fbs

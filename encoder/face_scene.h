@@ -46,6 +46,8 @@ class FaceScene : public SceneEncoder {
   /// Fixes what the scene's head says.
   void fix_head();
   Result<void> write_head();
+  /// With several patterns: writes what has been held back.
+  Result<void> end_segment();
 
   SceneTiming timing_;
   bool still_surround_;

@@ -1,67 +1,73 @@
-// The second pass over a scene: with all pictures analysed and their motion planned, chooses, codes and places
-// the patterns.
+// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes and
+// places the patterns, segment by segment.
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
 
-#include "bitstream/motion/motion_encoder.h"
+#include "bitstream/blend/blend_coder.h"
 #include "decoder/scene.h"
-#include "encoder/blend/pattern_solver.h"
 #include "encoder/patterns/pattern_sequence.h"
-#include "encoder/picture_spool.h"
+#include "encoder/plan/pattern_point.h"
+#include "encoder/segment_blend.h"
 
 namespace fbs {
 
 struct PatternPassSettings {
-  int patterns = 8;   ///< of the scene
+  PatternPoint point{};
+  std::size_t count = 0;  ///< patterns of the scene; 0: as the point says
+  bool first_coded = false;
   SequenceSettings coding;
-  int rounds = 0;      ///< of making patterns for their use
-  SolverSettings solver;
-  double lambda = 0;   ///< squared luma levels that a bit is worth
+  int rounds = 1;     ///< of solving for patterns; 0: pictures are coded as they are
+  double lambda = 0;  ///< squared luma levels that a bit is worth
 };
-
-/// A packet to be written.
-using TypedPayload = std::pair<PacketType, std::vector<std::uint8_t>>;
 
 class PatternPass {
  public:
-  PatternPass(const VideoFormat& format, const PatternPassSettings& settings)
-      : format_(format), settings_(settings) {}
+  PatternPass(const VideoFormat& format, const PatternPassSettings& settings);
 
   /// The next picture of the scene.
-  Result<void> add(const Picture& picture) { return pictures_.add(picture); }
+  Result<void> add(const Picture& picture) { return segment_.pictures.add(picture); }
   /// The next group of them.
   /// @param states  of its pictures
-  void add(std::vector<State> states, std::vector<std::uint8_t> payload);
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload);
 
-  /// @param scene  geometry as it is sent; its patterns are replaced
-  /// @param seen   of pattern 0
-  /// @return all that follows setup, geometry and surround
-  [[nodiscard]] Result<std::vector<TypedPayload>> finish(Scene& scene, const CodedState& seen);
+  /// Whether the segment should end with the group added last.
+  [[nodiscard]] bool segment_ends() const;
+
+  /// Patterns that the decoder keeps.
+  [[nodiscard]] std::int32_t store() const { return store_; }
+
+  /// Codes the segment and begins another.
+  /// @param scene  as the decoder has it before the segment, and after; its setup has store()
+  /// @param rest   seen state of pattern 0 as coded
+  /// @return packets
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest);
 
  private:
-  struct Group {
-    std::vector<State> states;
-    std::vector<std::uint8_t> payload;
+  /// Patterns of the segment while they are made.
+  struct Draft {
+    std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
+    std::vector<Picture> pictures;   ///< to be coded, in the order of times
+    std::vector<SequencePattern> coded;
+    std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
+    std::vector<std::size_t> arrived;  ///< arrivals()
+    std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
   };
-
-  [[nodiscard]] Result<std::vector<SequencePattern>> code_patterns(std::span<const Picture> pictures,
-                                                                   std::span<const std::size_t> times);
-  /// Pictures to be coded as the patterns of the scene, in its order.
-  [[nodiscard]] Result<std::vector<Picture>> solve(const Scene& scene, std::span<const State> states,
-                                                   std::span<const std::size_t> arrivals);
-  /// Number of patterns, in coding order, that are sent before the pictures of each group.
-  [[nodiscard]] std::vector<std::size_t> arrivals(std::span<const SequencePattern> patterns) const;
-  [[nodiscard]] Result<std::vector<RegionModes>> choose(const Scene& scene, std::span<const State> states,
-                                                        std::span<const std::size_t> arrivals);
+  [[nodiscard]] Result<Draft> begin_draft(const Scene& scene);
+  void place(const Scene& scene, Draft& draft) const;
+  [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
+  Result<void> choose(const Scene& scene, const Draft& draft);
+  Result<void> solve(const Scene& scene, Draft& draft);
+  Result<void> code(const Scene& scene, Draft& draft);
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, const CodedState& rest, Draft& draft);
 
   VideoFormat format_;
   PatternPassSettings settings_;
-  PictureSpool pictures_;
-  std::vector<Group> groups_;
+  std::int32_t store_;
+  std::int32_t picture_ = 0;  ///< number of the segment's first
+  Segment segment_;
+  BlendEncoder blend_;
 };
 
 }  // namespace fbs

@@ -15,7 +15,7 @@ struct EncoderSettings {
   int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
   int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   bool reduced_patterns = false;  ///< code patterns at half width and height
-  int effort = 0;                 ///< rounds of making patterns for their use
+  int effort = 1;                 ///< rounds of making patterns for their use
   int face = 0;                ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing

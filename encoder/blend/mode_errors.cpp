@@ -81,20 +81,19 @@ class RegionGram {
 
 }  // namespace
 
-BlendErrors::BlendErrors(const Scene& scene, int reduction)
-    : geometry_(*scene.geometry), mouth_(scene.setup.mouth), patterns_(scene.patterns), reduction_(reduction) {
+BlendErrors::BlendErrors(const BlendScene& scene, int reduction) : scene_(scene), reduction_(reduction) {
   for (const Pattern& p : scene.patterns) reduced_.push_back({&p.texture, reduce(p.picture.y, reduction)});
 }
 
 ModeErrors BlendErrors::errors(const Plane& source, const State& state,
                                std::span<const std::size_t> available) const {
-  const ScreenMesh mesh = geometry_.screen_mesh(state);
-  const VisibleSurface surface(geometry_, mesh, source.width, source.height, reduction_);
-  const PictureMesh picture{surface, mesh, mouth_, reduction_};
-  const auto runs = runs_by_region(surface, geometry_);
+  const ScreenMesh mesh = scene_.geometry.screen_mesh(state);
+  const VisibleSurface surface(scene_.geometry, mesh, source.width, source.height, reduction_);
+  const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
+  const auto runs = runs_by_region(surface, scene_.geometry);
   const ReducedPlane target = reduce(source, reduction_);
   std::vector<const State*> seen;
-  for (const std::size_t k : available) seen.push_back(&patterns_[k].seen);
+  for (const std::size_t k : available) seen.push_back(&scene_.patterns[k].seen);
   const BlendWeights weights(seen, state);
 
   ModeErrors out{};

@@ -18,9 +18,9 @@ using ModeErrors = std::array<std::array<double, kBlendModeCount>, kRegionCount>
 /// Patterns as decoded, at a reduced size.
 class BlendErrors {
  public:
-  /// @param scene      must outlive the object
+  /// @param scene      what it refers to must outlive the object
   /// @param reduction  log2
-  BlendErrors(const Scene& scene, int reduction);
+  BlendErrors(const BlendScene& scene, int reduction);
 
   /// @param source     the picture
   /// @param available  indices of the patterns that can be used
@@ -28,9 +28,7 @@ class BlendErrors {
                                   std::span<const std::size_t> available) const;
 
  private:
-  const SceneGeometry& geometry_;
-  const MouthInterior& mouth_;
-  std::span<const Pattern> patterns_;
+  BlendScene scene_;
   int reduction_;
   std::vector<ReducedPattern> reduced_;
 };

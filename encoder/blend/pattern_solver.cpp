@@ -67,7 +67,7 @@ void add(PatternPlanes& a, double factor, const PatternPlanes& b) {
 }  // namespace
 
 void PatternSolver::add_picture(const State& state, std::span<const std::size_t> available, glm::ivec2 size) {
-  const SceneGeometry& geometry = *scene_.geometry;
+  const SceneGeometry& geometry = scene_.geometry;
   const ScreenMesh mesh = geometry.screen_mesh(state);
   const VisibleSurface surface(geometry, mesh, size.x, size.y, reduction_);
   std::vector<const State*> seen;
@@ -77,7 +77,7 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
     textures.push_back(&scene_.patterns[k].texture);
   }
   const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures);
-  const PictureMesh picture{surface, mesh, scene_.setup.mouth, reduction_};
+  const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
   Taps taps;
   for (const SurfaceRun& run : surface.runs()) {
     const SurfaceTriangle& t = surface.triangles()[run.triangle];
@@ -153,13 +153,14 @@ void PatternSolver::draw_constant(const Taps& taps, ReducedPlane& out) const {
   }
 }
 
-PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources, bool luma,
-                                   const SolverSettings& settings) const {
+PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
+                                   std::size_t count, bool luma, const SolverSettings& settings) const {
   ReducedPlane scratch = targets.front();
-  PatternPlanes weight = sources, residual = sources, product = sources;
-  clear(weight);
+  PatternPlanes residual = sources, product = sources;
+  const auto hold_fixed = [&](PatternPlanes& planes) {
+    for (std::size_t k = 0; k + count < planes.size(); ++k) std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
+  };
   clear(residual);
-  // Residual of the start, and how much each sample of a pattern is used.
   for (std::size_t t = 0; t < pictures_.size(); ++t) {
     std::fill(scratch.samples.begin(), scratch.samples.end(), 0.0F);
     draw(pictures_[t], sources, luma, scratch);
@@ -168,6 +169,7 @@ PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, Patter
       scratch.samples[i] = targets[t].samples[i] - scratch.samples[i];
     draw_transposed(pictures_[t], scratch, luma, residual);
   }
+  hold_fixed(residual);
   // The start is the anchor, so that the pull has no part in the first residual.
   double used = 0;
   std::size_t samples = 0;
@@ -186,6 +188,7 @@ PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, Patter
       draw(taps, direction, luma, scratch);
       draw_transposed(taps, scratch, luma, product);
     }
+    hold_fixed(product);
     add(product, pull, direction);
     const double step = now / dot(direction, product);
     add(x, step, direction);

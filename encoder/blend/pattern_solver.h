@@ -23,8 +23,8 @@ using PatternPlanes = std::vector<ReducedPlane>;
 /// The least squares problem of a scene at one reduced size. Planes that are drawn alike share it.
 class PatternSolver {
  public:
-  /// @param scene  its patterns give the seen states; must outlive the object
-  PatternSolver(const Scene& scene, int reduction) : scene_(scene), reduction_(reduction) {}
+  /// @param scene  its patterns give the seen states; what it refers to must outlive the object
+  PatternSolver(const BlendScene& scene, int reduction) : scene_(scene), reduction_(reduction) {}
 
   /// A picture that is drawn from the patterns.
   /// @param state      as drawn, blend modes included
@@ -34,8 +34,10 @@ class PatternSolver {
 
   /// @param targets  the plane of each picture added
   /// @param sources  the plane of each pattern's own picture: start and anchor of the solution
+  /// @param count    of patterns, the last ones, that are solved for
   /// @param luma     whether light and mouth interior change the plane
-  [[nodiscard]] PatternPlanes solve(std::span<const ReducedPlane> targets, PatternPlanes sources, bool luma,
+  [[nodiscard]] PatternPlanes solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
+                                    std::size_t count, bool luma,
                                     const SolverSettings& settings) const;
 
  private:
@@ -55,7 +57,7 @@ class PatternSolver {
   /// out += what light and interior add.
   void draw_constant(const Taps& taps, ReducedPlane& out) const;
 
-  const Scene& scene_;
+  BlendScene scene_;
   int reduction_;
   std::vector<Taps> pictures_;
 };

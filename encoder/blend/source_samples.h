@@ -24,6 +24,13 @@ struct ReducedPlane {
 /// Means of squares of 2^reduction samples; what does not fill a square is dropped.
 [[nodiscard]] ReducedPlane reduce(const Plane& plane, int reduction);
 
+/// What pictures are blended from.
+struct BlendScene {
+  const SceneGeometry& geometry;
+  const MouthInterior& mouth;
+  std::span<const Pattern> patterns;
+};
+
 /// A pattern as textures are read from it.
 struct ReducedPattern {
   const TextureMesh* texture;

@@ -1,0 +1,37 @@
+#include "encoder/plan/pattern_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fbs {
+namespace {
+
+/// Points on the convex hull of rate and distortion, at qualities 0, 25, 50, 75 and 100; measured on the ten
+/// clips.
+struct HullPoint {
+  double per_second, quantiser, motion_quality;
+};
+constexpr std::array<HullPoint, 5> kHull = {
+    {{0.4, 63, 20}, {0.8, 60, 25}, {1.6, 58, 38}, {3.2, 55, 38}, {5.6, 52, 45}}};
+
+}  // namespace
+
+PatternPoint PatternPoint::at(int quality) {
+  const double place = std::clamp(quality, 0, 100) / 25.0;
+  const auto below = std::min(static_cast<std::size_t>(place), kHull.size() - 2);
+  const double share = place - static_cast<double>(below);
+  const HullPoint &a = kHull[below], &b = kHull[below + 1];
+  return {a.per_second * std::pow(b.per_second / a.per_second, share),
+          static_cast<int>(std::lround(a.quantiser + share * (b.quantiser - a.quantiser))),
+          static_cast<int>(std::lround(a.motion_quality + share * (b.motion_quality - a.motion_quality)))};
+}
+
+std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count) {
+  count = std::clamp<std::size_t>(count, 1, std::max<std::size_t>(pictures, 1));
+  std::vector<std::size_t> out = {0};
+  for (std::size_t k = 1; k < count; ++k) out.push_back((k * (pictures - 1) + (count - 1) / 2) / (count - 1));
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,22 @@
+// What --quality means for a scene with several patterns: how many, and how finely each is coded.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace fbs {
+
+struct PatternPoint {
+  double per_second;   ///< patterns
+  int quantiser;       ///< libaom's scale, 0..63
+  int motion_quality;  ///< OperatingPoint::at() for the motion between them
+
+  /// @param quality  0..100
+  static PatternPoint at(int quality);
+};
+
+/// Numbers of pictures at regular distances, the first and the last among them, rising.
+/// @param count  wanted; as many as there are pictures at most
+[[nodiscard]] std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count);
+
+}  // namespace fbs
