@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numeric>
 
 #include "bitstream/payload/pattern_payload.h"
+#include "encoder/patterns/pattern_trial.h"
+#include "encoder/plan/pattern_count.h"
 
 namespace fbs {
 namespace {
@@ -14,6 +18,14 @@ constexpr double kSegmentSeconds = 40;
 
 /// Patterns are kept as long as they take less memory than this, bytes.
 constexpr double kStoreBytes = 256e6;
+
+// For deciding how many patterns: libaom's speed, pictures coded, and every so many drawn.
+constexpr int kTrialSpeed = 6;
+constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
+
+/// Squared luma levels that a bit of patterns is worth, over the squared quantiser step: from the slope of the
+/// curves of akiyo_cif and claire_qcif.
+constexpr double kLambdaPerStep = 0.35;
 
 double fps_of(const VideoFormat& format) {
   return static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
@@ -41,12 +53,9 @@ bool PatternPass::segment_ends() const {
   return static_cast<double>(segment_.states.size()) >= std::max(1.0, seconds * fps_of(format_));
 }
 
-Result<PatternPass::Draft> PatternPass::begin_draft(const Scene& scene) {
-  const std::size_t pictures = segment_.states.size();
-  const double seconds = static_cast<double>(pictures) / fps_of(format_);
-  const auto wanted = static_cast<std::size_t>(std::lround(settings_.point.per_second * seconds));
+Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene, std::size_t count) {
   Draft draft;
-  draft.times = regular_times(pictures, std::clamp<std::size_t>(settings_.count > 0 ? settings_.count : wanted, 2, store_));
+  draft.times = regular_times(segment_.states.size(), count);
   for (const std::size_t time : draft.times) {
     auto source = segment_.pictures.read(time);
     if (!source) return fail(source.error());
@@ -82,6 +91,57 @@ SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) cons
     out.available.push_back(std::move(available));
   }
   return out;
+}
+
+Result<double> PatternPass::loss_between(const Scene& scene, std::size_t count) {
+  const auto draft = draft_of(scene, count);
+  if (!draft) return fail(draft.error());
+  return blend_loss(segment_, usable(scene, *draft), kLossEvery);
+}
+
+Result<std::size_t> PatternPass::decide(const Scene& scene) {
+  const std::size_t pictures = segment_.states.size();
+  const double seconds = static_cast<double>(pictures) / fps_of(format_);
+  const std::size_t most = std::min<std::size_t>(store_, pictures);
+  if (settings_.count > 0) return std::min(settings_.count, most);
+  if (most < 8) return most;
+  const auto usual = std::clamp<std::size_t>(std::lround(settings_.point.per_second * seconds), 4, most / 2);
+  std::vector<BlendLoss> losses;
+  for (const std::size_t count : {usual / 2, usual, 2 * usual}) {
+    const auto loss = loss_between(scene, count);
+    if (!loss) return fail(loss.error());
+    losses.push_back({count, *loss});
+  }
+  // A few neighbours from the middle of the segment.
+  const std::vector<std::size_t> times = regular_times(pictures, usual);
+  std::vector<Picture> some;
+  for (std::size_t k = 0; k < std::min(kTrialPictures, times.size()); ++k) {
+    auto picture = segment_.pictures.read(times[(times.size() - kTrialPictures) / 2 + k]);
+    if (!picture) return fail(picture.error());
+    some.push_back(std::move(*picture));
+  }
+  const double samples = static_cast<double>(pictures) * format_.width * format_.height;
+  const double step = quantiser_step(settings_.coding.quantiser);
+  PatternCount best{0, 0};
+  for (const bool reduced : {false, true}) {
+    SequenceSettings trial = settings_.coding;
+    trial.reduced = reduced;
+    trial.speed = kTrialSpeed;
+    const auto cost = trial_cost(format_, some, trial);
+    if (!cost) return fail(cost.error());
+    const PatternCount count = best_count(losses, {cost->first_bytes, cost->later_bytes, cost->squared_error}, usual,
+                                          samples, kLambdaPerStep * step * step, most);
+    if (std::getenv("FBS_V"))
+      std::fprintf(stderr, "usual %zu losses %.1f %.1f %.1f, %s first %.0f later %.0f mse %.1f: %zu cost %.4g\n", usual,
+                   losses[0].squared_error, losses[1].squared_error, losses[2].squared_error,
+                   reduced ? "reduced" : "full", cost->first_bytes, cost->later_bytes, cost->squared_error,
+                   count.patterns, count.cost);
+    if (best.patterns == 0 || count.cost < best.cost) {
+      best = count;
+      settings_.coding.reduced = reduced;
+    }
+  }
+  return best.patterns;
 }
 
 Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
@@ -141,7 +201,9 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
-  auto draft = begin_draft(scene);
+  const auto count = decide(scene);
+  if (!count) return fail(count.error());
+  auto draft = draft_of(scene, *count);
   if (!draft) return fail(draft.error());
   if (settings_.rounds > 0)
     if (auto chosen = choose(scene, *draft); !chosen) return fail(chosen.error());

@@ -54,7 +54,12 @@ class PatternPass {
     std::vector<std::size_t> arrived;  ///< arrivals()
     std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
   };
-  [[nodiscard]] Result<Draft> begin_draft(const Scene& scene);
+  /// With pictures as they are for patterns.
+  [[nodiscard]] Result<Draft> draft_of(const Scene& scene, std::size_t count);
+  /// Error of the pictures between lossless patterns.
+  [[nodiscard]] Result<double> loss_between(const Scene& scene, std::size_t count);
+  /// Number of patterns; sets their size.
+  [[nodiscard]] Result<std::size_t> decide(const Scene& scene);
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
   Result<void> choose(const Scene& scene, const Draft& draft);

@@ -73,6 +73,20 @@ Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPat
   return choose_modes(errors, lambda);
 }
 
+Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every) {
+  const Picture& any = patterns.scene.patterns.front().picture;
+  const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
+  double sum = 0, samples = 0;
+  const auto done = for_each_picture(
+      segment, patterns, every, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+        const ModeErrors errors = blend.errors(picture.y, segment.states[t], available);
+        for (const auto& region : errors) sum += *std::min_element(region.begin(), region.end());
+        samples += static_cast<double>(picture.y.samples.size());
+      });
+  if (!done) return fail(done.error());
+  return sum / samples;
+}
+
 Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns, std::size_t count,
                                             const SolverSettings& settings) {
   const std::span<const Pattern> all = patterns.scene.patterns;

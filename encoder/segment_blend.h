@@ -22,6 +22,9 @@ struct SegmentPatterns {
 [[nodiscard]] Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
                                                             double lambda);
 
+/// Luma error of the segment in its cheapest modes, mean over samples, from every so many pictures.
+[[nodiscard]] Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every);
+
 /// Pictures that, coded as the last `count` patterns, draw the segment best in the modes of its states. All
 /// planes.
 /// @param count  the others are as they are

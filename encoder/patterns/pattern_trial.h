@@ -1,0 +1,23 @@
+// What patterns cost at an operating point, from a few that are coded for trial.
+#pragma once
+
+#include <span>
+
+#include "encoder/patterns/pattern_sequence.h"
+
+namespace fbs {
+
+struct PatternCost {
+  double first_bytes = 0;    ///< of the key frame
+  double later_bytes = 0;    ///< of each other pattern, mean
+  double squared_error = 0;  ///< luma, mean over samples
+};
+
+/// @param pictures  some that follow each other as the scene's patterns will, 2..kMaxSequencePictures
+Result<PatternCost> trial_cost(const VideoFormat& format, std::span<const Picture> pictures,
+                               const SequenceSettings& settings);
+
+/// AV1's quantiser step in luma levels at a quantiser of 0..63, about: what rate-distortion costs scale with.
+[[nodiscard]] double quantiser_step(int quantiser);
+
+}  // namespace fbs
