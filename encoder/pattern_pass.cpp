@@ -8,7 +8,7 @@
 
 #include "bitstream/payload/pattern_payload.h"
 #include "encoder/patterns/pattern_trial.h"
-#include "encoder/plan/pattern_count.h"
+#include "encoder/patterns/pattern_size.h"
 
 namespace fbs {
 namespace {
@@ -22,10 +22,6 @@ constexpr double kStoreBytes = 256e6;
 // For deciding how many patterns: libaom's speed, pictures coded, and every so many drawn.
 constexpr int kTrialSpeed = 6;
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
-
-/// Squared luma levels that a bit of patterns is worth, over the squared quantiser step: from the slope of the
-/// curves of akiyo_cif and claire_qcif.
-constexpr double kLambdaPerStep = 0.35;
 
 double fps_of(const VideoFormat& format) {
   return static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
@@ -103,15 +99,11 @@ Result<std::size_t> PatternPass::decide(const Scene& scene) {
   const std::size_t pictures = segment_.states.size();
   const double seconds = static_cast<double>(pictures) / fps_of(format_);
   const std::size_t most = std::min<std::size_t>(store_, pictures);
-  if (settings_.count > 0) return std::min(settings_.count, most);
-  if (most < 8) return most;
-  const auto usual = std::clamp<std::size_t>(std::lround(settings_.point.per_second * seconds), 4, most / 2);
-  std::vector<BlendLoss> losses;
-  for (const std::size_t count : {usual / 2, usual, 2 * usual}) {
-    const auto loss = loss_between(scene, count);
-    if (!loss) return fail(loss.error());
-    losses.push_back({count, *loss});
-  }
+  const auto wanted = settings_.count > 0 ? settings_.count : std::lround(settings_.point.per_second * seconds);
+  const auto usual = std::clamp<std::size_t>(wanted, 2, std::max<std::size_t>(most, 2));
+  if (most < kTrialPictures || usual < kTrialPictures) return std::min(usual, most);
+  const auto loss = loss_between(scene, usual);
+  if (!loss) return fail(loss.error());
   // A few neighbours from the middle of the segment.
   const std::vector<std::size_t> times = regular_times(pictures, usual);
   std::vector<Picture> some;
@@ -120,28 +112,16 @@ Result<std::size_t> PatternPass::decide(const Scene& scene) {
     if (!picture) return fail(picture.error());
     some.push_back(std::move(*picture));
   }
-  const double samples = static_cast<double>(pictures) * format_.width * format_.height;
-  const double step = quantiser_step(settings_.coding.quantiser);
-  PatternCount best{0, 0};
-  for (const bool reduced : {false, true}) {
-    SequenceSettings trial = settings_.coding;
-    trial.reduced = reduced;
-    trial.speed = kTrialSpeed;
-    const auto cost = trial_cost(format_, some, trial);
-    if (!cost) return fail(cost.error());
-    const PatternCount count = best_count(losses, {cost->first_bytes, cost->later_bytes, cost->squared_error}, usual,
-                                          samples, kLambdaPerStep * step * step, most);
-    if (std::getenv("FBS_V"))
-      std::fprintf(stderr, "usual %zu losses %.1f %.1f %.1f, %s first %.0f later %.0f mse %.1f: %zu cost %.4g\n", usual,
-                   losses[0].squared_error, losses[1].squared_error, losses[2].squared_error,
-                   reduced ? "reduced" : "full", cost->first_bytes, cost->later_bytes, cost->squared_error,
-                   count.patterns, count.cost);
-    if (best.patterns == 0 || count.cost < best.cost) {
-      best = count;
-      settings_.coding.reduced = reduced;
-    }
-  }
-  return best.patterns;
+  SequenceSettings trial = settings_.coding;
+  trial.speed = kTrialSpeed;
+  trial.reduced = false;
+  const auto full = trial_cost(format_, some, trial);
+  if (!full) return fail(full.error());
+  trial.reduced = true;
+  const auto reduced = trial_cost(format_, some, trial);
+  if (!reduced) return fail(reduced.error());
+  settings_.coding.reduced = std::getenv("FBS_RED") ? std::atoi(std::getenv("FBS_RED")) : reduced_size_pays(*loss, usual, *full, *reduced);
+  return usual;
 }
 
 Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
