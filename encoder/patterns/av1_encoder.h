@@ -16,6 +16,8 @@ struct Av1Settings {
   /// Pictures that libaom may hold back to code a later one first; 0: each is coded at once, all at
   /// `quantiser`.
   int look_ahead = 0;
+  /// With look-ahead, how many steps below `quantiser` frames may go that others refer to; 0..63.
+  int boost = 0;
 };
 
 /// One AV1 sequence of which only the first frame is a key frame.

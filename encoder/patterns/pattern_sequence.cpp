@@ -11,6 +11,8 @@
 namespace fbs {
 namespace {
 
+// Pictures. 16 to 48 are within 1 % of each other, 9 loses 2 %, 5 loses 4 % of the bytes; each holds a
+// picture.
 constexpr int kLookAhead = 25;
 
 Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Picture> pictures,
@@ -20,7 +22,7 @@ Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Pict
     size.width = reduced_size(format.width);
     size.height = reduced_size(format.height);
   }
-  auto av1 = Av1Encoder::create(size, {settings.quantiser, settings.speed, kLookAhead});
+  auto av1 = Av1Encoder::create(size, {settings.quantiser, settings.speed, kLookAhead, settings.boost});
   if (!av1) return fail(av1.error());
   Av1Encoder::Frames out;
   const auto append = [&](Result<Av1Encoder::Frames> frames) -> Result<void> {
@@ -29,7 +31,7 @@ Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Pict
     return {};
   };
   for (const Picture& picture : pictures) {
-    auto more = append(av1->encode(settings.reduced ? downscaled(picture) : picture));
+    auto more = append(settings.reduced ? av1->encode(downscaled(picture)) : av1->encode(picture));
     if (!more) return fail(more.error());
   }
   if (auto rest = append(av1->finish()); !rest) return fail(rest.error());
