@@ -8,7 +8,7 @@
 #include "decoder/head/head_mesh.h"
 #include "decoder/head/mouth_interior.h"
 #include "decoder/raster/rasteriser.h"
-#include "decoder/raster/row_kernels.h"
+#include "decoder/raster/blend_weights.h"
 
 namespace fbs {
 namespace {
@@ -197,6 +197,15 @@ void copy(const ConstPlaneView& from, const PlaneView& to) {
   for (int y = 0; y < from.height; ++y) std::copy_n(from.row(y), from.width, to.row(y));
 }
 
+void add_scaled(const std::uint8_t* samples, std::int32_t weight, std::uint16_t* sum, int count) {
+  const auto w = static_cast<std::uint16_t>(weight);
+  for (int i = 0; i < count; ++i) sum[i] = static_cast<std::uint16_t>(sum[i] + samples[i] * w);
+}
+
+void round_sum(const std::uint16_t* sum, std::uint8_t* out, int count) {
+  for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(sum[i] >> kCoarseOneLog2);
+}
+
 /// The patterns as they are, blended as the ground is.
 void draw_base(const Drawing& d, std::span<const PlaneView> targets) {
   std::vector<std::size_t> used;
@@ -208,12 +217,12 @@ void draw_base(const Drawing& d, std::span<const PlaneView> targets) {
       copy(planes_of(d.pattern(used.front()).picture)[i], to);
       continue;
     }
-    std::vector<std::int32_t> sum(to.width);
+    std::vector<std::uint16_t> sum(to.width);
     for (int y = 0; y < to.height; ++y) {
-      std::fill(sum.begin(), sum.end(), kWeightOne / 2);
+      std::fill(sum.begin(), sum.end(), kCoarseOne / 2);
       for (const std::size_t s : used)
-        add_scaled_row(planes_of(d.pattern(s).picture)[i].row(y), d.blend.ground[s], sum.data(), to.width);
-      round_row(sum.data(), to.row(y), to.width);
+        add_scaled(planes_of(d.pattern(s).picture)[i].row(y), d.blend.ground[s] / kShareOne, sum.data(), to.width);
+      round_sum(sum.data(), to.row(y), to.width);
     }
   }
 }

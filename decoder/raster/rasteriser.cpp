@@ -2,141 +2,176 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <optional>
+#include <type_traits>
 
-#include "decoder/raster/row_kernels.h"
+#include "decoder/raster/blend_weights.h"
+#include "decoder/raster/finish_rows.h"
+#include "decoder/raster/row_block.h"
+#include "decoder/raster/texture_sampler.h"
 
 namespace fbs {
 namespace {
 
-/// Texture positions are 1/64 luma pixel in all planes, gradients 2^-16 sample.
-constexpr std::int64_t kHalfSample = 1 << 15;
-
 constexpr int kDepthBits = 16;  // depth keeps its unit
 
-/// Whether every sample that the triangle can ask for lies a whole sample inside the texture.
-bool reads_inside(const TextureSource& source, int position_bits) {
-  const ConstPlaneView& texture = source.planes.front();
-  const int margin = 2 << position_bits;
-  const int max_x = (texture.width << position_bits) - margin,
-            max_y = (texture.height << position_bits) - margin;
-  return std::all_of(source.corners.begin(), source.corners.end(), [&](glm::ivec2 p) {
-    return p.x >= margin && p.x <= max_x && p.y >= margin && p.y <= max_y;
-  });
-}
+/// Light and mouth interior on the samples of one source.
+class Finisher {
+ public:
+  Finisher(const TriangleSetup& setup, const Finish& finish) : finish_(finish), bits_(setup.position_bits()) {
+    if (finish.light != nullptr) {
+      offset_ = setup.gradient(finish.light->offset, 0);
+      gain_ = setup.gradient(finish.light->gain, 0);
+    }
+    if (finish.interior != nullptr) ramp_ = setup.gradient(finish.interior->ramp, 0);
+  }
 
-/// The samples of one source along runs of one triangle: everything that is linear over it but depth.
+  void finish(const RowBlock& block, std::size_t planes, BlockSamples& samples) const {
+    for (std::size_t i = 0; i < planes; ++i) {
+      std::array<std::uint8_t, kLaneCount> row;
+      store_lanes(samples[i], row.data());
+      if (finish_.light != nullptr && i == 0)
+        light_row(row.data(), along(offset_, block), along(gain_, block), block.count);
+      if (const InteriorMix* mix = finish_.interior)
+        mix_interior_row(row.data(), mix->colours[i], mix->opacity, along(ramp_, block), block.count);
+      samples[i] = load_lanes(row.data());
+    }
+  }
+
+ private:
+  [[nodiscard]] LinearRow along(const Gradient& g, const RowBlock& block) const {
+    return {g.at(block.at, bits_), g.dx};
+  }
+
+  const Finish& finish_;
+  int bits_;
+  Gradient offset_, gain_, ramp_;
+};
+
+/// The samples of one source: everything that is linear over the triangle but depth.
 class SourcePainter {
  public:
   SourcePainter(const TriangleSetup& setup, const TextureSource& source)
-      : setup_(&setup), source_(&source), finish_(&source.finish) {
-    const auto& c = source.corners;
-    u_ = setup.gradient({c[0].x, c[1].x, c[2].x}, setup.position_bits());
-    v_ = setup.gradient({c[0].y, c[1].y, c[2].y}, setup.position_bits());
-    inside_ = u_.exact() && v_.exact() && reads_inside(source, setup.position_bits());
-    if (finish_->light != nullptr) {
-      offset_ = setup.gradient(finish_->light->offset, 0);
-      gain_ = setup.gradient(finish_->light->gain, 0);
-    }
-    if (finish_->interior != nullptr) ramp_ = setup.gradient(finish_->interior->ramp, 0);
+      : sampler_(setup, source.planes, source.corners), planes_(source.planes.size()) {
+    if (source.finish.light != nullptr || source.finish.interior != nullptr) finisher_.emplace(setup, source.finish);
   }
 
-  void paint(std::size_t plane, int row, RowRun run, std::uint8_t* out) const {
-    const FromCorner at = setup_->from_corner(run.first, row);
-    const int bits = setup_->position_bits();
-    const auto along = [&](const Gradient& g) { return LinearRow{g.at(at, bits), g.dx}; };
-    TextureRow texture{along(u_), along(v_)};
-    texture.u.first -= kHalfSample;
-    texture.v.first -= kHalfSample;
-    if (inside_)
-      sample_row_inside(source_->planes[plane], texture, out, run.count());
-    else
-      sample_row_clamped(source_->planes[plane], texture, out, run.count());
-    if (finish_->light != nullptr && plane == 0)
-      light_row(out, along(offset_), along(gain_), run.count());
-    if (const InteriorMix* mix = finish_->interior)
-      mix_interior_row(out, mix->colours[plane], mix->opacity, along(ramp_), run.count());
+  [[nodiscard]] BlockSamples paint(const RowBlock& block) const {
+    BlockSamples samples = sampler_.sample(block);
+    if (finisher_) finisher_->finish(block, planes_, samples);
+    return samples;
   }
 
  private:
-  const TriangleSetup* setup_ = nullptr;
-  const TextureSource* source_ = nullptr;
-  const Finish* finish_ = nullptr;
-  Gradient u_, v_, offset_, gain_, ramp_;
-  bool inside_ = false;
+  TextureSampler sampler_;
+  std::size_t planes_;
+  std::optional<Finisher> finisher_;
 };
 
-/// Paints runs from one source straight into the target.
-class PlainPainter {
- public:
-  PlainPainter(const TriangleSetup& setup, const TextureSource& source, const RasterTarget& target)
-      : painter_(setup, source), target_(target) {}
+bool is_constant(const std::array<std::int32_t, 3>& v) {
+  return v[0] == v[1] && v[0] == v[2];
+}
 
-  void paint(int row, RowRun run) const {
-    for (std::size_t i = 0; i < target_.planes.size(); ++i)
-      painter_.paint(i, row, run, target_.planes[i].row(row) + run.first);
+/// One of each source of a triangle; memory that is not used is not touched.
+template <class T>
+class SourceArray {
+  static_assert(std::is_trivially_destructible_v<T>);
+
+ public:
+  SourceArray() {}  // NOLINT(modernize-use-equals-default): not even zeroed
+  template <class... Arguments>
+  void add(Arguments&&... arguments) {
+    std::construct_at(&items_[count_++].item, std::forward<Arguments>(arguments)...);
   }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return items_[i].item; }
 
  private:
-  SourcePainter painter_;
-  const RasterTarget& target_;
+  union Place {
+    Place() {}  // NOLINT(modernize-use-equals-default)
+    T item;
+  };
+  std::array<Place, kMaxTriangleSources> items_;
+  std::size_t count_ = 0;
 };
 
-/// Paints runs from several sources, blended. SPEC 11.6.
-class BlendPainter {
+/// Weights that are the same all over the triangle, 2^-8.
+class CoarseBlend {
  public:
-  BlendPainter(const TriangleSetup& setup, std::span<const TextureSource> sources, const RasterTarget& target)
-      : setup_(setup), count_(sources.size()), target_(target) {
-    assert(count_ <= kMaxTriangleSources);
-    for (std::size_t s = 0; s < count_; ++s) {
-      painters_[s].emplace(setup, sources[s]);
-      weights_[s] = setup.gradient(sources[s].weight, 0);
+  static bool serves(std::span<const TextureSource> sources) {
+    return std::all_of(sources.begin(), sources.end() - 1, [](const TextureSource& s) {
+      return is_constant(s.weight) && s.weight[0] % kCoarseStep == 0;
+    });
+  }
+
+  CoarseBlend(const TriangleSetup& setup, std::span<const TextureSource> sources) {
+    std::int32_t left = kCoarseOne;
+    for (const TextureSource& s : sources) {
+      const bool last = &s == &sources.back();
+      const std::int32_t weight = last ? left : std::clamp(s.weight[0] / kCoarseStep, 0, left);
+      left -= weight;
+      if (weight == 0) continue;
+      weights_[painters_.size()] = static_cast<std::uint16_t>(weight);
+      painters_.add(setup, s);
     }
   }
 
-  void paint(int row, RowRun run) const {
-    for (RowRun piece{run.first, run.first}; piece.first <= run.last; piece.first += kPiece) {
-      piece.last = std::min(run.last, piece.first + kPiece - 1);
-      paint_piece(row, piece);
+  [[nodiscard]] BlockSamples paint(const RowBlock& block) const {
+    BlockSamples sum{};
+    for (std::size_t s = 0; s < painters_.size(); ++s) {
+      const BlockSamples samples = painters_[s].paint(block);
+      for (std::size_t i = 0; i < kMaxPlanes; ++i) sum[i] += samples[i] * weights_[s];
     }
+    for (Lanes& lanes : sum) lanes = (lanes + kCoarseOne / 2) >> kCoarseOneLog2;
+    return sum;
   }
 
  private:
-  static constexpr int kPiece = 64;
+  SourceArray<SourcePainter> painters_;
+  std::array<std::uint16_t, kMaxTriangleSources> weights_;
+};
 
-  void paint_piece(int row, RowRun run) const {
-    const FromCorner at = setup_.from_corner(run.first, row);
-    const int n = run.count();
-    std::array<std::array<std::int16_t, kPiece>, kMaxTriangleSources> weight;
-    std::array<std::int16_t, kPiece> left;
-    left.fill(kWeightOne);
-    for (std::size_t s = 0; s + 1 < count_; ++s) {
-      const Gradient& g = *weights_[s];
-      weight_row({g.at(at, setup_.position_bits()), g.dx}, left.data(), weight[s].data(), n);
-    }
-    weight[count_ - 1] = left;
-    std::array<std::uint8_t, kPiece> samples;
-    std::array<std::int32_t, kPiece> sum;
-    for (std::size_t i = 0; i < target_.planes.size(); ++i) {
-      std::fill_n(sum.begin(), n, kWeightOne / 2);
-      for (std::size_t s = 0; s < count_; ++s) {
-        painters_[s]->paint(i, row, run, samples.data());
-        add_weighted_row(samples.data(), weight[s].data(), sum.data(), n);
-      }
-      std::uint8_t* out = target_.planes[i].row(row) + run.first;
-      round_row(sum.data(), out, n);
+/// Weights that are linear over the triangle. SPEC 11.6.
+class LinearBlend {
+ public:
+  LinearBlend(const TriangleSetup& setup, std::span<const TextureSource> sources) {
+    for (const TextureSource& s : sources) {
+      painters_.add(setup, s);
+      if (&s != &sources.back()) weights_.add(setup, s.weight);
     }
   }
 
-  const TriangleSetup& setup_;
-  std::size_t count_;
-  const RasterTarget& target_;
-  std::array<std::optional<SourcePainter>, kMaxTriangleSources> painters_;
-  std::array<std::optional<Gradient>, kMaxTriangleSources> weights_;
+  [[nodiscard]] BlockSamples paint(const RowBlock& block) const {
+    std::array<WeightedSum, kMaxPlanes> sum;
+    Lanes left = Lanes{} + kWeightOne;
+    for (std::size_t s = 0; s < painters_.size(); ++s) {
+      const BlockSamples samples = painters_[s].paint(block);
+      const Lanes weight = s < weights_.size() ? weights_[s].take(block, left) : left;
+      for (std::size_t i = 0; i < kMaxPlanes; ++i) sum[i].add(samples[i], weight);
+    }
+    BlockSamples out;
+    for (std::size_t i = 0; i < kMaxPlanes; ++i) out[i] = sum[i].samples();
+    return out;
+  }
+
+ private:
+  SourceArray<SourcePainter> painters_;
+  SourceArray<LinearWeight> weights_;
 };
 
 template <class Painter>
-void for_each_run(const ScreenTriangle& t, const TriangleSetup& setup, const RasterTarget& target,
+void paint_run(const Painter& painter, const TriangleSetup& setup, int row, RowRun run, const RasterTarget& target) {
+  for (int first = run.first; first <= run.last; first += kLaneCount) {
+    const RowBlock block{row, first, std::min(run.last - first + 1, kLaneCount), setup.from_corner(first, row)};
+    const BlockSamples samples = painter.paint(block);
+    for (std::size_t i = 0; i < target.planes.size(); ++i)
+      store_lanes(samples[i], target.planes[i].row(row) + first, block.count);
+  }
+}
+
+template <class Painter>
+void paint_rows(const ScreenTriangle& t, const TriangleSetup& setup, const RasterTarget& target,
                   int first_row, int last_row, const Painter& painter) {
   Gradient z;
   if (target.depth != nullptr) z = setup.gradient({t[0].depth, t[1].depth, t[2].depth}, kDepthBits);
@@ -144,11 +179,11 @@ void for_each_run(const ScreenTriangle& t, const TriangleSetup& setup, const Ras
     const RowRun run = covered_run(setup, row, target.area);
     if (run.empty()) continue;
     if (target.depth == nullptr)
-      painter.paint(row, run);
+      paint_run(painter, setup, row, run, target);
     else
       for_each_nearer(target.depth->row(row), run,
                       {z.at(setup.from_corner(run.first, row), setup.position_bits()), z.dx},
-                      [&](RowRun nearer) { painter.paint(row, nearer); });
+                      [&](RowRun nearer) { paint_run(painter, setup, row, nearer, target); });
   }
 }
 
@@ -156,14 +191,17 @@ void for_each_run(const ScreenTriangle& t, const TriangleSetup& setup, const Ras
 
 void draw_triangle(const ScreenTriangle& t, std::span<const TextureSource> sources,
                    const RasterTarget& target) {
+  assert(!sources.empty() && sources.size() <= kMaxTriangleSources);
   const TriangleSetup setup(t, target.scale);
   const int first_row = std::max(target.area.y0, setup.first_row()),
             last_row = std::min(target.area.y1 - 1, setup.last_row());
   if (!setup.faces_viewer() || first_row > last_row) return;
   if (sources.size() == 1)
-    for_each_run(t, setup, target, first_row, last_row, PlainPainter(setup, sources.front(), target));
+    paint_rows(t, setup, target, first_row, last_row, SourcePainter(setup, sources.front()));
+  else if (CoarseBlend::serves(sources))
+    paint_rows(t, setup, target, first_row, last_row, CoarseBlend(setup, sources));
   else
-    for_each_run(t, setup, target, first_row, last_row, BlendPainter(setup, sources, target));
+    paint_rows(t, setup, target, first_row, last_row, LinearBlend(setup, sources));
 }
 
 }  // namespace fbs

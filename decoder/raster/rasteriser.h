@@ -9,7 +9,7 @@
 
 #include "common/picture.h"
 #include "common/state.h"
-#include "decoder/raster/row_kernels.h"
+#include "decoder/raster/blend_weights.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/raster/triangle_setup.h"
 

@@ -75,13 +75,12 @@ class TriangleSetup {
   [[nodiscard]] const std::array<Edge, 3>& edges() const { return edges_; }
   [[nodiscard]] int position_bits() const { return position_bits_; }
   [[nodiscard]] FromCorner from_corner(int column, int row) const {
-    const std::int64_t half = std::int64_t{1} << (position_bits_ - 1);
-    return {(std::int64_t{column} << position_bits_) + half - corner_.x,
-            (std::int64_t{row} << position_bits_) + half - corner_.y};
+    return {(std::int64_t{column} << position_bits_) + first_sample_.x,
+            (std::int64_t{row} << position_bits_) + first_sample_.y};
   }
 
  private:
-  glm::ivec2 corner_;               // corner 0
+  FromCorner first_sample_;         // of sample 0 of row 0
   std::int64_t ax_, ay_, bx_, by_;  // from corner 0 to corners 1 and 2
   std::int64_t area_;               // twice the triangle's, 1/64 pixel squared
   int position_bits_;
@@ -102,8 +101,7 @@ inline Edge::Edge(glm::ivec2 from, glm::ivec2 to, int position_bits) {
 }
 
 inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
-    : corner_(t[0].at),
-      ax_(t[1].at.x - t[0].at.x),
+    : ax_(t[1].at.x - t[0].at.x),
       ay_(t[1].at.y - t[0].at.y),
       bx_(t[2].at.x - t[0].at.x),
       by_(t[2].at.y - t[0].at.y),
@@ -112,6 +110,7 @@ inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
       edges_{Edge(t[0].at, t[1].at, position_bits_), Edge(t[1].at, t[2].at, position_bits_),
              Edge(t[2].at, t[0].at, position_bits_)} {
   const int half = 1 << (position_bits_ - 1);
+  first_sample_ = {std::int64_t{half} - t[0].at.x, std::int64_t{half} - t[0].at.y};
   const auto [low, high] = std::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
   first_row_ = (low - half) >> position_bits_;
   last_row_ = (high - half) >> position_bits_;

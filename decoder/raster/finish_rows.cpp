@@ -1,4 +1,4 @@
-#include "decoder/raster/row_kernels.h"
+#include "decoder/raster/finish_rows.h"
 
 #include <algorithm>
 
@@ -6,17 +6,6 @@ namespace fbs {
 namespace {
 
 constexpr std::int64_t kMaxLightRow = std::int64_t{kMaxLight} << kLightOneLog2;
-
-std::uint8_t sample_clamped(const ConstPlaneView& p, std::int64_t u, std::int64_t v) {
-  u = std::clamp<std::int64_t>(u, 0, std::int64_t{p.width - 1} << 16);
-  v = std::clamp<std::int64_t>(v, 0, std::int64_t{p.height - 1} << 16);
-  const int x0 = static_cast<int>(u >> 16), y0 = static_cast<int>(v >> 16);
-  const int x1 = std::min(x0 + 1, p.width - 1), y1 = std::min(y0 + 1, p.height - 1);
-  const std::uint8_t* top = p.row(y0);
-  const std::uint8_t* bottom = p.row(y1);
-  return bilinear(top[x0], top[x1], bottom[x0], bottom[x1], static_cast<std::int32_t>((u >> 8) & 255),
-                  static_cast<std::int32_t>((v >> 8) & 255));
-}
 
 /// @param offset, gain  2^-8 of 1/16 grey level
 std::uint8_t lit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
@@ -31,11 +20,6 @@ bool within_max_light(const LinearRow& row, int count) {
 }
 
 }  // namespace
-
-void sample_row_clamped(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count) {
-  std::int64_t u = at.u.first, v = at.v.first;
-  for (int i = 0; i < count; ++i, u += at.u.step, v += at.v.step) out[i] = sample_clamped(texture, u, v);
-}
 
 void light_row_clamped(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count) {
   const auto limited = [](std::int64_t v) {
@@ -66,25 +50,6 @@ void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInt
     const std::int32_t colour = (colours[upper] * (128 - share) + colours[upper + 1] * share + 64) >> 7;
     samples[i] = static_cast<std::uint8_t>((samples[i] * (256 - opacity) + colour * opacity + 128) >> 8);
   }
-}
-
-void weight_row(const LinearRow& weight, std::int16_t* left, std::int16_t* out, int count) {
-  for (int i = 0; i < count; ++i) {
-    out[i] = static_cast<std::int16_t>(std::clamp<std::int64_t>(weight.at(i) >> 16, 0, left[i]));
-    left[i] = static_cast<std::int16_t>(left[i] - out[i]);
-  }
-}
-
-void add_weighted_row(const std::uint8_t* samples, const std::int16_t* weights, std::int32_t* sum, int count) {
-  for (int i = 0; i < count; ++i) sum[i] += samples[i] * weights[i];
-}
-
-void add_scaled_row(const std::uint8_t* samples, std::int32_t weight, std::int32_t* sum, int count) {
-  for (int i = 0; i < count; ++i) sum[i] += samples[i] * weight;
-}
-
-void round_row(const std::int32_t* sum, std::uint8_t* out, int count) {
-  for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(sum[i] >> kWeightOneLog2);
 }
 
 }  // namespace fbs

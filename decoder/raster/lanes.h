@@ -1,0 +1,57 @@
+// Eight samples at once: vectors of GCC and Clang, which need no library and exist on every machine's baseline
+// (SSE2, NEON, WebAssembly). Integers only.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace fbs {
+
+inline constexpr int kLaneCount = 8;
+
+/// One sample, or a share of one, in each lane. Arithmetic is modulo 2^16.
+using Lanes = std::uint16_t __attribute__((vector_size(2 * kLaneCount)));
+
+/// Half as many numbers of twice the size.
+using WideLanes = std::uint32_t __attribute__((vector_size(2 * kLaneCount)));
+
+static_assert(std::endian::native == std::endian::little);  // for the order of bytes in lanes
+
+/// Eight samples.
+[[nodiscard]] inline Lanes load_lanes(const std::uint8_t* samples) {
+  using Words = std::uint64_t __attribute__((vector_size(2 * kLaneCount)));
+  using Bytes = std::uint8_t __attribute__((vector_size(2 * kLaneCount)));
+  std::uint64_t word = 0;
+  std::memcpy(&word, samples, sizeof word);
+  const auto bytes = reinterpret_cast<Bytes>(Words{word, 0});
+  // One instruction, which compilers do not make of __builtin_convertvector().
+  return reinterpret_cast<Lanes>(
+      __builtin_shufflevector(bytes, Bytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+}
+
+/// Stores lanes, whose values are 0..255, as samples.
+/// @param count  1..kLaneCount: of the first ones
+inline void store_lanes(Lanes lanes, std::uint8_t* samples, int count = kLaneCount) {
+  using HalfBytes = std::uint8_t __attribute__((vector_size(kLaneCount)));
+  const HalfBytes bytes = __builtin_convertvector(lanes, HalfBytes);
+  if (count == kLaneCount) {
+    std::memcpy(samples, &bytes, kLaneCount);
+    return;
+  }
+  auto word = std::bit_cast<std::uint64_t>(bytes);
+  for (int part = kLaneCount / 2; part > 0; part /= 2) {
+    if ((count & part) == 0) continue;
+    std::memcpy(samples, &word, part);
+    samples += part;
+    word >>= 8 * part;
+  }
+}
+
+/// 0, step, 2 * step, ... modulo 2^16.
+[[nodiscard]] inline Lanes multiples(std::int64_t step) {
+  constexpr Lanes kNumbers = {0, 1, 2, 3, 4, 5, 6, 7};
+  return kNumbers * static_cast<std::uint16_t>(step);
+}
+
+}  // namespace fbs
