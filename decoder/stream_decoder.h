@@ -81,6 +81,8 @@ class StreamDecoder {
  private:
   Result<void> take(const Packet& packet);
   Result<void> take_setup(const Packet& packet);
+  /// A packet of the scene whose loss others depend on: pattern, motion or blend.
+  Result<void> take_dependent(const Packet& packet);
   Result<void> take_pattern(const Packet& packet);
   Result<void> take_motion(const Packet& packet);
   Result<void> take_blend(const Packet& packet);
@@ -105,6 +107,7 @@ class StreamDecoder {
 
   std::optional<BlendDecoder> blend_;
   Timeline timeline_;  ///< of the scene
+  bool lost_ = false;  ///< a packet of the scene, after its first pattern
   State state_;
   bool announced_picture_ = false;  ///< state_ is one of scene_
   std::uint32_t duration_ = 0;
