@@ -1,30 +1,39 @@
 #include "decoder/upscale.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <vector>
 
 namespace fbs {
 namespace {
 
-// Catmull-Rom at a quarter of a sample: gains of the reduced samples from the one before the nearest
-// outwards. An odd sample reads them left to right, an even one is its mirror image.
-constexpr std::array<int, 4> kTaps{-9, 111, 29, -3};
-constexpr int kTapsLog2 = 7;  // they add up to 128
+constexpr int kReach = 3;  // samples that a filter reads beyond the nearest one, at most
 
-constexpr int kBefore = 1;  // taps before the nearest sample
-constexpr int kReach = 2;   // samples that a filter reaches beyond the nearest one, on either side
+// Sums of one direction are kept of samples around zero, where they fit 16 bits.
+constexpr int kMiddle = 128;
 
-/// Filters the samples around `at` (its nearest reduced sample) for the even and the odd sample there.
-template <class T>
-int even_sample(const T* at, std::ptrdiff_t step) {
-  int sum = 0;
-  for (std::ptrdiff_t k = 0; k < std::ssize(kTaps); ++k) sum += kTaps[k] * at[(kBefore - k) * step];
-  return sum;
+/// Sums of a column's reduced samples for one full row, for each column.
+/// @param to  reduced.width sums, with room for kReach before and after, which are filled from the border
+void filter_columns(const Plane& reduced, int y, std::int16_t* to) {
+  const int nearest = y / 2, step = y % 2 == 0 ? -1 : 1;
+  std::array<const std::uint8_t*, kUpscaleTaps.size()> rows;
+  for (int k = 0; k < std::ssize(rows); ++k)
+    rows[k] = reduced.row(std::clamp(nearest + step * (k - kUpscaleNearestTap), 0, reduced.height - 1));
+  for (int x = 0; x < reduced.width; ++x) {
+    int sum = -(kMiddle << kUpscaleTapsLog2);
+    for (std::size_t k = 0; k < rows.size(); ++k) sum += kUpscaleTaps[k] * rows[k][x];
+    to[x] = static_cast<std::int16_t>(sum);
+  }
+  std::fill_n(to - kReach, kReach, to[0]);
+  std::fill_n(to + reduced.width, kReach, to[reduced.width - 1]);
 }
-template <class T>
-int odd_sample(const T* at, std::ptrdiff_t step) {
-  return even_sample(at, -step);
+
+std::uint8_t sample_of(const std::int16_t* nearest, std::ptrdiff_t step) {
+  constexpr int kShift = 2 * kUpscaleTapsLog2;
+  int sum = (kMiddle << kShift) + (1 << (kShift - 1));
+  for (std::ptrdiff_t k = 0; k < std::ssize(kUpscaleTaps); ++k)
+    sum += kUpscaleTaps[k] * nearest[step * (k - kUpscaleNearestTap)];
+  return static_cast<std::uint8_t>(std::clamp(sum >> kShift, 0, 255));
 }
 
 }  // namespace
@@ -32,29 +41,16 @@ int odd_sample(const T* at, std::ptrdiff_t step) {
 Plane upscaled(const Plane& reduced, int width, int height) {
   assert(reduced.width == (width + 1) / 2 && reduced.height == (height + 1) / 2);
   Plane out(width, height);
-  // Sums of each reduced row, at full width and scaled by 2^kTapsLog2.
-  const std::ptrdiff_t stride = width + (width & 1);
-  std::vector<std::int32_t> wide(static_cast<std::size_t>(stride) * (reduced.height + 2 * kReach));
-  std::vector<std::uint8_t> padded(static_cast<std::size_t>(reduced.width) + 2 * kReach);
-  for (int y = -kReach; y < reduced.height + kReach; ++y) {
-    const std::uint8_t* row = reduced.row(std::clamp(y, 0, reduced.height - 1));
-    std::fill_n(padded.begin(), kReach, row[0]);
-    std::copy_n(row, reduced.width, padded.begin() + kReach);
-    std::fill_n(padded.end() - kReach, kReach, row[reduced.width - 1]);
-    std::int32_t* to = wide.data() + (y + kReach) * stride;
-    for (int x = 0; x < reduced.width; ++x) {
-      to[2 * x] = even_sample(&padded[x + kReach], 1);
-      to[2 * x + 1] = odd_sample(&padded[x + kReach], 1);
-    }
-  }
-  constexpr int kRound = 1 << (2 * kTapsLog2 - 1);
+  std::vector<std::int16_t> sums(static_cast<std::size_t>(reduced.width) + 2 * kReach);
+  const std::int16_t* const nearest = sums.data() + kReach;
   for (int y = 0; y < height; ++y) {
-    const std::int32_t* from = wide.data() + (y / 2 + kReach) * stride;
-    const std::ptrdiff_t down = y % 2 == 0 ? stride : -stride;
+    filter_columns(reduced, y, sums.data() + kReach);
     std::uint8_t* to = out.row(y);
-    for (int x = 0; x < width; ++x)
-      to[x] = static_cast<std::uint8_t>(
-          std::clamp((even_sample(from + x, down) + kRound) >> (2 * kTapsLog2), 0, 255));
+    for (int i = 0; i < width / 2; ++i) {
+      to[2 * i] = sample_of(nearest + i, -1);
+      to[2 * i + 1] = sample_of(nearest + i, 1);
+    }
+    if (width % 2 == 1) to[width - 1] = sample_of(nearest + width / 2, -1);
   }
   return out;
 }

@@ -86,7 +86,7 @@ TEST(PatternCoding, RangeAndMatrixChangeNoSample) {
 
 TEST(PatternCoding, AnotherSizeThanAnnouncedIsInvalid) {
   const auto av1 = coded(scenery(128, 96));
-  for (const auto& [w, h] : {std::pair{127, 96}, {128, 95}, {64, 64}, {256, 192}}) {
+  for (const auto& [w, h] : {std::pair{127, 96}, {128, 95}, {64, 64}, {258, 192}, {256, 190}}) {
     const auto refused = PatternDecoder::create(w, h)->decode(av1);
     ASSERT_FALSE(refused) << w << 'x' << h;
     EXPECT_EQ(refused.error().code, ErrorCode::kInvalidStream);
