@@ -32,14 +32,16 @@ std::vector<SequencePattern> sequence(const std::vector<Picture>& pictures, cons
 /// Writes a scene of several patterns by hand, on the motion of a scene of one.
 class HandMade {
  public:
-  explicit HandMade(const std::vector<Picture>& pictures)
-      : motion_(pieces_of(encoded(pictures, one_pattern(8)))) {
+  /// @param one    a scene of one pattern, whose motion is taken
+  /// @param slots  of the store
+  HandMade(const Bytes& one, std::int32_t slots) : motion_(pieces_of(one)) {
     setup_ = must(decode_setup(motion_[place_of(motion_, PacketType::kSetup)].payload));
-    setup_.patterns = kSlots;
+    setup_.patterns = slots;
     first_ = must(decode_pattern(motion_[place_of(motion_, PacketType::kPattern)].payload, setup_));
     add(PacketType::kSetup, must(encode_setup(setup_)));
-    for (const PacketType type : {PacketType::kGeometry, PacketType::kSurround})
-      add(type, motion_[place_of(motion_, type)].payload);
+    for (const Piece& piece : motion_)
+      if (piece.type == PacketType::kGeometry || piece.type == PacketType::kSurround)
+        add(piece.type, piece.payload);
   }
 
   void pattern(std::int32_t slot, const SequencePattern& coded) {
@@ -93,7 +95,7 @@ std::vector<Picture> turning_pictures() {
 /// and after all patterns; blend packets of other sizes than the motion's.
 std::vector<Piece> blends() {
   const auto pictures = turning_pictures();
-  HandMade made(pictures);
+  HandMade made(encoded(pictures, one_pattern(8)), kSlots);
   const auto full = sequence(pictures, made.setup().format, {0, 5, 9, 14, 20}, false);
   const auto reduced = sequence(pictures, made.setup().format, {26, 30, 18}, true);
   made.pattern(0, full[0]);
@@ -115,10 +117,51 @@ std::vector<Piece> blends() {
   return made.pieces();
 }
 
+/// A store of one slot, whose pattern is replaced.
+std::vector<Piece> replaced() {
+  const auto pictures = turning_pictures();
+  HandMade made(encoded(pictures, one_pattern(8)), 1);
+  const auto coded = sequence(pictures, made.setup().format, {0, 20}, false);
+  made.pattern(0, coded[0]);
+  made.motion(4);
+  made.pattern(0, coded[1]);
+  made.motion(2);
+  return made.pieces();
+}
+
+/// Pictures without a face: a bright bar that wanders over a dark ground.
+std::vector<Picture> bars(std::size_t count) {
+  std::vector<Picture> out(count, Picture(64, 64));
+  for (std::size_t i = 0; i < count; ++i)
+    for (int y = 0; y < 64; ++y) std::fill_n(out[i].y.row(y) + i * 48 / count, 16, std::uint8_t{200});
+  return out;
+}
+
+constexpr int kBars = 320, kBarGroup = 100;
+
+/// A scene without geometry; a pattern of the oldest picture whose state is kept.
+/// @param last  picture of the last pattern
+std::vector<Piece> cross_fade(std::size_t last) {
+  EncoderSettings anything = one_pattern(kBarGroup);
+  anything.allow_no_face = true;
+  const auto pictures = bars(kBars);
+  HandMade made(encoded(std::vector<Picture>(kBars, pictures[0]), anything), kSlots);
+  const auto coded = sequence(pictures, made.setup().format, {0, 150}, false);
+  made.pattern(0, coded[0]);
+  made.motion(4);  // 1 + 3 * kBarGroup
+  made.pattern(1, coded[1]);
+  made.blend(200, 0, true);
+  made.blend(100, 5);
+  made.pattern(2, sequence(pictures, made.setup().format, {last}, true)[0]);
+  made.motion(1);
+  made.blend(20, 0);
+  return made.pieces();
+}
+
 /// Nine pictures have motion, ten a blend.
 Bytes blend_ahead() {
   const auto pictures = turning_pictures();
-  HandMade made(pictures);
+  HandMade made(encoded(pictures, one_pattern(8)), kSlots);
   made.pattern(0, sequence(pictures, made.setup().format, {0}, false)[0]);
   made.motion(2);
   made.blend(2, 0, true);
@@ -186,6 +229,8 @@ void add_blends(Folder& folder) {
   require_hidden_frames(made);
   folder.add("patterns.fbs", joined(own), 40);
   folder.add("blends.fbs", joined(made), kPictures);
+  folder.add("replaced.fbs", joined(replaced()), kPictures);
+  folder.add("cross_fade.fbs", joined(cross_fade(300 - kKeptPictures)), kBars);
 }
 
 void add_broken_blends(Folder& folder, const Bytes& talk) {
@@ -202,6 +247,7 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   unknown_mode[place_of(made, PacketType::kBlend)].payload = blend_of_unknown_mode();
   invalid("blend_mode.fbs", joined(unknown_mode), 0);
 
+  invalid("old_picture.fbs", joined(cross_fade(300 - kKeptPictures - 1)), 300);
   invalid("far_picture.fbs", with_pattern(made, 2, [](PatternSyntax& p) { p.picture = kPictures - 1; }), 2);
   folder.add("far_slot.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = kSlots; }), 2,
              "kTooLarge");
