@@ -14,7 +14,7 @@ constexpr std::size_t kLookAhead = 5;  // bytes of type and longest length
 
 bool is_known(std::uint8_t type) {
   return type >= static_cast<std::uint8_t>(PacketType::kSetup) &&
-         type <= static_cast<std::uint8_t>(PacketType::kEnd);
+         type <= static_cast<std::uint8_t>(PacketType::kBlend);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ inline constexpr int kFormatVersion = 4;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;
-inline constexpr int kMaxPatterns = 64;        ///< patterns that a decoder keeps
+inline constexpr int kMaxPatterns = 64;                             ///< patterns that a decoder keeps
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< whose motion has arrived but not their blend
-inline constexpr int kKeptPictures = 256;         ///< displayed pictures whose states a pattern may still have
+inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose states a pattern may still have
 inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
@@ -84,9 +84,9 @@ struct SurroundMap {
 
 /// One pattern: a coded picture, and the picture of the scene that it shows.
 struct PatternSyntax {
-  std::int32_t slot = 0;     ///< place in the decoder's store, 0..patterns of the setup - 1
-  std::int32_t picture = 0;  ///< number of the picture in the scene, whose state is the seen state
-  CodedState state{};        ///< of picture 0 only, which is coded before all motion
+  std::int32_t slot = 0;          ///< place in the decoder's store, 0..patterns of the setup - 1
+  std::int32_t picture = 0;       ///< number of the picture in the scene, whose state is the seen state
+  CodedState state{};             ///< of picture 0 only, which is coded before all motion
   std::vector<std::uint8_t> av1;  ///< one coded AV1 frame (low-overhead OBU format)
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
@@ -106,7 +106,7 @@ using Track = std::vector<Knot>;
 struct MotionGroup {
   bool key = false;     ///< coded without reference to earlier groups
   CodedState anchor{};  ///< state before the first picture: of the last picture of the group before, in a key
-                        ///< group the seen state of pattern 0. Not coded, since both sides know it
+                        ///< group the seen state of the first pattern. Not coded, since both sides know it
   std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
   /// Of each part that is sent: at least one knot, the last in the last picture; of others: none.
   std::array<Track, kPartCount> tracks;

@@ -37,8 +37,8 @@ inline constexpr int kFaceMiddle = kUnitsPerEyeDistance / 2;
 enum MouthInteriorIndex : std::uint8_t { kInteriorUpper, kInteriorMiddle, kInteriorLower };
 inline constexpr int kInteriorCount = 3;
 
-/// Indices into State::body and State::ground: a similarity relative to pattern 0, in 1/64 pixel. Scale and
-/// rotation are given as the displacement of a point one eye distance from the head's origin.
+/// Indices into State::body and State::ground: a similarity relative to the rest state, in 1/64 pixel. Scale
+/// and rotation are given as the displacement of a point one eye distance from the head's origin.
 enum SimilarityIndex : std::uint8_t { kDisplacementX, kDisplacementY, kSimilarityScale, kSimilarityRotation };
 inline constexpr int kSimilarityCount = 4;
 

@@ -24,7 +24,7 @@ struct Pattern {
 /// All that pictures share until the next setup packet.
 struct Scene {
   Setup setup;
-  std::optional<SceneGeometry> geometry;  ///< absent: pattern 0 is shown as it is
+  std::optional<SceneGeometry> geometry;  ///< absent: patterns are shown as they are
   std::vector<Pattern> patterns;          ///< at least one once pictures are drawn
 
   /// Replaces the geometry; texture meshes of the patterns follow.

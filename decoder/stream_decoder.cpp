@@ -120,18 +120,27 @@ Result<void> StreamDecoder::take(const Packet& packet) {
       surround_ = std::move(*surround);
       return {};
     }
-    case PacketType::kPattern:
-      return take_pattern(packet);
-    case PacketType::kBlend:
-      return take_blend(packet);
-    default:
-      return take_motion(packet);
+    default: {
+      auto taken = take_dependent(packet);
+      if (!taken) lose();
+      return taken;
+    }
   }
 }
 
 void StreamDecoder::lose() {
-  if (motion_) motion_->lose();
-  if (blend_) blend_->lose();
+  if (scene_.patterns.empty()) return;
+  motion_->lose();
+  lost_ = true;
+}
+
+Result<void> StreamDecoder::take_dependent(const Packet& packet) {
+  // SPEC 6: numbers of pictures, and frames that patterns refer to, are unknown after a loss.
+  if (lost_ && (packet.type == PacketType::kPattern || scene_.setup.patterns > 1))
+    return fail(ErrorCode::kInvalidStream, "a packet depends on a missing one", packet.offset);
+  if (packet.type == PacketType::kPattern) return take_pattern(packet);
+  if (packet.type == PacketType::kBlend) return take_blend(packet);
+  return take_motion(packet);
 }
 
 Result<void> StreamDecoder::take_setup(const Packet& packet) {
@@ -146,6 +155,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   motion_.reset();
   blend_.reset();
   timeline_ = {};
+  lost_ = false;
   bit_counter_.reset();
   geometry_.reset();
   surround_.reset();
@@ -204,7 +214,8 @@ Result<void> StreamDecoder::take_motion(const Packet& packet) {
 }
 
 Result<void> StreamDecoder::take_blend(const Packet& packet) {
-  if (!blend_) return fail(ErrorCode::kInvalidStream, "a blend packet where nothing is blended", packet.offset);
+  if (!blend_)
+    return fail(ErrorCode::kInvalidStream, "a blend packet where nothing is blended", packet.offset);
   auto group = blend_->decode(packet.payload);
   if (!group) return at(packet, group.error());
   if (auto released = timeline_.release(group->modes); !released) return at(packet, released.error());

@@ -24,8 +24,8 @@ struct ByteCount {
   std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
   std::uint64_t geometry = 0;  ///< geometry and surround packets
   std::uint64_t patterns = 0;
-  std::uint64_t motion = 0;    ///< motion and blend packets
-  std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and skipped bytes
+  std::uint64_t motion = 0;  ///< motion and blend packets
+  std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
 
 enum class DecodeStatus : std::uint8_t {
@@ -81,6 +81,8 @@ class StreamDecoder {
  private:
   Result<void> take(const Packet& packet);
   Result<void> take_setup(const Packet& packet);
+  /// A packet of the scene whose loss others depend on: pattern, motion or blend.
+  Result<void> take_dependent(const Packet& packet);
   Result<void> take_pattern(const Packet& packet);
   Result<void> take_motion(const Packet& packet);
   Result<void> take_blend(const Packet& packet);
@@ -105,6 +107,7 @@ class StreamDecoder {
 
   std::optional<BlendDecoder> blend_;
   Timeline timeline_;  ///< of the scene
+  bool lost_ = false;  ///< a packet of the scene, after its first pattern
   State state_;
   bool announced_picture_ = false;  ///< state_ is one of scene_
   std::uint32_t duration_ = 0;

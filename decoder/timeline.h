@@ -21,7 +21,8 @@ class Timeline {
   };
 
   /// The states of the next pictures, which get their numbers.
-  /// @return kTooLarge when more than kMaxWaiting pictures would wait
+  /// @return kTooLarge when more than kMaxWaitingPictures would wait, or their numbers exceed
+  /// kMaxPictureNumber
   [[nodiscard]] Result<void> add(std::span<const State> states, std::span<const std::uint32_t> durations);
 
   /// The next pictures that are not released may be displayed, blended as said.
@@ -38,10 +39,10 @@ class Timeline {
   [[nodiscard]] const State* find(std::int32_t picture) const;
 
  private:
-  std::deque<Entry> entries_;   // pictures first_, first_ + 1, ...
-  std::int32_t first_ = 0;      // number of the oldest picture that is kept
-  std::int32_t next_ = 0;       // to be displayed
-  std::int32_t released_ = 0;   // pictures below this may be displayed
+  std::deque<Entry> entries_;  // pictures first_, first_ + 1, ...
+  std::int32_t first_ = 0;     // number of the oldest picture that is kept
+  std::int32_t next_ = 0;      // to be displayed
+  std::int32_t released_ = 0;  // pictures below this may be displayed
 };
 
 }  // namespace fbs

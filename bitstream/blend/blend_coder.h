@@ -33,9 +33,6 @@ class BlendDecoder {
   /// @return kTruncated, kInvalidStream
   [[nodiscard]] Result<BlendGroup> decode(std::span<const std::uint8_t> payload);
 
-  /// A packet was lost: only a key group can be read next.
-  void lose() { needs_key_ = true; }
-
  private:
   BlendMemory memory_;
   bool needs_key_ = true;

@@ -16,7 +16,7 @@ using PartBitsX256 = std::array<std::uint64_t, kPartCount + 1>;
 class MotionBitCounter {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  /// @param seen   seen state of pattern 0: the anchor of key groups
+  /// @param seen   seen state of the first pattern: the anchor of key groups
   MotionBitCounter(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
 
   /// Counts the next group.

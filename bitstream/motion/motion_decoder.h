@@ -13,7 +13,7 @@ namespace fbs {
 class MotionDecoder {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  /// @param seen   seen state of pattern 0: the anchor of key groups
+  /// @param seen   seen state of the first pattern: the anchor of key groups
   MotionDecoder(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
 
   /// Reads the next group. After an error only a key group can be read.

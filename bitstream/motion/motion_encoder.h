@@ -14,7 +14,7 @@ namespace fbs {
 class MotionEncoder {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  /// @param seen   seen state of pattern 0: the anchor of key groups
+  /// @param seen   seen state of the first pattern: the anchor of key groups
   MotionEncoder(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
 
   /// Codes the next group.

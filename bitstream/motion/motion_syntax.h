@@ -28,7 +28,7 @@ struct MotionMemory {
 /// all are equal after the same groups. Plain data: a copy continues independently.
 struct MotionReference {
   /// @param setup  of the scene; must satisfy check_setup (assert)
-  /// @param seen_state  of pattern 0
+  /// @param seen_state  of the first pattern
   MotionReference(const Setup& setup, const CodedState& seen_state);
 
   /// The state before the first picture of the next group. SPEC 5.2.
@@ -39,7 +39,7 @@ struct MotionReference {
 
   CodedLimits limits;
   std::uint32_t nominal_duration;  ///< 1/90000 s
-  CodedState seen;                 ///< of pattern 0
+  CodedState seen;                 ///< of the first pattern
   CodedState last;                 ///< of the last picture
   bool needs_key = true;           ///< only a key group can follow
   MotionMemory memory;

@@ -12,7 +12,7 @@ std::vector<std::uint8_t> encode_end(const End& end) {
 
 Result<End> decode_end(std::span<const std::uint8_t> payload) {
   ByteReader reader(payload);
-  const End end{reader.varint()};  // SPEC 4.6
+  const End end{reader.varint()};  // SPEC 4.7
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "end packet ends early");
   if (reader.malformed()) return fail(ErrorCode::kInvalidStream, "end packet is damaged");
   return end;

@@ -1,4 +1,4 @@
-// The end packet of a complete stream. SPEC 4.6.
+// The end packet of a complete stream. SPEC 4.7.
 #pragma once
 
 #include <cstdint>

@@ -57,7 +57,9 @@ Result<PatternSyntax> decode_pattern(std::span<const std::uint8_t> payload, cons
   if (reader.malformed()) return fail(ErrorCode::kInvalidStream, "pattern packet is damaged");
   if (slot >= static_cast<std::uint64_t>(setup.patterns))
     return fail(ErrorCode::kTooLarge, "pattern's slot is out of range");
-  if (place != 0 && (number == 0 || number > kMaxPictureNumber))
+  if (place != 0 && number == 0)
+    return fail(ErrorCode::kInvalidStream, "a later pattern is that of picture 0");
+  if (place != 0 && number > kMaxPictureNumber)
     return fail(ErrorCode::kTooLarge, "pattern's picture is out of range");
   if (av1.empty()) return fail(ErrorCode::kInvalidStream, "pattern packet has no picture");
 

@@ -11,7 +11,8 @@
 namespace fbs {
 
 /// @param setup  of the scene: parts and steps define which numbers are coded and their limits
-/// @return kInvalidArgument  a slot that the setup has not, a negative picture number, a state beyond CodedLimits,
+/// @return kInvalidArgument  a slot that the setup has not, a negative picture number, a state beyond
+/// CodedLimits,
 ///                           or no AV1 bytes
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_pattern(const PatternSyntax& pattern,
                                                                const Setup& setup);

@@ -92,8 +92,8 @@ Result<void> check_setup(const Setup& setup) {
     if (!is_step(*step)) return fail(ErrorCode::kInvalidArgument, "quantiser step is out of range");
   if ((setup.parts & ~kAllParts) != 0 || (setup.parts & mask_of(PartId::kPose)) == 0)
     return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
-  if (setup.patterns < 1 || setup.patterns > kMaxPatterns)
-    return fail(ErrorCode::kInvalidArgument, "number of patterns is out of range");
+  if (setup.patterns < 1) return fail(ErrorCode::kInvalidArgument, "number of patterns is out of range");
+  if (setup.patterns > kMaxPatterns) return fail(ErrorCode::kTooLarge, "too many patterns");
   return {};
 }
 

@@ -16,7 +16,7 @@ namespace fbs {
 /// What is fixed for a scene with a face: the adapted head and the surround.
 class SceneGeometry {
  public:
-  /// @param rest  the rest state: the surround's grid is regular in it. That of pattern 0.
+  /// @param rest  the rest state: the surround's grid is regular in it. The first pattern's.
   SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest);
 
   /// Where everything is drawn in `state`.

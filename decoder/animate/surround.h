@@ -21,7 +21,7 @@ namespace fbs {
 /// displaced as that one is and shows the same, so that what comes in from outside repeats what is near.
 class Surround {
  public:
-  /// @param rest  the rest state: the one in which the grid is regular, that of pattern 0
+  /// @param rest  the rest state: the one in which the grid is regular, that of the first pattern
   Surround(const VideoFormat& format, SurroundMap map, const State& rest);
 
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.

@@ -13,11 +13,11 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 /// Random bytes, then a packet.
-Bytes noise_and_packet(std::size_t noise, std::size_t payload) {
+Bytes noise_and_packet(std::size_t noise, std::size_t payload, PacketType type = PacketType::kMotion) {
   std::mt19937 random(3);
   Bytes bytes(noise);
   for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
-  write_packet(bytes, PacketType::kMotion, Bytes(payload, 0x5A));
+  write_packet(bytes, type, Bytes(payload, 0x5A));
   return bytes;
 }
 
@@ -27,6 +27,15 @@ TEST(PacketSearch, FindsAPacketAfterNoise) {
     PacketSearch search(0);
     EXPECT_EQ(search.find(bytes, true), noise);
   }
+}
+
+// SPEC 3.1
+TEST(PacketSearch, FindsThePacketsOfTheListAlone) {
+  const int first = static_cast<int>(PacketType::kSetup), last = static_cast<int>(PacketType::kBlend);
+  for (int type = first - 1; type <= last + 1; ++type)
+    EXPECT_EQ(PacketSearch(0).find(noise_and_packet(0, 9, static_cast<PacketType>(type)), true).has_value(),
+              type >= first && type <= last)
+        << type;
 }
 
 TEST(PacketSearch, ContinuesWhereBytesWereMissing) {

@@ -18,13 +18,14 @@ Setup sample_setup() {
   setup.format.matrix = ColourMatrix::kBt709;
   setup.steps = {300, 65535, 1, 12, 77};
   setup.mouth = {{180, 120, 130}, {20, 110, 140}};
+  setup.patterns = 24;
   return setup;
 }
 
 TEST(SetupPayload, RoundTrips) {
   const auto payload = encode_setup(sample_setup());
   ASSERT_TRUE(payload);
-  EXPECT_LE(payload->size(), 30u);
+  EXPECT_LE(payload->size(), 31u);
   const auto read = decode_setup(*payload);
   ASSERT_TRUE(read);
   EXPECT_EQ(*read, sample_setup());
@@ -66,6 +67,8 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
       {[](fbs::Setup& s) { s.parts = kAllParts & ~1; }, ErrorCode::kInvalidArgument},  // the pose is always
       {[](fbs::Setup& s) { s.format.matrix = static_cast<ColourMatrix>(3); }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.format.range = static_cast<ColourRange>(2); }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.patterns = 0; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.patterns = kMaxPatterns + 1; }, ErrorCode::kTooLarge},
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     auto setup = sample_setup();
@@ -78,7 +81,7 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
 
 // Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
 TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {3, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
+  const std::vector<std::uint8_t> good = {4, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
                                           3, 4, 5,  12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
@@ -92,8 +95,8 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
     const auto read = decode_setup(bytes);
     return read ? ErrorCode::kInternal : read.error().code;
   };
-  EXPECT_EQ(code_with(0, 4), ErrorCode::kUnsupported);
-  for (const std::uint8_t older : {1, 2}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, 5), ErrorCode::kUnsupported);
+  for (const std::uint8_t older : {1, 2, 3}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(2, 63), ErrorCode::kInvalidStream);
@@ -113,14 +116,35 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
 }
 
+// The last field: patterns.
+TEST(SetupPayload, StoreOfOnePatternIsNotCoded) {
+  auto one = sample_setup();
+  one.patterns = 1;
+  const auto payload = *encode_setup(one);
+  EXPECT_EQ(payload.size() + 1, encode_setup(sample_setup())->size());
+  EXPECT_EQ(*decode_setup(payload), one);
+  auto bytes = payload;
+  bytes.push_back(1);
+  EXPECT_EQ(*decode_setup(bytes), one) << "nor need it be left out";
+  bytes.back() = 0;
+  EXPECT_EQ(decode_setup(bytes).error().code, ErrorCode::kInvalidStream);
+  bytes.back() = kMaxPatterns;
+  EXPECT_EQ(decode_setup(bytes)->patterns, kMaxPatterns);
+  bytes.back() = kMaxPatterns + 1;
+  EXPECT_EQ(decode_setup(bytes).error().code, ErrorCode::kTooLarge);
+  bytes.back() = 0x80;  // a varint that goes on
+  EXPECT_EQ(decode_setup(bytes).error().code, ErrorCode::kTruncated);
+}
+
 TEST(SetupPayload, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
   auto payload = *encode_setup(sample_setup());
+  payload.pop_back();  // patterns, which may be missing
   for (std::size_t size = 0; size < payload.size(); ++size) {
     const auto read = decode_setup(std::span(payload).first(size));
     ASSERT_FALSE(read) << size;
     EXPECT_EQ(read.error().code, ErrorCode::kTruncated) << size;
   }
-  payload.push_back(99);
+  payload.insert(payload.end(), {2, 99});
   EXPECT_TRUE(decode_setup(payload));
 }
 

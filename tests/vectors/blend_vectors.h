@@ -1,0 +1,13 @@
+// Streams whose pictures are blended from several patterns.
+#pragma once
+
+#include "tests/vectors/vector_tools.h"
+
+namespace fbs {
+
+void add_blends(Folder& folder);
+
+/// @param talk  a scene of one pattern
+void add_broken_blends(Folder& folder, const Bytes& talk);
+
+}  // namespace fbs

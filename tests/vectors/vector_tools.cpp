@@ -1,0 +1,98 @@
+#include "tests/vectors/vector_tools.h"
+
+#include <cstdlib>
+#include <iostream>
+
+#include "bitstream/packet.h"
+#include "encoder/encoder.h"
+#include "samples/talker/talker_render.h"
+#include "tests/vectors/stream_digest.h"
+
+namespace fbs {
+
+void give_up(const std::string& why) {
+  std::cerr << "make_vectors: " << why << '\n';
+  std::exit(1);
+}
+
+talker::Settings talker_settings(int width, int height, int frames) {
+  talker::Settings s;
+  s.width = width;
+  s.height = height;
+  s.frame_count = frames;
+  return s;
+}
+
+std::vector<Picture> pictures_of(const talker::Settings& settings) {
+  const talker::Talker talker(settings);
+  std::vector<Picture> out;
+  for (int i = 0; i < settings.frame_count; ++i) out.push_back(talker.picture(i));
+  return out;
+}
+
+EncoderSettings one_pattern(int group_pictures) {
+  EncoderSettings s;
+  s.patterns = 1;
+  s.group_pictures = group_pictures;
+  return s;
+}
+
+Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& settings,
+              const std::vector<std::uint32_t>& durations) {
+  VideoFormat format;
+  format.width = pictures[0].width();
+  format.height = pictures[0].height();
+  format.frame_rate = {30, 1};
+  auto encoder = must(Encoder::create(format, settings));
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    if (auto pushed = encoder.push(pictures[i], durations.empty() ? 0 : durations[i]); !pushed)
+      give_up(pushed.error().text);
+  if (auto finished = encoder.finish(); !finished) give_up(finished.error().text);
+  return encoder.take();
+}
+
+std::vector<Piece> pieces_of(const Bytes& stream) {
+  PacketReader reader;
+  reader.feed(stream);
+  reader.close();
+  std::vector<Piece> out;
+  for (auto read = must(reader.next()); read.status == ReadStatus::kPacket; read = must(reader.next()))
+    out.push_back({read.packet.type, {read.packet.payload.begin(), read.packet.payload.end()}});
+  return out;
+}
+
+Bytes joined(const std::vector<Piece>& pieces) {
+  Bytes out;
+  write_signature(out);
+  for (const Piece& p : pieces) write_packet(out, p.type, p.payload);
+  return out;
+}
+
+std::size_t place_of(const std::vector<Piece>& pieces, PacketType type, int nth) {
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].type == type && nth-- == 0) return i;
+  give_up("a stream lacks a packet");
+}
+
+std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
+  pieces.resize(nth);
+  return joined(pieces).size();
+}
+
+Folder::Folder(std::string path) : path_(std::move(path)), table_(path_ + "/vectors.txt") {
+  table_ << "# Written by make_vectors. File, first error, pictures, MD5 over the planes of all pictures.\n";
+}
+
+void Folder::add(const std::string& file, const Bytes& bytes, std::uint64_t pictures,
+                 std::string_view error) {
+  std::ofstream(path_ + "/" + file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const StreamDigest d = digest_of(bytes);
+  if (d.error != error || d.pictures != pictures)
+    give_up(file + " gives " + d.error + " and " + std::to_string(d.pictures) + " pictures");
+  if (bytes.size() >= 8192) give_up(file + " is larger than 8 kB");
+  table_ << file << ' ' << d.error << ' ' << d.pictures << ' ' << d.md5 << '\n';
+  if (!table_) give_up("cannot write to " + path_);
+}
+
+}  // namespace fbs
