@@ -64,7 +64,7 @@ class PatternPass {
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
   Result<void> choose(const Scene& scene, const Draft& draft);
   Result<void> solve(const Scene& scene, Draft& draft);
-  Result<void> code(const Scene& scene, Draft& draft);
+  Result<void> code(const Scene& scene, Draft& draft, int speed);
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, const CodedState& rest, Draft& draft);
 
   VideoFormat format_;

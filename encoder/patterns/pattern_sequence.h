@@ -18,11 +18,11 @@ struct SequenceSettings {
   int quantiser = 40;  ///< libaom's scale, 0..63; of the frames that no other refers to
   /// libaom's --cpu-used, 0 (slow and small) to 9. Against 4, speed 3 takes 1.6 times as long for 3 % fewer
   /// bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 % more.
-  int speed = 4;
+  int speed = 3;
   /// How many steps finer than `quantiser` frames may be coded that others refer to, the first above all.
   /// Without a bound (63) the first costs 10..25 % more bytes at quantiser 50, for no gain in the whole (four
   /// clips, 16 and 30 patterns).
-  int boost = 12;
+  int boost = 20;
   bool reduced = false;  ///< code all pictures at half width and height
 };
 

@@ -8,6 +8,9 @@ namespace {
 /// PSNR that twice the bytes gain, dB: mean slope of the ten clips' curves between 2 and 12 kbit/s.
 constexpr double kSlope = 2.2;
 
+/// The face loses more than the mean over the picture, dB.
+constexpr double kMargin = 0.3;
+
 /// A blend averages the coding errors of its patterns.
 constexpr double kErrorLeft = 0.7;
 
@@ -17,12 +20,12 @@ double bytes_of(const PatternCost& cost, std::size_t patterns) {
 
 }  // namespace
 
-bool reduced_size_pays(double blend_loss, std::size_t patterns, const PatternCost& full,
+bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_bytes, const PatternCost& full,
                        const PatternCost& reduced) {
   const double loss = 10 * std::log10((blend_loss + kErrorLeft * reduced.squared_error) /
                                       (blend_loss + kErrorLeft * full.squared_error));
-  const double saved = std::log2(bytes_of(full, patterns) / bytes_of(reduced, patterns));
-  return kSlope * saved > loss;
+  const double saved = std::log2((other_bytes + bytes_of(full, patterns)) / (other_bytes + bytes_of(reduced, patterns)));
+  return kSlope * saved > loss + kMargin;
 }
 
 }  // namespace fbs

@@ -9,8 +9,10 @@ namespace fbs {
 
 /// Compares PSNR of the pictures and bytes of the patterns at both sizes.
 /// @param blend_loss  luma error that pictures have between lossless patterns, mean over samples
-/// @param patterns    number of patterns
-[[nodiscard]] bool reduced_size_pays(double blend_loss, std::size_t patterns, const PatternCost& full,
+/// @param patterns     number of patterns
+/// @param other_bytes  that the same pictures take beside the patterns
+[[nodiscard]] bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_bytes,
+                                     const PatternCost& full,
                                      const PatternCost& reduced);
 
 }  // namespace fbs
