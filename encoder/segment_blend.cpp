@@ -120,7 +120,7 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
     PatternPlanes anchors;
     for (const Picture& p : out) anchors.push_back(reduce(p.*planes[i].plane, planes[i].reduction));
     const PatternSolver& solver = i == 0 || chroma_reduction == luma_reduction ? luma : chroma;
-    const PatternPlanes solved = solver.solve(targets[i], anchors, count, i == 0, settings);
+    const PatternPlanes solved = solver.solve(targets[i], anchors, count, i, settings);
     for (std::size_t k = out.size() - count; k < out.size(); ++k)
       add_change(solved[k], anchors[k], planes[i].reduction, out[k].*planes[i].plane);
   }

@@ -48,7 +48,7 @@ struct SourceRun {
   RunValue offset;          ///< of the light, grey levels
   float gain = 0;           ///< of the light, per grey level from 128
   float opacity = 0;        ///< of the mouth interior, 0..1
-  float interior = 0;       ///< its luma
+  std::array<float, 3> interior{};  ///< its Y, U, V
 };
 
 /// The mesh of a picture and what its light and its mouth need.
