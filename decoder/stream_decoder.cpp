@@ -204,7 +204,8 @@ Result<void> StreamDecoder::take_motion(const Packet& packet) {
 }
 
 Result<void> StreamDecoder::take_blend(const Packet& packet) {
-  if (!blend_) return fail(ErrorCode::kInvalidStream, "a blend packet where nothing is blended", packet.offset);
+  if (!blend_)
+    return fail(ErrorCode::kInvalidStream, "a blend packet where nothing is blended", packet.offset);
   auto group = blend_->decode(packet.payload);
   if (!group) return at(packet, group.error());
   if (auto released = timeline_.release(group->modes); !released) return at(packet, released.error());

@@ -24,8 +24,8 @@ struct ByteCount {
   std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
   std::uint64_t geometry = 0;  ///< geometry and surround packets
   std::uint64_t patterns = 0;
-  std::uint64_t motion = 0;    ///< motion and blend packets
-  std::uint64_t other = 0;  ///< signature, setup, end, unknown packets and skipped bytes
+  std::uint64_t motion = 0;  ///< motion and blend packets
+  std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
 
 enum class DecodeStatus : std::uint8_t {

@@ -38,10 +38,10 @@ class Timeline {
   [[nodiscard]] const State* find(std::int32_t picture) const;
 
  private:
-  std::deque<Entry> entries_;   // pictures first_, first_ + 1, ...
-  std::int32_t first_ = 0;      // number of the oldest picture that is kept
-  std::int32_t next_ = 0;       // to be displayed
-  std::int32_t released_ = 0;   // pictures below this may be displayed
+  std::deque<Entry> entries_;  // pictures first_, first_ + 1, ...
+  std::int32_t first_ = 0;     // number of the oldest picture that is kept
+  std::int32_t next_ = 0;      // to be displayed
+  std::int32_t released_ = 0;  // pictures below this may be displayed
 };
 
 }  // namespace fbs

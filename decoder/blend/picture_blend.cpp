@@ -50,7 +50,8 @@ class Mix {
  public:
   void add(BlendSource source, std::int64_t weight) {
     if (weight <= 0) return;
-    const auto place = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.source == source; });
+    const auto place =
+        std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.source == source; });
     if (place != items_.end())
       place->weight += weight;
     else

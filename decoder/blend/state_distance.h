@@ -13,6 +13,7 @@ inline constexpr int kDistanceOneLog2 = 16;  ///< squared distances count 2^-16
 /// Squared distance, for what a region looks like. Shift and scale of the head do not count: they change
 /// where it is, not how it looks.
 /// @param spacing  mean number of pictures from one pattern to the next, at least 1
-[[nodiscard]] std::int64_t state_distance(Region region, const State& a, const State& b, std::int32_t spacing);
+[[nodiscard]] std::int64_t state_distance(Region region, const State& a, const State& b,
+                                          std::int32_t spacing);
 
 }  // namespace fbs
