@@ -43,22 +43,27 @@ template <class Pair>
   return Lanes{load(0), load(1), load(2), load(3), load(4), load(5), load(6), load(7)};
 }
 
-/// Stores lanes, whose values are 0..255, as samples.
-/// @param count  1..kLaneCount: of the first ones
-inline void store_lanes(Lanes lanes, std::uint8_t* samples, int count = kLaneCount) {
+/// Values of 0..255 as bytes in memory order.
+[[nodiscard]] inline std::uint64_t bytes_of(Lanes lanes) {
   using HalfBytes = std::uint8_t __attribute__((vector_size(kLaneCount)));
-  const HalfBytes bytes = __builtin_convertvector(lanes, HalfBytes);
-  if (count == kLaneCount) {
-    std::memcpy(samples, &bytes, kLaneCount);
-    return;
-  }
-  auto word = std::bit_cast<std::uint64_t>(bytes);
-  for (int part = kLaneCount / 2; part > 0; part /= 2) {
-    if ((count & part) == 0) continue;
-    std::memcpy(samples, &word, part);
-    samples += part;
-    word >>= 8 * part;
-  }
+  return std::bit_cast<std::uint64_t>(__builtin_convertvector(lanes, HalfBytes));
+}
+
+/// @param lanes  0..255
+inline void store_lanes(Lanes lanes, std::uint8_t* samples) {
+  const std::uint64_t bytes = bytes_of(lanes);
+  std::memcpy(samples, &bytes, sizeof bytes);
+}
+
+/// Stores the first lanes only; the samples behind them, which must be there, keep their values. Without a
+/// branch: counts are hard to predict.
+/// @param count  1..kLaneCount
+inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
+  const std::uint64_t mask = ~std::uint64_t{0} >> (8 * (kLaneCount - count));
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, samples, sizeof bytes);
+  bytes = (bytes & ~mask) | (bytes_of(lanes) & mask);
+  std::memcpy(samples, &bytes, sizeof bytes);
 }
 
 [[nodiscard]] inline std::array<SignedWideLanes, 2> widen(Lanes lanes) {

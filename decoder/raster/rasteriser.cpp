@@ -137,6 +137,18 @@ class LinearBlend {
   SourceArray<LinearWeight<kScale>> weights_;
 };
 
+template <PlaneScale kScale>
+void store(Lanes samples, const PlaneView& plane, const RowBlock<kScale>& block) {
+  std::uint8_t* const out = plane.row(block.row) + block.first;
+  if (block.first + kLaneCount <= plane.width) {
+    store_first_lanes(samples, out, block.count);
+  } else {
+    std::array<std::uint8_t, kLaneCount> all;
+    store_lanes(samples, all.data());
+    std::copy_n(all.begin(), block.count, out);
+  }
+}
+
 template <PlaneScale kScale, class Painter>
 void paint_run(const Painter& painter, const TriangleSetup& setup, int row, RowRun run,
                const RasterTarget& target) {
@@ -144,8 +156,7 @@ void paint_run(const Painter& painter, const TriangleSetup& setup, int row, RowR
     const RowBlock<kScale> block{row, first, std::min(run.last - first + 1, kLaneCount),
                                  setup.from_corner(first, row)};
     const auto samples = painter.paint(block);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      store_lanes(samples[i], target.planes[i].row(row) + first, block.count);
+    for (std::size_t i = 0; i < samples.size(); ++i) store(samples[i], target.planes[i], block);
   }
 }
 
