@@ -64,8 +64,9 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
       ->check(CLI::Range(0.1, 10000.0))
       ->excludes("--quality");
-  verb->add_option("--patterns", a.patterns,
-                   "Number of patterns; 1 sends one picture and then only motion (default: chosen by the encoder)")
+  verb->add_option(
+          "--patterns", a.patterns,
+          "Number of patterns; 1 sends one picture and then only motion (default: chosen by the encoder)")
       ->check(CLI::Range(1, 64));
   verb->add_option(
       "--marks", a.marks,

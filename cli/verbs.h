@@ -21,8 +21,8 @@ struct EncodeArguments {
   double sequence_rate = 25;
   bool allow_no_face = false;
   // For measurements; not shown by --help.
-  double motion_bitrate = 0;  ///< target of the motion alone, kbit/s; 0: none
-  int pattern_quantiser = -1; ///< of AV1; -1: quality decides
+  double motion_bitrate = 0;   ///< target of the motion alone, kbit/s; 0: none
+  int pattern_quantiser = -1;  ///< of AV1; -1: quality decides
   bool reduced_patterns = false;
   int effort = 1;
   bool snakes = true;

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "bitstream/payload/pattern_payload.h"
-#include "encoder/patterns/pattern_trial.h"
 #include "encoder/patterns/pattern_size.h"
+#include "encoder/patterns/pattern_trial.h"
 
 namespace fbs {
 namespace {
@@ -154,7 +154,8 @@ Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
 Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
   auto solved = solve_patterns(segment_, usable(scene, draft), draft.coded.size(), SolverSettings{});
   if (!solved) return fail(solved.error());
-  for (std::size_t k = 0; k < solved->size(); ++k) draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
+  for (std::size_t k = 0; k < solved->size(); ++k)
+    draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
   return {};
 }
 
@@ -174,7 +175,8 @@ Result<std::vector<std::vector<std::uint8_t>>> PatternPass::blend_payloads(Blend
   for (const Segment::Group& g : segment_.groups) {
     BlendGroup group;
     group.key = encoder.needs_key();
-    for (const std::size_t end = t + g.pictures; t < end; ++t) group.modes.push_back(segment_.states[t].blend);
+    for (const std::size_t end = t + g.pictures; t < end; ++t)
+      group.modes.push_back(segment_.states[t].blend);
     auto payload = encoder.encode(group);
     if (!payload) return fail(payload.error());
     out.push_back(std::move(*payload));
@@ -188,7 +190,8 @@ Result<double> PatternPass::bytes_of(const Draft& draft) const {
   if (!blends) return fail(blends.error());
   double bytes = 0;
   for (const auto& b : *blends) bytes += static_cast<double>(b.size() + kPacketBytes);
-  for (const Segment::Group& g : segment_.groups) bytes += static_cast<double>(g.payload.size() + kPacketBytes);
+  for (const Segment::Group& g : segment_.groups)
+    bytes += static_cast<double>(g.payload.size() + kPacketBytes);
   for (const SequencePattern& p : draft.coded)
     bytes += static_cast<double>(p.av1.size() + kPacketBytes + kPatternHeaderBytes);
   return bytes;

@@ -1,5 +1,5 @@
-// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes and
-// places the patterns, segment by segment.
+// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes
+// and places the patterns, segment by segment.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 namespace fbs {
 
 struct PatternPassSettings {
-  PatternPoint point{};   ///< where no bitrate is set
-  std::size_t count = 0;  ///< patterns of the scene; 0: as the point says
+  PatternPoint point{};     ///< where no bitrate is set
+  std::size_t count = 0;    ///< patterns of the scene; 0: as the point says
   double bitrate_kbps = 0;  ///< of all packets; 0: the point decides
   SequenceSettings coding;
   int rounds = 1;     ///< of solving for patterns; 0: pictures are coded as they are
@@ -75,7 +75,8 @@ class PatternPass {
   [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
   /// Sets quality and size for so many bytes.
   Result<void> aim(const Scene& scene, double bytes);
-  /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few percent.
+  /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few
+  /// percent.
   Result<void> meet(const Scene& scene, double bytes, Draft& draft);
   /// Of all packets of the segment.
   [[nodiscard]] Result<double> bytes_of(const Draft& draft) const;

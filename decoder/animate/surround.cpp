@@ -124,8 +124,9 @@ Surround::Place Surround::place(glm::ivec2 rest) const {
 }
 
 RegionShares Surround::shares_at(const Place& p) const {
-  const std::array<int, 4> part = {(kCellOne - p.across) * (kCellOne - p.down), p.across * (kCellOne - p.down),
-                                   (kCellOne - p.across) * p.down, p.across * p.down};
+  const std::array<int, 4> part = {(kCellOne - p.across) * (kCellOne - p.down),
+                                   p.across * (kCellOne - p.down), (kCellOne - p.across) * p.down,
+                                   p.across * p.down};
   RegionShares out{};
   int left = kShareOne;
   for (const Region region : {Region::kHair, Region::kBody}) {

@@ -52,7 +52,8 @@ void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t>
   std::int32_t left = kMeshWeightOne;
   std::size_t largest = 0;
   for (std::size_t s = 0; s < weights.size(); ++s) {
-    weights[s] = static_cast<std::int32_t>((std::int64_t{weights[s]} * visible[s] * kMeshWeightOne + sum / 2) / sum);
+    weights[s] =
+        static_cast<std::int32_t>((std::int64_t{weights[s]} * visible[s] * kMeshWeightOne + sum / 2) / sum);
     left -= weights[s];
     if (weights[s] > weights[largest]) largest = s;
   }

@@ -27,7 +27,9 @@ constexpr std::array<Law, kRegionCount> kLaw = {
 /// Relative weights of squared distances, the nearest having the most.
 std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
   constexpr int kDigits = 12, kOctaves = 13;
-  const auto exponent = [](std::int64_t d) { return log2_fixed(static_cast<std::uint64_t>(d + kDistanceOne)); };
+  const auto exponent = [](std::int64_t d) {
+    return log2_fixed(static_cast<std::uint64_t>(d + kDistanceOne));
+  };
   const std::int64_t least = exponent(*std::min_element(distances.begin(), distances.end()));
   std::vector<std::int64_t> out;
   for (const std::int64_t d : distances) {
@@ -56,7 +58,8 @@ class Mix {
  public:
   void add(BlendSource source, std::int64_t weight) {
     if (weight <= 0) return;
-    const auto place = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.source == source; });
+    const auto place =
+        std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.source == source; });
     if (place != items_.end())
       place->weight += weight;
     else

@@ -1,4 +1,5 @@
-// Which patterns a picture is blended from, and how much of each shows in each region. SPEC 11. Integers only.
+// Which patterns a picture is blended from, and how much of each shows in each region. SPEC 11. Integers
+// only.
 #pragma once
 
 #include <array>

@@ -83,7 +83,8 @@ std::int64_t state_distance(Region region, const State& pattern, const State& pi
                      squared(pattern.pose[kYaw] - picture.pose[kYaw], m.turn) +
                      squared(pattern.pose[kRoll] - picture.pose[kRoll], 2 * m.turn);
   sum += body_distance(pattern, picture, exp2_q16(picture.pose[kLogScale]), m.body);
-  sum += control_distance(kMouthControls, pattern, picture, m.mouth) + control_distance(kBrowControls, pattern, picture, m.brows);
+  sum += control_distance(kMouthControls, pattern, picture, m.mouth) +
+         control_distance(kBrowControls, pattern, picture, m.brows);
   if (m.eye != 0)
     for (const FeatureId id : region == Region::kRightEye ? kRightEye : kLeftEye)
       sum += control_distance(id, pattern, picture, m.eye);

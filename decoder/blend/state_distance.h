@@ -13,6 +13,7 @@ inline constexpr std::int64_t kDistanceOne = 1 << 16;  ///< squared distances co
 /// Squared distance, for what a region looks like. Shift and scale of the head do not count: they change
 /// where it is, not how it looks.
 /// @param spacing  mean number of pictures from one pattern to the next, at least 1
-[[nodiscard]] std::int64_t state_distance(Region region, const State& pattern, const State& picture, std::int32_t spacing);
+[[nodiscard]] std::int64_t state_distance(Region region, const State& pattern, const State& picture,
+                                          std::int32_t spacing);
 
 }  // namespace fbs

@@ -49,7 +49,8 @@ std::int64_t exp2_q16(std::int32_t exponent) {
 std::int32_t log2_fixed(std::uint64_t x) {
   constexpr int kDigits = 12, kMantissaLog2 = 31;
   const int whole = std::bit_width(x) - 1;
-  std::uint64_t mantissa = whole > kMantissaLog2 ? x >> (whole - kMantissaLog2) : x << (kMantissaLog2 - whole);
+  std::uint64_t mantissa =
+      whole > kMantissaLog2 ? x >> (whole - kMantissaLog2) : x << (kMantissaLog2 - whole);
   std::int32_t digits = whole;
   for (int i = 0; i < kDigits; ++i) {  // squaring yields one binary digit after the other
     mantissa = mantissa * mantissa >> kMantissaLog2;

@@ -1,7 +1,8 @@
-// Eight samples at once: vectors of GCC and Clang, which need no library and exist on every machine's baseline
-// (SSE2, NEON, WebAssembly). Integers only.
+// Eight samples at once: vectors of GCC and Clang, which need no library and exist on every machine's
+// baseline (SSE2, NEON, WebAssembly). Integers only.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -15,6 +16,7 @@ using Lanes = std::uint16_t __attribute__((vector_size(2 * kLaneCount)));
 
 /// Half as many numbers of twice the size.
 using WideLanes = std::uint32_t __attribute__((vector_size(2 * kLaneCount)));
+using SignedWideLanes = std::int32_t __attribute__((vector_size(2 * kLaneCount)));
 
 static_assert(std::endian::native == std::endian::little);  // for the order of bytes in lanes
 
@@ -30,22 +32,53 @@ static_assert(std::endian::native == std::endian::little);  // for the order of 
       __builtin_shufflevector(bytes, Bytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
 }
 
-/// Stores lanes, whose values are 0..255, as samples.
-/// @param count  1..kLaneCount: of the first ones
-inline void store_lanes(Lanes lanes, std::uint8_t* samples, int count = kLaneCount) {
+/// @param pair  gives, for each lane, the address of two samples; the first will be the low byte of the lane
+template <class Pair>
+[[nodiscard]] inline Lanes load_pairs(Pair&& pair) {
+  const auto load = [&](int lane) {
+    std::uint16_t two = 0;
+    std::memcpy(&two, pair(lane), sizeof two);
+    return two;
+  };
+  return Lanes{load(0), load(1), load(2), load(3), load(4), load(5), load(6), load(7)};
+}
+
+/// Values of 0..255 as bytes in memory order.
+[[nodiscard]] inline std::uint64_t bytes_of(Lanes lanes) {
   using HalfBytes = std::uint8_t __attribute__((vector_size(kLaneCount)));
-  const HalfBytes bytes = __builtin_convertvector(lanes, HalfBytes);
-  if (count == kLaneCount) {
-    std::memcpy(samples, &bytes, kLaneCount);
-    return;
-  }
-  auto word = std::bit_cast<std::uint64_t>(bytes);
-  for (int part = kLaneCount / 2; part > 0; part /= 2) {
-    if ((count & part) == 0) continue;
-    std::memcpy(samples, &word, part);
-    samples += part;
-    word >>= 8 * part;
-  }
+  return std::bit_cast<std::uint64_t>(__builtin_convertvector(lanes, HalfBytes));
+}
+
+/// @param lanes  0..255
+inline void store_lanes(Lanes lanes, std::uint8_t* samples) {
+  const std::uint64_t bytes = bytes_of(lanes);
+  std::memcpy(samples, &bytes, sizeof bytes);
+}
+
+/// Stores the first lanes only; the samples behind them, which must be there, keep their values. Without a
+/// branch: counts are hard to predict.
+/// @param count  1..kLaneCount
+inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
+  const std::uint64_t mask = ~std::uint64_t{0} >> (8 * (kLaneCount - count));
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, samples, sizeof bytes);
+  bytes = (bytes & ~mask) | (bytes_of(lanes) & mask);
+  std::memcpy(samples, &bytes, sizeof bytes);
+}
+
+[[nodiscard]] inline std::array<SignedWideLanes, 2> widen(Lanes lanes) {
+  return {reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 0, 8, 1, 8, 2, 8, 3, 8)),
+          reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 4, 8, 5, 8, 6, 8, 7, 8))};
+}
+
+/// @param halves  values of sixteen bits, which are clamped to 0..255
+[[nodiscard]] inline Lanes narrow_clamped(const std::array<SignedWideLanes, 2>& halves) {
+  using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
+  const auto low = reinterpret_cast<SignedLanes>(halves[0]), high = reinterpret_cast<SignedLanes>(halves[1]);
+  SignedLanes lanes = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+  lanes = lanes < 0 ? SignedLanes{} : lanes;
+  lanes = lanes > 255 ? SignedLanes{} + std::int16_t{255} : lanes;
+  return reinterpret_cast<Lanes>(lanes);
 }
 
 /// 0, step, 2 * step, ... modulo 2^16.

@@ -8,31 +8,12 @@
 #include <span>
 
 #include "common/picture.h"
-#include "common/state.h"
 #include "decoder/raster/blend_weights.h"
+#include "decoder/raster/finish.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/raster/triangle_setup.h"
 
 namespace fbs {
-
-/// What is added to luma, linear over the triangle.
-struct Light {
-  std::array<std::int32_t, 3> offset{}, gain{};  ///< at the corners, as VertexLight
-};
-
-/// Colours mixed over the samples, from the upper to the lower lip.
-struct InteriorMix {
-  std::array<std::int32_t, 3> ramp;  ///< at the corners, 0..256; linear over the triangle
-  std::int32_t opacity = 0;          ///< 0..256
-  /// Of each plane where the ramp is 0, 128 and 256.
-  std::span<const std::array<std::uint8_t, kInteriorCount>> colours;
-};
-
-/// What happens to the samples of a triangle between pattern and picture.
-struct Finish {
-  const Light* light = nullptr;           ///< on the first plane
-  const InteriorMix* interior = nullptr;  ///< then mixed over all planes
-};
 
 inline constexpr std::size_t kMaxTriangleSources = 56;
 
@@ -54,8 +35,8 @@ struct RasterTarget {
   DepthPlane* depth = nullptr;  ///< of the planes' size: only samples that are nearer are drawn; null: all
 };
 
-/// Draws the part of each plane of the sources that the triangle shows into the target's plane. Samples in the
-/// target's area whose centre is inside the triangle (top-left rule) are drawn. A triangle that is
+/// Draws the part of each plane of the sources that the triangle shows into the target's plane. Samples in
+/// the target's area whose centre is inside the triangle (top-left rule) are drawn. A triangle that is
 /// anticlockwise on the screen or has no area is not drawn.
 /// @param sources  1..kMaxTriangleSources
 void draw_triangle(const ScreenTriangle& triangle, std::span<const TextureSource> sources,

@@ -7,15 +7,9 @@
 #include <span>
 
 #include "common/picture.h"
-#include "decoder/raster/linear_row.h"
 #include "decoder/raster/row_block.h"
 
 namespace fbs {
-
-inline constexpr std::size_t kMaxPlanes = 2;  ///< of one scale
-
-/// A block in each plane.
-using BlockSamples = std::array<Lanes, kMaxPlanes>;
 
 /// Texture position along a run, 2^-16 sample of the texture; integers lie on the centres of samples.
 struct TextureRow {
@@ -25,65 +19,128 @@ struct TextureRow {
 /// Bilinear, to 1/256 sample, one sample after the other. Positions outside the texture repeat its border.
 void sample_row(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count);
 
-/// Takes a triangle's samples from a texture.
+/// Takes blocks of a triangle from a texture, as sample_row() does.
+template <PlaneScale kScale>
 class TextureSampler {
  public:
   /// @param textures  planes of one size
   /// @param corners   of the triangle in them, 1/64 luma pixel
-  TextureSampler(const TriangleSetup& setup, std::span<const ConstPlaneView> textures,
-                 const std::array<glm::ivec2, 3>& corners);
+  TextureSampler(const TriangleSetup& setup, const ScreenTriangle& t,
+                 std::span<const ConstPlaneView> textures, const std::array<glm::ivec2, 3>& corners)
+      : textures_(textures), is_in_place_(corners == std::array{t[0].at, t[1].at, t[2].at}) {
+    u_ = setup.gradient({corners[0].x, corners[1].x, corners[2].x}, static_cast<int>(kScale));
+    v_ = setup.gradient({corners[0].y, corners[1].y, corners[2].y}, static_cast<int>(kScale));
+    // Texture coordinates of a sample's centre have a half of a sample that its position in the plane has
+    // not.
+    u_.origin -= kOne / 2;
+    v_.origin -= kOne / 2;
+    u_lanes_ = multiples(u_.dx);
+    v_lanes_ = multiples(v_.dx);
+  }
 
-  /// The same as sample_row().
-  [[nodiscard]] BlockSamples sample(const RowBlock& block) const {
-    const TextureRow at{{u_.at(block.at, position_bits_), u_.dx}, {v_.at(block.at, position_bits_), v_.dx}};
-    return is_straight(at, block.count) ? sample_straight(at) : sample_plain(at, block.count);
+  [[nodiscard]] BlockSamples<kScale> sample(const RowBlock<kScale>& block) const {
+    if (is_in_place_ && block.first + kLaneCount <= textures_.front().width &&
+        block.row < textures_.front().height)
+      return sample_in_place(block);
+    const TextureRow at{block.along(u_), block.along(v_)};
+    return is_straight(at, block.count) ? sample_straight(at) : sample_other(at, block.count);
   }
 
  private:
-  [[nodiscard]] bool is_straight(const TextureRow& at, int count) const;
-  [[nodiscard]] BlockSamples sample_straight(const TextureRow& at) const;
-  [[nodiscard]] BlockSamples sample_plain(const TextureRow& at, int count) const;
+  /// Not inline: what most blocks need stays small.
+  [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_other(const TextureRow& at, int count) const {
+    return is_inside(at) ? sample_bent(at) : sample_plain(at, count);
+  }
 
-  std::span<const ConstPlaneView> textures_;
-  Gradient u_, v_;
-  int position_bits_;
-  Lanes u_lanes_, v_lanes_;
-};
+  using Samples = BlockSamples<kScale>;
+  static constexpr std::int64_t kOne = 1 << 16;
 
-// Inline: most runs of a triangle are a block or two.
-
-/// Whether the samples come from neighbouring columns of the same two rows, and kLaneCount samples can be read
-/// from there.
-inline bool TextureSampler::is_straight(const TextureRow& at, int count) const {
-  constexpr std::int64_t kOne = 1 << 16;
-  const auto below = [](std::int64_t value, std::int64_t end) {
+  static bool below(std::int64_t value, std::int64_t end) {
     return static_cast<std::uint64_t>(value) < static_cast<std::uint64_t>(end);
-  };
-  // The whole parts are those of the first sample plus 1 each in u, plus 0 in v.
-  const auto keeps_step = [&](const LinearRow& row, std::int64_t step) {
-    return below((row.first & (kOne - 1)) + (count - 1) * (row.step - step), kOne);
-  };
-  const ConstPlaneView& texture = textures_.front();
-  return keeps_step(at.u, kOne) && keeps_step(at.v, 0) && below(at.u.first >> 16, texture.width - kLaneCount) &&
-         below(at.v.first >> 16, texture.height - 1);
-}
+  }
 
-inline BlockSamples TextureSampler::sample_straight(const TextureRow& at) const {
-  const Lanes fx = (u_lanes_ + static_cast<std::uint16_t>(at.u.first)) >> 8,
-              fy = (v_lanes_ + static_cast<std::uint16_t>(at.v.first)) >> 8;
-  const auto mix = [](Lanes a, Lanes b, Lanes share) { return (a << 8) + (b - a) * share; };
-  BlockSamples out;
-  for (std::size_t i = 0; i < textures_.size(); ++i) {
-    const std::ptrdiff_t stride = textures_[i].stride;
-    const std::uint8_t* const above = textures_[i].data + (at.v.first >> 16) * stride + (at.u.first >> 16);
-    const std::uint8_t* const below = above + stride;
-    const Lanes top = mix(load_lanes(above), load_lanes(above + 1), fx);
-    const Lanes bottom = mix(load_lanes(below), load_lanes(below + 1), fx);
+  /// Whether the samples come from neighbouring columns of the same two rows, and kLaneCount samples can be
+  /// read from there.
+  [[nodiscard]] bool is_straight(const TextureRow& at, int count) const {
+    // The whole parts of the positions are those of the first sample plus 1 each in u, plus 0 in v.
+    const auto keeps_step = [&](const LinearRow& row, std::int64_t step) {
+      return below((row.first & (kOne - 1)) + (count - 1) * (row.step - step), kOne);
+    };
+    const ConstPlaneView& texture = textures_.front();
+    return keeps_step(at.u, kOne) && keeps_step(at.v, 0) &&
+           below(at.u.first >> 16, texture.width - kLaneCount) && below(at.v.first >> 16, texture.height - 1);
+  }
+
+  /// Whether kLaneCount samples lie inside the texture, and all that is mixed to them.
+  [[nodiscard]] bool is_inside(const TextureRow& at) const {
+    const std::int64_t end_u = (textures_.front().width - 1) * kOne,
+                       end_v = (textures_.front().height - 1) * kOne;
+    return below(at.u.first, end_u) && below(at.v.first, end_v) && below(at.u.at(kLaneCount - 1), end_u) &&
+           below(at.v.at(kLaneCount - 1), end_v);
+  }
+
+  [[nodiscard]] Lanes fraction(const LinearRow& row, Lanes steps) const {
+    return (steps + static_cast<std::uint16_t>(row.first)) >> 8;
+  }
+
+  /// @param fx, fy  share of the right and of the lower samples, 1/256
+  static Lanes bilinear(Lanes top_left, Lanes top_right, Lanes bottom_left, Lanes bottom_right, Lanes fx,
+                        Lanes fy) {
+    const auto mix = [](Lanes a, Lanes b, Lanes share) { return (a << 8) + (b - a) * share; };
+    const Lanes top = mix(top_left, top_right, fx), bottom = mix(bottom_left, bottom_right, fx);
     // The second step for both bytes of what the first yields: sixteen bits hold it then.
     const Lanes high = mix(top >> 8, bottom >> 8, fy), low = mix(top & 255, bottom & 255, fy);
-    out[i] = (high + (low >> 8) + 128) >> 8;
+    return (high + (low >> 8) + 128) >> 8;
   }
-  return out;
-}
+
+  [[nodiscard]] Samples sample_in_place(const RowBlock<kScale>& block) const {
+    Samples out;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = load_lanes(textures_[i].row(block.row) + block.first);
+    return out;
+  }
+
+  [[nodiscard]] Samples sample_straight(const TextureRow& at) const {
+    const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes_);
+    Samples out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::uint8_t* const above =
+          textures_[i].data + (at.v.first >> 16) * textures_[i].stride + (at.u.first >> 16);
+      const std::uint8_t* const below_it = above + textures_[i].stride;
+      out[i] = bilinear(load_lanes(above), load_lanes(above + 1), load_lanes(below_it),
+                        load_lanes(below_it + 1), fx, fy);
+    }
+    return out;
+  }
+
+  [[nodiscard]] Samples sample_bent(const TextureRow& at) const {
+    const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes_);
+    Samples out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::ptrdiff_t stride = textures_[i].stride;
+      const auto pair = [&](int k) {
+        return textures_[i].data + (at.v.at(k) >> 16) * stride + (at.u.at(k) >> 16);
+      };
+      const Lanes above = load_pairs(pair), under = load_pairs([&](int k) { return pair(k) + stride; });
+      out[i] = bilinear(above & 255, above >> 8, under & 255, under >> 8, fx, fy);
+    }
+    return out;
+  }
+
+  [[nodiscard]] Samples sample_plain(const TextureRow& at, int count) const {
+    Samples out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      std::array<std::uint8_t, kLaneCount> samples{};
+      sample_row(textures_[i], at, samples.data(), count);
+      out[i] = load_lanes(samples.data());
+    }
+    return out;
+  }
+
+  std::span<const ConstPlaneView> textures_;
+  bool is_in_place_;  ///< the texture lies where it is drawn: its samples are those of the plane
+  Gradient u_, v_;
+  Lanes u_lanes_, v_lanes_;  ///< what the lanes add to the first position, modulo a sample
+};
 
 }  // namespace fbs

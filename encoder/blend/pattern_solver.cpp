@@ -162,7 +162,8 @@ PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, Patter
   ReducedPlane scratch = targets.front();
   PatternPlanes residual = sources, product = sources;
   const auto hold_fixed = [&](PatternPlanes& planes) {
-    for (std::size_t k = 0; k + count < planes.size(); ++k) std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
+    for (std::size_t k = 0; k + count < planes.size(); ++k)
+      std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
   };
   clear(residual);
   for (std::size_t t = 0; t < pictures_.size(); ++t) {

@@ -1,6 +1,6 @@
-// Patterns made for their use: what is coded as a pattern need not be a picture of the video. Blends and warps
-// are linear in the patterns, so those that minimise the squared error of all pictures drawn from them follow
-// from linear least squares, solved by conjugate gradients (Hestenes & Stiefel, 1952).
+// Patterns made for their use: what is coded as a pattern need not be a picture of the video. Blends and
+// warps are linear in the patterns, so those that minimise the squared error of all pictures drawn from them
+// follow from linear least squares, solved by conjugate gradients (Hestenes & Stiefel, 1952).
 #pragma once
 
 #include <cstdint>

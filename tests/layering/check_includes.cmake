@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/motion bitstream/blend
-  decoder/head decoder/animate decoder/raster decoder/blend decoder
+  decoder/head decoder/animate decoder/raster decoder/blend decoder/draw decoder
   encoder/image encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
   encoder
   cli/video/images cli/video/av cli/video cli)

@@ -1,0 +1,41 @@
+// All that one picture is drawn from.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "common/picture.h"
+#include "decoder/animate/screen_mesh.h"
+#include "decoder/blend/mesh_blend.h"
+#include "decoder/head/mouth_interior.h"
+#include "decoder/raster/triangle_setup.h"
+
+namespace fbs {
+
+/// A pattern, and where it holds what is drawn.
+struct DrawnSource {
+  std::array<ConstPlaneView, 3> planes;  ///< Y, U, V
+  const TextureMesh* texture = nullptr;  ///< null: the pattern is shown as it is, not warped
+};
+
+struct Drawing {
+  const ScreenMesh& mesh;
+  const MeshBlend& blend;
+  std::vector<DrawnSource> sources;         ///< blend.sources
+  std::array<InteriorColours, 3> interior;  ///< of each plane
+  std::array<PlaneView, 3> target;          ///< Y, U, V
+};
+
+/// Those of Y, U, V that have the scale.
+template <class T>
+[[nodiscard]] std::span<T> planes_of_scale(std::array<T, 3>& planes, PlaneScale scale) {
+  return scale == PlaneScale::kLuma ? std::span<T>(planes).first(1) : std::span<T>(planes).last(2);
+}
+template <class T>
+[[nodiscard]] std::span<const T> planes_of_scale(const std::array<T, 3>& planes, PlaneScale scale) {
+  return scale == PlaneScale::kLuma ? std::span<const T>(planes).first(1)
+                                    : std::span<const T>(planes).last(2);
+}
+
+}  // namespace fbs

@@ -1,0 +1,75 @@
+#include "decoder/raster/finish.h"
+
+#include <algorithm>
+
+namespace fbs {
+namespace {
+
+constexpr std::int64_t kMaxLightRow = std::int64_t{kMaxLight} << kLightOneLog2;
+
+/// @param offset, gain  2^-8 of 1/16 grey level
+std::uint8_t lit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
+  const std::int32_t by_gain = (luma - 128) * gain >> 6;
+  const std::int32_t sum = (luma << 12) + offset + by_gain;  // 2^-12 grey level
+  return static_cast<std::uint8_t>(std::clamp((sum + (1 << 11)) >> 12, 0, 255));
+}
+
+/// The same for four samples, without the clamp.
+SignedWideLanes lit(SignedWideLanes luma, SignedWideLanes offset, SignedWideLanes gain) {
+  return ((luma << 12) + offset + ((luma - 128) * gain >> 6) + (1 << 11)) >> 12;
+}
+
+/// Whether all lanes lie within the limits of the light, so that they need not be clamped, nor overflow.
+bool within_max_light(const LinearRow& row) {
+  const auto within = [](std::int64_t v) { return v >= -kMaxLightRow && v <= kMaxLightRow; };
+  return within(row.first) && within(row.at(kLaneCount - 1));
+}
+
+std::array<SignedWideLanes, 2> lanes_of(const Gradient& g) {
+  const auto step = static_cast<std::uint32_t>(g.dx);
+  return {reinterpret_cast<SignedWideLanes>(WideLanes{0, 1, 2, 3} * step),
+          reinterpret_cast<SignedWideLanes>(WideLanes{4, 5, 6, 7} * step)};
+}
+
+}  // namespace
+
+void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count) {
+  const auto limited = [](std::int64_t v) {
+    return static_cast<std::int32_t>(std::clamp(v, -kMaxLightRow, kMaxLightRow) >> 8);
+  };
+  for (int i = 0; i < count; ++i) luma[i] = lit(luma[i], limited(offset.at(i)), limited(gain.at(i)));
+}
+
+void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInteriorCount>& colours,
+                      std::int32_t opacity, const LinearRow& ramp, int count) {
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::int32_t>(std::clamp<std::int64_t>(ramp.at(i) >> 16, 0, 256));
+    const std::size_t upper = at < 128 ? 0 : 1;
+    const std::int32_t share = at < 128 ? at : at - 128;  // of the lower of the two colours, 1/128
+    const std::int32_t colour = (colours[upper] * (128 - share) + colours[upper + 1] * share + 64) >> 7;
+    samples[i] = static_cast<std::uint8_t>((samples[i] * (256 - opacity) + colour * opacity + 128) >> 8);
+  }
+}
+
+LightPainter::LightPainter(const TriangleSetup& setup, const Light& light)
+    : offset_(setup.gradient(light.offset, 0)),
+      gain_(setup.gradient(light.gain, 0)),
+      offset_lanes_(lanes_of(offset_)),
+      gain_lanes_(lanes_of(gain_)) {}
+
+Lanes LightPainter::paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const {
+  const LinearRow offset = block.along(offset_), gain = block.along(gain_);
+  if (!within_max_light(offset) || !within_max_light(gain)) {
+    std::array<std::uint8_t, kLaneCount> row;
+    store_lanes(luma, row.data());
+    light_row(row.data(), offset, gain, block.count);
+    return load_lanes(row.data());
+  }
+  std::array<SignedWideLanes, 2> halves = widen(luma);
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    halves[i] = lit(halves[i], (static_cast<std::int32_t>(offset.first) + offset_lanes_[i]) >> 8,
+                    (static_cast<std::int32_t>(gain.first) + gain_lanes_[i]) >> 8);
+  return narrow_clamped(halves);
+}
+
+}  // namespace fbs
