@@ -144,8 +144,8 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
   return {};
 }
 
-Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
-  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda);
+Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t every) {
+  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda, every);
   if (!modes) return fail(modes.error());
   for (std::size_t t = 0; t < modes->size(); ++t) segment_.states[t].blend = (*modes)[t];
   return {};
@@ -229,13 +229,13 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
   if (settings_.rounds > 0) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
   }
   for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
     if (settings_.rounds > 0)
       if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
   }
   return draft;
 }
@@ -290,7 +290,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
     if (auto coded = code(scene, draft, settings_.coding.speed); !coded) return coded;
   }
   draft = std::move(best);
-  return choose(scene, draft);
+  return choose(scene, draft, 1);
 }
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,

@@ -65,7 +65,8 @@ class PatternPass {
   Result<void> choose_size(const Scene& scene);
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
-  Result<void> choose(const Scene& scene, const Draft& draft);
+  /// @param every  so many pictures share their modes
+  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
   /// Solves, codes and chooses, as often as the settings say.

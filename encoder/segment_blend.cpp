@@ -12,10 +12,6 @@ namespace {
 // Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
 constexpr int kCompareWidth = 240, kSolveWidth = 400;
 
-/// Every so many pictures count when patterns are solved for; all of them gain 0.05 dB and take three times
-/// as long.
-constexpr std::size_t kSolveEvery = 3;
-
 /// log2 of the reduction that makes a picture no wider than `width`.
 int reduction_to(int width, const Picture& picture) {
   int reduction = 0;
@@ -63,17 +59,20 @@ struct SolvedPlane {
 
 }  // namespace
 
-Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
-                                              double lambda) {
+Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns, double lambda,
+                                              std::size_t every) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   std::vector<ModeErrors> errors;
   const auto done = for_each_picture(
-      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+      segment, patterns, every, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
         errors.push_back(blend.errors(picture.y, segment.states[t], available));
       });
   if (!done) return fail(done.error());
-  return choose_modes(errors, lambda);
+  const std::vector<RegionModes> chosen = choose_modes(errors, lambda / static_cast<double>(every));
+  std::vector<RegionModes> out;
+  for (std::size_t t = 0; t < segment.states.size(); ++t) out.push_back(chosen[t / every]);
+  return out;
 }
 
 Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every) {
