@@ -66,7 +66,7 @@ TEST(PictureCost, IsTheQuadraticOfTheFitInUnitsOfTheState) {
   const double expected = cv::Mat1d(own.t() * quadratic * own)(0);
   EXPECT_NEAR(cv::Mat1d(step.t() * here.quadratic() * step)(0), expected, 1e-3 * expected);
   EXPECT_EQ(here.constant(), 10);
-  EXPECT_EQ(here.regions.at(0).pattern, 2);
+  EXPECT_EQ(here.layers.at(0).pattern, 2);
 }
 
 TEST(PictureCost, SumsItsRegions) {

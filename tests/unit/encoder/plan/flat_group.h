@@ -14,10 +14,10 @@ inline constexpr QuantiserSteps kFlatSteps{64, 16, 8, 16, 32};
 /// number.
 inline std::vector<PictureCost> flat_group(int count, double weight) {
   PictureCost picture;
-  picture.regions = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
+  picture.layers = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
   for (int i = 0; i < kParameterCount; ++i) {
     const double step = step_of(kFlatSteps, i);
-    picture.regions.front().quadratic(i, i) = weight / (step * step);
+    picture.layers.front().quadratic(i, i) = weight / (step * step);
   }
   picture.fit[kLogScale] = 320.0 * step_of(kFlatSteps, kLogScale);
   return std::vector<PictureCost>(static_cast<std::size_t>(count), picture);

@@ -283,7 +283,7 @@ TEST(TrackPlanner, KnotThatDoesNotPayIsDropped) {
   auto fits = still_fits(20, 0.5);
   for (std::size_t t = 0; t < 19; ++t) fits[t].fit[kYaw] = in_units(kYaw, static_cast<double>(t) + 1);
   fits[19].fit[kYaw] = in_units(kYaw, -40);
-  fits[19].regions.front().quadratic = 0;
+  fits[19].layers.front().quadratic = 0;
   const MotionGroup group = planned(fits);
   EXPECT_EQ(pictures_of(group.tracks[kPose]), (std::vector{19}));
   EXPECT_NEAR(group.tracks[kPose].back().value[kYaw], 20, 1);

@@ -200,9 +200,9 @@ TEST(SurroundMotion, CostsRegionIsTheSurroundDrawnFromPatternZero) {
   const Similarity away = {3.1, -2.2, 0, 0};
   const SurroundMotion motion = observed({{}, away, away});
   const PictureCost cost = cost_of(motion);
-  ASSERT_EQ(cost.regions.size(), 1U);
-  EXPECT_EQ(cost.regions[0].region, CostLayer::kSurround);
-  EXPECT_EQ(cost.regions[0].pattern, 0);
+  ASSERT_EQ(cost.layers.size(), 1U);
+  EXPECT_EQ(cost.layers[0].region, CostLayer::kSurround);
+  EXPECT_EQ(cost.layers[0].pattern, 0);
   // At the similarities that were found little remains of what differs where nothing is moved.
   const double still = squares(picture_of({{}, away, away}), picture_of({}));
   EXPECT_GT(cost.constant(), 0);
