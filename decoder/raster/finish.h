@@ -26,7 +26,7 @@ struct InteriorMix {
 
 /// Null: not done.
 struct Finish {
-  const Light* light = nullptr;           ///< on the first plane
+  const Light* light = nullptr;           ///< on luma
   const InteriorMix* interior = nullptr;  ///< then mixed over all planes
 };
 

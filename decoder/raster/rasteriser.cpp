@@ -197,6 +197,7 @@ void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const
 void draw_triangle(const ScreenTriangle& t, std::span<const TextureSource> sources,
                    const RasterTarget& target) {
   assert(!sources.empty() && sources.size() <= kMaxTriangleSources);
+  assert(target.planes.size() == plane_count(target.scale));
   if (target.scale == PlaneScale::kLuma)
     draw<PlaneScale::kLuma>(t, sources, target);
   else

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMaxTriangleSources = 56;
 
 /// Where the samples of a triangle come from.
 struct TextureSource {
-  std::span<const ConstPlaneView> planes;  ///< all of one size
+  std::span<const ConstPlaneView> planes;  ///< all of one size; as many as the scale has: plane_count()
   std::array<glm::ivec2, 3> corners;       ///< of the triangle in them, 1/64 luma pixel, as ScreenVertex::at
   Finish finish;
   /// Of the source in a blend, at the corners, 0..kWeightOne; linear over the triangle. The last source has
@@ -30,7 +30,7 @@ struct TextureSource {
 /// Where they go.
 struct RasterTarget {
   PlaneScale scale;
-  std::span<const PlaneView> planes;  ///< all of one size; as many as each source has
+  std::span<const PlaneView> planes;  ///< all of one size; plane_count(scale)
   SampleArea area;                    ///< within the planes: the samples that may be drawn
   DepthPlane* depth = nullptr;  ///< of the planes' size: only samples that are nearer are drawn; null: all
 };
@@ -38,7 +38,7 @@ struct RasterTarget {
 /// Draws the part of each plane of the sources that the triangle shows into the target's plane. Samples in
 /// the target's area whose centre is inside the triangle (top-left rule) are drawn. A triangle that is
 /// anticlockwise on the screen or has no area is not drawn.
-/// @param sources  1..kMaxTriangleSources
+/// @param sources  1..kMaxTriangleSources. Light falls on luma only
 void draw_triangle(const ScreenTriangle& triangle, std::span<const TextureSource> sources,
                    const RasterTarget& target);
 

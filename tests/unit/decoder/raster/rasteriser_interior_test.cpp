@@ -26,7 +26,8 @@ Plane mixed(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, c
             const Colours& colours, DepthPlane& depth) {
   Plane target(pattern.width, pattern.height);
   depth.reset(pattern.width, pattern.height, whole(target));
-  const InteriorMix interior{mix.ramp, mix.opacity, {&colours, 1}};
+  const std::array<Colours, 2> both = {colours, colours};
+  const InteriorMix interior{mix.ramp, mix.opacity, both};
   draw(t, scale, pattern, target, &depth, {.interior = &interior});
   return target;
 }

@@ -80,17 +80,14 @@ TEST(RasteriserLight, IsLinearOverTheTriangle) {
   }
 }
 
-TEST(RasteriserLight, FallsOnTheFirstPlaneAlone) {
-  const Plane luma(kWidth, kHeight, 90), other(kWidth, kHeight, 90);
-  Plane to_luma(kWidth, kHeight), to_other(kWidth, kHeight);
-  const std::array<ConstPlaneView, 2> from = {luma, other};
-  const std::array<PlaneView, 2> to = {to_luma, to_other};
-  const std::array<glm::ivec2, 3> p = {glm::ivec2(0, 0), {2560, 0}, {0, 2560}};
+TEST(RasteriserLight, FallsOnLumaAlone) {
+  const Plane grey(kWidth, kHeight, 90);
+  Plane luma(kWidth, kHeight), chroma(kWidth, kHeight);
   const Light light = even(160, 0);
-  draw_triangle({{{p[0]}, {p[1]}, {p[2]}}}, {from, p}, {PlaneScale::kLuma, to, {0, 0, kWidth, kHeight}},
-                {.light = &light});
-  EXPECT_EQ(to_luma.row(2)[2], 100);
-  EXPECT_EQ(to_other.row(2)[2], 90);
+  draw(kLarge, PlaneScale::kLuma, grey, luma, nullptr, {.light = &light});
+  draw(kLarge, PlaneScale::kChroma, grey, chroma, nullptr, {.light = &light});
+  EXPECT_EQ(luma.row(2)[2], 100);
+  EXPECT_EQ(chroma.row(2)[2], 90);
 }
 
 TEST(RasteriserLight, FallsOnThePatternAndNotOnTheMouthInterior) {

@@ -52,8 +52,8 @@ TEST(Rasteriser, DrawsOnlyInsideTheArea) {
     Plane target(24, 20);
     const ConstPlaneView from = white;
     const PlaneView to = target;
-    draw_triangle(screen_of(t), {{&from, 1}, {t[0].texture, t[1].texture, t[2].texture}},
-                  {PlaneScale::kLuma, {&to, 1}, area});
+    const TextureSource source = source_of(t, {&from, 1});
+    draw_triangle(screen_of(t), {&source, 1}, {PlaneScale::kLuma, {&to, 1}, area});
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 24; ++x) {
         const bool in_area = x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
@@ -287,7 +287,8 @@ TEST(Rasteriser, DrawsIntoPartOfALargerBuffer) {
     depth.reset(24, 20, whole(expected));
     draw(t, PlaneScale::kLuma, pattern, expected, i % 2 == 0 ? &depth : nullptr);
     depth.reset(24, 20, whole(expected));
-    draw_triangle(screen_of(t), {{&from, 1}, {t[0].texture, t[1].texture, t[2].texture}},
+    const TextureSource source = source_of(t, {&from, 1});
+    draw_triangle(screen_of(t), {&source, 1},
                   {PlaneScale::kLuma, {&to, 1}, whole(expected), i % 2 == 0 ? &depth : nullptr});
     for (int y = 0; y < 30; ++y) {
       for (int x = 0; x < 60; ++x) {
@@ -305,8 +306,8 @@ TEST(Rasteriser, DrawsAllPlanesAlike) {
   const std::array<ConstPlaneView, 2> from = {pattern, inverse};
   const std::array<PlaneView, 2> to = {a, b};
   const auto t = shifted_texture(kLarge, {77, -40});
-  draw_triangle(screen_of(t), {from, {t[0].texture, t[1].texture, t[2].texture}},
-                {PlaneScale::kChroma, to, whole(a)});
+  const TextureSource source = source_of(t, from);
+  draw_triangle(screen_of(t), {&source, 1}, {PlaneScale::kChroma, to, whole(a)});
   draw(t, PlaneScale::kChroma, pattern, alone);
   EXPECT_EQ(a, alone);
   Plane alone_b(24, 20);
@@ -347,7 +348,8 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
     draw(t, scale, white, covered);
     draw(t, scale, pattern, drawn, &depth);
     const std::array<std::uint8_t, kInteriorCount> colours = {3, 90, 250};
-    const InteriorMix mix{{256, 0, 128}, 200, {&colours, 1}};
+    const std::array<std::array<std::uint8_t, kInteriorCount>, 2> both = {colours, colours};
+    const InteriorMix mix{{256, 0, 128}, 200, both};
     depth.reset(32, 24, whole(drawn));
     draw(t, scale, pattern, drawn, &depth, {.interior = &mix});
     for (int y = 0; y < 24; ++y)

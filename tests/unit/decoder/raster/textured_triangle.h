@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "decoder/raster/rasteriser.h"
 
@@ -48,13 +49,22 @@ inline bool covers(const TexturedTriangle& t, PlaneScale scale, int x, int y) {
   return true;
 }
 
-/// Draws one plane; within all of the target.
+/// A triangle's texture in some planes.
+inline TextureSource source_of(const TexturedTriangle& t, std::span<const ConstPlaneView> planes,
+                               const Finish& finish = {}) {
+  return {planes, {t[0].texture, t[1].texture, t[2].texture}, finish};
+}
+
+/// Draws one plane from one source, within all of the target. As chroma it is drawn twice, the second time into
+/// nowhere.
 inline void draw(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
                  DepthPlane* depth = nullptr, const Finish& finish = {}) {
-  const ConstPlaneView from = pattern;
-  const PlaneView to = target;
-  draw_triangle(screen_of(t), {{&from, 1}, {t[0].texture, t[1].texture, t[2].texture}},
-                {scale, {&to, 1}, whole(target), depth}, finish);
+  Plane nowhere(target.width, target.height);
+  const std::array<ConstPlaneView, 2> from = {pattern, pattern};
+  const std::array<PlaneView, 2> to = {target, nowhere};
+  const std::size_t planes = plane_count(scale);
+  const TextureSource source = source_of(t, std::span(from).first(planes), finish);
+  draw_triangle(screen_of(t), {&source, 1}, {scale, std::span(to).first(planes), whole(target), depth});
 }
 
 }  // namespace fbs

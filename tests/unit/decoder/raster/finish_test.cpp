@@ -1,0 +1,112 @@
+#include "decoder/raster/finish.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace fbs {
+namespace {
+
+using std::int64_t;
+
+constexpr int kMaxCount = 70;
+using Row = std::vector<std::uint8_t>;
+
+/// A number of [low, high].
+int64_t between(std::mt19937& random, int64_t low, int64_t high) {
+  return low + static_cast<int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+/// From anywhere to anywhere in [low, high] along a run.
+LinearRow linear_within(std::mt19937& random, int64_t low, int64_t high, int count) {
+  const int64_t first = between(random, low, high), last = between(random, low, high);
+  return {first, count > 1 ? (last - first) / (count - 1) : between(random, -(1 << 30), 1 << 30)};
+}
+
+Row noise_row(std::mt19937& random) {
+  Row row(kMaxCount + 2);
+  for (std::uint8_t& s : row) s = static_cast<std::uint8_t>(random());
+  return row;
+}
+
+constexpr int64_t kMaxLit = int64_t{kMaxLight} << kLightOneLog2;
+
+// SPEC 10.11, word for word.
+TEST(LightRow, IsTheFormatsFormula) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const int64_t offset = between(random, -2 * kMaxLit, 2 * kMaxLit),
+                  gain = between(random, -2 * kMaxLit, 2 * kMaxLit);
+    const auto luma = static_cast<std::uint8_t>(random());
+    std::uint8_t out = luma;
+    light_row(&out, {offset, 0}, {gain, 0}, 1);
+    const int64_t o = std::clamp(offset, -kMaxLit, kMaxLit) >> 8,
+                  g = std::clamp(gain, -kMaxLit, kMaxLit) >> 8;
+    ASSERT_EQ(out, std::clamp<int64_t>(
+                       ((int64_t{luma} << 12) + o + ((luma - 128) * g >> 6) + (1 << 11)) >> 12, 0, 255));
+  }
+}
+
+/// A row of a block as a triangle has it: offset and gain linear over the picture.
+struct LitBlock {
+  TriangleSetup setup{{{{{0, 0}}, {{64 * 64, 0}}, {{0, 64 * 64}}}}, PlaneScale::kLuma};
+  Light light;
+  RowBlock<PlaneScale::kLuma> block;
+};
+
+LitBlock random_lit_block(std::mt19937& random, std::int32_t limit) {
+  LitBlock out;
+  for (auto* corners : {&out.light.offset, &out.light.gain})
+    for (std::int32_t& c : *corners) c = static_cast<std::int32_t>(between(random, -limit, limit));
+  const int row = static_cast<int>(random() % 64), first = static_cast<int>(random() % 64);
+  out.block = {row, first, 1 + static_cast<int>(random() % kLaneCount), out.setup.from_corner(first, row)};
+  return out;
+}
+
+// Lights of every strength, and those that leave the limits along the block.
+TEST(LightPainter, AgreesWithLightRow) {
+  std::mt19937 random(8);
+  int beyond = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const LitBlock lit = random_lit_block(random, i % 2 == 0 ? kMaxLight / 32 : 2 * kMaxLight);
+    const auto& block = lit.block;
+    const Row luma = noise_row(random);
+    Row plain = luma, fast(kLaneCount);
+    const LinearRow offset = block.along(lit.setup.gradient(lit.light.offset, 0)),
+                    gain = block.along(lit.setup.gradient(lit.light.gain, 0));
+    light_row(plain.data(), offset, gain, block.count);
+    store_lanes(LightPainter(lit.setup, lit.light).paint(block, load_lanes(luma.data())), fast.data());
+    ASSERT_TRUE(std::equal(plain.begin(), plain.begin() + block.count, fast.begin())) << i;
+    beyond += std::abs(offset.first) > kMaxLit ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 2000);
+}
+
+// SPEC 10.10, word for word.
+TEST(MixInteriorRow, IsTheFormatsFormula) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 5000; ++i) {
+    const int count = 1 + static_cast<int>(random() % kMaxCount);
+    const LinearRow ramp = linear_within(random, -(300 << 16), 600 << 16, count);
+    const std::array<std::uint8_t, kInteriorCount> c = {static_cast<std::uint8_t>(random()),
+                                                        static_cast<std::uint8_t>(random()),
+                                                        static_cast<std::uint8_t>(random())};
+    const auto opacity = static_cast<int>(between(random, 0, 256));
+    const Row before = noise_row(random);
+    Row out = before;
+    mix_interior_row(out.data() + 1, c, opacity, ramp, count);
+    for (int k = 0; k < kMaxCount; ++k) {
+      const int64_t at = std::clamp<int64_t>(ramp.at(k) >> 16, 0, 256);
+      const int64_t colour = at < 128 ? (c[0] * (128 - at) + c[1] * at + 64) >> 7
+                                      : (c[1] * (256 - at) + c[2] * (at - 128) + 64) >> 7;
+      const int64_t expected = (before[k + 1] * (256 - opacity) + colour * opacity + 128) >> 8;
+      ASSERT_EQ(out[k + 1], k < count ? expected : before[k + 1]) << i;
+    }
+    ASSERT_EQ(out[0], before[0]);
+  }
+}
+
+}  // namespace
+}  // namespace fbs
