@@ -23,7 +23,8 @@ $fbs decode out/fbs.fbs out/fbs.mp4
 $fbs evaluate "$video" out/fbs.fbs
 $fbs export out/fbs.fbs out/fbs.csv
 
-from_stream() { $fbs inspect out/fbs.fbs --json | sed -n "s/^ *\"$1\": \([0-9.]*\).*/\1/p"; }
+# By the indentation: parts of parts may have the same name.
+from_stream() { $fbs inspect out/fbs.fbs --json | sed -n "s/^ \{1,2\}\"$1\": \([0-9.]*\).*/\1/p"; }
 width=$(from_stream width) height=$(from_stream height) rate=$(from_stream fps) pictures=$(from_stream frames)
 kbps_of() { awk "BEGIN { printf \"%.1f\", $1 * 8e-3 / $(from_stream seconds) }"; }
 is() { awk "BEGIN { exit !($1) }"; }

@@ -1,8 +1,9 @@
 #include "cli/encode_session.h"
 
-#include <deque>
+#include <utility>
 
 #include "cli/progress.h"
+#include "encoder/picture_spool.h"
 
 namespace fbs::cli {
 namespace {
@@ -14,17 +15,39 @@ std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t
   return regular || d <= 0 ? 0 : static_cast<std::uint32_t>(d);
 }
 
+/// Pictures from their encoding until they are decoded: a segment of them, on disk. First in, first out.
+class WaitingPictures {
+ public:
+  [[nodiscard]] bool empty() const { return read_ == old_.count() && new_.count() == 0; }
+
+  Result<void> push(const Picture& picture) { return new_.add(picture); }
+
+  /// Not to be called when empty.
+  Result<Picture> pop() {
+    // A file that has been read to its end makes room for the pictures since.
+    if (read_ == old_.count()) {
+      old_ = std::exchange(new_, {});
+      read_ = 0;
+    }
+    return old_.read(read_++);
+  }
+
+ private:
+  PictureSpool old_, new_;
+  std::size_t read_ = 0;  ///< pictures of old_
+};
+
 /// Decodes what is encoded as it comes, and compares it with the source.
 class ClosedLoop {
  public:
   ClosedLoop(Encoder encoder, const TakeBytes& take, bool with_ssim)
       : encoder_(std::move(encoder)), take_(take), meter_(decoder_, with_ssim) {}
 
-  Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
+  Result<void> push(const TimedPicture& now, std::uint32_t duration, const SeePicture& see) {
     if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
     if (see)
       if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
-    waiting_.push_back(std::move(now.picture));
+    if (auto kept = waiting_.push(now.picture); !kept) return kept;
     return pass_on();
   }
 
@@ -49,8 +72,9 @@ class ClosedLoop {
       if (*status != DecodeStatus::kPicture) return {};
       if (waiting_.empty())
         return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
-      if (auto compared = meter_.compare(waiting_.front()); !compared) return compared;
-      waiting_.pop_front();
+      const auto source = waiting_.pop();
+      if (!source) return fail(source.error());
+      if (auto compared = meter_.compare(*source); !compared) return compared;
     }
   }
 
@@ -58,7 +82,7 @@ class ClosedLoop {
   const TakeBytes& take_;
   StreamDecoder decoder_;
   StreamMeter meter_;
-  std::deque<Picture> waiting_;  ///< pushed, not yet decoded
+  WaitingPictures waiting_;
 };
 
 }  // namespace
@@ -76,7 +100,7 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
     auto next = source.next();
     if (!next) return fail(next.error());
     const std::uint32_t duration = *next ? duration_of((*current)->pts, (*next)->pts, nominal) : 0;
-    if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());
+    if (auto pushed = loop.push(**current, duration, see); !pushed) return fail(pushed.error());
     progress.update(++done);
     current = std::move(next);
   }

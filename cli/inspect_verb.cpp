@@ -1,4 +1,5 @@
 // fbs inspect: what a stream contains and the size of each part.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -6,11 +7,20 @@
 #include <vector>
 
 #include "cli/byte_count_json.h"
+#include "cli/pattern_use.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 
 namespace fbs::cli {
 namespace {
+
+struct PatternSummary {
+  std::uint64_t picture = 0;
+  double seconds = 0;
+  std::uint64_t bytes = 0;
+  bool reduced = false;
+  std::array<double, kRegionCount> share{};  ///< of each region
+};
 
 struct Summary {
   ByteCount bytes;
@@ -18,7 +28,7 @@ struct Summary {
   QuantiserSteps steps;
   std::uint64_t pictures = 0;
   double seconds = 0;
-  std::size_t patterns = 0;
+  std::vector<PatternSummary> patterns;  ///< in the order they came
   bool face = false;
   PartBitsX256 motion{};
 };
@@ -37,9 +47,21 @@ std::vector<std::pair<std::string, double>> motion_by_part(const Summary& s) {
   return out;
 }
 
+nlohmann::json to_json(const PatternSummary& p) {
+  nlohmann::json share;
+  for (std::size_t r = 0; r < kRegionCount; ++r) share[std::string(kRegionNames[r])] = p.share[r];
+  return {{"picture", p.picture},
+          {"seconds", p.seconds},
+          {"bytes", p.bytes},
+          {"reduced", p.reduced},
+          {"share", share}};
+}
+
 nlohmann::json to_json(const Summary& s) {
   nlohmann::json by_part;
   for (const auto& [part, bytes] : motion_by_part(s)) by_part[part] = std::lround(bytes);
+  nlohmann::json patterns = nlohmann::json::array();
+  for (const PatternSummary& p : s.patterns) patterns.push_back(to_json(p));
   return {{"bytes", byte_count_json(s.bytes)},
           {"motion", by_part},
           {"frames", s.pictures},
@@ -47,7 +69,8 @@ nlohmann::json to_json(const Summary& s) {
           {"width", s.format.width},
           {"height", s.format.height},
           {"seconds", s.seconds},
-          {"patterns", s.patterns},
+          {"pattern_count", s.patterns.size()},
+          {"patterns", patterns},
           {"face", s.face},
           {"steps",
            {{"rotation", s.steps.rotation},
@@ -69,10 +92,13 @@ void print(const std::string& name, const Summary& s) {
   std::printf("%s: %d x %d, %.3f pictures/s, %llu pictures, %.2f s, %zu pattern%s%s\n", name.c_str(),
               s.format.width, s.format.height,
               static_cast<double>(s.format.frame_rate.num) / s.format.frame_rate.den,
-              static_cast<unsigned long long>(s.pictures), s.seconds, s.patterns, s.patterns == 1 ? "" : "s",
-              s.face ? "" : ", no face");
+              static_cast<unsigned long long>(s.pictures), s.seconds, s.patterns.size(),
+              s.patterns.size() == 1 ? "" : "s", s.face ? "" : ", no face");
   line("geometry", b.geometry);
   line("patterns", b.patterns);
+  for (const PatternSummary& p : s.patterns)
+    std::printf("    %-14s %9llu bytes %9.2f s%s\n", ("picture " + std::to_string(p.picture)).c_str(),
+                static_cast<unsigned long long>(p.bytes), p.seconds, p.reduced ? ", reduced size" : "");
   line("motion", b.motion);
   for (const auto& [part, bytes] : motion_by_part(s))
     if (bytes >= 0.5)
@@ -89,6 +115,16 @@ void print(const std::string& name, const Summary& s) {
       s.steps.control * 100.0 / kUnitsPerEyeDistance);
 }
 
+std::vector<PatternSummary> patterns_of(const StreamDecoder& decoder, const PatternUse& use) {
+  std::vector<PatternSummary> out;
+  for (const PatternRecord& record : decoder.pattern_records()) {
+    PatternSummary p{record.picture, use.seconds(out.size()), record.bytes, record.reduced, {}};
+    for (std::size_t r = 0; r < kRegionCount; ++r) p.share[r] = use.share(out.size(), static_cast<Region>(r));
+    out.push_back(p);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<void> run_inspect(const InspectArguments& arguments) {
@@ -96,17 +132,20 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
   decoder.count_motion_bits();
+  decoder.record_patterns();
+  PatternUse use(decoder);
   Summary s;
   for (;;) {
     auto status = file->next();
     if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
+    use.add_picture();
     s.seconds += static_cast<double>(decoder.duration()) / kTicksPerSecond;
   }
   s.bytes = decoder.bytes();
   s.format = decoder.format();
   s.pictures = decoder.pictures();
-  s.patterns = decoder.scene().patterns.size();
+  s.patterns = patterns_of(decoder, use);
   s.face = decoder.scene().geometry.has_value();
   s.steps = decoder.scene().setup.steps;
   s.motion = decoder.motion_bits();

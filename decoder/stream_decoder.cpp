@@ -156,6 +156,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   blend_.reset();
   timeline_ = {};
   lost_ = false;
+  scene_begin_ = pictures_;
   bit_counter_.reset();
   geometry_.reset();
   surround_.reset();
@@ -178,8 +179,8 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
   const State* known = first ? nullptr : timeline_.find(pattern->picture);
   if (!first && known == nullptr)
     return fail(ErrorCode::kInvalidStream, "a pattern of a picture without a state", packet.offset);
-  auto picture = patterns_->decode(pattern->av1);
-  if (!picture) return at(packet, picture.error());
+  auto frame = patterns_->decode_frame(pattern->av1);
+  if (!frame) return at(packet, frame.error());
   const State seen = first ? state_of(pattern->state, scene_.setup.steps) : *known;
   if (first) {
     begin_geometry(seen);
@@ -187,11 +188,14 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
     if (scene_.setup.patterns > 1) blend_.emplace();
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
   }
-  Pattern made = make_pattern(std::move(*picture), seen, scene_.geometry);
+  Pattern made = make_pattern(std::move(frame->picture), seen, scene_.geometry);
   if (pattern->slot < static_cast<int>(scene_.patterns.size()))
     scene_.patterns[pattern->slot] = std::move(made);
   else
     scene_.patterns.push_back(std::move(made));
+  if (records_patterns_)
+    pattern_records_.push_back({pattern->slot, scene_begin_ + static_cast<std::uint64_t>(pattern->picture),
+                                packet.size, frame->reduced});
   return {};
 }
 

@@ -28,6 +28,14 @@ struct ByteCount {
   std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
 
+/// A pattern as it came.
+struct PatternRecord {
+  int slot = 0;               ///< index into Scene::patterns, until another pattern comes for the slot
+  std::uint64_t picture = 0;  ///< number in the stream of the picture it shows
+  std::uint64_t bytes = 0;    ///< of its packet
+  bool reduced = false;       ///< coded at reduced size
+};
+
 enum class DecodeStatus : std::uint8_t {
   kPicture,   ///< the next picture's state is known: state(), and render() draws it
   kNeedMore,  ///< feed more bytes, or close()
@@ -55,6 +63,9 @@ class StreamDecoder {
   /// default.
   void count_motion_bits() { counts_motion_bits_ = true; }
 
+  /// Keeps a record of every pattern from now on. Off by default, since records are never dropped.
+  void record_patterns() { records_patterns_ = true; }
+
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup.
   Result<DecodeStatus> next();
@@ -73,6 +84,8 @@ class StreamDecoder {
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
   /// Bits of the motion read so far by part; zero unless count_motion_bits() was called.
   [[nodiscard]] const PartBitsX256& motion_bits() const { return motion_bits_; }
+  /// In the order they came; empty unless record_patterns() was called.
+  [[nodiscard]] const std::vector<PatternRecord>& pattern_records() const { return pattern_records_; }
   /// Duration of the announced picture in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return duration_; }
   /// Number of pictures that the end packet announces, when it has been read.
@@ -112,6 +125,9 @@ class StreamDecoder {
   bool announced_picture_ = false;  ///< state_ is one of scene_
   std::uint32_t duration_ = 0;
   std::uint64_t pictures_ = 0;
+  std::uint64_t scene_begin_ = 0;  ///< pictures_ before the scene
+  bool records_patterns_ = false;
+  std::vector<PatternRecord> pattern_records_;
   std::optional<std::uint64_t> announced_;
   ByteCount bytes_;
   PartBitsX256 motion_bits_{};

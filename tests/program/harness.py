@@ -14,7 +14,8 @@ BUILD = pathlib.Path(os.environ.get("FBS_BUILD", SOURCE / "build/release"))
 SHARED = pathlib.Path(os.environ.get("FBS_SHARED") or SOURCE.parent / "shared")
 FBS, TALKER = BUILD / "fbs", BUILD / "talker"
 MATERIAL = BUILD / "tests/program/material"
-TALK_Y4M, TALK_FBS, TALK_TRUTH = (MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk.csv"))
+TALK_Y4M, TALK_FBS, TALK_ONE_FBS, TALK_TRUTH = (
+    MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk_one.fbs", "talk.csv"))
 CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
 
 FAILED = 2             # exit code of fbs
@@ -22,12 +23,14 @@ MAX_SECONDS = 240      # for any one command
 
 
 def make_material():
-    """A talker of 120 QCIF pictures with its truth and its stream, and 150 pictures of one who is closer and turns more."""
+    """A talker of 120 QCIF pictures with its truth and its streams of several patterns and of one, and 150 pictures of one
+    who is closer and turns more."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
     talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
            "--yaw", "20", "--pitch", "12", "--roll", "10", "--scale", "0.15", "--truth", CLOSE_TRUTH)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
+    subprocess.run([FBS, "encode", TALK_Y4M, TALK_ONE_FBS, "--quiet", "--patterns", "1"], check=True)
 
 
 def talker(*arguments):
@@ -103,7 +106,7 @@ def packets(stream):
     return found
 
 
-MOTION = 5  # packet type
+PATTERN, MOTION, BLEND = 4, 5, 7  # packet types
 
 
 class ProgramTest(unittest.TestCase):

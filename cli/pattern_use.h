@@ -1,0 +1,42 @@
+// Which patterns a stream has, and how much of its pictures each of them draws.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "common/state.h"
+#include "decoder/stream_decoder.h"
+
+namespace fbs::cli {
+
+/// By Region.
+inline constexpr std::array<std::string_view, kRegionCount> kRegionNames = {
+    "mouth", "right eye", "left eye", "face", "hair", "body", "ground"};
+
+/// Sums up the blends of pictures as they are decoded.
+class PatternUse {
+ public:
+  /// @param decoder  records its patterns; must outlive the object
+  explicit PatternUse(const StreamDecoder& decoder) : decoder_(decoder) {}
+
+  /// Adds the current picture of the decoder.
+  void add_picture();
+
+  /// Fraction of the region, over all pictures that have it, that the pattern draws.
+  /// @param pattern  index into the decoder's records
+  [[nodiscard]] double share(std::size_t pattern, Region region) const;
+
+  /// When the picture that a pattern shows is displayed, seconds.
+  [[nodiscard]] double seconds(std::size_t pattern) const;
+
+ private:
+  const StreamDecoder& decoder_;
+  std::vector<std::array<std::int64_t, kRegionCount>> weights_;  ///< of each pattern
+  std::array<std::int64_t, kRegionCount> pictures_{};            ///< that have the region
+  std::vector<double> times_;                                    ///< of each picture, seconds
+  double end_ = 0;
+};
+
+}  // namespace fbs::cli
