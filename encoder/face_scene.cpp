@@ -43,7 +43,10 @@ CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
 /// What quality means for the motion and the first pattern.
 RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
   RateTarget target = rate_target(settings, eye_distance_px);
-  if (settings.patterns != 1) target.quality = PatternPoint::at(settings.quality).motion_quality;
+  if (settings.patterns == 1) return target;
+  target.quality = settings.bitrate > 0 ? motion_quality_at(settings.bitrate)
+                                        : PatternPoint::at(settings.quality).motion_quality;
+  target.bitrate_kbps = 0;  // the patterns take what the motion leaves
   return target;
 }
 
@@ -53,6 +56,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, double lambda
   out.count = settings.patterns;
   out.coding.quantiser = settings.pattern_quantiser < 0 ? out.point.quantiser : settings.pattern_quantiser;
   out.coding.reduced = settings.reduced_patterns;
+  out.bitrate_kbps = settings.bitrate;
   out.lambda = lambda;
   out.rounds = settings.effort;
   return out;
@@ -211,7 +215,7 @@ Result<void> FaceScene::end_segment() {
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }
-  const auto packets = patterns_pass_->end_segment(scene_, seen_);
+  const auto packets = patterns_pass_->end_segment(scene_, seen_, packets_.waiting());
   if (!packets) return fail(packets.error());
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   return {};

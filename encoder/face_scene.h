@@ -69,7 +69,7 @@ class FaceScene : public SceneEncoder {
   SurroundObservations observations_;  ///< empty from start() on
   bool fixed_ = false;                 ///< whether fix_head() has been called
   SurroundMap map_;
-  CodedState seen_;                     ///< of pattern 0
+  CodedState seen_;                           ///< of pattern 0
   std::optional<PatternPass> patterns_pass_;  ///< nothing with one pattern
   SceneHead head_;
   ScenePackets packets_;

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "bitstream/payload/pattern_payload.h"
-#include "encoder/patterns/pattern_trial.h"
 #include "encoder/patterns/pattern_size.h"
+#include "encoder/patterns/pattern_trial.h"
 
 namespace fbs {
 namespace {
@@ -22,6 +22,14 @@ constexpr double kStoreBytes = 256e6;
 // For deciding how many patterns: libaom's speed, pictures coded, and every so many drawn.
 constexpr int kTrialSpeed = 6;
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
+
+constexpr std::size_t kPacketBytes = 5;         // around a payload: SPEC 3.1
+constexpr std::size_t kPatternHeaderBytes = 3;  // of a pattern payload: slot and picture
+
+// To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
+constexpr int kMaxRateTrials = 4;
+constexpr double kBytesPerStep = 1.045;
+constexpr double kRateTolerance = 0.02;
 
 double fps_of(const VideoFormat& format) {
   return static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
@@ -95,20 +103,30 @@ Result<double> PatternPass::loss_between(const Scene& scene, std::size_t count) 
   return blend_loss(segment_, usable(scene, *draft), kLossEvery);
 }
 
-Result<std::size_t> PatternPass::decide(const Scene& scene) {
+void PatternPass::set_quality(int quality) {
+  settings_.point = PatternPoint::at(quality);
+  settings_.coding.quantiser = settings_.point.quantiser;
+}
+
+std::size_t PatternPass::count_wanted() const {
   const std::size_t pictures = segment_.states.size();
   const double seconds = static_cast<double>(pictures) / fps_of(format_);
-  const std::size_t most = std::min<std::size_t>(store_, pictures);
-  const auto wanted = settings_.count > 0 ? settings_.count : std::lround(settings_.point.per_second * seconds);
-  const auto usual = std::clamp<std::size_t>(wanted, 2, std::max<std::size_t>(most, 2));
-  if (most < kTrialPictures || usual < kTrialPictures) return std::min(usual, most);
-  const auto loss = loss_between(scene, usual);
+  const std::size_t wanted =
+      settings_.count > 0 ? settings_.count : std::lround(settings_.point.per_second * seconds);
+  return std::min(std::clamp<std::size_t>(wanted, 2, store_), pictures);
+}
+
+Result<void> PatternPass::choose_size(const Scene& scene) {
+  const std::size_t count = count_wanted();
+  if (count < 2) return {};
+  const auto loss = loss_between(scene, count);
   if (!loss) return fail(loss.error());
   // A few neighbours from the middle of the segment.
-  const std::vector<std::size_t> times = regular_times(pictures, usual);
+  const std::vector<std::size_t> times = regular_times(segment_.states.size(), count);
+  const std::size_t trials = std::min(kTrialPictures, count);
   std::vector<Picture> some;
-  for (std::size_t k = 0; k < std::min(kTrialPictures, times.size()); ++k) {
-    auto picture = segment_.pictures.read(times[(times.size() - kTrialPictures) / 2 + k]);
+  for (std::size_t k = 0; k < trials; ++k) {
+    auto picture = segment_.pictures.read(times[(count - trials) / 2 + k]);
     if (!picture) return fail(picture.error());
     some.push_back(std::move(*picture));
   }
@@ -122,12 +140,12 @@ Result<std::size_t> PatternPass::decide(const Scene& scene) {
   trial.reduced = true;
   const auto reduced = trial_cost(format_, some, trial);
   if (!reduced) return fail(reduced.error());
-  settings_.coding.reduced = std::getenv("FBS_RED") ? std::atoi(std::getenv("FBS_RED")) : reduced_size_pays(*loss, usual, motion, *full, *reduced);
-  return usual;
+  settings_.coding.reduced = reduced_size_pays(*loss, count, motion, *full, *reduced);
+  return {};
 }
 
-Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
-  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda);
+Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t every) {
+  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda, every);
   if (!modes) return fail(modes.error());
   for (std::size_t t = 0; t < modes->size(); ++t) segment_.states[t].blend = (*modes)[t];
   return {};
@@ -136,7 +154,8 @@ Result<void> PatternPass::choose(const Scene& scene, const Draft& draft) {
 Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
   auto solved = solve_patterns(segment_, usable(scene, draft), draft.coded.size(), SolverSettings{});
   if (!solved) return fail(solved.error());
-  for (std::size_t k = 0; k < solved->size(); ++k) draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
+  for (std::size_t k = 0; k < solved->size(); ++k)
+    draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
   return {};
 }
 
@@ -150,8 +169,36 @@ Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
   return {};
 }
 
+Result<std::vector<std::vector<std::uint8_t>>> PatternPass::blend_payloads(BlendEncoder& encoder) const {
+  std::vector<std::vector<std::uint8_t>> out;
+  std::size_t t = 0;
+  for (const Segment::Group& g : segment_.groups) {
+    BlendGroup group;
+    group.key = encoder.needs_key();
+    for (const std::size_t end = t + g.pictures; t < end; ++t)
+      group.modes.push_back(segment_.states[t].blend);
+    auto payload = encoder.encode(group);
+    if (!payload) return fail(payload.error());
+    out.push_back(std::move(*payload));
+  }
+  return out;
+}
+
+Result<double> PatternPass::bytes_of(const Draft& draft) const {
+  BlendEncoder encoder = blend_;
+  const auto blends = blend_payloads(encoder);
+  if (!blends) return fail(blends.error());
+  double bytes = 0;
+  for (const auto& b : *blends) bytes += static_cast<double>(b.size() + kPacketBytes);
+  for (const Segment::Group& g : segment_.groups)
+    bytes += static_cast<double>(g.payload.size() + kPacketBytes);
+  for (const SequencePattern& p : draft.coded)
+    bytes += static_cast<double>(p.av1.size() + kPacketBytes + kPatternHeaderBytes);
+  return bytes;
+}
+
 Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const CodedState& rest, Draft& draft) {
-  std::vector<std::vector<std::uint8_t>> patterns, blends;
+  std::vector<std::vector<std::uint8_t>> patterns;
   for (std::size_t k = 0; k < draft.coded.size(); ++k) {
     const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
     auto payload = encode_pattern({static_cast<std::int32_t>(k), picture, picture == 0 ? rest : CodedState{},
@@ -160,15 +207,8 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
     if (!payload) return fail(payload.error());
     patterns.push_back(std::move(*payload));
   }
-  std::size_t t = 0;
-  for (const Segment::Group& g : segment_.groups) {
-    BlendGroup group;
-    group.key = blend_.needs_key();
-    for (const std::size_t end = t + g.pictures; t < end; ++t) group.modes.push_back(segment_.states[t].blend);
-    auto payload = blend_.encode(group);
-    if (!payload) return fail(payload.error());
-    blends.push_back(std::move(*payload));
-  }
+  auto blends = blend_payloads(blend_);
+  if (!blends) return fail(blends.error());
   // The decoder's slots after the segment.
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   if (picture_ == 0) scene.patterns.clear();
@@ -180,25 +220,97 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
   }
   picture_ += static_cast<std::int32_t>(segment_.states.size());
   return in_stream_order(std::exchange(segment_, {}), draft.shown, draft.arrived, std::move(patterns),
-                         std::move(blends));
+                         std::move(*blends));
 }
 
-Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest) {
-  if (segment_.states.empty()) return std::vector<TypedPayload>{};
-  const auto count = decide(scene);
-  if (!count) return fail(count.error());
-  auto draft = draft_of(scene, *count);
-  if (!draft) return fail(draft.error());
+Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
+  auto draft = draft_of(scene, count_wanted());
+  if (!draft) return draft;
   if (settings_.rounds > 0) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
   }
   for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
     if (settings_.rounds > 0)
       if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
+  }
+  return draft;
+}
+
+Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
+  int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
+  while (high - low > 4) {
+    const int middle = (low + high) / 2;
+    set_quality(middle);
+    auto draft = draft_of(scene, count_wanted());
+    if (!draft) return fail(draft.error());
+    if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
+    const auto taken = bytes_of(*draft);
+    if (!taken) return fail(taken.error());
+    (*taken <= bytes ? low : high) = middle;
+  }
+  return low;
+}
+
+Result<void> PatternPass::aim(const Scene& scene, double bytes) {
+  set_quality(50);
+  for (int trial = 0; trial < 2; ++trial) {
+    const bool before = settings_.coding.reduced;
+    if (auto sized = choose_size(scene); !sized) return sized;
+    if (trial > 0 && settings_.coding.reduced == before) break;
+    const auto quality = quality_for(scene, bytes);
+    if (!quality) return fail(quality.error());
+    set_quality(*quality);
+  }
+  return {};
+}
+
+Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
+  // Quantisers that take too many bytes and few enough, the nearest known.
+  int over = -1, under = 64;
+  Draft best = draft;
+  double nearest = 0;
+  for (int trial = 0;; ++trial) {
+    const auto taken = bytes_of(draft);
+    if (!taken) return fail(taken.error());
+    const int quantiser = settings_.coding.quantiser;
+    (*taken > bytes ? over : under) = quantiser;
+    const double miss = std::abs(std::log(*taken / bytes));
+    if (trial == 0 || miss < nearest) {
+      nearest = miss;
+      best = draft;
+    }
+    const int step = static_cast<int>(std::lround(std::log(*taken / bytes) / std::log(kBytesPerStep)));
+    const int next = std::clamp(quantiser + step, over + 1, under - 1);
+    if (trial == kMaxRateTrials || nearest < kRateTolerance || over + 1 >= under || next == quantiser) break;
+    settings_.coding.quantiser = next;
+    if (auto coded = code(scene, draft, settings_.coding.speed); !coded) return coded;
+  }
+  draft = std::move(best);
+  return choose(scene, draft, 1);
+}
+
+Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
+                                                           std::size_t other_bytes) {
+  if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  double allowed = 0;
+  if (settings_.bitrate_kbps > 0) {
+    const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+    allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
+    if (auto aimed = aim(scene, allowed); !aimed) return fail(aimed.error());
+  } else if (auto sized = choose_size(scene); !sized) {
+    return fail(sized.error());
+  }
+  auto draft = make(scene);
+  if (!draft) return fail(draft.error());
+  if (settings_.bitrate_kbps > 0) {
+    if (auto met = meet(scene, allowed, *draft); !met) return fail(met.error());
+    const auto taken = bytes_of(*draft);
+    if (!taken) return fail(taken.error());
+    left_bytes_ = allowed - *taken;
   }
   return packets(scene, rest, *draft);
 }

@@ -1,5 +1,5 @@
-// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes and
-// places the patterns, segment by segment.
+// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes
+// and places the patterns, segment by segment.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 namespace fbs {
 
 struct PatternPassSettings {
-  PatternPoint point{};
-  std::size_t count = 0;  ///< patterns of the scene; 0: as the point says
-  bool first_coded = false;
+  PatternPoint point{};     ///< where no bitrate is set
+  std::size_t count = 0;    ///< patterns of the scene; 0: as the point says
+  double bitrate_kbps = 0;  ///< of all packets; 0: the point decides
   SequenceSettings coding;
   int rounds = 1;     ///< of solving for patterns; 0: pictures are coded as they are
   double lambda = 0;  ///< squared luma levels that a bit is worth
@@ -41,8 +41,10 @@ class PatternPass {
   /// Codes the segment and begins another.
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
   /// @param rest   seen state of pattern 0 as coded
+  /// @param other_bytes  that the stream has taken beside segments since the last one
   /// @return packets
-  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest);
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest,
+                                                              std::size_t other_bytes);
 
  private:
   /// Patterns of the segment while they are made.
@@ -58,19 +60,35 @@ class PatternPass {
   [[nodiscard]] Result<Draft> draft_of(const Scene& scene, std::size_t count);
   /// Error of the pictures between lossless patterns.
   [[nodiscard]] Result<double> loss_between(const Scene& scene, std::size_t count);
-  /// Number of patterns; sets their size.
-  [[nodiscard]] Result<std::size_t> decide(const Scene& scene);
+  [[nodiscard]] std::size_t count_wanted() const;
+  /// Whether patterns are coded at half width and height.
+  Result<void> choose_size(const Scene& scene);
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
-  Result<void> choose(const Scene& scene, const Draft& draft);
+  /// @param every  so many pictures share their modes
+  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
+  /// Solves, codes and chooses, as often as the settings say.
+  [[nodiscard]] Result<Draft> make(const Scene& scene);
+  void set_quality(int quality);
+  /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.
+  [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
+  /// Sets quality and size for so many bytes.
+  Result<void> aim(const Scene& scene, double bytes);
+  /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few
+  /// percent.
+  Result<void> meet(const Scene& scene, double bytes, Draft& draft);
+  /// Of all packets of the segment.
+  [[nodiscard]] Result<double> bytes_of(const Draft& draft) const;
+  [[nodiscard]] Result<std::vector<std::vector<std::uint8_t>>> blend_payloads(BlendEncoder& encoder) const;
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, const CodedState& rest, Draft& draft);
 
   VideoFormat format_;
   PatternPassSettings settings_;
   std::int32_t store_;
   std::int32_t picture_ = 0;  ///< number of the segment's first
+  double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
   Segment segment_;
   BlendEncoder blend_;
 };

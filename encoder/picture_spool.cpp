@@ -22,7 +22,8 @@ Result<void> PictureSpool::add(const Picture& picture) {
   assert(picture.width() == width_ && picture.height() == height_);
   bool written = fseeko(file_.get(), static_cast<off_t>(count_ * bytes_of(picture)), SEEK_SET) == 0;
   for (const Plane* p : {&picture.y, &picture.u, &picture.v})
-    written = written && std::fwrite(p->samples.data(), 1, p->samples.size(), file_.get()) == p->samples.size();
+    written =
+        written && std::fwrite(p->samples.data(), 1, p->samples.size(), file_.get()) == p->samples.size();
   if (!written) return fail(ErrorCode::kIo, "no room for pictures in the temporary directory");
   ++count_;
   return {};

@@ -25,6 +25,8 @@ class ScenePackets {
   void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
 
+  /// Bytes that are ready.
+  [[nodiscard]] std::size_t waiting() const { return ready_.size(); }
   /// Whole packets that are ready; forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take();
 

@@ -4,7 +4,8 @@
 
 namespace fbs {
 
-std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown, bool first_alone) {
+std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
+                                  bool first_alone) {
   std::vector<std::size_t> out;
   std::size_t end = 0, sent = 1;
   for (const Segment::Group& group : segment.groups) {

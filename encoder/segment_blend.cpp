@@ -12,10 +12,6 @@ namespace {
 // Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
 constexpr int kCompareWidth = 240, kSolveWidth = 400;
 
-/// Every so many pictures count when patterns are solved for; all of them gain 0.05 dB and take three times as
-/// long.
-constexpr std::size_t kSolveEvery = 3;
-
 /// log2 of the reduction that makes a picture no wider than `width`.
 int reduction_to(int width, const Picture& picture) {
   int reduction = 0;
@@ -25,7 +21,8 @@ int reduction_to(int width, const Picture& picture) {
 
 /// Calls use(number in the segment, picture, available patterns) for every so many pictures.
 template <class Use>
-Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns, std::size_t every, Use&& use) {
+Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns, std::size_t every,
+                              Use&& use) {
   std::size_t t = 0;
   for (std::size_t g = 0; g < segment.groups.size(); ++g) {
     for (std::size_t i = 0; i < segment.groups[g].pictures; ++i, ++t) {
@@ -40,7 +37,8 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
 
 /// Adds what `now` has over `before`, planes at a reduced size, to a plane at full size.
 void add_change(const ReducedPlane& now, ReducedPlane before, int reduction, Plane& plane) {
-  for (std::size_t i = 0; i < before.samples.size(); ++i) before.samples[i] = now.samples[i] - before.samples[i];
+  for (std::size_t i = 0; i < before.samples.size(); ++i)
+    before.samples[i] = now.samples[i] - before.samples[i];
   const float scale = 1.0F / static_cast<float>(1 << reduction);
   for (int y = 0; y < plane.height; ++y) {
     const float v = (static_cast<float>(y) + 0.5F) * scale - 0.5F;
@@ -61,34 +59,40 @@ struct SolvedPlane {
 
 }  // namespace
 
-Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns, double lambda) {
+Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns, double lambda,
+                                              std::size_t every) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   std::vector<ModeErrors> errors;
   const auto done = for_each_picture(
-      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+      segment, patterns, every, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
         errors.push_back(blend.errors(picture.y, segment.states[t], available));
       });
   if (!done) return fail(done.error());
-  return choose_modes(errors, lambda);
+  const std::vector<RegionModes> chosen = choose_modes(errors, lambda / static_cast<double>(every));
+  std::vector<RegionModes> out;
+  for (std::size_t t = 0; t < segment.states.size(); ++t) out.push_back(chosen[t / every]);
+  return out;
 }
 
 Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   double sum = 0, samples = 0;
-  const auto done = for_each_picture(
-      segment, patterns, every, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        const ModeErrors errors = blend.errors(picture.y, segment.states[t], available);
-        for (const auto& region : errors) sum += *std::min_element(region.begin(), region.end());
-        samples += static_cast<double>(picture.y.samples.size());
-      });
+  const auto done =
+      for_each_picture(segment, patterns, every,
+                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+                         const ModeErrors errors = blend.errors(picture.y, segment.states[t], available);
+                         for (const auto& region : errors)
+                           sum += *std::min_element(region.begin(), region.end());
+                         samples += static_cast<double>(picture.y.samples.size());
+                       });
   if (!done) return fail(done.error());
   return sum / samples;
 }
 
-Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns, std::size_t count,
-                                            const SolverSettings& settings) {
+Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns,
+                                            std::size_t count, const SolverSettings& settings) {
   const std::span<const Pattern> all = patterns.scene.patterns;
   const glm::ivec2 size(all.front().picture.width(), all.front().picture.height());
   const int luma_reduction = reduction_to(kSolveWidth, all.front().picture);
@@ -98,21 +102,23 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
                                               {&Picture::v, chroma_reduction - 1}}};
   PatternSolver luma(patterns.scene, luma_reduction), chroma(patterns.scene, chroma_reduction);
   std::array<std::vector<ReducedPlane>, 3> targets;
-  const auto done = for_each_picture(
-      segment, patterns, kSolveEvery,
-      [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        luma.add_picture(segment.states[t], available, size);
-        if (chroma_reduction != luma_reduction) chroma.add_picture(segment.states[t], available, size);
-        for (std::size_t i = 0; i < 3; ++i)
-          targets[i].push_back(reduce(picture.*planes[i].plane, planes[i].reduction));
-      });
+  const auto done =
+      for_each_picture(segment, patterns, kSolveEvery,
+                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+                         luma.add_picture(segment.states[t], available, size);
+                         if (chroma_reduction != luma_reduction)
+                           chroma.add_picture(segment.states[t], available, size);
+                         for (std::size_t i = 0; i < 3; ++i)
+                           targets[i].push_back(reduce(picture.*planes[i].plane, planes[i].reduction));
+                       });
   if (!done) return fail(done.error());
 
   std::vector<Picture> out;
   const std::int32_t first = segment.states.front().picture;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool free = k + count >= all.size();
-    auto picture = free ? segment.pictures.read(all[k].seen.picture - first) : Result<Picture>(all[k].picture);
+    auto picture =
+        free ? segment.pictures.read(all[k].seen.picture - first) : Result<Picture>(all[k].picture);
     if (!picture) return fail(picture.error());
     out.push_back(std::move(*picture));
   }
@@ -120,7 +126,7 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
     PatternPlanes anchors;
     for (const Picture& p : out) anchors.push_back(reduce(p.*planes[i].plane, planes[i].reduction));
     const PatternSolver& solver = i == 0 || chroma_reduction == luma_reduction ? luma : chroma;
-    const PatternPlanes solved = solver.solve(targets[i], anchors, count, i == 0, settings);
+    const PatternPlanes solved = solver.solve(targets[i], anchors, count, i, settings);
     for (std::size_t k = out.size() - count; k < out.size(); ++k)
       add_change(solved[k], anchors[k], planes[i].reduction, out[k].*planes[i].plane);
   }

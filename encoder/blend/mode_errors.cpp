@@ -20,7 +20,8 @@ std::array<std::vector<SurfaceRun>, kRegionCount> runs_by_region(const VisibleSu
   region.reserve(surface.triangles().size());
   for (const SurfaceTriangle& t : surface.triangles()) region.push_back(region_of(t, geometry));
   std::array<std::vector<SurfaceRun>, kRegionCount> out;
-  for (const SurfaceRun& run : surface.runs()) out[static_cast<std::size_t>(region[run.triangle])].push_back(run);
+  for (const SurfaceRun& run : surface.runs())
+    out[static_cast<std::size_t>(region[run.triangle])].push_back(run);
   return out;
 }
 
@@ -48,7 +49,8 @@ class RegionGram {
     for (const WeightedSource& s : blend) index.push_back(find(s.source, sample));
     for (std::size_t i = 0; i < blend.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
-        sum += (i == j ? 1 : 2) * static_cast<double>(blend[i].weight * blend[j].weight) * product(index[i], index[j]);
+        sum += (i == j ? 1 : 2) * static_cast<double>(blend[i].weight * blend[j].weight) *
+               product(index[i], index[j]);
     return sum / (kBlendOne * kBlendOne);
   }
 
@@ -109,14 +111,16 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
       for (const SurfaceRun& run : runs[r]) {
         sample_luma(source_run(picture, run, *pattern.texture, s.still), pattern.luma, run.count, e);
         const float* t = target.row(run.row) + run.first;
-        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - static_cast<int>(t[i] + 0.5F));
+        for (int i = 0; i < run.count; ++i)
+          e[i] = static_cast<std::int16_t>(e[i] - static_cast<int>(t[i] + 0.5F));
         e += run.count;
       }
       return error;
     };
     RegionGram gram;
     for (int mode = 0; mode < kBlendModeCount; ++mode)
-      out[r][mode] = scale * gram.error(weights.blend(static_cast<Region>(r), static_cast<BlendMode>(mode)), sample);
+      out[r][mode] =
+          scale * gram.error(weights.blend(static_cast<Region>(r), static_cast<BlendMode>(mode)), sample);
   }
   return out;
 }

@@ -143,28 +143,33 @@ void PatternSolver::draw_transposed(const Taps& taps, const ReducedPlane& pictur
   }
 }
 
-void PatternSolver::draw_constant(const Taps& taps, ReducedPlane& out) const {
+void PatternSolver::draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) const {
   for (const Tap& t : taps) {
+    const SourceRun& s = t.source;
+    const RunValue light = plane == 0 ? s.offset : RunValue{};
+    const float gain = plane == 0 ? s.gain : 0;
     float* to = out.row(t.run.row) + t.run.first;
-    float weight = t.weight.first, offset = t.source.offset.first;
-    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, offset += t.source.offset.step)
-      to[i] += weight * ((1 - t.source.opacity) * (offset - 128.0F * t.source.gain) +
-                         t.source.opacity * t.source.interior);
+    float weight = t.weight.first, offset = light.first;
+    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, offset += light.step)
+      to[i] += weight * ((1 - s.opacity) * (offset - 128.0F * gain) + s.opacity * s.interior[plane]);
   }
 }
 
 PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
-                                   std::size_t count, bool luma, const SolverSettings& settings) const {
+                                   std::size_t count, std::size_t plane,
+                                   const SolverSettings& settings) const {
+  const bool luma = plane == 0;
   ReducedPlane scratch = targets.front();
   PatternPlanes residual = sources, product = sources;
   const auto hold_fixed = [&](PatternPlanes& planes) {
-    for (std::size_t k = 0; k + count < planes.size(); ++k) std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
+    for (std::size_t k = 0; k + count < planes.size(); ++k)
+      std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
   };
   clear(residual);
   for (std::size_t t = 0; t < pictures_.size(); ++t) {
     std::fill(scratch.samples.begin(), scratch.samples.end(), 0.0F);
     draw(pictures_[t], sources, luma, scratch);
-    if (luma) draw_constant(pictures_[t], scratch);
+    draw_constant(pictures_[t], plane, scratch);
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
       scratch.samples[i] = targets[t].samples[i] - scratch.samples[i];
     draw_transposed(pictures_[t], scratch, luma, residual);

@@ -1,6 +1,6 @@
-// Patterns made for their use: what is coded as a pattern need not be a picture of the video. Blends and warps
-// are linear in the patterns, so those that minimise the squared error of all pictures drawn from them follow
-// from linear least squares, solved by conjugate gradients (Hestenes & Stiefel, 1952).
+// Patterns made for their use: what is coded as a pattern need not be a picture of the video. Blends and
+// warps are linear in the patterns, so those that minimise the squared error of all pictures drawn from them
+// follow from linear least squares, solved by conjugate gradients (Hestenes & Stiefel, 1952).
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ class PatternSolver {
   /// @param targets  the plane of each picture added
   /// @param sources  the plane of each pattern's own picture: start and anchor of the solution
   /// @param count    of patterns, the last ones, that are solved for
-  /// @param luma     whether light and mouth interior change the plane
+  /// @param plane    of the three: light changes luma only, the mouth interior has its own colour in each
   [[nodiscard]] PatternPlanes solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
-                                    std::size_t count, bool luma,
+                                    std::size_t count, std::size_t plane,
                                     const SolverSettings& settings) const;
 
  private:
@@ -55,7 +55,7 @@ class PatternSolver {
   /// planes += A^T picture
   void draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma, PatternPlanes& planes) const;
   /// out += what light and interior add.
-  void draw_constant(const Taps& taps, ReducedPlane& out) const;
+  void draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) const;
 
   BlendScene scene_;
   int reduction_;

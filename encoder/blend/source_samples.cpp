@@ -30,18 +30,23 @@ void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const Surface
   out.gain = (l[0].y + at.x * a.y + at.y * b.y) / kGainLevels;
 }
 
-void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t, SourceRun& out) {
+void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t,
+                  SourceRun& out) {
   if (!std::all_of(t.corners.begin(), t.corners.end(), is_inner_lip)) return;
   const std::int32_t opacity = interior_opacity(picture.mesh.mouth_gap, texture.mouth_gap);
   if (opacity == 0) return;
-  const InteriorColours colours = interior_colours(picture.mouth, &YuvColour::y, picture.mesh.interior);
+  const std::array<InteriorColours, 3> colours = {
+      interior_colours(picture.mouth, &YuvColour::y, picture.mesh.interior),
+      interior_colours(picture.mouth, &YuvColour::u, {}), interior_colours(picture.mouth, &YuvColour::v, {})};
   std::int32_t ramp = 0;
   for (const std::uint16_t v : t.corners) ramp += mouth_ramp(v);
-  const float at = 2.0F * static_cast<float>(ramp) / (3.0F * kMouthRampEnd);  // 0 upper lip, 1 half way, 2 lower
+  const float at =
+      2.0F * static_cast<float>(ramp) / (3.0F * kMouthRampEnd);  // 0 upper lip, 1 half way, 2 lower
   const auto upper = static_cast<std::size_t>(at < 1 ? 0 : 1);
   const float share = at - static_cast<float>(upper);
   out.opacity = static_cast<float>(opacity) / kInteriorOpaque;
-  out.interior = (1 - share) * colours[upper] + share * colours[upper + 1];
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
 }
 
 }  // namespace
@@ -65,7 +70,8 @@ ReducedPlane reduce(const Plane& plane, int reduction) {
   return out;
 }
 
-SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture, bool still) {
+SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
+                     bool still) {
   SourceRun out;
   if (still) {
     out.u = {static_cast<float>(run.first), 1};
@@ -116,7 +122,7 @@ void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, s
   const auto put = [&](int i, float sample) {
     if (!plain) {
       sample += source.gain * (sample - 128.0F);
-      sample += source.opacity * (source.interior - sample - offset);
+      sample += source.opacity * (source.interior[0] - sample - offset);
     }
     out[i] = static_cast<std::int16_t>(sample + offset);
   };

@@ -17,7 +17,9 @@ namespace fbs {
 struct ReducedPlane {
   int width = 0, height = 0;
   std::vector<float> samples;
-  [[nodiscard]] const float* row(int y) const { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  [[nodiscard]] const float* row(int y) const {
+    return samples.data() + static_cast<std::ptrdiff_t>(y) * width;
+  }
   [[nodiscard]] float* row(int y) { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
 };
 
@@ -44,11 +46,11 @@ struct RunValue {
 
 /// How the samples of a run come from a texture: all that is linear along it.
 struct SourceRun {
-  RunValue u, v;            ///< texture position, samples; integers lie on centres
-  RunValue offset;          ///< of the light, grey levels
-  float gain = 0;           ///< of the light, per grey level from 128
-  float opacity = 0;        ///< of the mouth interior, 0..1
-  float interior = 0;       ///< its luma
+  RunValue u, v;                    ///< texture position, samples; integers lie on centres
+  RunValue offset;                  ///< of the light, grey levels
+  float gain = 0;                   ///< of the light, per grey level from 128
+  float opacity = 0;                ///< of the mouth interior, 0..1
+  std::array<float, 3> interior{};  ///< its Y, U, V
 };
 
 /// The mesh of a picture and what its light and its mouth need.
@@ -60,8 +62,8 @@ struct PictureMesh {
 };
 
 /// @param still  the texture is not warped
-[[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
-                                   bool still);
+[[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
+                                   const TextureMesh& texture, bool still);
 
 /// Whether all samples that a run mixes lie inside the plane.
 [[nodiscard]] bool is_inside(const SourceRun& source, int count, const ReducedPlane& plane);

@@ -71,8 +71,8 @@ VisibleSurface::VisibleSurface(const SceneGeometry& geometry, const ScreenMesh& 
       std::uint32_t* out = shown.data() + static_cast<std::ptrdiff_t>(row) * width_;
       const auto show = [&](RowRun r) { std::fill(out + r.first, out + r.last + 1, k); };
       if (triangle.head)
-        for_each_nearer(depth.row(row), run, {z.at(setup.from_corner(run.first, row), setup.position_bits()), z.dx},
-                        show);
+        for_each_nearer(depth.row(row), run,
+                        {z.at(setup.from_corner(run.first, row), setup.position_bits()), z.dx}, show);
       else
         show(run);
     }

@@ -39,7 +39,9 @@ class VisibleSurface {
 
   [[nodiscard]] const std::vector<SurfaceRun>& runs() const { return runs_; }
   [[nodiscard]] const std::vector<SurfaceTriangle>& triangles() const { return *triangles_; }
-  [[nodiscard]] const Barycentric& barycentric(std::uint32_t triangle) const { return barycentric_[triangle]; }
+  [[nodiscard]] const Barycentric& barycentric(std::uint32_t triangle) const {
+    return barycentric_[triangle];
+  }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
 

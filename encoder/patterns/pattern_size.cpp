@@ -24,7 +24,8 @@ bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_byt
                        const PatternCost& reduced) {
   const double loss = 10 * std::log10((blend_loss + kErrorLeft * reduced.squared_error) /
                                       (blend_loss + kErrorLeft * full.squared_error));
-  const double saved = std::log2((other_bytes + bytes_of(full, patterns)) / (other_bytes + bytes_of(reduced, patterns)));
+  const double saved =
+      std::log2((other_bytes + bytes_of(full, patterns)) / (other_bytes + bytes_of(reduced, patterns)));
   return kSlope * saved > loss + kMargin;
 }
 

@@ -12,7 +12,6 @@ namespace fbs {
 /// @param patterns     number of patterns
 /// @param other_bytes  that the same pictures take beside the patterns
 [[nodiscard]] bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_bytes,
-                                     const PatternCost& full,
-                                     const PatternCost& reduced);
+                                     const PatternCost& full, const PatternCost& reduced);
 
 }  // namespace fbs

@@ -27,6 +27,11 @@ PatternPoint PatternPoint::at(int quality) {
           static_cast<int>(std::lround(a.motion_quality + share * (b.motion_quality - a.motion_quality)))};
 }
 
+int motion_quality_at(double kbps) {
+  // From 20 at 1.7 kbit/s to 50 at 14, as the points of the hull have them on small pictures.
+  return std::clamp(static_cast<int>(std::lround(20 + 10 * std::log2(kbps / 1.7))), 0, 50);
+}
+
 std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count) {
   count = std::clamp<std::size_t>(count, 1, std::max<std::size_t>(pictures, 1));
   std::vector<std::size_t> out = {0};

@@ -15,6 +15,9 @@ struct PatternPoint {
   static PatternPoint at(int quality);
 };
 
+/// Quality of the motion that goes with a total rate.
+[[nodiscard]] int motion_quality_at(double kbps);
+
 /// Numbers of pictures at regular distances, the first and the last among them, rising.
 /// @param count  wanted; as many as there are pictures at most
 [[nodiscard]] std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count);

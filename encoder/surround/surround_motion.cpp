@@ -95,8 +95,8 @@ void SurroundMotion::add_to(State& state) const {
 void SurroundMotion::add_to(PictureCost& cost) const {
   const LayerMotion motion{head_, body_.accepted, ground_.accepted};
   cost.layers.push_back({CostLayer::kSurround, 0,
-                          surround_constant(keypoints_, mapped_, luma_[0], factor_, motion),
-                          surround_quadratic(keypoints_, mapped_)});
+                         surround_constant(keypoints_, mapped_, luma_[0], factor_, motion),
+                         surround_quadratic(keypoints_, mapped_)});
   for (std::size_t i = 0; i < kSimilarityCount; ++i) {
     cost.fit[first_of(PartId::kBody) + i] = kStateUnitsPerPixel * body_.accepted[i];
     cost.fit[first_of(PartId::kGround) + i] = kStateUnitsPerPixel * ground_.accepted[i];
