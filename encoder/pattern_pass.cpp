@@ -52,6 +52,8 @@ void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> p
 }
 
 bool PatternPass::segment_ends() const {
+  // The motion of a whole segment may be sent before its first picture is shown.
+  if (segment_.states.size() + kMaxGroupPictures > kMaxWaitingPictures) return true;
   if (settings_.count > 0) return false;
   const double seconds = std::min(kSegmentSeconds, (store_ - 1) / settings_.point.per_second);
   return static_cast<double>(segment_.states.size()) >= std::max(1.0, seconds * fps_of(format_));
@@ -283,9 +285,10 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
       nearest = miss;
       best = draft;
     }
+    if (trial == kMaxRateTrials || nearest < kRateTolerance || over + 1 >= under) break;
     const int step = static_cast<int>(std::lround(std::log(*taken / bytes) / std::log(kBytesPerStep)));
     const int next = std::clamp(quantiser + step, over + 1, under - 1);
-    if (trial == kMaxRateTrials || nearest < kRateTolerance || over + 1 >= under || next == quantiser) break;
+    if (next == quantiser) break;
     settings_.coding.quantiser = next;
     if (auto coded = code(scene, draft, settings_.coding.speed); !coded) return coded;
   }
@@ -300,14 +303,14 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   if (settings_.bitrate_kbps > 0) {
     const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
     allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
-    if (auto aimed = aim(scene, allowed); !aimed) return fail(aimed.error());
+    if (auto aimed = aim(scene, std::max(allowed, 1.0)); !aimed) return fail(aimed.error());
   } else if (auto sized = choose_size(scene); !sized) {
     return fail(sized.error());
   }
   auto draft = make(scene);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {
-    if (auto met = meet(scene, allowed, *draft); !met) return fail(met.error());
+    if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());
     const auto taken = bytes_of(*draft);
     if (!taken) return fail(taken.error());
     left_bytes_ = allowed - *taken;

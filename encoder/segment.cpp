@@ -6,11 +6,13 @@ namespace fbs {
 
 std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
                                   bool first_alone) {
+  const bool waits_for_one =
+      first_alone && segment.groups.size() > 1;  // the last group brings all that is left
   std::vector<std::size_t> out;
   std::size_t end = 0, sent = 1;
   for (const Segment::Group& group : segment.groups) {
     end += group.pictures;
-    if (!out.empty() || !first_alone) {
+    if (!out.empty() || !waits_for_one) {
       std::size_t next = segment.states.size();
       for (const std::size_t picture : shown)
         if (picture + 1 >= end) next = std::min(next, picture);

@@ -30,10 +30,10 @@ struct Segment {
 using AvailablePatterns = std::vector<std::size_t>;
 
 /// Of each group, how many of the segment's patterns are sent before its pictures are drawn: all up to the
-/// first that shows a picture behind it.
-/// @param shown  picture of each pattern in coding order, counted from the segment's first
-/// @param first_alone  whether the first group is drawn from the first pattern alone, so that a viewer need
-///                     not wait for more
+/// first that shows its last picture or one behind it.
+/// @param shown        picture of each pattern in coding order, counted from the segment's first
+/// @param first_alone  whether the first of several groups is drawn from the first pattern alone, so that a
+///                     viewer need not wait for more
 [[nodiscard]] std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
                                                 bool first_alone);
 

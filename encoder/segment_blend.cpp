@@ -12,10 +12,11 @@ namespace {
 // Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
 constexpr int kCompareWidth = 240, kSolveWidth = 400;
 
-/// log2 of the reduction that makes a picture no wider than `width`.
+/// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
+/// to interpolate.
 int reduction_to(int width, const Picture& picture) {
   int reduction = 0;
-  while ((picture.width() >> reduction) > width) ++reduction;
+  while ((picture.width() >> reduction) > width && picture.height() >> (reduction + 1) > 1) ++reduction;
   return reduction;
 }
 
@@ -59,15 +60,16 @@ struct SolvedPlane {
 
 }  // namespace
 
-Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns, double lambda,
-                                              std::size_t every) {
+Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
+                                              double lambda, std::size_t every) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   std::vector<ModeErrors> errors;
-  const auto done = for_each_picture(
-      segment, patterns, every, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        errors.push_back(blend.errors(picture.y, segment.states[t], available));
-      });
+  const auto done =
+      for_each_picture(segment, patterns, every,
+                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+                         errors.push_back(blend.errors(picture.y, segment.states[t], available));
+                       });
   if (!done) return fail(done.error());
   const std::vector<RegionModes> chosen = choose_modes(errors, lambda / static_cast<double>(every));
   std::vector<RegionModes> out;

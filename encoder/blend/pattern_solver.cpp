@@ -43,7 +43,7 @@ void for_each_footprint(const SourceRun& s, int count, const ReducedPlane& plane
   }
 }
 
-void clear(PatternPlanes& planes) {
+void clear(std::span<ReducedPlane> planes) {
   for (ReducedPlane& p : planes) std::fill(p.samples.begin(), p.samples.end(), 0.0F);
 }
 
@@ -155,34 +155,43 @@ void PatternSolver::draw_constant(const Taps& taps, std::size_t plane, ReducedPl
   }
 }
 
-PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
-                                   std::size_t count, std::size_t plane,
-                                   const SolverSettings& settings) const {
-  const bool luma = plane == 0;
+PatternPlanes PatternSolver::gradient(std::span<const ReducedPlane> targets, const PatternPlanes& planes,
+                                      std::size_t plane) const {
+  PatternPlanes out = planes;
+  clear(out);
   ReducedPlane scratch = targets.front();
-  PatternPlanes residual = sources, product = sources;
-  const auto hold_fixed = [&](PatternPlanes& planes) {
-    for (std::size_t k = 0; k + count < planes.size(); ++k)
-      std::fill(planes[k].samples.begin(), planes[k].samples.end(), 0.0F);
-  };
-  clear(residual);
   for (std::size_t t = 0; t < pictures_.size(); ++t) {
     std::fill(scratch.samples.begin(), scratch.samples.end(), 0.0F);
-    draw(pictures_[t], sources, luma, scratch);
+    draw(pictures_[t], planes, plane == 0, scratch);
     draw_constant(pictures_[t], plane, scratch);
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
       scratch.samples[i] = targets[t].samples[i] - scratch.samples[i];
-    draw_transposed(pictures_[t], scratch, luma, residual);
+    draw_transposed(pictures_[t], scratch, plane == 0, out);
   }
-  hold_fixed(residual);
-  // The start is the anchor, so that the pull has no part in the first residual.
+  return out;
+}
+
+double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   double used = 0;
   std::size_t samples = 0;
   for (const Taps& taps : pictures_)
     for (const Tap& t : taps) used += static_cast<double>(static_cast<float>(t.run.count) * t.weight.first);
-  for (const ReducedPlane& p : sources) samples += p.samples.size();
-  const double pull = settings.pull * used / static_cast<double>(samples);
+  for (const ReducedPlane& p : planes) samples += p.samples.size();
+  return used / static_cast<double>(samples);
+}
 
+PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
+                                   std::size_t count, std::size_t plane,
+                                   const SolverSettings& settings) const {
+  const bool luma = plane == 0;
+  const auto hold_fixed = [&](PatternPlanes& planes) {
+    clear(std::span(planes).first(planes.size() - count));
+  };
+  // The start is the anchor, so that the pull has no part in the first residual.
+  PatternPlanes residual = gradient(targets, sources, plane), product = residual;
+  hold_fixed(residual);
+  const double pull = settings.pull * mean_weight(sources);
+  ReducedPlane scratch = targets.front();
   PatternPlanes x = std::move(sources), direction = residual;
   double now = dot(residual, residual);
   const double begin = now;

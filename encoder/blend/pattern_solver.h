@@ -50,6 +50,11 @@ class PatternSolver {
   };
   using Taps = std::vector<Tap>;
 
+  /// A^T (targets - what the planes draw): half the gradient of the squared error, downhill.
+  [[nodiscard]] PatternPlanes gradient(std::span<const ReducedPlane> targets, const PatternPlanes& planes,
+                                       std::size_t plane) const;
+  /// With which a sample of the planes is used in all pictures together.
+  [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
   /// Samples as drawn without what does not depend on the patterns. out += A planes
   void draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) const;
   /// planes += A^T picture

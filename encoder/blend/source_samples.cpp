@@ -49,6 +49,14 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
     out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
 }
 
+/// Whether the surround lies where the pattern has it: then the decoder shows the pattern's own samples, in
+/// the margin, too, whose texture would repeat the border.
+bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureMesh& texture) {
+  return !t.head && std::ranges::all_of(t.corners, [&](std::uint16_t k) {
+    return mesh.surround[k] == texture.seen_surround[k];
+  });
+}
+
 }  // namespace
 
 ReducedPlane reduce(const Plane& plane, int reduction) {
@@ -73,12 +81,12 @@ ReducedPlane reduce(const Plane& plane, int reduction) {
 SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
                      bool still) {
   SourceRun out;
-  if (still) {
+  const SurfaceTriangle& t = picture.surface.triangles()[run.triangle];
+  if (still || is_at_rest(t, picture.mesh, texture)) {
     out.u = {static_cast<float>(run.first), 1};
     out.v = {static_cast<float>(run.row), 0};
     return out;
   }
-  const SurfaceTriangle& t = picture.surface.triangles()[run.triangle];
   const auto& points = t.head ? texture.head : texture.surround;
   const float to_samples = 1.0F / static_cast<float>(1 << (kScreenOneLog2 + picture.reduction));
   const glm::vec2 p0 = glm::vec2(points[t.corners[0]]) * to_samples - glm::vec2(0.5F),
@@ -117,14 +125,14 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
 }
 
 void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, std::int16_t* out) {
-  float u = source.u.first, v = source.v.first, offset = source.offset.first + 0.5F;
-  const bool plain = source.gain == 0 && source.opacity == 0;
+  float u = source.u.first, v = source.v.first, offset = source.offset.first;
+  const bool plain = source.gain == 0 && source.opacity == 0 && offset == 0 && source.offset.step == 0;
   const auto put = [&](int i, float sample) {
     if (!plain) {
-      sample += source.gain * (sample - 128.0F);
-      sample += source.opacity * (source.interior[0] - sample - offset);
+      sample = std::clamp(sample + source.gain * (sample - 128.0F) + offset, 0.0F, 255.0F);
+      sample += source.opacity * (source.interior[0] - sample);
     }
-    out[i] = static_cast<std::int16_t>(sample + offset);
+    out[i] = static_cast<std::int16_t>(sample + 0.5F);
   };
   if (!is_inside(source, count, luma)) {
     for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step, offset += source.offset.step)

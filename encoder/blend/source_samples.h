@@ -44,13 +44,13 @@ struct RunValue {
   float first = 0, step = 0;
 };
 
-/// How the samples of a run come from a texture: all that is linear along it.
+/// How the samples of a run come from a texture. What hardly changes along it has one value.
 struct SourceRun {
   RunValue u, v;                    ///< texture position, samples; integers lie on centres
   RunValue offset;                  ///< of the light, grey levels
-  float gain = 0;                   ///< of the light, per grey level from 128
+  float gain = 0;                   ///< of the light, per grey level from 128; at the first sample
   float opacity = 0;                ///< of the mouth interior, 0..1
-  std::array<float, 3> interior{};  ///< its Y, U, V
+  std::array<float, 3> interior{};  ///< its Y, U, V; mean over the triangle
 };
 
 /// The mesh of a picture and what its light and its mouth need.

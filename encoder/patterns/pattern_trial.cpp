@@ -1,7 +1,5 @@
 #include "encoder/patterns/pattern_trial.h"
 
-#include <cmath>
-
 namespace fbs {
 
 Result<PatternCost> trial_cost(const VideoFormat& format, std::span<const Picture> pictures,
@@ -25,11 +23,6 @@ Result<PatternCost> trial_cost(const VideoFormat& format, std::span<const Pictur
   }
   out.squared_error /= samples;
   return out;
-}
-
-double quantiser_step(int quantiser) {
-  // An exponential through the ends of the standard's table of AC steps (7.12.2), 4 / 8 and 1828 / 8.
-  return 0.5 * std::pow(457.0, quantiser / 63.0);
 }
 
 }  // namespace fbs

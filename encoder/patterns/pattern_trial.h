@@ -17,7 +17,4 @@ struct PatternCost {
 Result<PatternCost> trial_cost(const VideoFormat& format, std::span<const Picture> pictures,
                                const SequenceSettings& settings);
 
-/// AV1's quantiser step in luma levels at a quantiser of 0..63, about: what rate-distortion costs scale with.
-[[nodiscard]] double quantiser_step(int quantiser);
-
 }  // namespace fbs

@@ -201,7 +201,7 @@ TEST(SurroundMotion, CostsRegionIsTheSurroundDrawnFromPatternZero) {
   const SurroundMotion motion = observed({{}, away, away});
   const PictureCost cost = cost_of(motion);
   ASSERT_EQ(cost.layers.size(), 1U);
-  EXPECT_EQ(cost.layers[0].region, CostLayer::kSurround);
+  EXPECT_EQ(cost.layers[0].layer, CostLayer::kSurround);
   EXPECT_EQ(cost.layers[0].pattern, 0);
   // At the similarities that were found little remains of what differs where nothing is moved.
   const double still = squares(picture_of({{}, away, away}), picture_of({}));

@@ -1,0 +1,216 @@
+#include "encoder/blend/pattern_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/encoder/blend/blended_scene.h"
+
+namespace fbs {
+namespace {
+
+using PicturePlane = Plane Picture::*;
+
+PatternPlanes planes_of(const Scene& scene, PicturePlane plane, int reduction = 0) {
+  PatternPlanes out;
+  for (const Pattern& p : scene.patterns) out.push_back(reduce(p.picture.*plane, reduction));
+  return out;
+}
+
+Plane rounded(const ReducedPlane& plane) {
+  Plane out(plane.width, plane.height);
+  for (std::size_t i = 0; i < out.samples.size(); ++i)
+    out.samples[i] = static_cast<std::uint8_t>(std::clamp(std::lround(plane.samples[i]), 0L, 255L));
+  return out;
+}
+
+double mean_square(const ReducedPlane& a, const ReducedPlane& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.samples.size(); ++i) sum += std::pow(a.samples[i] - b.samples[i], 2);
+  return sum / static_cast<double>(a.samples.size());
+}
+
+/// Pictures of a scene that is drawn by the renderer, and the problem to find its patterns from them.
+struct Problem {
+  BlendedScene s;
+  PicturePlane plane;
+  PatternSolver solver;
+  std::vector<State> states;
+  std::vector<ReducedPlane> targets;
+
+  explicit Problem(std::size_t patterns, PicturePlane of = &Picture::y)
+      : s(patterns), plane(of), solver(s.blend(), reduction()) {}
+
+  [[nodiscard]] bool is_luma() const { return plane == &Picture::y; }
+  [[nodiscard]] std::size_t component() const { return is_luma() ? 0 : plane == &Picture::u ? 1 : 2; }
+  [[nodiscard]] int reduction() const { return is_luma() ? 0 : 1; }  // chroma planes have half the size
+
+  void add(const State& state) {
+    const VideoFormat& f = s.scene.setup.format;
+    solver.add_picture(state, s.all(), {f.width, f.height});
+    states.push_back(state);
+    targets.push_back(reduce(rendered(s.scene, state).*plane, 0));
+  }
+  /// Each pattern alone, and blends of all.
+  void add_pictures() {
+    for (const Pattern& p : s.scene.patterns) add(with_mode(p.seen, BlendMode::kStillBefore));
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      State state = SeenScene::rest();
+      StateMaker maker(seed);
+      maker.pose(state), maker.expression(state);
+      state.picture = static_cast<int>(4 * seed);
+      add(with_mode(state, seed % 2 == 0 ? BlendMode::kByState : nearest(static_cast<int>(seed) / 2)));
+    }
+  }
+  [[nodiscard]] PatternPlanes truth() const { return planes_of(s.scene, plane); }
+  [[nodiscard]] PatternPlanes solved(const PatternPlanes& start, std::size_t count,
+                                     const SolverSettings& settings) const {
+    return solver.solve(targets, start, count, component(), settings);
+  }
+  /// Squared luma error of the pictures as drawn by the renderer.
+  [[nodiscard]] double loss(const PatternPlanes& planes) const {
+    Scene scene = s.scene;
+    for (std::size_t k = 0; k < planes.size(); ++k) scene.patterns[k].picture.y = rounded(planes[k]);
+    double sum = 0;
+    for (std::size_t t = 0; t < states.size(); ++t)
+      sum += mean_square(reduce(rendered(scene, states[t]).y, 0), targets[t]);
+    return sum;
+  }
+};
+
+/// Other paint, in part.
+PatternPlanes changed(PatternPlanes planes) {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const ReducedPlane other =
+        reduce(wave_plane(planes[k].width, planes[k].height, 300 + static_cast<unsigned>(k)), 0);
+    for (std::size_t i = 0; i < planes[k].samples.size(); ++i)
+      planes[k].samples[i] += 0.5F * (other.samples[i] - 128);
+  }
+  return planes;
+}
+
+TEST(PatternSolver, FindsThePatternsThatPicturesAreDrawnFrom) {
+  Problem p(3);
+  p.add_pictures();
+  const PatternPlanes truth = p.truth(), start = changed(truth), found = p.solved(start, 3, {30, 1e-5});
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GT(mean_square(start[k], truth[k]), 100);
+    EXPECT_LT(mean_square(found[k], truth[k]), 1) << k;
+  }
+}
+
+TEST(PatternSolver, EachIterationBringsThePicturesNearer) {
+  Problem p(3);
+  p.add_pictures();
+  const PatternPlanes start = changed(p.truth());
+  double before = p.loss(start);
+  const double begin = before;
+  for (int iterations = 1; iterations <= 5; ++iterations) {
+    const double loss = p.loss(p.solved(start, 3, {iterations, 1e-5}));
+    EXPECT_LT(loss, before) << iterations;
+    before = loss;
+  }
+  EXPECT_LT(before, 0.1 * begin);
+}
+
+TEST(PatternSolver, PullHoldsPatternsToTheirSources) {
+  Problem p(3);
+  p.add_pictures();
+  const PatternPlanes start = changed(p.truth());
+  double before = 1e9;
+  for (const double pull : {1e-5, 0.2, 5.0, 1e4}) {
+    double moved = 0;
+    const PatternPlanes found = p.solved(start, 3, {10, pull});
+    for (std::size_t k = 0; k < 3; ++k) moved += mean_square(found[k], start[k]);
+    EXPECT_LT(moved, before) << pull;
+    before = moved;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(PatternSolver, FixedPatternsStayAndTheLastAreSolvedFor) {
+  Problem p(3);
+  p.add_pictures();
+  const PatternPlanes truth = p.truth();
+  PatternPlanes start = changed(truth);
+  start[0] = truth[0], start[1] = truth[1];
+  const PatternPlanes found = p.solved(start, 1, {30, 1e-5});
+  EXPECT_EQ(found[0].samples, truth[0].samples);
+  EXPECT_EQ(found[1].samples, truth[1].samples);
+  EXPECT_LT(mean_square(found[2], truth[2]), 1);
+}
+
+TEST(PatternSolver, PatternsThatAreNotAvailableStay) {
+  Problem p(3);
+  const State state = with_mode(SeenScene::rest(), BlendMode::kByState);
+  const std::vector<std::size_t> some = {0, 2};
+  p.solver.add_picture(state, some, {BlendedScene::kWidth, BlendedScene::kHeight});
+  p.targets.push_back(reduce(wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 50), 0));
+  const PatternPlanes truth = p.truth(), found = p.solved(truth, 3, {4, 0.2});
+  EXPECT_GT(mean_square(found[0], truth[0]), 0.1);
+  EXPECT_EQ(found[1].samples, truth[1].samples);
+  EXPECT_GT(mean_square(found[2], truth[2]), 0.1);
+}
+
+double product(const PatternPlanes& a, const PatternPlanes& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].samples.size(); ++i)
+      sum += double{a[k].samples[i]} * double{b[k].samples[i]};
+  return sum;
+}
+
+// From black patterns the first step is along A^T y, y being the picture: <A x, y> / <x, A^T y> is then the
+// same for any patterns x.
+TEST(PatternSolver, FirstStepIsAlongTheTransposedDrawing) {
+  Problem p(3);
+  State state = SeenScene::rest();
+  StateMaker maker(9);
+  maker.pose(state), maker.expression(state);
+  state.picture = 7;
+  p.add(with_mode(state, BlendMode::kByState));
+  PatternPlanes black = p.truth();
+  for (ReducedPlane& plane : black) std::fill(plane.samples.begin(), plane.samples.end(), 0.0F);
+  const PatternPlanes step = p.solved(black, 3, {1, 0});
+
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int piece = 0; piece < 4; ++piece) {
+      PatternPlanes x = black;
+      for (int y = 60 * piece; y < 60 * piece + 60; ++y)
+        std::fill_n(x[k].row(y), BlendedScene::kWidth, 200.0F);
+      Scene scene = p.s.scene;
+      for (std::size_t i = 0; i < 3; ++i) scene.patterns[i].picture.y = rounded(x[i]);
+      const PatternPlanes drawn = {reduce(rendered(scene, p.states[0]).y, 0)};
+      ratios.push_back(product(drawn, p.targets) / product(x, step));
+    }
+  }
+  for (const double r : ratios) EXPECT_NEAR(r / ratios[0], 1, 0.03);
+}
+
+State with_light_and_mouth() {
+  State state = SeenScene::rest();
+  state.light = {20 * 16, 5 * 16, 8 * 16, 0, 0, 0, 0};
+  for (const int c : {4, 5, 6, 7}) state.control[feature(FeatureId::kMouthInner).first_control + c].y += 130;
+  state.interior.fill(15 * 16);
+  return with_mode(state, BlendMode::kByState);
+}
+
+double largest_change(const PatternPlanes& a, const PatternPlanes& b) {
+  double out = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].samples.size(); ++i)
+      out = std::max(out, std::abs(double{a[k].samples[i]} - double{b[k].samples[i]}));
+  return out;
+}
+
+// Patterns that draw the pictures exactly are the solution.
+TEST(PatternSolver, LightAndMouthInteriorAreNotTakenForPatterns) {
+  for (const PicturePlane plane : {&Picture::y, &Picture::u, &Picture::v}) {
+    Problem p(2, plane);
+    p.add(with_light_and_mouth());
+    const PatternPlanes truth = p.truth();
+    EXPECT_LT(largest_change(p.solved(truth, 2, {4, 0.2}), truth), 3) << (p.is_luma() ? "luma" : "chroma");
+  }
+}
+
+}  // namespace
+}  // namespace fbs

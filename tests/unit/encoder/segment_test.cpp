@@ -1,0 +1,166 @@
+#include "encoder/segment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+namespace fbs {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Numbers = std::vector<std::size_t>;
+
+/// @param first  number of its first picture in the scene
+Segment segment_of(const Numbers& groups, std::int32_t first = 0) {
+  Segment s;
+  for (const std::size_t pictures : groups) {
+    s.groups.push_back({pictures, {static_cast<std::uint8_t>(s.groups.size())}});
+    for (std::size_t i = 0; i < pictures; ++i) {
+      s.states.emplace_back();
+      s.states.back().picture = first + static_cast<std::int32_t>(s.states.size()) - 1;
+    }
+  }
+  return s;
+}
+
+/// One byte for each payload: its number.
+std::vector<Bytes> numbered(std::size_t count) {
+  std::vector<Bytes> out;
+  for (std::size_t k = 0; k < count; ++k) out.push_back({static_cast<std::uint8_t>(k)});
+  return out;
+}
+
+/// Pictures of random patterns, coded with look-ahead: the first first, the others in any order.
+Numbers random_order(std::mt19937& random, std::size_t pictures) {
+  Numbers shown;
+  for (std::size_t p = 1; p < pictures; ++p)
+    if (random() % 4 == 0) shown.push_back(p);
+  std::shuffle(shown.begin(), shown.end(), random);
+  shown.insert(shown.begin(), 0);
+  return shown;
+}
+
+Numbers random_groups(std::mt19937& random) {
+  Numbers out(1 + random() % 6);
+  for (std::size_t& pictures : out) pictures = 1 + random() % 12;
+  return out;
+}
+
+TEST(Arrivals, FirstGroupWaitsForTheFirstPatternOnly) {
+  const Numbers shown = {0, 5, 10, 15, 19};
+  EXPECT_EQ(arrivals(segment_of({5, 5, 5, 5}), shown, true), (Numbers{1, 3, 4, 5}));
+  EXPECT_EQ(arrivals(segment_of({5, 5, 5, 5}), shown, false), (Numbers{2, 3, 4, 5}));
+}
+
+TEST(Arrivals, LookAheadBringsLaterPatternsEarly) {
+  // Pyramid: 0, 16, 8, 4, 12.
+  const Numbers shown = {0, 16, 8, 4, 12};
+  EXPECT_EQ(arrivals(segment_of({4, 4, 4, 5}), shown, false), (Numbers{4, 4, 5, 5}))
+      << "picture 4 is behind the first group, and what is coded before it is there, too";
+}
+
+TEST(Arrivals, APatternOfTheLastPictureEndsItsGroup) {
+  EXPECT_EQ(arrivals(segment_of({5, 5}), Numbers{0, 4, 9}, false), (Numbers{2, 3}));
+}
+
+TEST(Arrivals, AllPatternsArriveEvenForAnOnlyGroup) {
+  EXPECT_EQ(arrivals(segment_of({10}), Numbers{0, 9, 5}, false), (Numbers{3}));
+  EXPECT_EQ(arrivals(segment_of({10}), Numbers{0, 9, 5}, true), (Numbers{3}))
+      << "what does not arrive is coded for nothing, and missing in the next segment";
+}
+
+TEST(Arrivals, HasAllUpToTheNextPictureBehindTheGroupAndNoMore) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    const Numbers groups = random_groups(random);
+    const Segment segment = segment_of(groups);
+    const Numbers shown = random_order(random, segment.states.size());
+    const Numbers arrived = arrivals(segment, shown, false);
+    ASSERT_EQ(arrived.size(), groups.size());
+    EXPECT_EQ(arrived.back(), shown.size());
+    std::size_t end = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      end += groups[g];
+      // The last that is needed: of those not later than the first pattern at or behind the group's end.
+      Numbers behind;
+      std::copy_if(shown.begin(), shown.end(), std::back_inserter(behind),
+                   [&](std::size_t p) { return p + 1 >= end; });
+      const std::size_t next = behind.empty() ? end : *std::min_element(behind.begin(), behind.end());
+      const auto last = std::find_if(shown.rbegin(), shown.rend(), [&](std::size_t p) { return p <= next; });
+      EXPECT_EQ(arrived[g], static_cast<std::size_t>(shown.rend() - last)) << "group " << g;
+    }
+  }
+}
+
+/// Reads packets as the decoder does.
+struct Reader {
+  const Numbers& groups;
+  const Numbers& shown;
+  const Numbers& arrived;
+  std::int32_t first;
+  std::size_t motions = 0, patterns = 0, blends = 0;
+  std::size_t moved = 0, drawn = 0;
+
+  void read(const TypedPayload& packet) {
+    ASSERT_EQ(packet.second.size(), 1U);
+    const std::size_t number = packet.second[0];
+    if (packet.first == PacketType::kMotion) {
+      EXPECT_EQ(number, motions);
+      moved += groups[motions++];
+    } else if (packet.first == PacketType::kPattern) {
+      EXPECT_EQ(number, patterns);
+      const std::size_t picture = shown[patterns++];
+      const bool has_own_state = first + picture == 0;
+      EXPECT_TRUE(has_own_state || moved > picture) << "its state is known";
+    } else {
+      ASSERT_EQ(packet.first, PacketType::kBlend);
+      EXPECT_EQ(number, blends);
+      EXPECT_EQ(patterns, arrived[blends]) << "drawn from what the encoder has chosen for";
+      drawn += groups[blends++];
+      EXPECT_GE(moved, drawn);
+    }
+  }
+};
+
+TEST(InStreamOrder, EachPacketComesOnceAndNotBeforeWhatItNeeds) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 300; ++i) {
+    const Numbers groups = random_groups(random);
+    const bool is_first = i % 2 == 0;
+    const std::int32_t first = is_first ? 0 : 500;
+    Segment segment = segment_of(groups, first);
+    const Numbers shown = random_order(random, segment.states.size());
+    const Numbers arrived = arrivals(segment, shown, is_first);
+    Reader reader{groups, shown, arrived, first};
+    for (const TypedPayload& packet :
+         in_stream_order(std::move(segment), shown, arrived, numbered(shown.size()), numbered(groups.size())))
+      reader.read(packet);
+    EXPECT_EQ(reader.motions, groups.size());
+    EXPECT_EQ(reader.patterns, shown.size());
+    EXPECT_EQ(reader.blends, groups.size());
+  }
+}
+
+TEST(InStreamOrder, SceneStartsWithItsFirstPattern) {
+  const Numbers shown = {0, 9, 5};
+  Segment segment = segment_of({5, 5});
+  const Numbers arrived = arrivals(segment, shown, true);
+  const auto packets = in_stream_order(std::move(segment), shown, arrived, numbered(3), numbered(2));
+  ASSERT_GE(packets.size(), 3U);
+  EXPECT_EQ(packets[0].first, PacketType::kPattern);
+  EXPECT_EQ(packets[1].first, PacketType::kMotion);
+  EXPECT_EQ(packets[2].first, PacketType::kBlend) << "shown before more patterns arrive";
+}
+
+TEST(InStreamOrder, ALaterSegmentStartsWithMotion) {
+  const Numbers shown = {0, 9};
+  Segment segment = segment_of({5, 5}, 100);
+  const Numbers arrived = arrivals(segment, shown, false);
+  const auto packets = in_stream_order(std::move(segment), shown, arrived, numbered(2), numbered(2));
+  EXPECT_EQ(packets[0].first, PacketType::kMotion) << "its first pattern has no state of its own";
+}
+
+}  // namespace
+}  // namespace fbs
