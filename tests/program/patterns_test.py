@@ -110,6 +110,11 @@ class Patterns(ProgramTest):
         short = self.peak_bytes("decode", TALK_FBS, "null:", "--quiet")
         self.assertLess(self.peak_bytes("decode", "out.fbs", "null:", "--quiet") - short, 40e6)
 
+    def test_solving_for_patterns_in_bounded_memory(self):
+        """Ten seconds of larger pictures are more than the solver's memory holds."""
+        talker(self.folder / "large.y4m", "--size", "352x288", "--frames", "300")
+        self.assertLess(self.peak_bytes("encode", "large.y4m", "out.fbs", "--quiet"), 550e6)
+
     def test_face_that_comes_late(self):
         flat = flat_y4m(176, 144, 15).replace(b"F25:1", b"F30:1")
         self.write("late.y4m", flat + TALK_Y4M.read_bytes().partition(b"\n")[2])
