@@ -12,6 +12,10 @@ namespace {
 // Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
 constexpr int kCompareWidth = 240, kSolveWidth = 400;
 
+/// Fewer of a long segment or of large pictures are solved for, so that they take no more memory than this,
+/// bytes.
+constexpr std::size_t kSolverBytes = 400e6;
+
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
 /// to interpolate.
 int reduction_to(int width, const Picture& picture) {
@@ -34,6 +38,20 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
     }
   }
   return {};
+}
+
+/// Every so many pictures of the segment are solved for.
+std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns, glm::ivec2 size,
+                        int luma_reduction, int chroma_reduction) {
+  const std::size_t pictures = segment.states.size();
+  const auto bytes_at = [&](int reduction) {
+    PatternSolver one(patterns.scene, reduction);
+    one.add_picture(segment.states[pictures / 2], patterns.available.back(), size);
+    return one.bytes();
+  };
+  std::size_t bytes = bytes_at(luma_reduction);
+  if (chroma_reduction != luma_reduction) bytes += bytes_at(chroma_reduction);
+  return std::max(kSolveEvery, (pictures * bytes + kSolverBytes - 1) / kSolverBytes);
 }
 
 /// Adds what `now` has over `before`, planes at a reduced size, to a plane at full size.
@@ -104,8 +122,9 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
                                               {&Picture::v, chroma_reduction - 1}}};
   PatternSolver luma(patterns.scene, luma_reduction), chroma(patterns.scene, chroma_reduction);
   std::array<std::vector<ReducedPlane>, 3> targets;
+  const std::size_t every = solve_every(segment, patterns, size, luma_reduction, chroma_reduction);
   const auto done =
-      for_each_picture(segment, patterns, kSolveEvery,
+      for_each_picture(segment, patterns, every,
                        [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
                          luma.add_picture(segment.states[t], available, size);
                          if (chroma_reduction != luma_reduction)

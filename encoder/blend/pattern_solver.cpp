@@ -95,7 +95,14 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
                       static_cast<std::uint32_t>(available[k])});
     }
   }
+  taps.shrink_to_fit();
   pictures_.push_back(std::move(taps));
+}
+
+std::size_t PatternSolver::bytes() const {
+  std::size_t taps = 0;
+  for (const Taps& t : pictures_) taps += t.size();
+  return taps * sizeof(Tap);
 }
 
 void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) const {

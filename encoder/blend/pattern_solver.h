@@ -32,6 +32,9 @@ class PatternSolver {
   /// @param size       of the picture, luma
   void add_picture(const State& state, std::span<const std::size_t> available, glm::ivec2 size);
 
+  /// Memory that the pictures take.
+  [[nodiscard]] std::size_t bytes() const;
+
   /// @param targets  the plane of each picture added
   /// @param sources  the plane of each pattern's own picture: start and anchor of the solution
   /// @param count    of patterns, the last ones, that are solved for

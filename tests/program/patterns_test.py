@@ -37,8 +37,7 @@ class Patterns(ProgramTest):
     def test_several_by_default(self):
         self.assertGreater(self.inspected(TALK_FBS)["pattern_count"], 2)
 
-    def test_listed_with_time_and_bytes(self):
-        reported = self.inspected(TALK_FBS)
+    def check_list(self, reported):
         listed = reported["patterns"]
         self.assertEqual(len(listed), reported["pattern_count"])
         self.assertEqual(sum(pattern["bytes"] for pattern in listed), reported["bytes"]["patterns"])
@@ -47,18 +46,17 @@ class Patterns(ProgramTest):
         self.assertLess(max(pictures), reported["frames"])
         for pattern in listed:
             self.assertAlmostEqual(pattern["seconds"], pattern["picture"] / reported["fps"], places=6)
-        text = self.succeed("inspect", TALK_FBS).decode()
-        for pattern in listed:
-            self.assertRegex(text, rf"(?m)^ +picture {pattern['picture']} +{pattern['bytes']} bytes +{pattern['seconds']:.2f} s$")
+        self.assertEqual(len(listed[0]["share"]), 7)
+        for region in listed[0]["share"]:
+            self.assertAlmostEqual(sum(pattern["share"][region] for pattern in listed), 1, places=6, msg=region)
 
-    def test_shares_sum_to_all_of_each_region(self):
-        for stream in (TALK_FBS, TALK_ONE_FBS):
-            listed = self.inspected(stream)["patterns"]
-            self.assertEqual(len(listed[0]["share"]), 7)
-            for region in listed[0]["share"]:
-                self.assertAlmostEqual(sum(pattern["share"][region] for pattern in listed), 1, places=6, msg=region)
-        listed = self.inspected(TALK_FBS)["patterns"]
-        for pattern in listed:
+    def test_listed_with_time_bytes_and_shares(self):
+        self.check_list(self.inspected(TALK_ONE_FBS))
+        reported = self.inspected(TALK_FBS)
+        self.check_list(reported)
+        text = self.succeed("inspect", TALK_FBS).decode()
+        for pattern in reported["patterns"]:
+            self.assertRegex(text, rf"(?m)^ +picture {pattern['picture']} +{pattern['bytes']} bytes +{pattern['seconds']:.2f} s$")
             self.assertTrue(all(0 <= share < 1 for share in pattern["share"].values()), pattern)
             self.assertGreater(max(pattern["share"].values()), 0.02, "sent for nothing")
 
@@ -107,8 +105,14 @@ class Patterns(ProgramTest):
         reported = self.inspected()
         self.assertEqual(reported["frames"], LOOPED_PICTURES)
         self.assertGreater(reported["pattern_count"], LOOPS)
+        self.check_list(reported)  # patterns have taken the slots of others
         short = self.peak_bytes("decode", TALK_FBS, "null:", "--quiet")
         self.assertLess(self.peak_bytes("decode", "out.fbs", "null:", "--quiet") - short, 40e6)
+
+    def test_solving_for_patterns_in_bounded_memory(self):
+        """Ten seconds of larger pictures are more than the solver's memory holds."""
+        talker(self.folder / "large.y4m", "--size", "352x288", "--frames", "300")
+        self.assertLess(self.peak_bytes("encode", "large.y4m", "out.fbs", "--quiet"), 550e6)
 
     def test_face_that_comes_late(self):
         flat = flat_y4m(176, 144, 15).replace(b"F25:1", b"F30:1")

@@ -175,6 +175,7 @@ std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures,
   format.frame_rate = o.talker.frame_rate;
   EncoderSettings settings;
   settings.quality = o.quality;
+  settings.patterns = 1;  // states do not depend on them
   auto encoder = Encoder::create(format, settings);
   if (!encoder) return encoder.error();
   StreamDecoder decoder;

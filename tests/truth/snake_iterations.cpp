@@ -86,6 +86,7 @@ void print(const std::string& source, Counts counts) {
 bool analyse(const VideoFormat& format, const std::function<bool(Picture&)>& next, Counts& counts) {
   EncoderSettings settings;
   settings.allow_no_face = true;
+  settings.patterns = 1;  // the analysis does not depend on them
   auto encoder = Encoder::create(format, settings);
   if (!encoder) return std::fprintf(stderr, "%s\n", encoder.error().text.c_str()), false;
   Picture picture;
