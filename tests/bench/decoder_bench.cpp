@@ -29,14 +29,15 @@ void rasterise(benchmark::State& state, Reading reading) {
   ScreenTriangle t = {{{{0, 0}}, {{kWidth * 64, 0}}, {{kWidth * 64, kHeight * 64}}}};
   const TextureSource source{
       {&from, 1},
-      {glm::ivec2(in, in), {kWidth * 64 - in, 640 + in}, {kWidth * 64 - 640 - in, kHeight * 64 - in}}};
+      {glm::ivec2(in, in), {kWidth * 64 - in, 640 + in}, {kWidth * 64 - 640 - in, kHeight * 64 - in}},
+      {}};
   DepthPlane depth;
   depth.reset(kWidth, kHeight, area);
   const RasterTarget onto{
       PlaneScale::kLuma, {&to, 1}, area, reading == Reading::kWithDepth ? &depth : nullptr};
   for (auto _ : state) {
     for (ScreenVertex& v : t) --v.depth;  // always nearer than before
-    draw_triangle(t, source, onto);
+    draw_triangle(t, {&source, 1}, onto);
     benchmark::DoNotOptimize(target.samples.data());
   }
   state.SetItemsProcessed(state.iterations() * (kWidth * kHeight / 2));
@@ -81,13 +82,13 @@ void HeadTriangles(benchmark::State& state) {
     depth.reset(kWidth, kHeight, onto.area);
     for (const auto& triangle : head_mesh().triangles) {
       ScreenTriangle t;
-      TextureSource source{{&from, 1}, {}};
+      TextureSource source{{&from, 1}, {}, {}};
       for (std::size_t i = 0; i < 3; ++i) {
         const auto v = triangle[i];
         t[i] = {glm::ivec2(mesh.head[v]), mesh.head[v].z};
         source.corners[i] = texture.head[v];
       }
-      draw_triangle(t, source, onto);
+      draw_triangle(t, {&source, 1}, onto);
     }
     benchmark::DoNotOptimize(target.samples.data());
   }
@@ -106,6 +107,28 @@ void Render(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(Render)->Args({176, 144})->Args({352, 288})->Args({1280, 720})->Unit(benchmark::kMicrosecond);
+
+/// Blends of eight patterns, by the mode of all regions.
+void RenderBlend(benchmark::State& state) {
+  Scene scene = close_up(kWidth, kHeight, 2);
+  for (int k = 1; k < 8; ++k) {
+    State seen = moved(scene, 12 * k);
+    seen.picture = 12 * k;
+    scene.patterns.push_back(make_pattern(noise_picture(kWidth, kHeight, 3u + k), seen, scene.geometry));
+  }
+  Renderer renderer;
+  Picture out;
+  int step = 0;
+  for (auto _ : state) {
+    State picture = moved(scene, ++step % 84);
+    picture.picture = step % 84;
+    picture.blend.fill(static_cast<BlendMode>(state.range(0)));
+    if (!renderer.render(scene, picture, out)) state.SkipWithError("not drawn");
+    benchmark::DoNotOptimize(out.y.samples.data());
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(RenderBlend)->DenseRange(0, static_cast<int>(BlendMode::kNearest))->Unit(benchmark::kMicrosecond);
 
 void PatternDecode(benchmark::State& state) {
   const auto stream = read_bytes(FBS_VECTORS "/talk.fbs");

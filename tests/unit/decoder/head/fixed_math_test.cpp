@@ -76,5 +76,20 @@ TEST(Exp2, IsClampedOutsideItsRange) {
   EXPECT_EQ(exp2_q16(std::numeric_limits<std::int32_t>::max()), std::int64_t{65536} << 13);
 }
 
+// Rounded down: never above, and less than a step below.
+TEST(Log2, IsWithinAStepBelow) {
+  std::uint64_t x = 1;
+  for (int i = 0; i < 4000; ++i, x += 1 + x / 90) {
+    const double exact = 4096 * std::log2(static_cast<double>(x));
+    ASSERT_LE(log2_fixed(x), exact + 1e-6) << x;
+    ASSERT_GT(log2_fixed(x), exact - 1.01) << x;
+  }
+}
+
+TEST(Log2, IsExactAtPowersOfTwo) {
+  for (int n = 0; n < 64; ++n) EXPECT_EQ(log2_fixed(std::uint64_t{1} << n), n * 4096);
+  EXPECT_EQ(log2_fixed(~std::uint64_t{0}), 64 * 4096 - 1);
+}
+
 }  // namespace
 }  // namespace fbs

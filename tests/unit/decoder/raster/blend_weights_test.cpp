@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "decoder/raster/row_runs.h"
+
 namespace fbs {
 namespace {
 
@@ -15,7 +17,9 @@ Lanes all(int value) {
 
 /// Corners up to `far` pixels outside a picture of 64 x 64.
 ScreenTriangle random_triangle(std::mt19937& random, int far) {
-  const auto place = [&] { return static_cast<int>(random() % static_cast<unsigned>(64 * (64 + 2 * far))) - 64 * far; };
+  const auto place = [&] {
+    return static_cast<int>(random() % static_cast<unsigned>(64 * (64 + 2 * far))) - 64 * far;
+  };
   return {{{{place(), place()}}, {{place(), place()}}, {{place(), place()}}}};
 }
 
@@ -71,7 +75,8 @@ TEST(WeightedSum, IsExactAndRounded) {
       sum.add(samples, weights);
     }
     const Lanes rounded = sum.rounded();
-    for (int k = 0; k < kLaneCount; ++k) ASSERT_EQ(rounded[k], (plain[k] + kWeightOne / 2) >> kWeightOneLog2) << i;
+    for (int k = 0; k < kLaneCount; ++k)
+      ASSERT_EQ(rounded[k], (plain[k] + kWeightOne / 2) >> kWeightOneLog2) << i;
   }
 }
 

@@ -36,7 +36,9 @@ Plane blended(const std::vector<BlendedSource>& blend, PlaneScale scale = PlaneS
   const std::array<PlaneView, 2> to = {target, other};
   draw_triangle(screen_of(blend.front().triangle), sources,
                 {scale, std::span(to).first(plane_count(scale)), whole(target), depth});
-  if (scale == PlaneScale::kChroma) EXPECT_EQ(target, other) << "both planes alike";
+  if (scale == PlaneScale::kChroma) {
+    EXPECT_EQ(target, other) << "both planes alike";
+  }
   return target;
 }
 
@@ -72,11 +74,13 @@ TEST(RasteriserBlend, ConstantTexturesBlendToTheirWeightedMean) {
   const auto grey = [](int value) { return Plane(kWidth, kHeight, static_cast<std::uint8_t>(value)); };
   for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
     EXPECT_EQ(blended({{kWhole, grey(100), even(1024)}, {kWhole, grey(200)}}, scale), grey(175));
-    EXPECT_EQ(blended({{kWhole, grey(0), even(2048)}, {kWhole, grey(255)}}, scale), grey(128)) << "halves go up";
+    EXPECT_EQ(blended({{kWhole, grey(0), even(2048)}, {kWhole, grey(255)}}, scale), grey(128))
+        << "halves go up";
     // Not a multiple of 1/256.
     EXPECT_EQ(blended({{kWhole, grey(0), even(2049)}, {kWhole, grey(255)}}, scale), grey(127));
-    EXPECT_EQ(blended({{kWhole, grey(40), even(1365)}, {kWhole, grey(80), even(1365)}, {kWhole, grey(240)}}, scale),
-              grey(120));
+    EXPECT_EQ(
+        blended({{kWhole, grey(40), even(1365)}, {kWhole, grey(80), even(1365)}, {kWhole, grey(240)}}, scale),
+        grey(120));
   }
 }
 
@@ -84,14 +88,17 @@ TEST(RasteriserBlend, LastSourceTakesWhatTheOthersLeave) {
   const Plane white(kWidth, kHeight, 255), black(kWidth, kHeight, 0);
   EXPECT_EQ(blended({{kWhole, white, even(0)}, {kWhole, black, even(0)}}), black);
   EXPECT_EQ(blended({{kWhole, white, even(kWeightOne)}, {kWhole, black, even(kWeightOne)}}), white);
-  EXPECT_EQ(blended({{kWhole, white, even(kWeightOne)}, {kWhole, black, even(99)}, {kWhole, black, even(55)}}), white)
+  EXPECT_EQ(
+      blended({{kWhole, white, even(kWeightOne)}, {kWhole, black, even(99)}, {kWhole, black, even(55)}}),
+      white)
       << "nothing is left for those behind";
 }
 
 // SPEC 11.6: weights are those at the centre of each sample.
 TEST(RasteriserBlend, WeightsAreLinearOverTheTriangle) {
   const TexturedTriangle t = in_place({0, 0}, {64 * kWidth, 0}, {0, 64 * kHeight});
-  const Plane out = blended({{t, Plane(kWidth, kHeight, 200), {0, kWeightOne, 2048}}, {t, Plane(kWidth, kHeight, 0)}});
+  const Plane out =
+      blended({{t, Plane(kWidth, kHeight, 200), {0, kWeightOne, 2048}}, {t, Plane(kWidth, kHeight, 0)}});
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       if (!covers(t, PlaneScale::kLuma, x, y)) continue;
@@ -186,7 +193,8 @@ TEST(RasteriserBlend, KeepsToTheNearestTriangle) {
       ASSERT_EQ(behind.row(y)[x], covers(near_one, PlaneScale::kLuma, x, y) ? 7 : 150);
 }
 
-// Blends of slivers at the limits of what projection gives: nothing overflows (sanitizers), nothing else is drawn.
+// Blends of slivers at the limits of what projection gives: nothing overflows (sanitizers), nothing else is
+// drawn.
 TEST(RasteriserBlend, SurvivesHostileTriangles) {
   std::mt19937 random(3);
   constexpr int kMaxPosition = 1 << 21;

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "decoder/raster/row_runs.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -65,7 +66,8 @@ constexpr int kWidth = 40, kHeight = 30;  // samples of the planes that are draw
 
 /// Takes every block of a triangle from a texture, with TextureSampler and with sample_row().
 template <PlaneScale kScale>
-void compare_sampling(const ScreenTriangle& t, const std::array<glm::ivec2, 3>& corners, const Plane& texture) {
+void compare_sampling(const ScreenTriangle& t, const std::array<glm::ivec2, 3>& corners,
+                      const Plane& texture) {
   const TriangleSetup setup(t, kScale);
   if (!setup.faces_viewer()) return;
   const std::array<ConstPlaneView, 2> views = {texture, texture};
@@ -105,10 +107,12 @@ TEST(TextureSampler, AgreesWithSampleRow) {
     const int reach = luma ? 64 : 128;
     ScreenTriangle t;
     std::array<glm::ivec2, 3> corners;
-    const glm::ivec2 by(static_cast<int>(between(random, -300, 300)), static_cast<int>(between(random, -300, 300)));
+    const glm::ivec2 by(static_cast<int>(between(random, -300, 300)),
+                        static_cast<int>(between(random, -300, 300)));
     for (std::size_t k = 0; k < 3; ++k) {
       t[k].at = random_corner(random, reach);
-      const glm::ivec2 little(static_cast<int>(between(random, -40, 40)), static_cast<int>(between(random, -40, 40)));
+      const glm::ivec2 little(static_cast<int>(between(random, -40, 40)),
+                              static_cast<int>(between(random, -40, 40)));
       switch (i / 2 % 4) {
         case 0:
           corners[k] = t[k].at;
@@ -123,7 +127,8 @@ TEST(TextureSampler, AgreesWithSampleRow) {
           corners[k] = random_corner(random, reach);
       }
     }
-    const Plane texture = noise_plane(kWidth + (i % 3 - 1) * 9, kHeight - i % 5 * 3, static_cast<unsigned>(i));
+    const Plane texture =
+        noise_plane(kWidth + (i % 3 - 1) * 9, kHeight - i % 5 * 3, static_cast<unsigned>(i));
     if (luma)
       compare_sampling<PlaneScale::kLuma>(t, corners, texture);
     else

@@ -55,8 +55,8 @@ inline TextureSource source_of(const TexturedTriangle& t, std::span<const ConstP
   return {planes, {t[0].texture, t[1].texture, t[2].texture}, finish};
 }
 
-/// Draws one plane from one source, within all of the target. As chroma it is drawn twice, the second time into
-/// nowhere.
+/// Draws one plane from one source, within all of the target. As chroma it is drawn twice, the second time
+/// into nowhere.
 inline void draw(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
                  DepthPlane* depth = nullptr, const Finish& finish = {}) {
   Plane nowhere(target.width, target.height);

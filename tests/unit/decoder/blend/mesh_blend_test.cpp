@@ -1,0 +1,136 @@
+#include "decoder/blend/mesh_blend.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+std::size_t index_of(Region region) {
+  return static_cast<std::size_t>(region);
+}
+
+/// A blend in which every region shows one pattern, warped.
+PictureBlend all_of(std::uint8_t pattern) {
+  PictureBlend blend;
+  blend.fill({{{pattern, false}, kBlendOne}});
+  return blend;
+}
+
+struct Case {
+  Scene scene = toy_scene(Picture(160, 128), even_surround(6, 5, 2, 1));
+  std::vector<TextureMesh> textures = std::vector<TextureMesh>(4, scene.patterns[0].texture);
+  [[nodiscard]] MeshBlend blend(const PictureBlend& picture) const {
+    std::vector<const TextureMesh*> pointers;
+    for (const TextureMesh& t : textures) pointers.push_back(&t);
+    return blend_mesh(picture, *scene.geometry, pointers);
+  }
+};
+
+void expect_rows_of_one(const PointWeights& weights, std::size_t points) {
+  ASSERT_EQ(weights.weights.size(), points * weights.sources);
+  for (std::size_t p = 0; p < points; ++p) {
+    const auto row = weights.at(p);
+    ASSERT_EQ(std::accumulate(row.begin(), row.end(), 0), kMeshWeightOne) << p;
+    for (const std::int32_t w : row) ASSERT_GE(w, 0);
+  }
+}
+
+/// Some sources with weights that sum to one.
+RegionBlend random_region(std::mt19937& random) {
+  RegionBlend out;
+  std::int32_t left = kBlendOne;
+  for (std::uint8_t pattern = 0; pattern < 4 && left > 0; ++pattern)
+    for (const bool still : {false, true}) {
+      const bool last = pattern == 3 && still;
+      const auto weight = last ? left : static_cast<std::int32_t>(random() % static_cast<unsigned>(left + 1));
+      if (weight > 0) out.push_back({{pattern, still}, weight});
+      left -= weight;
+    }
+  return out;
+}
+
+TEST(MeshBlend, WeightsSumToOneAtEveryPoint) {
+  std::mt19937 random(1);
+  Case c;
+  for (int i = 0; i < 300; ++i) {
+    PictureBlend picture;
+    for (RegionBlend& region : picture) region = random_region(random);
+    for (TextureMesh& t : c.textures)
+      for (std::uint8_t& v : t.visible) v = static_cast<std::uint8_t>(random() % (kVisibleOne + 1));
+    const MeshBlend blend = c.blend(picture);
+    expect_rows_of_one(blend.head, c.scene.geometry->head_shares().size());
+    expect_rows_of_one(blend.surround, c.scene.geometry->surround().point_count());
+    EXPECT_EQ(std::accumulate(blend.ground.begin(), blend.ground.end(), 0), kMeshWeightOne);
+  }
+}
+
+TEST(MeshBlend, NamesEachSourceOnce) {
+  Case c;
+  PictureBlend picture = all_of(2);
+  picture[index_of(Region::kBody)] = {{{0, false}, 100}, {{2, true}, 156}};
+  const std::vector<BlendSource> expected = {{0, false}, {2, false}, {2, true}};
+  EXPECT_EQ(c.blend(picture).sources, expected);
+}
+
+TEST(MeshBlend, PointsHaveTheBlendOfTheirRegion) {
+  Case c;
+  PictureBlend picture = all_of(0);
+  picture[index_of(Region::kMouth)] = all_of(1)[0];
+  picture[index_of(Region::kGround)] = {{{0, false}, 56}, {{3, false}, 200}};
+  const MeshBlend blend = c.blend(picture);
+  ASSERT_EQ(blend.sources.size(), 3U);
+  EXPECT_EQ(blend.head.at(vertex_of_landmark(62))[1], kMeshWeightOne) << "lips";
+  EXPECT_EQ(blend.head.at(vertex_of_landmark(27))[0], kMeshWeightOne) << "nose";
+  EXPECT_EQ(blend.ground[2], 200 * kShareOne);
+  EXPECT_EQ(blend.surround.at(0)[2], 200 * kShareOne) << "the margin is ground";
+}
+
+TEST(MeshBlend, HiddenVerticesAreTakenFromPatternsThatShowThem) {
+  Case c;
+  PictureBlend picture = all_of(0);
+  picture.fill({{{0, false}, 64}, {{1, false}, 192}});
+  const std::size_t cheek = vertex_of_landmark(2);
+  c.textures[1].visible[cheek] = 0;
+  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne);
+  c.textures[1].visible[cheek] = kVisibleOne / 2;  // 64 against 96
+  EXPECT_NEAR(c.blend(picture).head.at(cheek)[0], kMeshWeightOne * 2 / 5, 1);
+  c.textures[0].visible[cheek] = c.textures[1].visible[cheek] = 0;
+  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne / 4) << "none shows it: as if all did";
+}
+
+// What is not warped shows what is there.
+TEST(MeshBlend, StillSourcesAreAlwaysVisible) {
+  Case c;
+  PictureBlend picture;
+  picture.fill({{{0, false}, 128}, {{1, true}, 128}});
+  for (TextureMesh& t : c.textures) std::fill(t.visible.begin(), t.visible.end(), std::uint8_t{0});
+  const MeshBlend blend = c.blend(picture);
+  for (std::size_t v = 0; v < c.textures[0].visible.size(); ++v)
+    ASSERT_EQ(blend.head.at(v)[1], kMeshWeightOne);
+}
+
+TEST(TextureMesh, VerticesAreVisibleWhereTheirTrianglesFaceTheViewer) {
+  const Scene scene = toy_scene(Picture(160, 128));
+  const auto visible = [&](int yaw, std::size_t landmark) {
+    State seen = toy_state();
+    seen.pose[kYaw] = yaw;
+    return static_cast<int>(scene.geometry->texture_mesh(seen).visible[vertex_of_landmark(landmark)]);
+  };
+  constexpr std::size_t kRightCorner = 36, kLeftCorner = 45, kNose = 27;  // of the eyes
+  for (const std::size_t point : {kRightCorner, kLeftCorner, kNose})
+    EXPECT_EQ(visible(0, point), kVisibleOne);
+  const int far = 15000;  // 82 degrees
+  const bool hides_right = visible(far, kRightCorner) < visible(far, kLeftCorner);
+  EXPECT_EQ(visible(far, hides_right ? kRightCorner : kLeftCorner), 0);
+  EXPECT_EQ(visible(-far, hides_right ? kLeftCorner : kRightCorner), 0);
+  EXPECT_GT(visible(far, hides_right ? kLeftCorner : kRightCorner), kVisibleOne / 2);
+}
+
+}  // namespace
+}  // namespace fbs

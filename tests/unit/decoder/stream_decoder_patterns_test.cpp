@@ -1,0 +1,250 @@
+// Streams with several patterns. SPEC 6.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "decoder/stream_decoder.h"
+#include "tests/unit/decoder/stream_writer.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+/// A scene up to its first pattern.
+Writer begun(int patterns = 3) {
+  Writer w;
+  w.setup(setup_of(patterns)).geometry().surround().pattern();
+  return w;
+}
+
+std::vector<ErrorCode> errors_of(const Writer& w) {
+  std::vector<ErrorCode> out;
+  for (const Error& e : played(w.bytes).errors) out.push_back(e.code);
+  return out;
+}
+
+/// Plays all of a stream without errors; the decoder stays as it is at the end.
+void play_through(StreamDecoder& decoder, const Writer& w, Played& result) {
+  decoder.feed(w.bytes);
+  decoder.close();
+  ASSERT_TRUE(play(decoder, result));
+  ASSERT_TRUE(result.errors.empty()) << result.errors.front().text;
+}
+
+TEST(StreamDecoderPatterns, PicturesWaitForTheirBlend) {
+  const Writer whole = [] {
+    Writer w = begun();
+    w.motion(0, 5, true).motion(5, 10).blend(3).blend(7);
+    return w;
+  }();
+  StreamDecoder decoder;
+  Played result;
+  const auto feed = [&](std::size_t packet) {
+    const std::size_t end = packet + 1 < whole.begins.size() ? whole.begins[packet + 1] : whole.bytes.size();
+    const std::size_t begin = packet == 0 ? 0 : whole.begins[packet];
+    decoder.feed(std::span(whole.bytes).subspan(begin, end - begin));
+    EXPECT_FALSE(play(decoder, result));
+    return result.pictures.size();
+  };
+  for (std::size_t packet = 0; packet < 6; ++packet) EXPECT_EQ(feed(packet), 0U) << packet;
+  EXPECT_EQ(feed(6), 3U);
+  EXPECT_EQ(feed(7), 10U);
+  EXPECT_TRUE(result.errors.empty());
+}
+
+TEST(StreamDecoderPatterns, OnePatternInAStoreOfManyDrawsAsAlone) {
+  Writer w = begun();
+  w.motion(0, 5, true).motion(5, 10).blend(10);
+  const Played result = played(w.bytes), alone = played(sample().bytes);
+  ASSERT_EQ(result.pictures.size(), 10U);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), alone.pictures.begin()));
+}
+
+TEST(StreamDecoderPatterns, LaterPatternIsSeenInTheStateOfItsPicture) {
+  Writer w = begun();
+  w.motion(0, 10, true).pattern(face_picture(1), 1, 7).pattern(face_picture(2), 2, 4).blend(10);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  ASSERT_EQ(decoder.scene().patterns.size(), 3U);
+  const auto expect_seen = [&](std::size_t slot, int number) {
+    State expected = state_of(coded_at(number), setup_of().steps);
+    expected.picture = number;
+    EXPECT_EQ(decoder.scene().patterns[slot].seen, expected) << slot;
+  };
+  expect_seen(0, 0);
+  expect_seen(1, 7);
+  expect_seen(2, 4);
+}
+
+TEST(StreamDecoderPatterns, ModesOfTheBlendPacketAreUsed) {
+  Writer w = begun();
+  w.motion(0, 10, true).pattern(face_picture(1), 1, 7);
+  w.blend(4, BlendMode::kStillBefore).blend(2, BlendMode::kStillAfter).blend(4);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  ASSERT_EQ(result.pictures.size(), 10U);
+  const auto& patterns = decoder.scene().patterns;
+  for (std::size_t t = 0; t < 4; ++t) EXPECT_EQ(result.pictures[t], patterns[0].picture);
+  for (std::size_t t = 4; t < 6; ++t) EXPECT_EQ(result.pictures[t], patterns[1].picture);
+  EXPECT_NE(result.pictures[6], patterns[1].picture);
+}
+
+TEST(StreamDecoderPatterns, PictureIsDrawnFromThePatternsOfItsRelease) {
+  Writer w = begun(2);
+  w.motion(0, 10, true).pattern(face_picture(1), 1, 2).blend(3, BlendMode::kStillBefore);
+  w.pattern(face_picture(5), 1, 3).blend(7, BlendMode::kStillBefore);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  ASSERT_EQ(decoder.scene().patterns.size(), 2U);
+  EXPECT_NE(result.pictures[2], decoder.scene().patterns[1].picture) << "that of its time has been replaced";
+  EXPECT_NE(result.pictures[2], result.pictures[0]);
+  EXPECT_EQ(result.pictures[3], decoder.scene().patterns[1].picture);
+}
+
+// The rest state stays that of the first pattern.
+TEST(StreamDecoderPatterns, FirstPatternMayBeReplaced) {
+  Writer w = begun(2);
+  w.motion(0, 10, true).pattern(face_picture(1), 0, 9).blend(10, BlendMode::kStillAfter);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  ASSERT_EQ(decoder.scene().patterns.size(), 1U);
+  for (const Picture& p : result.pictures) EXPECT_EQ(p, decoder.scene().patterns[0].picture);
+}
+
+TEST(StreamDecoderPatterns, StoreOfOneIsReplacedWithoutBlends) {
+  Writer w = begun(1);
+  w.motion(0, 5, true).pattern(face_picture(3), 0, 4).motion(5, 10);
+  const Played result = played(w.bytes), whole = played(sample().bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 10U);
+  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.begin() + 5, whole.pictures.begin()));
+  for (std::size_t t = 5; t < 10; ++t) EXPECT_NE(result.pictures[t], whole.pictures[t]);
+}
+
+TEST(StreamDecoderPatterns, CountsBlendsAsMotionAndInTheStartup) {
+  Writer w = begun();
+  w.motion(0, 10, true).blend(5).pattern(face_picture(1), 1, 7).blend(5).end(10);
+  const auto& b = w.begins;
+  const ByteCount bytes = played(w.bytes).bytes;
+  EXPECT_EQ(sum_of(bytes), w.bytes.size());
+  EXPECT_EQ(bytes.motion, b[6] - b[4] + b[8] - b[7]);
+  EXPECT_EQ(bytes.patterns, b[4] - b[3] + b[7] - b[6]);
+  EXPECT_EQ(bytes.startup, b[6]) << "up to the first blend packet";
+}
+
+TEST(StreamDecoderPatterns, OrderIsChecked) {
+  const std::vector<ErrorCode> invalid = {ErrorCode::kInvalidStream};
+  const auto errors = [](auto&& write, int patterns = 3) {
+    Writer w = begun(patterns);
+    w.motion(0, 10, true);
+    write(w);
+    return errors_of(w);
+  };
+  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 1, 10); }), invalid)
+      << "of a picture without motion";
+  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 2, 5); }), invalid) << "slot 1 is still empty";
+  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1)); }), invalid) << "the first pattern once more";
+  EXPECT_EQ(errors([](Writer& w) { w.blend(11); }), invalid) << "ahead of the motion";
+  EXPECT_EQ(errors([](Writer& w) { w.blend(10).blend(1); }), invalid);
+  EXPECT_EQ(errors([](Writer& w) { w.blend(5); }, 1), invalid) << "nothing is blended";
+  EXPECT_EQ(errors([](Writer& w) { w.blend(5).pattern(face_picture(1), 1, 2).blend(5); }),
+            std::vector<ErrorCode>());
+  Writer early;
+  early.setup(setup_of(3)).blend(1);
+  EXPECT_EQ(errors_of(early), invalid) << "before the first pattern";
+}
+
+TEST(StreamDecoderPatterns, SlotBeyondTheStoreIsTooLarge) {
+  Writer w = begun(3);
+  w.motion(0, 10, true);
+  const PatternSyntax wide{3, 5, {}, Bytes(20, 1)};
+  w.packet(PacketType::kPattern, encode_pattern(wide, setup_of(4)));
+  EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kTooLarge});
+}
+
+TEST(StreamDecoderPatterns, BlendsBeginWithAKeyGroup) {
+  Writer w = begun();
+  BlendEncoder encoder;
+  ASSERT_TRUE(encoder.encode({true, std::vector<RegionModes>(5)}));
+  w.motion(0, 10, true).packet(PacketType::kBlend, encoder.encode({false, std::vector<RegionModes>(5)}));
+  EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kInvalidStream});
+}
+
+TEST(StreamDecoderPatterns, OnlyRecentPicturesMayHaveAPattern) {
+  for (const bool kept : {true, false}) {
+    Writer w = begun();
+    for (int t = 0; t < 300; t += 100) w.motion(t, t + 100, t == 0);
+    w.blend(256, BlendMode::kStillBefore).blend(kept ? 3 : 4, BlendMode::kStillBefore);
+    w.pattern(face_picture(1), 1, 259 - kKeptPictures).blend(10, BlendMode::kStillBefore);
+    EXPECT_EQ(errors_of(w).empty(), kept);
+  }
+}
+
+TEST(StreamDecoderPatterns, TooManyPicturesThatWaitAreAnError) {
+  Writer w = begun();
+  for (int t = 0; t <= kMaxWaitingPictures; t += 256) w.motion(t, t + 256, t == 0);
+  EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kTooLarge});
+}
+
+// Which blend belongs to which picture is not known after a loss; a new scene is.
+TEST(StreamDecoderPatterns, LossCostsTheRestOfTheScene) {
+  for (const std::size_t lost : {5u, 6u, 7u}) {  // blend, pattern, blend
+    Writer w = begun();
+    w.motion(0, 10, true)
+        .blend(2)
+        .pattern(face_picture(1), 1, 7)
+        .blend(3, {}, true)
+        .motion(10, 15, true)
+        .blend(5);
+    const std::size_t second = w.bytes.size();
+    w.setup(setup_of(3)).geometry().surround().pattern().motion(0, 5, true).blend(5);
+    Bytes bytes = w.bytes;
+    bytes[w.begins[lost] + 3] ^= 1;
+    ASSERT_LT(w.begins[lost] + 3, second);
+    const Played result = played(bytes);
+    EXPECT_FALSE(result.errors.empty());
+    const std::size_t before = lost == 5 ? 0 : 2;
+    ASSERT_EQ(result.pictures.size(), before + 5) << lost;
+    const Played whole = played(sample().bytes);
+    EXPECT_TRUE(std::equal(whole.pictures.begin(), whole.pictures.begin() + 5, result.pictures.end() - 5));
+  }
+}
+
+TEST(StreamDecoderPatterns, SceneWithoutGeometryCrossFades) {
+  Writer w;
+  w.setup(setup_of(2))
+      .pattern()
+      .motion(0, 5, true)
+      .pattern(face_picture(4), 1, 4)
+      .blend(5, BlendMode::kByTime);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  ASSERT_EQ(result.pictures.size(), 5U);
+  const Picture &first = decoder.scene().patterns[0].picture, &last = decoder.scene().patterns[1].picture;
+  EXPECT_EQ(result.pictures[0], first);
+  EXPECT_EQ(result.pictures[4], last);
+  for (std::size_t i = 0; i < first.y.samples.size(); ++i)
+    ASSERT_EQ(result.pictures[2].y.samples[i], (first.y.samples[i] + last.y.samples[i] + 1) / 2);
+}
+
+TEST(StreamDecoderPatterns, StreamMayBeCutAnywhere) {
+  Writer w = begun();
+  w.motion(0, 10, true).blend(5).pattern(face_picture(1), 1, 7).motion(10, 15).blend(10);
+  const Played whole = played(w.bytes);
+  ASSERT_EQ(whole.pictures.size(), 15U);
+  for (std::size_t size = w.begins[3]; size < w.bytes.size(); size += 11) {
+    const Played result = played(std::span(w.bytes).first(size));
+    ASSERT_LE(result.errors.size(), 1U) << size;
+    ASSERT_EQ(result.pictures.size(), w.begins[6] <= size ? 5U : 0U) << size;
+    EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin())) << size;
+  }
+}
+
+}  // namespace
+}  // namespace fbs
