@@ -1,6 +1,7 @@
 // Samples of a texture: SPEC 10.8. Integers only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -27,7 +28,9 @@ class TextureSampler {
   /// @param corners   of the triangle in them, 1/64 luma pixel
   TextureSampler(const TriangleSetup& setup, const ScreenTriangle& t,
                  std::span<const ConstPlaneView> textures, const std::array<glm::ivec2, 3>& corners)
-      : textures_(textures), is_in_place_(corners == std::array{t[0].at, t[1].at, t[2].at}) {
+      : textures_(textures),
+        straight_columns_(std::max(0, textures.front().width - kLaneCount)),
+        is_in_place_(corners == std::array{t[0].at, t[1].at, t[2].at}) {
     u_ = setup.gradient({corners[0].x, corners[1].x, corners[2].x}, static_cast<int>(kScale));
     v_ = setup.gradient({corners[0].y, corners[1].y, corners[2].y}, static_cast<int>(kScale));
     // Texture coordinates of a sample's centre have a half of a sample that its position in the plane has
@@ -66,9 +69,8 @@ class TextureSampler {
     const auto keeps_step = [&](const LinearRow& row, std::int64_t step) {
       return below((row.first & (kOne - 1)) + (count - 1) * (row.step - step), kOne);
     };
-    const ConstPlaneView& texture = textures_.front();
-    return keeps_step(at.u, kOne) && keeps_step(at.v, 0) &&
-           below(at.u.first >> 16, texture.width - kLaneCount) && below(at.v.first >> 16, texture.height - 1);
+    return keeps_step(at.u, kOne) && keeps_step(at.v, 0) && below(at.u.first >> 16, straight_columns_) &&
+           below(at.v.first >> 16, textures_.front().height - 1);
   }
 
   /// Whether kLaneCount samples lie inside the texture, and all that is mixed to them.
@@ -138,7 +140,8 @@ class TextureSampler {
   }
 
   std::span<const ConstPlaneView> textures_;
-  bool is_in_place_;  ///< the texture lies where it is drawn: its samples are those of the plane
+  int straight_columns_;  ///< from which kLaneCount samples and one more can be read
+  bool is_in_place_;      ///< the texture lies where it is drawn: its samples are those of the plane
   Gradient u_, v_;
   Lanes u_lanes_, v_lanes_;  ///< what the lanes add to the first position, modulo a sample
 };
