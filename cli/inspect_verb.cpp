@@ -33,16 +33,18 @@ struct Summary {
   PartBitsX256 motion{};
 };
 
-/// Bytes of motion for each part of the state, for durations, and for the rest: packet headers, checksums,
-/// code terminations.
+/// Bytes of motion for each part of the state, for durations, for blend packets, and for the rest: headers of
+/// motion packets, checksums, code terminations.
 std::vector<std::pair<std::string, double>> motion_by_part(const Summary& s) {
   std::vector<std::pair<std::string, double>> out;
-  double rest = static_cast<double>(s.bytes.motion);
+  const auto blend = static_cast<double>(s.bytes.blend);
+  double rest = static_cast<double>(s.bytes.motion) - blend;
   for (std::size_t p = 0; p < s.motion.size(); ++p) {
     const double bytes = static_cast<double>(s.motion[p]) / (256 * 8);
     rest -= bytes;
     out.emplace_back(p < kPartCount ? std::string(kPartNames[p]) : "durations", bytes);
   }
+  out.emplace_back("blend", blend);
   out.emplace_back("packets", rest);
   return out;
 }

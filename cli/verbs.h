@@ -23,7 +23,7 @@ struct EncodeArguments {
   // For measurements; not shown by --help.
   double motion_bitrate = 0;   ///< target of the motion alone, kbit/s; 0: none
   int pattern_quantiser = -1;  ///< of AV1; -1: quality decides
-  bool reduced_patterns = false;
+  std::optional<bool> reduced_patterns;
   int effort = 1;
   bool snakes = true;
   bool refine = true;

@@ -85,8 +85,11 @@ void StreamDecoder::count(const Packet& packet) {
       bytes_.patterns += packet.size;
       break;
     case PacketType::kMotion:
+      bytes_.motion += packet.size;
+      break;
     case PacketType::kBlend:
       bytes_.motion += packet.size;
+      bytes_.blend += packet.size;
       break;
     default:
       bytes_.other += packet.size;

@@ -25,6 +25,7 @@ struct ByteCount {
   std::uint64_t geometry = 0;  ///< geometry and surround packets
   std::uint64_t patterns = 0;
   std::uint64_t motion = 0;  ///< motion and blend packets
+  std::uint64_t blend = 0;   ///< of `motion`, the blend packets
   std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
 

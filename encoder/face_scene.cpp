@@ -50,14 +50,15 @@ RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px
   return target;
 }
 
-PatternPassSettings pass_settings(const EncoderSettings& settings, double lambda) {
+PatternPassSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
   PatternPassSettings out;
   out.point = PatternPoint::at(settings.quality);
   out.count = settings.patterns;
   out.coding.quantiser = settings.pattern_quantiser < 0 ? out.point.quantiser : settings.pattern_quantiser;
-  out.coding.reduced = settings.reduced_patterns;
+  out.lone_quantiser = settings.pattern_quantiser < 0 ? motion.pattern_quantiser : settings.pattern_quantiser;
+  out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
-  out.lambda = lambda;
+  out.lambda = motion.lambda;
   out.rounds = settings.effort;
   return out;
 }
@@ -136,7 +137,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       seen_(parts.seen),
       head_(std::move(parts.head)) {
   if (settings.patterns != 1)
-    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point.lambda));
+    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
   if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
 }
 

@@ -115,10 +115,14 @@ std::size_t PatternPass::count_wanted() const {
   const double seconds = static_cast<double>(pictures) / fps_of(format_);
   const std::size_t wanted =
       settings_.count > 0 ? settings_.count : std::lround(settings_.point.per_second * seconds);
-  return std::min(std::clamp<std::size_t>(wanted, 2, store_), pictures);
+  return std::min(std::clamp<std::size_t>(wanted, 1, store_), pictures);
 }
 
 Result<void> PatternPass::choose_size(const Scene& scene) {
+  if (settings_.reduced) {
+    settings_.coding.reduced = *settings_.reduced;
+    return {};
+  }
   const std::size_t count = count_wanted();
   if (count < 2) return {};
   const auto loss = loss_between(scene, count);
@@ -307,6 +311,9 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   } else if (auto sized = choose_size(scene); !sized) {
     return fail(sized.error());
   }
+  // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
+  if (picture_ == 0 && count_wanted() == 1 && settings_.bitrate_kbps == 0)
+    settings_.coding.quantiser = settings_.lone_quantiser;
   auto draft = make(scene);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {

@@ -17,8 +17,8 @@ struct SegmentPatterns {
   std::vector<AvailablePatterns> available;  ///< of each group
 };
 
-/// Every so many pictures count when patterns are solved for; all of them gain 0.05 dB and take three times as
-/// long.
+/// Every so many pictures count when patterns are solved for; all of them gain 0.05 dB and take three times
+/// as long.
 inline constexpr std::size_t kSolveEvery = 3;
 
 /// Modes of each picture by rate-distortion cost. Luma only, at a reduced size.

@@ -8,21 +8,21 @@
 namespace fbs {
 
 struct EncoderSettings {
-  int quality = 50;               ///< 0..100; moves the pattern's quantiser, the steps and lambda together
-  double bitrate = 0;             ///< total kbit/s, from which quality follows; 0: quality decides
-  double seconds = 0;             ///< length of the video, for bitrate; 0: unknown, ten are assumed
-  double motion_bitrate = 0;      ///< kbit/s of the motion alone; 0: quality decides
-  int patterns = 0;               ///< of a scene: 1..64; 0: chosen by rate and distortion
-  int pattern_quantiser = -1;     ///< of AV1, 0..63; -1: quality decides; for experiments
-  bool reduced_patterns = false;  ///< code patterns at half width and height
-  int effort = 1;                 ///< rounds of making patterns for their use
-  int face = 0;                   ///< which face to follow, the largest being 0
-  std::optional<Marks> marks;     ///< by hand, for the first picture; automatic otherwise
-  bool allow_no_face = false;     ///< code a video without any face as one still pattern instead of failing
-  bool snakes = true;             ///< follow mouth and brows; off only to measure what they gain
-  bool refine = true;             ///< fit the state to the picture; off only to measure what it gains
-  bool surround = true;           ///< let hair, body and ground move; off only to measure what it gains
-  int group_pictures = 0;         ///< pictures in a motion packet, 1..256; 0: one second's
+  int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
+  double bitrate = 0;          ///< total kbit/s, from which quality follows; 0: quality decides
+  double seconds = 0;          ///< length of the video, for bitrate; 0: unknown, ten are assumed
+  double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: quality decides
+  int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
+  int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
+  std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion
+  int effort = 1;                        ///< rounds of making patterns for their use
+  int face = 0;                          ///< which face to follow, the largest being 0
+  std::optional<Marks> marks;            ///< by hand, for the first picture; automatic otherwise
+  bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
+  bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
+  bool refine = true;          ///< fit the state to the picture; off only to measure what it gains
+  bool surround = true;        ///< let hair, body and ground move; off only to measure what it gains
+  int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
 }  // namespace fbs
