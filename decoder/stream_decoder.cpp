@@ -191,7 +191,7 @@ Result<void> StreamDecoder::take_pattern(const Packet& packet) {
     if (scene_.setup.patterns > 1) blend_.emplace();
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
   }
-  Pattern made = make_pattern(std::move(frame->picture), seen, scene_.geometry);
+  Pattern made = make_coded_pattern(std::move(frame->picture), seen, scene_.geometry, scene_.setup);
   if (pattern->slot < static_cast<int>(scene_.patterns.size()))
     scene_.patterns[pattern->slot] = std::move(made);
   else

@@ -213,6 +213,7 @@ Result<void> FaceScene::end_segment() {
   if (!fixed_) fix_head();
   if (!packets_.started()) {
     scene_.setup.patterns = patterns_pass_->store();
+    if (const char* c = getenv("FBS_CONTRAST")) scene_.setup.contrast = atoi(c);
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }

@@ -73,6 +73,19 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene, std::size_t
   return draft;
 }
 
+const State& PatternPass::seen_state(const Scene& scene, std::size_t time) const {
+  return picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
+}
+
+std::vector<ContrastMap> PatternPass::contrast_maps(const Scene& scene, const Draft& draft) const {
+  std::vector<ContrastMap> out;
+  if (scene.setup.contrast == kContrastOne) return out;
+  for (const std::size_t time : draft.times)
+    out.emplace_back(format_.width, format_.height, scene.geometry->texture_mesh(seen_state(scene, time)),
+                     scene.setup.contrast);
+  return out;
+}
+
 void PatternPass::place(const Scene& scene, Draft& draft) const {
   draft.shown.clear();
   draft.patterns = scene.patterns;
@@ -80,8 +93,7 @@ void PatternPass::place(const Scene& scene, Draft& draft) const {
   for (SequencePattern& p : draft.coded) {
     const std::size_t time = draft.times[p.picture];
     draft.shown.push_back(time);
-    const State& seen = picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
-    draft.patterns.push_back(make_pattern(std::move(p.decoded), seen, scene.geometry));
+    draft.patterns.push_back(make_pattern(std::move(p.decoded), seen_state(scene, time), scene.geometry));
   }
   draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
 }
@@ -168,9 +180,14 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
   SequenceSettings coding = settings_.coding;
   coding.speed = speed;
-  auto coded = code_pattern_sequence(format_, draft.pictures, coding);
+  std::vector<Picture> pictures = draft.pictures;
+  const std::vector<ContrastMap> maps = contrast_maps(scene, draft);
+  for (std::size_t k = 0; k < maps.size(); ++k) maps[k].reduce(pictures[k]);
+  auto coded = code_pattern_sequence(format_, pictures, coding);
   if (!coded) return fail(coded.error());
   draft.coded = std::move(*coded);
+  if (!maps.empty())
+    for (SequencePattern& p : draft.coded) maps[p.picture].expand(p.decoded);
   place(scene, draft);
   return {};
 }

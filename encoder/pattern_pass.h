@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bitstream/blend/blend_coder.h"
+#include "decoder/contrast_map.h"
 #include "decoder/scene.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
@@ -66,6 +67,9 @@ class PatternPass {
   [[nodiscard]] std::size_t count_wanted() const;
   /// Whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
+  [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
+  /// Of the patterns in the order of times; none where contrast is the same everywhere.
+  [[nodiscard]] std::vector<ContrastMap> contrast_maps(const Scene& scene, const Draft& draft) const;
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
   /// @param every  so many pictures share their modes

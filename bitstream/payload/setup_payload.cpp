@@ -94,6 +94,8 @@ Result<void> check_setup(const Setup& setup) {
     return fail(ErrorCode::kInvalidArgument, "parts of the state are out of range");
   if (setup.patterns < 1) return fail(ErrorCode::kInvalidArgument, "number of patterns is out of range");
   if (setup.patterns > kMaxPatterns) return fail(ErrorCode::kTooLarge, "too many patterns");
+  if (setup.contrast < kMinContrast || setup.contrast > kContrastOne)
+    return fail(ErrorCode::kInvalidArgument, "contrast of patterns is out of range");
   return {};
 }
 
@@ -112,7 +114,10 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  if (setup.patterns > 1) writer.varint(static_cast<std::uint64_t>(setup.patterns));
+  if (setup.patterns > 1) {
+    writer.varint(static_cast<std::uint64_t>(setup.patterns));
+    if (setup.contrast < kContrastOne) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
+  }
   return payload;
 }
 
@@ -139,6 +144,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   setup.mouth.upper = read_colour(reader);
   setup.mouth.lower = read_colour(reader);
   if (reader.remaining() > 0) setup.patterns = to_int(reader.varint());
+  if (reader.remaining() > 0) setup.contrast = kContrastOne - reader.u8();
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");

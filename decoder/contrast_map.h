@@ -1,0 +1,35 @@
+// Patterns are coded with less contrast outside the face, so that a given error there costs more bits than in
+// it: AV1 without a quantiser map. SPEC 11.7. Integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/picture.h"
+#include "decoder/animate/screen_mesh.h"
+
+namespace fbs {
+
+/// The contrast of each sample of a pattern as it is coded.
+class ContrastMap {
+ public:
+  /// @param texture   of the pattern: full contrast inside the face's outline, the surround's from the ring
+  ///                  outwards, linear between
+  /// @param surround  kMinContrast..kContrastOne
+  ContrastMap(int width, int height, const TextureMesh& texture, std::int32_t surround);
+
+  /// From a pattern as it is coded to what it shows.
+  void expand(Picture& picture) const;
+
+  /// From what a pattern shows to what is coded.
+  void reduce(Picture& picture) const;
+
+ private:
+  [[nodiscard]] std::array<const Plane*, 3> maps() const { return {&luma_, &chroma_, &chroma_}; }
+
+  Plane luma_, chroma_;  ///< share of the face, 0..255
+  std::int32_t surround_;
+};
+
+}  // namespace fbs
