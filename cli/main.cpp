@@ -84,7 +84,8 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
                  "Encode a video without a face as a still picture instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary");
   verb->add_option("--effort", a.effort)->check(CLI::Range(0, 9))->group(kHiddenGroup);
-  verb->add_flag("--reduced-patterns,!--full-size-patterns", a.reduced_patterns)->group(kHiddenGroup);
+  verb->add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
+  verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
   verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
   verb->add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
   verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
