@@ -54,7 +54,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   PatternPassSettings out;
   out.point = PatternPoint::at(settings.quality);
   out.count = settings.patterns;
-  out.coding.quantiser = settings.pattern_quantiser < 0 ? out.point.quantiser : settings.pattern_quantiser;
+  if (settings.pattern_quantiser >= 0) out.quantiser = settings.pattern_quantiser;
   out.lone_quantiser = settings.pattern_quantiser < 0 ? motion.pattern_quantiser : settings.pattern_quantiser;
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;

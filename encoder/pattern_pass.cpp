@@ -117,9 +117,15 @@ Result<double> PatternPass::loss_between(const Scene& scene, std::size_t count) 
   return blend_loss(segment_, usable(scene, *draft), kLossEvery);
 }
 
-void PatternPass::set_quality(int quality) {
-  settings_.point = PatternPoint::at(quality);
-  settings_.coding.quantiser = settings_.point.quantiser;
+int PatternPass::quantiser_at(bool reduced) const {
+  if (settings_.quantiser) return *settings_.quantiser;
+  const int halvings = reduced ? 1 : 0;
+  return quantiser_of(settings_.point, format_.width >> halvings, format_.height >> halvings);
+}
+
+void PatternPass::set_size(bool reduced) {
+  settings_.coding.reduced = reduced;
+  settings_.coding.quantiser = quantiser_at(reduced);
 }
 
 std::size_t PatternPass::count_wanted() const {
@@ -132,11 +138,14 @@ std::size_t PatternPass::count_wanted() const {
 
 Result<void> PatternPass::choose_size(const Scene& scene) {
   if (settings_.reduced) {
-    settings_.coding.reduced = *settings_.reduced;
+    set_size(*settings_.reduced);
     return {};
   }
   const std::size_t count = count_wanted();
-  if (count < 2) return {};
+  if (count < 2) {
+    set_size(false);
+    return {};
+  }
   const auto loss = loss_between(scene, count);
   if (!loss) return fail(loss.error());
   // A few neighbours from the middle of the segment.
@@ -153,12 +162,14 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
   SequenceSettings trial = settings_.coding;
   trial.speed = kTrialSpeed;
   trial.reduced = false;
+  trial.quantiser = quantiser_at(false);
   const auto full = trial_cost(format_, some, trial);
   if (!full) return fail(full.error());
   trial.reduced = true;
+  trial.quantiser = quantiser_at(true);
   const auto reduced = trial_cost(format_, some, trial);
   if (!reduced) return fail(reduced.error());
-  settings_.coding.reduced = reduced_size_pays(*loss, count, motion, *full, *reduced);
+  set_size(reduced_size_pays(*loss, count, motion, *full, *reduced));
   return {};
 }
 
@@ -267,7 +278,8 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
   int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
   while (high - low > 4) {
     const int middle = (low + high) / 2;
-    set_quality(middle);
+    settings_.point = PatternPoint::at(middle);
+    set_size(settings_.coding.reduced);
     auto draft = draft_of(scene, count_wanted());
     if (!draft) return fail(draft.error());
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
@@ -279,14 +291,15 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
 }
 
 Result<void> PatternPass::aim(const Scene& scene, double bytes) {
-  set_quality(50);
+  settings_.point = PatternPoint::at(50);
   for (int trial = 0; trial < 2; ++trial) {
     const bool before = settings_.coding.reduced;
     if (auto sized = choose_size(scene); !sized) return sized;
     if (trial > 0 && settings_.coding.reduced == before) break;
     const auto quality = quality_for(scene, bytes);
     if (!quality) return fail(quality.error());
-    set_quality(*quality);
+    settings_.point = PatternPoint::at(*quality);
+    set_size(settings_.coding.reduced);
   }
   return {};
 }

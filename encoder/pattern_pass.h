@@ -21,6 +21,7 @@ struct PatternPassSettings {
   double bitrate_kbps = 0;  ///< of all packets; 0: the point decides
   SequenceSettings coding;
   int lone_quantiser = 40;      ///< where a scene is too short for a second pattern
+  std::optional<int> quantiser;  ///< of the patterns; as the point says
   std::optional<bool> reduced;  ///< size of the patterns; chosen by rate and distortion
   int rounds = 1;               ///< of solving for patterns; 0: pictures are coded as they are
   double lambda = 0;            ///< squared luma levels that a bit is worth
@@ -78,7 +79,8 @@ class PatternPass {
   Result<void> code(const Scene& scene, Draft& draft, int speed);
   /// Solves, codes and chooses, as often as the settings say.
   [[nodiscard]] Result<Draft> make(const Scene& scene);
-  void set_quality(int quality);
+  [[nodiscard]] int quantiser_at(bool reduced) const;
+  void set_size(bool reduced);
   /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.
   [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
   /// Sets quality and size for so many bytes.

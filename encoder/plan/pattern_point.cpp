@@ -15,6 +15,9 @@ struct HullPoint {
 constexpr std::array<HullPoint, 5> kHull = {
     {{0.4, 63, 20}, {0.8, 60, 25}, {1.6, 58, 38}, {3.2, 55, 38}, {5.6, 52, 45}}};
 
+/// Of the quantiser, for twice the samples. Measured between 176x144 and 720x1280.
+constexpr double kStepsPerOctave = 1.4;
+
 }  // namespace
 
 PatternPoint PatternPoint::at(int quality) {
@@ -25,6 +28,12 @@ PatternPoint PatternPoint::at(int quality) {
   return {a.per_second * std::pow(b.per_second / a.per_second, share),
           static_cast<int>(std::lround(a.quantiser + share * (b.quantiser - a.quantiser))),
           static_cast<int>(std::lround(a.motion_quality + share * (b.motion_quality - a.motion_quality)))};
+}
+
+int quantiser_of(const PatternPoint& point, int width, int height) {
+  const double octaves = std::log2(static_cast<double>(width) * height / (352 * 288));
+  static const double slope = getenv("FBS_SLOPE") ? atof(getenv("FBS_SLOPE")) : kStepsPerOctave;
+  return std::clamp(static_cast<int>(std::lround(point.quantiser + slope * octaves)), 0, 63);
 }
 
 int motion_quality_at(double kbps) {

@@ -8,12 +8,15 @@ namespace fbs {
 
 struct PatternPoint {
   double per_second;   ///< patterns
-  int quantiser;       ///< libaom's scale, 0..63
+  int quantiser;       ///< libaom's scale, 0..63; of patterns of CIF size
   int motion_quality;  ///< OperatingPoint::at() for the motion between them
 
   /// @param quality  0..100
   static PatternPoint at(int quality);
 };
+
+/// Quantiser of patterns of another size: large ones are worth fewer bits a sample.
+[[nodiscard]] int quantiser_of(const PatternPoint& point, int width, int height);
 
 /// Quality of the motion that goes with a total rate.
 [[nodiscard]] int motion_quality_at(double kbps);
