@@ -2,9 +2,7 @@
 // it: AV1 without a quantiser map. SPEC 11.7. Integers only.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <vector>
 
 #include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
@@ -26,8 +24,6 @@ class ContrastMap {
   void reduce(Picture& picture) const;
 
  private:
-  [[nodiscard]] std::array<const Plane*, 3> maps() const { return {&luma_, &chroma_, &chroma_}; }
-
   Plane luma_, chroma_;  ///< share of the face, 0..255
   std::int32_t surround_;
 };

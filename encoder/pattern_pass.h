@@ -20,11 +20,11 @@ struct PatternPassSettings {
   std::size_t count = 0;    ///< patterns of the scene; 0: as the point says
   double bitrate_kbps = 0;  ///< of all packets; 0: the point decides
   SequenceSettings coding;
-  int lone_quantiser = 40;      ///< where a scene is too short for a second pattern
+  int lone_quantiser = 40;       ///< where a scene is too short for a second pattern
   std::optional<int> quantiser;  ///< of the patterns; as the point says
-  std::optional<bool> reduced;  ///< size of the patterns; chosen by rate and distortion
-  int rounds = 1;               ///< of solving for patterns; 0: pictures are coded as they are
-  double lambda = 0;            ///< squared luma levels that a bit is worth
+  std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
+  int rounds = 1;                ///< of solving for patterns; 0: pictures are coded as they are
+  double lambda = 0;             ///< squared luma levels that a bit is worth
 };
 
 class PatternPass {
