@@ -1,0 +1,92 @@
+#include "decoder/contrast_map.h"
+
+#include <gtest/gtest.h>
+
+#include "bitstream/syntax.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 128;
+
+TextureMesh texture() {
+  const Scene scene = toy_scene(Picture(kWidth, kHeight));
+  return scene.patterns.front().texture;
+}
+
+/// Two grey levels in turn.
+Picture two_levels(std::uint8_t low, std::uint8_t high) {
+  Picture out(kWidth, kHeight);
+  for (Plane* plane : {&out.y, &out.u, &out.v})
+    for (std::size_t i = 0; i < plane->samples.size(); ++i) plane->samples[i] = i % 2 == 0 ? low : high;
+  return out;
+}
+
+/// A sample in the middle of the face.
+glm::ivec2 middle(const TextureMesh& mesh) {
+  glm::ivec2 sum{0, 0};
+  for (std::size_t v = 0; v < kVertexCount; ++v) sum += mesh.head[v];
+  return sum / static_cast<int>(kVertexCount) / 64;
+}
+
+TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
+  const TextureMesh mesh = texture();
+  Picture p = two_levels(28, 228);
+  ContrastMap(kWidth, kHeight, mesh, 128).reduce(p);
+  const glm::ivec2 in = middle(mesh);
+  EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
+  EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
+  EXPECT_EQ(std::abs(p.y.row(1)[1] - 128), 50);
+  EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 50);
+}
+
+// Of contrast c one level is 256 / c levels of the pattern, rounded twice.
+TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
+  const TextureMesh mesh = texture();
+  for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {
+    const ContrastMap map(kWidth, kHeight, mesh, surround);
+    for (int level = 0; level < 256; level += 5) {
+      const Picture original =
+          two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(255 - level));
+      Picture p = original;
+      map.reduce(p);
+      map.expand(p);
+      for (std::size_t i = 0; i < p.y.samples.size(); ++i)
+        ASSERT_NEAR(p.y.samples[i], original.y.samples[i], surround == kContrastOne ? 0 : 1);
+    }
+  }
+}
+
+TEST(ContrastMap, LargestDeviationsStayInRange) {
+  Picture p = two_levels(0, 255);
+  ContrastMap(kWidth, kHeight, texture(), kMinContrast).expand(p);
+  EXPECT_EQ(p.y.row(1)[0], 0);
+  EXPECT_EQ(p.y.row(1)[1], 255);
+}
+
+TEST(ContrastMap, GoesOverFromFaceToSurroundAcrossTheRing) {
+  const TextureMesh mesh = texture();
+  Picture p = two_levels(228, 228);
+  ContrastMap(kWidth, kHeight, mesh, kMinContrast).reduce(p);
+  int between = 0;
+  for (const std::uint8_t v : p.y.samples) between += v > 185 && v < 221;
+  EXPECT_GT(between, 50);
+}
+
+// The ring reaches beyond the picture's border, and chroma of an odd size has a sample more than half.
+TEST(ContrastMap, TakesAnySize) {
+  for (const auto& [w, h] : {std::pair{16, 16}, {17, 33}, {161, 127}}) {
+    Picture p(w, h);
+    for (auto& v : p.y.samples) v = 200;
+    const Picture before = p;
+    const ContrastMap map(w, h, texture(), 200);
+    map.reduce(p);
+    EXPECT_NE(p.y.samples, before.y.samples);
+    map.expand(p);
+    for (const std::uint8_t v : p.y.samples) EXPECT_NEAR(v, 200, 1);
+  }
+}
+
+}  // namespace
+}  // namespace fbs
