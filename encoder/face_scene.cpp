@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
@@ -100,7 +100,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  auto pattern = encode_pattern({0, 0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
+  const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->pattern.av1)};
+  auto pattern = PatternPacketWriter().encode({&first_syntax, 1}, scene.setup, 0);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
   SurroundObservations observations(format);
