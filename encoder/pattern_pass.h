@@ -85,7 +85,7 @@ class PatternPass {
   Result<void> meet(const Scene& scene, double bytes, Draft& draft);
   /// Of all packets of the segment.
   [[nodiscard]] Result<double> bytes_of(const Setup& setup, const Draft& draft) const;
-  /// Those of patterns and blends adapt through the scene.
+  /// The coders that adapt through the scene, beside that of motion.
   struct Coders {
     PatternPacketWriter patterns;
     BlendEncoder blends;
