@@ -20,9 +20,16 @@ void write_signature(std::vector<std::uint8_t>& stream);
 
 /// Appends one packet.
 /// @param payload  at most kMaxPayload bytes (assert)
-/// @return number of bytes appended: payload + 4 up to 127 bytes, + 5 up to 16383, + 6 and 7 beyond
+/// @return number of bytes appended: packet_size()
 std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
                          std::span<const std::uint8_t> payload);
+
+/// Bytes of a packet with a payload of so many.
+[[nodiscard]] constexpr std::size_t packet_size(std::size_t payload) {
+  std::size_t size = payload + 4;
+  for (; payload > 0x7F; payload >>= 7) ++size;
+  return size;
+}
 
 /// One packet whose check is right. Its payload still has to be parsed.
 struct Packet {

@@ -6,7 +6,6 @@
 
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
@@ -141,7 +140,7 @@ Result<void> StreamDecoder::take_dependent(const Packet& packet) {
   // SPEC 6: numbers of pictures, and frames that patterns refer to, are unknown after a loss.
   if (lost_ && (packet.type == PacketType::kPattern || scene_.setup.patterns > 1))
     return fail(ErrorCode::kInvalidStream, "a packet depends on a missing one", packet.offset);
-  if (packet.type == PacketType::kPattern) return take_pattern(packet);
+  if (packet.type == PacketType::kPattern) return take_patterns(packet);
   if (packet.type == PacketType::kBlend) return take_blend(packet);
   return take_motion(packet);
 }
@@ -154,6 +153,7 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   auto patterns = PatternDecoder::create(setup->format.width, setup->format.height);
   if (!patterns) return at(packet, patterns.error());
   patterns_.emplace(std::move(*patterns));
+  pattern_packets_ = {};
   scene_ = Scene{*setup, std::nullopt, {}};
   motion_.reset();
   blend_.reset();
@@ -173,33 +173,55 @@ void StreamDecoder::begin_geometry(const State& rest) {
   scene_.set_geometry({scene_.setup, *geometry_, surround_ ? std::move(*surround_) : still_surround(), rest});
 }
 
-Result<void> StreamDecoder::take_pattern(const Packet& packet) {
-  auto pattern = decode_pattern(packet.payload, scene_.setup);
-  if (!pattern) return at(packet, pattern.error());
+Result<void> StreamDecoder::take_patterns(const Packet& packet) {
+  const auto patterns = pattern_packets_.decode(packet.payload, scene_.setup, timeline_.end());
+  if (!patterns) return at(packet, patterns.error());
+  std::vector<bool> reduced;
+  for (const PatternSyntax& pattern : *patterns) {
+    const auto taken = take_pattern(pattern);
+    if (!taken) return at(packet, taken.error());
+    reduced.push_back(*taken);
+  }
+  if (records_patterns_) record(packet, *patterns, reduced);
+  return {};
+}
+
+Result<bool> StreamDecoder::take_pattern(const PatternSyntax& pattern) {
   const bool first = scene_.patterns.empty();
-  if (first != (pattern->picture == 0) || pattern->slot > static_cast<int>(scene_.patterns.size()))
-    return fail(ErrorCode::kInvalidStream, "a pattern out of order", packet.offset);
-  const State* known = first ? nullptr : timeline_.find(pattern->picture);
+  if (first != (pattern.picture == 0) || pattern.slot > static_cast<int>(scene_.patterns.size()))
+    return fail(ErrorCode::kInvalidStream, "a pattern out of order");
+  const State* known = first ? nullptr : timeline_.find(pattern.picture);
   if (!first && known == nullptr)
-    return fail(ErrorCode::kInvalidStream, "a pattern of a picture without a state", packet.offset);
-  auto frame = patterns_->decode_frame(pattern->av1);
-  if (!frame) return at(packet, frame.error());
-  const State seen = first ? state_of(pattern->state, scene_.setup.steps) : *known;
+    return fail(ErrorCode::kInvalidStream, "a pattern of a picture without a state");
+  auto frame = patterns_->decode_frame(pattern.av1);
+  if (!frame) return fail(frame.error());
+  const State seen = first ? state_of(pattern.state, scene_.setup.steps) : *known;
   if (first) {
     begin_geometry(seen);
-    motion_.emplace(scene_.setup, pattern->state);
+    motion_.emplace(scene_.setup, pattern.state);
     if (scene_.setup.patterns > 1) blend_.emplace();
-    if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern->state);
+    if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern.state);
   }
   Pattern made = make_coded_pattern(std::move(frame->picture), seen, scene_.geometry, scene_.setup);
-  if (pattern->slot < static_cast<int>(scene_.patterns.size()))
-    scene_.patterns[pattern->slot] = std::move(made);
+  if (pattern.slot < static_cast<int>(scene_.patterns.size()))
+    scene_.patterns[pattern.slot] = std::move(made);
   else
     scene_.patterns.push_back(std::move(made));
-  if (records_patterns_)
-    pattern_records_.push_back({pattern->slot, scene_begin_ + static_cast<std::uint64_t>(pattern->picture),
-                                packet.size, frame->reduced});
-  return {};
+  return frame->reduced;
+}
+
+void StreamDecoder::record(const Packet& packet, std::span<const PatternSyntax> patterns,
+                           const std::vector<bool>& reduced) {
+  std::uint64_t frames = 0, frames_before = 0;
+  for (const PatternSyntax& pattern : patterns) frames += pattern.av1.size();
+  const auto share = [&](std::uint64_t bytes) { return packet.size * bytes / frames; };
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    const std::uint64_t frames_after = frames_before + patterns[k].av1.size();
+    pattern_records_.push_back({patterns[k].slot,
+                                scene_begin_ + static_cast<std::uint64_t>(patterns[k].picture),
+                                share(frames_after) - share(frames_before), reduced[k]});
+    frames_before = frames_after;
+  }
 }
 
 Result<void> StreamDecoder::take_motion(const Packet& packet) {

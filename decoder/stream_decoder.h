@@ -11,6 +11,7 @@
 #include "bitstream/motion/motion_bit_counter.h"
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"
@@ -33,7 +34,7 @@ struct ByteCount {
 struct PatternRecord {
   int slot = 0;               ///< index into Scene::patterns, until another pattern comes for the slot
   std::uint64_t picture = 0;  ///< number in the stream of the picture it shows
-  std::uint64_t bytes = 0;    ///< of its packet
+  std::uint64_t bytes = 0;    ///< of its packet, by the share of its frame in those of the packet
   bool reduced = false;       ///< coded at reduced size
 };
 
@@ -97,12 +98,17 @@ class StreamDecoder {
   Result<void> take_setup(const Packet& packet);
   /// A packet of the scene whose loss others depend on: pattern, motion or blend.
   Result<void> take_dependent(const Packet& packet);
-  Result<void> take_pattern(const Packet& packet);
+  Result<void> take_patterns(const Packet& packet);
+  /// @return whether it is coded at reduced size
+  Result<bool> take_pattern(const PatternSyntax& pattern);
   Result<void> take_motion(const Packet& packet);
   Result<void> take_blend(const Packet& packet);
   void lose();
   void note_startup();
   void begin_geometry(const State& rest);
+  /// Keeps records of the last patterns, which came in one packet.
+  void record(const Packet& packet, std::span<const PatternSyntax> patterns,
+              const std::vector<bool>& reduced);
   void count(const Packet& packet);
 
   PacketReader reader_;
@@ -113,6 +119,7 @@ class StreamDecoder {
   bool has_setup_ = false;
   std::optional<Geometry> geometry_;
   std::optional<SurroundMap> surround_;
+  PatternPacketReader pattern_packets_;
   std::optional<PatternDecoder> patterns_;
   std::optional<MotionDecoder> motion_;
   bool counts_motion_bits_ = false;

@@ -6,12 +6,12 @@ namespace fbs {
 
 Result<void> Timeline::add(std::span<const State> states, std::span<const std::uint32_t> durations) {
   assert(states.size() == durations.size());
-  const std::int64_t end = std::int64_t{first_} + static_cast<std::int64_t>(entries_.size() + states.size());
-  if (end - next_ > kMaxWaitingPictures || end > static_cast<std::int64_t>(kMaxPictureNumber))
+  const std::int64_t new_end = end() + static_cast<std::int64_t>(states.size());
+  if (new_end - next_ > kMaxWaitingPictures || new_end > static_cast<std::int64_t>(kMaxPictureNumber))
     return fail(ErrorCode::kTooLarge, "too many pictures wait for their patterns");
   for (std::size_t i = 0; i < states.size(); ++i) {
     entries_.push_back({states[i], durations[i]});
-    entries_.back().state.picture = first_ + static_cast<std::int32_t>(entries_.size()) - 1;
+    entries_.back().state.picture = end() - 1;
   }
   return {};
 }

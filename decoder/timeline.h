@@ -29,11 +29,14 @@ class Timeline {
   /// @return kInvalidStream when fewer pictures wait
   [[nodiscard]] Result<void> release(std::span<const RegionModes> modes);
   /// All of them may.
-  void release_all() { released_ = first_ + static_cast<std::int32_t>(entries_.size()); }
+  void release_all() { released_ = end(); }
 
   [[nodiscard]] bool has_next() const { return next_ < released_; }
   /// The next picture to be displayed; has_next() is true.
   Entry next();
+
+  /// Pictures of the scene whose states have come.
+  [[nodiscard]] std::int32_t end() const { return first_ + static_cast<std::int32_t>(entries_.size()); }
 
   /// State of a picture; null when it is not known, or no longer.
   [[nodiscard]] const State* find(std::int32_t picture) const;

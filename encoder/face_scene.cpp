@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
@@ -19,6 +19,10 @@ namespace {
 /// Pictures that the surround's map is fitted to, spread over the look-ahead. More cost time and change
 /// little.
 constexpr std::uint64_t kSurroundPictures = 12;
+
+/// Contrast of patterns outside the face. Against full contrast the face takes 3.5 % fewer bytes at the same
+/// PSNR, the frame hardly more; 205 is 1 % better in the face and 1 % worse in the frame.
+constexpr std::int32_t kSurroundContrast = 220;
 
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
@@ -100,7 +104,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  auto pattern = encode_pattern({0, 0, seen_coded, std::move(coded->pattern.av1)}, scene.setup);
+  const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->pattern.av1)};
+  auto pattern = PatternPacketWriter().encode({&first_syntax, 1}, scene.setup, 0);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
   SurroundObservations observations(format);
@@ -213,7 +218,7 @@ Result<void> FaceScene::end_segment() {
   if (!fixed_) fix_head();
   if (!packets_.started()) {
     scene_.setup.patterns = patterns_pass_->store();
-    if (const char* c = getenv("FBS_CONTRAST")) scene_.setup.contrast = atoi(c);
+    scene_.setup.contrast = kSurroundContrast;
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }

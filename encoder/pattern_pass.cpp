@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/packet.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
 
@@ -22,9 +22,6 @@ constexpr double kStoreBytes = 256e6;
 // For deciding how many patterns: libaom's speed, pictures coded, and every so many drawn.
 constexpr int kTrialSpeed = 6;
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
-
-constexpr std::size_t kPacketBytes = 5;         // around a payload: SPEC 3.1
-constexpr std::size_t kPatternHeaderBytes = 3;  // of a pattern payload: slot and picture
 
 // To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
 constexpr int kMaxRateTrials = 4;
@@ -203,46 +200,55 @@ Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
   return {};
 }
 
-Result<std::vector<std::vector<std::uint8_t>>> PatternPass::blend_payloads(BlendEncoder& encoder) const {
-  std::vector<std::vector<std::uint8_t>> out;
-  std::size_t t = 0;
-  for (const Segment::Group& g : segment_.groups) {
-    BlendGroup group;
-    group.key = encoder.needs_key();
-    for (const std::size_t end = t + g.pictures; t < end; ++t)
-      group.modes.push_back(segment_.states[t].blend);
-    auto payload = encoder.encode(group);
+Result<std::vector<std::uint8_t>> PatternPass::blend_payload(BlendEncoder& encoder, std::size_t begin,
+                                                             std::size_t pictures) const {
+  BlendGroup group;
+  group.key = encoder.needs_key();
+  for (std::size_t t = begin; t < begin + pictures; ++t) group.modes.push_back(segment_.states[t].blend);
+  return encoder.encode(group);
+}
+
+Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup, const Draft& draft,
+                                                             Coders& coders) const {
+  std::vector<PatternSyntax> patterns;
+  std::vector<std::size_t> bytes;
+  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
+    const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
+    patterns.push_back({static_cast<std::int32_t>(k), picture, rest_, draft.coded[k].av1});
+    bytes.push_back(patterns.back().av1.size());
+  }
+  std::vector<TypedPayload> out;
+  std::size_t moved = 0, drawn = 0;
+  for (const PlannedPacket& p : in_stream_order(segment_, draft.shown, draft.arrived, bytes)) {
+    Result<std::vector<std::uint8_t>> payload;
+    if (p.type == PacketType::kPattern) {
+      const auto end = static_cast<std::int32_t>(picture_ + moved);
+      payload = coders.patterns.encode(std::span(patterns).subspan(p.first, p.count), setup, end);
+    } else if (const Segment::Group& group = segment_.groups[p.first]; p.type == PacketType::kMotion) {
+      payload = group.payload;
+      moved += group.pictures;
+    } else {
+      payload = blend_payload(coders.blends, drawn, group.pictures);
+      drawn += group.pictures;
+    }
     if (!payload) return fail(payload.error());
-    out.push_back(std::move(*payload));
+    out.emplace_back(p.type, std::move(*payload));
   }
   return out;
 }
 
-Result<double> PatternPass::bytes_of(const Draft& draft) const {
-  BlendEncoder encoder = blend_;
-  const auto blends = blend_payloads(encoder);
-  if (!blends) return fail(blends.error());
-  double bytes = 0;
-  for (const auto& b : *blends) bytes += static_cast<double>(b.size() + kPacketBytes);
-  for (const Segment::Group& g : segment_.groups)
-    bytes += static_cast<double>(g.payload.size() + kPacketBytes);
-  for (const SequencePattern& p : draft.coded)
-    bytes += static_cast<double>(p.av1.size() + kPacketBytes + kPatternHeaderBytes);
-  return bytes;
+Result<double> PatternPass::bytes_of(const Setup& setup, const Draft& draft) const {
+  Coders coders = coders_;
+  const auto packets = coded_packets(setup, draft, coders);
+  if (!packets) return fail(packets.error());
+  std::size_t bytes = 0;
+  for (const auto& [type, payload] : *packets) bytes += packet_size(payload.size());
+  return static_cast<double>(bytes);
 }
 
-Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const CodedState& rest, Draft& draft) {
-  std::vector<std::vector<std::uint8_t>> patterns;
-  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
-    auto payload = encode_pattern({static_cast<std::int32_t>(k), picture, picture == 0 ? rest : CodedState{},
-                                   std::move(draft.coded[k].av1)},
-                                  scene.setup);
-    if (!payload) return fail(payload.error());
-    patterns.push_back(std::move(*payload));
-  }
-  auto blends = blend_payloads(blend_);
-  if (!blends) return fail(blends.error());
+Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draft) {
+  auto out = coded_packets(scene.setup, draft, coders_);
+  if (!out) return out;
   // The decoder's slots after the segment.
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   if (picture_ == 0) scene.patterns.clear();
@@ -253,8 +259,8 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
       scene.patterns.push_back(std::move(draft.patterns[old + k]));
   }
   picture_ += static_cast<std::int32_t>(segment_.states.size());
-  return in_stream_order(std::exchange(segment_, {}), draft.shown, draft.arrived, std::move(patterns),
-                         std::move(*blends));
+  segment_ = {};
+  return out;
 }
 
 Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
@@ -283,7 +289,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     auto draft = draft_of(scene, count_wanted());
     if (!draft) return fail(draft.error());
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
-    const auto taken = bytes_of(*draft);
+    const auto taken = bytes_of(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     (*taken <= bytes ? low : high) = middle;
   }
@@ -310,7 +316,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
   Draft best = draft;
   double nearest = 0;
   for (int trial = 0;; ++trial) {
-    const auto taken = bytes_of(draft);
+    const auto taken = bytes_of(scene.setup, draft);
     if (!taken) return fail(taken.error());
     const int quantiser = settings_.coding.quantiser;
     (*taken > bytes ? over : under) = quantiser;
@@ -333,6 +339,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
                                                            std::size_t other_bytes) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  rest_ = rest;
   double allowed = 0;
   if (settings_.bitrate_kbps > 0) {
     const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
@@ -348,11 +355,11 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {
     if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());
-    const auto taken = bytes_of(*draft);
+    const auto taken = bytes_of(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     left_bytes_ = allowed - *taken;
   }
-  return packets(scene, rest, *draft);
+  return packets(scene, *draft);
 }
 
 }  // namespace fbs

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bitstream/blend/blend_coder.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "decoder/contrast_map.h"
 #include "decoder/scene.h"
 #include "encoder/patterns/pattern_sequence.h"
@@ -89,9 +90,19 @@ class PatternPass {
   /// percent.
   Result<void> meet(const Scene& scene, double bytes, Draft& draft);
   /// Of all packets of the segment.
-  [[nodiscard]] Result<double> bytes_of(const Draft& draft) const;
-  [[nodiscard]] Result<std::vector<std::vector<std::uint8_t>>> blend_payloads(BlendEncoder& encoder) const;
-  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, const CodedState& rest, Draft& draft);
+  [[nodiscard]] Result<double> bytes_of(const Setup& setup, const Draft& draft) const;
+  /// The coders that adapt through the scene, beside that of motion.
+  struct Coders {
+    PatternPacketWriter patterns;
+    BlendEncoder blends;
+  };
+  [[nodiscard]] Result<std::vector<std::uint8_t>> blend_payload(BlendEncoder& encoder, std::size_t begin,
+                                                                std::size_t pictures) const;
+  /// The segment's packets in stream order.
+  [[nodiscard]] Result<std::vector<TypedPayload>> coded_packets(const Setup& setup, const Draft& draft,
+                                                                Coders& coders) const;
+  /// The same; ends the segment.
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, Draft& draft);
 
   VideoFormat format_;
   PatternPassSettings settings_;
@@ -99,7 +110,8 @@ class PatternPass {
   std::int32_t picture_ = 0;  ///< number of the segment's first
   double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
   Segment segment_;
-  BlendEncoder blend_;
+  CodedState rest_{};  ///< seen state of the scene's first pattern
+  Coders coders_;
 };
 
 }  // namespace fbs

@@ -24,27 +24,42 @@ std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::s
   return out;
 }
 
-std::vector<TypedPayload> in_stream_order(Segment segment, std::span<const std::size_t> shown,
-                                          std::span<const std::size_t> arrived,
-                                          std::vector<std::vector<std::uint8_t>> patterns,
-                                          std::vector<std::vector<std::uint8_t>> blends) {
-  std::vector<TypedPayload> out;
-  std::size_t next_pattern = 0, next_motion = 0, moved = 0, drawn = 0;
+namespace {
+
+/// Where the packet that begins with a pattern ends.
+/// @param arrived  end of the patterns that may share it
+std::size_t packet_end(std::size_t begin, std::size_t arrived, std::span<const std::size_t> bytes) {
+  std::size_t end = begin, sum = 0;
+  do {
+    sum += bytes[end++];
+  } while (end < arrived && end - begin < kMaxPatterns && sum + bytes[end] <= kMaxTogether);
+  return end;
+}
+
+}  // namespace
+
+std::vector<PlannedPacket> in_stream_order(const Segment& segment, std::span<const std::size_t> shown,
+                                           std::span<const std::size_t> arrived,
+                                           std::span<const std::size_t> bytes) {
+  std::vector<PlannedPacket> out;
+  std::size_t pattern = 0, motion = 0, moved = 0, drawn = 0;
   const auto add_motion_until = [&](std::size_t picture) {
-    for (; moved <= picture && next_motion < segment.groups.size(); ++next_motion) {
-      moved += segment.groups[next_motion].pictures;
-      out.emplace_back(PacketType::kMotion, std::move(segment.groups[next_motion].payload));
+    for (; moved <= picture && motion < segment.groups.size(); ++motion) {
+      moved += segment.groups[motion].pictures;
+      out.push_back({PacketType::kMotion, motion, 1});
     }
   };
   for (std::size_t g = 0; g < segment.groups.size(); ++g) {
-    for (; next_pattern < arrived[g]; ++next_pattern) {
-      const bool has_own_state = segment.states[shown[next_pattern]].picture == 0;
-      if (!has_own_state) add_motion_until(shown[next_pattern]);
-      out.emplace_back(PacketType::kPattern, std::move(patterns[next_pattern]));
+    while (pattern < arrived[g]) {
+      const bool has_own_state = segment.states[shown[pattern]].picture == 0;
+      const std::size_t end = has_own_state ? pattern + 1 : packet_end(pattern, arrived[g], bytes);
+      if (!has_own_state) add_motion_until(*std::max_element(shown.begin() + pattern, shown.begin() + end));
+      out.push_back({PacketType::kPattern, pattern, end - pattern});
+      pattern = end;
     }
     drawn += segment.groups[g].pictures;
     add_motion_until(drawn - 1);
-    out.emplace_back(PacketType::kBlend, std::move(blends[g]));
+    out.push_back({PacketType::kBlend, g, 1});
   }
   return out;
 }

@@ -37,13 +37,23 @@ using AvailablePatterns = std::vector<std::size_t>;
 [[nodiscard]] std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
                                                 bool first_alone);
 
+/// A packet of a segment that is yet to be coded.
+struct PlannedPacket {
+  PacketType type;    ///< kMotion, kPattern or kBlend
+  std::size_t first;  ///< group, or of several patterns the first in coding order
+  std::size_t count;  ///< patterns; otherwise 1
+};
+
+/// Patterns together in a packet have no more bytes: readers search for packets of up to 2^20 behind damage.
+inline constexpr std::size_t kMaxTogether = std::size_t{1} << 19;
+
 /// The packets of a segment in stream order: before each pattern the motion that gives its state, before each
-/// blend all that it is drawn from.
-/// @param patterns  payloads in coding order
-/// @param blends    payload for each group
-[[nodiscard]] std::vector<TypedPayload> in_stream_order(Segment segment, std::span<const std::size_t> shown,
-                                                        std::span<const std::size_t> arrived,
-                                                        std::vector<std::vector<std::uint8_t>> patterns,
-                                                        std::vector<std::vector<std::uint8_t>> blends);
+/// blend all that it is drawn from. Patterns that no blend separates share a packet, but for the scene's
+/// first.
+/// @param bytes  of each pattern
+[[nodiscard]] std::vector<PlannedPacket> in_stream_order(const Segment& segment,
+                                                         std::span<const std::size_t> shown,
+                                                         std::span<const std::size_t> arrived,
+                                                         std::span<const std::size_t> bytes);
 
 }  // namespace fbs

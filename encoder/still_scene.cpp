@@ -1,6 +1,6 @@
 #include "encoder/still_scene.h"
 
-#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/track.h"
 #include "encoder/patterns/pattern_coder.h"
@@ -36,7 +36,8 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
   auto setup_payload = encode_setup(setup);
   if (!setup_payload) return fail(setup_payload.error());
   head.setup = std::move(*setup_payload);
-  auto pattern_payload = encode_pattern({0, 0, CodedState{}, std::move(coded->pattern.av1)}, setup);
+  const PatternSyntax first_pattern{0, 0, CodedState{}, std::move(coded->pattern.av1)};
+  auto pattern_payload = PatternPacketWriter().encode({&first_pattern, 1}, setup, 0);
   if (!pattern_payload) return fail(pattern_payload.error());
   head.pattern = std::move(*pattern_payload);
 

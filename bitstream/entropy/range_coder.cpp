@@ -73,6 +73,15 @@ std::vector<std::uint8_t> RangeEncoder::finish() {
   return std::move(bytes_);
 }
 
+std::vector<std::uint8_t> RangeEncoder::finish_open() {
+  static_assert(kOpenEndBytes == kCodeBytes - 1);
+  // The interval is at least kMinRange wide: it has a number whose lower bytes are zeros.
+  const std::uint64_t number = (std::uint64_t{low_} + kMinRange - 1) / kMinRange;
+  if (number >> 8 != 0) carry();
+  bytes_.push_back(static_cast<std::uint8_t>(number));
+  return std::move(bytes_);
+}
+
 RangeDecoder::RangeDecoder(std::span<const std::uint8_t> data) : data_(data) {
   for (int i = 0; i < kCodeBytes; ++i) code_ = code_ << 8 | next_byte();
   valid_ = code_ < range_;

@@ -25,6 +25,10 @@ namespace fbs {
 /// more.
 inline constexpr std::size_t kMaxVirtualBytes = 16;
 
+/// The end of the code ends its last element when the decoder has read so many bytes of zeros past it. One
+/// byte after those of the encoder always makes a number of the last interval, and the decoder is four ahead.
+inline constexpr std::size_t kOpenEndBytes = 3;
+
 class RangeEncoder {
  public:
   static constexpr bool kReads = false;
@@ -45,6 +49,13 @@ class RangeEncoder {
   /// Ends the code and returns its bytes, the fewest from which a RangeDecoder reads every bit back; none
   /// when all bits were likely. Call once, after all bits.
   [[nodiscard]] std::vector<std::uint8_t> finish();
+
+  /// Ends a code in place of finish(), so that RangeDecoder::past_open_end() becomes true with the bits after
+  /// which written() has changed last.
+  [[nodiscard]] std::vector<std::uint8_t> finish_open();
+
+  /// Bytes so far, without those of the end.
+  [[nodiscard]] std::size_t written() const { return bytes_.size(); }
 
  private:
   void carry();
@@ -74,6 +85,9 @@ class RangeDecoder {
   /// False after more than kMaxVirtualBytes were read past the end, or when no encoder writes such bytes.
   /// Stays false.
   [[nodiscard]] bool ok() const { return valid_ && virtual_bytes_ <= kMaxVirtualBytes; }
+
+  /// True when the last element of a code with an open end is complete.
+  [[nodiscard]] bool past_open_end() const { return virtual_bytes_ >= kOpenEndBytes; }
 
   /// True when every byte has been read, as required once all is decoded.
   [[nodiscard]] bool at_end() const { return offset_ == data_.size(); }

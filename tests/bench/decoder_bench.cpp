@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bitstream/packet.h"
-#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "decoder/head/head_mesh.h"
 #include "decoder/pattern_decoder.h"
@@ -139,7 +139,8 @@ void PatternDecode(benchmark::State& state) {
   for (auto read = reader.next(); read && read->status == ReadStatus::kPacket && av1.empty();
        read = reader.next()) {
     if (read->packet.type == PacketType::kSetup) setup = *decode_setup(read->packet.payload);
-    if (read->packet.type == PacketType::kPattern) av1 = decode_pattern(read->packet.payload, setup)->av1;
+    if (read->packet.type == PacketType::kPattern)
+      av1 = PatternPacketReader().decode(read->packet.payload, setup, 0)->front().av1;
   }
   for (auto _ : state) {
     auto decoder = PatternDecoder::create(setup.format.width, setup.format.height);

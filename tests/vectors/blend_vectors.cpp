@@ -1,11 +1,14 @@
 #include "tests/vectors/blend_vectors.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/blend/blend_syntax.h"
 #include "bitstream/entropy/range_coder.h"
-#include "bitstream/payload/pattern_payload.h"
+#include "bitstream/motion/motion_decoder.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "decoder/obu.h"
 #include "encoder/patterns/pattern_sequence.h"
@@ -34,27 +37,34 @@ class HandMade {
  public:
   /// @param one    a scene of one pattern, whose motion is taken
   /// @param slots  of the store
-  HandMade(const Bytes& one, std::int32_t slots) : motion_(pieces_of(one)) {
+  HandMade(const Bytes& one, std::int32_t slots)
+      : motion_(pieces_of(one)), seen_(patterns_of(motion_).front().patterns.front().state) {
     setup_ = must(decode_setup(motion_[place_of(motion_, PacketType::kSetup)].payload));
     setup_.patterns = slots;
-    first_ = must(decode_pattern(motion_[place_of(motion_, PacketType::kPattern)].payload, setup_));
+    motion_decoder_.emplace(setup_, seen_);
     add(PacketType::kSetup, must(encode_setup(setup_)));
     for (const Piece& piece : motion_)
       if (piece.type == PacketType::kGeometry || piece.type == PacketType::kSurround)
         add(piece.type, piece.payload);
   }
 
-  void pattern(std::int32_t slot, const SequencePattern& coded) {
-    PatternSyntax p = first_;
-    p.slot = slot;
-    p.picture = static_cast<std::int32_t>(coded.picture);
-    p.av1 = coded.av1;
-    add(PacketType::kPattern, must(encode_pattern(p, setup_)));
+  void pattern(std::int32_t slot, const SequencePattern& coded) { patterns(slot, {&coded, 1}); }
+
+  /// In one packet, for consecutive slots.
+  void patterns(std::int32_t slot, std::span<const SequencePattern> coded) {
+    std::vector<PatternSyntax> together;
+    for (const SequencePattern& p : coded) {
+      const auto picture = static_cast<std::int32_t>(p.picture);
+      together.push_back({slot++, picture, picture == 0 ? seen_ : CodedState{}, p.av1});
+    }
+    add(PacketType::kPattern, must(writer_.encode(together, setup_, pictures_)));
   }
 
   void motion(int groups) {
-    for (; groups > 0; --groups, ++groups_)
+    for (; groups > 0; --groups, ++groups_) {
       add(PacketType::kMotion, motion_[place_of(motion_, PacketType::kMotion, groups_)].payload);
+      pictures_ += must(motion_decoder_->decode(pieces_.back().payload)).pictures;
+    }
   }
 
   /// Picture i of them has mode first_mode + i + 3 * r in region r, so that each meets each.
@@ -78,7 +88,10 @@ class HandMade {
 
   std::vector<Piece> motion_;  // the scene of one pattern
   Setup setup_;
-  PatternSyntax first_;
+  CodedState seen_;  // of the first pattern
+  std::optional<MotionDecoder> motion_decoder_;
+  std::int32_t pictures_ = 0;  // that have a state
+  PatternPacketWriter writer_;
   BlendEncoder blend_;
   std::vector<Piece> pieces_;
   int groups_ = 0;
@@ -102,14 +115,13 @@ std::vector<Piece> blends() {
   made.motion(2);  // pictures 0..8
   made.blend(2, 0, true);
   made.motion(2);  // 9..24
-  made.pattern(1, full[1]);
-  made.pattern(2, full[2]);
+  made.patterns(1, std::span(full).subspan(1, 2));
   made.blend(6, 2);
   made.pattern(1, full[3]);
   made.pattern(2, full[4]);
   made.blend(7, 5);
   made.motion(1);  // 25..32
-  for (std::int32_t slot = 0; slot < kSlots; ++slot) made.pattern(slot, reduced[slot]);
+  made.patterns(0, reduced);
   made.blend(8, 8);
   made.motion(1);
   made.blend(2, 12, true);
@@ -172,18 +184,17 @@ Bytes blend_ahead() {
 }
 
 void require_hidden_frames(const std::vector<Piece>& pieces) {
-  const Setup setup = must(decode_setup(pieces[0].payload));
-  const bool hidden = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-    if (piece.type != PacketType::kPattern) return false;
-    const PatternSyntax pattern = must(decode_pattern(piece.payload, setup));
+  const auto is_hidden = [](const PatternSyntax& pattern) {
     for (ObuReader reader(pattern.av1); !reader.done();) {
       const Obu obu = must(reader.next());
       // AV1 specification 5.9.2: show_existing_frame (1 bit), frame_type (2), show_frame.
       if (obu.type == ObuType::kFrame && (obu.payload[0] & 0x10) == 0) return true;
     }
     return false;
-  });
-  if (!hidden) give_up("no pattern is a hidden frame");
+  };
+  for (const PatternPiece& piece : patterns_of(pieces))
+    if (std::any_of(piece.patterns.begin(), piece.patterns.end(), is_hidden)) return;
+  give_up("no pattern is a hidden frame");
 }
 
 std::vector<Piece> patterns() {
@@ -196,16 +207,27 @@ std::vector<Piece> patterns() {
   return pieces_of(encoded(pictures_of(settings), s));
 }
 
-/// The stream with one pattern changed.
-Bytes with_pattern(std::vector<Piece> pieces, int nth, const auto& change) {
-  const Setup setup = must(decode_setup(pieces[0].payload));
-  Bytes& payload = pieces[place_of(pieces, PacketType::kPattern, nth)].payload;
-  PatternSyntax pattern = must(decode_pattern(payload, setup));
-  Setup wide = setup;
+/// The stream with the first pattern of a packet changed.
+Bytes with_pattern(std::vector<Piece> pieces, std::size_t nth, const auto& change) {
+  Setup wide = must(decode_setup(pieces[0].payload));
   wide.patterns = kMaxPatterns;
-  change(pattern);
-  payload = must(encode_pattern(pattern, wide));
+  auto packets = patterns_of(pieces);
+  change(packets[nth].patterns.front());
+  PatternPacketWriter writer;
+  for (const PatternPiece& p : packets)
+    pieces[p.piece].payload = must(writer.encode(p.patterns, wide, p.pictures));
   return joined(pieces);
+}
+
+/// A later pattern of a picture before the first.
+Bytes pattern_of_no_picture() {
+  PatternMemory memory;
+  RangeEncoder coder;
+  coder.raw_bit(kNotKey, false);
+  coder.bit(memory.other_slot, false);
+  code_wide_integer(coder, memory.number.gap, 0);
+  code_exponential(coder, memory.number.from_end, 1000);
+  return coder.finish();
 }
 
 /// A key group of one picture whose mouth has the first mode that there is not.
@@ -248,7 +270,9 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   invalid("blend_mode.fbs", joined(unknown_mode), 0);
 
   invalid("old_picture.fbs", joined(cross_fade(300 - kKeptPictures - 1)), 300);
-  invalid("far_picture.fbs", with_pattern(made, 2, [](PatternSyntax& p) { p.picture = kPictures - 1; }), 2);
+  auto far_picture = made;
+  far_picture[place_of(made, PacketType::kPattern, 1)].payload = pattern_of_no_picture();
+  invalid("far_picture.fbs", joined(far_picture), 2);
   folder.add("far_slot.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = kSlots; }), 2,
              "kTooLarge");
   invalid("slot_gap.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = 2; }), 2);
@@ -271,7 +295,7 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
           2);
   auto lost = made;
   lost.erase(lost.begin() + place_of(lost, PacketType::kPattern, 1));
-  invalid("lost_pattern.fbs", joined(lost), 2);
+  invalid("lost_pattern.fbs", joined(lost), 8);  // up to the next pattern, whose contexts are others
   Bytes flipped = joined(made);
   flipped[offset_of(made, place_of(made, PacketType::kBlend, 1)) + 4] ^= 0x10;
   invalid("flipped_blend.fbs", flipped, 2);

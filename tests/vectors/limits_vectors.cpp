@@ -4,8 +4,8 @@
 
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/motion/motion_encoder.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "decoder/head/head_projection.h"
@@ -67,7 +67,7 @@ CodedState seen_in_the_middle(const Setup& setup) {
 
 /// All that precedes the motion.
 std::vector<Piece> beginning(const Setup& setup, const CodedState& seen, std::mt19937& random,
-                             const Bytes& av1) {
+                             const Bytes& av1, PatternPacketWriter& patterns) {
   Geometry geometry;
   for (std::size_t v = 0; v < kVertexCount; ++v) geometry.positions[v] = generic_head().vertices[v].position;
   PatternSyntax pattern;
@@ -76,7 +76,7 @@ std::vector<Piece> beginning(const Setup& setup, const CodedState& seen, std::mt
   return {{PacketType::kSetup, must(encode_setup(setup))},
           {PacketType::kGeometry, must(encode_geometry(geometry)).payload},
           {PacketType::kSurround, must(encode_surround(random_surround(random)))},
-          {PacketType::kPattern, must(encode_pattern(pattern, setup))}};
+          {PacketType::kPattern, must(patterns.encode({&pattern, 1}, setup, 0))}};
 }
 
 Piece motion_at_limits(MotionEncoder& coder, std::mt19937& random) {
@@ -92,8 +92,9 @@ Bytes limits_stream() {
   std::mt19937 random(1);
   const CodedState seen = seen_in_the_middle(setup);
   auto av1 = must(PatternEncoder::create(setup.format, 40));
-  auto pieces =
-      beginning(setup, seen, random, must(av1.encode(pictures_of(talker_settings(kWidth, kHeight, 1))[0])));
+  PatternPacketWriter patterns;
+  auto pieces = beginning(setup, seen, random,
+                          must(av1.encode(pictures_of(talker_settings(kWidth, kHeight, 1))[0])), patterns);
   MotionEncoder coder(setup, seen);
   for (int i = 0; i < 2; ++i) pieces.push_back(motion_at_limits(coder, random));
   return joined(pieces);
@@ -114,19 +115,22 @@ Bytes blended_limits_stream() {
   const CodedState seen = seen_in_the_middle(setup);
   const auto pictures = pictures_of(talker_settings(kWidth, kHeight, 24));
   auto av1 = must(PatternEncoder::create(setup.format, 63));
-  auto pieces = beginning(setup, seen, random, must(av1.encode(pictures[0])));
+  PatternPacketWriter writer;
+  auto pieces = beginning(setup, seen, random, must(av1.encode(pictures[0])), writer);
   MotionEncoder motion(setup, seen);
   BlendEncoder blend;
   std::int32_t next_pattern = 1;
   for (std::int32_t group = 0; group < 2; ++group) {
     pieces.push_back(motion_at_limits(motion, random));
-    for (int i = 0; i < kPatternsAfterMotion; ++i, ++next_pattern) {
-      PatternSyntax pattern;
+    std::vector<PatternSyntax> patterns(kPatternsAfterMotion);
+    for (PatternSyntax& pattern : patterns) {
       pattern.slot = next_pattern < kPatterns ? next_pattern : static_cast<int>(random() % kPatterns);
       pattern.picture = group * kGroupPictures + 1 + static_cast<int>(random() % (kGroupPictures - 1));
       pattern.av1 = must(av1.encode(pictures[next_pattern]));
-      pieces.push_back({PacketType::kPattern, must(encode_pattern(pattern, setup))});
+      ++next_pattern;
     }
+    pieces.push_back(
+        {PacketType::kPattern, must(writer.encode(patterns, setup, (group + 1) * kGroupPictures))});
     BlendGroup modes;
     modes.key = blend.needs_key();
     for (int i = 0; i < kGroupPictures; ++i) modes.modes.push_back(random_modes(random));

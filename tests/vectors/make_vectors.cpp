@@ -2,8 +2,8 @@
 // and states from a fixed seed. See make.sh and README.md.
 #include <random>
 
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/patterns/pattern_encoder.h"
 #include "tests/vectors/blend_vectors.h"
@@ -79,18 +79,18 @@ void add_broken(Folder& folder, const Bytes& talk) {
   lost_key.erase(lost_key.begin() + place_of(pieces, PacketType::kMotion));
   folder.add("lost_key.fbs", joined(lost_key), 0, "kInvalidStream");
   const Setup setup = must(decode_setup(pieces[0].payload));
-  const PatternSyntax pattern =
-      must(decode_pattern(pieces[place_of(pieces, PacketType::kPattern)].payload, setup));
+  const PatternSyntax pattern = patterns_of(pieces).front().patterns.front();
+  const auto encoded_alone = [&](const PatternSyntax& p) {
+    return must(PatternPacketWriter().encode({&p, 1}, setup, 0));
+  };
   PatternSyntax bad_av1 = pattern, wrong_size = pattern;
   bad_av1.av1.resize(pattern.av1.size() / 2);
-  folder.add("bad_av1.fbs", with(PacketType::kPattern, must(encode_pattern(bad_av1, setup))), 0,
-             "kInvalidStream");
+  folder.add("bad_av1.fbs", with(PacketType::kPattern, encoded_alone(bad_av1)), 0, "kInvalidStream");
   VideoFormat smaller = setup.format;
   smaller.width -= 2;
   wrong_size.av1 =
       must(must(PatternEncoder::create(smaller, 60)).encode(Picture(smaller.width, smaller.height)));
-  folder.add("wrong_size.fbs", with(PacketType::kPattern, must(encode_pattern(wrong_size, setup))), 0,
-             "kInvalidStream");
+  folder.add("wrong_size.fbs", with(PacketType::kPattern, encoded_alone(wrong_size)), 0, "kInvalidStream");
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
+#include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
+#include "bitstream/pattern/pattern_packet.h"
+#include "bitstream/payload/setup_payload.h"
 #include "encoder/encoder.h"
 #include "samples/talker/talker_render.h"
 #include "tests/vectors/stream_digest.h"
@@ -77,6 +81,21 @@ std::size_t place_of(const std::vector<Piece>& pieces, PacketType type, int nth)
 std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   pieces.resize(nth);
   return joined(pieces).size();
+}
+
+std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {
+  const Setup setup = must(decode_setup(pieces[place_of(pieces, PacketType::kSetup)].payload));
+  std::vector<PatternPiece> out;
+  PatternPacketReader reader;
+  std::optional<MotionDecoder> motion;
+  std::int32_t pictures = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].type == PacketType::kMotion) pictures += must(motion->decode(pieces[i].payload)).pictures;
+    if (pieces[i].type != PacketType::kPattern) continue;
+    out.push_back({i, must(reader.decode(pieces[i].payload, setup, pictures)), pictures});
+    if (!motion) motion.emplace(setup, out.front().patterns.front().state);
+  }
+  return out;
 }
 
 Folder::Folder(std::string path) : path_(std::move(path)), table_(path_ + "/vectors.txt") {

@@ -45,6 +45,15 @@ std::size_t place_of(const std::vector<Piece>& pieces, PacketType type, int nth 
 /// Offset of packet `nth` in the stream.
 std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth);
 
+/// A pattern packet of a stream.
+struct PatternPiece {
+  std::size_t piece;  ///< index
+  std::vector<PatternSyntax> patterns;
+  std::int32_t pictures;  ///< that have a state before it
+};
+/// All of a stream of one scene.
+std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces);
+
 /// Where vectors and their table are written.
 class Folder {
  public:

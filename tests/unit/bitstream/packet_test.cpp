@@ -48,6 +48,14 @@ std::vector<std::size_t> offsets_until_stop(PacketReader& reader, Result<ReadRes
   }
 }
 
+TEST(Packet, SizeIsThatOfWhatIsWritten) {
+  for (const std::size_t payload : {0u, 1u, 127u, 128u, 16383u, 16384u, 300000u}) {
+    Bytes out;
+    EXPECT_EQ(write_packet(out, PacketType::kEnd, Bytes(payload)), packet_size(payload));
+    EXPECT_EQ(out.size(), packet_size(payload));
+  }
+}
+
 TEST(Packet, WritesFourBytesBesideAShortPayload) {
   Bytes bytes;
   EXPECT_EQ(write_packet(bytes, PacketType::kMotion, Bytes(127)), 131u);

@@ -79,9 +79,8 @@ TEST(StreamDecoderDamage, OrderOfPacketsIsChecked) {
       << "no pattern";
   Writer late;
   late.setup();
-  const PatternSyntax one{0, 3, {}, *PatternEncoder::create(setup_of().format, 50)->encode(face_picture(0))};
-  EXPECT_EQ(first_error(late.packet(PacketType::kPattern, encode_pattern(one, setup_of()))),
-            ErrorCode::kInvalidStream)
+  late.told_pictures = 10;
+  EXPECT_EQ(first_error(late.pattern(face_picture(0), 0, 3)), ErrorCode::kInvalidStream)
       << "a later pattern comes first";
 }
 
@@ -127,8 +126,7 @@ TEST(StreamDecoderDamage, NothingIsDrawnAfterAnErrorBehindANewSetup) {
 TEST(StreamDecoderDamage, DamagedAv1IsInvalid) {
   Writer w;
   w.setup().geometry();
-  const PatternSyntax junk{0, 0, coded_at(0), Bytes(50, 0xAB)};
-  w.packet(PacketType::kPattern, encode_pattern(junk, setup_of()));
+  w.patterns({{0, 0, coded_at(0), Bytes(50, 0xAB)}});
   const Played result = played(w.bytes);
   ASSERT_FALSE(result.errors.empty());
   EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);

@@ -78,6 +78,52 @@ TEST(StreamDecoderPatterns, LaterPatternIsSeenInTheStateOfItsPicture) {
   expect_seen(2, 4);
 }
 
+TEST(StreamDecoderPatterns, PatternsInOnePacketAreTakenInTheirOrder) {
+  Writer apart = begun(), together = begun();
+  apart.motion(0, 10, true).pattern(face_picture(1), 1, 7).pattern(face_picture(2), 2, 4);
+  apart.pattern(face_picture(3), 1, 9).blend(10);
+  together.motion(0, 10, true);
+  std::vector<PatternSyntax> patterns = {{1, 7, {}, {}}, {2, 4, {}, {}}, {1, 9, {}, {}}};
+  for (int k = 0; k < 3; ++k) patterns[k].av1 = together.frame(face_picture(k + 1));
+  together.patterns(patterns).blend(10);
+  EXPECT_LT(together.bytes.size() + 5, apart.bytes.size()) << "a packet costs four bytes, a length less";
+  const Played result = played(together.bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 10U);
+  EXPECT_EQ(result.pictures, played(apart.bytes).pictures);
+}
+
+TEST(StreamDecoderPatterns, RecordsShareTheBytesOfTheirPacket) {
+  Writer w = begun();
+  w.motion(0, 10, true);
+  const Bytes one = w.frame(face_picture(1)), two = w.frame(face_picture(2));
+  w.patterns({{1, 7, {}, one}, {2, 4, {}, two}}).blend(10);
+  StreamDecoder decoder;
+  decoder.record_patterns();
+  Played result;
+  play_through(decoder, w, result);
+  const auto& records = decoder.pattern_records();
+  ASSERT_EQ(records.size(), 3U);
+  EXPECT_EQ(records[0].bytes, w.begins[4] - w.begins[3]);
+  const double size = static_cast<double>(w.begins[6] - w.begins[5]);
+  EXPECT_EQ(records[1].bytes + records[2].bytes, w.begins[6] - w.begins[5]);
+  EXPECT_NEAR(static_cast<double>(records[1].bytes),
+              size * static_cast<double>(one.size()) / static_cast<double>(one.size() + two.size()), 1);
+  EXPECT_EQ(records[2].picture, 4U);
+}
+
+// A pattern that is invalid costs those behind it in the packet as well.
+TEST(StreamDecoderPatterns, DamagedFrameInAPacketOfSeveralCostsTheRestOfTheScene) {
+  Writer w = begun();
+  w.motion(0, 10, true).blend(3);
+  w.patterns({{1, 7, {}, w.frame(face_picture(1))}, {2, 4, {}, Bytes(40, 0xAB)}}).blend(7);
+  const Played result = played(w.bytes);
+  EXPECT_EQ(result.pictures.size(), 3U);
+  ASSERT_FALSE(result.errors.empty());
+  EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);
+  EXPECT_EQ(result.errors[0].byte_offset, w.begins[6]);
+}
+
 TEST(StreamDecoderPatterns, ModesOfTheBlendPacketAreUsed) {
   Writer w = begun();
   w.motion(0, 10, true).pattern(face_picture(1), 1, 7);
@@ -145,7 +191,11 @@ TEST(StreamDecoderPatterns, OrderIsChecked) {
     write(w);
     return errors_of(w);
   };
-  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 1, 10); }), invalid)
+  EXPECT_EQ(errors([](Writer& w) {
+              w.told_pictures = 1000;
+              w.pattern(face_picture(1), 1, 400);
+            }),
+            invalid)
       << "of a picture without motion";
   EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 2, 5); }), invalid) << "slot 1 is still empty";
   EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1)); }), invalid) << "the first pattern once more";
@@ -162,8 +212,7 @@ TEST(StreamDecoderPatterns, OrderIsChecked) {
 TEST(StreamDecoderPatterns, SlotBeyondTheStoreIsTooLarge) {
   Writer w = begun(3);
   w.motion(0, 10, true);
-  const PatternSyntax wide{3, 5, {}, Bytes(20, 1)};
-  w.packet(PacketType::kPattern, encode_pattern(wide, setup_of(4)));
+  w.pattern(face_picture(1), 3, 5);
   EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kTooLarge});
 }
 

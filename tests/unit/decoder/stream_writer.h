@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -12,9 +13,9 @@
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/motion/motion_encoder.h"
 #include "bitstream/packet.h"
+#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/pattern_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
@@ -72,6 +73,8 @@ class Writer {
     setup_ = s;
     motion_.emplace(s, coded_at(0));
     blend_ = {};
+    pattern_packets_ = {};
+    pictures_ = 0;
     av1_.emplace(*PatternEncoder::create(s.format, 50));
     return packet(PacketType::kSetup, encode_setup(s));
   }
@@ -81,12 +84,21 @@ class Writer {
   }
   /// The first of the scene, of picture 0.
   Writer& pattern(const Picture& picture = face_picture(0)) {
-    return packet(PacketType::kPattern, encode_pattern({0, 0, coded_at(0), *av1_->encode(picture)}, setup_));
+    return patterns({{0, 0, coded_at(0), *av1_->encode(picture)}});
   }
   /// A later one.
   /// @param number  of the picture whose state it was seen in
   Writer& pattern(const Picture& picture, int slot, int number) {
-    return packet(PacketType::kPattern, encode_pattern({slot, number, {}, *av1_->encode(picture)}, setup_));
+    return patterns({{slot, number, {}, *av1_->encode(picture)}});
+  }
+  /// The frame that follows those of the patterns so far.
+  [[nodiscard]] Bytes frame(const Picture& picture) { return *av1_->encode(picture); }
+  /// Any, in one packet.
+  Writer& patterns(const std::vector<PatternSyntax>& patterns) {
+    Setup wide = setup_;  // a writer may be wrong
+    wide.patterns = kMaxPatterns;
+    return packet(PacketType::kPattern,
+                  pattern_packets_.encode(patterns, wide, std::max(pictures_, told_pictures)));
   }
   /// Pictures `from`..`end` - 1.
   Writer& motion(int from, int end, bool key = false, std::vector<std::uint32_t> durations = {}) {
@@ -95,6 +107,7 @@ class Writer {
     MotionGroup group = knots_everywhere(motion_->anchor(key), states, setup_.parts);
     group.key = key;
     group.durations = std::move(durations);
+    pictures_ += end - from;
     return packet(PacketType::kMotion, motion_->encode(group));
   }
   /// Releases the next pictures, all regions of which have one mode.
@@ -107,11 +120,14 @@ class Writer {
 
   Bytes bytes;
   std::vector<std::size_t> begins;
+  int told_pictures = 0;  ///< that have a state, where the writer thinks of more than there are
 
  private:
   Setup setup_;
   std::optional<MotionEncoder> motion_;
   std::optional<PatternEncoder> av1_;
+  PatternPacketWriter pattern_packets_;
+  int pictures_ = 0;  // that have a state
   BlendEncoder blend_;
 };
 

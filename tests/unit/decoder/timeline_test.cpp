@@ -24,6 +24,17 @@ std::vector<RegionModes> modes(std::size_t count, BlendMode mode = BlendMode::kB
   return std::vector<RegionModes>(count, all);
 }
 
+TEST(Timeline, EndCountsPicturesThatAreShownAndForgottenToo) {
+  Timeline t;
+  for (int first = 0; first < 1000; first += 100) {
+    EXPECT_EQ(t.end(), first);
+    ASSERT_TRUE(add(t, first, 100));
+    ASSERT_TRUE(t.release(modes(100)));
+    while (t.has_next()) t.next();
+  }
+  EXPECT_EQ(t.find(0), nullptr);
+}
+
 TEST(Timeline, PicturesWaitUntilTheyAreReleased) {
   Timeline t;
   ASSERT_TRUE(add(t, 0, 5));

@@ -9,7 +9,6 @@
 namespace fbs {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
 using Numbers = std::vector<std::size_t>;
 
 /// @param first  number of its first picture in the scene
@@ -23,13 +22,6 @@ Segment segment_of(const Numbers& groups, std::int32_t first = 0) {
     }
   }
   return s;
-}
-
-/// One byte for each payload: its number.
-std::vector<Bytes> numbered(std::size_t count) {
-  std::vector<Bytes> out;
-  for (std::size_t k = 0; k < count; ++k) out.push_back({static_cast<std::uint8_t>(k)});
-  return out;
 }
 
 /// Pictures of random patterns, coded with look-ahead: the first first, the others in any order.
@@ -103,20 +95,22 @@ struct Reader {
   std::size_t motions = 0, patterns = 0, blends = 0;
   std::size_t moved = 0, drawn = 0;
 
-  void read(const TypedPayload& packet) {
-    ASSERT_EQ(packet.second.size(), 1U);
-    const std::size_t number = packet.second[0];
-    if (packet.first == PacketType::kMotion) {
-      EXPECT_EQ(number, motions);
+  void read(const PlannedPacket& packet) {
+    if (packet.type == PacketType::kMotion) {
+      EXPECT_EQ(packet.first, motions);
       moved += groups[motions++];
-    } else if (packet.first == PacketType::kPattern) {
-      EXPECT_EQ(number, patterns);
-      const std::size_t picture = shown[patterns++];
-      const bool has_own_state = first + picture == 0;
-      EXPECT_TRUE(has_own_state || moved > picture) << "its state is known";
+    } else if (packet.type == PacketType::kPattern) {
+      EXPECT_EQ(packet.first, patterns);
+      EXPECT_GE(packet.count, 1U);
+      for (std::size_t k = 0; k < packet.count; ++k) {
+        const std::size_t picture = shown[patterns++];
+        const bool has_own_state = first + picture == 0;
+        EXPECT_TRUE(has_own_state || moved > picture) << "its state is known";
+        EXPECT_TRUE(!has_own_state || packet.count == 1) << "the first of a scene is alone";
+      }
     } else {
-      ASSERT_EQ(packet.first, PacketType::kBlend);
-      EXPECT_EQ(number, blends);
+      ASSERT_EQ(packet.type, PacketType::kBlend);
+      EXPECT_EQ(packet.first, blends);
       EXPECT_EQ(patterns, arrived[blends]) << "drawn from what the encoder has chosen for";
       drawn += groups[blends++];
       EXPECT_GE(moved, drawn);
@@ -130,36 +124,53 @@ TEST(InStreamOrder, EachPacketComesOnceAndNotBeforeWhatItNeeds) {
     const Numbers groups = random_groups(random);
     const bool is_first = i % 2 == 0;
     const std::int32_t first = is_first ? 0 : 500;
-    Segment segment = segment_of(groups, first);
+    const Segment segment = segment_of(groups, first);
     const Numbers shown = random_order(random, segment.states.size());
     const Numbers arrived = arrivals(segment, shown, is_first);
     Reader reader{groups, shown, arrived, first};
-    for (const TypedPayload& packet :
-         in_stream_order(std::move(segment), shown, arrived, numbered(shown.size()), numbered(groups.size())))
-      reader.read(packet);
+    const auto packets = in_stream_order(segment, shown, arrived, Numbers(shown.size(), 100));
+    for (const PlannedPacket& packet : packets) reader.read(packet);
     EXPECT_EQ(reader.motions, groups.size());
     EXPECT_EQ(reader.patterns, shown.size());
     EXPECT_EQ(reader.blends, groups.size());
+    for (std::size_t k = 1; k + 1 < packets.size(); ++k) {
+      const bool later = packets[k].type == PacketType::kPattern && packets[k].first > 0;
+      EXPECT_FALSE(later && packets[k + 1].type != PacketType::kBlend &&
+                   packets[k + 1].type != PacketType::kMotion)
+          << "two could share a packet";
+    }
   }
 }
 
 TEST(InStreamOrder, SceneStartsWithItsFirstPattern) {
   const Numbers shown = {0, 9, 5};
-  Segment segment = segment_of({5, 5});
+  const Segment segment = segment_of({5, 5});
   const Numbers arrived = arrivals(segment, shown, true);
-  const auto packets = in_stream_order(std::move(segment), shown, arrived, numbered(3), numbered(2));
+  const auto packets = in_stream_order(segment, shown, arrived, Numbers(3, 1));
   ASSERT_GE(packets.size(), 3U);
-  EXPECT_EQ(packets[0].first, PacketType::kPattern);
-  EXPECT_EQ(packets[1].first, PacketType::kMotion);
-  EXPECT_EQ(packets[2].first, PacketType::kBlend) << "shown before more patterns arrive";
+  EXPECT_EQ(packets[0].type, PacketType::kPattern);
+  EXPECT_EQ(packets[1].type, PacketType::kMotion);
+  EXPECT_EQ(packets[2].type, PacketType::kBlend) << "shown before more patterns arrive";
 }
 
 TEST(InStreamOrder, ALaterSegmentStartsWithMotion) {
   const Numbers shown = {0, 9};
-  Segment segment = segment_of({5, 5}, 100);
+  const Segment segment = segment_of({5, 5}, 100);
   const Numbers arrived = arrivals(segment, shown, false);
-  const auto packets = in_stream_order(std::move(segment), shown, arrived, numbered(2), numbered(2));
-  EXPECT_EQ(packets[0].first, PacketType::kMotion) << "its first pattern has no state of its own";
+  const auto packets = in_stream_order(segment, shown, arrived, Numbers(2, 1));
+  EXPECT_EQ(packets[0].type, PacketType::kMotion) << "its first pattern has no state of its own";
+}
+
+// Readers search behind damage for packets of at most 2^20 bytes.
+TEST(InStreamOrder, LargePatternsDoNotShareAPacket) {
+  const Numbers shown = {0, 9, 5, 7}, bytes = {20, kMaxTogether - 10, 10, 1};
+  const Segment segment = segment_of({10}, 100);
+  const Numbers arrived = arrivals(segment, shown, false);
+  const auto packets = in_stream_order(segment, shown, arrived, bytes);
+  Numbers together;
+  for (const PlannedPacket& p : packets)
+    if (p.type == PacketType::kPattern) together.push_back(p.count);
+  EXPECT_EQ(together, (Numbers{1, 2, 1})) << "the first and the second are too many bytes";
 }
 
 }  // namespace

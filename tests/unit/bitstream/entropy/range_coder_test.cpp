@@ -87,6 +87,29 @@ TEST(RangeCoder, EndCostsLessThanABytePastTheInformation) {
   }
 }
 
+// Bytes of any value behind bits of any probability: the reader is told neither how many nor the sum.
+TEST(RangeCoder, OpenEndEndsTheLastBytes) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const auto bits = skewed_bits(i % 50, 0.1, i);
+    std::vector<std::uint8_t> data(1 + random() % 30);
+    for (auto& byte : data) byte = static_cast<std::uint8_t>(i % 3 == 0 ? 0 : i % 3 == 1 ? 0xFF : random());
+    RangeEncoder encoder;
+    AdaptiveBit writing, reading;
+    for (const bool bit : bits) encoder.bit(writing, bit);
+    for (const auto byte : data) encoder.bypass(8, byte);
+    const auto code = encoder.finish_open();
+    RangeDecoder decoder(code);
+    for (const bool bit : bits) ASSERT_EQ(decoder.bit(reading), bit);
+    std::vector<std::uint8_t> read;
+    do {
+      read.push_back(static_cast<std::uint8_t>(decoder.bypass(8)));
+    } while (!decoder.past_open_end() && read.size() < 100);
+    ASSERT_EQ(read, data) << i;
+    ASSERT_TRUE(decoder.ok() && decoder.at_end());
+  }
+}
+
 TEST(RangeCoder, DecoderReportsReadingFarPastTheEnd) {
   const std::vector<std::uint8_t> bytes = {0x5A, 0x12};
   RangeDecoder decoder(bytes);

@@ -1,0 +1,45 @@
+// Pattern packets: coded pictures, and where in the scene they were seen. SPEC 4.4.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/pattern/pattern_syntax.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// Writes the pattern packets of one scene, in stream order. A value: a copy continues independently.
+class PatternPacketWriter {
+ public:
+  /// Codes the next packet.
+  /// @param patterns  1..kMaxPatterns; the first of the scene alone
+  /// @param setup     of the scene: parts and steps define which numbers are coded and their limits
+  /// @param pictures  of the scene that have a state
+  /// @return kInvalidArgument  another number of patterns, a slot that the setup has not, a picture without a
+  ///                           state or whose state is not kept, a state beyond CodedLimits, no AV1 bytes, a
+  ///                           payload beyond kMaxPayload. The writer is then unchanged.
+  [[nodiscard]] Result<std::vector<std::uint8_t>> encode(std::span<const PatternSyntax> patterns,
+                                                         const Setup& setup, std::int32_t pictures);
+
+ private:
+  PatternMemory memory_;
+};
+
+/// Reads the pattern packets of one scene, in stream order.
+class PatternPacketReader {
+ public:
+  /// Reads the next packet; copies the AV1 bytes without decoding them. After an error only a scene's first
+  /// pattern can be read.
+  /// @param pictures  of the scene that have a state
+  /// @return kTruncated, kTooLarge (slot, number of patterns), kInvalidStream
+  [[nodiscard]] Result<std::vector<PatternSyntax>> decode(std::span<const std::uint8_t> payload,
+                                                          const Setup& setup, std::int32_t pictures);
+
+ private:
+  PatternMemory memory_;
+  bool needs_first_ = true;
+};
+
+}  // namespace fbs
