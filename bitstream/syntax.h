@@ -17,8 +17,8 @@ inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packe
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;
 inline constexpr int kContrastOneLog2 = 8;
-inline constexpr int kContrastOne = 1 << kContrastOneLog2,
-                     kMinContrast = 128;                            ///< of patterns outside the face
+inline constexpr int kContrastOne = 1 << kContrastOneLog2;  ///< contrast of patterns as they are
+inline constexpr int kMinContrast = 128;
 inline constexpr int kMaxPatterns = 64;                             ///< patterns that a decoder keeps
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< whose motion has arrived but not their blend
@@ -65,8 +65,7 @@ struct Setup {
   PartMask parts = kAllParts;  ///< of the state that are sent; the pose always
   MouthInterior mouth;
   std::int32_t patterns = 1;  ///< that the decoder keeps, 1..kMaxPatterns; 1: pictures need no blend packets
-  std::int32_t contrast =
-      kContrastOne;  ///< of patterns outside the face, kMinContrast..kContrastOne; only with several
+  std::int32_t contrast = kContrastOne;  ///< of patterns outside the face, kMinContrast..kContrastOne
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 

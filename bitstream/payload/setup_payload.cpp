@@ -114,10 +114,9 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  if (setup.patterns > 1) {
-    writer.varint(static_cast<std::uint64_t>(setup.patterns));
-    if (setup.contrast < kContrastOne) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
-  }
+  const bool has_contrast = setup.contrast < kContrastOne;
+  if (setup.patterns > 1 || has_contrast) writer.varint(static_cast<std::uint64_t>(setup.patterns));
+  if (has_contrast) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
   return payload;
 }
 

@@ -15,7 +15,8 @@ struct HullPoint {
 constexpr std::array<HullPoint, 5> kHull = {
     {{0.4, 63, 20}, {0.8, 60, 25}, {1.6, 58, 38}, {3.2, 55, 38}, {5.6, 52, 45}}};
 
-/// Of the quantiser, for twice the samples. Measured between 176x144 and 720x1280.
+/// Of the quantiser, for twice the samples: blends of large pictures are worth more patterns and fewer bits
+/// for each. Without it 720x1280 loses 12 % of its bytes, 176x144 some 3 %.
 constexpr double kStepsPerOctave = 1.4;
 
 }  // namespace
@@ -32,8 +33,7 @@ PatternPoint PatternPoint::at(int quality) {
 
 int quantiser_of(const PatternPoint& point, int width, int height) {
   const double octaves = std::log2(static_cast<double>(width) * height / (352 * 288));
-  static const double slope = getenv("FBS_SLOPE") ? atof(getenv("FBS_SLOPE")) : kStepsPerOctave;
-  return std::clamp(static_cast<int>(std::lround(point.quantiser + slope * octaves)), 0, 63);
+  return std::clamp(static_cast<int>(std::lround(point.quantiser + kStepsPerOctave * octaves)), 0, 63);
 }
 
 int motion_quality_at(double kbps) {

@@ -69,6 +69,8 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
       {[](fbs::Setup& s) { s.format.range = static_cast<ColourRange>(2); }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.patterns = 0; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.patterns = kMaxPatterns + 1; }, ErrorCode::kTooLarge},
+      {[](fbs::Setup& s) { s.contrast = kMinContrast - 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.contrast = kContrastOne + 1; }, ErrorCode::kInvalidArgument},
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     auto setup = sample_setup();
@@ -116,7 +118,7 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
 }
 
-// The last field: patterns.
+// The last fields: patterns and contrast.
 TEST(SetupPayload, StoreOfOnePatternIsNotCoded) {
   auto one = sample_setup();
   one.patterns = 1;
@@ -134,6 +136,25 @@ TEST(SetupPayload, StoreOfOnePatternIsNotCoded) {
   EXPECT_EQ(decode_setup(bytes).error().code, ErrorCode::kTooLarge);
   bytes.back() = 0x80;  // a varint that goes on
   EXPECT_EQ(decode_setup(bytes).error().code, ErrorCode::kTruncated);
+}
+
+TEST(SetupPayload, FullContrastIsNotCoded) {
+  for (const std::int32_t patterns : {1, 24}) {
+    auto setup = sample_setup();
+    setup.patterns = patterns;
+    setup.contrast = kContrastOne;
+    const auto full = *encode_setup(setup);
+    EXPECT_EQ(decode_setup(full)->contrast, kContrastOne);
+    for (const std::int32_t contrast : {kMinContrast, 220, kContrastOne - 1}) {
+      setup.contrast = contrast;
+      const auto payload = *encode_setup(setup);
+      EXPECT_EQ(payload.size(), full.size() + (patterns == 1 ? 2 : 1));
+      EXPECT_EQ(*decode_setup(payload), setup);
+    }
+  }
+  auto payload = *encode_setup(sample_setup());
+  payload.push_back(kContrastOne - kMinContrast + 1);
+  EXPECT_EQ(decode_setup(payload).error().code, ErrorCode::kInvalidStream);
 }
 
 TEST(SetupPayload, IgnoresBytesOfLaterWritersAndReportsMissingOnes) {
