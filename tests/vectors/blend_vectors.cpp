@@ -41,6 +41,7 @@ class HandMade {
       : motion_(pieces_of(one)), seen_(patterns_of(motion_).front().patterns.front().state) {
     setup_ = must(decode_setup(motion_[place_of(motion_, PacketType::kSetup)].payload));
     setup_.patterns = slots;
+    setup_.contrast = 170;
     motion_decoder_.emplace(setup_, seen_);
     add(PacketType::kSetup, must(encode_setup(setup_)));
     for (const Piece& piece : motion_)
