@@ -18,6 +18,9 @@ using Lanes = std::uint16_t __attribute__((vector_size(2 * kLaneCount)));
 using WideLanes = std::uint32_t __attribute__((vector_size(2 * kLaneCount)));
 using SignedWideLanes = std::int32_t __attribute__((vector_size(2 * kLaneCount)));
 
+/// The same with a sign.
+using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
+
 static_assert(std::endian::native == std::endian::little);  // for the order of bytes in lanes
 
 /// Eight samples.
@@ -73,12 +76,23 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 
 /// @param halves  values of sixteen bits, which are clamped to 0..255
 [[nodiscard]] inline Lanes narrow_clamped(const std::array<SignedWideLanes, 2>& halves) {
-  using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
   const auto low = reinterpret_cast<SignedLanes>(halves[0]), high = reinterpret_cast<SignedLanes>(halves[1]);
   SignedLanes lanes = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
   lanes = lanes < 0 ? SignedLanes{} : lanes;
   lanes = lanes > 255 ? SignedLanes{} + std::int16_t{255} : lanes;
   return reinterpret_cast<Lanes>(lanes);
+}
+
+/// The upper sixteen bits of each product.
+[[nodiscard]] inline Lanes multiply_high(Lanes a, Lanes b) {
+  using Array = std::array<std::uint16_t, kLaneCount>;
+  const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
+  Array out;
+#ifndef __clang__
+#pragma GCC unroll 1  // left whole, the loop becomes one instruction (PMULHUW)
+#endif
+  for (int i = 0; i < kLaneCount; ++i) out[i] = static_cast<std::uint16_t>(std::uint32_t{x[i]} * y[i] >> 16);
+  return std::bit_cast<Lanes>(out);
 }
 
 /// 0, step, 2 * step, ... modulo 2^16.
