@@ -59,6 +59,14 @@ TEST(Lanes, MultiplyHighKeepsTheUpperHalves) {
   for (int k = 0; k < kLaneCount; ++k) EXPECT_EQ(high[k], expected[k]) << k;
 }
 
+TEST(Lanes, MultiplyWideKeepsSigns) {
+  const SignedLanes a = {0, 1, -1, 127, -128, 32767, -32768, 100},
+                    b = {7, -9, -9, 32767, 32767, -32768, -32768, 5};
+  const auto wide = multiply_wide(a, b);
+  for (int k = 0; k < kLaneCount; ++k)
+    EXPECT_EQ(wide[static_cast<std::size_t>(k / 4)][k % 4], a[k] * b[k]) << k;
+}
+
 TEST(Lanes, MultiplesOverflowAsPositionsDo) {
   const Lanes lanes = multiples(-3);
   for (int k = 0; k < kLaneCount; ++k) EXPECT_EQ(lanes[k], static_cast<std::uint16_t>(-3 * k));
