@@ -22,17 +22,20 @@ SignedWideLanes lit(SignedWideLanes luma, SignedWideLanes offset, SignedWideLane
   return ((luma << 12) + offset + (by_gain >> 6) + (1 << 11)) >> 12;
 }
 
-/// Whether all values lie within the limits of the light, so that they need not be clamped, nor overflow.
-bool within_max_light(const std::pair<std::int64_t, std::int64_t>& range) {
-  return range.first >= -kMaxLightRow && range.second <= kMaxLightRow;
+/// Whether all lanes lie within +-limit.
+bool is_within(const LinearRow& row, std::int64_t limit) {
+  const auto within = [&](std::int64_t v) { return v >= -limit && v <= limit; };
+  return within(row.first) && within(row.at(kLaneCount - 1));
 }
-/// Whether gains of up to 1/8 above and below one, the usual ones, fit into sixteen bits.
-bool is_low(const std::pair<std::int64_t, std::int64_t>& gain) {
-  return gain.first >> 8 >= std::numeric_limits<std::int16_t>::min() &&
-         gain.second >> 8 <= std::numeric_limits<std::int16_t>::max();
-}
+
+/// Whether they need not be clamped, nor overflow.
 bool within_max_light(const LinearRow& row) {
-  return within_max_light(std::minmax({row.first, row.at(kLaneCount - 1)}));
+  return is_within(row, kMaxLightRow);
+}
+
+/// Whether they fit into sixteen bits. Usual gains do: up to 1/8 above and below one.
+bool is_low(const LinearRow& gain) {
+  return is_within(gain, std::int64_t{std::numeric_limits<std::int16_t>::max()} << 8);
 }
 
 std::array<SignedWideLanes, 2> lanes_of(const Gradient& g) {
@@ -64,15 +67,12 @@ void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInt
 LightPainter::LightPainter(const TriangleSetup& setup, const Light& light)
     : offset_(setup.gradient(light.offset, 0)),
       gain_(setup.gradient(light.gain, 0)),
-      is_tame_(within_max_light(offset_.range(with_lanes(setup.box()))) &&
-               within_max_light(gain_.range(with_lanes(setup.box())))),
-      is_low_gain_(is_low(gain_.range(with_lanes(setup.box())))),
       offset_lanes_(lanes_of(offset_)),
       gain_lanes_(lanes_of(gain_)) {}
 
 Lanes LightPainter::paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const {
   const LinearRow offset = block.along(offset_), gain = block.along(gain_);
-  if (!is_tame_ && (!within_max_light(offset) || !within_max_light(gain))) {
+  if (!within_max_light(offset) || !within_max_light(gain)) {
     std::array<std::uint8_t, kLaneCount> row;
     store_lanes(luma, row.data());
     light_row(row.data(), offset, gain, block.count);
@@ -81,7 +81,7 @@ Lanes LightPainter::paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) 
   std::array<SignedWideLanes, 2> halves = widen(luma), gains;
   for (std::size_t i = 0; i < halves.size(); ++i)
     gains[i] = (static_cast<std::int32_t>(gain.first) + gain_lanes_[i]) >> 8;
-  const auto by_gain = is_low_gain_ ? multiply_wide(reinterpret_cast<SignedLanes>(luma - 128), narrow(gains))
+  const auto by_gain = is_low(gain) ? multiply_wide(reinterpret_cast<SignedLanes>(luma - 128), narrow(gains))
                                     : std::array{(halves[0] - 128) * gains[0], (halves[1] - 128) * gains[1]};
   for (std::size_t i = 0; i < halves.size(); ++i)
     halves[i] = lit(halves[i], (static_cast<std::int32_t>(offset.first) + offset_lanes_[i]) >> 8, by_gain[i]);

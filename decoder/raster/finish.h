@@ -52,8 +52,6 @@ class LightPainter {
 
  private:
   Gradient offset_, gain_;
-  bool is_tame_;      ///< within the limits of the light all over the triangle
-  bool is_low_gain_;  ///< gains fit into sixteen bits
   std::array<SignedWideLanes, 2> offset_lanes_, gain_lanes_;  ///< what the lanes add to the first sample's
 };
 

@@ -118,17 +118,15 @@ class LinearBlend {
 
   [[nodiscard]] BlockSamples<kScale> paint(const RowBlock<kScale>& block) const {
     std::array<WeightedSum, plane_count(kScale)> sum;
-    const auto add = [&](std::size_t s, Lanes weight) {
-      const auto samples = painters_[s].paint(block);
-      for (std::size_t i = 0; i < sum.size(); ++i) sum[i].add(samples[i], weight);
-    };
     Lanes left = Lanes{} + std::uint16_t{kWeightOne};
-    for (std::size_t s = 0; s < weights_.size();) {
-      const std::size_t end = std::min(s + WeightedSum::kMaxAdded - 1, weights_.size());
-      for (; s < end; ++s) add(s, weights_[s].take(block, left));
-      for (WeightedSum& plane : sum) plane.carry();
+    for (std::size_t s = 0; s < painters_.size(); ++s) {
+      const auto samples = painters_[s].paint(block);
+      const Lanes weight = s < weights_.size() ? weights_[s].take(block, left) : left;
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (s % WeightedSum::kMaxAdded == WeightedSum::kMaxAdded - 1) sum[i].carry();
+        sum[i].add(samples[i], weight);
+      }
     }
-    add(weights_.size(), left);
     BlockSamples<kScale> out;
     for (std::size_t i = 0; i < sum.size(); ++i) out[i] = sum[i].rounded();
     return out;
@@ -152,9 +150,11 @@ void store(Lanes samples, const PlaneView& plane, const RowBlock<kScale>& block)
 }
 
 template <PlaneScale kScale, class Painter>
-void paint_run(const Painter& painter, int row, RowRun run, const RasterTarget& target) {
+void paint_run(const Painter& painter, const TriangleSetup& setup, int row, RowRun run,
+               const RasterTarget& target) {
   for (int first = run.first; first <= run.last; first += kLaneCount) {
-    const RowBlock<kScale> block{row, first, std::min(run.last - first + 1, kLaneCount)};
+    const RowBlock<kScale> block{row, first, std::min(run.last - first + 1, kLaneCount),
+                                 setup.from_corner(first, row)};
     const auto samples = painter.paint(block);
     for (std::size_t i = 0; i < samples.size(); ++i) store(samples[i], target.planes[i], block);
   }
@@ -163,23 +163,27 @@ void paint_run(const Painter& painter, int row, RowRun run, const RasterTarget& 
 template <PlaneScale kScale, class Painter>
 void paint_rows(const ScreenTriangle& t, const TriangleSetup& setup, const RasterTarget& target,
                 const Painter& painter) {
+  const int first_row = std::max(target.area.y0, setup.first_row()),
+            last_row = std::min(target.area.y1 - 1, setup.last_row());
   Gradient z;
   if (target.depth != nullptr) z = setup.gradient({t[0].depth, t[1].depth, t[2].depth}, kDepthBits);
-  for (int row = setup.box().y0; row < setup.box().y1; ++row) {
-    const RowRun run = covered_run(setup, row, setup.box());
+  for (int row = first_row; row <= last_row; ++row) {
+    const RowRun run = covered_run(setup, row, target.area);
     if (run.empty()) continue;
     if (target.depth == nullptr)
-      paint_run<kScale>(painter, row, run, target);
+      paint_run<kScale>(painter, setup, row, run, target);
     else
-      for_each_nearer(target.depth->row(row), run, {z.at(run.first, row), z.dx},
-                      [&](RowRun nearer) { paint_run<kScale>(painter, row, nearer, target); });
+      for_each_nearer(target.depth->row(row), run,
+                      {z.at(setup.from_corner(run.first, row), setup.position_bits()), z.dx},
+                      [&](RowRun nearer) { paint_run<kScale>(painter, setup, row, nearer, target); });
   }
 }
 
 template <PlaneScale kScale>
 void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const RasterTarget& target) {
-  const TriangleSetup setup(t, kScale, target.area);
-  if (!setup.faces_viewer() || setup.box().empty()) return;
+  const TriangleSetup setup(t, kScale);
+  if (!setup.faces_viewer() || setup.last_row() < target.area.y0 || setup.first_row() >= target.area.y1)
+    return;
   if (sources.size() == 1)
     paint_rows<kScale>(t, setup, target, SourcePainter<kScale>(setup, t, sources.front()));
   else if (all_constant_and_coarse(sources))

@@ -19,16 +19,13 @@ template <PlaneScale kScale>
 struct RowBlock {
   int row, first;  ///< sample of the planes
   int count;       ///< 1..kLaneCount
+  FromCorner at;   ///< position of the first sample
 
   /// A quantity of the triangle along the block.
-  [[nodiscard]] LinearRow along(const Gradient& g) const { return {g.at(first, row), g.dx}; }
+  [[nodiscard]] LinearRow along(const Gradient& g) const {
+    return {g.at(at, static_cast<int>(kScale)), g.dx};
+  }
 };
-
-/// The samples of all blocks of a triangle, with those in lanes that are not drawn.
-[[nodiscard]] inline SampleArea with_lanes(SampleArea box) {
-  box.x1 += kLaneCount - 1;
-  return box;
-}
 
 /// The samples of a block in each plane.
 template <PlaneScale kScale>

@@ -36,36 +36,36 @@ class TextureSampler {
     v_ = setup.gradient({corners[0].y, corners[1].y, corners[2].y}, static_cast<int>(kScale));
     // Texture coordinates of a sample's centre have a half of a sample that its position in the plane has
     // not.
-    u_.at_zero -= kOne / 2;
-    v_.at_zero -= kOne / 2;
+    u_.origin -= kOne / 2;
+    v_.origin -= kOne / 2;
     u_lanes_ = multiples(u_.dx);
     v_lanes_ = multiples(v_.dx);
-    const SampleArea area = with_lanes(setup.box());
-    is_all_inside_ = is_inside(u_.range(area), v_.range(area), straight_columns_);
   }
 
   [[nodiscard]] BlockSamples<kScale> sample(const RowBlock<kScale>& block) const {
-    if (is_in_place_ && (is_all_inside_ || is_in_texture(block))) return sample_in_place(block);
+    if (is_in_place_ && block.first + kLaneCount <= textures_.front().width &&
+        block.row < textures_.front().height)
+      return sample_in_place(block);
     const TextureRow at{block.along(u_), block.along(v_)};
-    if (is_straight(at, block.count) && (is_all_inside_ || is_straight_inside(at)))
-      return sample_straight(at, v_lanes_, true);
+    if (is_straight(at, block.count) && is_straight_inside(at)) return sample_straight(at, v_lanes_, true);
     return sample_other(at, block.count);
   }
 
  private:
   /// Not inline: what most blocks need stays small.
-  [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_other(TextureRow at, int count) const {
-    if (is_all_inside_) return sample_bent(at, u_lanes_, v_lanes_);
+  [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_other(const TextureRow& at, int count) const {
+    return is_inside(at) ? sample_bent(at) : sample_edge(at, count);
+  }
+
+  /// A block of which some sample, drawn or not, lies at the border of the texture or beyond.
+  [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_edge(const TextureRow& from, int count) const {
     const int width = textures_.front().width, height = textures_.front().height;
-    at = {kept_inside(at.u, count, width), kept_inside(at.v, count, height)};
-    const Lanes u_lanes = multiples(at.u.step), v_lanes = multiples(at.v.step);
+    const TextureRow at = {kept_inside(from.u, count, width), kept_inside(from.v, count, height)};
     const bool has_below = at.v.first < (height - 1) * kOne;
     const auto [low_u, high_u] = std::minmax({at.u.first, at.u.at(count - 1)});
     if (is_straight(at, count) && low_u >= 0 && high_u <= (width - 1) * kOne &&
         can_read(at.u.first >> 16, (at.v.first >> 16) + (has_below ? 1 : 0), kLaneCount + 1))
-      return sample_straight(at, v_lanes, has_below);
-    const auto range = [](const LinearRow& row) { return std::minmax({row.first, row.at(kLaneCount - 1)}); };
-    if (is_inside(range(at.u), range(at.v), width - 1)) return sample_bent(at, u_lanes, v_lanes);
+      return sample_straight(at, multiples(at.v.step), has_below);
     return sample_plain(at, count);
   }
 
@@ -102,16 +102,12 @@ class TextureSampler {
     const std::int64_t width = textures_.front().width, height = textures_.front().height;
     return x >= 0 && below(y, height) && x + samples <= width * (height - y);
   }
-  [[nodiscard]] bool is_in_texture(const RowBlock<kScale>& block) const {
-    return block.first + block.count <= textures_.front().width &&
-           can_read(block.first, block.row, kLaneCount);
-  }
-
-  /// Whether all positions in these ranges lie in the first `columns` of the texture, and above its last row.
-  using Range = std::pair<std::int64_t, std::int64_t>;
-  [[nodiscard]] bool is_inside(const Range& u, const Range& v, std::int64_t columns) const {
-    return u.first >= 0 && u.second < columns * kOne && v.first >= 0 &&
-           v.second < (textures_.front().height - 1) * kOne;
+  /// Whether kLaneCount samples lie inside the texture, and all that is mixed to them.
+  [[nodiscard]] bool is_inside(const TextureRow& at) const {
+    const std::int64_t end_u = (textures_.front().width - 1) * kOne,
+                       end_v = (textures_.front().height - 1) * kOne;
+    return below(at.u.first, end_u) && below(at.v.first, end_v) && below(at.u.at(kLaneCount - 1), end_u) &&
+           below(at.v.at(kLaneCount - 1), end_v);
   }
 
   [[nodiscard]] Lanes fraction(const LinearRow& row, Lanes steps) const {
@@ -160,8 +156,8 @@ class TextureSampler {
     return out;
   }
 
-  [[nodiscard]] Samples sample_bent(const TextureRow& at, Lanes u_lanes, Lanes v_lanes) const {
-    const Lanes fx = fraction(at.u, u_lanes), fy = fraction(at.v, v_lanes);
+  [[nodiscard]] Samples sample_bent(const TextureRow& at) const {
+    const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes_);
     Samples out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::ptrdiff_t stride = textures_[i].stride;
@@ -187,7 +183,6 @@ class TextureSampler {
   std::span<const ConstPlaneView> textures_;
   int straight_columns_;  ///< from which kLaneCount samples and one more can be read
   bool is_in_place_;      ///< the texture lies where it is drawn: its samples are those of the plane
-  bool is_all_inside_;    ///< no block of the triangle reads beyond the texture
   Gradient u_, v_;
   Lanes u_lanes_, v_lanes_;  ///< what the lanes add to the first position, modulo a sample
 };

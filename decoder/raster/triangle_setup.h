@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <utility>
 
 namespace fbs {
 
@@ -25,8 +24,10 @@ struct SampleArea {
   [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// No limit: holds the samples of every picture.
-inline constexpr SampleArea kAllSamples{-(1 << 24), -(1 << 24), 1 << 24, 1 << 24};
+/// Position of a sample's centre relative to corner 0 of a triangle, 1/64 luma pixel.
+struct FromCorner {
+  std::int64_t x, y;
+};
 
 inline constexpr int kGradientOneLog2 = 16;
 
@@ -35,17 +36,12 @@ inline constexpr std::int64_t kMaxGradient = std::int64_t{1} << 30;
 
 /// A quantity that is linear over a triangle, Q16.
 struct Gradient {
-  std::int64_t at_zero = 0;     ///< at the centre of sample 0 of row 0
+  std::int64_t origin = 0;      ///< at corner 0
   std::int64_t dx = 0, dy = 0;  ///< per sample
 
-  [[nodiscard]] std::int64_t at(std::int64_t column, std::int64_t row) const {
-    return at_zero + dx * column + dy * row;
-  }
-  /// Least and greatest value in an area, which is not empty.
-  [[nodiscard]] std::pair<std::int64_t, std::int64_t> range(const SampleArea& area) const {
-    const auto [left, right] = std::minmax({dx * area.x0, dx * (area.x1 - 1)});
-    const auto [top, bottom] = std::minmax({dy * area.y0, dy * (area.y1 - 1)});
-    return {at_zero + left + top, at_zero + right + bottom};
+  /// @param position_bits  log2 of positions per sample
+  [[nodiscard]] std::int64_t at(FromCorner p, int position_bits) const {
+    return origin + ((dx * p.x + dy * p.y) >> position_bits);
   }
   /// Whether it cannot have been clamped.
   [[nodiscard]] bool exact() const {
@@ -64,8 +60,7 @@ struct Edge {
 /// Edges and gradients of a triangle in the planes of one scale.
 class TriangleSetup {
  public:
-  /// @param area  the samples that may be drawn
-  TriangleSetup(const ScreenTriangle& triangle, PlaneScale scale, const SampleArea& area = kAllSamples);
+  TriangleSetup(const ScreenTriangle& triangle, PlaneScale scale);
 
   /// Whether the triangle is clockwise in the picture; only then has it edges and gradients.
   [[nodiscard]] bool faces_viewer() const { return area_ > 0; }
@@ -74,17 +69,22 @@ class TriangleSetup {
   /// @param value_bits  0..16
   [[nodiscard]] Gradient gradient(const std::array<std::int32_t, 3>& value, int value_bits) const;
 
-  /// The samples of the area that it may cover; empty when there are none.
-  [[nodiscard]] const SampleArea& box() const { return box_; }
+  /// First and last row of the plane that the triangle may cover; none when last < first.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  [[nodiscard]] int last_row() const { return last_row_; }
   [[nodiscard]] const std::array<Edge, 3>& edges() const { return edges_; }
   [[nodiscard]] int position_bits() const { return position_bits_; }
+  [[nodiscard]] FromCorner from_corner(int column, int row) const {
+    return {(std::int64_t{column} << position_bits_) + first_sample_.x,
+            (std::int64_t{row} << position_bits_) + first_sample_.y};
+  }
 
  private:
-  std::int64_t x_, y_;              // from corner 0 to the centre of sample 0 of row 0
+  FromCorner first_sample_;         // of sample 0 of row 0
   std::int64_t ax_, ay_, bx_, by_;  // from corner 0 to corners 1 and 2
   std::int64_t area_;               // twice the triangle's, 1/64 pixel squared
   int position_bits_;
-  SampleArea box_;
+  int first_row_, last_row_;
   std::array<Edge, 3> edges_;
 };
 
@@ -100,7 +100,7 @@ inline Edge::Edge(glm::ivec2 from, glm::ivec2 to, int position_bits) {
   c = by_x * (centre - from.x) + by_y * (centre - from.y) - (left || top ? 0 : 1);
 }
 
-inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale, const SampleArea& area)
+inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
     : ax_(t[1].at.x - t[0].at.x),
       ay_(t[1].at.y - t[0].at.y),
       bx_(t[2].at.x - t[0].at.x),
@@ -110,13 +110,10 @@ inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale, c
       edges_{Edge(t[0].at, t[1].at, position_bits_), Edge(t[1].at, t[2].at, position_bits_),
              Edge(t[2].at, t[0].at, position_bits_)} {
   const int half = 1 << (position_bits_ - 1);
-  x_ = std::int64_t{half} - t[0].at.x;
-  y_ = std::int64_t{half} - t[0].at.y;
-  const auto [left, right] = std::minmax({t[0].at.x, t[1].at.x, t[2].at.x});
-  const auto [top, bottom] = std::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
-  const auto sample = [&](int position) { return (position - half) >> position_bits_; };
-  box_ = {std::max(area.x0, sample(left)), std::max(area.y0, sample(top)),
-          std::min(area.x1, sample(right) + 1), std::min(area.y1, sample(bottom) + 1)};
+  first_sample_ = {std::int64_t{half} - t[0].at.x, std::int64_t{half} - t[0].at.y};
+  const auto [low, high] = std::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
+  first_row_ = (low - half) >> position_bits_;
+  last_row_ = (high - half) >> position_bits_;
 }
 
 inline Gradient TriangleSetup::gradient(const std::array<std::int32_t, 3>& value, int value_bits) const {
@@ -125,10 +122,8 @@ inline Gradient TriangleSetup::gradient(const std::array<std::int32_t, 3>& value
     const int to_q16 = kGradientOneLog2 - value_bits + position_bits_;
     return std::clamp(per_area * (std::int64_t{1} << to_q16) / area_, -kMaxGradient, kMaxGradient);
   };
-  const std::int64_t at_corner =
-      std::int64_t{value[0]} * (std::int64_t{1} << (kGradientOneLog2 - value_bits));
-  const std::int64_t dx = per_sample(va * by_ - vb * ay_), dy = per_sample(vb * ax_ - va * bx_);
-  return {at_corner + ((dx * x_ + dy * y_) >> position_bits_), dx, dy};
+  return {std::int64_t{value[0]} * (std::int64_t{1} << (kGradientOneLog2 - value_bits)),
+          per_sample(va * by_ - vb * ay_), per_sample(vb * ax_ - va * bx_)};
 }
 
 /// Whether the triangle faces the viewer (clockwise in the picture).

@@ -61,17 +61,18 @@ VisibleSurface::VisibleSurface(const SceneGeometry& geometry, const ScreenMesh& 
   for (std::uint32_t k = 0; k < triangles_->size(); ++k) {
     const SurfaceTriangle& triangle = (*triangles_)[k];
     const ScreenTriangle t = on_screen(triangle, mesh);
-    const TriangleSetup setup(t, scale, area);
+    const TriangleSetup setup(t, scale);
     if (!setup.faces_viewer()) continue;
     barycentric_[k] = barycentric_of(t, static_cast<int>(scale));
     const Gradient z = setup.gradient({t[0].depth, t[1].depth, t[2].depth}, kGradientOneLog2);
-    for (int row = setup.box().y0; row < setup.box().y1; ++row) {
-      const RowRun run = covered_run(setup, row, setup.box());
+    for (int row = std::max(0, setup.first_row()); row <= std::min(height_ - 1, setup.last_row()); ++row) {
+      const RowRun run = covered_run(setup, row, area);
       if (run.empty()) continue;
       std::uint32_t* out = shown.data() + static_cast<std::ptrdiff_t>(row) * width_;
       const auto show = [&](RowRun r) { std::fill(out + r.first, out + r.last + 1, k); };
       if (triangle.head)
-        for_each_nearer(depth.row(row), run, {z.at(run.first, row), z.dx}, show);
+        for_each_nearer(depth.row(row), run,
+                        {z.at(setup.from_corner(run.first, row), setup.position_bits()), z.dx}, show);
       else
         show(run);
     }

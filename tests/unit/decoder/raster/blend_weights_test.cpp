@@ -34,11 +34,12 @@ TEST(LinearWeight, IsTheFormatsFormula) {
     if (!setup.faces_viewer()) continue;
     std::array<std::int32_t, 3> weight;
     for (std::int32_t& w : weight) w = static_cast<std::int32_t>(random() % (kWeightOne + 1));
-    const int row = std::clamp((setup.box().y0 + setup.box().y1 - 1) / 2, 0, 63);
+    const int row = std::clamp((setup.first_row() + setup.last_row()) / 2, 0, 63);
     const RowRun run = covered_run(setup, row, {0, 0, 64, 64});
     if (run.empty()) continue;
     ++blocks;
-    const RowBlock<PlaneScale::kLuma> block{row, run.first, std::min(run.count(), kLaneCount)};
+    const RowBlock<PlaneScale::kLuma> block{row, run.first, std::min(run.count(), kLaneCount),
+                                            setup.from_corner(run.first, row)};
     const int others = static_cast<int>(random() % (kWeightOne + 1));
     Lanes left = all(others);
     const Lanes taken = LinearWeight<PlaneScale::kLuma>(setup, weight).take(block, left);

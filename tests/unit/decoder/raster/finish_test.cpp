@@ -61,7 +61,7 @@ LitBlock random_lit_block(std::mt19937& random, std::int32_t limit) {
   for (auto* corners : {&out.light.offset, &out.light.gain})
     for (std::int32_t& c : *corners) c = static_cast<std::int32_t>(between(random, -limit, limit));
   const int row = static_cast<int>(random() % 64), first = static_cast<int>(random() % 64);
-  out.block = {row, first, 1 + static_cast<int>(random() % kLaneCount)};
+  out.block = {row, first, 1 + static_cast<int>(random() % kLaneCount), out.setup.from_corner(first, row)};
   return out;
 }
 

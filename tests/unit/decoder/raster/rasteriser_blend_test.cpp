@@ -134,7 +134,7 @@ Plane plain_blend(const std::vector<BlendedSource>& blend) {
       std::int64_t left = kWeightOne, sum = kWeightOne / 2;
       for (std::size_t s = 0; s < blend.size(); ++s) {
         const Gradient g = setup.gradient(blend[s].weight, 0);
-        const std::int64_t at = g.at(x, y) >> 16;
+        const std::int64_t at = g.at(setup.from_corner(x, y), setup.position_bits()) >> 16;
         const std::int64_t weight = s + 1 == blend.size() ? left : std::clamp<std::int64_t>(at, 0, left);
         left -= weight;
         sum += weight * drawn[s].row(y)[x];

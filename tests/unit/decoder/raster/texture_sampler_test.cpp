@@ -68,17 +68,18 @@ constexpr int kWidth = 40, kHeight = 30;  // samples of the planes that are draw
 template <PlaneScale kScale>
 void compare_sampling(const ScreenTriangle& t, const std::array<glm::ivec2, 3>& corners,
                       const Plane& texture) {
-  const TriangleSetup setup(t, kScale, {0, 0, kWidth, kHeight});
+  const TriangleSetup setup(t, kScale);
   if (!setup.faces_viewer()) return;
   const std::array<ConstPlaneView, 2> views = {texture, texture};
   const TextureSampler<kScale> sampler(setup, t, std::span(views).first(plane_count(kScale)), corners);
   constexpr int kBits = static_cast<int>(kScale);
   const Gradient u = setup.gradient({corners[0].x, corners[1].x, corners[2].x}, kBits),
                  v = setup.gradient({corners[0].y, corners[1].y, corners[2].y}, kBits);
-  for (int row = setup.box().y0; row < setup.box().y1; ++row) {
-    const RowRun run = covered_run(setup, row, setup.box());
+  for (int row = std::max(0, setup.first_row()); row <= std::min(kHeight - 1, setup.last_row()); ++row) {
+    const RowRun run = covered_run(setup, row, {0, 0, kWidth, kHeight});
     for (int first = run.first; first <= run.last; first += kLaneCount) {
-      const RowBlock<kScale> block{row, first, std::min(kLaneCount, run.last - first + 1)};
+      const RowBlock<kScale> block{row, first, std::min(kLaneCount, run.last - first + 1),
+                                   setup.from_corner(first, row)};
       TextureRow at{block.along(u), block.along(v)};
       at.u.first -= 1 << 15;
       at.v.first -= 1 << 15;
