@@ -30,28 +30,26 @@ class LinearWeight {
 
   /// The weights of a block's samples, clamped to 0..left; takes them off `left`.
   [[nodiscard]] Lanes take(const RowBlock<kScale>& block, Lanes& left) const {
-    const Lanes weight = is_tame_ ? at(block) : at_plain(block);
-    const Lanes above = weight > left;  // all bits set where it is
-    const Lanes taken = (weight & ~above) | (left & above);
+    const SignedLanes weight = is_tame_ ? at(block) : at_plain(block),
+                      most = reinterpret_cast<SignedLanes>(left);
+    const SignedLanes positive = weight > 0 ? weight : SignedLanes{};
+    const auto taken = reinterpret_cast<Lanes>(positive < most ? positive : most);
     left -= taken;
     return taken;
   }
 
  private:
-  /// Negative ones are 0.
-  [[nodiscard]] Lanes at(const RowBlock<kScale>& block) const {
+  [[nodiscard]] SignedLanes at(const RowBlock<kScale>& block) const {
     const auto first = static_cast<std::uint32_t>(block.along(gradient_).first);
-    const auto low = reinterpret_cast<Lanes>(steps_[0] + first),
-               high = reinterpret_cast<Lanes>(steps_[1] + first);
-    const Lanes weight = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
-    const Lanes negative = 0 - (weight >> 15);
-    return weight & ~negative;
+    const auto low = reinterpret_cast<SignedLanes>(steps_[0] + first),
+               high = reinterpret_cast<SignedLanes>(steps_[1] + first);
+    return __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
   }
-  [[nodiscard]] Lanes at_plain(const RowBlock<kScale>& block) const {
+  [[nodiscard, gnu::noinline]] SignedLanes at_plain(const RowBlock<kScale>& block) const {
     const LinearRow weight = block.along(gradient_);
-    Lanes out{};
+    SignedLanes out{};
     for (int i = 0; i < block.count; ++i)
-      out[i] = static_cast<std::uint16_t>(
+      out[i] = static_cast<std::int16_t>(
           std::clamp<std::int64_t>(weight.at(i) >> kGradientOneLog2, 0, kWeightOne));
     return out;
   }
@@ -61,26 +59,26 @@ class LinearWeight {
   std::array<WideLanes, 2> steps_;
 };
 
-/// Sum of samples by weights of 2^-12: two parts, since sixteen bits do not hold it.
+/// Sum of samples by weights of 2^-12. Sixteen bits do not hold it: one part has the products with the
+/// weights rounded down to 2^-8, the other all products modulo 2^16. What rounding takes is their difference.
 class WeightedSum {
  public:
-  static constexpr int kMaxAdded = 16;  ///< what carry() leaves and as many products fit into sixteen bits
+  static constexpr int kMaxAdded = 16;  ///< what carry() leaves and as many differences fit into sixteen bits
 
   void add(Lanes samples, Lanes weight) {
-    high_ += samples * (weight >> kLowBits);
-    low_ += samples * (weight & ((1 << kLowBits) - 1));
+    coarse_ += samples * (weight >> kLowBits);
+    all_ += samples * weight;
   }
-  void carry() {
-    high_ += low_ >> kLowBits;
-    low_ &= (1 << kLowBits) - 1;
-  }
+  void carry() { coarse_ += rest(); }
   [[nodiscard]] Lanes rounded() const {
-    return (high_ + (low_ >> kLowBits) + std::uint16_t{kCoarseOne / 2}) >> kCoarseOneLog2;
+    return (coarse_ + rest() + std::uint16_t{kCoarseOne / 2}) >> kCoarseOneLog2;
   }
 
  private:
   static constexpr int kLowBits = kWeightOneLog2 - kCoarseOneLog2;
-  Lanes high_{}, low_{};
+  [[nodiscard]] Lanes rest() const { return (all_ - (coarse_ << kLowBits)) >> kLowBits; }
+
+  Lanes coarse_{}, all_{};
 };
 
 }  // namespace fbs

@@ -1,6 +1,8 @@
 #include "decoder/raster/finish.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace fbs {
 namespace {
@@ -15,14 +17,25 @@ std::uint8_t lit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
 }
 
 /// The same for four samples, without the clamp.
-SignedWideLanes lit(SignedWideLanes luma, SignedWideLanes offset, SignedWideLanes gain) {
-  return ((luma << 12) + offset + ((luma - 128) * gain >> 6) + (1 << 11)) >> 12;
+/// @param by_gain  (luma - 128) * gain
+SignedWideLanes lit(SignedWideLanes luma, SignedWideLanes offset, SignedWideLanes by_gain) {
+  return ((luma << 12) + offset + (by_gain >> 6) + (1 << 11)) >> 12;
 }
 
-/// Whether all lanes lie within the limits of the light, so that they need not be clamped, nor overflow.
-bool within_max_light(const LinearRow& row) {
-  const auto within = [](std::int64_t v) { return v >= -kMaxLightRow && v <= kMaxLightRow; };
+/// Whether all lanes lie within +-limit.
+bool is_within(const LinearRow& row, std::int64_t limit) {
+  const auto within = [&](std::int64_t v) { return v >= -limit && v <= limit; };
   return within(row.first) && within(row.at(kLaneCount - 1));
+}
+
+/// Whether they need not be clamped, nor overflow.
+bool within_max_light(const LinearRow& row) {
+  return is_within(row, kMaxLightRow);
+}
+
+/// Whether they fit into sixteen bits. Usual gains do: up to 1/8 above and below one.
+bool is_low(const LinearRow& gain) {
+  return is_within(gain, std::int64_t{std::numeric_limits<std::int16_t>::max()} << 8);
 }
 
 std::array<SignedWideLanes, 2> lanes_of(const Gradient& g) {
@@ -65,10 +78,13 @@ Lanes LightPainter::paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) 
     light_row(row.data(), offset, gain, block.count);
     return load_lanes(row.data());
   }
-  std::array<SignedWideLanes, 2> halves = widen(luma);
+  std::array<SignedWideLanes, 2> halves = widen(luma), gains;
   for (std::size_t i = 0; i < halves.size(); ++i)
-    halves[i] = lit(halves[i], (static_cast<std::int32_t>(offset.first) + offset_lanes_[i]) >> 8,
-                    (static_cast<std::int32_t>(gain.first) + gain_lanes_[i]) >> 8);
+    gains[i] = (static_cast<std::int32_t>(gain.first) + gain_lanes_[i]) >> 8;
+  const auto by_gain = is_low(gain) ? multiply_wide(reinterpret_cast<SignedLanes>(luma - 128), narrow(gains))
+                                    : std::array{(halves[0] - 128) * gains[0], (halves[1] - 128) * gains[1]};
+  for (std::size_t i = 0; i < halves.size(); ++i)
+    halves[i] = lit(halves[i], (static_cast<std::int32_t>(offset.first) + offset_lanes_[i]) >> 8, by_gain[i]);
   return narrow_clamped(halves);
 }
 

@@ -18,6 +18,9 @@ using Lanes = std::uint16_t __attribute__((vector_size(2 * kLaneCount)));
 using WideLanes = std::uint32_t __attribute__((vector_size(2 * kLaneCount)));
 using SignedWideLanes = std::int32_t __attribute__((vector_size(2 * kLaneCount)));
 
+/// The same with a sign.
+using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
+
 static_assert(std::endian::native == std::endian::little);  // for the order of bytes in lanes
 
 /// Eight samples.
@@ -67,18 +70,48 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 }
 
 [[nodiscard]] inline std::array<SignedWideLanes, 2> widen(Lanes lanes) {
-  return {reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 0, 8, 1, 8, 2, 8, 3, 8)),
-          reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 4, 8, 5, 8, 6, 8, 7, 8))};
+  // The zeros in this order: compilers make one instruction of an interleave.
+  return {
+      reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 0, 8, 1, 9, 2, 10, 3, 11)),
+      reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 4, 12, 5, 13, 6, 14, 7, 15))};
+}
+
+/// @param halves  values of sixteen bits
+[[nodiscard]] inline SignedLanes narrow(const std::array<SignedWideLanes, 2>& halves) {
+  const auto low = reinterpret_cast<SignedLanes>(halves[0]), high = reinterpret_cast<SignedLanes>(halves[1]);
+  return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
 }
 
 /// @param halves  values of sixteen bits, which are clamped to 0..255
 [[nodiscard]] inline Lanes narrow_clamped(const std::array<SignedWideLanes, 2>& halves) {
-  using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
-  const auto low = reinterpret_cast<SignedLanes>(halves[0]), high = reinterpret_cast<SignedLanes>(halves[1]);
-  SignedLanes lanes = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+  SignedLanes lanes = narrow(halves);
   lanes = lanes < 0 ? SignedLanes{} : lanes;
   lanes = lanes > 255 ? SignedLanes{} + std::int16_t{255} : lanes;
   return reinterpret_cast<Lanes>(lanes);
+}
+
+/// The upper sixteen bits of each product.
+[[nodiscard]] inline Lanes multiply_high(Lanes a, Lanes b) {
+  using Array = std::array<std::uint16_t, kLaneCount>;
+  const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
+  Array out;
+#ifndef __clang__
+#pragma GCC unroll 1  // left whole, the loop becomes one instruction (PMULHUW)
+#endif
+  for (int i = 0; i < kLaneCount; ++i) out[i] = static_cast<std::uint16_t>(std::uint32_t{x[i]} * y[i] >> 16);
+  return std::bit_cast<Lanes>(out);
+}
+
+/// All bits of each product.
+[[nodiscard]] inline std::array<SignedWideLanes, 2> multiply_wide(SignedLanes a, SignedLanes b) {
+  using Array = std::array<std::int16_t, kLaneCount>;
+  const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
+  std::array<std::int32_t, kLaneCount> out;
+#ifndef __clang__
+#pragma GCC unroll 1  // as above (PMULLW and PMULHW)
+#endif
+  for (int i = 0; i < kLaneCount; ++i) out[i] = std::int32_t{x[i]} * y[i];
+  return std::bit_cast<std::array<SignedWideLanes, 2>>(out);
 }
 
 /// 0, step, 2 * step, ... modulo 2^16.

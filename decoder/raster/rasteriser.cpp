@@ -16,29 +16,43 @@ namespace {
 
 constexpr int kDepthBits = 16;  // depth keeps its unit
 
+bool is_finished(const TextureSource& s) {
+  return s.finish.light != nullptr || s.finish.interior != nullptr;
+}
+
 /// The samples of one source: everything that is linear over the triangle but depth.
-template <PlaneScale kScale>
+/// @param kFinished  whether there may be light or interior
+template <PlaneScale kScale, bool kFinished>
 class SourcePainter {
  public:
   SourcePainter(const TriangleSetup& setup, const ScreenTriangle& t, const TextureSource& source)
       : sampler_(setup, t, source.planes, source.corners) {
-    if (kScale == PlaneScale::kLuma && source.finish.light != nullptr)
-      light_.emplace(setup, *source.finish.light);
-    if (source.finish.interior != nullptr) interior_.emplace(setup, *source.finish.interior);
+    if constexpr (kFinished) {
+      if (kScale == PlaneScale::kLuma && source.finish.light != nullptr)
+        finish_.light.emplace(setup, *source.finish.light);
+      if (source.finish.interior != nullptr) finish_.interior.emplace(setup, *source.finish.interior);
+    }
   }
 
   [[nodiscard]] BlockSamples<kScale> paint(const RowBlock<kScale>& block) const {
     BlockSamples<kScale> samples = sampler_.sample(block);
-    if constexpr (kScale == PlaneScale::kLuma)
-      if (light_) samples[0] = light_->paint(block, samples[0]);
-    if (interior_) interior_->paint(block, samples);
+    if constexpr (kFinished) {
+      if constexpr (kScale == PlaneScale::kLuma)
+        if (finish_.light) samples[0] = finish_.light->paint(block, samples[0]);
+      if (finish_.interior) finish_.interior->paint(block, samples);
+    }
     return samples;
   }
 
  private:
+  struct Painters {
+    std::optional<LightPainter> light;  ///< luma
+    std::optional<InteriorPainter<kScale>> interior;
+  };
+  struct Nothing {};
+
   TextureSampler<kScale> sampler_;
-  std::optional<LightPainter> light_;  ///< luma
-  std::optional<InteriorPainter<kScale>> interior_;
+  [[no_unique_address]] std::conditional_t<kFinished, Painters, Nothing> finish_;
 };
 
 /// One of each source of a triangle; memory that is not used is not touched.
@@ -75,7 +89,7 @@ bool all_constant_and_coarse(std::span<const TextureSource> sources) {
 }
 
 /// Weights that are the same all over the triangle, 2^-8.
-template <PlaneScale kScale>
+template <PlaneScale kScale, bool kFinished>
 class CoarseBlend {
  public:
   CoarseBlend(const TriangleSetup& setup, const ScreenTriangle& t, std::span<const TextureSource> sources) {
@@ -101,12 +115,12 @@ class CoarseBlend {
   }
 
  private:
-  SourceArray<SourcePainter<kScale>> painters_;
+  SourceArray<SourcePainter<kScale, kFinished>> painters_;
   std::array<std::uint16_t, kMaxTriangleSources> weights_;
 };
 
 /// Weights that are linear over the triangle. SPEC 11.6.
-template <PlaneScale kScale>
+template <PlaneScale kScale, bool kFinished>
 class LinearBlend {
  public:
   LinearBlend(const TriangleSetup& setup, const ScreenTriangle& t, std::span<const TextureSource> sources) {
@@ -133,7 +147,7 @@ class LinearBlend {
   }
 
  private:
-  SourceArray<SourcePainter<kScale>> painters_;
+  SourceArray<SourcePainter<kScale, kFinished>> painters_;
   SourceArray<LinearWeight<kScale>> weights_;
 };
 
@@ -179,17 +193,25 @@ void paint_rows(const ScreenTriangle& t, const TriangleSetup& setup, const Raste
   }
 }
 
-template <PlaneScale kScale>
+template <PlaneScale kScale, bool kFinished>
 void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const RasterTarget& target) {
   const TriangleSetup setup(t, kScale);
   if (!setup.faces_viewer() || setup.last_row() < target.area.y0 || setup.first_row() >= target.area.y1)
     return;
   if (sources.size() == 1)
-    paint_rows<kScale>(t, setup, target, SourcePainter<kScale>(setup, t, sources.front()));
+    paint_rows<kScale>(t, setup, target, SourcePainter<kScale, kFinished>(setup, t, sources.front()));
   else if (all_constant_and_coarse(sources))
-    paint_rows<kScale>(t, setup, target, CoarseBlend<kScale>(setup, t, sources));
+    paint_rows<kScale>(t, setup, target, CoarseBlend<kScale, kFinished>(setup, t, sources));
   else
-    paint_rows<kScale>(t, setup, target, LinearBlend<kScale>(setup, t, sources));
+    paint_rows<kScale>(t, setup, target, LinearBlend<kScale, kFinished>(setup, t, sources));
+}
+
+template <PlaneScale kScale>
+void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const RasterTarget& target) {
+  if (std::any_of(sources.begin(), sources.end(), is_finished))
+    draw<kScale, true>(t, sources, target);
+  else
+    draw<kScale, false>(t, sources, target);
 }
 
 }  // namespace

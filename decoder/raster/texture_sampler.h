@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
+#include <utility>
 
 #include "common/picture.h"
 #include "decoder/raster/row_block.h"
@@ -46,13 +47,34 @@ class TextureSampler {
         block.row < textures_.front().height)
       return sample_in_place(block);
     const TextureRow at{block.along(u_), block.along(v_)};
-    return is_straight(at, block.count) ? sample_straight(at) : sample_other(at, block.count);
+    if (is_straight(at, block.count) && is_straight_inside(at)) return sample_straight(at, v_lanes_, true);
+    return sample_other(at, block.count);
   }
 
  private:
   /// Not inline: what most blocks need stays small.
   [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_other(const TextureRow& at, int count) const {
-    return is_inside(at) ? sample_bent(at) : sample_plain(at, count);
+    return is_inside(at) ? sample_bent(at) : sample_edge(at, count);
+  }
+
+  /// A block of which some sample, drawn or not, lies at the border of the texture or beyond.
+  [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_edge(const TextureRow& from, int count) const {
+    const int width = textures_.front().width, height = textures_.front().height;
+    const TextureRow at = {kept_inside(from.u, count, width), kept_inside(from.v, count, height)};
+    const bool has_below = at.v.first < (height - 1) * kOne;
+    const auto [low_u, high_u] = std::minmax({at.u.first, at.u.at(count - 1)});
+    if (is_straight(at, count) && low_u >= 0 && high_u <= (width - 1) * kOne &&
+        can_read(at.u.first >> 16, (at.v.first >> 16) + (has_below ? 1 : 0), kLaneCount + 1))
+      return sample_straight(at, multiples(at.v.step), has_below);
+    return sample_plain(at, count);
+  }
+
+  /// Positions all beyond one border of a texture: on the border.
+  static LinearRow kept_inside(const LinearRow& row, int count, int size) {
+    const std::int64_t last = (size - 1) * kOne, end = row.at(count - 1);
+    if (row.first <= 0 && end <= 0) return {0, 0};
+    if (row.first >= last && end >= last) return {last, 0};
+    return row;
   }
 
   using Samples = BlockSamples<kScale>;
@@ -62,17 +84,24 @@ class TextureSampler {
     return static_cast<std::uint64_t>(value) < static_cast<std::uint64_t>(end);
   }
 
-  /// Whether the samples come from neighbouring columns of the same two rows, and kLaneCount samples can be
-  /// read from there.
+  /// Whether the samples come from neighbouring columns of the same two rows.
   [[nodiscard]] bool is_straight(const TextureRow& at, int count) const {
     // The whole parts of the positions are those of the first sample plus 1 each in u, plus 0 in v.
     const auto keeps_step = [&](const LinearRow& row, std::int64_t step) {
       return below((row.first & (kOne - 1)) + (count - 1) * (row.step - step), kOne);
     };
-    return keeps_step(at.u, kOne) && keeps_step(at.v, 0) && below(at.u.first >> 16, straight_columns_) &&
+    return keeps_step(at.u, kOne) && keeps_step(at.v, 0);
+  }
+  /// Whether kLaneCount samples and one more of the first columns can be read from there, and the row below.
+  [[nodiscard]] bool is_straight_inside(const TextureRow& at) const {
+    return below(at.u.first >> 16, straight_columns_) &&
            below(at.v.first >> 16, textures_.front().height - 1);
   }
-
+  /// Whether memory can be read from there on: samples behind the row are those of the next.
+  [[nodiscard]] bool can_read(std::int64_t x, std::int64_t y, int samples) const {
+    const std::int64_t width = textures_.front().width, height = textures_.front().height;
+    return x >= 0 && below(y, height) && x + samples <= width * (height - y);
+  }
   /// Whether kLaneCount samples lie inside the texture, and all that is mixed to them.
   [[nodiscard]] bool is_inside(const TextureRow& at) const {
     const std::int64_t end_u = (textures_.front().width - 1) * kOne,
@@ -85,30 +114,42 @@ class TextureSampler {
     return (steps + static_cast<std::uint16_t>(row.first)) >> 8;
   }
 
-  /// @param fx, fy  share of the right and of the lower samples, 1/256
+  /// @param fx  share of the right samples, 1/256, 0..256
+  /// @param fy  of the lower samples, 1/256, 0..255
   static Lanes bilinear(Lanes top_left, Lanes top_right, Lanes bottom_left, Lanes bottom_right, Lanes fx,
                         Lanes fy) {
-    const auto mix = [](Lanes a, Lanes b, Lanes share) { return (a << 8) + (b - a) * share; };
-    const Lanes top = mix(top_left, top_right, fx), bottom = mix(bottom_left, bottom_right, fx);
-    // The second step for both bytes of what the first yields: sixteen bits hold it then.
-    const Lanes high = mix(top >> 8, bottom >> 8, fy), low = mix(top & 255, bottom & 255, fy);
-    return (high + (low >> 8) + 128) >> 8;
+    const Lanes gx = 256 - fx;
+    const Lanes top = top_left * gx + top_right * fx, bottom = bottom_left * gx + bottom_right * fx;
+    // What fy makes of bottom - top, modulo 2^16: where top is larger, 2^16 were added to the difference.
+    const Lanes share = fy << 8, too_much = bottom < top ? share : Lanes{};
+    return (top + multiply_high(bottom - top, share) - too_much + 128) >> 8;
+  }
+
+  /// Triangles go down a texture a few samples at a time, which hardware does not foresee. Eight rows ahead
+  /// is a third of the height of most triangles; man_glasses_720x1280 decodes in 3/4 of the time.
+  static void prefetch_below(const std::uint8_t* samples, std::ptrdiff_t stride) {
+    __builtin_prefetch(samples + 8 * stride);
   }
 
   [[nodiscard]] Samples sample_in_place(const RowBlock<kScale>& block) const {
     Samples out;
-    for (std::size_t i = 0; i < out.size(); ++i)
-      out[i] = load_lanes(textures_[i].row(block.row) + block.first);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::uint8_t* const from = textures_[i].row(block.row) + block.first;
+      prefetch_below(from, textures_[i].stride);
+      out[i] = load_lanes(from);
+    }
     return out;
   }
 
-  [[nodiscard]] Samples sample_straight(const TextureRow& at) const {
-    const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes_);
+  /// @param has_below  whether there is a row below; else the border is repeated
+  [[nodiscard]] Samples sample_straight(const TextureRow& at, Lanes v_lanes, bool has_below) const {
+    const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes);
     Samples out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::uint8_t* const above =
           textures_[i].data + (at.v.first >> 16) * textures_[i].stride + (at.u.first >> 16);
-      const std::uint8_t* const below_it = above + textures_[i].stride;
+      const std::uint8_t* const below_it = has_below ? above + textures_[i].stride : above;
+      prefetch_below(above, textures_[i].stride);
       out[i] = bilinear(load_lanes(above), load_lanes(above + 1), load_lanes(below_it),
                         load_lanes(below_it + 1), fx, fy);
     }

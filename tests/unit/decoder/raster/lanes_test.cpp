@@ -52,6 +52,21 @@ TEST(Lanes, NarrowingClampsToSamples) {
   for (int k = 0; k < kLaneCount; ++k) EXPECT_EQ(narrow[k], expected[k]);
 }
 
+TEST(Lanes, MultiplyHighKeepsTheUpperHalves) {
+  const Lanes a = {0, 1, 255, 256, 32768, 40000, 65535, 65535}, b = {7, 65535, 257, 256, 2, 50000, 1, 65535};
+  const Lanes expected = {0, 0, 0, 1, 1, 30517, 0, 65534};
+  const Lanes high = multiply_high(a, b);
+  for (int k = 0; k < kLaneCount; ++k) EXPECT_EQ(high[k], expected[k]) << k;
+}
+
+TEST(Lanes, MultiplyWideKeepsSigns) {
+  const SignedLanes a = {0, 1, -1, 127, -128, 32767, -32768, 100},
+                    b = {7, -9, -9, 32767, 32767, -32768, -32768, 5};
+  const auto wide = multiply_wide(a, b);
+  for (int k = 0; k < kLaneCount; ++k)
+    EXPECT_EQ(wide[static_cast<std::size_t>(k / 4)][k % 4], a[k] * b[k]) << k;
+}
+
 TEST(Lanes, MultiplesOverflowAsPositionsDo) {
   const Lanes lanes = multiples(-3);
   for (int k = 0; k < kLaneCount; ++k) EXPECT_EQ(lanes[k], static_cast<std::uint16_t>(-3 * k));
