@@ -33,6 +33,8 @@ class FaceAnalysis {
 
   struct Observation {
     State state;                                      ///< as fitted, in whole units
+    Fit fit;                                          ///< the same, body and ground apart
+    bool seen = true;                                 ///< whether the face is; if not, the fit is a guess
     PictureCost cost;                                 ///< of other states
     std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
   };
@@ -72,6 +74,7 @@ class FaceAnalysis {
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
+  bool seen_ = true;                        ///< whether it shows the face
   bool begun_ = false;
   PictureAnalysis report_;
 };

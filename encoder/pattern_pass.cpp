@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
+#include <string_view>
 
 #include "bitstream/payload/pattern_payload.h"
 #include "encoder/patterns/pattern_size.h"
@@ -229,13 +230,37 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
                          std::move(*blends));
 }
 
-Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
+Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
+  if (auto done = refit(segment_, usable(scene, draft)); !done) return done;
+  const std::size_t old = draft.patterns.size() - draft.coded.size();
+  for (std::size_t k = 0; k < draft.coded.size(); ++k)
+    if (picture_ + draft.shown[k] > 0) {
+      Pattern& p = draft.patterns[old + k];
+      p = make_pattern(std::move(p.picture), segment_.states[draft.shown[k]], scene.geometry);
+    }
+  return {};
+}
+
+Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene, count_wanted());
   if (!draft) return draft;
+  static const char* const rounds_env = std::getenv("REFIT");
+  const std::string_view when = rounds_env ? rounds_env : "";
   if (settings_.rounds > 0) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
+  }
+  for (const char c : when) {
+    if (c == 'r')
+      if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
+    if (c == 'm')
+      if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
+    if (c == 's') {
+      if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
+      if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
+      if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
+    }
   }
   for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
     if (settings_.rounds > 0)
@@ -301,7 +326,8 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
 }
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
-                                                           std::size_t other_bytes) {
+                                                           std::size_t other_bytes,
+                                                           const StateRefit& refit) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
   double allowed = 0;
   if (settings_.bitrate_kbps > 0) {
@@ -314,7 +340,7 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
   if (picture_ == 0 && count_wanted() == 1 && settings_.bitrate_kbps == 0)
     settings_.coding.quantiser = settings_.lone_quantiser;
-  auto draft = make(scene);
+  auto draft = make(scene, refit);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {
     if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());

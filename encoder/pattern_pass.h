@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct PatternPassSettings {
   double lambda = 0;            ///< squared luma levels that a bit is worth
 };
 
+/// Replaces the motion of a segment by one that suits the patterns it is drawn from.
+using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
+
 class PatternPass {
  public:
   PatternPass(const VideoFormat& format, const PatternPassSettings& settings);
@@ -45,9 +49,11 @@ class PatternPass {
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
   /// @param rest   seen state of pattern 0 as coded
   /// @param other_bytes  that the stream has taken beside segments since the last one
+  /// @param refit  called a few times
   /// @return packets
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest,
-                                                              std::size_t other_bytes);
+                                                              std::size_t other_bytes,
+                                                              const StateRefit& refit);
 
  private:
   /// Patterns of the segment while they are made.
@@ -73,7 +79,9 @@ class PatternPass {
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
   /// Solves, codes and chooses, as often as the settings say.
-  [[nodiscard]] Result<Draft> make(const Scene& scene);
+  [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
+  /// Patterns follow the states of their pictures.
+  Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
   void set_quality(int quality);
   /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.
   [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);

@@ -26,6 +26,10 @@ void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mout
   comparison_.mouth = mouth;
 }
 
+void PictureFit::set_pattern(const SeenPattern& pattern) {
+  comparison_.pattern = PatternSamples(comparison_.points, comparison_.geometry, pattern);
+}
+
 Fit PictureFit::refine_mouth(const Fit& start) const {
   const Fit fit = refine(start);
   if (!inner_lips_strayed(start)) return fit;

@@ -21,6 +21,9 @@ class PictureFit {
   /// @param mouth  colours that the decoder shows inside the mouth, as far as is known
   void set_picture(const WorkFrame& picture, const MouthInterior& mouth);
 
+  /// Another pattern than the constructor's, compared at the same points.
+  void set_pattern(const SeenPattern& pattern);
+
   /// `start` with the upper lids found anew: LidSearch::best().
   [[nodiscard]] Fit with_best_lids(const Fit& start) const { return lids_.best(comparison_, start); }
 
