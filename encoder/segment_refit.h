@@ -46,6 +46,7 @@ class SegmentRefit {
   double eye_distance_px_;
   PictureFit fit_;
   std::vector<Fitted> pictures_;
+  std::vector<State> last_fits_;
 };
 
 }  // namespace fbs
