@@ -268,6 +268,10 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
   }
+  for (int i = std::getenv("REFIT_END") ? std::atoi(std::getenv("REFIT_END")) : 0; i > 0; --i) {
+    if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
+    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
+  }
   return draft;
 }
 

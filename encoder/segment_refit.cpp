@@ -83,6 +83,66 @@ double box_error(const Picture& a, const Picture& b, const std::array<glm::ivec3
   return sum / ((x1 - x0 + 1) * (y1 - y0 + 1));
 }
 
+std::array<std::int32_t, 8> surround_of(const State& s) {
+  return {s.body[0], s.body[1], s.body[2], s.body[3], s.ground[0], s.ground[1], s.ground[2], s.ground[3]};
+}
+void set_surround(State& s, const std::array<std::int32_t, 8>& v) {
+  for (int i = 0; i < 4; ++i) s.body[i] = v[i], s.ground[i] = v[4 + i];
+}
+
+double frame_error(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.y.samples.size(); ++i) {
+    const int d = a.y.samples[i] - b.y.samples[i];
+    sum += d * d;
+  }
+  return sum / static_cast<double>(a.y.samples.size());
+}
+
+/// Quadratic and target of body and ground, by drawing.
+void refit_surround(SegmentRenderer& renderer, const State& state, const Picture& source,
+                    const Picture& drawn, cv::Mat1d& quadratic, std::array<double, 8>& target) {
+  constexpr int kStep = 64;
+  static const double prior_sigma = std::getenv("REFIT_SP") ? std::atof(std::getenv("REFIT_SP")) : 64;
+  std::array<Picture, 8> up;
+  for (int i = 0; i < 8; ++i) {
+    State s = state;
+    auto v = surround_of(s);
+    v[i] += kStep;
+    set_surround(s, v);
+    up[i] = *renderer.draw(s);
+    v[i] -= 2 * kStep;
+    set_surround(s, v);
+    const Picture down = *renderer.draw(s);
+    // As up - down + 128, halved.
+    for (std::size_t k = 0; k < down.y.samples.size(); ++k)
+      up[i].y.samples[k] = static_cast<std::uint8_t>((up[i].y.samples[k] - down.y.samples[k] + 256) / 2);
+  }
+  cv::Mat1d q = cv::Mat1d::zeros(8, 8), r = cv::Mat1d::zeros(8, 1), left;
+  for (std::size_t k = 0; k < drawn.y.samples.size(); ++k) {
+    double row[8];
+    bool any = false;
+    for (int i = 0; i < 8; ++i) {
+      row[i] = (up[i].y.samples[k] - 128) / double{kStep};
+      any = any || row[i] != 0;
+    }
+    if (!any) continue;
+    const double e = source.y.samples[k] - drawn.y.samples[k];
+    const double w = 1 / ((1 + e * e / 1024) * (1 + e * e / 1024));
+    for (int i = 0; i < 8; ++i) {
+      r(i) += w * row[i] * e;
+      for (int j = 0; j < 8; ++j) q(i, j) += w * row[i] * row[j];
+    }
+  }
+  left = q.clone();
+  for (int i = 0; i < 8; ++i) left(i, i) += 2000 / (prior_sigma * prior_sigma);
+  cv::Mat1d x;
+  cv::solve(left, r, x, cv::DECOMP_CHOLESKY);
+  quadratic = q;
+  const auto now = surround_of(state);
+  for (int i = 0; i < 8; ++i) target[i] = now[i] + x(i);
+}
+
 }  // namespace
 
 SegmentRefit::SegmentRefit(const Setup& setup, const Geometry& geometry, const Pattern& first,
@@ -145,6 +205,21 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
       if (!source) return fail(source.error());
       auto drawn = renderer.draw(state);
       if (!drawn) return fail(drawn.error());
+      static const bool surround = std::getenv("REFIT_SURROUND");
+      if (surround) {
+        Fitted& f = pictures_[t];
+        const auto old = f.surround;
+        refit_surround(renderer, state, *source, *drawn, f.surround_cost, f.surround);
+        State was = state, now = state;
+        std::array<std::int32_t, 8> v;
+        for (int i = 0; i < 8; ++i) v[i] = static_cast<int>(std::lround(old[i]));
+        set_surround(was, v);
+        for (int i = 0; i < 8; ++i) v[i] = static_cast<int>(std::lround(f.surround[i]));
+        set_surround(now, v);
+        frame_[0] += frame_error(*drawn, *source);
+        frame_[1] += frame_error(*renderer.draw(was), *source);
+        frame_[2] += frame_error(*renderer.draw(now), *source);
+      }
       costs.push_back(cost_of(pictures_[t], *source, *drawn, state, renderer.interior_opacity(state),
                               setup.mouth));
       static const double weight = std::getenv("REFIT_K") ? std::atof(std::getenv("REFIT_K")) : 1;
@@ -157,6 +232,21 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
                     costs.back().fit.begin() + kFirstSurround + 8);
           for (LayerCost& layer : costs.back().layers) layer.quadratic *= weight;
         }
+      static const bool guard = std::getenv("REFIT_GUARD");
+      if (guard && pictures_[t].seen) {
+        State now = last_fits_[t];
+        now.body = state.body, now.ground = state.ground;
+        now.picture = state.picture, now.blend = state.blend;
+        const auto v = project_vertices(patterns.scene.geometry.geometry().positions, state);
+        if (box_error(*renderer.draw(now), *source, v) > box_error(*drawn, *source, v)) {
+          last_fits_[t] = state;
+          const PictureCost here = fit_.cost_at(fit_of(state));
+          costs.back().layers[0] = here.layers[0];
+          std::copy_n(here.fit.begin(), kFirstSurround, costs.back().fit.begin());
+          std::copy(here.fit.begin() + kFirstSurround + 8, here.fit.end(),
+                    costs.back().fit.begin() + kFirstSurround + 8);
+        }
+      }
       durations.push_back(pictures_[t].duration);
     }
     auto planned = motion.add(costs, durations);
@@ -173,6 +263,7 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
           if (j == 1 || j == 2) state[j].body = state[0].body, state[j].ground = state[0].ground;
           state[j].picture = state[0].picture;
           state[j].blend = state[0].blend;
+          if (j == 3) frame_[3] += frame_error(*renderer.draw(state[j]), *source);
           sum[j] += box_error(*renderer.draw(state[j]), *source, v);
         }
         ++n;
@@ -180,6 +271,9 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
       if (g + 1 == segment.groups.size()) {
         std::fprintf(stderr, "face box: s0 %.2f f0 %.2f f1 %.2f s1 %.2f\n", sum[0] / n, sum[1] / n,
                      sum[2] / n, sum[3] / n);
+        std::fprintf(stderr, "frame: s0 %.2f f0 %.2f f1 %.2f s1 %.2f\n", frame_[0] / n, frame_[1] / n,
+                     frame_[2] / n, frame_[3] / n);
+        frame_ = {};
         n = 0;
         std::fill(sum, sum + 5, 0.0);
       }

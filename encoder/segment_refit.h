@@ -47,6 +47,7 @@ class SegmentRefit {
   PictureFit fit_;
   std::vector<Fitted> pictures_;
   std::vector<State> last_fits_;
+  std::array<double, 4> frame_{};
 };
 
 }  // namespace fbs
