@@ -266,7 +266,8 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
     if (settings_.rounds > 0)
       if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
+    static const std::size_t every = std::getenv("REFIT_EVERY") ? std::atoi(std::getenv("REFIT_EVERY")) : 1;
+    if (auto chosen = choose(scene, *draft, every); !chosen) return fail(chosen.error());
   }
   for (int i = std::getenv("REFIT_END") ? std::atoi(std::getenv("REFIT_END")) : 0; i > 0; --i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());

@@ -171,9 +171,16 @@ PictureCost SegmentRefit::cost_of(const Fitted& fitted, const Picture& source, c
     static const char* const mode = std::getenv("REFIT_START");
     Fit start = fitted.fit;
     if (mode && mode[0] == 's') start = fit_of(state);
+    static const bool one = std::getenv("REFIT_ONE");
+    if (one) {
+      PictureFit::Refined r = fit_.refined_cost(start);
+      last_fits_.push_back(state_of(r.fit));
+      cost = std::move(r.cost);
+    } else {
     const Fit best = mode && mode[0] == 'k' ? start : fit_.refine(start);
     last_fits_.push_back(state_of(best));
     cost = fit_.cost_at(best);
+    }
   } else {
     cost = cost_unseen(fitted.fit);
     last_fits_.push_back(state_of(fitted.fit));

@@ -43,6 +43,15 @@ Fit PictureFit::refine_mouth(const Fit& start) const {
 PictureCost PictureFit::cost_at(const Fit& fit) const {
   NormalEquations normal(comparison_.columns.count());
   const double constant = add_picture(comparison_, 0, fit, normal);
+  return cost_of_equations(fit, constant, normal);
+}
+
+PictureFit::Refined PictureFit::refined_cost(const Fit& start) const {
+  SingleStep step = gauss_newton_step(comparison_, start);
+  return {step.fit, cost_of_equations(step.fit, step.difference, step.picture)};
+}
+
+PictureCost PictureFit::cost_of_equations(const Fit& fit, double constant, NormalEquations& normal) const {
   const cv::Mat1d all = normal.symmetric();
   const std::vector<int> number = comparison_.columns.numbers();
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
