@@ -33,8 +33,7 @@ class FaceAnalysis {
 
   struct Observation {
     State state;                                      ///< as fitted, in whole units
-    Fit fit;                                          ///< the same, body and ground apart
-    bool seen = true;                                 ///< whether the face is; if not, the fit is a guess
+    bool face = true;                                 ///< whether it shows; else its state is a guess
     PictureCost cost;                                 ///< of other states
     std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
   };
@@ -74,7 +73,7 @@ class FaceAnalysis {
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
-  bool seen_ = true;                        ///< whether it shows the face
+  bool face_shows_ = true;                  ///< in the last picture
   bool begun_ = false;
   PictureAnalysis report_;
 };

@@ -18,6 +18,9 @@ namespace {
 /// little.
 constexpr std::uint64_t kSurroundPictures = 12;
 
+/// Times that states are fitted to what is shown, whatever the effort: a third time gains nothing.
+constexpr int kMaxRefits = 1;
+
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
   PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
@@ -58,6 +61,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.bitrate_kbps = settings.bitrate;
   out.lambda = motion.lambda;
   out.rounds = settings.effort;
+  out.refits = std::min(settings.effort, kMaxRefits);
   return out;
 }
 
@@ -134,8 +138,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       head_(std::move(parts.head)) {
   if (settings.patterns != 1) {
     patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
-    refit_.emplace(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
-                   parts.eye_distance_px);
+    refit_.emplace(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(), parts.eye_distance_px);
   }
 }
 
@@ -205,7 +208,7 @@ Result<void> FaceScene::end_segment() {
   }
   const auto refit = [&](Segment& segment, const SegmentPatterns& patterns) {
     motion_ = segment_motion_;
-    return refit_->run(segment, patterns, scene_.setup, motion_);
+    return refit_->run(segment, patterns, motion_);
   };
   const auto packets = patterns_pass_->end_segment(scene_, seen_, packets_.waiting(), refit);
   if (!packets) return fail(packets.error());

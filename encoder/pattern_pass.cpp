@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
-#include <string_view>
 
 #include "bitstream/payload/pattern_payload.h"
 #include "encoder/patterns/pattern_size.h"
@@ -74,6 +71,10 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene, std::size_t
   return draft;
 }
 
+const State& PatternPass::seen_state(const Scene& scene, std::size_t time) const {
+  return picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
+}
+
 void PatternPass::place(const Scene& scene, Draft& draft) const {
   draft.shown.clear();
   draft.patterns = scene.patterns;
@@ -81,8 +82,7 @@ void PatternPass::place(const Scene& scene, Draft& draft) const {
   for (SequencePattern& p : draft.coded) {
     const std::size_t time = draft.times[p.picture];
     draft.shown.push_back(time);
-    const State& seen = picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
-    draft.patterns.push_back(make_pattern(std::move(p.decoded), seen, scene.geometry));
+    draft.patterns.push_back(make_pattern(std::move(p.decoded), seen_state(scene, time), scene.geometry));
   }
   draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
 }
@@ -233,45 +233,36 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Coded
 Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
   if (auto done = refit(segment_, usable(scene, draft)); !done) return done;
   const std::size_t old = draft.patterns.size() - draft.coded.size();
-  for (std::size_t k = 0; k < draft.coded.size(); ++k)
-    if (picture_ + draft.shown[k] > 0) {
-      Pattern& p = draft.patterns[old + k];
-      p = make_pattern(std::move(p.picture), segment_.states[draft.shown[k]], scene.geometry);
-    }
+  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
+    Pattern& pattern = draft.patterns[old + k];
+    pattern = make_pattern(std::move(pattern.picture), seen_state(scene, draft.shown[k]), scene.geometry);
+  }
   return {};
 }
 
 Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene, count_wanted());
   if (!draft) return draft;
-  static const char* const rounds_env = std::getenv("REFIT");
-  const std::string_view when = rounds_env ? rounds_env : "";
   if (settings_.rounds > 0) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
   }
-  for (const char c : when) {
-    if (c == 'r')
-      if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (c == 'm')
-      if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
-    if (c == 's') {
-      if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
-      if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
-      if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
-    }
-  }
+  // A lone pattern is not far from what the states were fitted to.
+  const int refits = draft->times.size() > 1 ? settings_.refits : 0;
   for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
     if (settings_.rounds > 0)
       if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    static const std::size_t every = std::getenv("REFIT_EVERY") ? std::atoi(std::getenv("REFIT_EVERY")) : 1;
-    if (auto chosen = choose(scene, *draft, every); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, refits > 0 ? kSolveEvery : 1); !chosen)
+      return fail(chosen.error());
   }
-  for (int i = std::getenv("REFIT_END") ? std::atoi(std::getenv("REFIT_END")) : 0; i > 0; --i) {
+  // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
+  // for what solving would: bits of motion for nothing.
+  for (int i = 0; i < refits; ++i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kSolveEvery : 1); !chosen)
+      return fail(chosen.error());
   }
   return draft;
 }
@@ -331,8 +322,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
 }
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
-                                                           std::size_t other_bytes,
-                                                           const StateRefit& refit) {
+                                                           std::size_t other_bytes, const StateRefit& refit) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
   double allowed = 0;
   if (settings_.bitrate_kbps > 0) {

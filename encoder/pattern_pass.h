@@ -23,10 +23,11 @@ struct PatternPassSettings {
   int lone_quantiser = 40;      ///< where a scene is too short for a second pattern
   std::optional<bool> reduced;  ///< size of the patterns; chosen by rate and distortion
   int rounds = 1;               ///< of solving for patterns; 0: pictures are coded as they are
+  int refits = 1;               ///< of fitting states to what is shown
   double lambda = 0;            ///< squared luma levels that a bit is worth
 };
 
-/// Replaces the motion of a segment by one that suits the patterns it is drawn from.
+/// Replaces the motion of a segment by one that suits the patterns that it is drawn from.
 using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
 
 class PatternPass {
@@ -49,7 +50,7 @@ class PatternPass {
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
   /// @param rest   seen state of pattern 0 as coded
   /// @param other_bytes  that the stream has taken beside segments since the last one
-  /// @param refit  called a few times
+  /// @param refit  called for segments with several patterns
   /// @return packets
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest,
                                                               std::size_t other_bytes,
@@ -72,13 +73,15 @@ class PatternPass {
   [[nodiscard]] std::size_t count_wanted() const;
   /// Whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
+  /// Of a pattern that is a picture of the segment.
+  [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
   /// @param every  so many pictures share their modes
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
-  /// Solves, codes and chooses, as often as the settings say.
+  /// Solves, codes, chooses and fits states anew, as often as the settings say.
   [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
   /// Patterns follow the states of their pictures.
   Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);

@@ -40,8 +40,8 @@ Fit gauss_newton(const Comparison& comparison, const Fit& start) {
   return mean_difference(comparison, fit) < mean_difference(comparison, start) ? fit : start;
 }
 
-SingleStep gauss_newton_step(const Comparison& comparison, const Fit& start) {
-  SingleStep out{start, 0, NormalEquations(comparison.columns.count())};
+GaussNewtonStep gauss_newton_step(const Comparison& comparison, const Fit& start) {
+  GaussNewtonStep out{start, 0, NormalEquations(comparison.columns.count())};
   out.difference = add_picture(comparison, 0, start, out.picture);
   NormalEquations normal = out.picture;
   add_priors(comparison.columns, start, start, normal);

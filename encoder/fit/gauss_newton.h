@@ -11,14 +11,12 @@ namespace fbs {
 /// @return `start` where nothing is gained
 [[nodiscard]] Fit gauss_newton(const Comparison& comparison, const Fit& start);
 
-/// A step of the descent on the fine level from `start`: unknowns in the order of comparison.columns.
-/// @param picture  receives the picture's part of the equations
-/// @return nothing when they cannot be solved
-struct SingleStep {
-  Fit fit;
-  double difference;         ///< add_picture() at the start
-  NormalEquations picture;  ///< without the priors
+/// Where one step on the fine level leads, and what it was solved from.
+struct GaussNewtonStep {
+  Fit fit;                  ///< the start when the equations cannot be solved
+  double difference;        ///< add_picture() at the start
+  NormalEquations picture;  ///< at the start, without the priors
 };
-[[nodiscard]] SingleStep gauss_newton_step(const Comparison& comparison, const Fit& start);
+[[nodiscard]] GaussNewtonStep gauss_newton_step(const Comparison& comparison, const Fit& start);
 
 }  // namespace fbs

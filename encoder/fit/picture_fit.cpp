@@ -43,16 +43,16 @@ Fit PictureFit::refine_mouth(const Fit& start) const {
 PictureCost PictureFit::cost_at(const Fit& fit) const {
   NormalEquations normal(comparison_.columns.count());
   const double constant = add_picture(comparison_, 0, fit, normal);
-  return cost_of_equations(fit, constant, normal);
+  return cost_of(fit, constant, normal);
 }
 
-PictureFit::Refined PictureFit::refined_cost(const Fit& start) const {
-  SingleStep step = gauss_newton_step(comparison_, start);
-  return {step.fit, cost_of_equations(step.fit, step.difference, step.picture)};
+PictureCost PictureFit::cost_near(const Fit& start) const {
+  GaussNewtonStep step = gauss_newton_step(comparison_, start);
+  return cost_of(step.fit, step.difference, step.picture);
 }
 
-PictureCost PictureFit::cost_of_equations(const Fit& fit, double constant, NormalEquations& normal) const {
-  const cv::Mat1d all = normal.symmetric();
+PictureCost PictureFit::cost_of(const Fit& fit, double constant, NormalEquations& picture) const {
+  const cv::Mat1d all = picture.symmetric();
   const std::vector<int> number = comparison_.columns.numbers();
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
   for (int i = 0; i < all.rows; ++i)
@@ -62,8 +62,8 @@ PictureCost PictureFit::cost_of_equations(const Fit& fit, double constant, Norma
   // rest. Lambda was found with that.
   const double scale = comparison_.picture.scale(0);
   const double samples = kFitPointSpacing * kFitPointSpacing / (scale * scale);
-  return cost_of(fit, comparison_.pattern.index(), constant,
-                 cv::Mat1d(own * samples * kResidualSigma * kResidualSigma));
+  return fbs::cost_of(fit, comparison_.pattern.index(), constant,
+                      cv::Mat1d(own * samples * kResidualSigma * kResidualSigma));
 }
 
 }  // namespace fbs
