@@ -36,6 +36,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   seen.cost = begun_ ? fit_next(picture) : fit_first(picture);
   begun_ = true;
   seen.state = state_of(now_);
+  seen.face = face_shows_;
   if (surround_) {
     surround_->observe(picture, now_.pose);
     surround_->add_to(seen.cost);
@@ -60,6 +61,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   const HeadVertices vertices = skinned(geometry_, now_.offsets);
   WorkFrame frame = WorkFrame::cut(picture, head_.pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> head = follow_head(picture, vertices, frame);
+  face_shows_ = head.has_value();
   if (!head) {
     now_ = relaxed();
     return cost_unseen(now_);

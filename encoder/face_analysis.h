@@ -33,6 +33,7 @@ class FaceAnalysis {
 
   struct Observation {
     State state;                                      ///< as fitted, in whole units
+    bool face = true;                                 ///< whether it shows; else its state is a guess
     PictureCost cost;                                 ///< of other states
     std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
   };
@@ -72,6 +73,7 @@ class FaceAnalysis {
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
+  bool face_shows_ = true;                  ///< in the last picture
   bool begun_ = false;
   PictureAnalysis report_;
 };

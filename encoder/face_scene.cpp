@@ -7,8 +7,6 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
-#include "bitstream/track.h"
-#include "encoder/plan/expression_penalty.h"
 #include "encoder/rate_target.h"
 #include "encoder/surround/surround_fit.h"
 #include "encoder/track/snake_marks.h"
@@ -23,6 +21,9 @@ constexpr std::uint64_t kSurroundPictures = 12;
 /// Contrast of patterns outside the face. Against full contrast the face takes 3.5 % fewer bytes at the same
 /// PSNR, the frame hardly more; 205 is 1 % better in the face and 1 % worse in the frame.
 constexpr std::int32_t kSurroundContrast = 220;
+
+/// Times that states are fitted to what is shown, whatever the effort: a third time gains nothing.
+constexpr int kMaxRefits = 1;
 
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
@@ -64,6 +65,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.bitrate_kbps = settings.bitrate;
   out.lambda = motion.lambda;
   out.rounds = settings.effort;
+  out.refits = std::min(settings.effort, kMaxRefits);
   return out;
 }
 
@@ -132,22 +134,22 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       analysis_(settings, finder,
                 {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
                  scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),
-      coder_(scene_.setup, parts.seen),
-      planner_(scene_.setup.steps, scene_.setup.parts, expression_penalty(parts.rate.point.lambda)),
-      base_lambda_(parts.rate.point.lambda),
-      lambda_(base_lambda_),
+      motion_(scene_.setup, parts.seen, parts.rate, timing.nominal_duration),
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      parts.eye_distance_px),
       observations_(std::move(parts.observations)),
       seen_(parts.seen),
+      segment_motion_(motion_),
       head_(std::move(parts.head)) {
-  if (settings.patterns != 1)
+  if (settings.patterns != 1) {
     patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
-  if (parts.rate.motion_kbps > 0) budget_.emplace(parts.rate.motion_kbps);
+    refit_.emplace(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(), parts.eye_distance_px);
+  }
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   FaceAnalysis::Observation seen = analysis_.observe(picture);
+  if (refit_) refit_->add(seen, duration);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
   if (!fixed_) learn(picture, seen);
@@ -167,26 +169,14 @@ void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& s
   if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, seen.state);
 }
 
-MotionGroup FaceScene::plan_next_group() {
-  const GroupInput input{coder_, costs_, durations_, timing_.nominal_duration, rate_};
-  if (!budget_) return plan_group(planner_, input, lambda_);
-  const double seconds = seconds_of(durations_, timing_.nominal_duration);
-  PlannedGroup planned = plan_group_within(planner_, input, budget_->allowed(seconds), lambda_, base_lambda_);
-  budget_->spend(planned.bits, seconds);
-  lambda_ = planned.lambda;
-  return std::move(planned.group);
-}
-
 Result<void> FaceScene::end_group() {
   if (durations_.empty()) return {};
-  const MotionGroup group = plan_next_group();
-  const auto payload = coder_.encode(group);
-  if (!payload) return fail(payload.error());
-  rate_.learn(group);
+  auto group = motion_.add(costs_, durations_);
+  if (!group) return fail(group.error());
   if (patterns_pass_)
-    patterns_pass_->add(states_of(group, scene_.setup.steps), *payload);
+    patterns_pass_->add(group->states, std::move(group->payload));
   else
-    packets_.add_motion(*payload);
+    packets_.add_motion(group->payload);
   costs_.clear();
   durations_.clear();
   return patterns_pass_ && patterns_pass_->segment_ends() ? end_segment() : Result<void>{};
@@ -222,8 +212,14 @@ Result<void> FaceScene::end_segment() {
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }
-  const auto packets = patterns_pass_->end_segment(scene_, seen_, packets_.waiting());
+  const auto refit = [&](Segment& segment, const SegmentPatterns& patterns) {
+    motion_ = segment_motion_;
+    return refit_->run(segment, patterns, motion_);
+  };
+  const auto packets = patterns_pass_->end_segment(scene_, seen_, packets_.waiting(), refit);
   if (!packets) return fail(packets.error());
+  segment_motion_ = motion_;
+  refit_->begin_segment();
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   return {};
 }

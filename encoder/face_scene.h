@@ -4,17 +4,16 @@
 #include <memory>
 #include <optional>
 
-#include "bitstream/motion/motion_encoder.h"
 #include "decoder/scene.h"
 #include "encoder/face_analysis.h"
+#include "encoder/motion_track.h"
 #include "encoder/pattern_pass.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/patterns/pattern_coder.h"
-#include "encoder/plan/group_plan.h"
-#include "encoder/plan/rate_control.h"
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
 #include "encoder/scene_timing.h"
+#include "encoder/segment_refit.h"
 #include "encoder/surround/surround_observations.h"
 
 namespace fbs {
@@ -42,7 +41,6 @@ class FaceScene : public SceneEncoder {
   /// Until the scene starts: mouth colours, and what the surround's map is fitted to.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
-  [[nodiscard]] MotionGroup plan_next_group();
   /// Fixes what the scene's head says.
   void fix_head();
   Result<void> write_head();
@@ -55,12 +53,7 @@ class FaceScene : public SceneEncoder {
   PatternCoder patterns_;
   FaceAnalysis analysis_;
 
-  MotionEncoder coder_;
-  TrackPlanner planner_;
-  TrackRate rate_;
-  double base_lambda_;                    ///< that the quality stands for
-  double lambda_;                         ///< of the last group
-  std::optional<RateBudget> budget_;      ///< of the motion, where a rate is set
+  MotionTrack motion_;
   std::vector<PictureCost> costs_;        ///< of the group's pictures
   std::vector<std::uint32_t> durations_;  ///< of the same, 1/90000 s; 0: nominal
   std::uint64_t pictures_ = 0;
@@ -71,6 +64,8 @@ class FaceScene : public SceneEncoder {
   SurroundMap map_;
   CodedState seen_;                           ///< of pattern 0
   std::optional<PatternPass> patterns_pass_;  ///< nothing with one pattern
+  std::optional<SegmentRefit> refit_;         ///< the same
+  MotionTrack segment_motion_;                ///< as before the segment
   SceneHead head_;
   ScenePackets packets_;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
 #include "bitstream/packet.h"
@@ -83,14 +81,19 @@ std::vector<ContrastMap> PatternPass::contrast_maps(const Scene& scene, const Dr
   return out;
 }
 
+Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const {
+  const State& seen = seen_state(scene, time);
+  return p.av1.empty() ? make_pattern(p.decoded, seen, scene.geometry)
+                       : make_coded_pattern(p.decoded, seen, scene.geometry, scene.setup);
+}
+
 void PatternPass::place(const Scene& scene, Draft& draft) const {
   draft.shown.clear();
   draft.patterns = scene.patterns;
   if (picture_ == 0) draft.patterns.clear();
-  for (SequencePattern& p : draft.coded) {
-    const std::size_t time = draft.times[p.picture];
-    draft.shown.push_back(time);
-    draft.patterns.push_back(make_pattern(std::move(p.decoded), seen_state(scene, time), scene.geometry));
+  for (const SequencePattern& p : draft.coded) {
+    draft.shown.push_back(draft.times[p.picture]);
+    draft.patterns.push_back(pattern_of(scene, p, draft.times[p.picture]));
   }
   draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
 }
@@ -194,8 +197,6 @@ Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
   auto coded = code_pattern_sequence(format_, pictures, coding);
   if (!coded) return fail(coded.error());
   draft.coded = std::move(*coded);
-  if (!maps.empty())
-    for (SequencePattern& p : draft.coded) maps[p.picture].expand(p.decoded);
   place(scene, draft);
   return {};
 }
@@ -263,7 +264,13 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
   return out;
 }
 
-Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
+Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
+  if (auto done = refit(segment_, usable(scene, draft)); !done) return done;
+  place(scene, draft);  // what patterns show depends on the states they were seen in
+  return {};
+}
+
+Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene, count_wanted());
   if (!draft) return draft;
   if (settings_.rounds > 0) {
@@ -271,11 +278,21 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene) {
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
   }
+  // A lone pattern is not far from what the states were fitted to.
+  const int refits = draft->times.size() > 1 ? settings_.refits : 0;
   for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
     if (settings_.rounds > 0)
       if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
     if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, 1); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, refits > 0 ? kSolveEvery : 1); !chosen)
+      return fail(chosen.error());
+  }
+  // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
+  // for what solving would: bits of motion for nothing.
+  for (int i = 0; i < refits; ++i) {
+    if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
+    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kSolveEvery : 1); !chosen)
+      return fail(chosen.error());
   }
   return draft;
 }
@@ -337,7 +354,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
 }
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
-                                                           std::size_t other_bytes) {
+                                                           std::size_t other_bytes, const StateRefit& refit) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
   rest_ = rest;
   double allowed = 0;
@@ -351,7 +368,7 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
   if (picture_ == 0 && count_wanted() == 1 && settings_.bitrate_kbps == 0)
     settings_.coding.quantiser = settings_.lone_quantiser;
-  auto draft = make(scene);
+  auto draft = make(scene, refit);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {
     if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,8 +26,12 @@ struct PatternPassSettings {
   std::optional<int> quantiser;  ///< of the patterns; as the point says
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
   int rounds = 1;                ///< of solving for patterns; 0: pictures are coded as they are
+  int refits = 1;                ///< of fitting states to what is shown
   double lambda = 0;             ///< squared luma levels that a bit is worth
 };
+
+/// Replaces the motion of a segment by one that suits the patterns that it is drawn from.
+using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
 
 class PatternPass {
  public:
@@ -48,9 +53,11 @@ class PatternPass {
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
   /// @param rest   seen state of pattern 0 as coded
   /// @param other_bytes  that the stream has taken beside segments since the last one
+  /// @param refit  called for segments with several patterns
   /// @return packets
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest,
-                                                              std::size_t other_bytes);
+                                                              std::size_t other_bytes,
+                                                              const StateRefit& refit);
 
  private:
   /// Patterns of the segment while they are made.
@@ -69,17 +76,22 @@ class PatternPass {
   [[nodiscard]] std::size_t count_wanted() const;
   /// Whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
+  /// Of a pattern that is a picture of the segment.
   [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
   /// Of the patterns in the order of times; none where contrast is the same everywhere.
   [[nodiscard]] std::vector<ContrastMap> contrast_maps(const Scene& scene, const Draft& draft) const;
+  /// As the decoder makes it; with its picture as it is where that is not coded yet.
+  [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
   /// @param every  so many pictures share their modes
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
-  /// Solves, codes and chooses, as often as the settings say.
-  [[nodiscard]] Result<Draft> make(const Scene& scene);
+  /// Solves, codes, chooses and fits states anew, as often as the settings say.
+  [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
+  /// Patterns follow the states of their pictures.
+  Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
   [[nodiscard]] int quantiser_at(bool reduced) const;
   void set_size(bool reduced);
   /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.

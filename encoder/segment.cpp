@@ -4,6 +4,12 @@
 
 namespace fbs {
 
+void Segment::move(std::size_t picture, const State& to) {
+  const State before = std::exchange(states[picture], to);
+  states[picture].picture = before.picture;
+  states[picture].blend = before.blend;
+}
+
 std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
                                   bool first_alone) {
   const bool waits_for_one =

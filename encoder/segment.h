@@ -24,6 +24,9 @@ struct Segment {
   PictureSpool pictures;
   std::vector<Group> groups;
   std::vector<State> states;  ///< of each picture, as coded
+
+  /// Gives a picture another state; its number and its blend modes stay.
+  void move(std::size_t picture, const State& to);
 };
 
 /// Indices of the patterns that a decoder has when it draws the pictures of a group.

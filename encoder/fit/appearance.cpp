@@ -23,6 +23,7 @@ Appearance::Appearance(const SamplePoints& points, const PatternSamples& pattern
       light_(fit.light),
       shade_(interior_opacity(mouth_gap(vertices), pattern.mouth_gap())) {
   for (std::size_t i = 0; i < kLightCount; ++i) light_[i] -= pattern.light()[i];
+  added_ = fit.interior;
   constexpr double kPerGreyLevel = 16;  // units of interior_base()
   const auto base = interior_base(mouth, &YuvColour::y);
   for (std::size_t i = 0; i < kInteriorCount; ++i) interior_[i] = base[i] / kPerGreyLevel + fit.interior[i];
@@ -35,10 +36,14 @@ double Appearance::at(std::size_t point, int level) const {
   for (std::size_t i = 0; i < kLightCount; ++i) value += light_[i] * light[i];
   value = std::clamp(value, 0.0, 255.0);
   const double ramp = points_.mouth_ramp(point);
-  if (ramp < 0 || shade_ == 0) return value;
+  if (ramp < 0 || (shade_ == 0 && pattern_.interior_opacity() == 0)) return value;
   const auto shares = interior_basis(ramp);
-  double inside = 0;
-  for (std::size_t i = 0; i < kInteriorCount; ++i) inside += shares[i] * interior_[i];
+  double inside = 0, brighter = 0;
+  for (std::size_t i = 0; i < kInteriorCount; ++i) {
+    inside += shares[i] * interior_[i];
+    brighter += shares[i] * (added_[i] - pattern_.interior()[i]);
+  }
+  value += pattern_.interior_opacity() * brighter;
   return (value * (kShadeOne - shade_) + inside * shade_) / kShadeOne;
 }
 

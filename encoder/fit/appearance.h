@@ -25,9 +25,10 @@ class Appearance {
   /// Luma; negative where the pattern does not reach.
   [[nodiscard]] double at(std::size_t point, int level) const;
 
-  /// Share of the mouth interior in what is shown, 0..1.
+  /// Share of the mouth interior in what is shown, 0..1: what the pattern shows of it, and what is new.
   [[nodiscard]] double interior_share(std::size_t point) const {
-    return points_.mouth_ramp(point) < 0 ? 0 : shade_ / kShadeOne;
+    const double shade = shade_ / kShadeOne;
+    return points_.mouth_ramp(point) < 0 ? 0 : shade + (1 - shade) * pattern_.interior_opacity();
   }
 
  private:
@@ -37,6 +38,7 @@ class Appearance {
   const PatternSamples& pattern_;
   std::array<double, kLightCount> light_;        ///< that the state has and the pattern has not
   std::array<double, kInteriorCount> interior_;  ///< luma at upper lip, half way and lower lip
+  std::array<double, kInteriorCount> added_;     ///< of it, what the state adds
   std::int32_t shade_;
 };
 

@@ -40,4 +40,13 @@ Fit gauss_newton(const Comparison& comparison, const Fit& start) {
   return mean_difference(comparison, fit) < mean_difference(comparison, start) ? fit : start;
 }
 
+GaussNewtonStep gauss_newton_step(const Comparison& comparison, const Fit& start) {
+  GaussNewtonStep out{start, 0, NormalEquations(comparison.columns.count())};
+  out.difference = add_picture(comparison, 0, start, out.picture);
+  NormalEquations normal = out.picture;
+  add_priors(comparison.columns, start, start, normal);
+  if (const auto x = normal.solve()) add_step(comparison.columns, *x, out.fit);
+  return out;
+}
+
 }  // namespace fbs

@@ -7,9 +7,12 @@ namespace fbs {
 
 PatternSamples::PatternSamples(const SamplePoints& points, const Geometry& geometry,
                                const SeenPattern& pattern)
-    : mouth_gap_(fbs::mouth_gap(deform(geometry.positions, pattern.seen))), index_(pattern.index) {
+    : mouth_gap_(fbs::mouth_gap(deform(geometry.positions, pattern.seen))),
+      interior_opacity_(pattern.interior_opacity),
+      index_(pattern.index) {
   const Fit seen = fit_of(pattern.seen);
   light_ = seen.light;
+  interior_ = seen.interior;
   const PlacedHead head(geometry, seen);
   const LumaPyramid pyramid(pattern.frame);
   for (int level = 0; level < kFitLevels; ++level) {

@@ -26,6 +26,10 @@ void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mout
   comparison_.mouth = mouth;
 }
 
+void PictureFit::set_pattern(const SeenPattern& pattern) {
+  comparison_.pattern = PatternSamples(comparison_.points, comparison_.geometry, pattern);
+}
+
 Fit PictureFit::refine_mouth(const Fit& start) const {
   const Fit fit = refine(start);
   if (!inner_lips_strayed(start)) return fit;
@@ -39,7 +43,16 @@ Fit PictureFit::refine_mouth(const Fit& start) const {
 PictureCost PictureFit::cost_at(const Fit& fit) const {
   NormalEquations normal(comparison_.columns.count());
   const double constant = add_picture(comparison_, 0, fit, normal);
-  const cv::Mat1d all = normal.symmetric();
+  return cost_of(fit, constant, normal);
+}
+
+PictureCost PictureFit::cost_near(const Fit& start) const {
+  GaussNewtonStep step = gauss_newton_step(comparison_, start);
+  return cost_of(step.fit, step.difference, step.picture);
+}
+
+PictureCost PictureFit::cost_of(const Fit& fit, double constant, NormalEquations& picture) const {
+  const cv::Mat1d all = picture.symmetric();
   const std::vector<int> number = comparison_.columns.numbers();
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
   for (int i = 0; i < all.rows; ++i)
@@ -49,8 +62,8 @@ PictureCost PictureFit::cost_at(const Fit& fit) const {
   // rest. Lambda was found with that.
   const double scale = comparison_.picture.scale(0);
   const double samples = kFitPointSpacing * kFitPointSpacing / (scale * scale);
-  return cost_of(fit, comparison_.pattern.index(), constant,
-                 cv::Mat1d(own * samples * kResidualSigma * kResidualSigma));
+  return fbs::cost_of(fit, comparison_.pattern.index(), constant,
+                      cv::Mat1d(own * samples * kResidualSigma * kResidualSigma));
 }
 
 }  // namespace fbs
