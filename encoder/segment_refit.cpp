@@ -6,8 +6,9 @@
 namespace fbs {
 namespace {
 
-/// How much more the state of a pattern's picture counts than another's: what is drawn from the pattern is
-/// fitted to the state in which it was seen. Between 3 and 30 all is alike; 1 loses half the gain.
+/// How much more the state of a pattern's picture counts than another's: all that is drawn from the pattern
+/// is fitted to the state in which it was seen. More costs bits of motion; 3 and 30 gain 0.3 % of the rate
+/// less in the face (four clips).
 constexpr double kPatternWeight = 10;
 
 constexpr int kFirstSurround = first_of(PartId::kBody);

@@ -12,7 +12,10 @@
 namespace fbs {
 
 /// Each picture is drawn as the decoder draws it and then taken for a pattern seen in the picture's own
-/// state. Without the pictures of the video it keeps about a kilobyte for each.
+/// state, about which the cost of others follows from the picture's source. A picture that is a pattern keeps
+/// its state, so that the others have something to be fitted to. Body and ground keep the costs that they
+/// had: fitted anew by drawing with each of their numbers changed, they gained 0.6 % in the frame (four
+/// clips) and took longer than all else. Keeps about a kilobyte for each picture.
 class SegmentRefit {
  public:
   /// @param first            pattern 0

@@ -48,6 +48,7 @@ TEST(FaceAnalysis, FirstPictureIsInTheStateItWasSeenIn) {
   Session session({});
   const auto first = session.observe(0);
   EXPECT_EQ(first.state, session.seen());
+  EXPECT_TRUE(first.face);
   EXPECT_EQ(session.report().confidence, 1);
   EXPECT_TRUE(session.report().face);
 }
@@ -94,6 +95,7 @@ TEST(FaceAnalysis, HoldsThePoseAndRelaxesTheExpressionWhileTheFaceIsLost) {
   ASSERT_GT(offset(last), 0);
   for (int t = 0; t < 20; ++t) {
     const auto lost = session.observe(black);
+    EXPECT_FALSE(lost.face);
     EXPECT_EQ(lost.state.pose, last.pose);
     EXPECT_LE(offset(lost.state), offset(last) + kControlCount) << "rounded to whole units";
     last = lost.state;

@@ -142,6 +142,17 @@ TEST(InStreamOrder, EachPacketComesOnceAndNotBeforeWhatItNeeds) {
   }
 }
 
+TEST(Segment, AMovedPictureKeepsItsNumberAndItsModes) {
+  Segment segment = segment_of({3}, 40);
+  segment.states[1].blend.fill(BlendMode::kByTime);
+  State to;
+  to.pose[kShiftX] = 77;
+  segment.move(1, to);
+  EXPECT_EQ(segment.states[1].pose, to.pose);
+  EXPECT_EQ(segment.states[1].picture, 41);
+  EXPECT_EQ(segment.states[1].blend[0], BlendMode::kByTime);
+}
+
 TEST(InStreamOrder, SceneStartsWithItsFirstPattern) {
   const Numbers shown = {0, 9, 5};
   const Segment segment = segment_of({5, 5});

@@ -181,5 +181,34 @@ TEST(PictureFit, CostNamesThePatternAndIsLowerForTheOneThatShowsMore) {
   EXPECT_LT(second.constant, 0.1 * first.constant);
 }
 
+TEST(PictureFit, CostNearAStartIsThatAtARefinedFit) {
+  FittedScene s;
+  State truth = s.seen, start = s.seen;
+  truth.pose[kShiftX] += 32;
+  truth.light[kLightOffset] += 4 * 16;
+  s.set_picture(truth);
+  const PictureCost near = s.fit.cost_near(fit_of(start)), at = s.fit.cost_at(s.fit.refine(fit_of(start)));
+  EXPECT_NEAR(near.fit[kShiftX], at.fit[kShiftX], 0.1 * 32);
+  EXPECT_LT(cv::norm(near.quadratic() - at.quadratic()), 0.1 * cv::norm(at.quadratic()));
+}
+
+// A picture that was drawn with a mouth interior shows how the interior's colours should change.
+TEST(PictureFit, APatternDrawnWithAnInteriorLeavesItsColoursFree) {
+  FittedScene s;
+  const State open = with_open_mouth(s.seen);
+  State brighter = open;
+  brighter.interior.fill(24 * 16);
+  const WorkFrame drawn = WorkFrame::cut(s.drawn(open), {160, 96}, 48, false);
+  const auto fitted = [&](double opacity) {
+    s.fit.set_pattern({drawn, open, 0, opacity});
+    s.set_picture(brighter);
+    const PictureCost cost = s.fit.cost_near(fit_of(open));
+    return cost.fit[first_of(PartId::kMouthInterior) + kInteriorMiddle];
+  };
+  EXPECT_EQ(fitted(0), 0);
+  EXPECT_GT(fitted(1), 8 * 16);
+  EXPECT_LT(fitted(1), 28 * 16);
+}
+
 }  // namespace
 }  // namespace fbs
