@@ -64,10 +64,15 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
       ->check(CLI::Range(0.1, 10000.0))
       ->excludes("--quality");
-  verb->add_option(
-          "--patterns", a.patterns,
-          "Number of patterns; 1 sends one picture and then only motion (default: chosen by the encoder)")
+  verb->add_option("--patterns", a.patterns,
+                   "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
+                   "then only motion (default: chosen by the encoder)")
       ->check(CLI::Range(1, 64));
+  verb->add_option(
+          "--effort", a.effort,
+          "Rounds of optimising patterns: 0 is fastest, each more takes as long again and gains less")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 9));
   verb->add_option(
       "--marks", a.marks,
       "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "
@@ -83,7 +88,6 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_flag("--allow-no-face", a.allow_no_face,
                  "Encode a video without a face as a still picture instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary");
-  verb->add_option("--effort", a.effort)->check(CLI::Range(0, 9))->group(kHiddenGroup);
   verb->add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
   verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);

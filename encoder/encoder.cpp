@@ -65,6 +65,11 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
     return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
   if (settings.bitrate < 0 || settings.seconds < 0 || settings.motion_bitrate < 0)
     return fail(ErrorCode::kInvalidArgument, "a negative rate or length");
+  if (settings.patterns < 0 || settings.patterns > kMaxPatterns)
+    return fail(ErrorCode::kInvalidArgument, "number of patterns outside 0..64");
+  if (settings.pattern_quantiser < -1 || settings.pattern_quantiser > 63)
+    return fail(ErrorCode::kInvalidArgument, "quantiser of patterns outside 0..63");
+  if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   Setup setup;
   setup.format = format;

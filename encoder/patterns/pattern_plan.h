@@ -43,14 +43,14 @@ struct PatternPlan {
 };
 
 struct PlanInput {
-  double bytes = 0;                      ///< that the patterns may take
-  std::span<const BlendLoss> losses;     ///< at least one, rising in patterns
-  const CodingCosts* full = nullptr;     ///< null: this size is not wanted
+  double bytes = 0;                   ///< that the patterns may take
+  std::span<const BlendLoss> losses;  ///< at least one, rising in patterns
+  const CodingCosts* full = nullptr;  ///< null: this size is not wanted
   const CodingCosts* reduced = nullptr;
 };
 
-/// The plan within the bytes whose predicted face and frame PSNR have the largest mean; where none is, the one
-/// with the fewest bytes. Considers numbers of patterns between those of the losses, and all quantisers.
+/// The plan within the bytes whose predicted face and frame PSNR have the largest mean; where none is, the
+/// one with the fewest bytes. Considers numbers of patterns between those of the losses, and all quantisers.
 [[nodiscard]] PatternPlan plan_patterns(const PlanInput& input);
 
 }  // namespace fbs

@@ -309,6 +309,17 @@ TEST(Encoder, RefusesSettingsOutOfRange) {
   settings = {};
   settings.face = -1;
   EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  for (const int patterns : {-1, kMaxPatterns + 1}) {
+    settings = {};
+    settings.patterns = patterns;
+    EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument) << patterns;
+  }
+  settings = {};
+  settings.pattern_quantiser = 64;
+  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  settings = {};
+  settings.effort = -1;
+  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
   VideoFormat small = format, large = format;
   small.width = 63;
   large.height = 8193;
