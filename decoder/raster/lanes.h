@@ -103,7 +103,8 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 }
 
 /// All bits of each product.
-[[nodiscard, gnu::always_inline]] inline std::array<SignedWideLanes, 2> multiply_wide(SignedLanes a, SignedLanes b) {
+[[nodiscard, gnu::always_inline]] inline std::array<SignedWideLanes, 2> multiply_wide(SignedLanes a,
+                                                                                      SignedLanes b) {
   using Array = std::array<std::int16_t, kLaneCount>;
   const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
   std::array<std::int32_t, kLaneCount> out;
