@@ -114,8 +114,8 @@ class TextureSampler {
     return (steps + static_cast<std::uint16_t>(row.first)) >> 8;
   }
 
-  /// @param fx  share of the right samples, 1/256, 0..256
-  /// @param fy  of the lower samples, 1/256, 0..255
+  /// @param fx  share of the right samples, 1/256, 0..255
+  /// @param fy  of the lower samples, the same
   static Lanes bilinear(Lanes top_left, Lanes top_right, Lanes bottom_left, Lanes bottom_right, Lanes fx,
                         Lanes fy) {
     const Lanes gx = 256 - fx;
