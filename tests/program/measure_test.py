@@ -29,7 +29,7 @@ class Measure(ProgramTest):
 
     def test_inspect_motion_by_part_sums_to_the_motion(self):
         reported = json.loads(self.succeed("inspect", TALK_FBS, "--json"))
-        self.assertEqual(set(reported["motion"]), {*STATE, "durations", "packets"})
+        self.assertEqual(set(reported["motion"]), {*STATE, "durations", "blend", "packets"})
         # Each is rounded to a byte.
         self.assertAlmostEqual(sum(reported["motion"].values()), reported["bytes"]["motion"], delta=len(reported["motion"]) / 2)
         self.assertTrue(all(size >= 0 for size in reported["motion"].values()), reported["motion"])
