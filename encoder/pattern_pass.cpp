@@ -98,7 +98,7 @@ void PatternPass::place(const Scene& scene, Draft& draft) const {
   draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
 }
 
-SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) const {
+SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
   SegmentPatterns out{{*scene.geometry, scene.setup.mouth, draft.patterns}, {}};
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   for (const std::size_t arrived : draft.arrived) {

@@ -83,7 +83,7 @@ class PatternPass {
   /// As the decoder makes it; with its picture as it is where that is not coded yet.
   [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
-  [[nodiscard]] SegmentPatterns usable(const Scene& scene, const Draft& draft) const;
+  [[nodiscard]] static SegmentPatterns usable(const Scene& scene, const Draft& draft);
   /// @param every  so many pictures share their modes
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);

@@ -9,23 +9,23 @@ namespace {
 constexpr double kStayBits = 0.06, kChangeBits = 8;
 
 std::vector<BlendMode> cheapest(std::span<const ModeErrors> errors, std::size_t region, double lambda) {
-  constexpr auto n = static_cast<std::size_t>(kBlendModeCount);
-  std::array<double, n> cost{};
+  constexpr auto kCount = static_cast<std::size_t>(kBlendModeCount);
+  std::array<double, kCount> cost{};
   cost.fill(lambda * kChangeBits);
   cost[0] = lambda * kStayBits;  // before the first picture all modes are kByState
-  std::vector<std::array<std::uint8_t, n>> from(errors.size());
+  std::vector<std::array<std::uint8_t, kCount>> from(errors.size());
   for (std::size_t t = 0; t < errors.size(); ++t) {
     if (t > 0) {
       const std::size_t best = std::min_element(cost.begin(), cost.end()) - cost.begin();
-      std::array<double, n> next{};
-      for (std::size_t m = 0; m < n; ++m) {
+      std::array<double, kCount> next{};
+      for (std::size_t m = 0; m < kCount; ++m) {
         const double stay = cost[m] + lambda * kStayBits, change = cost[best] + lambda * kChangeBits;
         from[t][m] = static_cast<std::uint8_t>(stay <= change ? m : best);
         next[m] = std::min(stay, change);
       }
       cost = next;
     }
-    for (std::size_t m = 0; m < n; ++m) cost[m] += errors[t][region][m];
+    for (std::size_t m = 0; m < kCount; ++m) cost[m] += errors[t][region][m];
   }
   std::vector<BlendMode> out(errors.size());
   std::size_t mode = std::min_element(cost.begin(), cost.end()) - cost.begin();

@@ -111,8 +111,7 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
       for (const SurfaceRun& run : runs[r]) {
         sample_luma(source_run(picture, run, *pattern.texture, s.still), pattern.luma, run.count, e);
         const float* t = target.row(run.row) + run.first;
-        for (int i = 0; i < run.count; ++i)
-          e[i] = static_cast<std::int16_t>(e[i] - static_cast<int>(t[i] + 0.5F));
+        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - rounded(t[i]));
         e += run.count;
       }
       return error;

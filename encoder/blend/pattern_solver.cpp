@@ -105,7 +105,7 @@ std::size_t PatternSolver::bytes() const {
   return taps * sizeof(Tap);
 }
 
-void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) const {
+void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) {
   for (const Tap& t : taps) {
     const ReducedPlane& plane = planes[t.pattern];
     const RunValue f = factor(t.source, t.weight, luma);
@@ -126,7 +126,7 @@ void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool lum
 }
 
 void PatternSolver::draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma,
-                                    PatternPlanes& planes) const {
+                                    PatternPlanes& planes) {
   for (const Tap& t : taps) {
     ReducedPlane& plane = planes[t.pattern];
     const RunValue f = factor(t.source, t.weight, luma);
@@ -150,7 +150,7 @@ void PatternSolver::draw_transposed(const Taps& taps, const ReducedPlane& pictur
   }
 }
 
-void PatternSolver::draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) const {
+void PatternSolver::draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) {
   for (const Tap& t : taps) {
     const SourceRun& s = t.source;
     const RunValue light = plane == 0 ? s.offset : RunValue{};

@@ -59,11 +59,12 @@ class PatternSolver {
   /// With which a sample of the planes is used in all pictures together.
   [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
   /// Samples as drawn without what does not depend on the patterns. out += A planes
-  void draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) const;
+  static void draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out);
   /// planes += A^T picture
-  void draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma, PatternPlanes& planes) const;
+  static void draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma,
+                              PatternPlanes& planes);
   /// out += what light and interior add.
-  void draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) const;
+  static void draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out);
 
   BlendScene scene_;
   int reduction_;

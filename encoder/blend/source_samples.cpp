@@ -132,7 +132,7 @@ void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, s
       sample = std::clamp(sample + source.gain * (sample - 128.0F) + offset, 0.0F, 255.0F);
       sample += source.opacity * (source.interior[0] - sample);
     }
-    out[i] = static_cast<std::int16_t>(sample + 0.5F);
+    out[i] = static_cast<std::int16_t>(rounded(sample));
   };
   if (!is_inside(source, count, luma)) {
     for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step, offset += source.offset.step)

@@ -13,6 +13,11 @@
 
 namespace fbs {
 
+/// Of a sample, which is never negative; lround takes several times as long.
+[[nodiscard]] inline int rounded(float sample) {
+  return static_cast<int>(sample + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
+}
+
 /// A plane at a reduced size.
 struct ReducedPlane {
   int width = 0, height = 0;
