@@ -15,9 +15,9 @@ struct EncoderSettings {
   int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
   int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion
-  int effort = 1;                        ///< rounds of making patterns for their use
-  int face = 0;                          ///< which face to follow, the largest being 0
-  std::optional<Marks> marks;            ///< by hand, for the first picture; automatic otherwise
+  int effort = 1;  ///< 0: patterns are pictures as they are; 1: solved for; 2: and states fitted twice
+  int face = 0;    ///< which face to follow, the largest being 0
+  std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
   bool refine = true;          ///< fit the state to the picture; off only to measure what it gains
