@@ -55,10 +55,11 @@ void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contras
 
 }  // namespace
 
-ContrastMap::ContrastMap(int width, int height, const TextureMesh& texture, std::int32_t surround)
-    : luma_(draw_shares(width, height, PlaneScale::kLuma, texture)),
-      chroma_(draw_shares((width + 1) / 2, (height + 1) / 2, PlaneScale::kChroma, texture)),
-      surround_(surround) {}
+ContrastMap::ContrastMap(const Setup& setup, const TextureMesh& texture)
+    : luma_(draw_shares(setup.format.width, setup.format.height, PlaneScale::kLuma, texture)),
+      chroma_(draw_shares((setup.format.width + 1) / 2, (setup.format.height + 1) / 2, PlaneScale::kChroma,
+                          texture)),
+      surround_(setup.contrast) {}
 
 void ContrastMap::expand(Picture& picture) const {
   Contrasts inverse = contrasts(surround_);

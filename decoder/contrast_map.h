@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
 
@@ -12,10 +13,10 @@ namespace fbs {
 /// The contrast of each sample of a pattern as it is coded.
 class ContrastMap {
  public:
-  /// @param texture   of the pattern: full contrast inside the face's outline, the surround's from the ring
-  ///                  outwards, linear between
-  /// @param surround  kMinContrast..kContrastOne
-  ContrastMap(int width, int height, const TextureMesh& texture, std::int32_t surround);
+  /// @param setup    its picture size and contrast, kMinContrast..kContrastOne
+  /// @param texture  of the pattern: full contrast inside the face's outline, the setup's from the ring
+  ///                 outwards, linear between
+  ContrastMap(const Setup& setup, const TextureMesh& texture);
 
   /// From a pattern as it is coded to what it shows.
   void expand(Picture& picture) const;

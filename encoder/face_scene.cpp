@@ -22,9 +22,6 @@ constexpr std::uint64_t kSurroundPictures = 12;
 /// PSNR, the frame hardly more; 205 is 1 % better in the face and 1 % worse in the frame.
 constexpr std::int32_t kSurroundContrast = 220;
 
-/// Times that patterns are solved for, whatever the effort. A second loses 2 % in the face for 1 % in the
-/// frame.
-constexpr int kMaxSolves = 1;
 /// Times that states are fitted to what is shown, whatever the effort. The first gains 4 % of the rate in the
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
@@ -68,7 +65,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
   out.lambda = motion.lambda;
-  out.rounds = std::min(settings.effort, kMaxSolves);
+  out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
   out.refits = std::min(settings.effort, kMaxRefits);
   return out;
 }
@@ -142,29 +139,30 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      parts.eye_distance_px),
       observations_(std::move(parts.observations)),
-      seen_(parts.seen),
-      segment_motion_(motion_),
       head_(std::move(parts.head)) {
   if (settings.patterns != 1) {
-    patterns_pass_.emplace(scene_.setup.format, pass_settings(settings, parts.rate.point));
-    refit_.emplace(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(), parts.eye_distance_px);
+    second_pass_.emplace(
+        PatternPass(scene_.setup.format, pass_settings(settings, parts.rate.point), parts.seen),
+        SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
+                     parts.eye_distance_px),
+        motion_);
   }
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   FaceAnalysis::Observation seen = analysis_.observe(picture);
-  if (refit_) refit_->add(seen, duration);
+  if (second_pass_) second_pass_->refit.add(seen, duration);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
   if (!fixed_) learn(picture, seen);
-  if (patterns_pass_)
-    if (auto added = patterns_pass_->add(picture); !added) return added;
+  if (second_pass_)
+    if (auto added = second_pass_->patterns.add(picture); !added) return added;
   ++pictures_;
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
   if (fixed_ || pictures_ < timing_.lookahead) return {};
   fix_head();
-  return patterns_pass_ ? Result<void>{} : write_head();
+  return second_pass_ ? Result<void>{} : write_head();
 }
 
 void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
@@ -177,13 +175,13 @@ Result<void> FaceScene::end_group() {
   if (durations_.empty()) return {};
   auto group = motion_.add(costs_, durations_);
   if (!group) return fail(group.error());
-  if (patterns_pass_)
-    patterns_pass_->add(group->states, std::move(group->payload));
+  if (second_pass_)
+    second_pass_->patterns.add(group->states, std::move(group->payload));
   else
     packets_.add_motion(group->payload);
   costs_.clear();
   durations_.clear();
-  return patterns_pass_ && patterns_pass_->segment_ends() ? end_segment() : Result<void>{};
+  return second_pass_ && second_pass_->patterns.segment_ends() ? end_segment() : Result<void>{};
 }
 
 void FaceScene::fix_head() {
@@ -211,26 +209,26 @@ Result<void> FaceScene::write_head() {
 Result<void> FaceScene::end_segment() {
   if (!fixed_) fix_head();
   if (!packets_.started()) {
-    scene_.setup.patterns = patterns_pass_->store();
+    scene_.setup.patterns = second_pass_->patterns.store();
     scene_.setup.contrast = kSurroundContrast;
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }
   const auto refit = [&](Segment& segment, const SegmentPatterns& patterns) {
-    motion_ = segment_motion_;
-    return refit_->run(segment, patterns, motion_);
+    motion_ = second_pass_->motion;
+    return second_pass_->refit.run(segment, patterns, motion_);
   };
-  const auto packets = patterns_pass_->end_segment(scene_, seen_, packets_.waiting(), refit);
+  const auto packets = second_pass_->patterns.end_segment(scene_, packets_.waiting(), refit);
   if (!packets) return fail(packets.error());
-  segment_motion_ = motion_;
-  refit_->begin_segment();
+  second_pass_->motion = motion_;
+  second_pass_->refit.begin_segment();
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   return {};
 }
 
 Result<void> FaceScene::finish() {
   if (auto ended = end_group(); !ended) return ended;
-  if (patterns_pass_) return end_segment();
+  if (second_pass_) return end_segment();
   if (!fixed_) fix_head();
   return packets_.started() ? Result<void>{} : write_head();
 }

@@ -44,7 +44,7 @@ class FaceScene : public SceneEncoder {
   /// Fixes what the scene's head says.
   void fix_head();
   Result<void> write_head();
-  /// With several patterns: writes what has been held back.
+  /// With several patterns: codes and writes what has been held back.
   Result<void> end_segment();
 
   SceneTiming timing_;
@@ -62,10 +62,12 @@ class FaceScene : public SceneEncoder {
   SurroundObservations observations_;  ///< empty from start() on
   bool fixed_ = false;                 ///< whether fix_head() has been called
   SurroundMap map_;
-  CodedState seen_;                           ///< of pattern 0
-  std::optional<PatternPass> patterns_pass_;  ///< nothing with one pattern
-  std::optional<SegmentRefit> refit_;         ///< the same
-  MotionTrack segment_motion_;                ///< as before the segment
+  struct SecondPass {
+    PatternPass patterns;
+    SegmentRefit refit;
+    MotionTrack motion;  ///< as before the segment
+  };
+  std::optional<SecondPass> second_pass_;  ///< nothing with one pattern
   SceneHead head_;
   ScenePackets packets_;
 };

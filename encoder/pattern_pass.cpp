@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bitstream/packet.h"
+#include "decoder/contrast_map.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
 
@@ -32,8 +33,9 @@ double fps_of(const VideoFormat& format) {
 
 }  // namespace
 
-PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings)
-    : format_(format), settings_(settings) {
+PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
+                         const CodedState& rest)
+    : format_(format), settings_(settings), rest_(rest), point_(settings.point) {
   const double bytes = 1.5 * format.width * format.height;
   store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
 }
@@ -50,7 +52,7 @@ bool PatternPass::segment_ends() const {
   // The motion of a whole segment may be sent before its first picture is shown.
   if (segment_.states.size() + kMaxGroupPictures > kMaxWaitingPictures) return true;
   if (settings_.count > 0) return false;
-  const double seconds = std::min(kSegmentSeconds, (store_ - 1) / settings_.point.per_second);
+  const double seconds = std::min(kSegmentSeconds, (store_ - 1) / point_.per_second);
   return static_cast<double>(segment_.states.size()) >= std::max(1.0, seconds * fps_of(format_));
 }
 
@@ -70,15 +72,6 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene, std::size_t
 
 const State& PatternPass::seen_state(const Scene& scene, std::size_t time) const {
   return picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
-}
-
-std::vector<ContrastMap> PatternPass::contrast_maps(const Scene& scene, const Draft& draft) const {
-  std::vector<ContrastMap> out;
-  if (scene.setup.contrast == kContrastOne) return out;
-  for (const std::size_t time : draft.times)
-    out.emplace_back(format_.width, format_.height, scene.geometry->texture_mesh(seen_state(scene, time)),
-                     scene.setup.contrast);
-  return out;
 }
 
 Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const {
@@ -120,56 +113,59 @@ Result<double> PatternPass::loss_between(const Scene& scene, std::size_t count) 
 int PatternPass::quantiser_at(bool reduced) const {
   if (settings_.quantiser) return *settings_.quantiser;
   const int halvings = reduced ? 1 : 0;
-  return quantiser_of(settings_.point, format_.width >> halvings, format_.height >> halvings);
+  return quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
 }
 
 void PatternPass::set_size(bool reduced) {
-  settings_.coding.reduced = reduced;
-  settings_.coding.quantiser = quantiser_at(reduced);
+  coding_.reduced = reduced;
+  coding_.quantiser = quantiser_at(reduced);
 }
 
 std::size_t PatternPass::count_wanted() const {
   const std::size_t pictures = segment_.states.size();
   const double seconds = static_cast<double>(pictures) / fps_of(format_);
-  const std::size_t wanted =
-      settings_.count > 0 ? settings_.count : std::lround(settings_.point.per_second * seconds);
+  const std::size_t wanted = settings_.count > 0 ? settings_.count : std::lround(point_.per_second * seconds);
   return std::min(std::clamp<std::size_t>(wanted, 1, store_), pictures);
 }
 
-Result<void> PatternPass::choose_size(const Scene& scene) {
-  if (settings_.reduced) {
-    set_size(*settings_.reduced);
-    return {};
+Result<std::vector<Picture>> PatternPass::trial_pictures(std::size_t count) {
+  const std::vector<std::size_t> times = regular_times(segment_.states.size(), count_wanted());
+  std::vector<Picture> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    auto picture = segment_.pictures.read(times[(times.size() - count) / 2 + k]);
+    if (!picture) return fail(picture.error());
+    out.push_back(std::move(*picture));
   }
+  return out;
+}
+
+Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   const std::size_t count = count_wanted();
-  if (count < 2) {
-    set_size(false);
-    return {};
-  }
+  if (count < 2) return false;
   const auto loss = loss_between(scene, count);
   if (!loss) return fail(loss.error());
-  // A few neighbours from the middle of the segment.
-  const std::vector<std::size_t> times = regular_times(segment_.states.size(), count);
-  const std::size_t trials = std::min(kTrialPictures, count);
-  std::vector<Picture> some;
-  for (std::size_t k = 0; k < trials; ++k) {
-    auto picture = segment_.pictures.read(times[(count - trials) / 2 + k]);
-    if (!picture) return fail(picture.error());
-    some.push_back(std::move(*picture));
-  }
+  const auto pictures = trial_pictures(std::min(kTrialPictures, count));
+  if (!pictures) return fail(pictures.error());
+  const auto cost = [&](bool reduced) {
+    SequenceSettings trial = coding_;
+    trial.speed = kTrialSpeed;
+    trial.reduced = reduced;
+    trial.quantiser = quantiser_at(reduced);
+    return trial_cost(format_, *pictures, trial);
+  };
+  const auto full = cost(false);
+  if (!full) return fail(full.error());
+  const auto reduced = cost(true);
+  if (!reduced) return fail(reduced.error());
   double motion = 0;
   for (const Segment::Group& g : segment_.groups) motion += static_cast<double>(g.payload.size());
-  SequenceSettings trial = settings_.coding;
-  trial.speed = kTrialSpeed;
-  trial.reduced = false;
-  trial.quantiser = quantiser_at(false);
-  const auto full = trial_cost(format_, some, trial);
-  if (!full) return fail(full.error());
-  trial.reduced = true;
-  trial.quantiser = quantiser_at(true);
-  const auto reduced = trial_cost(format_, some, trial);
+  return fbs::reduced_size_pays(*loss, count, motion, *full, *reduced);
+}
+
+Result<void> PatternPass::choose_size(const Scene& scene) {
+  const auto reduced = settings_.reduced ? Result<bool>(*settings_.reduced) : reduced_size_pays(scene);
   if (!reduced) return fail(reduced.error());
-  set_size(reduced_size_pays(*loss, count, motion, *full, *reduced));
+  set_size(*reduced);
   return {};
 }
 
@@ -189,11 +185,13 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
 }
 
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
-  SequenceSettings coding = settings_.coding;
+  SequenceSettings coding = coding_;
   coding.speed = speed;
   std::vector<Picture> pictures = draft.pictures;
-  const std::vector<ContrastMap> maps = contrast_maps(scene, draft);
-  for (std::size_t k = 0; k < maps.size(); ++k) maps[k].reduce(pictures[k]);
+  if (scene.setup.contrast != kContrastOne)
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+      ContrastMap(scene.setup, scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
+          .reduce(pictures[k]);
   auto coded = code_pattern_sequence(format_, pictures, coding);
   if (!coded) return fail(coded.error());
   draft.coded = std::move(*coded);
@@ -273,20 +271,16 @@ Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const S
 Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene, count_wanted());
   if (!draft) return draft;
-  if (settings_.rounds > 0) {
+  if (settings_.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
+    if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
+  if (auto coded = code(scene, *draft, coding_.speed); !coded) return fail(coded.error());
   // A lone pattern is not far from what the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.refits : 0;
-  for (int round = 0; round < std::max(settings_.rounds, 1); ++round) {
-    if (settings_.rounds > 0)
-      if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
-    if (auto coded = code(scene, *draft, settings_.coding.speed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, refits > 0 ? kSolveEvery : 1); !chosen)
-      return fail(chosen.error());
-  }
+  if (auto chosen = choose(scene, *draft, refits > 0 ? kSolveEvery : 1); !chosen) return fail(chosen.error());
   // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
   // for what solving would: bits of motion for nothing.
   for (int i = 0; i < refits; ++i) {
@@ -301,8 +295,8 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
   int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
   while (high - low > 4) {
     const int middle = (low + high) / 2;
-    settings_.point = PatternPoint::at(middle);
-    set_size(settings_.coding.reduced);
+    point_ = PatternPoint::at(middle);
+    set_size(coding_.reduced);
     auto draft = draft_of(scene, count_wanted());
     if (!draft) return fail(draft.error());
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
@@ -314,15 +308,15 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
 }
 
 Result<void> PatternPass::aim(const Scene& scene, double bytes) {
-  settings_.point = PatternPoint::at(50);
+  point_ = PatternPoint::at(50);
   for (int trial = 0; trial < 2; ++trial) {
-    const bool before = settings_.coding.reduced;
+    const bool before = coding_.reduced;
     if (auto sized = choose_size(scene); !sized) return sized;
-    if (trial > 0 && settings_.coding.reduced == before) break;
+    if (trial > 0 && coding_.reduced == before) break;
     const auto quality = quality_for(scene, bytes);
     if (!quality) return fail(quality.error());
-    settings_.point = PatternPoint::at(*quality);
-    set_size(settings_.coding.reduced);
+    point_ = PatternPoint::at(*quality);
+    set_size(coding_.reduced);
   }
   return {};
 }
@@ -335,7 +329,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
   for (int trial = 0;; ++trial) {
     const auto taken = bytes_of(scene.setup, draft);
     if (!taken) return fail(taken.error());
-    const int quantiser = settings_.coding.quantiser;
+    const int quantiser = coding_.quantiser;
     (*taken > bytes ? over : under) = quantiser;
     const double miss = std::abs(std::log(*taken / bytes));
     if (trial == 0 || miss < nearest) {
@@ -346,17 +340,16 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
     const int step = static_cast<int>(std::lround(std::log(*taken / bytes) / std::log(kBytesPerStep)));
     const int next = std::clamp(quantiser + step, over + 1, under - 1);
     if (next == quantiser) break;
-    settings_.coding.quantiser = next;
-    if (auto coded = code(scene, draft, settings_.coding.speed); !coded) return coded;
+    coding_.quantiser = next;
+    if (auto coded = code(scene, draft, coding_.speed); !coded) return coded;
   }
   draft = std::move(best);
   return choose(scene, draft, 1);
 }
 
-Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const CodedState& rest,
-                                                           std::size_t other_bytes, const StateRefit& refit) {
+Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::size_t other_bytes,
+                                                           const StateRefit& refit) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
-  rest_ = rest;
   double allowed = 0;
   if (settings_.bitrate_kbps > 0) {
     const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
@@ -367,7 +360,7 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, const C
   }
   // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
   if (picture_ == 0 && count_wanted() == 1 && settings_.bitrate_kbps == 0)
-    settings_.coding.quantiser = settings_.lone_quantiser;
+    coding_.quantiser = settings_.lone_quantiser;
   auto draft = make(scene, refit);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {

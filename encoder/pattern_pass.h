@@ -9,7 +9,6 @@
 
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/pattern/pattern_packet.h"
-#include "decoder/contrast_map.h"
 #include "decoder/scene.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
@@ -18,14 +17,13 @@
 namespace fbs {
 
 struct PatternPassSettings {
-  PatternPoint point{};     ///< where no bitrate is set
-  std::size_t count = 0;    ///< patterns of the scene; 0: as the point says
-  double bitrate_kbps = 0;  ///< of all packets; 0: the point decides
-  SequenceSettings coding;
+  PatternPoint point{};          ///< where no bitrate is set
+  std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
+  double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
   int lone_quantiser = 40;       ///< where a scene is too short for a second pattern
   std::optional<int> quantiser;  ///< of the patterns; as the point says
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
-  int rounds = 1;                ///< of solving for patterns; 0: pictures are coded as they are
+  bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
   int refits = 1;                ///< of fitting states to what is shown
   double lambda = 0;             ///< squared luma levels that a bit is worth
 };
@@ -35,7 +33,8 @@ using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPat
 
 class PatternPass {
  public:
-  PatternPass(const VideoFormat& format, const PatternPassSettings& settings);
+  /// @param rest  seen state of pattern 0 as coded
+  PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
 
   /// The next picture of the scene.
   Result<void> add(const Picture& picture) { return segment_.pictures.add(picture); }
@@ -51,12 +50,10 @@ class PatternPass {
 
   /// Codes the segment and begins another.
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
-  /// @param rest   seen state of pattern 0 as coded
   /// @param other_bytes  that the stream has taken beside segments since the last one
   /// @param refit  called for segments with several patterns
   /// @return packets
-  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, const CodedState& rest,
-                                                              std::size_t other_bytes,
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
                                                               const StateRefit& refit);
 
  private:
@@ -74,12 +71,13 @@ class PatternPass {
   /// Error of the pictures between lossless patterns.
   [[nodiscard]] Result<double> loss_between(const Scene& scene, std::size_t count);
   [[nodiscard]] std::size_t count_wanted() const;
-  /// Whether patterns are coded at half width and height.
+  /// Decides whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
+  [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
+  /// Neighbours from the middle of the segment.
+  [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::size_t count);
   /// Of a pattern that is a picture of the segment.
   [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
-  /// Of the patterns in the order of times; none where contrast is the same everywhere.
-  [[nodiscard]] std::vector<ContrastMap> contrast_maps(const Scene& scene, const Draft& draft) const;
   /// As the decoder makes it; with its picture as it is where that is not coded yet.
   [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
@@ -88,7 +86,7 @@ class PatternPass {
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, int speed);
-  /// Solves, codes, chooses and fits states anew, as often as the settings say.
+  /// Solves, codes, chooses and fits states anew, as the settings say.
   [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
   /// Patterns follow the states of their pictures.
   Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
@@ -118,12 +116,15 @@ class PatternPass {
 
   VideoFormat format_;
   PatternPassSettings settings_;
+  CodedState rest_;  ///< seen state of the scene's first pattern
   std::int32_t store_;
   std::int32_t picture_ = 0;  ///< number of the segment's first
   double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
   Segment segment_;
-  CodedState rest_{};  ///< seen state of the scene's first pattern
   Coders coders_;
+  // How the segment is coded: as the settings say, or what meets the bitrate.
+  PatternPoint point_;
+  SequenceSettings coding_;
 };
 
 }  // namespace fbs

@@ -15,6 +15,15 @@ TextureMesh texture() {
   return scene.patterns.front().texture;
 }
 
+/// @param contrast  of the surround
+Setup setup(std::int32_t contrast, int width = kWidth, int height = kHeight) {
+  Setup out;
+  out.format.width = width;
+  out.format.height = height;
+  out.contrast = contrast;
+  return out;
+}
+
 /// Two grey levels in turn.
 Picture two_levels(std::uint8_t low, std::uint8_t high) {
   Picture out(kWidth, kHeight);
@@ -33,7 +42,7 @@ glm::ivec2 middle(const TextureMesh& mesh) {
 TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
   const TextureMesh mesh = texture();
   Picture p = two_levels(28, 228);
-  ContrastMap(kWidth, kHeight, mesh, 128).reduce(p);
+  ContrastMap(setup(128), mesh).reduce(p);
   const glm::ivec2 in = middle(mesh);
   EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
   EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
@@ -45,7 +54,7 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
 TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
   const TextureMesh mesh = texture();
   for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {
-    const ContrastMap map(kWidth, kHeight, mesh, surround);
+    const ContrastMap map(setup(surround), mesh);
     for (int level = 0; level < 256; level += 5) {
       const Picture original =
           two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(255 - level));
@@ -60,7 +69,7 @@ TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
 
 TEST(ContrastMap, LargestDeviationsStayInRange) {
   Picture p = two_levels(0, 255);
-  ContrastMap(kWidth, kHeight, texture(), kMinContrast).expand(p);
+  ContrastMap(setup(kMinContrast), texture()).expand(p);
   EXPECT_EQ(p.y.row(1)[0], 0);
   EXPECT_EQ(p.y.row(1)[1], 255);
 }
@@ -68,7 +77,7 @@ TEST(ContrastMap, LargestDeviationsStayInRange) {
 TEST(ContrastMap, GoesOverFromFaceToSurroundAcrossTheRing) {
   const TextureMesh mesh = texture();
   Picture p = two_levels(228, 228);
-  ContrastMap(kWidth, kHeight, mesh, kMinContrast).reduce(p);
+  ContrastMap(setup(kMinContrast), mesh).reduce(p);
   int between = 0;
   for (const std::uint8_t v : p.y.samples) between += v > 185 && v < 221;
   EXPECT_GT(between, 50);
@@ -80,7 +89,7 @@ TEST(ContrastMap, TakesAnySize) {
     Picture p(w, h);
     for (auto& v : p.y.samples) v = 200;
     const Picture before = p;
-    const ContrastMap map(w, h, texture(), 200);
+    const ContrastMap map(setup(200, w, h), texture());
     map.reduce(p);
     EXPECT_NE(p.y.samples, before.y.samples);
     map.expand(p);

@@ -161,7 +161,7 @@ TEST(PatternPass, SegmentEndsBeforeTooManyPicturesWait) {
       PatternPassSettings settings;
       settings.point = PatternPoint::at(0);
       settings.count = count;
-      PatternPass pass(format, settings);
+      PatternPass pass(format, settings, {});
       const std::vector<State> group(kMaxGroupPictures);
       int pictures = 0;
       while (!pass.segment_ends() && pictures < 2 * kMaxWaitingPictures) {
