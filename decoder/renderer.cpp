@@ -70,11 +70,6 @@ std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) 
   return out;
 }
 
-std::array<InteriorColours, 3> colours_of(const MouthInterior& mouth, const ScreenMesh& mesh) {
-  return {interior_colours(mouth, &YuvColour::y, mesh.interior), interior_colours(mouth, &YuvColour::u, {}),
-          interior_colours(mouth, &YuvColour::v, {})};
-}
-
 }  // namespace
 
 Result<void> Renderer::render(const Scene& scene, const State& state, const PictureView& out) {
@@ -86,7 +81,8 @@ Result<void> Renderer::render(const Scene& scene, const State& state, const Pict
 
   const MeshBlend blend = blend_of(scene, state);
   const ScreenMesh mesh = scene.geometry ? scene.geometry->screen_mesh(state) : ScreenMesh{};
-  const Drawing drawing{mesh, blend, sources_of(scene, blend), colours_of(scene.setup.mouth, mesh), targets};
+  const Drawing drawing{mesh, blend, sources_of(scene, blend),
+                        interior_colours(scene.setup.mouth, mesh.interior), targets};
   draw_base(drawing);
   if (!scene.geometry) return {};
   SurroundPainter surround(drawing);

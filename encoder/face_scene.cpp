@@ -108,7 +108,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
   const State seen = state_of(seen_coded, scene.setup.steps);
   const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->pattern.av1)};
-  auto pattern = PatternPacketWriter().encode({&first_syntax, 1}, scene.setup, 0);
+  auto pattern = encode_first_pattern(first_syntax, scene.setup);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
   SurroundObservations observations(format);

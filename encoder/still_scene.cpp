@@ -37,7 +37,7 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
   if (!setup_payload) return fail(setup_payload.error());
   head.setup = std::move(*setup_payload);
   const PatternSyntax first_pattern{0, 0, CodedState{}, std::move(coded->pattern.av1)};
-  auto pattern_payload = PatternPacketWriter().encode({&first_pattern, 1}, setup, 0);
+  auto pattern_payload = encode_first_pattern(first_pattern, setup);
   if (!pattern_payload) return fail(pattern_payload.error());
   head.pattern = std::move(*pattern_payload);
 

@@ -74,6 +74,11 @@ Result<std::vector<std::uint8_t>> PatternPacketWriter::encode(std::span<const Pa
   return std::move(*payload);
 }
 
+Result<std::vector<std::uint8_t>> encode_first_pattern(const PatternSyntax& pattern, const Setup& setup) {
+  constexpr std::int32_t kPicturesBefore = 0;  // no picture has a state yet
+  return PatternPacketWriter().encode({&pattern, 1}, setup, kPicturesBefore);
+}
+
 Result<std::vector<PatternSyntax>> PatternPacketReader::decode(std::span<const std::uint8_t> payload,
                                                                const Setup& setup, std::int32_t pictures) {
   const bool needed_first = std::exchange(needs_first_, true);  // until the whole packet has been read

@@ -27,6 +27,13 @@ class PatternPacketWriter {
   PatternMemory memory_;
 };
 
+/// The packet of a scene's first pattern, as a new PatternPacketWriter codes it.
+/// @param pattern  slot 0, picture 0
+/// @return kInvalidArgument  another slot or picture, a state beyond CodedLimits, no AV1 bytes, a payload
+///                           beyond kMaxPayload
+[[nodiscard]] Result<std::vector<std::uint8_t>> encode_first_pattern(const PatternSyntax& pattern,
+                                                                     const Setup& setup);
+
 /// Reads the pattern packets of one scene, in stream order.
 class PatternPacketReader {
  public:

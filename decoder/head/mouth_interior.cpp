@@ -16,6 +16,16 @@ static_assert(kOpaqueGap == kInteriorOpaque, "one head unit of gap is one step o
 
 constexpr int kLevelOneLog2 = 4;  // 1/16 grey level
 
+/// @param levels  1/16 grey level
+InteriorColours rounded(const std::array<std::int32_t, kInteriorCount>& levels) {
+  InteriorColours colours{};
+  for (std::size_t i = 0; i < kInteriorCount; ++i) {
+    const std::int32_t level = (levels[i] + (1 << (kLevelOneLog2 - 1))) >> kLevelOneLog2;
+    colours[i] = static_cast<std::uint8_t>(std::clamp(level, 0, 255));
+  }
+  return colours;
+}
+
 }  // namespace
 
 bool is_inner_lip(std::size_t vertex) {
@@ -44,15 +54,12 @@ std::array<std::int32_t, kInteriorCount> interior_base(const MouthInterior& mout
   return {upper, (upper + lower) / 2, lower};
 }
 
-InteriorColours interior_colours(const MouthInterior& mouth, std::uint8_t YuvColour::*component,
-                                 const std::array<std::int32_t, kInteriorCount>& added) {
-  const auto base = interior_base(mouth, component);
-  InteriorColours colours{};
-  for (std::size_t i = 0; i < kInteriorCount; ++i) {
-    const std::int32_t rounded = (base[i] + added[i] + (1 << (kLevelOneLog2 - 1))) >> kLevelOneLog2;
-    colours[i] = static_cast<std::uint8_t>(std::clamp(rounded, 0, 255));
-  }
-  return colours;
+std::array<InteriorColours, 3> interior_colours(const MouthInterior& mouth,
+                                                const std::array<std::int32_t, kInteriorCount>& added_luma) {
+  auto luma = interior_base(mouth, &YuvColour::y);
+  for (std::size_t i = 0; i < kInteriorCount; ++i) luma[i] += added_luma[i];
+  return {rounded(luma), rounded(interior_base(mouth, &YuvColour::u)),
+          rounded(interior_base(mouth, &YuvColour::v))};
 }
 
 }  // namespace fbs

@@ -35,9 +35,9 @@ inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0
 /// The values of one plane at the upper lip, half way and at the lower lip.
 using InteriorColours = std::array<std::uint8_t, kInteriorCount>;
 
-/// interior_base() with the state's offsets added, rounded to grey levels.
-/// @param added  1/16 grey level; State::interior for luma, zero for chroma
-[[nodiscard]] InteriorColours interior_colours(const MouthInterior& mouth, std::uint8_t YuvColour::*component,
-                                               const std::array<std::int32_t, kInteriorCount>& added);
+/// Of the Y, U and V planes: interior_base(), in luma with the state's offsets added, rounded to grey levels.
+/// @param added_luma  State::interior, 1/16 grey level
+[[nodiscard]] std::array<InteriorColours, 3> interior_colours(
+    const MouthInterior& mouth, const std::array<std::int32_t, kInteriorCount>& added_luma);
 
 }  // namespace fbs

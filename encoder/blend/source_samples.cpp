@@ -35,9 +35,7 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
   if (!std::all_of(t.corners.begin(), t.corners.end(), is_inner_lip)) return;
   const std::int32_t opacity = interior_opacity(picture.mesh.mouth_gap, texture.mouth_gap);
   if (opacity == 0) return;
-  const std::array<InteriorColours, 3> colours = {
-      interior_colours(picture.mouth, &YuvColour::y, picture.mesh.interior),
-      interior_colours(picture.mouth, &YuvColour::u, {}), interior_colours(picture.mouth, &YuvColour::v, {})};
+  const auto colours = interior_colours(picture.mouth, picture.mesh.interior);
   std::int32_t ramp = 0;
   for (const std::uint16_t v : t.corners) ramp += mouth_ramp(v);
   const float at =

@@ -80,9 +80,7 @@ void add_broken(Folder& folder, const Bytes& talk) {
   folder.add("lost_key.fbs", joined(lost_key), 0, "kInvalidStream");
   const Setup setup = must(decode_setup(pieces[0].payload));
   const PatternSyntax pattern = patterns_of(pieces).front().patterns.front();
-  const auto encoded_alone = [&](const PatternSyntax& p) {
-    return must(PatternPacketWriter().encode({&p, 1}, setup, 0));
-  };
+  const auto encoded_alone = [&](const PatternSyntax& p) { return must(encode_first_pattern(p, setup)); };
   PatternSyntax bad_av1 = pattern, wrong_size = pattern;
   bad_av1.av1.resize(pattern.av1.size() / 2);
   folder.add("bad_av1.fbs", with(PacketType::kPattern, encoded_alone(bad_av1)), 0, "kInvalidStream");

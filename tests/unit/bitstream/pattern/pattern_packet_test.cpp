@@ -40,6 +40,10 @@ Setup sample_setup() {
   return setup;
 }
 
+Bytes first_packet() {
+  return *encode_first_pattern(first_pattern(), sample_setup());
+}
+
 /// A frame as libaom writes them: a header that others have too, and data.
 Bytes random_frame(std::mt19937& random, std::size_t size) {
   Bytes frame = {0x30, 0x30, 0x02, 0x40, 0x0F, 0x00, 0x81, 0x06, 0x99, 0xC0};
@@ -108,11 +112,10 @@ TEST(PatternPacket, UsualPatternsCostFewBytesBesideTheirData) {
 
 TEST(PatternPacket, FirstPatternForgetsTheSceneBefore) {
   std::mt19937 random(3);
-  PatternPacketWriter writer, fresh;
+  PatternPacketWriter writer;
   ASSERT_TRUE(writer.encode(Patterns{first_pattern()}, sample_setup(), 0));
   ASSERT_TRUE(writer.encode(random_packet(random, 10, 50), sample_setup(), kPictures));
-  EXPECT_EQ(*writer.encode(Patterns{first_pattern()}, sample_setup(), 0),
-            *fresh.encode(Patterns{first_pattern()}, sample_setup(), 0));
+  EXPECT_EQ(*writer.encode(Patterns{first_pattern()}, sample_setup(), 0), first_packet());
 }
 
 TEST(PatternPacket, CopyOfAWriterContinuesAlone) {
@@ -123,8 +126,7 @@ TEST(PatternPacket, CopyOfAWriterContinuesAlone) {
   const Patterns next = random_packet(random, 3, 50);
   ASSERT_TRUE(copy.encode(random_packet(random, 20, 50), sample_setup(), kPictures));
   PatternPacketReader reader;
-  ASSERT_TRUE(reader.decode(*PatternPacketWriter().encode(Patterns{first_pattern()}, sample_setup(), 0),
-                            sample_setup(), 0));
+  ASSERT_TRUE(reader.decode(first_packet(), sample_setup(), 0));
   EXPECT_EQ(*reader.decode(*writer.encode(next, sample_setup(), kPictures), sample_setup(), kPictures), next);
 }
 
@@ -165,6 +167,18 @@ TEST(PatternPacket, RefusesPacketsOfNoneTooManyOrMoreThanTheFirst) {
   EXPECT_TRUE(refused({first_pattern(), later_pattern()}));
 }
 
+TEST(PatternPacket, FirstPatternIsOfSlotZeroAndPictureZero) {
+  const auto accepted = [](std::int32_t slot, std::int32_t picture) {
+    PatternSyntax pattern = first_pattern();
+    pattern.slot = slot;
+    pattern.picture = picture;
+    return encode_first_pattern(pattern, sample_setup()).has_value();
+  };
+  EXPECT_TRUE(accepted(0, 0));
+  EXPECT_FALSE(accepted(1, 0));
+  EXPECT_FALSE(accepted(0, 1));
+}
+
 TEST(PatternPacket, TooManyBytesLeaveTheWriterAsItWas) {
   PatternPacketWriter writer;
   ASSERT_TRUE(writer.encode(Patterns{first_pattern()}, sample_setup(), 0));
@@ -179,8 +193,7 @@ TEST(PatternPacket, TooManyBytesLeaveTheWriterAsItWas) {
 /// A scene's first pattern has been read.
 PatternPacketReader begun() {
   PatternPacketReader reader;
-  EXPECT_TRUE(reader.decode(*PatternPacketWriter().encode(Patterns{first_pattern()}, sample_setup(), 0),
-                            sample_setup(), 0));
+  EXPECT_TRUE(reader.decode(first_packet(), sample_setup(), 0));
   return reader;
 }
 
@@ -224,8 +237,7 @@ TEST(PatternPacket, NothingIsReadBeforeTheFirstPatternOrBehindAnError) {
   PatternPacketReader reader = begun();
   EXPECT_FALSE(reader.decode(later, sample_setup(), 0));
   EXPECT_FALSE(reader.decode(later, sample_setup(), kPictures)) << "contexts are lost";
-  EXPECT_TRUE(reader.decode(*PatternPacketWriter().encode(Patterns{first_pattern()}, sample_setup(), 0),
-                            sample_setup(), 0));
+  EXPECT_TRUE(reader.decode(first_packet(), sample_setup(), 0));
 }
 
 /// Likely bits cost next to nothing: a small packet could hold any number of patterns.
@@ -245,8 +257,7 @@ TEST(PatternPacket, HasNoMorePatternsThanAStore) {
     encoder.bit(memory.has_next, k < kMaxPatterns);
   }
   PatternPacketReader reader;
-  ASSERT_TRUE(reader.decode(*PatternPacketWriter().encode(Patterns{first_pattern()}, sample_setup(), 0),
-                            sample_setup(), 0));
+  ASSERT_TRUE(reader.decode(first_packet(), sample_setup(), 0));
   const auto read = reader.decode(encoder.finish(), sample_setup(), kPictures);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, ErrorCode::kTooLarge);
@@ -254,7 +265,7 @@ TEST(PatternPacket, HasNoMorePatternsThanAStore) {
 
 TEST(PatternPacket, SurvivesRandomBytes) {
   std::mt19937 random(8);
-  const Bytes first = *PatternPacketWriter().encode(Patterns{first_pattern()}, sample_setup(), 0);
+  const Bytes first = first_packet();
   const Bytes later = later_packet(random_packet(random, 5, 30));
   for (int i = 0; i < 5000; ++i) {
     Bytes payload = i % 2 == 0 ? first : later;

@@ -39,12 +39,15 @@ TEST(MouthInterior, RampGoesFromTheUpperToTheLowerInnerLip) {
 TEST(MouthInterior, ColoursAreTheSetupsPlusTheStates) {
   const MouthInterior mouth{{101, 90, 160}, {20, 93, 250}};
   EXPECT_EQ(interior_base(mouth, &YuvColour::y), (std::array<std::int32_t, 3>{1616, 968, 320}));
-  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {}), (InteriorColours{101, 61, 20})) << "60.5 goes up";
-  EXPECT_EQ(interior_colours(mouth, &YuvColour::u, {}), (InteriorColours{90, 92, 93}));
-  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {7, -1, -8}), (InteriorColours{101, 60, 20}));
-  EXPECT_EQ(interior_colours(mouth, &YuvColour::v, {kMaxLight, 0, kMaxLight}),
-            (InteriorColours{255, 205, 255}));
-  EXPECT_EQ(interior_colours(mouth, &YuvColour::y, {-kMaxLight, 0, -9}), (InteriorColours{0, 61, 19}));
+  const auto colours = [&](const std::array<std::int32_t, kInteriorCount>& added_luma) {
+    return interior_colours(mouth, added_luma);
+  };
+  const InteriorColours u = {90, 92, 93}, v = {160, 205, 250};
+  using Planes = std::array<InteriorColours, 3>;
+  EXPECT_EQ(colours({}), (Planes{{{101, 61, 20}, u, v}})) << "60.5 goes up";
+  EXPECT_EQ(colours({7, -1, -8}), (Planes{{{101, 60, 20}, u, v}}));
+  EXPECT_EQ(colours({-kMaxLight, 0, -9}), (Planes{{{0, 61, 19}, u, v}}));
+  EXPECT_EQ(colours({kMaxLight, 0, kMaxLight}), (Planes{{{255, 61, 255}, u, v}}));
 }
 
 }  // namespace
