@@ -22,6 +22,9 @@ constexpr double kStoreBytes = 256e6;
 constexpr int kTrialSpeed = 6;
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
+// Modes that are chosen anew later on are shared by so many pictures.
+constexpr std::size_t kDraftEvery = 3;
+
 // To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
 constexpr int kMaxRateTrials = 4;
 constexpr double kBytesPerStep = 1.045;
@@ -274,18 +277,18 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
   if (settings_.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
     if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, kSolveEvery); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, kDraftEvery); !chosen) return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
   if (auto coded = code(scene, *draft, coding_.speed); !coded) return fail(coded.error());
   // A lone pattern is not far from what the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.refits : 0;
-  if (auto chosen = choose(scene, *draft, refits > 0 ? kSolveEvery : 1); !chosen) return fail(chosen.error());
+  if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftEvery : 1); !chosen) return fail(chosen.error());
   // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
   // for what solving would: bits of motion for nothing.
   for (int i = 0; i < refits; ++i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kSolveEvery : 1); !chosen)
+    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftEvery : 1); !chosen)
       return fail(chosen.error());
   }
   return draft;

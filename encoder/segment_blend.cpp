@@ -10,7 +10,10 @@ namespace fbs {
 namespace {
 
 // Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
-constexpr int kCompareWidth = 240, kSolveWidth = 400;
+constexpr int kCompareWidth = 240, kSolveWidth = 260;
+
+/// Every so many pictures count when patterns are solved for.
+constexpr std::size_t kSolveEvery = 2;
 
 /// Fewer of a long segment or of large pictures are solved for, so that they take no more memory than this,
 /// bytes.
@@ -40,24 +43,56 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
   return {};
 }
 
+/// Planes that are solved for together, and at which reduction of the picture's size.
+struct PlaneGroup {
+  std::vector<std::size_t> planes;  ///< 0..2
+  int reduction;
+
+  [[nodiscard]] static Plane Picture::*member(std::size_t plane) {
+    return std::array{&Picture::y, &Picture::u, &Picture::v}[plane];
+  }
+  /// Of a plane's own samples.
+  [[nodiscard]] int plane_reduction(std::size_t plane) const {
+    return plane == 0 ? reduction : reduction - 1;
+  }
+
+  [[nodiscard]] SolvedPlanes of(const Picture& picture) const {
+    std::vector<ReducedPlane> reduced;
+    for (const std::size_t p : planes) reduced.push_back(reduce(picture.*member(p), plane_reduction(p)));
+    return SolvedPlanes(reduced);
+  }
+};
+
+/// Luma and chroma together where chroma is no smaller.
+std::vector<PlaneGroup> plane_groups(int luma_reduction) {
+  if (luma_reduction > 0) return {{{0, 1, 2}, luma_reduction}};
+  return {{{0}, 0}, {{1, 2}, 1}};
+}
+
+/// The problem of a group, and the planes of its pictures.
+struct GroupProblem {
+  PlaneGroup group;
+  PatternSolver solver;
+  std::vector<SolvedPlanes> targets;
+};
+
 /// Every so many pictures of the segment are solved for.
 std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns, glm::ivec2 size,
-                        int luma_reduction, int chroma_reduction) {
+                        std::span<const GroupProblem> problems) {
   const std::size_t pictures = segment.states.size();
-  const auto bytes_at = [&](int reduction) {
-    PatternSolver one(patterns.scene, reduction);
+  std::size_t bytes = 0;
+  for (const GroupProblem& p : problems) {
+    PatternSolver one(patterns.scene, p.group.reduction, p.group.planes);
     one.add_picture(segment.states[pictures / 2], patterns.available.back(), size);
-    return one.bytes();
-  };
-  std::size_t bytes = bytes_at(luma_reduction);
-  if (chroma_reduction != luma_reduction) bytes += bytes_at(chroma_reduction);
+    const glm::ivec2 reduced = size >> p.group.reduction;
+    bytes += one.bytes() + sizeof(glm::vec4) * reduced.x * reduced.y;
+  }
   return std::max(kSolveEvery, (pictures * bytes + kSolverBytes - 1) / kSolverBytes);
 }
 
-/// Adds what `now` has over `before`, planes at a reduced size, to a plane at full size.
-void add_change(const ReducedPlane& now, ReducedPlane before, int reduction, Plane& plane) {
-  for (std::size_t i = 0; i < before.samples.size(); ++i)
-    before.samples[i] = now.samples[i] - before.samples[i];
+/// Adds what a plane has over what it had, at a reduced size, to itself at full size.
+void add_change(ReducedPlane change, const ReducedPlane& before, int reduction, Plane& plane) {
+  for (std::size_t i = 0; i < change.samples.size(); ++i) change.samples[i] -= before.samples[i];
   const float scale = 1.0F / static_cast<float>(1 << reduction);
   for (int y = 0; y < plane.height; ++y) {
     const float v = (static_cast<float>(y) + 0.5F) * scale - 0.5F;
@@ -65,16 +100,19 @@ void add_change(const ReducedPlane& now, ReducedPlane before, int reduction, Pla
     for (int x = 0; x < plane.width; ++x) {
       const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
       row[x] = static_cast<std::uint8_t>(
-          std::clamp(std::lround(static_cast<float>(row[x]) + bilinear(before, u, v)), 0L, 255L));
+          std::clamp(std::lround(static_cast<float>(row[x]) + bilinear(change, u, v)), 0L, 255L));
     }
   }
 }
 
-/// The planes of a picture as they are solved for, and at which reduction of their own samples.
-struct SolvedPlane {
-  Plane Picture::*plane;
-  int reduction;
-};
+void add_change(const SolvedPlanes& now, const SolvedPlanes& before, const PlaneGroup& group,
+                Picture& picture) {
+  for (std::size_t lane = 0; lane < group.planes.size(); ++lane) {
+    const std::size_t p = group.planes[lane];
+    const auto l = static_cast<int>(lane);
+    add_change(now.plane(l), before.plane(l), group.plane_reduction(p), picture.*PlaneGroup::member(p));
+  }
+}
 
 }  // namespace
 
@@ -115,22 +153,16 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
                                             std::size_t count, const SolverSettings& settings) {
   const std::span<const Pattern> all = patterns.scene.patterns;
   const glm::ivec2 size(all.front().picture.width(), all.front().picture.height());
-  const int luma_reduction = reduction_to(kSolveWidth, all.front().picture);
-  const int chroma_reduction = std::max(luma_reduction, 1);
-  const std::array<SolvedPlane, 3> planes = {{{&Picture::y, luma_reduction},
-                                              {&Picture::u, chroma_reduction - 1},
-                                              {&Picture::v, chroma_reduction - 1}}};
-  PatternSolver luma(patterns.scene, luma_reduction), chroma(patterns.scene, chroma_reduction);
-  std::array<std::vector<ReducedPlane>, 3> targets;
-  const std::size_t every = solve_every(segment, patterns, size, luma_reduction, chroma_reduction);
+  std::vector<GroupProblem> problems;
+  for (const PlaneGroup& g : plane_groups(reduction_to(kSolveWidth, all.front().picture)))
+    problems.push_back({g, PatternSolver(patterns.scene, g.reduction, g.planes), {}});
   const auto done =
-      for_each_picture(segment, patterns, every,
+      for_each_picture(segment, patterns, solve_every(segment, patterns, size, problems),
                        [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-                         luma.add_picture(segment.states[t], available, size);
-                         if (chroma_reduction != luma_reduction)
-                           chroma.add_picture(segment.states[t], available, size);
-                         for (std::size_t i = 0; i < 3; ++i)
-                           targets[i].push_back(reduce(picture.*planes[i].plane, planes[i].reduction));
+                         for (GroupProblem& p : problems) {
+                           p.solver.add_picture(segment.states[t], available, size);
+                           p.targets.push_back(p.group.of(picture));
+                         }
                        });
   if (!done) return fail(done.error());
 
@@ -143,13 +175,12 @@ Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatte
     if (!picture) return fail(picture.error());
     out.push_back(std::move(*picture));
   }
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const GroupProblem& p : problems) {
     PatternPlanes anchors;
-    for (const Picture& p : out) anchors.push_back(reduce(p.*planes[i].plane, planes[i].reduction));
-    const PatternSolver& solver = i == 0 || chroma_reduction == luma_reduction ? luma : chroma;
-    const PatternPlanes solved = solver.solve(targets[i], anchors, count, i, settings);
+    for (const Picture& picture : out) anchors.push_back(p.group.of(picture));
+    const PatternPlanes solved = p.solver.solve(p.targets, anchors, count, settings);
     for (std::size_t k = out.size() - count; k < out.size(); ++k)
-      add_change(solved[k], anchors[k], planes[i].reduction, out[k].*planes[i].plane);
+      add_change(solved[k], anchors[k], p.group, out[k]);
   }
   out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(count));
   return out;

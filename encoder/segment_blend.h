@@ -17,10 +17,6 @@ struct SegmentPatterns {
   std::vector<AvailablePatterns> available;  ///< of each group
 };
 
-/// Every so many pictures count when patterns are solved for; all of them gain 0.05 dB and take three times
-/// as long.
-inline constexpr std::size_t kSolveEvery = 3;
-
 /// Modes of each picture by rate-distortion cost. Luma only, at a reduced size.
 /// @param lambda  squared luma levels that a bit is worth
 /// @param every   so many pictures share their modes, and the first of them stands for all

@@ -104,16 +104,21 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
     if (runs[r].empty()) continue;
     std::size_t count = 0;
     for (const SurfaceRun& run : runs[r]) count += run.count;
+    Samples shown;
+    shown.reserve(count);
+    for (const SurfaceRun& run : runs[r]) {
+      const float* t = target.row(run.row) + run.first;
+      for (int i = 0; i < run.count; ++i) shown.push_back(static_cast<std::int16_t>(rounded(t[i])));
+    }
     const auto sample = [&](BlendSource s) {
       const ReducedPattern& pattern = reduced_[available[s.pattern]];
       Samples error(count);
       std::int16_t* e = error.data();
       for (const SurfaceRun& run : runs[r]) {
-        sample_luma(source_run(picture, run, *pattern.texture, s.still), pattern.luma, run.count, e);
-        const float* t = target.row(run.row) + run.first;
-        for (int i = 0; i < run.count; ++i) e[i] = static_cast<std::int16_t>(e[i] - rounded(t[i]));
+        sample_luma(source_run(picture, run, *pattern.texture, s.still), run, pattern.luma, e);
         e += run.count;
       }
+      for (std::size_t i = 0; i < count; ++i) error[i] = static_cast<std::int16_t>(error[i] - shown[i]);
       return error;
     };
     RegionGram gram;

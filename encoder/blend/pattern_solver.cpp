@@ -2,69 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "decoder/blend/mesh_blend.h"
 
 namespace fbs {
 namespace {
 
+/// A lane is done when its residual has fallen to this share, squared.
+constexpr double kConverged = 1e-4;
+
 constexpr float kToOne = 1.0F / kMeshWeightOne;
-
-/// The share of the texture in the samples of a run.
-RunValue factor(const SourceRun& s, const RunValue& weight, bool luma) {
-  const float share = (luma ? 1 + s.gain : 1) * (1 - s.opacity);
-  return {share * weight.first, share * weight.step};
-}
-
-/// Whether the run shows its own samples, unmoved.
-bool is_identity(const SourceRun& s, const SurfaceRun& run) {
-  return s.u.step == 1 && s.v.step == 0 && s.u.first == static_cast<float>(run.first) &&
-         s.v.first == static_cast<float>(run.row);
-}
 
 /// Calls use(i, sample number of the upper left one, fx, fy) for the four samples that each sample of a run
 /// mixes.
 template <class Use>
-void for_each_footprint(const SourceRun& s, int count, const ReducedPlane& plane, Use&& use) {
+void for_each_footprint(const SourceRun& s, int count, const SolvedPlanes& plane, Use&& use) {
   float u = s.u.first, v = s.v.first;
-  const auto at = [&](int i, float x, float y) {
-    const int column = std::min(static_cast<int>(x), plane.width - 2),
-              row = std::min(static_cast<int>(y), plane.height - 2);
-    use(i, static_cast<std::ptrdiff_t>(row) * plane.width + column, x - static_cast<float>(column),
-        y - static_cast<float>(row));
+  const auto at = [&](int i, int column, int row, float x, float y) {
+    use(i, row * plane.width + column, x - static_cast<float>(column), y - static_cast<float>(row));
   };
-  if (is_inside(s, count, plane)) {
-    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step) at(i, u, v);
-  } else {
+  if (is_inside(s, count, {plane.width, plane.height})) {
     for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step)
-      at(i, std::clamp(u, 0.0F, static_cast<float>(plane.width - 1)),
-         std::clamp(v, 0.0F, static_cast<float>(plane.height - 1)));
+      at(i, static_cast<int>(u), static_cast<int>(v), u, v);
+  } else {
+    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step) {
+      const float x = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1)),
+                  y = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
+      at(i, std::min(static_cast<int>(x), plane.width - 2), std::min(static_cast<int>(y), plane.height - 2),
+         x, y);
+    }
   }
 }
 
-void clear(std::span<ReducedPlane> planes) {
-  for (ReducedPlane& p : planes) std::fill(p.samples.begin(), p.samples.end(), 0.0F);
+void clear(std::span<SolvedPlanes> planes) {
+  for (SolvedPlanes& p : planes) std::fill(p.samples.begin(), p.samples.end(), glm::vec4(0));
 }
 
-double dot(const PatternPlanes& a, const PatternPlanes& b) {
-  double sum = 0;
+/// Of each lane.
+glm::dvec4 dot(const PatternPlanes& a, const PatternPlanes& b) {
+  glm::dvec4 sum(0);
   for (std::size_t k = 0; k < a.size(); ++k) {
-    float part = 0;
+    glm::vec4 part(0);
     for (std::size_t i = 0; i < a[k].samples.size(); ++i) part += a[k].samples[i] * b[k].samples[i];
-    sum += static_cast<double>(part);
+    sum += glm::dvec4(part);
   }
   return sum;
 }
 
 /// a += factor * b
-void add(PatternPlanes& a, double factor, const PatternPlanes& b) {
-  const auto f = static_cast<float>(factor);
+void add(PatternPlanes& a, const glm::dvec4& factor, const PatternPlanes& b) {
+  const glm::vec4 f(factor);
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].samples.size(); ++i) a[k].samples[i] += f * b[k].samples[i];
 }
 
+/// a = b + factor * a
+void scale_and_add(PatternPlanes& a, const glm::dvec4& factor, const PatternPlanes& b) {
+  const glm::vec4 f(factor);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].samples.size(); ++i)
+      a[k].samples[i] = b[k].samples[i] + f * a[k].samples[i];
+}
+
+/// Zero for lanes that are done.
+glm::dvec4 ratio(const glm::dvec4& a, const glm::dvec4& b, const glm::bvec4& done) {
+  return glm::mix(a / glm::mix(b, glm::dvec4(1), done), glm::dvec4(0), done);
+}
+
 }  // namespace
+
+SolvedPlanes::SolvedPlanes(std::span<const ReducedPlane> planes)
+    : width(planes.front().width), height(planes.front().height), samples(planes.front().samples.size()) {
+  for (std::size_t lane = 0; lane < planes.size(); ++lane)
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      samples[i][static_cast<int>(lane)] = planes[lane].samples[i];
+}
+
+ReducedPlane SolvedPlanes::plane(int lane) const {
+  ReducedPlane out{width, height, std::vector<float>(samples.size())};
+  for (std::size_t i = 0; i < samples.size(); ++i) out.samples[i] = samples[i][lane];
+  return out;
+}
+
+PatternSolver::PatternSolver(const BlendScene& scene, int reduction, std::vector<std::size_t> planes)
+    : scene_(scene), reduction_(reduction), planes_(std::move(planes)) {
+  for (std::size_t lane = 0; lane < planes_.size(); ++lane) {
+    is_used_[static_cast<int>(lane)] = 1;
+    if (planes_[lane] == 0) is_luma_[static_cast<int>(lane)] = 1;
+  }
+}
 
 void PatternSolver::add_picture(const State& state, std::span<const std::size_t> available, glm::ivec2 size) {
   const SceneGeometry& geometry = scene_.geometry;
@@ -105,75 +134,90 @@ std::size_t PatternSolver::bytes() const {
   return taps * sizeof(Tap);
 }
 
-void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out) {
+std::pair<glm::vec4, glm::vec4> PatternSolver::factor(const Tap& tap) const {
+  const glm::vec4 share = (is_used_ + tap.source.gain * is_luma_) * (1 - tap.source.opacity);
+  return {share * tap.weight.first, share * tap.weight.step};
+}
+
+void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, SolvedPlanes& out) const {
   for (const Tap& t : taps) {
-    const ReducedPlane& plane = planes[t.pattern];
-    const RunValue f = factor(t.source, t.weight, luma);
-    float* to = out.row(t.run.row) + t.run.first;
+    const SolvedPlanes& plane = planes[t.pattern];
+    auto [f, f_step] = factor(t);
+    glm::vec4* to = out.row(t.run.row) + t.run.first;
     if (is_identity(t.source, t.run)) {
-      const float* from = plane.row(t.run.row) + t.run.first;
-      for (int i = 0; i < t.run.count; ++i) to[i] += (f.first + f.step * static_cast<float>(i)) * from[i];
+      const glm::vec4* from = plane.row(t.run.row) + t.run.first;
+      for (int i = 0; i < t.run.count; ++i, f += f_step) to[i] += f * from[i];
       continue;
     }
-    const float* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, plane, [&](int i, std::ptrdiff_t at, float fx, float fy) {
-      const float* a = samples + at;
-      const float* b = a + plane.width;
-      const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
-      to[i] += (f.first + f.step * static_cast<float>(i)) * (top + fy * (bottom - top));
-    });
+    const glm::vec4* samples = plane.samples.data();
+    for_each_footprint(t.source, t.run.count, plane,
+                       [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
+                         const glm::vec4* a = samples + at;
+                         const glm::vec4* b = a + plane.width;
+                         const glm::vec4 top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
+                         to[i] += f * (top + fy * (bottom - top));
+                         f += f_step;
+                       });
   }
 }
 
-void PatternSolver::draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma,
-                                    PatternPlanes& planes) {
+void PatternSolver::draw_transposed(const Taps& taps, const SolvedPlanes& picture,
+                                    PatternPlanes& planes) const {
   for (const Tap& t : taps) {
-    ReducedPlane& plane = planes[t.pattern];
-    const RunValue f = factor(t.source, t.weight, luma);
-    const float* from = picture.row(t.run.row) + t.run.first;
+    SolvedPlanes& plane = planes[t.pattern];
+    auto [f, f_step] = factor(t);
+    const glm::vec4* from = picture.row(t.run.row) + t.run.first;
     if (is_identity(t.source, t.run)) {
-      float* to = plane.row(t.run.row) + t.run.first;
-      for (int i = 0; i < t.run.count; ++i) to[i] += (f.first + f.step * static_cast<float>(i)) * from[i];
+      glm::vec4* to = plane.row(t.run.row) + t.run.first;
+      for (int i = 0; i < t.run.count; ++i, f += f_step) to[i] += f * from[i];
       continue;
     }
-    float* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, plane, [&](int i, std::ptrdiff_t at, float fx, float fy) {
-      const float value = (f.first + f.step * static_cast<float>(i)) * from[i];
-      float* a = samples + at;
-      float* b = a + plane.width;
-      const float bottom = value * fy, top = value - bottom, top_right = top * fx, bottom_right = bottom * fx;
-      a[0] += top - top_right;
-      a[1] += top_right;
-      b[0] += bottom - bottom_right;
-      b[1] += bottom_right;
-    });
+    glm::vec4* samples = plane.samples.data();
+    for_each_footprint(t.source, t.run.count, plane,
+                       [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
+                         const glm::vec4 value = f * from[i];
+                         f += f_step;
+                         glm::vec4* a = samples + at;
+                         glm::vec4* b = a + plane.width;
+                         const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
+                                         bottom_right = bottom * fx;
+                         a[0] += top - top_right;
+                         a[1] += top_right;
+                         b[0] += bottom - bottom_right;
+                         b[1] += bottom_right;
+                       });
   }
 }
 
-void PatternSolver::draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out) {
+void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
   for (const Tap& t : taps) {
     const SourceRun& s = t.source;
-    const RunValue light = plane == 0 ? s.offset : RunValue{};
-    const float gain = plane == 0 ? s.gain : 0;
-    float* to = out.row(t.run.row) + t.run.first;
-    float weight = t.weight.first, offset = light.first;
-    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, offset += light.step)
-      to[i] += weight * ((1 - s.opacity) * (offset - 128.0F * gain) + s.opacity * s.interior[plane]);
+    glm::vec4 first(0), step(0);
+    for (std::size_t k = 0; k < planes_.size(); ++k) {
+      const auto lane = static_cast<int>(k);
+      first[lane] = s.opacity * s.interior[planes_[k]];
+      if (planes_[k] != 0) continue;
+      first[lane] += (1 - s.opacity) * (s.offset.first - 128.0F * s.gain);
+      step[lane] = (1 - s.opacity) * s.offset.step;
+    }
+    glm::vec4* to = out.row(t.run.row) + t.run.first;
+    float weight = t.weight.first;
+    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, first += step) to[i] += weight * first;
   }
 }
 
-PatternPlanes PatternSolver::gradient(std::span<const ReducedPlane> targets, const PatternPlanes& planes,
-                                      std::size_t plane) const {
+PatternPlanes PatternSolver::gradient(std::span<const SolvedPlanes> targets,
+                                      const PatternPlanes& planes) const {
   PatternPlanes out = planes;
   clear(out);
-  ReducedPlane scratch = targets.front();
+  SolvedPlanes scratch = targets.front();
   for (std::size_t t = 0; t < pictures_.size(); ++t) {
-    std::fill(scratch.samples.begin(), scratch.samples.end(), 0.0F);
-    draw(pictures_[t], planes, plane == 0, scratch);
-    draw_constant(pictures_[t], plane, scratch);
+    clear({&scratch, 1});
+    draw(pictures_[t], planes, scratch);
+    draw_constant(pictures_[t], scratch);
     for (std::size_t i = 0; i < scratch.samples.size(); ++i)
       scratch.samples[i] = targets[t].samples[i] - scratch.samples[i];
-    draw_transposed(pictures_[t], scratch, plane == 0, out);
+    draw_transposed(pictures_[t], scratch, out);
   }
   return out;
 }
@@ -183,42 +227,40 @@ double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   std::size_t samples = 0;
   for (const Taps& taps : pictures_)
     for (const Tap& t : taps) used += static_cast<double>(static_cast<float>(t.run.count) * t.weight.first);
-  for (const ReducedPlane& p : planes) samples += p.samples.size();
+  for (const SolvedPlanes& p : planes) samples += p.samples.size();
   return used / static_cast<double>(samples);
 }
 
-PatternPlanes PatternSolver::solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
-                                   std::size_t count, std::size_t plane,
-                                   const SolverSettings& settings) const {
-  const bool luma = plane == 0;
+PatternPlanes PatternSolver::solve(std::span<const SolvedPlanes> targets, PatternPlanes sources,
+                                   std::size_t count, const SolverSettings& settings) const {
   const auto hold_fixed = [&](PatternPlanes& planes) {
     clear(std::span(planes).first(planes.size() - count));
   };
   // The start is the anchor, so that the pull has no part in the first residual.
-  PatternPlanes residual = gradient(targets, sources, plane), product = residual;
+  PatternPlanes residual = gradient(targets, sources), product = residual;
   hold_fixed(residual);
-  const double pull = settings.pull * mean_weight(sources);
-  ReducedPlane scratch = targets.front();
+  const glm::dvec4 pull(settings.pull * mean_weight(sources));
+  SolvedPlanes scratch = targets.front();
   PatternPlanes x = std::move(sources), direction = residual;
-  double now = dot(residual, residual);
-  const double begin = now;
-  for (int i = 0; i < settings.iterations && now > 1e-4 * begin; ++i) {
+  // The planes are problems of their own: each lane has its own steps.
+  glm::dvec4 now = dot(residual, residual);
+  const glm::dvec4 enough = kConverged * now;
+  for (int i = 0; i < settings.iterations; ++i) {
+    const glm::bvec4 done = glm::lessThanEqual(now, enough);
+    if (glm::all(done)) break;
     clear(product);
     for (const Taps& taps : pictures_) {
-      std::fill(scratch.samples.begin(), scratch.samples.end(), 0.0F);
-      draw(taps, direction, luma, scratch);
-      draw_transposed(taps, scratch, luma, product);
+      clear({&scratch, 1});
+      draw(taps, direction, scratch);
+      draw_transposed(taps, scratch, product);
     }
     hold_fixed(product);
     add(product, pull, direction);
-    const double step = now / dot(direction, product);
+    const glm::dvec4 step = ratio(now, dot(direction, product), done);
     add(x, step, direction);
     add(residual, -step, product);
-    const double next = dot(residual, residual);
-    for (std::size_t k = 0; k < direction.size(); ++k)
-      for (std::size_t s = 0; s < direction[k].samples.size(); ++s)
-        direction[k].samples[s] =
-            residual[k].samples[s] + static_cast<float>(next / now) * direction[k].samples[s];
+    const glm::dvec4 next = dot(residual, residual);
+    scale_and_add(direction, ratio(next, now, done), residual);
     now = next;
   }
   return x;

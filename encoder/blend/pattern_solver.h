@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -17,14 +18,30 @@ struct SolverSettings {
   double pull = 0.2;  ///< towards the source picture, over the mean weight with which a sample is used
 };
 
-/// Planes of one size, of each pattern.
-using PatternPlanes = std::vector<ReducedPlane>;
+/// Planes of one size that are drawn from the same places, interleaved: they are drawn at once.
+struct SolvedPlanes {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> samples;
+  /// @param planes  1..4 of one size
+  explicit SolvedPlanes(std::span<const ReducedPlane> planes);
+  [[nodiscard]] ReducedPlane plane(int lane) const;
+  [[nodiscard]] const glm::vec4* row(int y) const {
+    return samples.data() + static_cast<std::ptrdiff_t>(y) * width;
+  }
+  [[nodiscard]] glm::vec4* row(int y) { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
+};
 
-/// The least squares problem of a scene at one reduced size. Planes that are drawn alike share it.
+/// Of each pattern.
+using PatternPlanes = std::vector<SolvedPlanes>;
+
+/// The least squares problems of the planes of a scene's patterns that have the same reduced size.
 class PatternSolver {
  public:
-  /// @param scene  its patterns give the seen states; what it refers to must outlive the object
-  PatternSolver(const BlendScene& scene, int reduction) : scene_(scene), reduction_(reduction) {}
+  /// @param scene      its patterns give the seen states; what it refers to must outlive the object
+  /// @param reduction  log2; of the size of the picture
+  /// @param planes     that are solved for, 0..2: light changes luma only, the mouth interior has its own
+  ///                   colour in each
+  PatternSolver(const BlendScene& scene, int reduction, std::vector<std::size_t> planes);
 
   /// A picture that is drawn from the patterns.
   /// @param state      as drawn, blend modes included
@@ -35,13 +52,11 @@ class PatternSolver {
   /// Memory that the pictures take.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// @param targets  the plane of each picture added
-  /// @param sources  the plane of each pattern's own picture: start and anchor of the solution
+  /// @param targets  the planes of each picture added
+  /// @param sources  the planes of each pattern's own picture: start and anchor of the solution
   /// @param count    of patterns, the last ones, that are solved for
-  /// @param plane    of the three: light changes luma only, the mouth interior has its own colour in each
-  [[nodiscard]] PatternPlanes solve(std::span<const ReducedPlane> targets, PatternPlanes sources,
-                                    std::size_t count, std::size_t plane,
-                                    const SolverSettings& settings) const;
+  [[nodiscard]] PatternPlanes solve(std::span<const SolvedPlanes> targets, PatternPlanes sources,
+                                    std::size_t count, const SolverSettings& settings) const;
 
  private:
   /// Samples of a run that come from one pattern.
@@ -54,20 +69,23 @@ class PatternSolver {
   using Taps = std::vector<Tap>;
 
   /// A^T (targets - what the planes draw): half the gradient of the squared error, downhill.
-  [[nodiscard]] PatternPlanes gradient(std::span<const ReducedPlane> targets, const PatternPlanes& planes,
-                                       std::size_t plane) const;
+  [[nodiscard]] PatternPlanes gradient(std::span<const SolvedPlanes> targets,
+                                       const PatternPlanes& planes) const;
   /// With which a sample of the planes is used in all pictures together.
   [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
+  /// The share of the textures in the first sample of a run, and what each sample adds.
+  [[nodiscard]] std::pair<glm::vec4, glm::vec4> factor(const Tap& tap) const;
   /// Samples as drawn without what does not depend on the patterns. out += A planes
-  static void draw(const Taps& taps, const PatternPlanes& planes, bool luma, ReducedPlane& out);
+  void draw(const Taps& taps, const PatternPlanes& planes, SolvedPlanes& out) const;
   /// planes += A^T picture
-  static void draw_transposed(const Taps& taps, const ReducedPlane& picture, bool luma,
-                              PatternPlanes& planes);
+  void draw_transposed(const Taps& taps, const SolvedPlanes& picture, PatternPlanes& planes) const;
   /// out += what light and interior add.
-  static void draw_constant(const Taps& taps, std::size_t plane, ReducedPlane& out);
+  void draw_constant(const Taps& taps, SolvedPlanes& out) const;
 
   BlendScene scene_;
   int reduction_;
+  std::vector<std::size_t> planes_;    ///< of each lane that is used
+  glm::vec4 is_used_{0}, is_luma_{0};  ///< 1 for such lanes
   std::vector<Taps> pictures_;
 };
 

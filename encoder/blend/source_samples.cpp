@@ -102,14 +102,6 @@ SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const Te
   return out;
 }
 
-bool is_inside(const SourceRun& source, int count, const ReducedPlane& plane) {
-  const auto within = [&](const RunValue& v, int size) {
-    const float end = v.first + v.step * static_cast<float>(count - 1);
-    return std::min(v.first, end) >= 0 && std::max(v.first, end) < static_cast<float>(size - 1);
-  };
-  return within(source.u, plane.width) && within(source.v, plane.height);
-}
-
 float bilinear(const ReducedPlane& plane, float u, float v) {
   u = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1));
   v = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
@@ -122,25 +114,31 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
   return top + fy * (bottom - top);
 }
 
-void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, std::int16_t* out) {
+void sample_luma(const SourceRun& source, const SurfaceRun& run, const ReducedPlane& luma,
+                 std::int16_t* out) {
   float u = source.u.first, v = source.v.first, offset = source.offset.first;
   const bool plain = source.gain == 0 && source.opacity == 0 && offset == 0 && source.offset.step == 0;
+  if (plain && is_identity(source, run)) {
+    const float* from = luma.row(run.row) + run.first;
+    for (int i = 0; i < run.count; ++i) out[i] = static_cast<std::int16_t>(rounded(from[i]));
+    return;
+  }
   const auto put = [&](int i, float sample) {
     if (!plain) {
       sample = std::clamp(sample + source.gain * (sample - 128.0F) + offset, 0.0F, 255.0F);
       sample += source.opacity * (source.interior[0] - sample);
+      offset += source.offset.step;
     }
     out[i] = static_cast<std::int16_t>(rounded(sample));
   };
-  if (!is_inside(source, count, luma)) {
-    for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step, offset += source.offset.step)
-      put(i, bilinear(luma, u, v));
+  if (!is_inside(source, run.count, {luma.width, luma.height})) {
+    for (int i = 0; i < run.count; ++i, u += source.u.step, v += source.v.step) put(i, bilinear(luma, u, v));
     return;
   }
-  for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step, offset += source.offset.step) {
+  for (int i = 0; i < run.count; ++i, u += source.u.step, v += source.v.step) {
     const int x = static_cast<int>(u), y = static_cast<int>(v);
     const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-    const float* a = luma.row(y) + x;
+    const float* a = luma.samples.data() + (y * luma.width + x);
     const float* b = a + luma.width;
     const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
     put(i, top + fy * (bottom - top));

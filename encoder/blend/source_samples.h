@@ -2,6 +2,7 @@
 // floating point.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -70,14 +71,26 @@ struct PictureMesh {
 [[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
                                    const TextureMesh& texture, bool still);
 
-/// Whether all samples that a run mixes lie inside the plane.
-[[nodiscard]] bool is_inside(const SourceRun& source, int count, const ReducedPlane& plane);
+/// Whether all samples that a run mixes lie inside a plane of this size.
+[[nodiscard]] inline bool is_inside(const SourceRun& source, int count, glm::ivec2 size) {
+  const auto within = [&](const RunValue& v, int samples) {
+    const float end = v.first + v.step * static_cast<float>(count - 1);
+    return std::min(v.first, end) >= 0 && std::max(v.first, end) < static_cast<float>(samples - 1);
+  };
+  return within(source.u, size.x) && within(source.v, size.y);
+}
+
+/// Whether the run shows the texture's own samples, unmoved.
+[[nodiscard]] inline bool is_identity(const SourceRun& source, const SurfaceRun& run) {
+  return source.u.step == 1 && source.v.step == 0 && source.u.first == static_cast<float>(run.first) &&
+         source.v.first == static_cast<float>(run.row);
+}
 
 /// Bilinear; positions outside repeat the border.
 [[nodiscard]] float bilinear(const ReducedPlane& plane, float u, float v);
 
 /// Luma of one source along a run.
 /// @param out  run.count samples
-void sample_luma(const SourceRun& source, const ReducedPlane& luma, int count, std::int16_t* out);
+void sample_luma(const SourceRun& source, const SurfaceRun& run, const ReducedPlane& luma, std::int16_t* out);
 
 }  // namespace fbs

@@ -8,9 +8,15 @@ namespace fbs {
 namespace {
 
 using PicturePlane = Plane Picture::*;
+/// Of each pattern.
+using Planes = std::vector<ReducedPlane>;
 
-PatternPlanes planes_of(const Scene& scene, PicturePlane plane, int reduction = 0) {
-  PatternPlanes out;
+SolvedPlanes alone(const ReducedPlane& plane) {
+  return SolvedPlanes({&plane, 1});
+}
+
+Planes planes_of(const Scene& scene, PicturePlane plane, int reduction = 0) {
+  Planes out;
   for (const Pattern& p : scene.patterns) out.push_back(reduce(p.picture.*plane, reduction));
   return out;
 }
@@ -37,7 +43,7 @@ struct Problem {
   std::vector<ReducedPlane> targets;
 
   explicit Problem(std::size_t patterns, PicturePlane of = &Picture::y)
-      : s(patterns), plane(of), solver(s.blend(), reduction()) {}
+      : s(patterns), plane(of), solver(s.blend(), reduction(), {component()}) {}
 
   [[nodiscard]] bool is_luma() const { return plane == &Picture::y; }
   [[nodiscard]] std::size_t component() const { return is_luma() ? 0 : plane == &Picture::u ? 1 : 2; }
@@ -60,13 +66,18 @@ struct Problem {
       add(with_mode(state, seed % 2 == 0 ? BlendMode::kByState : nearest(static_cast<int>(seed) / 2)));
     }
   }
-  [[nodiscard]] PatternPlanes truth() const { return planes_of(s.scene, plane); }
-  [[nodiscard]] PatternPlanes solved(const PatternPlanes& start, std::size_t count,
-                                     const SolverSettings& settings) const {
-    return solver.solve(targets, start, count, component(), settings);
+  [[nodiscard]] Planes truth() const { return planes_of(s.scene, plane); }
+  [[nodiscard]] Planes solved(const Planes& start, std::size_t count, const SolverSettings& settings) const {
+    std::vector<SolvedPlanes> drawn;
+    for (const ReducedPlane& t : targets) drawn.push_back(alone(t));
+    PatternPlanes sources;
+    for (const ReducedPlane& p : start) sources.push_back(alone(p));
+    Planes out;
+    for (const SolvedPlanes& p : solver.solve(drawn, sources, count, settings)) out.push_back(p.plane(0));
+    return out;
   }
   /// Squared luma error of the pictures as drawn by the renderer.
-  [[nodiscard]] double loss(const PatternPlanes& planes) const {
+  [[nodiscard]] double loss(const Planes& planes) const {
     Scene scene = s.scene;
     for (std::size_t k = 0; k < planes.size(); ++k) scene.patterns[k].picture.y = rounded(planes[k]);
     double sum = 0;
@@ -77,7 +88,7 @@ struct Problem {
 };
 
 /// Other paint, in part.
-PatternPlanes changed(PatternPlanes planes) {
+Planes changed(Planes planes) {
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const ReducedPlane other =
         reduce(wave_plane(planes[k].width, planes[k].height, 300 + static_cast<unsigned>(k)), 0);
@@ -90,7 +101,7 @@ PatternPlanes changed(PatternPlanes planes) {
 TEST(PatternSolver, FindsThePatternsThatPicturesAreDrawnFrom) {
   Problem p(3);
   p.add_pictures();
-  const PatternPlanes truth = p.truth(), start = changed(truth), found = p.solved(start, 3, {30, 1e-5});
+  const Planes truth = p.truth(), start = changed(truth), found = p.solved(start, 3, {30, 1e-5});
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_GT(mean_square(start[k], truth[k]), 100);
     EXPECT_LT(mean_square(found[k], truth[k]), 1) << k;
@@ -100,7 +111,7 @@ TEST(PatternSolver, FindsThePatternsThatPicturesAreDrawnFrom) {
 TEST(PatternSolver, EachIterationBringsThePicturesNearer) {
   Problem p(3);
   p.add_pictures();
-  const PatternPlanes start = changed(p.truth());
+  const Planes start = changed(p.truth());
   double before = p.loss(start);
   const double begin = before;
   for (int iterations = 1; iterations <= 5; ++iterations) {
@@ -114,11 +125,11 @@ TEST(PatternSolver, EachIterationBringsThePicturesNearer) {
 TEST(PatternSolver, PullHoldsPatternsToTheirSources) {
   Problem p(3);
   p.add_pictures();
-  const PatternPlanes start = changed(p.truth());
+  const Planes start = changed(p.truth());
   double before = 1e9;
   for (const double pull : {1e-5, 0.2, 5.0, 1e4}) {
     double moved = 0;
-    const PatternPlanes found = p.solved(start, 3, {10, pull});
+    const Planes found = p.solved(start, 3, {10, pull});
     for (std::size_t k = 0; k < 3; ++k) moved += mean_square(found[k], start[k]);
     EXPECT_LT(moved, before) << pull;
     before = moved;
@@ -129,10 +140,10 @@ TEST(PatternSolver, PullHoldsPatternsToTheirSources) {
 TEST(PatternSolver, FixedPatternsStayAndTheLastAreSolvedFor) {
   Problem p(3);
   p.add_pictures();
-  const PatternPlanes truth = p.truth();
-  PatternPlanes start = changed(truth);
+  const Planes truth = p.truth();
+  Planes start = changed(truth);
   start[0] = truth[0], start[1] = truth[1];
-  const PatternPlanes found = p.solved(start, 1, {30, 1e-5});
+  const Planes found = p.solved(start, 1, {30, 1e-5});
   EXPECT_EQ(found[0].samples, truth[0].samples);
   EXPECT_EQ(found[1].samples, truth[1].samples);
   EXPECT_LT(mean_square(found[2], truth[2]), 1);
@@ -144,13 +155,13 @@ TEST(PatternSolver, PatternsThatAreNotAvailableStay) {
   const std::vector<std::size_t> some = {0, 2};
   p.solver.add_picture(state, some, {BlendedScene::kWidth, BlendedScene::kHeight});
   p.targets.push_back(reduce(wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 50), 0));
-  const PatternPlanes truth = p.truth(), found = p.solved(truth, 3, {4, 0.2});
+  const Planes truth = p.truth(), found = p.solved(truth, 3, {4, 0.2});
   EXPECT_GT(mean_square(found[0], truth[0]), 0.1);
   EXPECT_EQ(found[1].samples, truth[1].samples);
   EXPECT_GT(mean_square(found[2], truth[2]), 0.1);
 }
 
-double product(const PatternPlanes& a, const PatternPlanes& b) {
+double product(const Planes& a, const Planes& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].samples.size(); ++i)
@@ -167,19 +178,19 @@ TEST(PatternSolver, FirstStepIsAlongTheTransposedDrawing) {
   maker.pose(state), maker.expression(state);
   state.picture = 7;
   p.add(with_mode(state, BlendMode::kByState));
-  PatternPlanes black = p.truth();
+  Planes black = p.truth();
   for (ReducedPlane& plane : black) std::fill(plane.samples.begin(), plane.samples.end(), 0.0F);
-  const PatternPlanes step = p.solved(black, 3, {1, 0});
+  const Planes step = p.solved(black, 3, {1, 0});
 
   std::vector<double> ratios;
   for (std::size_t k = 0; k < 3; ++k) {
     for (int piece = 0; piece < 4; ++piece) {
-      PatternPlanes x = black;
+      Planes x = black;
       for (int y = 60 * piece; y < 60 * piece + 60; ++y)
         std::fill_n(x[k].row(y), BlendedScene::kWidth, 200.0F);
       Scene scene = p.s.scene;
       for (std::size_t i = 0; i < 3; ++i) scene.patterns[i].picture.y = rounded(x[i]);
-      const PatternPlanes drawn = {reduce(rendered(scene, p.states[0]).y, 0)};
+      const Planes drawn = {reduce(rendered(scene, p.states[0]).y, 0)};
       ratios.push_back(product(drawn, p.targets) / product(x, step));
     }
   }
@@ -194,7 +205,7 @@ State with_light_and_mouth() {
   return with_mode(state, BlendMode::kByState);
 }
 
-double largest_change(const PatternPlanes& a, const PatternPlanes& b) {
+double largest_change(const Planes& a, const Planes& b) {
   double out = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].samples.size(); ++i)
@@ -207,8 +218,29 @@ TEST(PatternSolver, LightAndMouthInteriorAreNotTakenForPatterns) {
   for (const PicturePlane plane : {&Picture::y, &Picture::u, &Picture::v}) {
     Problem p(2, plane);
     p.add(with_light_and_mouth());
-    const PatternPlanes truth = p.truth();
+    const Planes truth = p.truth();
     EXPECT_LT(largest_change(p.solved(truth, 2, {4, 0.2}), truth), 3) << (p.is_luma() ? "luma" : "chroma");
+  }
+}
+
+TEST(PatternSolver, PlanesSolvedTogetherAreThoseSolvedAlone) {
+  const SolverSettings settings{4, 0.2};
+  Problem u(3, &Picture::u), v(3, &Picture::v);
+  u.add_pictures(), v.add_pictures();
+  PatternSolver both(u.s.blend(), 1, {1, 2});
+  std::vector<SolvedPlanes> targets;
+  for (std::size_t t = 0; t < u.states.size(); ++t) {
+    both.add_picture(u.states[t], u.s.all(), {BlendedScene::kWidth, BlendedScene::kHeight});
+    targets.emplace_back(std::array{u.targets[t], v.targets[t]});
+  }
+  const Planes start_u = changed(u.truth()), start_v = changed(v.truth());
+  PatternPlanes sources;
+  for (std::size_t k = 0; k < 3; ++k) sources.emplace_back(std::array{start_u[k], start_v[k]});
+  const PatternPlanes together = both.solve(targets, sources, 3, settings);
+  const Planes u_alone = u.solved(start_u, 3, settings), v_alone = v.solved(start_v, 3, settings);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(together[k].plane(0).samples, u_alone[k].samples) << k;
+    EXPECT_EQ(together[k].plane(1).samples, v_alone[k].samples) << k;
   }
 }
 

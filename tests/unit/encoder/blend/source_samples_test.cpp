@@ -18,7 +18,7 @@ Plane sampled(const BlendedScene& s, const State& state, bool still) {
   Plane out(format.width, format.height);
   std::vector<std::int16_t> row(format.width);
   for (const SurfaceRun& run : surface.runs()) {
-    sample_luma(source_run(picture, run, pattern.texture, still), luma, run.count, row.data());
+    sample_luma(source_run(picture, run, pattern.texture, still), run, luma, row.data());
     for (int i = 0; i < run.count; ++i) out.row(run.row)[run.first + i] = static_cast<std::uint8_t>(row[i]);
   }
   return out;
@@ -181,7 +181,7 @@ TEST(SourceRunIsInside, NeedsAllFourSamplesOfBothEnds) {
   const auto inside = [&](float u, float u_step, float v, float v_step, int count) {
     SourceRun run;
     run.u = {u, u_step}, run.v = {v, v_step};
-    return is_inside(run, count, plane);
+    return is_inside(run, count, {plane.width, plane.height});
   };
   EXPECT_TRUE(inside(0, 1, 0, 0, 7));
   EXPECT_FALSE(inside(0, 1, 0, 0, 8)) << "the last has no right neighbour";
