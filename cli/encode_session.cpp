@@ -18,11 +18,9 @@ std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t
 /// Pictures from their encoding until they are decoded: a segment of them, on disk. First in, first out.
 class WaitingPictures {
  public:
-  [[nodiscard]] bool empty() const { return read_ == old_.count() && new_.count() == 0; }
-
   Result<void> push(const Picture& picture) { return new_.add(picture); }
 
-  /// Not to be called when empty.
+  /// Not to be called when none waits.
   Result<Picture> pop() {
     // A file that has been read to its end makes room for the pictures since.
     if (read_ == old_.count()) {
@@ -37,24 +35,29 @@ class WaitingPictures {
   std::size_t read_ = 0;  ///< pictures of old_
 };
 
-/// Decodes what is encoded as it comes, and compares it with the source.
+/// Decodes what is encoded as it comes, and measures it.
 class ClosedLoop {
  public:
-  ClosedLoop(Encoder encoder, const TakeBytes& take, bool with_ssim)
-      : encoder_(std::move(encoder)), take_(take), meter_(decoder_, with_ssim) {}
+  ClosedLoop(Encoder encoder, const TakeBytes& take, Measured what)
+      : encoder_(std::move(encoder)),
+        take_(take),
+        compares_(what != Measured::kRate),
+        meter_(decoder_, what) {}
 
   Result<void> push(const TimedPicture& now, std::uint32_t duration, const SeePicture& see) {
     if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
     if (see)
       if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
-    if (auto kept = waiting_.push(now.picture); !kept) return kept;
+    ++pushed_;
+    if (compares_)
+      if (auto kept = waiting_.push(now.picture); !kept) return kept;
     return pass_on();
   }
 
   Result<Measure> finish() {
     if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
     if (auto passed = pass_on(); !passed) return fail(passed.error());
-    if (!waiting_.empty())
+    if (decoder_.pictures() < pushed_)
       return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
     return meter_.result();
   }
@@ -70,28 +73,39 @@ class ClosedLoop {
       if (!status)
         return fail(ErrorCode::kInternal, "the encoded stream does not decode: " + status.error().text);
       if (*status != DecodeStatus::kPicture) return {};
-      if (waiting_.empty())
+      if (decoder_.pictures() > pushed_)
         return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
-      const auto source = waiting_.pop();
-      if (!source) return fail(source.error());
-      if (auto compared = meter_.compare(*source); !compared) return compared;
+      if (auto measured = measure(); !measured) return measured;
     }
+  }
+
+  /// The current picture of the decoder.
+  Result<void> measure() {
+    if (!compares_) {
+      meter_.add();
+      return {};
+    }
+    const auto source = waiting_.pop();
+    if (!source) return fail(source.error());
+    return meter_.compare(*source);
   }
 
   Encoder encoder_;
   const TakeBytes& take_;
+  bool compares_;
   StreamDecoder decoder_;
   StreamMeter meter_;
+  std::uint64_t pushed_ = 0;  ///< pictures
   WaitingPictures waiting_;
 };
 
 }  // namespace
 
 Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
-                              const SeePicture& see, bool with_ssim, bool quiet) {
+                              const SeePicture& see, Measured what, bool quiet) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
-  ClosedLoop loop(std::move(*encoder), take, with_ssim);
+  ClosedLoop loop(std::move(*encoder), take, what);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
   std::int64_t done = 0;

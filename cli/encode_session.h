@@ -13,12 +13,10 @@ namespace fbs::cli {
 using TakeBytes = std::function<Result<void>(std::span<const std::uint8_t>)>;
 using SeePicture = std::function<Result<void>(const TimedPicture&, const PictureAnalysis&)>;
 
-/// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and compares it with the
-/// source.
-/// @param see        called with every picture after its analysis; may be empty
-/// @param with_ssim  computing SSIM takes longer than encoding
+/// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and measures it.
+/// @param see  called with every picture after its analysis; may be empty
 [[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings,
-                                            const TakeBytes& take, const SeePicture& see, bool with_ssim,
+                                            const TakeBytes& take, const SeePicture& see, Measured what,
                                             bool quiet);
 
 }  // namespace fbs::cli

@@ -84,7 +84,7 @@ Result<void> encode(const EncodeArguments& arguments) {
   }
   const auto measure = encode_source(
       **source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
-      false, arguments.quiet);
+      arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
   if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return finished;

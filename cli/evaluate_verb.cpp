@@ -21,7 +21,7 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
   if (!source) return fail(source.error());
   auto file = StreamFile::open(arguments.stream);
   if (!file) return fail(file.error());
-  StreamMeter meter(file->decoder(), true);
+  StreamMeter meter(file->decoder(), Measured::kSsim);
   Progress progress("evaluating", (*source)->frame_count_estimate(), arguments.quiet);
   for (std::int64_t n = 1;; ++n) {
     auto status = file->next();
@@ -48,7 +48,7 @@ Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality
   EncoderSettings settings;
   settings.quality = quality;
   auto measure = encode_source(
-      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, true,
+      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, Measured::kSsim,
       arguments.quiet);
   if (!measure) {
     Error error = measure.error();

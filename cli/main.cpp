@@ -87,7 +87,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
       ->check(CLI::Range(0.01, 1000.0));
   verb->add_flag("--allow-no-face", a.allow_no_face,
                  "Encode a video without a face as a still picture instead of failing");
-  verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary");
+  verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
   verb->add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
   verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);

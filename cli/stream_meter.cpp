@@ -29,11 +29,15 @@ Plane cut(const Plane& p, const cv::Rect& box) {
 
 }  // namespace
 
-Result<void> StreamMeter::compare(const Picture& source) {
-  if (auto drawn = decoder_.render(drawn_); !drawn) return drawn;
-  sum_.frame += squared_error(source.y, drawn_.y);
+void StreamMeter::add() {
   sum_.seconds += static_cast<double>(decoder_.duration()) / kTicksPerSecond;
   ++sum_.pictures;
+}
+
+Result<void> StreamMeter::compare(const Picture& source) {
+  add();
+  if (auto drawn = decoder_.render(drawn_); !drawn) return drawn;
+  sum_.frame += squared_error(source.y, drawn_.y);
   if (with_ssim_) sum_.ssim_frame += ssim(source.y, drawn_.y);
   const auto& geometry = decoder_.scene().geometry;
   if (!geometry) return {};

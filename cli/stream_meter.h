@@ -23,13 +23,24 @@ struct Measure {
   }
 };
 
-/// Sums up the differences between decoded pictures and the source.
+/// What of a stream is measured. Drawing its pictures to compare them takes a tenth of an encoder's time,
+/// SSIM longer than encoding.
+enum class Measured : std::uint8_t {
+  kRate,
+  kPsnr,  ///< and the rate
+  kSsim,  ///< and both
+};
+
+/// Sums up the pictures of a stream and their differences from the source.
 class StreamMeter {
  public:
   /// @param decoder  must outlive the object
-  StreamMeter(StreamDecoder& decoder, bool with_ssim) : decoder_(decoder), with_ssim_(with_ssim) {}
+  StreamMeter(StreamDecoder& decoder, Measured what)
+      : decoder_(decoder), with_ssim_(what == Measured::kSsim) {}
 
-  /// Compares the current picture of the decoder with `source`.
+  /// Adds the current picture of the decoder.
+  void add();
+  /// The same, and compares it with `source`.
   Result<void> compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;
