@@ -114,8 +114,8 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
 
 void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate, InspectArguments& inspect,
                 ExportArguments& table, Run& run) {
-  CLI::App* verb =
-      app.add_subcommand("play", "Play a stream in a window (space: pause, .: step, r: restart, q: quit)");
+  CLI::App* verb = app.add_subcommand(
+      "play", "Play a stream in a window (space: pause, .: step, p: patterns, r: restart, q: quit)");
   verb->add_option("INPUT", play.input, "Stream to play")->required();
   verb->callback([&] { run = [&] { return run_play(play); }; });
 

@@ -1,15 +1,14 @@
 #include "cli/overlay.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/display_image.h"
 #include "cli/video/colour.h"
 
 namespace fbs::cli {
 namespace {
 
-constexpr int kWantedHeight = 576;
 constexpr int kShift = 4;  // OpenCV draws with positions in 1/16 pixel
 
 const cv::Scalar kMeshColour(90, 200, 90), kSnakeColour(40, 60, 255);
@@ -22,19 +21,17 @@ cv::Point fixed(glm::dvec2 p, int zoom) {
 }  // namespace
 
 Result<Overlay> Overlay::create(const std::string& name, const VideoFormat& format) {
-  const int zoom = std::clamp(kWantedHeight / format.height, 1, 4);
+  const int zoom = display_zoom(format);
   VideoFormat enlarged = format;
   enlarged.width *= zoom;
   enlarged.height *= zoom;
   auto sink = open_video_sink(name, enlarged);
   if (!sink) return fail(sink.error());
-  return Overlay(std::move(*sink), enlarged, zoom);
+  return Overlay(std::move(*sink), format, zoom);
 }
 
 Result<void> Overlay::write(const Picture& picture, std::int64_t pts, const PictureAnalysis& analysis) {
-  RgbImage rgb = rgb_from_picture(picture, format_.range, format_.matrix, ChannelOrder::kBgr);
-  cv::Mat image(rgb.height, rgb.width, CV_8UC3, rgb.samples.data()), large;
-  cv::resize(image, large, {}, zoom_, zoom_, cv::INTER_CUBIC);
+  cv::Mat large = display_image(picture, format_);
   if (analysis.face) {
     for (const HeadTriangle& t : generic_head().triangles)
       for (std::size_t i = 0; i < 3; ++i)

@@ -3,17 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "common/state.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {
-
-/// By Region.
-inline constexpr std::array<std::string_view, kRegionCount> kRegionNames = {
-    "mouth", "right eye", "left eye", "face", "hair", "body", "ground"};
 
 /// Sums up the blends of pictures as they are decoded.
 class PatternUse {
