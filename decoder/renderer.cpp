@@ -22,6 +22,14 @@ bool same_size(const ConstPlaneView& a, const ConstPlaneView& b) {
   return a.width == b.width && a.height == b.height;
 }
 
+Error another_size() {
+  return {ErrorCode::kInvalidArgument, "the picture to draw into has another size than the scene"};
+}
+
+SampleArea whole(const PlaneView& plane) {
+  return {0, 0, plane.width, plane.height};
+}
+
 bool fits(const TextureMesh& texture, const SceneGeometry& geometry) {
   const std::size_t points = geometry.surround().point_count();
   return texture.head.size() == head_mesh().vertex_count && texture.visible.size() == texture.head.size() &&
@@ -75,21 +83,35 @@ std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) 
 Result<void> Renderer::render(const Scene& scene, const State& state, const PictureView& out) {
   if (auto checked = check(scene); !checked) return checked;
   const auto first = planes_of(scene.patterns.front().picture);
-  const std::array<PlaneView, 3> targets = {out.y, out.u, out.v};
-  if (!std::equal(first.begin(), first.end(), targets.begin(), same_size))
-    return fail(ErrorCode::kInvalidArgument, "the picture to draw into has another size than the scene");
+  const Targets targets = {out.y, out.u, out.v};
+  if (!std::equal(first.begin(), first.end(), targets.begin(), same_size)) return fail(another_size());
+  draw(scene, state, targets, whole(out.y), whole(out.u));
+  return {};
+}
 
+Result<void> Renderer::render_luma(const Scene& scene, const State& state, const SampleArea& area,
+                                   const PlaneView& out) {
+  if (auto checked = check(scene); !checked) return checked;
+  if (!same_size(scene.patterns.front().picture.y, out)) return fail(another_size());
+  const SampleArea inside{std::max(area.x0, 0), std::max(area.y0, 0), std::min(area.x1, out.width),
+                          std::min(area.y1, out.height)};
+  draw(scene, state, {out, {}, {}}, inside, {});
+  return {};
+}
+
+void Renderer::draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
+                    const SampleArea& chroma) {
   const MeshBlend blend = blend_of(scene, state);
   const ScreenMesh mesh = scene.geometry ? scene.geometry->screen_mesh(state) : ScreenMesh{};
-  const Drawing drawing{mesh, blend, sources_of(scene, blend),
-                        interior_colours(scene.setup.mouth, mesh.interior), targets};
+  const Drawing drawing{
+      mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
+      luma, chroma};
   draw_base(drawing);
-  if (!scene.geometry) return {};
+  if (!scene.geometry) return;
   SurroundPainter surround(drawing);
   for (const Surround::Cell& cell : scene.geometry->surround().cells()) surround.draw(cell);
   HeadPainter(drawing, PlaneScale::kLuma, luma_depth_).draw();
   HeadPainter(drawing, PlaneScale::kChroma, chroma_depth_).draw();
-  return {};
 }
 
 Result<void> Renderer::render(const Scene& scene, const State& state, Picture& out) {

@@ -1,6 +1,8 @@
 // A picture is a function of (scene, state): this is the function. SPEC 10.
 #pragma once
 
+#include <array>
+
 #include "common/picture.h"
 #include "common/result.h"
 #include "decoder/raster/row_runs.h"
@@ -19,7 +21,15 @@ class Renderer {
   /// The same into a picture, which takes the pattern's size.
   [[nodiscard]] Result<void> render(const Scene& scene, const State& state, Picture& out);
 
+  /// Draws an area of the picture's luma; what lies outside is undefined.
+  [[nodiscard]] Result<void> render_luma(const Scene& scene, const State& state, const SampleArea& area,
+                                         const PlaneView& out);
+
  private:
+  using Targets = std::array<PlaneView, 3>;
+  void draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
+            const SampleArea& chroma);
+
   DepthPlane luma_depth_, chroma_depth_;
 };
 

@@ -37,14 +37,16 @@ void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t d
 Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, SegmentRenderer& renderer,
                                             const MouthInterior& mouth) {
   if (!shown.analysed.face) return cost_unseen(fit_of(shown.pattern ? shown.state : shown.analysed.state));
-  const auto drawn = renderer.draw(shown.state);
-  if (!drawn) return fail(drawn.error());
+  const Plane& source = shown.source.y;
   const Fit now = fit_of(shown.state);
-  const auto frame_of = [&](const Picture& p) {
-    return WorkFrame::cut(p, now.pose.shift, eye_distance_px_, false);
+  const cv::Rect crop = WorkFrame::area({source.width, source.height}, now.pose.shift, eye_distance_px_);
+  const auto drawn = renderer.draw(shown.state, {crop.x, crop.y, crop.br().x, crop.br().y});
+  if (!drawn) return fail(drawn.error());
+  const auto frame_of = [&](const Plane& luma) {
+    return WorkFrame::cut(luma, now.pose.shift, eye_distance_px_);
   };
-  fit_.set_pattern({frame_of(*drawn), shown.state, 0, renderer.interior_opacity(shown.state)});
-  fit_.set_picture(frame_of(shown.source), mouth);
+  fit_.set_pattern({frame_of(**drawn), shown.state, 0, renderer.interior_opacity(shown.state)});
+  fit_.set_picture(frame_of(source), mouth);
   return shown.pattern ? fit_.cost_at(now) : fit_.cost_near(now);
 }
 

@@ -13,7 +13,8 @@ std::int32_t mouth_gap_of(const State& state, const SceneGeometry& geometry) {
 
 }  // namespace
 
-SegmentRenderer::SegmentRenderer(const SegmentPatterns& patterns) : patterns_(patterns) {
+SegmentRenderer::SegmentRenderer(const SegmentPatterns& patterns)
+    : patterns_(patterns), luma_(patterns.scene.patterns.front().picture.y) {
   scene_.setup.mouth = patterns.scene.mouth;
   scene_.geometry = patterns.scene.geometry;
   for (const Pattern& p : patterns.scene.patterns)
@@ -29,10 +30,9 @@ void SegmentRenderer::begin_group(std::size_t group) {
   slots_ = wanted;
 }
 
-Result<Picture> SegmentRenderer::draw(const State& state) {
-  Picture out;
-  if (auto drawn = renderer_.render(scene_, state, out); !drawn) return fail(drawn.error());
-  return out;
+Result<const Plane*> SegmentRenderer::draw(const State& state, const SampleArea& area) {
+  if (auto drawn = renderer_.render_luma(scene_, state, area, luma_); !drawn) return fail(drawn.error());
+  return &luma_;
 }
 
 double SegmentRenderer::interior_opacity(const State& state) const {

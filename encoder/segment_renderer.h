@@ -17,8 +17,10 @@ class SegmentRenderer {
   /// The next calls are about pictures of this group.
   void begin_group(std::size_t group);
 
+  /// Draws an area of the picture's luma; what lies outside is undefined.
   /// @param state  blend modes included
-  [[nodiscard]] Result<Picture> draw(const State& state);
+  /// @return valid until the next call
+  [[nodiscard]] Result<const Plane*> draw(const State& state, const SampleArea& area);
 
   /// Of the state's mouth interior in what draw() shows, mean over what the mouth is blended from, 0..1.
   [[nodiscard]] double interior_opacity(const State& state) const;
@@ -29,6 +31,7 @@ class SegmentRenderer {
   AvailablePatterns slots_;               ///< which pattern each of scene_ is
   Scene scene_;
   Renderer renderer_;
+  Plane luma_;
 };
 
 }  // namespace fbs

@@ -17,17 +17,18 @@ struct WeightedPlane {
   Lanes weight;  ///< of kCoarseOne, the same in all lanes
 };
 
-void copy(const ConstPlaneView& from, const PlaneView& to) {
-  for (int y = 0; y < from.height; ++y) std::copy_n(from.row(y), from.width, to.row(y));
+void copy(const ConstPlaneView& from, const SampleArea& area, const PlaneView& to) {
+  for (int y = area.y0; y < area.y1; ++y)
+    std::copy(from.row(y) + area.x0, from.row(y) + area.x1, to.row(y) + area.x0);
 }
 
 /// @param kCount  of the planes, so that the innermost loop is none
 template <std::size_t kCount>
-void blend(std::span<const WeightedPlane, kCount> from, const PlaneView& to) {
-  for (int y = 0; y < to.height; ++y) {
+void blend(std::span<const WeightedPlane, kCount> from, const SampleArea& area, const PlaneView& to) {
+  for (int y = area.y0; y < area.y1; ++y) {
     std::array<const std::uint8_t*, kCount> rows;
     for (std::size_t i = 0; i < kCount; ++i) rows[i] = from[i].plane.row(y);
-    for (int x = 0; x < to.width; x += kLaneCount) {
+    for (int x = area.x0; x < area.x1; x += kLaneCount) {
       const int first = std::min(x, to.width - kLaneCount);  // the last eight may overlap those before
       Lanes sum = Lanes{} + std::uint16_t{kCoarseOne / 2};
       for (std::size_t i = 0; i < kCount; ++i) sum += load_lanes(rows[i] + first) * from[i].weight;
@@ -38,22 +39,25 @@ void blend(std::span<const WeightedPlane, kCount> from, const PlaneView& to) {
 
 /// Calls blend() for the number of planes.
 template <std::size_t... kCounts>
-void blend(std::span<const WeightedPlane> from, const PlaneView& to, std::index_sequence<kCounts...>) {
-  ((from.size() == kCounts + 1 ? blend<kCounts + 1>(from.first<kCounts + 1>(), to) : void()), ...);
+void blend(std::span<const WeightedPlane> from, const SampleArea& area, const PlaneView& to,
+           std::index_sequence<kCounts...>) {
+  ((from.size() == kCounts + 1 ? blend<kCounts + 1>(from.first<kCounts + 1>(), area, to) : void()), ...);
 }
 
 }  // namespace
 
 void draw_base(const Drawing& drawing) {
   for (std::size_t i = 0; i < drawing.target.size(); ++i) {
+    const SampleArea& area = drawing.area(i == 0 ? PlaneScale::kLuma : PlaneScale::kChroma);
+    if (area.empty()) continue;
     std::vector<WeightedPlane> from;
     for (std::size_t s = 0; s < drawing.sources.size(); ++s)
       if (const std::int32_t weight = drawing.blend.ground[s] / kShareOne; weight != 0)
         from.push_back({drawing.sources[s].planes[i], Lanes{} + static_cast<std::uint16_t>(weight)});
     if (from.size() == 1)
-      copy(from.front().plane, drawing.target[i]);
+      copy(from.front().plane, area, drawing.target[i]);
     else
-      blend(from, drawing.target[i], std::make_index_sequence<kMaxRegionSources>());
+      blend(from, area, drawing.target[i], std::make_index_sequence<kMaxRegionSources>());
   }
 }
 

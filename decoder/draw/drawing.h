@@ -25,6 +25,11 @@ struct Drawing {
   std::vector<DrawnSource> sources;         ///< blend.sources
   std::array<InteriorColours, 3> interior;  ///< of each plane
   std::array<PlaneView, 3> target;          ///< Y, U, V
+  SampleArea luma_area, chroma_area;        ///< of the target that is drawn; what lies outside is undefined
+
+  [[nodiscard]] const SampleArea& area(PlaneScale scale) const {
+    return scale == PlaneScale::kLuma ? luma_area : chroma_area;
+  }
 };
 
 /// Those of Y, U, V that have the scale.

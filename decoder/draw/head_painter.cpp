@@ -27,7 +27,7 @@ HeadPainter::HeadPainter(const Drawing& drawing, PlaneScale scale, DepthPlane& d
     : d_(drawing), scale_(scale) {
   const auto planes = planes_of_scale(drawing.target, scale);
   const int width = planes[0].width, height = planes[0].height;
-  target_ = {scale, planes, area_of_head(drawing.mesh, scale, {0, 0, width, height}), &depth};
+  target_ = {scale, planes, area_of_head(drawing.mesh, scale, drawing.area(scale)), &depth};
   if (!target_.area.empty()) depth.reset(width, height, target_.area);
 }
 

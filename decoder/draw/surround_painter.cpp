@@ -33,9 +33,9 @@ void SurroundPainter::draw_half(const std::array<int, 3>& points) {
   const auto at = corners(d_.mesh.surround);
   const ScreenTriangle triangle = {{{at[0]}, {at[1]}, {at[2]}}};
   for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
-    const auto planes = planes_of_scale(d_.target, scale);
+    if (d_.area(scale).empty()) continue;
     sources_.set_scale(scale);
-    draw_triangle(triangle, sources_.all(), {scale, planes, {0, 0, planes[0].width, planes[0].height}});
+    draw_triangle(triangle, sources_.all(), {scale, planes_of_scale(d_.target, scale), d_.area(scale)});
   }
 }
 

@@ -21,6 +21,11 @@ struct WorkFrame {
   /// @param centre  of the crop, pixels of the picture
   /// @param eye_distance_px  of the scene's first picture: it sets the scale and the crop's size
   static WorkFrame cut(const Picture& picture, glm::dvec2 centre, double eye_distance_px, bool with_colour);
+  /// Of a picture's luma.
+  static WorkFrame cut(const Plane& luma, glm::dvec2 centre, double eye_distance_px);
+
+  /// The crop in a picture of this size, pixels; it may reach beyond.
+  static cv::Rect area(glm::ivec2 size, glm::dvec2 centre, double eye_distance_px);
 
   /// Positions of pixel centres: (0, 0) is the centre of the first work pixel, (0.5, 0.5) that of the
   /// picture's.

@@ -22,7 +22,13 @@ Picture drawn(const std::vector<Picture>& patterns, const std::vector<std::int32
     sources.push_back({{patterns[k].y, patterns[k].u, patterns[k].v}});
   }
   const ScreenMesh mesh;
-  draw_base({mesh, blend, std::move(sources), {}, {out.y, out.u, out.v}});
+  draw_base({mesh,
+             blend,
+             std::move(sources),
+             {},
+             {out.y, out.u, out.v},
+             {0, 0, out.y.width, out.y.height},
+             {0, 0, out.u.width, out.u.height}});
   return out;
 }
 
