@@ -187,9 +187,15 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
   return {};
 }
 
-Result<void> PatternPass::code(const Scene& scene, Draft& draft, int speed) {
-  SequenceSettings coding = coding_;
-  coding.speed = speed;
+SequenceSettings PatternPass::draft_coding() const {
+  SequenceSettings out = coding_;
+  out.speed = kTrialSpeed;
+  out.reduced = true;
+  out.quantiser = quantiser_at(true);
+  return out;
+}
+
+Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
   std::vector<Picture> pictures = draft.pictures;
   if (scene.setup.contrast != kContrastOne)
     for (std::size_t k = 0; k < pictures.size(); ++k)
@@ -276,11 +282,11 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
   if (!draft) return draft;
   if (settings_.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
-    if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
+    if (auto coded = code(scene, *draft, draft_coding()); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kDraftEvery); !chosen) return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
-  if (auto coded = code(scene, *draft, coding_.speed); !coded) return fail(coded.error());
+  if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
   // A lone pattern is not far from what the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.refits : 0;
   if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftEvery : 1); !chosen) return fail(chosen.error());
@@ -302,7 +308,9 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     set_size(coding_.reduced);
     auto draft = draft_of(scene, count_wanted());
     if (!draft) return fail(draft.error());
-    if (auto coded = code(scene, *draft, kTrialSpeed); !coded) return fail(coded.error());
+    SequenceSettings trial = coding_;
+    trial.speed = kTrialSpeed;
+    if (auto coded = code(scene, *draft, trial); !coded) return fail(coded.error());
     const auto taken = bytes_of(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     (*taken <= bytes ? low : high) = middle;
@@ -344,7 +352,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
     const int next = std::clamp(quantiser + step, over + 1, under - 1);
     if (next == quantiser) break;
     coding_.quantiser = next;
-    if (auto coded = code(scene, draft, coding_.speed); !coded) return coded;
+    if (auto coded = code(scene, draft, coding_); !coded) return coded;
   }
   draft = std::move(best);
   return choose(scene, draft, 1);
