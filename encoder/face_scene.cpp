@@ -7,6 +7,7 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "encoder/patterns/first_pattern.h"
 #include "encoder/rate_target.h"
 #include "encoder/surround/surround_fit.h"
 #include "encoder/track/snake_marks.h"
@@ -25,6 +26,10 @@ constexpr std::int32_t kSurroundContrast = 220;
 /// Times that states are fitted to what is shown, whatever the effort. The first gains 4 % of the rate in the
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
+
+/// libaom's --cpu-used for the first pattern; where there are several it is only what pictures are compared
+/// with until the patterns of the first segment are coded.
+constexpr int kSpeed = 3, kUnsentSpeed = 6;
 
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
@@ -75,7 +80,6 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
 struct FaceScene::Parts {
   Scene scene;
   CodedState seen;
-  PatternCoder patterns;
   const Picture& first;
   glm::dvec2 centre;  ///< of the head in it, pixels
   double eye_distance_px;
@@ -93,7 +97,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return fail(geometry.error());
 
-  FirstPattern first_pattern(format, first);
+  FirstPattern first_pattern(format, first, settings.patterns == 1 ? kSpeed : kUnsentSpeed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });
@@ -107,7 +111,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->pattern.av1)};
+  const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->av1)};
   auto pattern = encode_first_pattern(first_syntax, scene.setup);
   if (!pattern) return fail(pattern.error());
   // Until pictures have shown more, the surround is a guess by distance from the face.
@@ -115,15 +119,14 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   observations.set_first(first, seen);
   const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, observations);
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
-  scene.patterns.push_back(make_pattern(std::move(coded->pattern.decoded), seen, scene.geometry));
+  scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
   SceneHead head;
   head.geometry = std::move(geometry->payload);
   head.pattern = std::move(*pattern);
-  return std::unique_ptr<FaceScene>(
-      new FaceScene(SceneTiming(format, settings), finder, settings,
-                    {std::move(scene), seen_coded, std::move(coded->coder), first, adapted->pose.shift, eye,
-                     *rate, std::move(head), std::move(observations)}));
+  return std::unique_ptr<FaceScene>(new FaceScene(SceneTiming(format, settings), finder, settings,
+                                                  {std::move(scene), seen_coded, first, adapted->pose.shift,
+                                                   eye, *rate, std::move(head), std::move(observations)}));
 }
 
 FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
@@ -131,7 +134,6 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
     : timing_(timing),
       still_surround_(!settings.surround),
       scene_(std::move(parts.scene)),
-      patterns_(std::move(parts.patterns)),
       analysis_(settings, finder,
                 {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
                  scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),

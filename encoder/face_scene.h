@@ -9,7 +9,6 @@
 #include "encoder/motion_track.h"
 #include "encoder/pattern_pass.h"
 #include "encoder/patterns/mouth_colours.h"
-#include "encoder/patterns/pattern_coder.h"
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
 #include "encoder/scene_timing.h"
@@ -50,7 +49,6 @@ class FaceScene : public SceneEncoder {
   SceneTiming timing_;
   bool still_surround_;
   Scene scene_;  ///< as the decoder builds it; until start() with a guessed surround map
-  PatternCoder patterns_;
   FaceAnalysis analysis_;
 
   MotionTrack motion_;

@@ -3,7 +3,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/track.h"
-#include "encoder/patterns/pattern_coder.h"
+#include "encoder/patterns/first_pattern.h"
 #include "encoder/plan/group_plan.h"
 #include "encoder/plan/rate_control.h"
 #include "encoder/rate_target.h"
@@ -36,7 +36,7 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
   auto setup_payload = encode_setup(setup);
   if (!setup_payload) return fail(setup_payload.error());
   head.setup = std::move(*setup_payload);
-  const PatternSyntax first_pattern{0, 0, CodedState{}, std::move(coded->pattern.av1)};
+  const PatternSyntax first_pattern{0, 0, CodedState{}, std::move(coded->av1)};
   auto pattern_payload = encode_first_pattern(first_pattern, setup);
   if (!pattern_payload) return fail(pattern_payload.error());
   head.pattern = std::move(*pattern_payload);

@@ -4,9 +4,10 @@
 
 namespace fbs {
 
-Result<PatternEncoder> PatternEncoder::create(const VideoFormat& format, int quantiser) {
+Result<PatternEncoder> PatternEncoder::create(const VideoFormat& format, int quantiser, int speed) {
   Av1Settings settings;
   settings.quantiser = quantiser;
+  settings.speed = speed;
   auto av1 = Av1Encoder::create(format, settings);
   if (!av1) return fail(av1.error());
   return PatternEncoder(std::move(*av1));

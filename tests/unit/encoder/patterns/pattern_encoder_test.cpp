@@ -139,6 +139,14 @@ TEST(PatternDecoder, DecodesAfterDamage) {
   EXPECT_EQ(recovered, 50);
 }
 
+TEST(PatternEncoder, PredictsLaterPatternsFromEarlierOnes) {
+  auto encoder = PatternEncoder::create(format_of(96, 80), 30);
+  ASSERT_TRUE(encoder);
+  const auto first = encoder->encode(scenery(96, 80)), again = encoder->encode(scenery(96, 80));
+  ASSERT_TRUE(first && again);
+  EXPECT_LT(again->size(), first->size() / 4);
+}
+
 TEST(PatternEncoder, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(PatternEncoder::create(format_of(64, 64), -1).error().code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(PatternEncoder::create(format_of(64, 64), 64).error().code, ErrorCode::kInvalidArgument);

@@ -1,0 +1,45 @@
+// A scene's first pattern while its quantiser is being chosen.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/result.h"
+
+namespace fbs {
+
+/// One pattern as it is sent and as it is shown.
+struct CodedPattern {
+  std::vector<std::uint8_t> av1;  ///< as PatternDecoder reads it
+  Picture decoded;
+};
+
+/// Each quantiser is coded once; only sizes are kept, and the pattern of the last.
+class FirstPattern {
+ public:
+  /// @param picture  must outlive the object
+  /// @param speed    libaom's --cpu-used, 0 (slow and small) to 9
+  FirstPattern(const VideoFormat& format, const Picture& picture, int speed = 3)
+      : format_(format), picture_(&picture), speed_(speed) {}
+
+  /// Bytes of the pattern at a quantiser, 0..63.
+  Result<std::size_t> bytes(int quantiser);
+
+  /// Leaves nothing behind.
+  Result<CodedPattern> take(int quantiser);
+
+ private:
+  Result<void> code(int quantiser);
+
+  VideoFormat format_;
+  const Picture* picture_;
+  int speed_;
+  std::map<int, std::size_t> bytes_;
+  int last_quantiser_ = -1;
+  std::optional<CodedPattern> last_;
+};
+
+}  // namespace fbs
