@@ -377,5 +377,24 @@ TEST(Renderer, SurvivesEveryStateOfAStream) {
   }
 }
 
+TEST(Renderer, AreaOfLumaIsThatOfTheWholePicture) {
+  std::mt19937 random(21);
+  const Scene scene =
+      scene_seen_in(random_state(random), noise_picture(161, 127, 22), even_surround(6, 6, 3, 1));
+  const State state = random_state(random);
+  const Plane whole = rendered(scene, state).y;
+  Renderer renderer;
+  for (const SampleArea& area :
+       {SampleArea{0, 0, 161, 127}, {40, 30, 120, 100}, {-20, -10, 33, 40}, {150, 100, 400, 300}}) {
+    Plane out(161, 127);
+    ASSERT_TRUE(renderer.render_luma(scene, state, area, out));
+    for (int y = std::max(area.y0, 0); y < std::min(area.y1, 127); ++y)
+      for (int x = std::max(area.x0, 0); x < std::min(area.x1, 161); ++x)
+        ASSERT_EQ(out.row(y)[x], whole.row(y)[x]) << x << ' ' << y;
+  }
+  Plane other(160, 127);
+  EXPECT_EQ(renderer.render_luma(scene, state, {}, other).error().code, ErrorCode::kInvalidArgument);
+}
+
 }  // namespace
 }  // namespace fbs
