@@ -19,6 +19,7 @@ inline constexpr std::uint32_t kNotKey = 15 << 12;
 inline constexpr int kContrastOneLog2 = 8;
 inline constexpr int kContrastOne = 1 << kContrastOneLog2;  ///< contrast of patterns as they are
 inline constexpr int kMinContrast = 128;
+inline constexpr int kMaxChromaContrast = 2 * kContrastOne;
 inline constexpr int kMaxPatterns = 64;                             ///< patterns that a decoder keeps
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< whose motion has arrived but not their blend
@@ -66,6 +67,8 @@ struct Setup {
   MouthInterior mouth;
   std::int32_t patterns = 1;  ///< that the decoder keeps, 1..kMaxPatterns; 1: pictures need no blend packets
   std::int32_t contrast = kContrastOne;  ///< of patterns outside the face, kMinContrast..kContrastOne
+  /// Of patterns' chroma in the face, kContrastOne..kMaxChromaContrast, even.
+  std::int32_t chroma_contrast = kContrastOne;
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 

@@ -14,11 +14,17 @@ constexpr int kMiddle = 128, kShareOne = 255, kInverseOneLog2 = 16;
 using Contrasts = std::array<std::int32_t, kShareOne + 1>;
 
 /// For each share of the face.
-Contrasts contrasts(std::int32_t surround) {
+Contrasts contrasts(std::int32_t face, std::int32_t surround) {
   Contrasts out{};
   for (int share = 0; share <= kShareOne; ++share)
-    out[share] = surround + ((kContrastOne - surround) * share + kShareOne / 2) / kShareOne;
+    out[share] = surround + ((face - surround) * share + kShareOne / 2) / kShareOne;
   return out;
+}
+
+/// 1 / contrast, 16 fractional bits.
+Contrasts inverse(Contrasts contrast) {
+  for (std::int32_t& c : contrast) c = ((kContrastOne << kInverseOneLog2) + c / 2) / c;
+  return contrast;
 }
 
 /// Shares of the face: two constant textures blended over the head and the ring round it.
@@ -59,27 +65,27 @@ ContrastMap::ContrastMap(const Setup& setup, const TextureMesh& texture)
     : luma_(draw_shares(setup.format.width, setup.format.height, PlaneScale::kLuma, texture)),
       chroma_(draw_shares((setup.format.width + 1) / 2, (setup.format.height + 1) / 2, PlaneScale::kChroma,
                           texture)),
-      surround_(setup.contrast) {}
+      surround_(setup.contrast),
+      face_chroma_(setup.chroma_contrast) {}
 
 void ContrastMap::expand(Picture& picture) const {
-  Contrasts inverse = contrasts(surround_);
-  for (std::int32_t& c : inverse) c = ((kContrastOne << kInverseOneLog2) + c / 2) / c;
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + (1 << (kInverseOneLog2 - 1))) >> kInverseOneLog2;
   };
-  for_each_sample(picture.y, luma_, inverse, change);
-  for_each_sample(picture.u, chroma_, inverse, change);
-  for_each_sample(picture.v, chroma_, inverse, change);
+  const Contrasts chroma = inverse(contrasts(face_chroma_, surround_));
+  for_each_sample(picture.y, luma_, inverse(contrasts(kContrastOne, surround_)), change);
+  for_each_sample(picture.u, chroma_, chroma, change);
+  for_each_sample(picture.v, chroma_, chroma, change);
 }
 
 void ContrastMap::reduce(Picture& picture) const {
-  const Contrasts contrast = contrasts(surround_);
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + kContrastOne / 2) >> kContrastOneLog2;
   };
-  for_each_sample(picture.y, luma_, contrast, change);
-  for_each_sample(picture.u, chroma_, contrast, change);
-  for_each_sample(picture.v, chroma_, contrast, change);
+  const Contrasts chroma = contrasts(face_chroma_, surround_);
+  for_each_sample(picture.y, luma_, contrasts(kContrastOne, surround_), change);
+  for_each_sample(picture.u, chroma_, chroma, change);
+  for_each_sample(picture.v, chroma_, chroma, change);
 }
 
 }  // namespace fbs

@@ -13,7 +13,7 @@ Pattern make_pattern(Picture picture, const State& seen, const std::optional<Sce
 Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional<SceneGeometry>& geometry,
                            const Setup& setup) {
   Pattern out = make_pattern(std::move(coded), seen, geometry);
-  if (geometry && setup.contrast < kContrastOne) ContrastMap(setup, out.texture).expand(out.picture);
+  if (geometry && ContrastMap::is_needed(setup)) ContrastMap(setup, out.texture).expand(out.picture);
   return out;
 }
 

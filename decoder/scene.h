@@ -21,7 +21,7 @@ struct Pattern {
 [[nodiscard]] Pattern make_pattern(Picture picture, const State& seen,
                                    const std::optional<SceneGeometry>& geometry);
 
-/// The same from a picture as coded, whose contrast outside the face is that of the setup.
+/// The same from a picture as coded, whose contrast is that of the setup.
 [[nodiscard]] Pattern make_coded_pattern(Picture coded, const State& seen,
                                          const std::optional<SceneGeometry>& geometry, const Setup& setup);
 

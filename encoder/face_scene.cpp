@@ -157,8 +157,10 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
   if (!fixed_) learn(picture, seen);
-  if (second_pass_)
+  if (second_pass_) {
+    if (!packets_.started()) second_pass_->face_chroma.add(picture, seen.vertices);
     if (auto added = second_pass_->patterns.add(picture); !added) return added;
+  }
   ++pictures_;
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
@@ -213,6 +215,7 @@ Result<void> FaceScene::end_segment() {
   if (!packets_.started()) {
     scene_.setup.patterns = second_pass_->patterns.store();
     scene_.setup.contrast = kSurroundContrast;
+    scene_.setup.chroma_contrast = second_pass_->face_chroma.contrast();
     head_.pattern.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }

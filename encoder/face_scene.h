@@ -8,6 +8,7 @@
 #include "encoder/face_analysis.h"
 #include "encoder/motion_track.h"
 #include "encoder/pattern_pass.h"
+#include "encoder/patterns/face_chroma.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
@@ -63,7 +64,8 @@ class FaceScene : public SceneEncoder {
   struct SecondPass {
     PatternPass patterns;
     SegmentRefit refit;
-    MotionTrack motion;  ///< as before the segment
+    MotionTrack motion;        ///< as before the segment
+    FaceChroma face_chroma{};  ///< until the scene starts
   };
   std::optional<SecondPass> second_pass_;  ///< nothing with one pattern
   SceneHead head_;

@@ -197,7 +197,7 @@ SequenceSettings PatternPass::draft_coding() const {
 
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
   std::vector<Picture> pictures = draft.pictures;
-  if (scene.setup.contrast != kContrastOne)
+  if (ContrastMap::is_needed(scene.setup))
     for (std::size_t k = 0; k < pictures.size(); ++k)
       ContrastMap(scene.setup, scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
           .reduce(pictures[k]);

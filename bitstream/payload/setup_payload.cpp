@@ -96,6 +96,9 @@ Result<void> check_setup(const Setup& setup) {
   if (setup.patterns > kMaxPatterns) return fail(ErrorCode::kTooLarge, "too many patterns");
   if (setup.contrast < kMinContrast || setup.contrast > kContrastOne)
     return fail(ErrorCode::kInvalidArgument, "contrast of patterns is out of range");
+  if (setup.chroma_contrast < kContrastOne || setup.chroma_contrast > kMaxChromaContrast ||
+      setup.chroma_contrast % 2 != 0)
+    return fail(ErrorCode::kInvalidArgument, "chroma contrast of patterns is out of range");
   return {};
 }
 
@@ -114,9 +117,11 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  const bool has_contrast = setup.contrast < kContrastOne;
+  const bool has_chroma = setup.chroma_contrast > kContrastOne;
+  const bool has_contrast = has_chroma || setup.contrast < kContrastOne;
   if (setup.patterns > 1 || has_contrast) writer.varint(static_cast<std::uint64_t>(setup.patterns));
   if (has_contrast) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
+  if (has_chroma) writer.u8(static_cast<std::uint8_t>((setup.chroma_contrast - kContrastOne) / 2));
   return payload;
 }
 
@@ -144,6 +149,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   setup.mouth.lower = read_colour(reader);
   if (reader.remaining() > 0) setup.patterns = to_int(reader.varint());
   if (reader.remaining() > 0) setup.contrast = kContrastOne - reader.u8();
+  if (reader.remaining() > 0) setup.chroma_contrast = kContrastOne + 2 * reader.u8();
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");

@@ -42,6 +42,7 @@ class HandMade {
     setup_ = must(decode_setup(motion_[place_of(motion_, PacketType::kSetup)].payload));
     setup_.patterns = slots;
     setup_.contrast = 170;
+    setup_.chroma_contrast = 400;
     motion_decoder_.emplace(setup_, seen_);
     add(PacketType::kSetup, must(encode_setup(setup_)));
     for (const Piece& piece : motion_)

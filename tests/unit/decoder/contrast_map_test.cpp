@@ -67,6 +67,21 @@ TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
   }
 }
 
+TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
+  const TextureMesh mesh = texture();
+  auto raised = setup(192);
+  raised.chroma_contrast = 384;
+  const ContrastMap map(raised, mesh);
+  Picture p = two_levels(168, 168);
+  map.reduce(p);
+  const glm::ivec2 in = middle(mesh);
+  EXPECT_EQ(p.y.row(in.y)[in.x], 168);
+  EXPECT_EQ(p.u.row(in.y / 2)[in.x / 2], 128 + 60);
+  EXPECT_EQ(p.v.row(1)[1], 128 + 30);
+  map.expand(p);
+  for (const std::uint8_t v : p.u.samples) EXPECT_NEAR(v, 168, 1);
+}
+
 TEST(ContrastMap, LargestDeviationsStayInRange) {
   Picture p = two_levels(0, 255);
   ContrastMap(setup(kMinContrast), texture()).expand(p);

@@ -178,7 +178,7 @@ TEST(StreamDecoder, DurationStaysInRangeAtTheSlowestRate) {
 
 TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   Bytes longer = *encode_setup(setup_of());
-  longer.insert(longer.end(), {1, 0, 3, 4});  // one pattern of full contrast, and what a later version has
+  longer.insert(longer.end(), {1, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
   const Writer& s = sample();
   Writer w;
   w.packet(PacketType::kSetup, longer);

@@ -71,6 +71,9 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
       {[](fbs::Setup& s) { s.patterns = kMaxPatterns + 1; }, ErrorCode::kTooLarge},
       {[](fbs::Setup& s) { s.contrast = kMinContrast - 1; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.contrast = kContrastOne + 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.chroma_contrast = kContrastOne - 2; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.chroma_contrast = kContrastOne + 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.chroma_contrast = kMaxChromaContrast + 2; }, ErrorCode::kInvalidArgument},
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {
     auto setup = sample_setup();
@@ -118,7 +121,7 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
 }
 
-// The last fields: patterns and contrast.
+// The last fields: patterns and contrasts.
 TEST(SetupPayload, StoreOfOnePatternIsNotCoded) {
   auto one = sample_setup();
   one.patterns = 1;
@@ -154,6 +157,23 @@ TEST(SetupPayload, FullContrastIsNotCoded) {
   }
   auto payload = *encode_setup(sample_setup());
   payload.push_back(kContrastOne - kMinContrast + 1);
+  EXPECT_EQ(decode_setup(payload).error().code, ErrorCode::kInvalidStream);
+}
+
+TEST(SetupPayload, FullChromaContrastIsNotCoded) {
+  for (const std::int32_t contrast : {kContrastOne, 220}) {
+    auto setup = sample_setup();
+    setup.contrast = contrast;
+    const auto without = *encode_setup(setup);
+    for (const std::int32_t chroma : {kContrastOne + 2, 400, kMaxChromaContrast}) {
+      setup.chroma_contrast = chroma;
+      const auto payload = *encode_setup(setup);
+      EXPECT_EQ(payload.size(), without.size() + (contrast == kContrastOne ? 2 : 1));
+      EXPECT_EQ(*decode_setup(payload), setup);
+    }
+  }
+  auto payload = *encode_setup(sample_setup());
+  payload.insert(payload.end(), {0, (kMaxChromaContrast - kContrastOne) / 2 + 1});
   EXPECT_EQ(decode_setup(payload).error().code, ErrorCode::kInvalidStream);
 }
 

@@ -1,0 +1,30 @@
+// How far the chroma of a face is from grey, and so by how much its contrast can be raised before coding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "bitstream/syntax.h"
+#include "common/picture.h"
+
+namespace fbs {
+
+/// A histogram over the pictures seen so far.
+class FaceChroma {
+ public:
+  /// Adds the box round the head.
+  /// @param vertices  screen positions of the head's vertices, 1/64 pixel
+  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices);
+
+  /// The largest Setup::chroma_contrast with which hardly a sample leaves 0..255; kContrastOne when nothing
+  /// has been added.
+  [[nodiscard]] std::int32_t contrast() const;
+
+ private:
+  void add(const Plane& plane, int x0, int y0, int x1, int y1);
+
+  std::array<std::int64_t, 129> count_{};  ///< of samples, by distance from grey
+};
+
+}  // namespace fbs
