@@ -39,7 +39,7 @@ std::int32_t FaceChroma::contrast() const {
     beyond += static_cast<double>(count_[level]);
     if (beyond > kOutside * all) break;
   }
-  return std::clamp(kContrastOne * kRoom / level / 2 * 2, kContrastOne, kMaxChromaContrast);
+  return std::clamp(kContrastOne * kRoom / level / 2 * 2, kContrastOne, kWantedChromaContrast);
 }
 
 }  // namespace fbs

@@ -10,6 +10,10 @@
 
 namespace fbs {
 
+/// Chroma of the face gains 1.1 to 2.9 dB over none (four clips at quality 50, 0.6 % of the rate at equal
+/// luma); twice the contrast gains another 0.8 dB, and takes 1 % more where pictures are large.
+inline constexpr std::int32_t kWantedChromaContrast = kContrastOne * 3 / 2;
+
 /// A histogram over the pictures seen so far.
 class FaceChroma {
  public:
@@ -17,8 +21,8 @@ class FaceChroma {
   /// @param vertices  screen positions of the head's vertices, 1/64 pixel
   void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices);
 
-  /// The largest Setup::chroma_contrast with which hardly a sample leaves 0..255; kContrastOne when nothing
-  /// has been added.
+  /// Setup::chroma_contrast: what is wanted, or the most with which hardly a sample leaves 0..255;
+  /// kContrastOne when nothing has been added.
   [[nodiscard]] std::int32_t contrast() const;
 
  private:
