@@ -143,11 +143,13 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       observations_(std::move(parts.observations)),
       head_(std::move(parts.head)) {
   if (settings.patterns != 1) {
+    // Braces: clang 14 does not construct aggregates in place.
     second_pass_.emplace(
-        PatternPass(scene_.setup.format, pass_settings(settings, parts.rate.point), parts.seen),
-        SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
-                     parts.eye_distance_px),
-        motion_);
+        SecondPass{PatternPass(scene_.setup.format, pass_settings(settings, parts.rate.point), parts.seen),
+                   SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
+                                parts.eye_distance_px),
+                   motion_,
+                   {}});
   }
 }
 
