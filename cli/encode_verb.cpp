@@ -5,7 +5,7 @@
 
 #include "cli/encode_session.h"
 #include "cli/module.h"
-#include "cli/overlay.h"
+#include "cli/display/overlay.h"
 #include "cli/stream_file.h"
 #include "cli/video/atomic_file.h"
 

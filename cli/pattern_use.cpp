@@ -1,6 +1,6 @@
 #include "cli/pattern_use.h"
 
-#include "cli/picture_sources.h"
+#include "cli/display/picture_sources.h"
 #include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {

@@ -4,8 +4,8 @@
 #include <opencv2/highgui.hpp>
 #include <utility>
 
-#include "cli/display_image.h"
-#include "cli/pattern_overlay.h"
+#include "cli/display/display_image.h"
+#include "cli/display/pattern_overlay.h"
 
 namespace fbs::cli {
 namespace {

@@ -181,6 +181,15 @@ inline Played played(std::span<const std::uint8_t> bytes) {
   return result;
 }
 
+/// Has the whole stream, of which nothing is read yet, and will record its patterns.
+inline StreamDecoder recording_decoder(const Writer& w) {
+  StreamDecoder decoder;
+  decoder.record_patterns();
+  decoder.feed(w.bytes);
+  decoder.close();
+  return decoder;
+}
+
 inline std::uint64_t sum_of(const ByteCount& b) {
   return b.geometry + b.patterns + b.motion + b.other;
 }

@@ -1,4 +1,4 @@
-#include "cli/pattern_tint.h"
+#include "cli/display/pattern_tint.h"
 
 #include <algorithm>
 #include <limits>

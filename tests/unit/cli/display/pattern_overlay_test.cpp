@@ -1,12 +1,12 @@
-#include "cli/pattern_overlay.h"
+#include "cli/display/pattern_overlay.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "cli/display_image.h"
-#include "cli/pattern_legend.h"
-#include "cli/pattern_tint.h"
+#include "cli/display/display_image.h"
+#include "cli/display/pattern_legend.h"
+#include "cli/display/pattern_tint.h"
 #include "tests/unit/decoder/stream_writer.h"
 
 namespace fbs::cli {
@@ -33,11 +33,7 @@ cv::Vec3d hue(const Bgr& c) {
 }
 
 TEST(PatternOverlay, PictureIsTintedByThePatternsThatDrawIt) {
-  const Writer w = two_halves();
-  StreamDecoder decoder;
-  decoder.record_patterns();
-  decoder.feed(w.bytes);
-  decoder.close();
+  StreamDecoder decoder = recording_decoder(two_halves());
   Picture picture;
   for (std::size_t t = 0; t < 9; ++t) {
     ASSERT_EQ(decoder.next(), DecodeStatus::kPicture);
@@ -53,11 +49,7 @@ TEST(PatternOverlay, PictureIsTintedByThePatternsThatDrawIt) {
 }
 
 TEST(PatternOverlay, NeitherTheImageNorTheDecoderChanges) {
-  const Writer w = two_halves();
-  StreamDecoder decoder;
-  decoder.record_patterns();
-  decoder.feed(w.bytes);
-  decoder.close();
+  StreamDecoder decoder = recording_decoder(two_halves());
   ASSERT_EQ(decoder.next(), DecodeStatus::kPicture);
   Picture picture, again;
   ASSERT_TRUE(decoder.render(picture));

@@ -1,10 +1,10 @@
-#include "cli/pattern_legend.h"
+#include "cli/display/pattern_legend.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "cli/pattern_tint.h"
+#include "cli/display/pattern_tint.h"
 #include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {

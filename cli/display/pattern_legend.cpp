@@ -1,10 +1,10 @@
-#include "cli/pattern_legend.h"
+#include "cli/display/pattern_legend.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "cli/pattern_tint.h"
+#include "cli/display/pattern_tint.h"
 #include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {

@@ -1,4 +1,4 @@
-#include "cli/picture_sources.h"
+#include "cli/display/picture_sources.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +12,13 @@ constexpr auto kMouth = static_cast<std::size_t>(Region::kMouth),
                kGround = static_cast<std::size_t>(Region::kGround);
 
 /// Decodes up to the picture of this number.
-void decode_to(StreamDecoder& decoder, const Writer& w, std::uint64_t picture) {
-  decoder.record_patterns();
-  decoder.feed(w.bytes);
-  decoder.close();
+void decode_to(StreamDecoder& decoder, std::uint64_t picture) {
   while (decoder.pictures() <= picture) ASSERT_EQ(decoder.next(), DecodeStatus::kPicture);
 }
 
 PictureSources sources_at(const Writer& w, std::uint64_t picture) {
-  StreamDecoder decoder;
-  decode_to(decoder, w, picture);
+  StreamDecoder decoder = recording_decoder(w);
+  decode_to(decoder, picture);
   return picture_sources(decoder);
 }
 

@@ -1,10 +1,10 @@
-#include "cli/pattern_overlay.h"
+#include "cli/display/pattern_overlay.h"
 
 #include <opencv2/imgproc.hpp>
 
-#include "cli/pattern_legend.h"
-#include "cli/pattern_tint.h"
-#include "cli/picture_sources.h"
+#include "cli/display/pattern_legend.h"
+#include "cli/display/pattern_tint.h"
+#include "cli/display/picture_sources.h"
 
 namespace fbs::cli {
 namespace {

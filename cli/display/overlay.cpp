@@ -1,9 +1,9 @@
-#include "cli/overlay.h"
+#include "cli/display/overlay.h"
 
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
-#include "cli/display_image.h"
+#include "cli/display/display_image.h"
 #include "cli/video/colour.h"
 
 namespace fbs::cli {

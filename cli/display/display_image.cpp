@@ -1,4 +1,4 @@
-#include "cli/display_image.h"
+#include "cli/display/display_image.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

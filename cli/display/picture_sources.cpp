@@ -1,4 +1,4 @@
-#include "cli/picture_sources.h"
+#include "cli/display/picture_sources.h"
 
 #include <algorithm>
 #include <tuple>
