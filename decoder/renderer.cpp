@@ -95,7 +95,7 @@ Result<void> Renderer::render_luma(const Scene& scene, const State& state, const
   if (!same_size(scene.patterns.front().picture.y, out)) return fail(another_size());
   const SampleArea inside{std::max(area.x0, 0), std::max(area.y0, 0), std::min(area.x1, out.width),
                           std::min(area.y1, out.height)};
-  draw(scene, state, {out, {}, {}}, inside, {});
+  if (!inside.empty()) draw(scene, state, {out, {}, {}}, inside, {});
   return {};
 }
 

@@ -13,8 +13,9 @@ std::int32_t mouth_gap_of(const State& state, const SceneGeometry& geometry) {
 
 }  // namespace
 
-SegmentRenderer::SegmentRenderer(const SegmentPatterns& patterns)
-    : patterns_(patterns), luma_(patterns.scene.patterns.front().picture.y) {
+SegmentRenderer::SegmentRenderer(const SegmentPatterns& patterns) : patterns_(patterns) {
+  const Plane& any = patterns.scene.patterns.front().picture.y;
+  luma_ = Plane(any.width, any.height);
   scene_.setup.mouth = patterns.scene.mouth;
   scene_.geometry = patterns.scene.geometry;
   for (const Pattern& p : patterns.scene.patterns)

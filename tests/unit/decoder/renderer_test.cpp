@@ -384,8 +384,11 @@ TEST(Renderer, AreaOfLumaIsThatOfTheWholePicture) {
   const State state = random_state(random);
   const Plane whole = rendered(scene, state).y;
   Renderer renderer;
-  for (const SampleArea& area :
-       {SampleArea{0, 0, 161, 127}, {40, 30, 120, 100}, {-20, -10, 33, 40}, {150, 100, 400, 300}}) {
+  for (const SampleArea& area : {SampleArea{0, 0, 161, 127},
+                                 {40, 30, 120, 100},
+                                 {-20, -10, 33, 40},
+                                 {150, 100, 400, 300},
+                                 {200, 10, 300, 60}}) {
     Plane out(161, 127);
     ASSERT_TRUE(renderer.render_luma(scene, state, area, out));
     for (int y = std::max(area.y0, 0); y < std::min(area.y1, 127); ++y)
