@@ -16,27 +16,6 @@ constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
-/// Calls use(i, sample number of the upper left one, fx, fy) for the four samples that each sample of a run
-/// mixes.
-template <class Use>
-void for_each_footprint(const SourceRun& s, int count, const SolvedPlanes& plane, Use&& use) {
-  float u = s.u.first, v = s.v.first;
-  const auto at = [&](int i, int column, int row, float x, float y) {
-    use(i, row * plane.width + column, x - static_cast<float>(column), y - static_cast<float>(row));
-  };
-  if (is_inside(s, count, {plane.width, plane.height})) {
-    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step)
-      at(i, static_cast<int>(u), static_cast<int>(v), u, v);
-  } else {
-    for (int i = 0; i < count; ++i, u += s.u.step, v += s.v.step) {
-      const float x = std::clamp(u, 0.0F, static_cast<float>(plane.width - 1)),
-                  y = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
-      at(i, std::min(static_cast<int>(x), plane.width - 2), std::min(static_cast<int>(y), plane.height - 2),
-         x, y);
-    }
-  }
-}
-
 void clear(std::span<SolvedPlanes> planes) {
   for (SolvedPlanes& p : planes) std::fill(p.samples.begin(), p.samples.end(), glm::vec4(0));
 }
@@ -150,7 +129,7 @@ void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, SolvedPl
       continue;
     }
     const glm::vec4* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, plane,
+    for_each_footprint(t.source, t.run.count, {plane.width, plane.height},
                        [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
                          const glm::vec4* a = samples + at;
                          const glm::vec4* b = a + plane.width;
@@ -173,7 +152,7 @@ void PatternSolver::draw_transposed(const Taps& taps, const SolvedPlanes& pictur
       continue;
     }
     glm::vec4* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, plane,
+    for_each_footprint(t.source, t.run.count, {plane.width, plane.height},
                        [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
                          const glm::vec4 value = f * from[i];
                          f += f_step;

@@ -47,6 +47,15 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
     out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
 }
 
+/// Mixes the samples of a footprint.
+/// @param a      the upper left one
+/// @param width  of the plane
+float mixed(const float* a, int width, float fx, float fy) {
+  const float* b = a + width;
+  const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
+  return top + fy * (bottom - top);
+}
+
 /// Whether the surround lies where the pattern has it: then the decoder shows the pattern's own samples, in
 /// the margin, too, whose texture would repeat the border.
 bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureMesh& texture) {
@@ -107,42 +116,28 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
   v = std::clamp(v, 0.0F, static_cast<float>(plane.height - 1));
   const int x = std::min(static_cast<int>(u), plane.width - 2),
             y = std::min(static_cast<int>(v), plane.height - 2);
-  const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-  const float* a = plane.row(y) + x;
-  const float* b = a + plane.width;
-  const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
-  return top + fy * (bottom - top);
+  return mixed(plane.row(y) + x, plane.width, u - static_cast<float>(x), v - static_cast<float>(y));
 }
 
 void sample_luma(const SourceRun& source, const SurfaceRun& run, const ReducedPlane& luma,
                  std::int16_t* out) {
-  float u = source.u.first, v = source.v.first, offset = source.offset.first;
+  float offset = source.offset.first;
   const bool plain = source.gain == 0 && source.opacity == 0 && offset == 0 && source.offset.step == 0;
   if (plain && is_identity(source, run)) {
     const float* from = luma.row(run.row) + run.first;
     for (int i = 0; i < run.count; ++i) out[i] = static_cast<std::int16_t>(rounded(from[i]));
     return;
   }
-  const auto put = [&](int i, float sample) {
+  const float* samples = luma.samples.data();
+  for_each_footprint(source, run.count, {luma.width, luma.height}, [&](int i, int at, float fx, float fy) {
+    float sample = mixed(samples + at, luma.width, fx, fy);
     if (!plain) {
       sample = std::clamp(sample + source.gain * (sample - 128.0F) + offset, 0.0F, 255.0F);
       sample += source.opacity * (source.interior[0] - sample);
       offset += source.offset.step;
     }
     out[i] = static_cast<std::int16_t>(rounded(sample));
-  };
-  if (!is_inside(source, run.count, {luma.width, luma.height})) {
-    for (int i = 0; i < run.count; ++i, u += source.u.step, v += source.v.step) put(i, bilinear(luma, u, v));
-    return;
-  }
-  for (int i = 0; i < run.count; ++i, u += source.u.step, v += source.v.step) {
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-    const float* a = luma.samples.data() + (y * luma.width + x);
-    const float* b = a + luma.width;
-    const float top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
-    put(i, top + fy * (bottom - top));
-  }
+  });
 }
 
 }  // namespace fbs

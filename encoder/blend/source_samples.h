@@ -86,6 +86,27 @@ struct PictureMesh {
          source.v.first == static_cast<float>(run.row);
 }
 
+/// Calls use(i, number of the upper left sample, fx, fy) for the four samples of a plane of this size that
+/// each sample i of a run mixes; fx and fy are the shares of the right and the lower ones. Positions outside
+/// repeat the border.
+template <class Use>
+void for_each_footprint(const SourceRun& source, int count, glm::ivec2 size, Use&& use) {
+  float u = source.u.first, v = source.v.first;
+  const auto at = [&](int i, int column, int row, float x, float y) {
+    use(i, row * size.x + column, x - static_cast<float>(column), y - static_cast<float>(row));
+  };
+  if (is_inside(source, count, size)) {
+    for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step)
+      at(i, static_cast<int>(u), static_cast<int>(v), u, v);
+  } else {
+    for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step) {
+      const float x = std::clamp(u, 0.0F, static_cast<float>(size.x - 1)),
+                  y = std::clamp(v, 0.0F, static_cast<float>(size.y - 1));
+      at(i, std::min(static_cast<int>(x), size.x - 2), std::min(static_cast<int>(y), size.y - 2), x, y);
+    }
+  }
+}
+
 /// Bilinear; positions outside repeat the border.
 [[nodiscard]] float bilinear(const ReducedPlane& plane, float u, float v);
 
