@@ -27,10 +27,6 @@ constexpr std::int32_t kSurroundContrast = 220;
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
 
-/// libaom's --cpu-used for the first pattern; where there are several it is only what pictures are compared
-/// with until the patterns of the first segment are coded.
-constexpr int kSpeed = 3, kUnsentSpeed = 6;
-
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
   PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
@@ -97,7 +93,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return fail(geometry.error());
 
-  FirstPattern first_pattern(format, first, settings.patterns == 1 ? kSpeed : kUnsentSpeed);
+  // Where there are several it is only what pictures are compared with until those of a segment are coded.
+  FirstPattern first_pattern(format, first, settings.patterns == 1 ? kSentSpeed : kTrialSpeed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });

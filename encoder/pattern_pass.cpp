@@ -18,8 +18,7 @@ constexpr double kSegmentSeconds = 40;
 /// Patterns are kept as long as they take less memory than this, bytes.
 constexpr double kStoreBytes = 256e6;
 
-// For deciding how many patterns: libaom's speed, pictures coded, and every so many drawn.
-constexpr int kTrialSpeed = 6;
+// For deciding how many patterns: pictures coded, and every so many drawn.
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
 // Modes that are chosen anew later on are shared by so many pictures.
@@ -119,6 +118,14 @@ int PatternPass::quantiser_at(bool reduced) const {
   return quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
 }
 
+SequenceSettings PatternPass::trial_coding(bool reduced) const {
+  SequenceSettings out = coding_;
+  out.speed = kTrialSpeed;
+  out.reduced = reduced;
+  out.quantiser = quantiser_at(reduced);
+  return out;
+}
+
 void PatternPass::set_size(bool reduced) {
   coding_.reduced = reduced;
   coding_.quantiser = quantiser_at(reduced);
@@ -149,16 +156,9 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   if (!loss) return fail(loss.error());
   const auto pictures = trial_pictures(std::min(kTrialPictures, count));
   if (!pictures) return fail(pictures.error());
-  const auto cost = [&](bool reduced) {
-    SequenceSettings trial = coding_;
-    trial.speed = kTrialSpeed;
-    trial.reduced = reduced;
-    trial.quantiser = quantiser_at(reduced);
-    return trial_cost(format_, *pictures, trial);
-  };
-  const auto full = cost(false);
+  const auto full = trial_cost(format_, *pictures, trial_coding(false));
   if (!full) return fail(full.error());
-  const auto reduced = cost(true);
+  const auto reduced = trial_cost(format_, *pictures, trial_coding(true));
   if (!reduced) return fail(reduced.error());
   double motion = 0;
   for (const Segment::Group& g : segment_.groups) motion += static_cast<double>(g.payload.size());
@@ -185,14 +185,6 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
   for (std::size_t k = 0; k < solved->size(); ++k)
     draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
   return {};
-}
-
-SequenceSettings PatternPass::draft_coding() const {
-  SequenceSettings out = coding_;
-  out.speed = kTrialSpeed;
-  out.reduced = true;
-  out.quantiser = quantiser_at(true);
-  return out;
 }
 
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
@@ -281,8 +273,9 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
   auto draft = draft_of(scene, count_wanted());
   if (!draft) return draft;
   if (settings_.solves) {
-    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less.
-    if (auto coded = code(scene, *draft, draft_coding()); !coded) return fail(coded.error());
+    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. At half
+    // size whatever is chosen, since only errors like those of the coded patterns are wanted.
+    if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kDraftEvery); !chosen) return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
@@ -308,9 +301,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     set_size(coding_.reduced);
     auto draft = draft_of(scene, count_wanted());
     if (!draft) return fail(draft.error());
-    SequenceSettings trial = coding_;
-    trial.speed = kTrialSpeed;
-    if (auto coded = code(scene, *draft, trial); !coded) return fail(coded.error());
+    if (auto coded = code(scene, *draft, trial_coding(coding_.reduced)); !coded) return fail(coded.error());
     const auto taken = bytes_of(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     (*taken <= bytes ? low : high) = middle;

@@ -86,9 +86,8 @@ class PatternPass {
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, const SequenceSettings& coding);
-  /// Where only errors like those of the coded patterns are wanted: fast, and at half size whatever is
-  /// chosen.
-  [[nodiscard]] SequenceSettings draft_coding() const;
+  /// To find out how patterns would be coded.
+  [[nodiscard]] SequenceSettings trial_coding(bool reduced) const;
   /// Solves, codes, chooses and fits states anew, as the settings say.
   [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
   /// Patterns follow the states of their pictures.

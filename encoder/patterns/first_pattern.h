@@ -8,6 +8,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "encoder/patterns/av1_encoder.h"
 
 namespace fbs {
 
@@ -21,8 +22,8 @@ struct CodedPattern {
 class FirstPattern {
  public:
   /// @param picture  must outlive the object
-  /// @param speed    libaom's --cpu-used, 0 (slow and small) to 9
-  FirstPattern(const VideoFormat& format, const Picture& picture, int speed = 3)
+  /// @param speed    as Av1Settings::speed
+  FirstPattern(const VideoFormat& format, const Picture& picture, int speed = kSentSpeed)
       : format_(format), picture_(&picture), speed_(speed) {}
 
   /// Bytes of the pattern at a quantiser, 0..63.

@@ -12,8 +12,8 @@ class PatternEncoder {
  public:
   /// @param format     of the stream; its range and matrix are written into the AV1 sequence header
   /// @param quantiser  AV1 quantiser on libaom's scale, 0..63, fixed for each picture
-  /// @param speed      libaom's --cpu-used, 0 (slow and small) to 9
-  static Result<PatternEncoder> create(const VideoFormat& format, int quantiser, int speed = 3);
+  /// @param speed      as Av1Settings::speed
+  static Result<PatternEncoder> create(const VideoFormat& format, int quantiser, int speed = kSentSpeed);
 
   /// @return one coded frame, as PatternDecoder reads it
   Result<std::vector<std::uint8_t>> encode(const Picture& picture);

@@ -8,6 +8,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "encoder/patterns/av1_encoder.h"
 
 namespace fbs {
 
@@ -16,9 +17,7 @@ inline constexpr std::size_t kMaxSequencePictures = 128;
 
 struct SequenceSettings {
   int quantiser = 40;  ///< libaom's scale, 0..63; of the frames that no other refers to
-  /// libaom's --cpu-used, 0 (slow and small) to 9. Against 4, speed 3 takes 1.6 times as long for 3 % fewer
-  /// bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 % more.
-  int speed = 3;
+  int speed = kSentSpeed;
   /// How many steps finer than `quantiser` frames may be coded that others refer to, the first above all.
   /// Without a bound (63) the first costs 10..25 % more bytes at quantiser 50, for no gain in the whole (four
   /// clips, 16 and 30 patterns).
