@@ -32,7 +32,7 @@ SampleArea whole(const PlaneView& plane) {
 
 bool fits(const TextureMesh& texture, const SceneGeometry& geometry) {
   const std::size_t points = geometry.surround().point_count();
-  return texture.head.size() == head_mesh().vertex_count && texture.visible.size() == texture.head.size() &&
+  return texture.head.size() == head_mesh().vertex_count && texture.areas.size() == texture.head.size() &&
          texture.surround.size() == points && texture.seen_surround.size() == points;
 }
 
@@ -58,7 +58,7 @@ MeshBlend blend_without_mesh(const PictureBlend& blend) {
   return out;
 }
 
-MeshBlend blend_of(const Scene& scene, const State& state) {
+MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mesh) {
   std::vector<const State*> seen;
   std::vector<const TextureMesh*> textures;
   for (const Pattern& p : scene.patterns) {
@@ -66,7 +66,7 @@ MeshBlend blend_of(const Scene& scene, const State& state) {
     textures.push_back(&p.texture);
   }
   const PictureBlend regions = blend_picture(seen, state);
-  return scene.geometry ? blend_mesh(regions, *scene.geometry, textures) : blend_without_mesh(regions);
+  return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_without_mesh(regions);
 }
 
 std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) {
@@ -101,8 +101,8 @@ Result<void> Renderer::render_luma(const Scene& scene, const State& state, const
 
 void Renderer::draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
                     const SampleArea& chroma) {
-  const MeshBlend blend = blend_of(scene, state);
   const ScreenMesh mesh = scene.geometry ? scene.geometry->screen_mesh(state) : ScreenMesh{};
+  const MeshBlend blend = blend_of(scene, state, mesh);
   const Drawing drawing{
       mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
       luma, chroma};

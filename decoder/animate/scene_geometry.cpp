@@ -19,20 +19,16 @@ constexpr std::int32_t kRingExtensionOne = 256;
 /// moved over it.
 constexpr std::int32_t kRingDepth = kUnitsPerEyeDistance / 2;
 
-/// Vertices whose triangles all face the viewer are visible, those of none are not. SPEC 11.5.
-std::vector<std::uint8_t> visible_vertices(const std::vector<glm::ivec3>& screen) {
-  std::vector<int> facing(screen.size()), all(screen.size());
-  for (const HeadTriangle& t : head_mesh().triangles) {
+/// ScreenMesh::areas. The ring folds wherever the head moves over it, which hides nothing: it does not count.
+std::vector<std::int64_t> vertex_areas(const std::vector<glm::ivec3>& screen) {
+  std::vector<std::int64_t> out(screen.size());
+  for (const HeadTriangle& t : generic_head().triangles) {
     const std::int64_t ax = screen[t[1]].x - screen[t[0]].x, ay = screen[t[1]].y - screen[t[0]].y,
                        bx = screen[t[2]].x - screen[t[0]].x, by = screen[t[2]].y - screen[t[0]].y;
-    for (const std::uint16_t v : t) {
-      ++all[v];
-      if (ax * by - ay * bx > 0) ++facing[v];
-    }
+    const std::int64_t area = ax * by - ay * bx;
+    if (area > 0)
+      for (const std::uint16_t v : t) out[v] += area;
   }
-  std::vector<std::uint8_t> out(screen.size());
-  for (std::size_t v = 0; v < screen.size(); ++v)
-    out[v] = static_cast<std::uint8_t>(kVisibleOne * facing[v] / std::max(all[v], 1));
   return out;
 }
 
@@ -68,6 +64,7 @@ ScreenMesh SceneGeometry::screen_mesh(const State& state) const {
   mesh.head.reserve(head_mesh().vertex_count);
   for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
   project_ring(projection, mesh);
+  mesh.areas = vertex_areas(mesh.head);
   mesh.light = vertex_lights(geometry_.positions, state.light);
   mesh.mouth_gap = mouth_gap(vertices);
   mesh.interior = state.interior;
@@ -82,7 +79,7 @@ TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
   texture.surround = surround_.texture(mesh.surround);
   texture.light = std::move(mesh.light);
   texture.mouth_gap = mesh.mouth_gap;
-  texture.visible = visible_vertices(mesh.head);
+  texture.areas = std::move(mesh.areas);
   texture.seen_surround = std::move(mesh.surround);
   return texture;
 }

@@ -16,20 +16,21 @@ namespace fbs {
 struct ScreenMesh {
   std::vector<glm::ivec3> head;      ///< head_mesh().vertex_count; x, y: 1/64 pixel, z: head units, depth
   std::vector<glm::ivec2> surround;  ///< grid points, 1/64 pixel; Surround::project()
-  std::vector<VertexLight> light;    ///< of each vertex of the head; empty: none has any
-  std::int32_t mouth_gap = 0;        ///< between the middles of the inner lips, head units
+  /// Of each vertex of the head, how much of the face is seen round it: the area of the face's triangles at
+  /// the vertex that face the viewer, twice, 1/64 pixel squared. SPEC 11.5.
+  std::vector<std::int64_t> areas;
+  std::vector<VertexLight> light;                       ///< of each vertex of the head; empty: none has any
+  std::int32_t mouth_gap = 0;                           ///< between the middles of the inner lips, head units
   std::array<std::int32_t, kInteriorCount> interior{};  ///< State::interior
 };
 
-inline constexpr int kVisibleOne = 16;
-
 /// The same mesh in a pattern, which was seen in a state of its own. Positions are 1/64 pixel of the pattern.
 struct TextureMesh {
-  std::vector<glm::ivec2> head;       ///< head_mesh().vertex_count
-  std::vector<glm::ivec2> surround;   ///< grid points; the margin repeats the border: Surround::texture()
-  std::vector<VertexLight> light;     ///< that the pattern already has; empty: none
-  std::int32_t mouth_gap = 0;         ///< head units
-  std::vector<std::uint8_t> visible;  ///< vertices of the head: 0 (hidden) .. kVisibleOne
+  std::vector<glm::ivec2> head;      ///< head_mesh().vertex_count
+  std::vector<glm::ivec2> surround;  ///< grid points; the margin repeats the border: Surround::texture()
+  std::vector<VertexLight> light;    ///< that the pattern already has; empty: none
+  std::int32_t mouth_gap = 0;        ///< head units
+  std::vector<std::int64_t> areas;   ///< ScreenMesh::areas, of what the pattern shows
   /// Where the grid points themselves were seen, margin included: a cell whose points are still there shows
   /// what the pattern shows there.
   std::vector<glm::ivec2> seen_surround;

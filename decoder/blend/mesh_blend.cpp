@@ -44,7 +44,20 @@ PointWeights point_weights(const RegionWeights& regions, std::span<const RegionS
   return out;
 }
 
-/// Takes weight from sources that do not show the point, unless none does.
+/// A source shows a vertex as well as any other from 1 / kEnoughArea of the area on at which it is drawn. 1
+/// and 4 gain 1 % of the rate less in the face (five clips).
+constexpr int kEnoughArea = 2;
+constexpr std::int32_t kVisibleOne = 256;
+
+/// @param seen   area at a vertex in a pattern
+/// @param drawn  area at it in the picture
+std::int32_t visibility(std::int64_t seen, std::int64_t drawn) {
+  if (drawn == 0) return kVisibleOne;
+  return static_cast<std::int32_t>(
+      std::min<std::int64_t>(kEnoughArea * kVisibleOne * seen / drawn, kVisibleOne));
+}
+
+/// Takes weight from sources that hardly show the point, unless none does.
 void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t> visible) {
   std::int64_t sum = 0;
   for (std::size_t s = 0; s < weights.size(); ++s) sum += std::int64_t{weights[s]} * visible[s];
@@ -63,7 +76,7 @@ void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t>
 }  // namespace
 
 MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
-                     std::span<const TextureMesh* const> textures) {
+                     std::span<const TextureMesh* const> textures, const ScreenMesh& mesh) {
   MeshBlend out;
   out.sources = sources_of(blend);
   const RegionWeights regions = region_weights(blend, out.sources);
@@ -73,9 +86,11 @@ MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
   for (std::int32_t& w : out.ground) w *= kShareOne;
 
   std::vector<std::int32_t> visible(out.sources.size());
-  for (std::size_t v = 0; v < geometry.head_shares().size(); ++v) {
+  for (std::size_t v = 0; v < kVertexCount; ++v) {
     for (std::size_t s = 0; s < visible.size(); ++s)
-      visible[s] = out.sources[s].still ? kVisibleOne : textures[out.sources[s].pattern]->visible[v];
+      visible[s] = out.sources[s].still
+                       ? kVisibleOne
+                       : visibility(textures[out.sources[s].pattern]->areas[v], mesh.areas[v]);
     keep_visible(std::span(out.head.weights).subspan(v * out.head.sources, out.head.sources), visible);
   }
   return out;

@@ -27,8 +27,9 @@ struct MeshBlend {
   std::vector<std::int32_t> ground;  ///< weights where all is ground
 };
 
-/// @param textures  of each pattern: which vertices it shows
+/// @param textures  of each pattern: how much of the head it shows
+/// @param mesh      to be drawn
 [[nodiscard]] MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
-                                   std::span<const TextureMesh* const> textures);
+                                   std::span<const TextureMesh* const> textures, const ScreenMesh& mesh);
 
 }  // namespace fbs

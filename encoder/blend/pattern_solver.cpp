@@ -84,7 +84,7 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
     seen.push_back(&scene_.patterns[k].seen);
     textures.push_back(&scene_.patterns[k].texture);
   }
-  const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures);
+  const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures, mesh);
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
   Taps taps;
   for (const SurfaceRun& run : surface.runs()) {

@@ -25,10 +25,11 @@ PictureBlend all_of(std::uint8_t pattern) {
 struct Case {
   Scene scene = toy_scene(Picture(160, 128), even_surround(6, 5, 2, 1));
   std::vector<TextureMesh> textures = std::vector<TextureMesh>(4, scene.patterns[0].texture);
+  ScreenMesh mesh = scene.geometry->screen_mesh(scene.patterns[0].seen);  // so that all is seen as drawn
   [[nodiscard]] MeshBlend blend(const PictureBlend& picture) const {
     std::vector<const TextureMesh*> pointers;
     for (const TextureMesh& t : textures) pointers.push_back(&t);
-    return blend_mesh(picture, *scene.geometry, pointers);
+    return blend_mesh(picture, *scene.geometry, pointers, mesh);
   }
 };
 
@@ -62,7 +63,7 @@ TEST(MeshBlend, WeightsSumToOneAtEveryPoint) {
     PictureBlend picture;
     for (RegionBlend& region : picture) region = random_region(random);
     for (TextureMesh& t : c.textures)
-      for (std::uint8_t& v : t.visible) v = static_cast<std::uint8_t>(random() % (kVisibleOne + 1));
+      for (std::int64_t& a : t.areas) a = random() % 100000;
     const MeshBlend blend = c.blend(picture);
     expect_rows_of_one(blend.head, c.scene.geometry->head_shares().size());
     expect_rows_of_one(blend.surround, c.scene.geometry->surround().point_count());
@@ -91,17 +92,37 @@ TEST(MeshBlend, PointsHaveTheBlendOfTheirRegion) {
   EXPECT_EQ(blend.surround.at(0)[2], 200 * kShareOne) << "the margin is ground";
 }
 
-TEST(MeshBlend, HiddenVerticesAreTakenFromPatternsThatShowThem) {
+TEST(MeshBlend, VerticesAreTakenFromPatternsThatShowThem) {
   Case c;
   PictureBlend picture = all_of(0);
   picture.fill({{{0, false}, 64}, {{1, false}, 192}});
   const std::size_t cheek = vertex_of_landmark(2);
-  c.textures[1].visible[cheek] = 0;
-  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne);
-  c.textures[1].visible[cheek] = kVisibleOne / 2;  // 64 against 96
-  EXPECT_NEAR(c.blend(picture).head.at(cheek)[0], kMeshWeightOne * 2 / 5, 1);
-  c.textures[0].visible[cheek] = c.textures[1].visible[cheek] = 0;
-  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne / 4) << "none shows it: as if all did";
+  std::int64_t &first = c.textures[0].areas[cheek], &second = c.textures[1].areas[cheek];
+  const std::int64_t drawn = first;
+  constexpr int kRounding = kMeshWeightOne / 256;  // of a visibility
+  const auto weight = [&] { return c.blend(picture).head.at(cheek)[0]; };
+  second = 0;
+  EXPECT_EQ(weight(), kMeshWeightOne) << "hidden";
+  second = drawn / 4;  // 64 against 96
+  EXPECT_NEAR(weight(), kMeshWeightOne * 2 / 5, kRounding) << "shrunken";
+  second = drawn / 2;
+  EXPECT_NEAR(weight(), kMeshWeightOne / 4, kRounding) << "half the area is enough";
+  second = 50 * drawn;
+  EXPECT_EQ(weight(), kMeshWeightOne / 4) << "and more is no better";
+  first = second = 0;
+  EXPECT_EQ(weight(), kMeshWeightOne / 4) << "none shows it: as if all did";
+}
+
+// A cheek that is turned away is best taken from a picture in which it was turned away as far.
+TEST(MeshBlend, VerticesThatAreHardlyDrawnNeedNotBeSeenWell) {
+  Case c;
+  PictureBlend picture = all_of(0);
+  picture.fill({{{0, false}, 64}, {{1, false}, 192}});
+  const std::size_t cheek = vertex_of_landmark(2);
+  c.textures[1].areas[cheek] = c.mesh.areas[cheek] = c.mesh.areas[cheek] / 10;
+  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne / 4);
+  c.textures[0].areas[cheek] = c.textures[1].areas[cheek] = c.mesh.areas[cheek] = 0;
+  EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne / 4);
 }
 
 // What is not warped shows what is there.
@@ -109,27 +130,30 @@ TEST(MeshBlend, StillSourcesAreAlwaysVisible) {
   Case c;
   PictureBlend picture;
   picture.fill({{{0, false}, 128}, {{1, true}, 128}});
-  for (TextureMesh& t : c.textures) std::fill(t.visible.begin(), t.visible.end(), std::uint8_t{0});
+  for (TextureMesh& t : c.textures) std::fill(t.areas.begin(), t.areas.end(), 0);
   const MeshBlend blend = c.blend(picture);
-  for (std::size_t v = 0; v < c.textures[0].visible.size(); ++v)
-    ASSERT_EQ(blend.head.at(v)[1], kMeshWeightOne);
+  for (std::size_t v = 0; v < kVertexCount; ++v) ASSERT_EQ(blend.head.at(v)[1], kMeshWeightOne);
 }
 
-TEST(TextureMesh, VerticesAreVisibleWhereTheirTrianglesFaceTheViewer) {
+TEST(ScreenMesh, AreasOfVerticesAreWhatFacesTheViewer) {
   const Scene scene = toy_scene(Picture(160, 128));
-  const auto visible = [&](int yaw, std::size_t landmark) {
-    State seen = toy_state();
-    seen.pose[kYaw] = yaw;
-    return static_cast<int>(scene.geometry->texture_mesh(seen).visible[vertex_of_landmark(landmark)]);
+  const auto area = [&](int yaw, std::size_t vertex) {
+    State state = toy_state();
+    state.pose[kYaw] = yaw;
+    const ScreenMesh mesh = scene.geometry->screen_mesh(state);
+    EXPECT_EQ(mesh.areas, scene.geometry->texture_mesh(state).areas);
+    return mesh.areas[vertex];
   };
-  constexpr std::size_t kRightCorner = 36, kLeftCorner = 45, kNose = 27;  // of the eyes
-  for (const std::size_t point : {kRightCorner, kLeftCorner, kNose})
-    EXPECT_EQ(visible(0, point), kVisibleOne);
+  const std::size_t right = vertex_of_landmark(36), left = vertex_of_landmark(45);  // corners of the eyes
+  EXPECT_GT(area(0, right), 0);
+  EXPECT_GT(area(0, left), 0);
   const int far = 15000;  // 82 degrees
-  const bool hides_right = visible(far, kRightCorner) < visible(far, kLeftCorner);
-  EXPECT_EQ(visible(far, hides_right ? kRightCorner : kLeftCorner), 0);
-  EXPECT_EQ(visible(-far, hides_right ? kLeftCorner : kRightCorner), 0);
-  EXPECT_GT(visible(far, hides_right ? kLeftCorner : kRightCorner), kVisibleOne / 2);
+  const bool hides_right = area(far, right) < area(far, left);
+  const std::size_t hidden = hides_right ? right : left, shown = hides_right ? left : right;
+  EXPECT_EQ(area(far, hidden), 0);
+  EXPECT_GT(area(far, shown), 0);
+  EXPECT_EQ(area(-far, shown), 0);
+  EXPECT_EQ(area(0, kVertexCount), 0) << "the ring is not of the face";
 }
 
 }  // namespace
