@@ -1,5 +1,6 @@
 #include "encoder/plan/expression_penalty.h"
 
+#include "common/generic_head.h"
 #include "encoder/model/expression_basis.h"
 
 namespace fbs {
@@ -9,10 +10,32 @@ namespace {
 /// fewer on the rest; set with the tracks of format 3.
 constexpr double kTolerance = 0.03 * kUnitsPerEyeDistance;
 
+/// And so do inner lips that are this much farther apart or closer than they should be, head units: whether a
+/// mouth is open is seen before anything else, and the blend shows teeth and tongue by it. Measured on the
+/// ten clips against none: the opening's correlation with the reference rises from 0.81 to 0.86 in the
+/// median, at -0.8 % of the rate in the face and +0.9 % in the frame. Half of it costs another 0.5 % for
+/// 0.01.
+constexpr double kOpeningTolerance = 0.0075 * kUnitsPerEyeDistance;
+
+/// What unit offsets of the control points, x0, y0, x1, y1 ..., add to the distance of the inner lips'
+/// middles.
+cv::Mat1d opening_of_offsets() {
+  cv::Mat1d row = cv::Mat1d::zeros(1, kCoefficientCount);
+  const auto add = [&row](int landmark, double sign) {
+    for (const SkinningWeight& w : skinning_of(vertex_of_landmark(landmark)))
+      row(0, 2 * w.control + 1) += sign * w.weight / kSkinningOne;
+  };
+  add(66, 1);   // lower
+  add(62, -1);  // upper
+  return row;
+}
+
 }  // namespace
 
 cv::Mat1d expression_penalty(double lambda) {
-  const cv::Mat1d even = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kTolerance * kTolerance);
+  const cv::Mat1d opening = opening_of_offsets() / kOpeningTolerance;
+  cv::Mat1d even = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kTolerance * kTolerance);
+  even += opening.t() * opening;
   cv::Mat1d penalty = cv::Mat1d::zeros(kParameterCount, kParameterCount);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
   quadratic_of_coefficients(even).copyTo(penalty(coefficients, coefficients));
