@@ -111,6 +111,8 @@ Bytes blended_limits_stream() {
   constexpr int kPatterns = 12, kPatternsAfterMotion = 8;
   Setup setup = setup_at_limits();
   setup.patterns = kPatterns;
+  setup.contrast = 150;  // so that the shares of the face in folded heads are drawn, too
+  setup.chroma_contrast = 390;
   std::mt19937 random(2);
   const CodedState seen = seen_in_the_middle(setup);
   const auto pictures = pictures_of(talker_settings(kWidth, kHeight, 24));
