@@ -6,7 +6,7 @@
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/face_scene.h"
-#include "encoder/find/find_marks.h"
+#include "encoder/find/found_marks.h"
 #include "encoder/still_scene.h"
 
 namespace fbs {
@@ -34,9 +34,10 @@ struct Encoder::Impl {
   /// Marks of the face to follow, if the picture shows one.
   [[nodiscard]] std::optional<Marks> look_for_face(const Picture& picture) const {
     if (settings.marks) return settings.marks;
-    const auto faces = finder.find(picture);
-    if (faces.size() <= static_cast<std::size_t>(settings.face)) return std::nullopt;
-    return find_marks(picture, faces[settings.face]);
+    const auto number = static_cast<std::size_t>(settings.face);
+    const auto faces = finder.find(picture, number + 1);
+    if (faces.size() <= number) return std::nullopt;
+    return marks_of(faces[number]);
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {

@@ -7,10 +7,10 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "encoder/find/adapt.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/rate_target.h"
 #include "encoder/surround/surround_fit.h"
-#include "encoder/track/snake_marks.h"
 
 namespace fbs {
 namespace {
@@ -88,7 +88,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
                                                        const EncoderSettings& settings,
                                                        const FaceFinder& finder, const Picture& first,
                                                        const Marks& marks) {
-  const auto adapted = settings.marks ? adapt_head(marks) : adapt_with_snakes(first, marks);
+  const auto adapted = adapt_head(marks);
   if (!adapted) return fail(adapted.error());
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return fail(geometry.error());

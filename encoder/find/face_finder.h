@@ -1,43 +1,44 @@
-// Finds faces and their eyes in a picture with OpenCV's Haar cascades (Viola & Jones 2001).
+// Finds the faces of a picture with their landmarks: several detectors propose places, landmarks are searched
+// at each, and what is believed is taken.
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "encoder/find/face_detector.h"
+#include "encoder/landmarks/landmark_search.h"
 
 namespace fbs {
 
+/// A face that is believed.
 struct FoundFace {
-  glm::dvec2 centre;               ///< of the detector's square, pixels
-  double size = 0;                 ///< its side, pixels
-  glm::dvec2 right_eye, left_eye;  ///< eye centres, pixels; right_eye is the subject's, at smaller x
-  bool eyes_seen = false;          ///< both eyes were detected; otherwise they are placed by proportion
+  FoundLandmarks landmarks;
+  FacePlace place;  ///< by the landmarks
 };
 
 class FaceFinder {
  public:
-  /// kIo when the cascades (Debian's opencv-data) are not found; the folder can be set with FBS_CASCADES.
+  /// Belief from which a face is taken for one.
+  static constexpr double kBelieved = 0.5;
+
+  /// kIo when the detectors' cascades are not found; errors of load_landmarks().
   static Result<FaceFinder> create();
 
-  /// Upright faces, the largest first. The picture is scaled to 480 rows or more first, where the cascades
-  /// work.
-  [[nodiscard]] std::vector<FoundFace> find(const Picture& picture) const;
+  /// The largest first.
+  /// @param wanted  the search ends when as many are found
+  [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, std::size_t wanted = 1) const;
 
-  /// Upright faces with an eye distance between two bounds (pixels), the largest first; the eyes are placed
-  /// by proportion. The picture is scaled to suit the smallest: a fraction of the cost of find().
-  [[nodiscard]] std::vector<FoundFace> find_of_size(const Picture& picture, double min_eye_distance_px,
-                                                    double max_eye_distance_px) const;
+  [[nodiscard]] const FaceDetector& detector() const { return detector_; }
+  [[nodiscard]] const LandmarkSearch& landmarks() const { return landmarks_; }
 
  private:
-  struct Cascades;
-  struct Deleter {
-    void operator()(Cascades* c) const;
-  };
-  explicit FaceFinder(std::unique_ptr<Cascades, Deleter> c) : cascades_(std::move(c)) {}
-  std::unique_ptr<Cascades, Deleter> cascades_;
+  FaceFinder(FaceDetector detector, LandmarkSearch landmarks)
+      : detector_(std::move(detector)), landmarks_(std::move(landmarks)) {}
+
+  FaceDetector detector_;
+  LandmarkSearch landmarks_;
 };
 
 }  // namespace fbs

@@ -17,6 +17,9 @@ using namespace head_tuning;
 
 namespace {
 
+/// Of the landmarks of the mean face, eye distances.
+constexpr double kEyesAboveCentre = 0.6;
+
 constexpr std::array kYaw = {-30 * kDegree, -15 * kDegree, 0.0, 15 * kDegree, 30 * kDegree};
 constexpr std::array kPitch = {-15 * kDegree, 0.0, 15 * kDegree};
 constexpr std::array kSize = {-0.15, 0.0, 0.15};  // log2
@@ -123,12 +126,11 @@ void search_around(const Wanted& w, Detections& detections) {
 void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& detections) {
   if (shows_nothing(view(w.picture.y))) return;
   const double eye = w.last.eye_distance_px(), factor = std::exp2(kMaxSizeChange);
-  for (const FoundFace& face : finder.find_of_size(w.picture, eye / factor, eye * factor)) {
+  for (const FacePlace& face : finder.detector().of_size(w.picture, eye / factor, eye * factor)) {
     if (detections.best().accepted) return;
-    const glm::dvec2 across = face.left_eye - face.right_eye;
     Pose there;
-    there.shift = 0.5 * (face.left_eye + face.right_eye);
-    there.log2_scale = std::log2(across.x);
+    there.shift = face.centre - glm::dvec2(0, kEyesAboveCentre * face.eye_distance_px);
+    there.log2_scale = std::log2(face.eye_distance_px);
     const WorkFrame frame = WorkFrame::cut(w.picture, there.shift, w.head.eye_distance_px(), false);
     detections.search(LevelledFrame(frame), there, kGridAtCascade);
   }

@@ -1,6 +1,6 @@
 #include "encoder/find/adapt.h"
 #include "encoder/find/face_finder.h"
-#include "encoder/find/find_marks.h"
+#include "encoder/find/found_marks.h"
 #include "tests/figures/canvas.h"
 #include "tests/figures/figures.h"
 #include "tests/figures/sheet.h"
@@ -32,7 +32,7 @@ Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& foll
   if (!finder) return fail(finder.error());
   const auto faces = finder->find(picture);
   if (faces.empty()) return fail(ErrorCode::kNoFace, "no face in the first picture");
-  const Marks marks = find_marks(picture, faces.front());
+  const Marks marks = marks_of(faces.front());
   const auto adapted = adapt_head(marks);
   if (!adapted) return fail(adapted.error());
 

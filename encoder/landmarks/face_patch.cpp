@@ -1,0 +1,35 @@
+#include "encoder/landmarks/face_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace fbs {
+namespace {
+
+/// Part of 0..limit that first..first + count covers.
+cv::Range inside(int first, int count, int limit) {
+  return {std::max(first, 0), std::min(first + count, limit)};
+}
+
+}  // namespace
+
+FacePatch::FacePatch(const cv::Mat& picture, const FacePlace& place) {
+  // Whole pixels of the picture, of which some are in it.
+  const int side =
+      std::max(4, static_cast<int>(std::lround(place.eye_distance_px * kPatchSide / kPatchEyeDistance)));
+  const auto first = [&](double centre, int limit) {
+    return static_cast<int>(std::lround(std::clamp(centre, 0.0, static_cast<double>(limit)) - side / 2.0));
+  };
+  const cv::Point corner(first(place.centre.x, picture.cols), first(place.centre.y, picture.rows));
+  const cv::Range columns = inside(corner.x, side, picture.cols), rows = inside(corner.y, side, picture.rows);
+  cv::Mat cut;
+  cv::copyMakeBorder(picture(rows, columns), cut, rows.start - corner.y, corner.y + side - rows.end,
+                     columns.start - corner.x, corner.x + side - columns.end, cv::BORDER_REPLICATE);
+  cv::resize(cut, luma_, {kPatchSide, kPatchSide}, 0, 0,
+             side > kPatchSide ? cv::INTER_AREA : cv::INTER_LINEAR);
+  corner_ = {corner.x, corner.y};
+  scale_ = static_cast<double>(kPatchSide) / side;
+}
+
+}  // namespace fbs

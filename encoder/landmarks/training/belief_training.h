@@ -1,0 +1,32 @@
+// Learns how far the landmarks that a search ends at can be believed.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "encoder/landmarks/landmark_search.h"
+#include "encoder/landmarks/training/face_pictures.h"
+#include "encoder/landmarks/training/ridge.h"
+
+namespace fbs {
+
+/// What the search came to at places of a picture, by a cascade that has not seen the person.
+struct Outcomes {
+  RowMatrix descriptors;       ///< a row each, by kBeliefLook at the end
+  std::vector<float> spreads;  ///< Agreement::spread
+  std::vector<float> error;    ///< of lips or eyes, whichever is worse, eye distances; large without a face
+};
+
+/// A landmark search that is off by more, eye distances, has failed.
+inline constexpr float kWrongFrom = 0.2F;
+
+/// Searches at places near each face, farther off, and elsewhere in the picture.
+[[nodiscard]] Outcomes try_search(const LandmarkSearch& search, const std::vector<FacePicture>& faces,
+                                  std::mt19937& random);
+
+[[nodiscard]] BeliefTable train_belief(const std::vector<const Outcomes*>& outcomes);
+
+/// Mean distance of some landmarks from where they should be, eye distances of `truth`.
+[[nodiscard]] float error_of(const Shape& found, const Shape& truth, int first, int end);
+
+}  // namespace fbs

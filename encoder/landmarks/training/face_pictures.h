@@ -1,0 +1,33 @@
+// Faces whose landmarks are known: what landmarks are learned from.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "encoder/landmarks/shape.h"
+
+namespace fbs {
+
+struct FacePicture {
+  std::string name;    ///< of its file
+  std::string person;  ///< pictures of one person are never both learned from and asked about
+  cv::Mat1b luma;
+  Shape landmarks;  ///< pixels; the first pixel's centre is (0.5, 0.5)
+};
+
+/// The stills of `folder`: faces.csv names them, with 68 landmarks each.
+/// @param persons  lines "file person" for people who have several stills; '#' begins a comment
+[[nodiscard]] std::vector<FacePicture> load_stills(const std::filesystem::path& folder,
+                                                   const std::filesystem::path& persons);
+
+/// Pictures of each clip in `folder`, evenly spaced, with the landmarks of `reference`/CLIP.csv.
+[[nodiscard]] std::vector<FacePicture> load_clips(const std::filesystem::path& folder,
+                                                  const std::filesystem::path& reference, int per_clip);
+
+/// Generated talkers, each of another seed, light, pose and expression.
+[[nodiscard]] std::vector<FacePicture> draw_talkers(int count);
+
+}  // namespace fbs
