@@ -1,5 +1,6 @@
 #include "encoder/find/face_detector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -43,6 +44,12 @@ struct Search {
   [[nodiscard]] FacePlace place(const cv::Rect& r) const {
     return place_of({(r.x - margin) / scale, (r.y - margin) / scale, r.width / scale, r.height / scale});
   }
+
+  [[nodiscard]] std::vector<FacePlace> places(const std::vector<cv::Rect>& found) const {
+    std::vector<FacePlace> out(found.size());
+    std::ranges::transform(found, out.begin(), [this](const cv::Rect& r) { return place(r); });
+    return out;
+  }
 };
 
 }  // namespace
@@ -78,9 +85,7 @@ std::vector<FacePlace> FaceDetector::likely(const Picture& picture) const {
   const Search search(picture, static_cast<double>(kLikelyRows) / picture.height(), kMargin);
   std::vector<cv::Rect> found;
   cascades_->frontal.detectMultiScale(search.grey, found, 1.1, 3, 0, {kSmallestSide, kSmallestSide});
-  std::vector<FacePlace> out;
-  for (const cv::Rect& r : found) out.push_back(search.place(r));
-  return out;
+  return search.places(found);
 }
 
 std::vector<FacePlace> FaceDetector::possible(const Picture& picture) const {
@@ -115,9 +120,7 @@ std::vector<FacePlace> FaceDetector::of_size(const Picture& picture, double min_
   };
   std::vector<cv::Rect> found;
   cascades_->frontal.detectMultiScale(search.grey, found, 1.1, 3, 0, square(least), square(most));
-  std::vector<FacePlace> out;
-  for (const cv::Rect& r : found) out.push_back(search.place(r));
-  return out;
+  return search.places(found);
 }
 
 }  // namespace fbs

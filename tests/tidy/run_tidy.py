@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("common", "bitstream", "decoder", "encoder", "cli", "samples")
+FOLDERS = ("common", "bitstream", "decoder", "encoder", "cli", "samples", "training")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 

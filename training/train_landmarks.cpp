@@ -7,8 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "encoder/landmarks/training/belief_training.h"
-#include "encoder/landmarks/training/cascade_training.h"
+#include "training/belief_training.h"
+#include "training/cascade_training.h"
 
 namespace fbs {
 namespace {
@@ -19,8 +19,8 @@ constexpr int kSamplesOfAStill = 24, kSamplesOfAnother = 3;
 
 /// A fold for each person, the same in every run.
 std::map<std::string, int> folds_of(const std::vector<FacePicture>& faces) {
-  std::vector<std::string> people;
-  for (const FacePicture& f : faces) people.push_back(f.person);
+  std::vector<std::string> people(faces.size());
+  std::ranges::transform(faces, people.begin(), &FacePicture::person);
   std::ranges::sort(people);
   people.erase(std::unique(people.begin(), people.end()), people.end());
   std::mt19937 random(5);
@@ -56,12 +56,12 @@ void report(const char* what, std::vector<float> errors) {
 using Errors = std::map<std::string, std::vector<float>>;
 
 void measure(const std::vector<PatchSample>& samples, const LandmarkSearch& search, Errors& errors) {
-  const std::map<std::string, std::pair<int, int>> kFeatures = {{"jaw", {0, 17}},   {"brows", {17, 27}},
-                                                                {"nose", {27, 36}}, {"eyes", {36, 48}},
-                                                                {"lips", {48, 60}}, {"inner", {60, 68}}};
+  const std::map<std::string, std::pair<int, int>> features = {{"jaw", {0, 17}},   {"brows", {17, 27}},
+                                                               {"nose", {27, 36}}, {"eyes", {36, 48}},
+                                                               {"lips", {48, 60}}, {"inner", {60, 68}}};
   for (const PatchSample& s : samples) {
     const Shape found = search.descend(s.patch).shape;
-    for (const auto& [name, range] : kFeatures)
+    for (const auto& [name, range] : features)
       errors[name].push_back(error_of(found, s.truth, range.first, range.second));
   }
 }
@@ -81,7 +81,7 @@ void write(const LandmarkTable& table, const std::string& path) {
 int run(const std::filesystem::path& shared, const std::filesystem::path& persons, const std::string& out) {
   Faces faces{load_stills(shared / "faces", persons),
               load_clips(shared / "clips", shared / "reference", kPerClip)};
-  for (FacePicture& f : draw_talkers(kTalkers)) faces.others.push_back(std::move(f));
+  for (FacePicture& f : load_talkers(kTalkers)) faces.others.push_back(std::move(f));
   std::vector<FacePicture> all = faces.stills;
   all.insert(all.end(), faces.others.begin(), faces.others.end());
   const auto folds = folds_of(all);
@@ -117,6 +117,7 @@ int run(const std::filesystem::path& shared, const std::filesystem::path& person
   }
   LandmarkTable table = train(faces, folds, -1);
   std::vector<const Outcomes*> every;
+  every.reserve(outcomes.size());
   for (const Outcomes& o : outcomes) every.push_back(&o);
   table.belief = train_belief(every);
   write(table, out);

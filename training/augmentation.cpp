@@ -1,4 +1,4 @@
-#include "encoder/landmarks/training/augmentation.h"
+#include "training/augmentation.h"
 
 #include <algorithm>
 #include <cmath>

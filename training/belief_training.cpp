@@ -1,4 +1,4 @@
-#include "encoder/landmarks/training/belief_training.h"
+#include "training/belief_training.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "encoder/landmarks/training/augmentation.h"
-#include "encoder/landmarks/training/cascade_training.h"
+#include "training/augmentation.h"
+#include "training/cascade_training.h"
 
 namespace fbs {
 namespace {

@@ -1,4 +1,4 @@
-#include "encoder/landmarks/training/ridge.h"
+#include "training/ridge.h"
 
 #include <Eigen/Cholesky>
 

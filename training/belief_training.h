@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "encoder/landmarks/landmark_search.h"
-#include "encoder/landmarks/training/face_pictures.h"
-#include "encoder/landmarks/training/ridge.h"
+#include "training/face_pictures.h"
+#include "training/ridge.h"
 
 namespace fbs {
 

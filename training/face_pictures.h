@@ -27,7 +27,7 @@ struct FacePicture {
 [[nodiscard]] std::vector<FacePicture> load_clips(const std::filesystem::path& folder,
                                                   const std::filesystem::path& reference, int per_clip);
 
-/// Generated talkers, each of another seed, light, pose and expression.
-[[nodiscard]] std::vector<FacePicture> draw_talkers(int count);
+/// Generated talkers.
+[[nodiscard]] std::vector<FacePicture> load_talkers(int count);
 
 }  // namespace fbs

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "encoder/landmarks/face_patch.h"
-#include "encoder/landmarks/training/face_pictures.h"
+#include "training/face_pictures.h"
 
 namespace fbs {
 

@@ -1,4 +1,4 @@
-#include "encoder/landmarks/training/cascade_training.h"
+#include "training/cascade_training.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "encoder/landmarks/landmark_search.h"
-#include "encoder/landmarks/training/ridge.h"
+#include "training/ridge.h"
 
 namespace fbs {
 namespace {

@@ -1,4 +1,4 @@
-#include "encoder/landmarks/training/face_pictures.h"
+#include "training/face_pictures.h"
 
 #include <algorithm>
 #include <fstream>
@@ -6,12 +6,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
-#include <random>
 #include <sstream>
 #include <stdexcept>
 
 #include "encoder/image/planes.h"
-#include "samples/talker/talker_render.h"
+#include "training/talker_faces.h"
 
 namespace fbs {
 namespace {
@@ -118,25 +117,10 @@ std::vector<FacePicture> load_clips(const std::filesystem::path& folder,
   return out;
 }
 
-std::vector<FacePicture> draw_talkers(int count) {
-  std::mt19937 random(1);
+std::vector<FacePicture> load_talkers(int count) {
   std::vector<FacePicture> out;
-  for (int i = 0; i < count; ++i) {
-    talker::Settings settings;
-    settings.width = 256;
-    settings.height = 256;
-    settings.seed = static_cast<std::uint32_t>(random() % 100000);
-    settings.light = 0.3F;
-    settings.yaw_deg = 25;
-    settings.pitch_deg = 12;
-    settings.eye_distance = 0.25F;
-    const talker::Talker talker(settings);
-    const auto frame = static_cast<int>(random() % static_cast<unsigned>(settings.frame_count));
-    FacePicture face{"talker", "talker", view(talker.picture(frame).y).clone(), {}};
-    const auto points = talker.points(frame);
-    for (std::size_t k = 0; k < points.size(); ++k) face.landmarks[k] = points[k] + 0.5F;
-    out.push_back(std::move(face));
-  }
+  for (const DrawnFace& drawn : draw_talkers(count))
+    out.push_back({"talker", "talker", view(drawn.luma).clone(), drawn.landmarks});
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "encoder/landmarks/landmark_table.h"
-#include "encoder/landmarks/training/augmentation.h"
+#include "training/augmentation.h"
 
 namespace fbs {
 

@@ -1,0 +1,19 @@
+// Generated talkers with their landmarks. Apart from face_pictures.cpp, since OpenCV has an Event as well.
+#pragma once
+
+#include <vector>
+
+#include "common/picture.h"
+#include "encoder/landmarks/shape.h"
+
+namespace fbs {
+
+struct DrawnFace {
+  Plane luma;
+  Shape landmarks;  ///< pixels; the first pixel's centre is (0.5, 0.5)
+};
+
+/// Each of another seed, light, pose and expression.
+[[nodiscard]] std::vector<DrawnFace> draw_talkers(int count);
+
+}  // namespace fbs
