@@ -12,7 +12,8 @@
 namespace fbs {
 namespace {
 
-constexpr int kSearchEvery = 5;  // pictures, until the first face
+// Pictures, until the first face: between searches, and between those that look at every place.
+constexpr int kSearchEvery = 5, kSearchAllEvery = 30;
 
 }  // namespace
 
@@ -35,7 +36,9 @@ struct Encoder::Impl {
   [[nodiscard]] std::optional<Marks> look_for_face(const Picture& picture) const {
     if (settings.marks) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
-    const auto faces = finder.find(picture, number + 1);
+    const auto effort =
+        pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllPlaces : FaceFinder::Effort::kLikelyPlaces;
+    const auto faces = finder.find(picture, number + 1, effort);
     if (faces.size() <= number) return std::nullopt;
     return marks_of(faces[number]);
   }

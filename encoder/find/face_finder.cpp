@@ -43,17 +43,18 @@ Result<FaceFinder> FaceFinder::create() {
   return FaceFinder(std::move(*detector), LandmarkSearch(std::move(*table)));
 }
 
-std::vector<FoundFace> FaceFinder::find(const Picture& picture, std::size_t wanted) const {
+std::vector<FoundFace> FaceFinder::find(const Picture& picture, std::size_t wanted, Effort effort) const {
   const cv::Mat luma = view(picture.y);
   std::vector<FoundFace> faces;
-  const auto judge = [&](const std::vector<FacePlace>& places) {
+  const auto judge = [&](const std::vector<FacePlace>& places, double believed) {
     for (const FacePlace& place : places) {
       const FoundLandmarks found = landmarks_.find(luma, place);
-      if (found.belief >= kBelieved) add({found, place_of(found)}, faces);
+      if (found.belief >= believed) add({found, place_of(found)}, faces);
     }
   };
-  judge(detector_.likely(picture));
-  if (faces.size() < wanted) judge(detector_.possible(picture));
+  judge(detector_.likely(picture), kBelieved);
+  if (faces.size() < wanted && effort == Effort::kAllPlaces)
+    judge(detector_.possible(picture), kBelievedWherePossible);
   std::ranges::sort(faces, std::greater<>(), [](const FoundFace& f) { return f.place.eye_distance_px; });
   return faces;
 }

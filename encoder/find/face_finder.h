@@ -2,6 +2,7 @@
 // at each, and what is believed is taken.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -20,15 +21,20 @@ struct FoundFace {
 
 class FaceFinder {
  public:
-  /// Belief from which a face is taken for one.
-  static constexpr double kBelieved = 0.5;
+  /// Belief from which a face is taken for one, at a place that is likely (FaceDetector) and at one that is
+  /// only possible: most of those are no faces, and the belief was learned from places of which half are.
+  static constexpr double kBelieved = 0.5, kBelievedWherePossible = 0.7;
+
+  enum class Effort : std::uint8_t { kLikelyPlaces, kAllPlaces };
 
   /// kIo when the detectors' cascades are not found; errors of load_landmarks().
   static Result<FaceFinder> create();
 
   /// The largest first.
-  /// @param wanted  the search ends when as many are found
-  [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, std::size_t wanted = 1) const;
+  /// @param wanted  places that are only possible are looked at if fewer are found at likely ones
+  /// @param effort  whether they are at all: they take ten times as long
+  [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, std::size_t wanted = 1,
+                                            Effort effort = Effort::kAllPlaces) const;
 
   [[nodiscard]] const FaceDetector& detector() const { return detector_; }
   [[nodiscard]] const LandmarkSearch& landmarks() const { return landmarks_; }
