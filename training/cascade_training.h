@@ -10,7 +10,8 @@
 namespace fbs {
 
 /// Stages and mean shape; belief stays empty.
-/// @param samples  each is learned from twice, from different starts
+/// @param samples  whose places are as far off as detectors are: each is learned from once, from the usual
+///                 shape
 [[nodiscard]] LandmarkTable train_cascade(const std::vector<PatchSample>& samples);
 
 /// A linear map in the table's form.
