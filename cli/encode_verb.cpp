@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <optional>
 
+#include "cli/display/overlay.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
-#include "cli/display/overlay.h"
 #include "cli/stream_file.h"
 #include "cli/video/atomic_file.h"
 

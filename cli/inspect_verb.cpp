@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/byte_count_json.h"
-#include "cli/pattern_use.h"
 #include "cli/display/picture_sources.h"
+#include "cli/pattern_use.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 

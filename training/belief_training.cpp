@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "common/ibug.h"
 #include "training/augmentation.h"
 #include "training/cascade_training.h"
+#include "training/in_parallel.h"
 
 namespace fbs {
 namespace {
@@ -74,16 +74,15 @@ Outcomes try_search(const LandmarkSearch& search, const std::vector<FacePicture>
   out.descriptors.resize(static_cast<Eigen::Index>(samples.size()), kDescriptorSize);
   out.spreads.resize(samples.size());
   out.error.resize(samples.size());
-  cv::parallel_for_(cv::Range(0, static_cast<int>(samples.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      const auto n = static_cast<std::size_t>(i);
-      const auto end = search.descend(samples[n].patch);
-      describe(samples[n].patch, end.shape, search.table().mean, kBeliefLook,
-               {out.descriptors.row(i).data(), kDescriptorSize});
-      out.spreads[n] = end.spread;
-      out.error[n] = std::max(error_of(end.shape, samples[n].truth, 36, 48),
-                              error_of(end.shape, samples[n].truth, 48, 60));
-    }
+  in_parallel(samples.size(), [&](std::size_t n) {
+    const auto i = static_cast<Eigen::Index>(n);
+    const auto end = search.descend(samples[n].patch);
+    describe(samples[n].patch, end.shape, search.table().mean, kBeliefLook,
+             {out.descriptors.row(i).data(), kDescriptorSize});
+    out.spreads[n] = end.spread;
+    out.error[n] =
+        std::max(error_of(end.shape, samples[n].truth, ibug::kEyesFirst, ibug::kEyesEnd),
+                 error_of(end.shape, samples[n].truth, ibug::kOuterLipsFirst, ibug::kInnerLipsFirst));
   });
   return out;
 }

@@ -3,9 +3,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core/utility.hpp>
 
 #include "encoder/landmarks/landmark_search.h"
+#include "training/in_parallel.h"
 #include "training/ridge.h"
 
 namespace fbs {
@@ -54,13 +54,6 @@ Eigen::RowVectorXf missing(const Shape& shape, const Shape& truth, const Shape& 
     out(static_cast<Eigen::Index>(2 * k + 1)) = d.y;
   }
   return out;
-}
-
-template <class Each>
-void in_parallel(std::size_t count, Each each) {
-  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) each(static_cast<std::size_t>(i));
-  });
 }
 
 std::vector<float> to_vector(const RowMatrix& m) {

@@ -1,12 +1,11 @@
 // Learns landmarks.table; README.md says from what.
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
-#include <numeric>
 
+#include "common/ibug.h"
 #include "training/belief_training.h"
 #include "training/cascade_training.h"
 
@@ -56,9 +55,13 @@ void report(const char* what, std::vector<float> errors) {
 using Errors = std::map<std::string, std::vector<float>>;
 
 void measure(const std::vector<PatchSample>& samples, const LandmarkSearch& search, Errors& errors) {
-  const std::map<std::string, std::pair<int, int>> features = {{"jaw", {0, 17}},   {"brows", {17, 27}},
-                                                               {"nose", {27, 36}}, {"eyes", {36, 48}},
-                                                               {"lips", {48, 60}}, {"inner", {60, 68}}};
+  const std::map<std::string, std::pair<int, int>> features = {
+      {"jaw", {ibug::kJawFirst, ibug::kJawEnd}},
+      {"brows", {ibug::kBrowsFirst, ibug::kBrowsEnd}},
+      {"nose", {ibug::kNoseFirst, ibug::kNoseEnd}},
+      {"eyes", {ibug::kEyesFirst, ibug::kEyesEnd}},
+      {"lips", {ibug::kOuterLipsFirst, ibug::kInnerLipsFirst}},
+      {"inner", {ibug::kInnerLipsFirst, ibug::kMouthEnd}}};
   for (const PatchSample& s : samples) {
     const Shape found = search.descend(s.patch).shape;
     for (const auto& [name, range] : features)

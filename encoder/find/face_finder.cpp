@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
 
 #include "encoder/image/planes.h"
 
@@ -15,7 +15,7 @@ constexpr double kSameFace = 1;
 FacePlace place_of(const FoundLandmarks& found) {
   Shape shape;
   std::ranges::copy(found.points, shape.begin());
-  return {mean_of(shape), eye_distance(shape)};
+  return fbs::place_of(shape);
 }
 
 bool are_one(const FacePlace& a, const FacePlace& b) {

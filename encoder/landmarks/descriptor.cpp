@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "encoder/image/bilinear.h"
+
 namespace fbs {
 namespace {
 
@@ -53,11 +55,10 @@ cv::Mat orientation_maps(const cv::Mat1f& square, float sigma) {
 }
 
 Histogram sample(const cv::Mat& maps, glm::vec2 at) {
-  const float x = std::clamp(at.x, 0.F, static_cast<float>(maps.cols) - 1.001F),
-              y = std::clamp(at.y, 0.F, static_cast<float>(maps.rows) - 1.001F);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
-  const auto *a = maps.ptr<Histogram>(row) + column, *b = maps.ptr<Histogram>(row + 1) + column;
+  const BilinearCell<float> cell(clamped(maps, at, 1.001F));
+  const float u = cell.fraction.x, v = cell.fraction.y;
+  const auto *a = maps.ptr<Histogram>(cell.row) + cell.column,
+             *b = maps.ptr<Histogram>(cell.row + 1) + cell.column;
   return (a[0] * (1 - u) + a[1] * u) * (1 - v) + (b[0] * (1 - u) + b[1] * u) * v;
 }
 

@@ -14,6 +14,10 @@ cv::Range inside(int first, int count, int limit) {
 
 }  // namespace
 
+FacePlace place_of(const Shape& landmarks) {
+  return {mean_of(landmarks), eye_distance(landmarks)};
+}
+
 FacePatch::FacePatch(const cv::Mat& picture, const FacePlace& place) {
   // Whole pixels of the picture, of which some are in it.
   const int side =

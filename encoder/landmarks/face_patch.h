@@ -14,6 +14,9 @@ struct FacePlace {
   double eye_distance_px{};  ///< between the centres of its eyes
 };
 
+/// Of a face whose landmarks are known.
+[[nodiscard]] FacePlace place_of(const Shape& landmarks);
+
 inline constexpr int kPatchSide = 288;          ///< pixels
 inline constexpr float kPatchEyeDistance = 64;  ///< of the face that is thought to be in it, pixels
 

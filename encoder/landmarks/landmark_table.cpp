@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uint16_t kVersion = 1;
 constexpr int kMaxStages = 16;
-constexpr int kMaxLookSide = kPatchSide;
 
 /// Reads or writes the parts of a table: the layout is said once.
 class TableReader {
@@ -98,7 +97,7 @@ void code(Coder& coder, LandmarkTable& table) {
 }
 
 bool is_usable(const Look& look) {
-  return look.side >= 16 && look.side <= kMaxLookSide && look.sigma > 0.1F && look.sigma < 16;
+  return look.side >= 16 && look.side <= kPatchSide && look.sigma > 0.1F && look.sigma < 16;
 }
 
 }  // namespace
@@ -144,9 +143,10 @@ Result<LandmarkTable> load_landmarks() {
   const char* path = std::getenv("FBS_LANDMARKS");  // NOLINT(concurrency-mt-unsafe)
   if (path == nullptr) return read_landmark_table(built_in_landmark_table());
   std::ifstream file(path, std::ios::binary);
-  const std::vector<char> chars{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
+                                        std::istreambuf_iterator<char>()};
   if (!file) return fail(ErrorCode::kIo, std::string("cannot read ") + path);
-  return read_landmark_table(std::vector<std::uint8_t>(chars.begin(), chars.end()));
+  return read_landmark_table(bytes);
 }
 
 }  // namespace fbs

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "common/ibug.h"
+
 namespace fbs {
 namespace {
 
@@ -19,7 +21,8 @@ glm::vec2 mean(std::span<const glm::vec2> points) {
 }  // namespace
 
 float eye_distance(const Shape& shape) {
-  const glm::vec2 d = mean(std::span(shape).subspan(42, 6)) - mean(std::span(shape).subspan(36, 6));
+  const auto eyes = std::span(shape).subspan(ibug::kEyesFirst, 2 * ibug::kEyePoints);
+  const glm::vec2 d = mean(eyes.last(ibug::kEyePoints)) - mean(eyes.first(ibug::kEyePoints));
   return std::hypot(d.x, d.y);
 }
 

@@ -1,6 +1,7 @@
 #include "encoder/plan/expression_penalty.h"
 
 #include "common/generic_head.h"
+#include "common/ibug.h"
 #include "encoder/model/expression_basis.h"
 
 namespace fbs {
@@ -25,8 +26,8 @@ cv::Mat1d opening_of_offsets() {
     for (const SkinningWeight& w : skinning_of(vertex_of_landmark(landmark)))
       row(0, 2 * w.control + 1) += sign * w.weight / kSkinningOne;
   };
-  add(66, 1);   // lower
-  add(62, -1);  // upper
+  add(ibug::kLowerLipInner, 1);
+  add(ibug::kUpperLipInner, -1);
   return row;
 }
 

@@ -2,11 +2,13 @@
 // conventions.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "encoder/find/marks.h"
+#include "encoder/landmarks/shape.h"
 #include "encoder/model/pose.h"
 #include "samples/talker/talker_render.h"
 
@@ -37,9 +39,15 @@ class TalkerClip {
   /// corner.
   [[nodiscard]] Marks marks(int frame) const {
     Marks m;
-    const auto points = talker_.points(frame);
-    for (int k = 0; k < kLandmarkCount; ++k) m.set_landmark(k, glm::dvec2(points[k]) + 0.5);
+    const Shape points = shape(frame);
+    for (int k = 0; k < kLandmarkCount; ++k) m.set_landmark(k, glm::dvec2(points[k]));
     return m;
+  }
+
+  [[nodiscard]] Shape shape(int frame) const {
+    Shape out;
+    std::ranges::transform(talker_.points(frame), out.begin(), [](glm::vec2 p) { return p + 0.5F; });
+    return out;
   }
 
   /// Head frames differ by where their origin lies, so that only turns, scale and how the pose changes

@@ -18,9 +18,7 @@ const FaceDetector& detector() {
 }
 
 FacePlace truth(const TalkerClip& clip) {
-  Shape shape;
-  for (std::size_t k = 0; k < shape.size(); ++k) shape[k] = clip.talker().points(0)[k] + 0.5F;
-  return {mean_of(shape), eye_distance(shape)};
+  return place_of(clip.shape(0));
 }
 
 /// Near enough for landmarks to be searched there.

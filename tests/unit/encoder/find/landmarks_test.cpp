@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "encoder/landmarks/shape.h"
+
 namespace fbs {
 namespace {
 
@@ -32,9 +34,9 @@ TEST(Landmarks, NamesAreWhereTheySay) {
     EXPECT_GT(generic_landmark(k).y, generic_landmark(ibug::kRightEyeOuter).y - 0.01);
 }
 
-TEST(Landmarks, JawIsMirrored) {
-  for (int k = ibug::kJawFirst; k < ibug::kJawEnd; ++k)
-    EXPECT_NEAR(generic_landmark(mirrored_jaw(k)).x, -generic_landmark(k).x, 0.01) << k;
+TEST(Landmarks, AreMirrored) {
+  for (int k = 0; k < kLandmarkCount; ++k)
+    EXPECT_NEAR(generic_landmark(mirrored_landmark(k)).x, -generic_landmark(k).x, 0.01) << k;
 }
 
 TEST(Landmarks, TwelveAreOfTheEyes) {

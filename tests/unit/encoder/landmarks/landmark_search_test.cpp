@@ -18,18 +18,16 @@ const LandmarkSearch& search() {
 
 /// Where the talker's face is, `off` eye distances aside and `scale` times as large.
 FacePlace place_of(const TalkerClip& clip, int frame, glm::dvec2 off = {0, 0}, double scale = 1) {
-  Shape shape;
-  for (std::size_t k = 0; k < shape.size(); ++k) shape[k] = clip.talker().points(frame)[k] + 0.5F;
-  const double eye = eye_distance(shape);
-  return {glm::dvec2(mean_of(shape)) + off * eye, eye * scale};
+  const FacePlace true_place = fbs::place_of(clip.shape(frame));
+  return {true_place.centre + off * true_place.eye_distance_px, true_place.eye_distance_px * scale};
 }
 
 /// Mean distance of the landmarks from the truth, eye distances.
 double error_of(const FoundLandmarks& found, const TalkerClip& clip, int frame) {
-  const auto truth = clip.talker().points(frame);
+  const Shape truth = clip.shape(frame);
   double sum = 0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
-    const glm::dvec2 d = found.points[k] - glm::dvec2(truth[k]) - 0.5;
+    const glm::dvec2 d = found.points[k] - glm::dvec2(truth[k]);
     sum += std::hypot(d.x, d.y);
   }
   return sum / kLandmarkCount / place_of(clip, frame).eye_distance_px;
