@@ -12,7 +12,7 @@
 namespace fbs {
 namespace {
 
-// Pictures, until the first face: between searches, and between those that look at every place.
+// Pictures, until the first face: between searches, and between those for small faces too.
 constexpr int kSearchEvery = 5, kSearchAllEvery = 30;
 
 }  // namespace
@@ -37,7 +37,7 @@ struct Encoder::Impl {
     if (settings.marks) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
     const auto effort =
-        pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllPlaces : FaceFinder::Effort::kLikelyPlaces;
+        pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes;
     const auto faces = finder.find(picture, number + 1, effort);
     if (faces.size() <= number) return std::nullopt;
     return marks_of(faces[number]);

@@ -19,7 +19,7 @@ namespace fbs {
 ///   encoder->finish(); write(encoder->take());
 class Encoder {
  public:
-  /// @return kInvalidArgument for settings or a format out of range; kIo without OpenCV's cascades
+  /// @return kInvalidArgument for settings or a format out of range
   static Result<Encoder> create(const VideoFormat& format, const EncoderSettings& settings);
   Encoder(Encoder&&) noexcept;
   Encoder& operator=(Encoder&&) noexcept;

@@ -14,17 +14,22 @@ class Dice {
   float normal(float deviation) { return std::normal_distribution<float>(0, deviation)(random_); }
   float uniform(float from, float to) { return std::uniform_real_distribution<float>(from, to)(random_); }
   int below(int limit) { return std::uniform_int_distribution<int>(0, limit - 1)(random_); }
+  /// With noise of a deviation; faster by far than one number at a time.
+  void fill(cv::Mat1f& noise, float deviation) {
+    cv::RNG(random_()).fill(noise, cv::RNG::NORMAL, 0, deviation);
+  }
   bool chance(float probability) { return uniform(0, 1) < probability; }
 
  private:
   std::mt19937& random_;
 };
 
-/// Mirrors, turns and stretches the plane so that the face comes to lie about the patch's middle.
-cv::Matx33f plane_map(const FacePicture& face, const PlaceNoise& noise, bool mirror, Dice& dice) {
+/// Mirrors, turns and stretches the plane so that the place comes to lie about the patch's middle.
+cv::Matx33f plane_map(const FacePlace& place, const PlaceNoise& noise, bool mirror, Dice& dice) {
   constexpr float kMiddle = kPatchSide / 2.F;
-  const glm::vec2 centre = mean_of(face.landmarks);
-  const float scale = kPatchEyeDistance / eye_distance(face.landmarks) * std::exp(dice.normal(noise.scale));
+  const glm::vec2 centre(place.centre);
+  const float scale =
+      kPatchEyeDistance / static_cast<float>(place.eye_distance_px) * std::exp(dice.normal(noise.scale));
   const float roll = dice.normal(0.15F), shear = dice.normal(0.05F);
   const float wide = std::exp(dice.normal(0.05F)), high = std::exp(dice.normal(0.05F));
   const float c = std::cos(roll), s = std::sin(roll);
@@ -38,8 +43,11 @@ cv::Matx33f plane_map(const FacePicture& face, const PlaceNoise& noise, bool mir
 
 cv::Mat1f drawn(const cv::Mat1b& luma, const cv::Matx33f& map, Dice& dice) {
   const float scale = std::sqrt(std::abs(map(0, 0) * map(1, 1) - map(0, 1) * map(1, 0)));
-  cv::Mat source = luma;
-  if (scale < 1) cv::GaussianBlur(luma, source, {}, 0.4 / scale);
+  cv::Mat source = luma, blurred;
+  if (scale < 1) {
+    cv::GaussianBlur(luma, blurred, {}, 0.4 / scale);
+    source = blurred;
+  }
   // From positions to OpenCV's indices and back: pixels' centres are at their half.
   const cv::Matx33f to_position(1, 0, 0.5F, 0, 1, 0.5F, 0, 0, 1), to_index(1, 0, -0.5F, 0, 1, -0.5F, 0, 0, 1);
   const cv::Matx33f indices = to_index * map * to_position;
@@ -81,8 +89,9 @@ void blur(cv::Mat1f& patch, Dice& dice) {
 
 void disturb(cv::Mat1f& patch, const Shape& truth, Dice& dice) {
   if (dice.chance(0.5F)) {
-    const float sigma = dice.uniform(0, 8);
-    for (float& value : patch) value += dice.normal(sigma);
+    cv::Mat1f noise(patch.size());
+    dice.fill(noise, dice.uniform(0, 8));
+    patch += noise;
   }
   if (dice.chance(0.15F)) {  // something before the face
     const glm::vec2 at = truth[static_cast<std::size_t>(dice.below(kLandmarkCount))];
@@ -106,10 +115,11 @@ PatchSample as_it_is(const FacePicture& face, const PlaceNoise& noise, std::mt19
   return out;
 }
 
-PatchSample augmented(const FacePicture& face, const PlaceNoise& noise, std::mt19937& random) {
+PatchSample augmented(const FacePicture& face, const FacePlace& place, const PlaceNoise& noise,
+                      std::mt19937& random) {
   Dice dice(random);
   const bool mirror = dice.chance(0.5F);
-  const cv::Matx33f map = plane_map(face, noise, mirror, dice);
+  const cv::Matx33f map = plane_map(place, noise, mirror, dice);
   PatchSample out;
   for (int k = 0; k < kLandmarkCount; ++k) {
     const glm::vec2 p = face.landmarks[static_cast<std::size_t>(mirror ? mirrored_landmark(k) : k)];

@@ -24,6 +24,8 @@ struct PlaceNoise {
 /// As it is, about where it is thought to be.
 [[nodiscard]] PatchSample as_it_is(const FacePicture& face, const PlaceNoise& noise, std::mt19937& random);
 
-[[nodiscard]] PatchSample augmented(const FacePicture& face, const PlaceNoise& noise, std::mt19937& random);
+/// @param place  where the face is thought to be, but for the noise: the patch is about it
+[[nodiscard]] PatchSample augmented(const FacePicture& face, const FacePlace& place, const PlaceNoise& noise,
+                                    std::mt19937& random);
 
 }  // namespace fbs

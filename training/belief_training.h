@@ -12,17 +12,20 @@ namespace fbs {
 
 /// What the search came to at places of a picture, by a cascade that has not seen the person.
 struct Outcomes {
-  RowMatrix descriptors;       ///< a row each, by kBeliefLook at the end
+  RowMatrix descriptors;       ///< a row each: what the views of a BeliefTable see in the end
   std::vector<float> spreads;  ///< Agreement::spread
+  std::vector<float> places;   ///< PlaceSearch::score
   std::vector<float> error;    ///< of lips or eyes, whichever is worse, eye distances; large without a face
 };
 
 /// A landmark search that is off by more, eye distances, has failed.
 inline constexpr float kWrongFrom = 0.2F;
 
-/// Searches at places near each face, farther off, and elsewhere in the picture.
+/// Searches at places near each face, farther off, elsewhere in the picture, and where a face is most likely
+/// by the places of the table.
+/// @param textures  pictures without a face
 [[nodiscard]] Outcomes try_search(const LandmarkSearch& search, const std::vector<FacePicture>& faces,
-                                  std::mt19937& random);
+                                  const std::vector<cv::Mat1b>& textures, std::mt19937& random);
 
 [[nodiscard]] BeliefTable train_belief(const std::vector<const Outcomes*>& outcomes);
 

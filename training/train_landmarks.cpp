@@ -8,13 +8,16 @@
 #include "common/ibug.h"
 #include "training/belief_training.h"
 #include "training/cascade_training.h"
+#include "training/place_training.h"
+#include "training/textures.h"
 
 namespace fbs {
 namespace {
 
 constexpr int kFolds = 5;
-constexpr int kPerClip = 30, kTalkers = 40;
-constexpr int kSamplesOfAStill = 24, kSamplesOfAnother = 3;
+constexpr int kPerClip = 30, kTalkers = 40, kTextures = 100;
+constexpr int kSamplesOfAStill = 32, kSamplesOfAnother = 3;
+constexpr int kPlacesOfAStill = 10, kPlacesOfAnother = 2;
 
 /// A fold for each person, the same in every run.
 std::map<std::string, int> folds_of(const std::vector<FacePicture>& faces) {
@@ -31,7 +34,16 @@ std::map<std::string, int> folds_of(const std::vector<FacePicture>& faces) {
 
 struct Faces {
   std::vector<FacePicture> stills, others;  ///< others: clips and talkers, many pictures of few people
+  std::vector<cv::Mat1b> textures;
 };
+
+/// Those of a fold, or all others.
+std::vector<cv::Mat1b> part(const std::vector<cv::Mat1b>& textures, int fold, bool inside) {
+  std::vector<cv::Mat1b> out;
+  for (std::size_t i = 0; i < textures.size(); ++i)
+    if ((static_cast<int>(i % kFolds) == fold) == inside) out.push_back(textures[i]);
+  return out;
+}
 
 LandmarkTable train(const Faces& faces, const std::map<std::string, int>& folds, int but) {
   std::mt19937 random(static_cast<unsigned>(but + 100));
@@ -39,11 +51,20 @@ LandmarkTable train(const Faces& faces, const std::map<std::string, int>& folds,
   const auto add = [&](const std::vector<FacePicture>& pictures, int count) {
     for (const FacePicture& f : pictures)
       for (int i = 0; i < count && folds.at(f.person) != but; ++i)
-        samples.push_back(augmented(f, {}, random));
+        samples.push_back(augmented(f, place_of(f.landmarks), {}, random));
   };
   add(faces.stills, kSamplesOfAStill);
   add(faces.others, kSamplesOfAnother);
-  return train_cascade(samples);
+  LandmarkTable table = train_cascade(samples);
+  std::vector<FaceCount> known;
+  const auto add_known = [&](const std::vector<FacePicture>& pictures, int times) {
+    for (const FacePicture& f : pictures)
+      if (folds.at(f.person) != but) known.push_back({f, times});
+  };
+  add_known(faces.stills, kPlacesOfAStill);
+  add_known(faces.others, kPlacesOfAnother);
+  table.places = train_places(known, part(faces.textures, but, false), table.mean, random);
+  return table;
 }
 
 void report(const char* what, std::vector<float> errors) {
@@ -83,7 +104,7 @@ void write(const LandmarkTable& table, const std::string& path) {
 
 int run(const std::filesystem::path& shared, const std::filesystem::path& persons, const std::string& out) {
   Faces faces{load_stills(shared / "faces", persons),
-              load_clips(shared / "clips", shared / "reference", kPerClip)};
+              load_clips(shared / "clips", shared / "reference", kPerClip), draw_textures(kTextures)};
   for (FacePicture& f : load_talkers(kTalkers)) faces.others.push_back(std::move(f));
   std::vector<FacePicture> all = faces.stills;
   all.insert(all.end(), faces.others.begin(), faces.others.end());
@@ -107,7 +128,7 @@ int run(const std::filesystem::path& shared, const std::filesystem::path& person
         for (int i = 0; i < 3; ++i) seen.push_back(as_it_is(f, {0.06F, 0.08F}, random));
     measure(seen, search, errors);
     report(errors);
-    outcomes.push_back(try_search(search, strangers, random));
+    outcomes.push_back(try_search(search, strangers, part(faces.textures, fold, true), random));
   }
   std::ofstream names(out + ".folds");
   for (const FacePicture& f : faces.stills) names << f.name << ' ' << folds.at(f.person) << '\n';

@@ -12,10 +12,26 @@ namespace {
 /// Two faces are one when their middles are nearer than this, eye distances.
 constexpr double kSameFace = 1;
 
+/// Of the picture's shorter side, over the eye distance.
+constexpr double kLargestFaces = 2.2, kSmallestFaces = 16, kSmallestFacesOfAll = 32;
+
+/// Places that are looked at besides those of the faces wanted.
+constexpr std::size_t kMorePlaces = 7;
+
+/// Places that are less like a face are not looked at.
+constexpr float kWorthLooking = 0.2F;
+
+/// Belief from which landmarks are searched once more, now about where the face was found.
+constexpr double kWorthAnotherLook = 0.2;
+
 FacePlace place_of(const FoundLandmarks& found) {
   Shape shape;
   std::ranges::copy(found.points, shape.begin());
   return fbs::place_of(shape);
+}
+
+double shorter_side(const Picture& picture) {
+  return std::min(picture.width(), picture.height());
 }
 
 bool are_one(const FacePlace& a, const FacePlace& b) {
@@ -36,26 +52,32 @@ void add(const FoundFace& face, std::vector<FoundFace>& faces) {
 }  // namespace
 
 Result<FaceFinder> FaceFinder::create() {
-  auto detector = FaceDetector::create();
-  if (!detector) return fail(detector.error());
   auto table = load_landmarks();
   if (!table) return fail(table.error());
-  return FaceFinder(std::move(*detector), LandmarkSearch(std::move(*table)));
+  return FaceFinder(*table);
 }
 
 std::vector<FoundFace> FaceFinder::find(const Picture& picture, std::size_t wanted, Effort effort) const {
+  const double side = shorter_side(picture);
+  const double smallest = effort == Effort::kAllSizes ? kSmallestFacesOfAll : kSmallestFaces;
+  return find(picture, {side / smallest, side / kLargestFaces}, wanted + kMorePlaces);
+}
+
+std::vector<FoundFace> FaceFinder::find(const Picture& picture, const EyeDistances& sizes,
+                                        std::size_t places) const {
   const cv::Mat luma = view(picture.y);
+  const double small = shorter_side(picture) / kSmallestFaces;
   std::vector<FoundFace> faces;
-  const auto judge = [&](const std::vector<FacePlace>& places, double believed) {
-    for (const FacePlace& place : places) {
-      const FoundLandmarks found = landmarks_.find(luma, place);
-      if (found.belief >= believed) add({found, place_of(found)}, faces);
-    }
-  };
-  judge(detector_.likely(picture), kBelieved);
-  if (faces.size() < wanted && effort == Effort::kAllPlaces)
-    judge(detector_.possible(picture), kBelievedWherePossible);
-  std::ranges::sort(faces, std::greater<>(), [](const FoundFace& f) { return f.place.eye_distance_px; });
+  for (const PlaceSearch::Place& p : places_.find(luma, sizes, places)) {
+    if (p.score < kWorthLooking) break;
+    FoundLandmarks found = landmarks_.find(luma, p.place);
+    if (found.belief < kWorthAnotherLook) continue;
+    found = landmarks_.find(luma, place_of(found));
+    const FoundFace face{found, place_of(found)};
+    if (found.belief >= (face.place.eye_distance_px < small ? kBelievedIfSmall : kBelieved)) add(face, faces);
+  }
+  std::ranges::sort(faces, std::greater<>(),
+                    [](const FoundFace& f) { return f.place.eye_distance_px * f.landmarks.belief; });
   return faces;
 }
 

@@ -1,9 +1,7 @@
 #include "encoder/landmarks/descriptor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "encoder/image/bilinear.h"
@@ -13,11 +11,6 @@ namespace {
 
 /// Of the square's side, the root-mean-square radius of the face.
 constexpr float kFaceRadius = 0.26F;
-
-/// Below this, in grey levels, gradients are noise: they are not scaled up to unit length.
-constexpr float kNoiseGradient = 10;
-
-using Histogram = cv::Vec<float, kOrientations>;
 
 PlaneSimilarity to_square(const Shape& shape, const Shape& mean, int side) {
   PlaneSimilarity to = PlaneSimilarity::between(shape, mean);
@@ -34,26 +27,6 @@ cv::Mat1f drawn_upright(const cv::Mat1b& patch, const PlaneSimilarity& to, int s
   return cv::Mat1f(square);
 }
 
-/// Each gradient goes to the two orientations next to its own.
-cv::Mat orientation_maps(const cv::Mat1f& square, float sigma) {
-  cv::Mat1f dx, dy, length, angle;
-  cv::Sobel(square, dx, CV_32F, 1, 0, 1);
-  cv::Sobel(square, dy, CV_32F, 0, 1, 1);
-  cv::cartToPolar(dx, dy, length, angle);
-  cv::Mat maps(square.size(), CV_32FC(kOrientations), cv::Scalar::all(0));
-  for (int y = 0; y < square.rows; ++y)
-    for (int x = 0; x < square.cols; ++x) {
-      const float at = angle(y, x) * (kOrientations / (2 * std::numbers::pi_v<float>));
-      const int before = static_cast<int>(at);
-      const float share = at - static_cast<float>(before);
-      auto& histogram = maps.at<Histogram>(y, x);
-      histogram[before % kOrientations] += length(y, x) * (1 - share);
-      histogram[(before + 1) % kOrientations] += length(y, x) * share;
-    }
-  cv::GaussianBlur(maps, maps, {}, sigma);
-  return maps;
-}
-
 Histogram sample(const cv::Mat& maps, glm::vec2 at) {
   const BilinearCell<float> cell(clamped(maps, at, 1.001F));
   const float u = cell.fraction.x, v = cell.fraction.y;
@@ -68,12 +41,11 @@ void describe(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, con
               std::span<float> out) {
   const PlaneSimilarity to = to_square(shape, mean, look.side);
   const cv::Mat maps = orientation_maps(drawn_upright(patch, to, look.side), look.sigma);
-  const std::array<glm::vec2, kSpots> spots = {glm::vec2(0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
   float* next = out.data();
   for (const glm::vec2 landmark : to(shape)) {
     float* const first = next;
     float squares = kNoiseGradient * kNoiseGradient;
-    for (const glm::vec2 spot : spots)
+    for (const glm::vec2 spot : kSpotDirections)
       for (const float value : sample(maps, landmark + spot * look.radius).val) {
         *next++ = value;
         squares += value * value;

@@ -1,15 +1,19 @@
 // What a face's landmarks look like: histograms of gradient orientations round each of them.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <span>
 
+#include "encoder/landmarks/orientation_maps.h"
 #include "encoder/landmarks/shape.h"
 
 namespace fbs {
 
-inline constexpr int kOrientations = 8;
-inline constexpr int kSpots = 5;  ///< at the landmark and round it: right, below, left, above
+/// At the landmark and round it.
+inline constexpr std::array<glm::vec2, 5> kSpotDirections = {
+    glm::vec2(0, 0), {1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+inline constexpr int kSpots = static_cast<int>(kSpotDirections.size());
 inline constexpr int kDescriptorSize = kLandmarkCount * kSpots * kOrientations;
 
 /// How closely a face is looked at. It is drawn upright into a square as large as this first.
@@ -19,8 +23,7 @@ struct Look {
   float radius = 0;  ///< of the spots round the landmark, pixels of the square
 };
 
-/// Gradients of the picture, sorted by their orientation into eight maps that are smoothed, as they are at
-/// the spots; those of a landmark scaled to unit length together. Method: Tola, Lepetit, Fua, DAISY, 2010.
+/// The picture's orientation_maps() at the spots; those of a landmark scaled to unit length together.
 /// @param patch  luma
 /// @param shape  in it; within a few patches of it
 /// @param mean   the mean shape, in units of its root-mean-square radius about (0, 0): shape is turned and

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "encoder/landmarks/place_search.h"
+
 namespace fbs {
 namespace {
 
@@ -29,6 +31,12 @@ Shape started(const Shape& usual, const Start& start) {
   const std::complex<float> turn = std::polar(start.scale, start.roll);
   return PlaneSimilarity{
       turn, std::complex<float>(to.x, to.y) - turn * std::complex<float>(middle.x, middle.y)}(usual);
+}
+
+Shape halfway(const Shape& a, const Shape& b) {
+  Shape out;
+  std::ranges::transform(a, b, out.begin(), [](glm::vec2 p, glm::vec2 q) { return (p + q) / 2.F; });
+  return out;
 }
 
 /// Of each coordinate by itself.
@@ -80,11 +88,10 @@ Shape LandmarkSearch::moved(const LandmarkStage& stage, const Shape& mean, const
   return to_mean.inverse()(upright);
 }
 
-LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch) const {
-  const Shape usual = usual_shape(table_.mean);
+LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch,
+                                                  const std::vector<Shape>& starts) const {
   std::vector<Shape> ends;
-  for (const Start& start : kStarts) {
-    Shape shape = started(usual, start);
+  for (Shape shape : starts) {
     for (const LandmarkStage& stage : table_.stages) shape = moved(stage, table_.mean, patch, shape);
     ends.push_back(shape);
   }
@@ -93,22 +100,45 @@ LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch) const 
   return out;
 }
 
+LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch) const {
+  const Shape usual = usual_shape(table_.mean);
+  std::vector<Shape> starts;
+  for (const Start& start : kStarts) starts.push_back(started(usual, start));
+  return descend(patch, starts);
+}
+
 double LandmarkSearch::believe(const cv::Mat1b& patch, const Agreement& end) const {
   const BeliefTable& belief = table_.belief;
+  double odds = belief.spread * std::log(end.spread + kLeastSpread) + belief.offset;
+  odds += belief.place * PlaceSearch::score(patch, table_);
   std::vector<float> descriptor(kDescriptorSize);
-  describe(patch, end.shape, table_.mean, belief.look, descriptor);
-  const double odds = belief.score(descriptor)[0] + belief.spread * end.spread + belief.offset;
+  for (const BeliefView& view : belief.views) {
+    describe(patch, end.shape, table_.mean, view.look, descriptor);
+    odds += view.score(descriptor)[0];
+  }
   return 1 / (1 + std::exp(-odds));
+}
+
+FoundLandmarks LandmarkSearch::found(const FacePatch& patch, const Agreement& end) const {
+  FoundLandmarks out;
+  std::ranges::transform(end.shape, out.points.begin(),
+                         [&patch](glm::vec2 p) { return patch.to_picture(p); });
+  out.belief = believe(patch.luma(), end);
+  return out;
 }
 
 FoundLandmarks LandmarkSearch::find(const cv::Mat& picture, const FacePlace& place) const {
   const FacePatch patch(picture, place);
-  const Agreement end = descend(patch.luma());
-  FoundLandmarks found;
-  std::ranges::transform(end.shape, found.points.begin(),
-                         [&patch](glm::vec2 p) { return patch.to_picture(p); });
-  found.belief = believe(patch.luma(), end);
-  return found;
+  return found(patch, descend(patch.luma()));
+}
+
+FoundLandmarks LandmarkSearch::follow(const cv::Mat& picture, const Shape& last) const {
+  const FacePatch patch(picture, place_of(last));
+  const Shape usual = usual_shape(table_.mean);
+  Shape start;
+  std::ranges::transform(last, start.begin(), [&patch](glm::vec2 p) { return patch.to_patch(p); });
+  const Shape at_rest = PlaneSimilarity::between(usual, start)(usual);
+  return found(patch, descend(patch.luma(), {start, at_rest, halfway(start, at_rest)}));
 }
 
 }  // namespace fbs

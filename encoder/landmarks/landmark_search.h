@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <utility>
+#include <vector>
 
 #include "encoder/landmarks/face_patch.h"
 #include "encoder/landmarks/landmark_table.h"
@@ -28,6 +29,10 @@ class LandmarkSearch {
   /// @param place    known to about a tenth of the face's size
   [[nodiscard]] FoundLandmarks find(const cv::Mat& picture, const FacePlace& place) const;
 
+  /// The same for a face that was found in a picture before.
+  /// @param last  its landmarks then, or as they are thought to be now; pixels
+  [[nodiscard]] FoundLandmarks follow(const cv::Mat& picture, const Shape& last) const;
+
   /// The mean shape where the face is thought to be in every patch.
   [[nodiscard]] static Shape usual_shape(const Shape& mean);
 
@@ -40,11 +45,14 @@ class LandmarkSearch {
     Shape shape{};     ///< median of the ends, in the patch
     float spread = 0;  ///< mean distance of the ends' landmarks from it, eye distances
   };
+  /// From about the usual shape.
   [[nodiscard]] Agreement descend(const cv::Mat1b& patch) const;
 
   [[nodiscard]] const LandmarkTable& table() const { return table_; }
 
  private:
+  [[nodiscard]] Agreement descend(const cv::Mat1b& patch, const std::vector<Shape>& starts) const;
+  [[nodiscard]] FoundLandmarks found(const FacePatch& patch, const Agreement& end) const;
   [[nodiscard]] double believe(const cv::Mat1b& patch, const Agreement& end) const;
 
   LandmarkTable table_;

@@ -1,5 +1,6 @@
 #include "encoder/landmarks/landmark_table.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <fstream>
@@ -12,7 +13,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 constexpr int kMaxStages = 16;
 
 /// Reads or writes the parts of a table: the layout is said once.
@@ -83,6 +84,8 @@ void code(Coder& coder, LandmarkTable& table) {
     coder.real(p.x);
     coder.real(p.y);
   }
+  code(coder, table.places.score, 1);
+  coder.real(table.places.offset);
   constexpr std::size_t kNumbers = 2 * kLandmarkCount;
   for (LandmarkStage& stage : table.stages) {
     code(coder, stage.look);
@@ -90,9 +93,12 @@ void code(Coder& coder, LandmarkTable& table) {
     coder.reals(stage.modes, kShapeModes * kNumbers);
     coder.reals(stage.offset, kNumbers);
   }
-  code(coder, table.belief.look);
-  code(coder, table.belief.score, 1);
+  for (BeliefView& view : table.belief.views) {
+    code(coder, view.look);
+    code(coder, view.score, 1);
+  }
   coder.real(table.belief.spread);
+  coder.real(table.belief.place);
   coder.real(table.belief.offset);
 }
 
@@ -121,8 +127,9 @@ Result<LandmarkTable> read_landmark_table(std::span<const std::uint8_t> bytes) {
   LandmarkTable table;
   table.stages.resize(stages);
   code(reader, table);
-  bool usable = reader.complete() && is_usable(table.belief.look);
-  for (const LandmarkStage& stage : table.stages) usable = usable && is_usable(stage.look);
+  const auto is_seen_well = [](const auto& part) { return is_usable(part.look); };
+  const bool usable = reader.complete() && std::ranges::all_of(table.stages, is_seen_well) &&
+                      std::ranges::all_of(table.belief.views, is_seen_well);
   if (!usable) return fail(ErrorCode::kInvalidStream, "table of landmarks is damaged");
   return table;
 }

@@ -1,6 +1,7 @@
 // What the search for landmarks has learned: train_landmarks makes the table, the encoder has it built in.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,16 +31,32 @@ struct LandmarkStage {
   std::vector<float> offset;  ///< x0, y0, x1, y1 ...
 };
 
-/// How probable it is that landmarks are those of a face and right: a logistic function of
-/// score . descriptor + spread * (how far the starts differ in the end, eye distances) + offset.
-struct BeliefTable {
+/// What a face looks like at its landmarks, seen in one way.
+struct BeliefView {
   Look look;
   DescriptorMap score;  ///< one output
-  float spread = 0, offset = 0;
+};
+inline constexpr std::size_t kBeliefViews = 2;
+
+/// How probable it is that landmarks are those of a face and right: a logistic function of
+/// the views' scores + spread * log(how far the starts differ in the end + kLeastSpread)
+/// + place * (how much the place looked like a face, PlaceSearch) + offset.
+struct BeliefTable {
+  std::array<BeliefView, kBeliefViews> views;
+  float spread = 0, place = 0, offset = 0;
+};
+inline constexpr float kLeastSpread = 0.001F;  ///< eye distances
+
+/// How much a place looks like the mean face: score . descriptor + offset, 1 on faces and 0 elsewhere
+/// (PlaceSearch).
+struct PlaceTable {
+  DescriptorMap score;  ///< one output
+  float offset = 0;
 };
 
 struct LandmarkTable {
   Shape mean{};  ///< root-mean-square radius 1 about (0, 0)
+  PlaceTable places;
   std::vector<LandmarkStage> stages;
   BeliefTable belief;
 };

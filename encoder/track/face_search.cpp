@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <span>
 
+#include "common/ibug.h"
 #include "encoder/image/planes.h"
 #include "encoder/track/head/coarse_search.h"
 #include "encoder/track/head/pose_alignment.h"
@@ -17,15 +18,15 @@ using namespace head_tuning;
 
 namespace {
 
-/// Of the landmarks of the mean face, eye distances.
-constexpr double kEyesAboveCentre = 0.6;
-
 constexpr std::array kYaw = {-30 * kDegree, -15 * kDegree, 0.0, 15 * kDegree, 30 * kDegree};
 constexpr std::array kPitch = {-15 * kDegree, 0.0, 15 * kDegree};
 constexpr std::array kSize = {-0.15, 0.0, 0.15};  // log2
-// The cascade places a face better than the last pose does one that moves.
+// A face that is found is placed better than the last pose does one that moves.
 constexpr PoseGrid kGridAround = {kYaw, kPitch, kSize, 1.0};
-constexpr PoseGrid kGridAtCascade = {kYaw, kPitch, kSize, 0.4};
+constexpr PoseGrid kGridAtFace = {kYaw, kPitch, kSize, 0.4};
+
+/// At which faces are looked for.
+constexpr std::size_t kPlacesEverywhere = 4;
 
 bool shows_nothing(const cv::Mat& luma) {
   cv::Scalar mean, deviation;
@@ -122,17 +123,24 @@ void search_around(const Wanted& w, Detections& detections) {
   detections.search(now, w.last, kGridAround);
 }
 
-/// At each face that the cascade finds.
+/// Where its eyes are, upright.
+Pose pose_of(const FoundFace& face) {
+  const auto eyes = std::span(face.landmarks.points).subspan(ibug::kEyesFirst, 2 * ibug::kEyePoints);
+  Pose pose;
+  pose.shift = std::accumulate(eyes.begin(), eyes.end(), glm::dvec2(0)) / static_cast<double>(eyes.size());
+  pose.log2_scale = std::log2(face.place.eye_distance_px);
+  return pose;
+}
+
+/// At each face that is found.
 void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& detections) {
   if (shows_nothing(view(w.picture.y))) return;
   const double eye = w.last.eye_distance_px(), factor = std::exp2(kMaxSizeChange);
-  for (const FacePlace& face : finder.detector().of_size(w.picture, eye / factor, eye * factor)) {
+  for (const FoundFace& face : finder.find(w.picture, {eye / factor, eye * factor}, kPlacesEverywhere)) {
     if (detections.best().accepted) return;
-    Pose there;
-    there.shift = face.centre - glm::dvec2(0, kEyesAboveCentre * face.eye_distance_px);
-    there.log2_scale = std::log2(face.eye_distance_px);
+    const Pose there = pose_of(face);
     const WorkFrame frame = WorkFrame::cut(w.picture, there.shift, w.head.eye_distance_px(), false);
-    detections.search(LevelledFrame(frame), there, kGridAtCascade);
+    detections.search(LevelledFrame(frame), there, kGridAtFace);
   }
 }
 

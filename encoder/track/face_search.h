@@ -11,9 +11,9 @@
 namespace fbs {
 
 /// A detection is a place at which the picture resembles the head in picture 0, light levelled out. First a
-/// grid over place, rotation and size is tried at the coarsest level; then the best of it are refined. The
-/// cascade that looks everywhere only proposes places; the head's own appearance decides there too, so that a
-/// hand, a background or another face is not taken for the head.
+/// grid over place, rotation and size is tried at the coarsest level; then the best of it are refined. Faces
+/// that are found everywhere are only places to look at; the head's own appearance decides there too, so that
+/// another face is not taken for the head.
 class FaceSearch {
  public:
   /// Correlation below which the head is lost.

@@ -16,7 +16,6 @@ set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
 set(foreign
-  "opencv2/objdetect@encoder/find"
   "opencv2/video/@encoder/track/head"
   "opencv2/highgui|opencv2/videoio@cli|cli/video"
   "opencv2/@encoder/image|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"

@@ -59,6 +59,17 @@ TEST(LandmarkSearch, NeedsThePlaceOnlyRoughly) {
           << off.x << ' ' << off.y << ' ' << scale;
 }
 
+TEST(LandmarkSearch, FollowsFromTheLandmarksBefore) {
+  TalkerClip clip(talker_settings(264, 216, 60));
+  Shape last = clip.shape(0);
+  for (int i = 0; i < 60; i += 4) {
+    const FoundLandmarks found = search().follow(view(clip[i].y), last);
+    EXPECT_LT(error_of(found, clip, i), 0.08) << i;
+    EXPECT_GT(found.belief, 0.5) << i;
+    std::ranges::copy(found.points, last.begin());
+  }
+}
+
 TEST(LandmarkSearch, BelievesNothingWhereThereIsNoFace) {
   TalkerClip clip(talker_settings(264, 216, 1));
   EXPECT_LT(search().find(view(clip[0].y), place_of(clip, 0, {2.5, -1})).belief, 0.2) << "beside the face";
