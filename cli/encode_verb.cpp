@@ -35,6 +35,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   settings.motion_bitrate = arguments.motion_bitrate;
   settings.snakes = arguments.snakes;
   settings.refine = arguments.refine;
+  settings.landmarks = arguments.landmarks;
   settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);

@@ -92,6 +92,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
   verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
   verb->add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
+  verb->add_flag("!--no-landmarks", a.landmarks)->group(kHiddenGroup);
   verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
   verb->add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
   verb->add_option("--motion-bitrate", a.motion_bitrate)

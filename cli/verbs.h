@@ -27,6 +27,7 @@ struct EncodeArguments {
   int effort = 1;
   bool snakes = true;
   bool refine = true;
+  bool landmarks = true;
   bool surround = true;
   bool quiet = false;
 };

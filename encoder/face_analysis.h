@@ -10,6 +10,7 @@
 #include "encoder/track/face_search.h"
 #include "encoder/track/feature_tracker.h"
 #include "encoder/track/head_tracker.h"
+#include "encoder/track/landmark_follow.h"
 
 namespace fbs {
 
@@ -61,15 +62,19 @@ class FaceAnalysis {
   /// Sets now_.
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
+  /// The fit from another start if that is nearer to the picture: the expression that its landmarks show,
+  /// whatever came before.
+  [[nodiscard]] Fit with_landmarks(const Picture& picture, const Fit& fit);
   void write_report(const std::array<glm::ivec3, kVertexCount>& vertices);
 
-  bool snakes_, refine_;
+  bool snakes_, refine_, look_again_;
   double eye_distance_px_;
   Geometry geometry_;
   MouthInterior mouth_;
   HeadTracker head_;
   FaceSearch search_;
   FeatureTracker features_;
+  LandmarkFollow landmarks_;
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture

@@ -21,6 +21,7 @@ struct EncoderSettings {
   bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
   bool refine = true;          ///< fit the state to the picture; off only to measure what it gains
+  bool landmarks = true;       ///< look for landmarks in every picture; off only to measure what it gains
   bool surround = true;        ///< let hair, body and ground move; off only to measure what it gains
   int group_pictures = 0;      ///< pictures in a motion packet, 1..256; 0: one second's
 };

@@ -34,6 +34,9 @@ class PictureFit {
   /// there, too: a mouth that opens at once leaves their contour behind.
   [[nodiscard]] Fit refine_mouth(const Fit& start) const;
 
+  /// mean_difference() of pattern and picture.
+  [[nodiscard]] double difference(const Fit& fit) const { return mean_difference(comparison_, fit); }
+
   /// What this pattern costs in states near a fit.
   [[nodiscard]] PictureCost cost_at(const Fit& fit) const;
 

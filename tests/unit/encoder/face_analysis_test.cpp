@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/ibug.h"
 #include "encoder/find/adapt.h"
 #include "tests/unit/talker_clip.h"
 
@@ -15,8 +16,8 @@ constexpr int kFrames = 12;
 /// An analysis that begins on a talker's first picture with true marks; the pattern is the source itself.
 class Session {
  public:
-  explicit Session(const EncoderSettings& settings)
-      : clip_(talker_settings(176, 144, kFrames)),
+  explicit Session(const EncoderSettings& settings, int frames = kFrames)
+      : clip_(talker_settings(176, 144, frames)),
         head_(*adapt_head(clip_.marks(0))),
         finder_(*FaceFinder::create()) {
     setup_.format = clip_.format();
@@ -33,6 +34,7 @@ class Session {
   FaceAnalysis::Observation observe(int frame) { return observe(clip_[frame]); }
   [[nodiscard]] const PictureAnalysis& report() const { return analysis_->report(); }
   [[nodiscard]] const State& seen() const { return seen_; }
+  [[nodiscard]] const Geometry& geometry() const { return head_.geometry; }
   [[nodiscard]] TalkerClip& clip() { return clip_; }
 
  private:
@@ -80,6 +82,27 @@ TEST(FaceAnalysis, FollowsTheTalker) {
     EXPECT_LT(std::hypot(off.x, off.y), 0.1 * truth.eye_distance_px()) << t;
     EXPECT_GT(session.report().confidence, 0.8) << t;
   }
+}
+
+/// Between the inner lips, eye distances.
+double opening(const Shape& s) {
+  return static_cast<double>(s[ibug::kLowerLipInner].y - s[ibug::kUpperLipInner].y) /
+         static_cast<double>(eye_distance(s));
+}
+
+// Landmarks are looked for in each picture, so that nothing need lead there.
+TEST(FaceAnalysis, AMouthThatOpensAtOnceIsFollowed) {
+  Session session({}, 150);
+  int widest = 0;
+  for (int t = 0; t < 150; ++t)
+    if (opening(session.clip().shape(t)) > opening(session.clip().shape(widest))) widest = t;
+  const auto seen = [&session](int t) {
+    const HeadVertices v = skinned(session.geometry(), fit_of(session.observe(t).state).offsets);
+    return static_cast<double>(mouth_gap(v)) / kUnitsPerEyeDistance;
+  };
+  const double change = seen(0) - seen(widest);
+  const double truth = opening(session.clip().shape(0)) - opening(session.clip().shape(widest));
+  EXPECT_NEAR(change / truth, 1, 0.35);
 }
 
 TEST(FaceAnalysis, HoldsThePoseAndRelaxesTheExpressionWhileTheFaceIsLost) {

@@ -1,0 +1,40 @@
+// The expression of a head that is followed, seen anew in a picture: by landmarks, whatever came before.
+#pragma once
+
+#include <optional>
+
+#include "encoder/landmarks/landmark_search.h"
+#include "encoder/model/pose.h"
+#include "encoder/model/skinning.h"
+
+namespace fbs {
+
+class LandmarkFollow {
+ public:
+  /// What the search is off by on this person's resting face, it is taken to be off by always.
+  /// @param search  must outlive the object
+  /// @param pose    of the head in `first`
+  LandmarkFollow(const LandmarkSearch& search, const Geometry& geometry, const Pose& pose,
+                 const cv::Mat& first);
+
+  /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if they are not
+  /// believed.
+  /// @param picture  luma, 8 bits
+  /// @param pose     of the head in it; where the landmarks of rigid parts are elsewhere, all are moved back
+  /// @param before   offsets from which the search starts
+  [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose,
+                                            const Offsets& before) const;
+
+ private:
+  using HeadLandmarks = std::array<glm::dvec2, kLandmarkCount>;  ///< x and y in the head frame, eye distances
+
+  /// Where they are found, less where the head has them at rest.
+  [[nodiscard]] std::optional<HeadLandmarks> displacements(const cv::Mat& picture, const Pose& pose,
+                                                           const Offsets& before) const;
+
+  const LandmarkSearch* search_;
+  Geometry geometry_;
+  HeadLandmarks bias_{};
+};
+
+}  // namespace fbs
