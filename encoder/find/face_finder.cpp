@@ -24,6 +24,16 @@ constexpr float kWorthLooking = 0.2F;
 /// Belief from which landmarks are searched once more, now about where the face was found.
 constexpr double kWorthAnotherLook = 0.2;
 
+/// Landmarks that lie in the picture: somebody who comes in is waited for.
+constexpr double kLeastInside = 0.8;
+
+double share_inside(const FoundLandmarks& found, const Picture& picture) {
+  const auto count = std::ranges::count_if(found.points, [&picture](glm::dvec2 p) {
+    return p.x >= 0 && p.y >= 0 && p.x < picture.width() && p.y < picture.height();
+  });
+  return static_cast<double>(count) / kLandmarkCount;
+}
+
 FacePlace place_of(const FoundLandmarks& found) {
   Shape shape;
   std::ranges::copy(found.points, shape.begin());
@@ -74,6 +84,7 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture, const EyeDistanc
     if (found.belief < kWorthAnotherLook) continue;
     found = landmarks_.find(luma, place_of(found));
     const FoundFace face{found, place_of(found)};
+    if (share_inside(found, picture) < kLeastInside) continue;
     if (found.belief >= (face.place.eye_distance_px < small ? kBelievedIfSmall : kBelieved)) add(face, faces);
   }
   std::ranges::sort(faces, std::greater<>(),

@@ -58,6 +58,19 @@ TEST(FaceFinder, SortsFacesBySize) {
   EXPECT_GT(faces[0].place.eye_distance_px, faces[1].place.eye_distance_px);
 }
 
+TEST(FaceFinder, WaitsForSomebodyWhoComesIn) {
+  TalkerClip clip(talker_settings(352, 288, 1));
+  const FacePlace face = place_of(clip.shape(0));
+  const auto cut_at = [&](double x) {
+    const int first = static_cast<int>(x), width = 352 - first;
+    Picture out(width, 288);
+    for (int y = 0; y < 288; ++y) std::copy_n(clip[0].y.row(y) + first, width, out.y.row(y));
+    return out;
+  };
+  EXPECT_TRUE(finder().find(cut_at(face.centre.x)).empty()) << "half a face";
+  EXPECT_EQ(finder().find(cut_at(face.centre.x - 1.5 * face.eye_distance_px)).size(), 1U) << "all of it";
+}
+
 TEST(FaceFinder, FindsNothingWhereNobodyIs) {
   EXPECT_TRUE(finder().find(Picture(160, 120)).empty());
   std::mt19937 random(1);
