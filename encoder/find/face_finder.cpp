@@ -12,14 +12,17 @@ namespace {
 /// Two faces are one when their middles are nearer than this, eye distances.
 constexpr double kSameFace = 1;
 
-/// Of the picture's shorter side, over the eye distance.
-constexpr double kLargestFaces = 2.2, kSmallestFaces = 16, kSmallestFacesOfAll = 32;
+/// Of the picture's shorter side, over the eye distance. The two smallest are whole steps of size apart, so
+/// that a face is looked at in the same size by either effort.
+constexpr double kLargestFaces = 2.2, kSmallestFacesOfAll = 32;
+const double kSmallestFaces = kSmallestFacesOfAll / std::pow(PlaceSearch::kSizeStep, 4);
 
 /// Places that are looked at besides those of the faces wanted.
 constexpr std::size_t kMorePlaces = 7;
 
-/// Places that are less like a face are not looked at.
-constexpr float kWorthLooking = 0.2F;
+/// Places that are less like a face are not looked at; nor, when all faces wanted are found, those that are
+/// this much less like one than the last of them.
+constexpr float kWorthLooking = 0.2F, kWorthComparing = 0.6F;
 
 /// Belief from which landmarks are searched once more, now about where the face was found.
 constexpr double kWorthAnotherLook = 0.2;
@@ -59,6 +62,12 @@ void add(const FoundFace& face, std::vector<FoundFace>& faces) {
     *same = face;
 }
 
+/// By size times belief, the largest first.
+void sort(std::vector<FoundFace>& faces) {
+  std::ranges::sort(faces, std::greater<>(),
+                    [](const FoundFace& f) { return f.place.eye_distance_px * f.landmarks.belief; });
+}
+
 }  // namespace
 
 Result<FaceFinder> FaceFinder::create() {
@@ -69,26 +78,32 @@ Result<FaceFinder> FaceFinder::create() {
 
 std::vector<FoundFace> FaceFinder::find(const Picture& picture, std::size_t wanted, Effort effort) const {
   const double side = shorter_side(picture);
-  const double smallest = effort == Effort::kAllSizes ? kSmallestFacesOfAll : kSmallestFaces;
-  return find(picture, {side / smallest, side / kLargestFaces}, wanted + kMorePlaces);
+  auto faces = find(picture, {side / kSmallestFaces, side / kLargestFaces}, wanted);
+  if (faces.size() < wanted && effort == Effort::kAllSizes)
+    for (const FoundFace& small : find(picture, {side / kSmallestFacesOfAll, side / kSmallestFaces}, wanted))
+      add(small, faces);
+  sort(faces);
+  return faces;
 }
 
 std::vector<FoundFace> FaceFinder::find(const Picture& picture, const EyeDistances& sizes,
-                                        std::size_t places) const {
+                                        std::size_t wanted) const {
   const cv::Mat luma = view(picture.y);
   const double small = shorter_side(picture) / kSmallestFaces;
   std::vector<FoundFace> faces;
-  for (const PlaceSearch::Place& p : places_.find(luma, sizes, places)) {
-    if (p.score < kWorthLooking) break;
+  float worth_looking = kWorthLooking;
+  for (const PlaceSearch::Place& p : places_.find(luma, sizes, wanted + kMorePlaces)) {
+    if (p.score < worth_looking) break;
     FoundLandmarks found = landmarks_.find(luma, p.place);
     if (found.belief < kWorthAnotherLook) continue;
     found = landmarks_.find(luma, place_of(found));
     const FoundFace face{found, place_of(found)};
     if (share_inside(found, picture) < kLeastInside) continue;
-    if (found.belief >= (face.place.eye_distance_px < small ? kBelievedIfSmall : kBelieved)) add(face, faces);
+    if (found.belief < (face.place.eye_distance_px < small ? kBelievedIfSmall : kBelieved)) continue;
+    add(face, faces);
+    if (faces.size() >= wanted) worth_looking = std::max(worth_looking, kWorthComparing * p.score);
   }
-  std::ranges::sort(faces, std::greater<>(),
-                    [](const FoundFace& f) { return f.place.eye_distance_px * f.landmarks.belief; });
+  sort(faces);
   return faces;
 }
 

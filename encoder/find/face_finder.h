@@ -31,16 +31,17 @@ class FaceFinder {
   /// Errors of load_landmarks().
   static Result<FaceFinder> create();
 
-  /// Faces whose eyes are a 16th to half of the picture's shorter side apart. The largest first, by size
+  /// Faces whose eyes are a 15th to half of the picture's shorter side apart. The largest first, by size
   /// times belief.
   /// @param wanted  how many faces are asked for; a few more may be found
-  /// @param effort  whether faces half as large are looked for too: four times as slow
+  /// @param effort  whether faces half as large are looked for, too, when fewer are found: three times as
+  /// slow
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, std::size_t wanted = 1,
                                             Effort effort = Effort::kAllSizes) const;
 
-  /// Faces of certain sizes at the `places` likeliest places, in the same order.
+  /// Faces of certain sizes, in the same order.
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, const EyeDistances& sizes,
-                                            std::size_t places) const;
+                                            std::size_t wanted) const;
 
   [[nodiscard]] const LandmarkSearch& landmarks() const { return landmarks_; }
 

@@ -10,8 +10,7 @@ namespace {
 
 /// Pictures are scaled so that a face as large as is looked for has eyes this far apart, pixels.
 constexpr double kEyeDistance = 12;
-constexpr int kStride = 4;         ///< between places, pixels
-constexpr double kSizeStep = 1.2;  ///< between sizes
+constexpr int kStride = 4;  ///< between places, pixels
 constexpr float kSigma = 2, kSpotRadius = 5;
 
 /// Added around a picture by repeating its border, for faces that reach it: pixels. The face's spots lie

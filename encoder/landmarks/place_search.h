@@ -20,6 +20,8 @@ struct EyeDistances {
 /// The best place is the face in 148 of 151 strangers' stills (five-fold), one of the best two in 150.
 class PlaceSearch {
  public:
+  static constexpr double kSizeStep = 1.2;  ///< between sizes that are looked for
+
   explicit PlaceSearch(const LandmarkTable& table);
 
   struct Place {

@@ -25,8 +25,8 @@ constexpr std::array kSize = {-0.15, 0.0, 0.15};  // log2
 constexpr PoseGrid kGridAround = {kYaw, kPitch, kSize, 1.0};
 constexpr PoseGrid kGridAtFace = {kYaw, kPitch, kSize, 0.4};
 
-/// At which faces are looked for.
-constexpr std::size_t kPlacesEverywhere = 4;
+/// Among which the head is looked for.
+constexpr std::size_t kFacesEverywhere = 2;
 
 bool shows_nothing(const cv::Mat& luma) {
   cv::Scalar mean, deviation;
@@ -136,7 +136,7 @@ Pose pose_of(const FoundFace& face) {
 void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& detections) {
   if (shows_nothing(view(w.picture.y))) return;
   const double eye = w.last.eye_distance_px(), factor = std::exp2(kMaxSizeChange);
-  for (const FoundFace& face : finder.find(w.picture, {eye / factor, eye * factor}, kPlacesEverywhere)) {
+  for (const FoundFace& face : finder.find(w.picture, {eye / factor, eye * factor}, kFacesEverywhere)) {
     if (detections.best().accepted) return;
     const Pose there = pose_of(face);
     const WorkFrame frame = WorkFrame::cut(w.picture, there.shift, w.head.eye_distance_px(), false);
