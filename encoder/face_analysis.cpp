@@ -23,16 +23,16 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
                            const AnalysisStart& start, const WorkFrame& first)
     : snakes_(settings.snakes),
       refine_(settings.refine),
-      look_again_(settings.landmarks),
       eye_distance_px_(start.eye_distance_px),
       geometry_(start.geometry),
       mouth_(start.setup.mouth),
       head_(start.geometry, pose_of(start.seen), first),
       search_(finder),
       features_(start.geometry, pose_of(start.seen), first),
-      landmarks_(finder.landmarks(), start.geometry, pose_of(start.seen), view(start.first.y)),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
+  if (settings.refine && settings.landmarks)
+    landmarks_.emplace(finder.landmarks(), start.geometry, now_.pose, view(start.first.y));
   if (settings.surround) surround_.emplace(start.first, start.seen);
 }
 
@@ -75,7 +75,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   fit_.set_picture(frame, mouth_);
   start = fit_.with_best_lids(start);
   now_ = refine_ ? fit_.refine_mouth(start) : start;
-  if (refine_ && look_again_) now_ = with_landmarks(picture, now_);
+  if (landmarks_) now_ = with_landmarks(picture, now_);
   return fit_.cost_at(now_);
 }
 
@@ -124,7 +124,7 @@ Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
 }
 
 Fit FaceAnalysis::with_landmarks(const Picture& picture, const Fit& fit) {
-  const std::optional<Offsets> seen = landmarks_.find(view(picture.y), fit.pose, fit.offsets);
+  const std::optional<Offsets> seen = landmarks_->find(view(picture.y), fit.pose, fit.offsets);
   if (!seen) return fit;
   Fit other = fit;
   std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control, other.offsets.begin());

@@ -67,14 +67,14 @@ class FaceAnalysis {
   [[nodiscard]] Fit with_landmarks(const Picture& picture, const Fit& fit);
   void write_report(const std::array<glm::ivec3, kVertexCount>& vertices);
 
-  bool snakes_, refine_, look_again_;
+  bool snakes_, refine_;
   double eye_distance_px_;
   Geometry geometry_;
   MouthInterior mouth_;
   HeadTracker head_;
   FaceSearch search_;
   FeatureTracker features_;
-  LandmarkFollow landmarks_;
+  std::optional<LandmarkFollow> landmarks_;  ///< nothing when they are not looked for
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture

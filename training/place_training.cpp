@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kRidge = 2;
 constexpr int kRounds = 2;  ///< of learning from mistakes
-constexpr int kMistakes =
-    2;  ///< at most, of a picture in a round: with six, faces unlike most come behind others
+/// At most, of a picture in a round: with six, faces unlike most come behind others.
+constexpr int kMistakes = 2;
 
 /// The search's grid is as coarse.
 constexpr PlaceNoise kGridNoise = {0.1F, 0.08F};

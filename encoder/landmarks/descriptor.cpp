@@ -41,17 +41,12 @@ void describe(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, con
               std::span<float> out) {
   const PlaneSimilarity to = to_square(shape, mean, look.side);
   const cv::Mat maps = orientation_maps(drawn_upright(patch, to, look.side), look.sigma);
-  float* next = out.data();
+  auto next = out.begin();
   for (const glm::vec2 landmark : to(shape)) {
-    float* const first = next;
-    float squares = kNoiseGradient * kNoiseGradient;
+    const auto first = next;
     for (const glm::vec2 spot : kSpotDirections)
-      for (const float value : sample(maps, landmark + spot * look.radius).val) {
-        *next++ = value;
-        squares += value * value;
-      }
-    const float factor = 1 / std::sqrt(squares);
-    std::for_each(first, next, [factor](float& value) { value *= factor; });
+      next = std::ranges::copy(sample(maps, landmark + spot * look.radius).val, next).out;
+    scale_to_unit_length({first, next});
   }
 }
 

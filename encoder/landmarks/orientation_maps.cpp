@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 namespace fbs {
@@ -26,6 +27,13 @@ cv::Mat orientation_maps(const cv::Mat1f& luma, float sigma) {
   const int side = 2 * static_cast<int>(std::ceil(3 * sigma)) + 1;
   cv::GaussianBlur(maps, maps, {side, side}, sigma);
   return maps;
+}
+
+void scale_to_unit_length(std::span<float> histograms) {
+  const float squares = std::accumulate(histograms.begin(), histograms.end(), kNoiseGradient * kNoiseGradient,
+                                        [](float sum, float value) { return sum + value * value; });
+  const float factor = 1 / std::sqrt(squares);
+  for (float& value : histograms) value *= factor;
 }
 
 }  // namespace fbs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <span>
 
 namespace fbs {
 
@@ -13,6 +14,9 @@ using Histogram = cv::Vec<float, kOrientations>;
 
 /// Below this, in grey levels, gradients are noise: they are not scaled up to unit length.
 inline constexpr float kNoiseGradient = 10;
+
+/// Scales histograms that belong together to unit length, all of them.
+void scale_to_unit_length(std::span<float> histograms);
 
 /// @param luma   grey levels
 /// @param sigma  by which orientations are spread, pixels

@@ -50,11 +50,6 @@ cv::Mat1f scaled(const cv::Mat& picture, double scale) {
   return cv::Mat1f(out);
 }
 
-/// Of the histograms of one landmark: by what they are scaled to unit length together.
-float unit_factor(float squares) {
-  return 1 / std::sqrt(squares + kNoiseGradient * kNoiseGradient);
-}
-
 /// The scores of a row of places, kStride apart.
 /// @param middle  of the first place
 void add_row(const cv::Mat& maps, const cv::Point& middle, std::span<const cv::Point> spots,
@@ -75,7 +70,8 @@ void add_row(const cv::Mat& maps, const cv::Point& middle, std::span<const cv::P
         product += products[o];
         square += squares[o];
       }
-      scores[n] += product * unit_factor(square);
+      // scale_to_unit_length(), without the histograms being kept.
+      scores[n] += product * (1 / std::sqrt(square + kNoiseGradient * kNoiseGradient));
     }
   }
 }
@@ -131,17 +127,12 @@ void PlaceSearch::describe(const cv::Mat1b& patch, const Shape& mean, std::span<
   const cv::Mat maps = orientation_maps(scaled(patch, kEyeDistance / kPatchEyeDistance), kSigma);
   const std::vector<cv::Point> spots = spots_of(mean);
   const cv::Point middle(maps.cols / 2, maps.rows / 2);
-  float* next = out.data();
-  for (std::size_t first = 0; first < spots.size(); first += kSpots) {
-    float* const landmark = next;
-    float squares = 0;
-    for (std::size_t s = first; s < first + kSpots; ++s)
-      for (const float value : maps.at<Histogram>(middle + spots[s]).val) {
-        *next++ = value;
-        squares += value * value;
-      }
-    std::for_each(landmark, next, [f = unit_factor(squares)](float& value) { value *= f; });
-  }
+  auto next = out.begin();
+  for (const cv::Point& spot : spots)
+    next = std::ranges::copy(maps.at<Histogram>(middle + spot).val, next).out;
+  constexpr std::size_t kOfALandmark = kSpots * kOrientations;
+  for (std::size_t first = 0; first < out.size(); first += kOfALandmark)
+    scale_to_unit_length(out.subspan(first, kOfALandmark));
 }
 
 float PlaceSearch::score(const cv::Mat1b& patch, const LandmarkTable& table) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFoundSigma = 0.03;  ///< of a landmark, eye distances
 constexpr double kLidSigma = 0.1;     ///< of a lid's control point about rest, eye distances
-constexpr double kBelieved = 0.5;
+constexpr double kBelieved = 0.5;     ///< less than for a face that is new: its place is known
 
 /// Nose and corners of the eyes move with the head only.
 bool is_rigid(int landmark) {
@@ -55,7 +55,7 @@ glm::dvec2 rigid_mean(const std::array<glm::dvec2, kLandmarkCount>& landmarks) {
 
 LandmarkFollow::LandmarkFollow(const LandmarkSearch& search, const Geometry& geometry, const Pose& pose,
                                const cv::Mat& first)
-    : search_(&search), geometry_(geometry) {
+    : search_(&search), geometry_(geometry), rest_(skinned(geometry, Offsets{})) {
   if (const auto found = displacements(first, pose, Offsets{})) bias_ = *found;
 }
 
@@ -65,12 +65,11 @@ std::optional<LandmarkFollow::HeadLandmarks> LandmarkFollow::displacements(const
   const PoseProjection projection(pose);
   const FoundLandmarks found = search_->follow(picture, projected(projection, skinned(geometry_, before)));
   if (found.belief < kBelieved) return std::nullopt;
-  const HeadVertices rest = skinned(geometry_, Offsets{});
   const glm::dmat2 to_head = glm::inverse(glm::dmat2(projection.matrix));
   HeadLandmarks out;
   for (int k = 0; k < kLandmarkCount; ++k) {
     const auto n = static_cast<std::size_t>(k);
-    out[n] = to_head * (found.points[n] - projection(rest[vertex_of_landmark(k)])) /
+    out[n] = to_head * (found.points[n] - projection(rest_[vertex_of_landmark(k)])) /
                  static_cast<double>(kUnitsPerEyeDistance) -
              bias_[n];
   }

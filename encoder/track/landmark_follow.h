@@ -34,6 +34,7 @@ class LandmarkFollow {
 
   const LandmarkSearch* search_;
   Geometry geometry_;
+  HeadVertices rest_;
   HeadLandmarks bias_{};
 };
 
