@@ -21,8 +21,8 @@ constexpr double kStoreBytes = 256e6;
 // For deciding how many patterns: pictures coded, and every so many drawn.
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
-// Modes that are chosen anew later on are shared by so many pictures.
-constexpr std::size_t kDraftEvery = 3;
+// Modes that are chosen anew later on are shared by so many pictures at most.
+constexpr std::size_t kDraftShared = 3;
 
 // To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
 constexpr int kMaxRateTrials = 4;
@@ -172,8 +172,8 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
   return {};
 }
 
-Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t every) {
-  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda, every);
+Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
+  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda, most);
   if (!modes) return fail(modes.error());
   for (std::size_t t = 0; t < modes->size(); ++t) segment_.states[t].blend = (*modes)[t];
   return {};
@@ -276,18 +276,19 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. At half
     // size whatever is chosen, since only errors like those of the coded patterns are wanted.
     if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, kDraftEvery); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, kDraftShared); !chosen) return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
   if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
   // A lone pattern is not far from what the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.refits : 0;
-  if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftEvery : 1); !chosen) return fail(chosen.error());
+  if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftShared : 1); !chosen)
+    return fail(chosen.error());
   // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
   // for what solving would: bits of motion for nothing.
   for (int i = 0; i < refits; ++i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftEvery : 1); !chosen)
+    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftShared : 1); !chosen)
       return fail(chosen.error());
   }
   return draft;

@@ -82,8 +82,8 @@ class PatternPass {
   [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] static SegmentPatterns usable(const Scene& scene, const Draft& draft);
-  /// @param every  so many pictures share their modes
-  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t every);
+  /// @param most  so many pictures at most share their modes
+  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t most);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, const SequenceSettings& coding);
   /// To find out how patterns would be coded.

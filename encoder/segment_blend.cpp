@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "encoder/blend/mode_choice.h"
+#include "encoder/image/planes.h"
 
 namespace fbs {
 namespace {
@@ -18,6 +20,9 @@ constexpr std::size_t kSolveEvery = 2;
 /// Fewer of a long segment or of large pictures are solved for, so that they take no more memory than this,
 /// bytes.
 constexpr std::size_t kSolverBytes = 400e6;
+
+/// Mean difference of luma from one picture to the next that is a cut.
+constexpr double kCutLevels = 12;
 
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
 /// to interpolate.
@@ -35,12 +40,18 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
   for (std::size_t g = 0; g < segment.groups.size(); ++g) {
     for (std::size_t i = 0; i < segment.groups[g].pictures; ++i, ++t) {
       if (t % every != 0) continue;
-      const auto picture = segment.pictures.read(t);
+      auto picture = segment.pictures.read(t);
       if (!picture) return fail(picture.error());
       use(t, *picture, patterns.available[g]);
     }
   }
   return {};
+}
+
+/// Whether one picture has little in common with the one before.
+bool is_cut(const Plane& before, const Plane& now) {
+  return cv::norm(view(before), view(now), cv::NORM_L1) >
+         kCutLevels * static_cast<double>(now.samples.size());
 }
 
 /// Planes that are solved for together, and at which reduction of the picture's size.
@@ -117,19 +128,28 @@ void add_change(const SolvedPlanes& now, const SolvedPlanes& before, const Plane
 }  // namespace
 
 Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
-                                              double lambda, std::size_t every) {
+                                              double lambda, std::size_t most) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   std::vector<ModeErrors> errors;
-  const auto done =
-      for_each_picture(segment, patterns, every,
-                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-                         errors.push_back(blend.errors(picture.y, segment.states[t], available));
-                       });
+  std::vector<std::size_t> shared_by;  // how many pictures, for each of `errors`
+  Plane before;
+  const auto done = for_each_picture(
+      segment, patterns, 1, [&](std::size_t t, Picture& picture, const AvailablePatterns& available) {
+        if (t == 0 || shared_by.back() == most || is_cut(before, picture.y)) {
+          errors.push_back(blend.errors(picture.y, segment.states[t], available));
+          shared_by.push_back(0);
+        }
+        ++shared_by.back();
+        before = std::move(picture.y);
+      });
   if (!done) return fail(done.error());
-  const std::vector<RegionModes> chosen = choose_modes(errors, lambda / static_cast<double>(every));
+  for (std::size_t run = 0; run < errors.size(); ++run)
+    for (auto& region : errors[run])
+      for (auto& error : region) error *= shared_by[run];
+  const std::vector<RegionModes> chosen = choose_modes(errors, lambda);
   std::vector<RegionModes> out;
-  for (std::size_t t = 0; t < segment.states.size(); ++t) out.push_back(chosen[t / every]);
+  for (std::size_t run = 0; run < chosen.size(); ++run) out.insert(out.end(), shared_by[run], chosen[run]);
   return out;
 }
 

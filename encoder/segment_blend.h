@@ -19,9 +19,10 @@ struct SegmentPatterns {
 
 /// Modes of each picture by rate-distortion cost. Luma only, at a reduced size.
 /// @param lambda  squared luma levels that a bit is worth
-/// @param every   so many pictures share their modes, and the first of them stands for all
+/// @param most    so many pictures at most share their modes, and the first stands for all; never across a
+/// cut
 [[nodiscard]] Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
-                                                            double lambda, std::size_t every);
+                                                            double lambda, std::size_t most);
 
 /// Luma error of the segment in its cheapest modes, mean over samples, from every so many pictures.
 [[nodiscard]] Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every);

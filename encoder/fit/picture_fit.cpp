@@ -48,6 +48,7 @@ PictureCost PictureFit::cost_at(const Fit& fit) const {
 
 PictureCost PictureFit::cost_near(const Fit& start) const {
   GaussNewtonStep step = gauss_newton_step(comparison_, start);
+  if (std::abs(step.fit.light[kLightOffset] - start.light[kLightOffset]) > kMaxLightStep) step.fit = start;
   return cost_of(step.fit, step.difference, step.picture);
 }
 

@@ -42,7 +42,7 @@ class PictureFit {
 
   /// The same about the fit that one step of the descent from `start` leads to, but for the constant, which
   /// is that at the start: for starts so near that this takes the place of refine() and cost_at(), in a sixth
-  /// of the time.
+  /// of the time. About `start` itself when the step changes the light by more than kMaxLightStep.
   [[nodiscard]] PictureCost cost_near(const Fit& start) const;
 
  private:

@@ -46,6 +46,26 @@ TEST(SegmentBlend, FindsTheModesThatPicturesAreDrawnIn) {
   }
 }
 
+// The nearest pattern, in count, may be another after a cut.
+TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
+  constexpr std::size_t kCut = 10, kShared = 3;  // 9, 10 and 11 would share their modes
+  DrawnSegment before(BlendMode::kByTime), after(nearest(1));
+  Segment segment;
+  for (std::size_t t = 0; t < kPictures; ++t) {
+    State state = (t < kCut ? before : after).segment.states[t];
+    if (t >= kCut) state.light[kLightOffset] += 40 * 16;
+    ASSERT_TRUE(segment.pictures.add(rendered(before.s.scene, state)));
+    segment.states.push_back(state);
+  }
+  segment.groups = before.segment.groups;
+  const auto modes = choose_modes(segment, before.patterns(), 1, kShared);
+  ASSERT_TRUE(modes);
+  ASSERT_EQ(modes->size(), kPictures);
+  const auto of_face = [&](std::size_t t) { return (*modes)[t][static_cast<std::size_t>(Region::kFace)]; };
+  EXPECT_EQ(of_face(kCut - 1), BlendMode::kByTime);
+  EXPECT_EQ(of_face(kCut), nearest(1));
+}
+
 TEST(SegmentBlend, LossIsSmallBetweenTheTruePatternsAndLargeBetweenOthers) {
   DrawnSegment d(BlendMode::kByState);
   const auto loss = blend_loss(d.segment, d.patterns(), 5);

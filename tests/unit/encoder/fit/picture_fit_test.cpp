@@ -192,6 +192,16 @@ TEST(PictureFit, CostNearAStartIsThatAtARefinedFit) {
   EXPECT_LT(cv::norm(near.quadratic() - at.quadratic()), 0.1 * cv::norm(at.quadratic()));
 }
 
+// A blend that is about to be another is no reason for another light.
+TEST(PictureFit, OneStepIsNotTakenToAPictureOfAnotherBrightness) {
+  FittedScene s;
+  State truth = s.seen;
+  const State start = s.seen;
+  truth.light[kLightOffset] += 40 * 16;
+  s.set_picture(truth);
+  EXPECT_EQ(s.fit.cost_near(fit_of(start)).fit[kPoseCount + kLightOffset], start.light[kLightOffset]);
+}
+
 // A picture that was drawn with a mouth interior shows how the interior's colours should change.
 TEST(PictureFit, APatternDrawnWithAnInteriorLeavesItsColoursFree) {
   FittedScene s;
