@@ -21,6 +21,11 @@ double sigma_of(std::size_t control) {
   return kOtherSigma;
 }
 
+/// Of a control point about rest, eye distances.
+double rest_sigma_of(std::size_t control) {
+  return belongs_to(control, FeatureId::kPupilRight, FeatureId::kPupilLeft) ? kGazeRestSigma : kLidRestSigma;
+}
+
 void add_pose(const Pose& start, const Pose& pose, NormalEquations& normal) {
   const double shift_sigma = kPoseSigma * pose.eye_distance_px();
   normal.add_prior(0, pose.pitch - start.pitch, kPoseSigma);
@@ -49,7 +54,7 @@ void add_controls(const FitColumns& columns, const Fit& start, const Fit& fit, N
       const std::size_t k = columns.of(c) + static_cast<std::size_t>(axis);
       normal.add_prior(k, fit.offsets[c][axis] - start.offsets[c][axis], sigma_of(c) * kUnitsPerEyeDistance);
       if (c >= kExpressionControls)
-        normal.add_prior(k, fit.offsets[c][axis], kControlRestSigma * kUnitsPerEyeDistance);
+        normal.add_prior(k, fit.offsets[c][axis], rest_sigma_of(c) * kUnitsPerEyeDistance);
     }
   }
 }
@@ -71,6 +76,24 @@ void add_expression(const FitColumns& columns, const Fit& fit, NormalEquations& 
   }
 }
 
+/// Both eyes look the same way. Each alone finds shadows and lashes as dark as a pupil.
+void add_gaze(const FitColumns& columns, const Fit& fit, NormalEquations& normal) {
+  constexpr double kSigma = kGazeSigma * kUnitsPerEyeDistance, kPrecision = 1 / (kSigma * kSigma);
+  const std::size_t right = feature(FeatureId::kPupilRight).first_control,
+                    left = feature(FeatureId::kPupilLeft).first_control;
+  if (!columns.has(right) || !columns.has(left)) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    const std::size_t r = columns.of(right) + static_cast<std::size_t>(axis),
+                      l = columns.of(left) + static_cast<std::size_t>(axis);
+    const double apart = fit.offsets[left][axis] - fit.offsets[right][axis];
+    normal.left(r, r) += kPrecision;
+    normal.left(l, l) += kPrecision;
+    normal.left(std::min(r, l), std::max(r, l)) -= kPrecision;
+    normal.right(r) += kPrecision * apart;
+    normal.right(l) -= kPrecision * apart;
+  }
+}
+
 }  // namespace
 
 void add_priors(const FitColumns& columns, const Fit& start, const Fit& fit, NormalEquations& normal) {
@@ -78,6 +101,7 @@ void add_priors(const FitColumns& columns, const Fit& start, const Fit& fit, Nor
   add_light(start, fit, normal);
   add_controls(columns, start, fit, normal);
   add_expression(columns, fit, normal);
+  add_gaze(columns, fit, normal);
 }
 
 }  // namespace fbs

@@ -31,8 +31,9 @@ inline constexpr double kInteriorSigma = 8;   ///< grey levels; of the mouth int
 // Priors: standard deviations about rest. Smaller: a fit that the picture leaves free returns sooner.
 inline constexpr double kLightRestSigma = 40;     ///< grey levels; about no light of its own
 inline constexpr double kInteriorRestSigma = 30;  ///< grey levels; about the setup's mouth colours
-inline constexpr double kControlRestSigma =
-    0.12;  ///< eye distances; lids and pupils; the rest: expression_prior.h
+inline constexpr double kLidRestSigma = 0.12;     ///< eye distances; lips and brows: expression_prior.h
+inline constexpr double kGazeRestSigma = 0.06;    ///< eye distances; of pupils
+inline constexpr double kGazeSigma = 0.015;       ///< eye distances; of one pupil against the other
 
 // Gauss-Newton.
 inline constexpr int kStepsOfLevel[kFitLevels] = {3, 2};  ///< fine level first

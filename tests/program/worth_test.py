@@ -12,7 +12,9 @@ class Worth(ProgramTest):
         return json.loads(self.succeed("evaluate", source, "out.fbs", "--json"))["points"][0]
 
     def test_refinement(self):
-        self.assertLess(self.psnr(CLOSE_Y4M, "--no-refine")["psnr_face"], self.psnr(CLOSE_Y4M)["psnr_face"] - 0.2)
+        # With one pattern: more of them make up for a state that is off, at a rate.
+        without = self.psnr(CLOSE_Y4M, "--patterns", "1", "--no-refine")
+        self.assertLess(without["psnr_face"], self.psnr(CLOSE_Y4M, "--patterns", "1")["psnr_face"] - 1.5)
 
     def test_surround_that_moves(self):
         # A camera in a car: the ground moves.

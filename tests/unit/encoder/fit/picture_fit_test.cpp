@@ -32,6 +32,24 @@ TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
   EXPECT_EQ(s.fit.refine_mouth(start).offsets, s.fit.refine(start).offsets) << "which have not strayed";
 }
 
+TEST(PictureFit, PupilsMoveTogether) {
+  FittedScene s;
+  const std::size_t right = feature(FeatureId::kPupilRight).first_control,
+                    left = feature(FeatureId::kPupilLeft).first_control;
+  const auto found = [&](int of_right, int of_left) {
+    State truth = s.seen;
+    truth.control[right].x += of_right;
+    truth.control[left].x += of_left;
+    s.set_picture(truth);
+    const Fit fit = s.fit.refine(fit_of(s.seen));
+    return glm::dvec2(fit.offsets[right].x, fit.offsets[left].x) - glm::dvec2(s.seen.control[right].x);
+  };
+  const glm::dvec2 aside = found(300, 300), apart = found(300, -300);
+  EXPECT_NEAR(aside.x, 300, 100);
+  EXPECT_NEAR(aside.y, 300, 100);
+  EXPECT_LT(std::abs(apart.x - apart.y), 0.85 * 600) << "though the picture says so";
+}
+
 // The least eigenvalue of a sum of squares is not below zero, but for rounding.
 TEST(PictureFit, CostIsSymmetricAndPositiveSemidefinite) {
   FittedScene s;
