@@ -73,7 +73,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   }
   Fit start = tracked(frame, *head);
   fit_.set_picture(frame, mouth_);
-  start = fit_.with_best_lids(start);
+  start = fit_.with_best_eyes(start);
   now_ = refine_ ? fit_.refine_mouth(start) : start;
   if (landmarks_) now_ = with_landmarks(picture, now_);
   return fit_.cost_at(now_);

@@ -50,10 +50,18 @@ inline constexpr double kLidClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
 /// Squared grey levels for lids that differ by the whole way: larger keeps winks out, and the noise of one
 /// eye.
 inline constexpr double kLidsApartCost = 60;
-inline constexpr double kLidResidualSigma = 30;  ///< grey levels; larger differences hardly count more
 /// By which a shut upper lid passes the lower one, so that nothing of the eye is left between. Eye distances.
 inline constexpr double kLidOverlap = 0.01;
-inline constexpr float kMinLidShare = 0.05F;  ///< of a lid's control point in a sample point that it moves
-inline constexpr int kLidLevel = 1;           ///< coarse: the search compares places, not edges
+
+// Gaze.
+/// Candidates of the search, eye distances from rest.
+inline constexpr double kGazes[] = {-0.24, -0.12, 0, 0.12, 0.24};
+/// The gaze stays unless another differs from the picture by less than this share.
+inline constexpr double kGazeKept = 0.8;
+
+// Both searches.
+inline constexpr double kSearchResidualSigma = 30;  ///< grey levels; larger differences hardly count more
+inline constexpr float kMinMovedShare = 0.05F;      ///< of control points in a sample point that they move
+inline constexpr int kSearchLevel = 1;              ///< coarse: places are compared, not edges
 
 }  // namespace fbs

@@ -1,7 +1,6 @@
 #include "encoder/fit/lid_search.h"
 
 #include "encoder/fit/fit_tuning.h"
-#include "encoder/image/robust.h"
 
 namespace fbs {
 namespace {
@@ -14,26 +13,6 @@ LidSearch::LidSearch(const Geometry& geometry, const SamplePoints& points)
     : lids_{lid_of(geometry, points, FeatureId::kUpperLidRight, 40),
             lid_of(geometry, points, FeatureId::kUpperLidLeft, 46)} {}
 
-std::vector<LidSearch::MovedPoints> LidSearch::moved_by(const SamplePoints& points, std::size_t control) {
-  std::vector<MovedPoints> out;
-  for (std::size_t n = 0; n < points.patches().size(); ++n) {
-    const SamplePoints::Patch& patch = points.patches()[n];
-    MovedPoints moved{n, {}};
-    const float* share = patch.shares.data();
-    for (std::size_t k = patch.first; k < patch.end; ++k, share += patch.controls.size()) {
-      const auto moves = [&](std::size_t i) {
-        const std::size_t c = patch.controls[i];
-        return (c == control || c == control + 1) && share[i] > kMinLidShare;
-      };
-      bool any = false;
-      for (std::size_t i = 0; i < patch.controls.size(); ++i) any = any || moves(i);
-      if (any) moved.points.push_back(k);
-    }
-    if (!moved.points.empty()) out.push_back(std::move(moved));
-  }
-  return out;
-}
-
 LidSearch::Lid LidSearch::lid_of(const Geometry& geometry, const SamplePoints& points, FeatureId id,
                                  std::size_t lower_landmark) {
   const Feature& f = feature(id);
@@ -43,7 +22,7 @@ LidSearch::Lid LidSearch::lid_of(const Geometry& geometry, const SamplePoints& p
     lower += geometry.positions[vertex_of_landmark(k)].y;
   // Both free control points of the cubic together have two thirds of the weight at its vertices.
   const double travel = 1.5 * (0.5 * (lower - upper) + kLidOverlap * kUnitsPerEyeDistance);
-  return {f.first_control, travel, moved_by(points, f.first_control)};
+  return {f.first_control, travel, MovedPoints(points, f.first_control, 2)};
 }
 
 Fit LidSearch::Lid::closed(std::size_t candidate, Fit start) const {
@@ -57,32 +36,13 @@ double LidSearch::Lid::closing(const Fit& fit) const {
   return 0.5 * (fit.offsets[first_control].y + fit.offsets[first_control + 1].y) / travel;
 }
 
-double LidSearch::difference(const Comparison& c, const Lid& lid, const Fit& fit) {
-  const PlacedHead head(c.geometry, fit);
-  const Appearance shown = c.appearance(fit, head.vertices);
-  double sum = 0, weights = 0;
-  for (const MovedPoints& moved : lid.moved) {
-    const double weight = c.points.samples_per_point(moved.patch, head);
-    if (weight <= 0) continue;
-    for (const std::size_t k : moved.points) {
-      const double value = shown.at(k, kLidLevel);
-      Sample s;
-      if (value < 0 || !c.picture.sample(kLidLevel, head(c.points[k]), s)) continue;
-      const double r = (value - s.value) * (value - s.value);
-      sum += weight * geman_mcclure(r, kLidResidualSigma * kLidResidualSigma);
-      weights += weight;
-    }
-  }
-  return weights > 0 ? sum / weights : 0;
-}
-
 Fit LidSearch::best(const Comparison& comparison, const Fit& start) const {
   if (!comparison.columns.has(lids_[0].first_control)) return start;
   std::array<std::array<double, kCandidates>, 2> differences{}, closing{};
   for (std::size_t eye = 0; eye < 2; ++eye) {
     for (std::size_t i = 0; i < kCandidates; ++i) {
       const Fit fit = lids_[eye].closed(i, start);
-      differences[eye][i] = difference(comparison, lids_[eye], fit);
+      differences[eye][i] = lids_[eye].moved.difference(comparison, fit);
       closing[eye][i] = lids_[eye].closing(fit);
     }
   }

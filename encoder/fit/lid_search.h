@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "encoder/fit/comparison.h"
+#include "encoder/fit/moved_points.h"
 
 namespace fbs {
 
@@ -18,17 +18,11 @@ class LidSearch {
   [[nodiscard]] Fit best(const Comparison& comparison, const Fit& start) const;
 
  private:
-  /// Those points of a triangle that a lid moves.
-  struct MovedPoints {
-    std::size_t patch;  ///< index into SamplePoints::patches()
-    std::vector<std::size_t> points;
-  };
-
   /// An upper lid: its control points and how far they go down to shut the eye, and what it moves.
   struct Lid {
-    std::size_t first_control = 0;
-    double travel = 0;  ///< head units
-    std::vector<MovedPoints> moved;
+    std::size_t first_control;
+    double travel;  ///< head units
+    MovedPoints moved;
 
     /// `start` with this lid as candidate `i` of the search has it; the last leaves it as it is.
     [[nodiscard]] Fit closed(std::size_t candidate, Fit start) const;
@@ -36,13 +30,8 @@ class LidSearch {
     [[nodiscard]] double closing(const Fit& fit) const;
   };
 
-  /// @param control  the first of two
-  [[nodiscard]] static std::vector<MovedPoints> moved_by(const SamplePoints& points, std::size_t control);
   [[nodiscard]] static Lid lid_of(const Geometry& geometry, const SamplePoints& points, FeatureId id,
                                   std::size_t lower_landmark);
-  /// Mean robust squared difference over what a lid moves, by area in the picture.
-  [[nodiscard]] static double difference(const Comparison& comparison, const Lid& lid, const Fit& fit);
-
   std::array<Lid, 2> lids_;
 };
 

@@ -19,7 +19,9 @@ bool inner_lips_strayed(const Fit& fit) {
 }  // namespace
 
 PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern)
-    : comparison_(Comparison::with(setup, geometry, pattern)), lids_(geometry, comparison_.points) {}
+    : comparison_(Comparison::with(setup, geometry, pattern)),
+      lids_(geometry, comparison_.points),
+      gaze_(comparison_.points) {}
 
 void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mouth) {
   comparison_.picture = LumaPyramid(picture);
@@ -28,6 +30,11 @@ void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mout
 
 void PictureFit::set_pattern(const SeenPattern& pattern) {
   comparison_.pattern = PatternSamples(comparison_.points, comparison_.geometry, pattern);
+}
+
+Fit PictureFit::with_best_eyes(const Fit& start) const {
+  const Fit fit = gaze_.best(comparison_, lids_.best(comparison_, start));
+  return lids_.best(comparison_, fit);
 }
 
 Fit PictureFit::refine_mouth(const Fit& start) const {

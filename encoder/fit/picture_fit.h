@@ -4,6 +4,7 @@
 
 #include "encoder/fit/comparison.h"
 #include "encoder/fit/gauss_newton.h"
+#include "encoder/fit/gaze_search.h"
 #include "encoder/fit/lid_search.h"
 #include "encoder/model/picture_cost.h"
 
@@ -24,8 +25,8 @@ class PictureFit {
   /// Another pattern than the constructor's, compared at the same points.
   void set_pattern(const SeenPattern& pattern);
 
-  /// `start` with the upper lids found anew: LidSearch::best().
-  [[nodiscard]] Fit with_best_lids(const Fit& start) const { return lids_.best(comparison_, start); }
+  /// `start` with upper lids and pupils found anew: LidSearch::best(), GazeSearch::best().
+  [[nodiscard]] Fit with_best_eyes(const Fit& start) const;
 
   /// `start` refined against the picture: gauss_newton().
   [[nodiscard]] Fit refine(const Fit& start) const { return gauss_newton(comparison_, start); }
@@ -51,6 +52,7 @@ class PictureFit {
 
   Comparison comparison_;
   LidSearch lids_;
+  GazeSearch gaze_;
 };
 
 }  // namespace fbs

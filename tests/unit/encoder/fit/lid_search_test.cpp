@@ -26,7 +26,7 @@ TEST(LidSearch, FindsLidsWhereverTheyWere) {
     Fit start{pose_of(s.seen), {}, {}};
     for (const FeatureId id : lids)
       for (std::size_t i = 0; i < 2; ++i) start.offsets[feature(id).first_control + i] = {0, down - truth};
-    const Fit found = s.fit.with_best_lids(start);
+    const Fit found = s.fit.with_best_eyes(start);
     for (const FeatureId id : lids)
       EXPECT_NEAR(found.offsets[feature(id).first_control].y, truth, 0.35 * down);
   }
@@ -41,7 +41,7 @@ TEST(LidSearch, LeavesLidsThatAreNotSent) {
   fit.set_picture(frame, s.setup.mouth);
   Fit start = fit_of(s.seen);
   start.offsets[feature(FeatureId::kUpperLidLeft).first_control] = {10, 200};
-  EXPECT_EQ(fit.with_best_lids(start).offsets, start.offsets);
+  EXPECT_EQ(fit.with_best_eyes(start).offsets, start.offsets);
 }
 
 }  // namespace
