@@ -1,8 +1,10 @@
 #include "encoder/face_analysis.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "decoder/head/head_deformation.h"
+#include "encoder/fit/fit_tuning.h"
 #include "encoder/image/planes.h"
 #include "encoder/model/skinning.h"
 
@@ -74,8 +76,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   Fit start = tracked(frame, *head);
   fit_.set_picture(frame, mouth_);
   start = fit_.with_best_eyes(start);
-  now_ = refine_ ? fit_.refine_mouth(start) : start;
-  if (landmarks_) now_ = with_landmarks(picture, now_);
+  now_ = refine_ ? refined(picture, start) : start;
   return fit_.cost_at(now_);
 }
 
@@ -123,18 +124,22 @@ Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
   return fit;
 }
 
-Fit FaceAnalysis::with_landmarks(const Picture& picture, const Fit& fit) {
-  const std::optional<Offsets> seen = landmarks_->find(view(picture.y), fit.pose, fit.offsets);
-  if (!seen) return fit;
-  Fit other = fit;
-  std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control, other.offsets.begin());
-  other = fit_.refine(other);
-  if (fit_.difference(other) >= fit_.difference(fit)) return fit;
+Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
+  std::vector<FitStart> starts = PictureFit::starts_of(tracked);
+  const std::size_t contours = starts.size();
+  if (landmarks_)
+    if (const auto seen = landmarks_->find(view(picture.y), tracked.pose, tracked.offsets)) {
+      starts.push_back({tracked, kLandmarkStartCounts});
+      std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control,
+                  starts.back().fit.offsets.begin());
+    }
+  const BestFit best = fit_.refine(starts);
+  if (best.start < contours) return best.fit;
   // Lids have no memory to set right: a blink is searched for in each picture.
   Offsets followed = features_.offsets();
-  std::copy_n(other.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());
+  std::copy_n(best.fit.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());
   features_.set_offsets(followed);
-  return other;
+  return best.fit;
 }
 
 void FaceAnalysis::write_report(const std::array<glm::ivec3, kVertexCount>& vertices) {

@@ -62,9 +62,9 @@ class FaceAnalysis {
   /// Sets now_.
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
-  /// The fit from another start if that is nearer to the picture: the expression that its landmarks show,
-  /// whatever came before.
-  [[nodiscard]] Fit with_landmarks(const Picture& picture, const Fit& fit);
+  /// From the contours' expression, or from another start if that is nearer to the picture: the expression
+  /// that its landmarks show, whatever came before.
+  [[nodiscard]] Fit refined(const Picture& picture, const Fit& tracked);
   void write_report(const std::array<glm::ivec3, kVertexCount>& vertices);
 
   bool snakes_, refine_;

@@ -72,7 +72,8 @@ Outcomes try_search(const LandmarkSearch& search, const std::vector<FacePicture>
     const auto end = search.descend(samples[n].patch);
     float* next = out.descriptors.row(i).data();
     for (const Look& look : kBeliefLooks) {
-      describe(samples[n].patch, end.shape, search.table().mean, look, {next, kDescriptorSize});
+      UprightView(samples[n].patch, end.shape, search.table().mean, look)
+          .describe(end.shape, {next, kDescriptorSize});
       next += kDescriptorSize;
     }
     out.spreads[n] = end.spread;

@@ -67,7 +67,8 @@ LandmarkStage train_stage(const Look& look, const Shape& mean, const std::vector
   in_parallel(shapes.size(), [&](std::size_t i) {
     const PatchSample& sample = samples[i];
     const auto row = static_cast<Eigen::Index>(i);
-    describe(sample.patch, shapes[i], mean, look, {descriptors.row(row).data(), kDescriptorSize});
+    UprightView(sample.patch, shapes[i], mean, look)
+        .describe(shapes[i], {descriptors.row(row).data(), kDescriptorSize});
     moves.row(row) = missing(shapes[i], sample.truth, mean);
   });
   const Eigen::RowVectorXf mean_move = moves.colwise().mean();
@@ -102,7 +103,8 @@ LandmarkTable train_cascade(const std::vector<PatchSample>& samples) {
   for (const Look& look : kLooks) {
     table.stages.push_back(train_stage(look, table.mean, samples, shapes));
     in_parallel(shapes.size(), [&](std::size_t i) {
-      shapes[i] = LandmarkSearch::moved(table.stages.back(), table.mean, samples[i].patch, shapes[i]);
+      const UprightView view(samples[i].patch, shapes[i], table.mean, look);
+      shapes[i] = LandmarkSearch::moved(table.stages.back(), table.mean, view, shapes[i]);
     });
   }
   return table;

@@ -1,6 +1,7 @@
 #include "encoder/fit/gauss_newton.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "encoder/fit/fit_priors.h"
 #include "encoder/model/pose_jacobian.h"
@@ -24,20 +25,42 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
   }
 }
 
+/// @param start  that `fit` began from
+/// @return whether the equations could be solved
+bool descend(const Comparison& comparison, int level, const Fit& start, Fit& fit) {
+  for (int i = 0; i < kStepsOfLevel[level]; ++i) {
+    NormalEquations normal(comparison.columns.count());
+    add_priors(comparison.columns, start, fit, normal);
+    add_picture(comparison, level, fit, normal);
+    const auto x = normal.solve();
+    if (!x) return false;
+    add_step(comparison.columns, *x, fit);
+  }
+  return true;
+}
+
 }  // namespace
 
-Fit gauss_newton(const Comparison& comparison, const Fit& start) {
-  Fit fit = start;
-  for (int level = kFitLevels - 1; level >= 0; --level)
-    for (int i = 0; i < kStepsOfLevel[level]; ++i) {
-      NormalEquations normal(comparison.columns.count());
-      add_priors(comparison.columns, start, fit, normal);
-      add_picture(comparison, level, fit, normal);
-      const auto x = normal.solve();
-      if (!x) return start;
-      add_step(comparison.columns, *x, fit);
+BestFit gauss_newton(const Comparison& comparison, std::span<const FitStart> starts) {
+  BestFit best{starts.front().fit, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const Fit& start = starts[k].fit;
+    Fit fit = start;
+    for (int level = kFitLevels - 1; level > 0; --level)
+      if (!descend(comparison, level, start, fit)) fit = start;
+    const double difference =
+        starts.size() > 1 ? starts[k].counts * mean_difference(comparison, fit) : 0;  // a lone one is best
+    if (difference < least) {
+      least = difference;
+      best = {fit, k};
     }
-  return mean_difference(comparison, fit) < mean_difference(comparison, start) ? fit : start;
+  }
+  const Fit& start = starts[best.start].fit;
+  if (!descend(comparison, 0, start, best.fit) ||
+      mean_difference(comparison, best.fit) >= mean_difference(comparison, start))
+    best.fit = start;
+  return best;
 }
 
 GaussNewtonStep gauss_newton_step(const Comparison& comparison, const Fit& start) {

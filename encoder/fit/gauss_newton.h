@@ -1,15 +1,34 @@
 // The fit's descent.
 #pragma once
 
+#include <span>
+
 #include "encoder/fit/comparison.h"
 
 namespace fbs {
 
+struct FitStart {
+  Fit fit;
+  double counts = 1;  ///< by which its difference is multiplied when starts are compared
+};
+
+struct BestFit {
+  Fit fit;
+  std::size_t start;  ///< which it came from
+};
+
 /// Minimises the robust squared difference over pose, light, mouth interior and control points together:
-/// Gauss-Newton with additive updates, coarse to fine, held near `start` where the picture says nothing and
-/// near rest everywhere (fit_priors.h).
-/// @return `start` where nothing is gained
-[[nodiscard]] Fit gauss_newton(const Comparison& comparison, const Fit& start);
+/// Gauss-Newton with additive updates, coarse to fine, held near its start where the picture says nothing and
+/// near rest everywhere (fit_priors.h). Of several starts, the one that is nearest to the picture after the
+/// coarse levels goes on.
+/// @param starts  at least one
+/// @return the start where nothing is gained
+[[nodiscard]] BestFit gauss_newton(const Comparison& comparison, std::span<const FitStart> starts);
+
+[[nodiscard]] inline Fit gauss_newton(const Comparison& comparison, const Fit& start) {
+  const FitStart lone{start};
+  return gauss_newton(comparison, {&lone, 1}).fit;
+}
 
 /// Where one step on the fine level leads, and what it was solved from.
 struct GaussNewtonStep {

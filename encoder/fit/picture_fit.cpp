@@ -37,14 +37,14 @@ Fit PictureFit::with_best_eyes(const Fit& start) const {
   return lids_.best(comparison_, fit);
 }
 
-Fit PictureFit::refine_mouth(const Fit& start) const {
-  const Fit fit = refine(start);
-  if (!inner_lips_strayed(start)) return fit;
-  const Feature& inner = feature(FeatureId::kMouthInner);
-  Fit carried = start;
-  std::fill_n(carried.offsets.begin() + inner.first_control, inner.control_count, glm::dvec2(0));
-  carried = refine(carried);
-  return mean_difference(comparison_, carried) < mean_difference(comparison_, fit) ? carried : fit;
+std::vector<FitStart> PictureFit::starts_of(const Fit& tracked) {
+  std::vector<FitStart> starts = {{tracked}};
+  if (inner_lips_strayed(tracked)) {
+    const Feature& inner = feature(FeatureId::kMouthInner);
+    starts.push_back({tracked});
+    std::fill_n(starts.back().fit.offsets.begin() + inner.first_control, inner.control_count, glm::dvec2(0));
+  }
+  return starts;
 }
 
 PictureCost PictureFit::cost_at(const Fit& fit) const {

@@ -2,6 +2,9 @@
 // points spread over the mesh. Design section 6.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "encoder/fit/comparison.h"
 #include "encoder/fit/gauss_newton.h"
 #include "encoder/fit/gaze_search.h"
@@ -30,10 +33,13 @@ class PictureFit {
 
   /// `start` refined against the picture: gauss_newton().
   [[nodiscard]] Fit refine(const Fit& start) const { return gauss_newton(comparison_, start); }
+  [[nodiscard]] BestFit refine(std::span<const FitStart> starts) const {
+    return gauss_newton(comparison_, starts);
+  }
 
-  /// refine(), from `start` and, where the inner lips have strayed from where the outer ones carry them, from
-  /// there, too: a mouth that opens at once leaves their contour behind.
-  [[nodiscard]] Fit refine_mouth(const Fit& start) const;
+  /// The contours as tracked and, where the inner lips have strayed from where the outer ones carry them,
+  /// from there, too: a mouth that opens at once leaves their contour behind.
+  [[nodiscard]] static std::vector<FitStart> starts_of(const Fit& tracked);
 
   /// mean_difference() of pattern and picture.
   [[nodiscard]] double difference(const Fit& fit) const { return mean_difference(comparison_, fit); }

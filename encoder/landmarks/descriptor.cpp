@@ -37,15 +37,17 @@ Histogram sample(const cv::Mat& maps, glm::vec2 at) {
 
 }  // namespace
 
-void describe(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, const Look& look,
-              std::span<float> out) {
-  const PlaneSimilarity to = to_square(shape, mean, look.side);
-  const cv::Mat maps = orientation_maps(drawn_upright(patch, to, look.side), look.sigma);
+UprightView::UprightView(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, const Look& look)
+    : to_square_(to_square(shape, mean, look.side)),
+      radius_(look.radius),
+      maps_(orientation_maps(drawn_upright(patch, to_square_, look.side), look.sigma)) {}
+
+void UprightView::describe(const Shape& shape, std::span<float> out) const {
   auto next = out.begin();
-  for (const glm::vec2 landmark : to(shape)) {
+  for (const glm::vec2 landmark : to_square_(shape)) {
     const auto first = next;
     for (const glm::vec2 spot : kSpotDirections)
-      next = std::ranges::copy(sample(maps, landmark + spot * look.radius).val, next).out;
+      next = std::ranges::copy(sample(maps_, landmark + spot * radius_).val, next).out;
     scale_to_unit_length({first, next});
   }
 }

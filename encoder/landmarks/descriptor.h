@@ -23,13 +23,24 @@ struct Look {
   float radius = 0;  ///< of the spots round the landmark, pixels of the square
 };
 
-/// The picture's orientation_maps() at the spots; those of a landmark scaled to unit length together.
-/// @param patch  luma
-/// @param shape  in it; within a few patches of it
-/// @param mean   the mean shape, in units of its root-mean-square radius about (0, 0): shape is turned and
-///               scaled to it
-/// @param out    kDescriptorSize: landmark by landmark, spot by spot
-void describe(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, const Look& look,
-              std::span<float> out);
+/// A face as a look sees it: drawn upright, and the orientation_maps() of that.
+class UprightView {
+ public:
+  /// @param patch  luma
+  /// @param shape  in it; within a few patches of it
+  /// @param mean   the mean shape, in units of its root-mean-square radius about (0, 0): the patch is turned
+  ///               and scaled so that `shape` comes nearest to it
+  UprightView(const cv::Mat1b& patch, const Shape& shape, const Shape& mean, const Look& look);
+
+  /// The maps at the spots; those of a landmark scaled to unit length together.
+  /// @param shape  in the patch: the same, or one that lies there alike
+  /// @param out    kDescriptorSize: landmark by landmark, spot by spot
+  void describe(const Shape& shape, std::span<float> out) const;
+
+ private:
+  PlaneSimilarity to_square_;
+  float radius_;
+  cv::Mat maps_;
+};
 
 }  // namespace fbs

@@ -70,10 +70,10 @@ Shape LandmarkSearch::usual_shape(const Shape& mean) {
   return PlaneSimilarity{kPatchEyeDistance / eye_distance(mean), {kMiddle, kMiddle}}(mean);
 }
 
-Shape LandmarkSearch::moved(const LandmarkStage& stage, const Shape& mean, const cv::Mat1b& patch,
+Shape LandmarkSearch::moved(const LandmarkStage& stage, const Shape& mean, const UprightView& view,
                             const Shape& shape) {
   std::vector<float> descriptor(kDescriptorSize);
-  describe(patch, shape, mean, stage.look, descriptor);
+  view.describe(shape, descriptor);
   const std::vector<float> amounts = stage.regression(descriptor);
   const PlaneSimilarity to_mean = PlaneSimilarity::between(shape, mean);
   Shape upright = to_mean(shape);
@@ -88,13 +88,7 @@ Shape LandmarkSearch::moved(const LandmarkStage& stage, const Shape& mean, const
   return to_mean.inverse()(upright);
 }
 
-LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch,
-                                                  const std::vector<Shape>& starts) const {
-  std::vector<Shape> ends;
-  for (Shape shape : starts) {
-    for (const LandmarkStage& stage : table_.stages) shape = moved(stage, table_.mean, patch, shape);
-    ends.push_back(shape);
-  }
+LandmarkSearch::Agreement LandmarkSearch::agreement_of(const std::vector<Shape>& ends) {
   Agreement out{median_of(ends)};
   out.spread = spread_about(out.shape, ends);
   return out;
@@ -102,9 +96,23 @@ LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch,
 
 LandmarkSearch::Agreement LandmarkSearch::descend(const cv::Mat1b& patch) const {
   const Shape usual = usual_shape(table_.mean);
-  std::vector<Shape> starts;
-  for (const Start& start : kStarts) starts.push_back(started(usual, start));
-  return descend(patch, starts);
+  std::vector<Shape> ends;
+  for (const Start& start : kStarts) {
+    Shape shape = started(usual, start);
+    for (const LandmarkStage& stage : table_.stages)
+      shape = moved(stage, table_.mean, UprightView(patch, shape, table_.mean, stage.look), shape);
+    ends.push_back(shape);
+  }
+  return agreement_of(ends);
+}
+
+LandmarkSearch::Agreement LandmarkSearch::descend_together(const cv::Mat1b& patch,
+                                                           std::vector<Shape> shapes) const {
+  for (const LandmarkStage& stage : table_.stages) {
+    const UprightView view(patch, median_of(shapes), table_.mean, stage.look);
+    for (Shape& shape : shapes) shape = moved(stage, table_.mean, view, shape);
+  }
+  return agreement_of(shapes);
 }
 
 double LandmarkSearch::believe(const cv::Mat1b& patch, const Agreement& end) const {
@@ -113,7 +121,7 @@ double LandmarkSearch::believe(const cv::Mat1b& patch, const Agreement& end) con
   odds += belief.place * PlaceSearch::score(patch, table_);
   std::vector<float> descriptor(kDescriptorSize);
   for (const BeliefView& view : belief.views) {
-    describe(patch, end.shape, table_.mean, view.look, descriptor);
+    UprightView(patch, end.shape, table_.mean, view.look).describe(end.shape, descriptor);
     odds += view.score(descriptor)[0];
   }
   return 1 / (1 + std::exp(-odds));
@@ -138,7 +146,7 @@ FoundLandmarks LandmarkSearch::follow(const cv::Mat& picture, const Shape& last)
   Shape start;
   std::ranges::transform(last, start.begin(), [&patch](glm::vec2 p) { return patch.to_patch(p); });
   const Shape at_rest = PlaneSimilarity::between(usual, start)(usual);
-  return found(patch, descend(patch.luma(), {start, at_rest, halfway(start, at_rest)}));
+  return found(patch, descend_together(patch.luma(), {start, at_rest, halfway(start, at_rest)}));
 }
 
 }  // namespace fbs

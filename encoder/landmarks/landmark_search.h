@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/landmarks/descriptor.h"
 #include "encoder/landmarks/face_patch.h"
 #include "encoder/landmarks/landmark_table.h"
 
@@ -37,7 +38,8 @@ class LandmarkSearch {
   [[nodiscard]] static Shape usual_shape(const Shape& mean);
 
   /// `shape` after a stage.
-  [[nodiscard]] static Shape moved(const LandmarkStage& stage, const Shape& mean, const cv::Mat1b& patch,
+  /// @param view  by the stage's look
+  [[nodiscard]] static Shape moved(const LandmarkStage& stage, const Shape& mean, const UprightView& view,
                                    const Shape& shape);
 
   /// Where several starts lead.
@@ -51,7 +53,9 @@ class LandmarkSearch {
   [[nodiscard]] const LandmarkTable& table() const { return table_; }
 
  private:
-  [[nodiscard]] Agreement descend(const cv::Mat1b& patch, const std::vector<Shape>& starts) const;
+  /// From shapes that lie alike in the patch, so that one view does for all of them.
+  [[nodiscard]] Agreement descend_together(const cv::Mat1b& patch, std::vector<Shape> shapes) const;
+  [[nodiscard]] static Agreement agreement_of(const std::vector<Shape>& ends);
   [[nodiscard]] FoundLandmarks found(const FacePatch& patch, const Agreement& end) const;
   [[nodiscard]] double believe(const cv::Mat1b& patch, const Agreement& end) const;
 

@@ -28,8 +28,26 @@ TEST(PictureFit, InnerLipsThatWereLeftBehindAreFoundAgain) {
                     mouth_gap(deform(toy_geometry().positions, truth)));
   };
   ASSERT_GT(gap(strayed), 100);
-  EXPECT_LT(gap(s.fit.refine_mouth(strayed)), gap(s.fit.refine(strayed)) / 2);
-  EXPECT_EQ(s.fit.refine_mouth(start).offsets, s.fit.refine(start).offsets) << "which have not strayed";
+  const BestFit best = s.fit.refine(PictureFit::starts_of(strayed));
+  EXPECT_LT(gap(best.fit), gap(s.fit.refine(strayed)) / 2);
+  EXPECT_EQ(best.start, 1);
+  EXPECT_EQ(PictureFit::starts_of(start).size(), 1) << "which have not strayed";
+}
+
+TEST(PictureFit, TheNearestStartGoesOn) {
+  FittedScene s;
+  State truth = s.seen;
+  truth.pose[kShiftX] += 3 * 64;
+  s.set_picture(truth);
+  const FitStart far{fit_of(s.seen)}, near{fit_of(truth)};
+  for (const bool near_first : {false, true}) {
+    const std::array starts = {near_first ? near : far, near_first ? far : near};
+    const BestFit best = s.fit.refine(starts);
+    EXPECT_EQ(best.start, near_first ? 0 : 1);
+    EXPECT_EQ(best.fit.pose.shift, s.fit.refine(near.fit).pose.shift);
+  }
+  const std::array preferred = {FitStart{far.fit, 0.01}, near};
+  EXPECT_EQ(s.fit.refine(preferred).start, 0);
 }
 
 TEST(PictureFit, PupilsMoveTogether) {

@@ -23,7 +23,7 @@ Shape mean() {
 
 std::vector<float> described(const cv::Mat1b& patch, const Shape& shape) {
   std::vector<float> out(kDescriptorSize);
-  describe(patch, shape, mean(), kLook, out);
+  UprightView(patch, shape, mean(), kLook).describe(shape, out);
   return out;
 }
 
