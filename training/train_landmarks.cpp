@@ -15,7 +15,7 @@ namespace fbs {
 namespace {
 
 constexpr int kFolds = 5;
-constexpr int kPerClip = 30, kTalkers = 40, kTextures = 100;
+constexpr int kPerClip = 30, kTalkers = 40, kTextures = 600;
 constexpr int kSamplesOfAStill = 32, kSamplesOfAnother = 3;
 constexpr int kPlacesOfAStill = 10, kPlacesOfAnother = 2;
 

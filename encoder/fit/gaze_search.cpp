@@ -32,7 +32,7 @@ Fit GazeSearch::best(const Comparison& comparison, const Fit& start) const {
     Fit fit = looking(start, {x * kUnitsPerEyeDistance, 0});
     if (const double d = difference(fit); d < least) {
       least = d;
-      best = std::move(fit);
+      best = fit;
     }
   }
   return best;
