@@ -79,9 +79,9 @@ Result<FaceFinder> FaceFinder::create() {
 std::vector<FoundFace> FaceFinder::find(const Picture& picture, std::size_t wanted, Effort effort) const {
   const double side = shorter_side(picture);
   auto faces = find(picture, {side / kSmallestFaces, side / kLargestFaces}, wanted);
-  if (faces.size() < wanted && effort == Effort::kAllSizes)
-    for (const FoundFace& small : find(picture, {side / kSmallestFacesOfAll, side / kSmallestFaces}, wanted))
-      add(small, faces);
+  if (faces.size() >= wanted || effort != Effort::kAllSizes) return faces;
+  for (const FoundFace& small : find(picture, {side / kSmallestFacesOfAll, side / kSmallestFaces}, wanted))
+    add(small, faces);
   sort(faces);
   return faces;
 }

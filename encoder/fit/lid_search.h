@@ -32,6 +32,7 @@ class LidSearch {
 
   [[nodiscard]] static Lid lid_of(const Geometry& geometry, const SamplePoints& points, FeatureId id,
                                   std::size_t lower_landmark);
+
   std::array<Lid, 2> lids_;
 };
 

@@ -33,8 +33,8 @@ void PictureFit::set_pattern(const SeenPattern& pattern) {
 }
 
 Fit PictureFit::with_best_eyes(const Fit& start) const {
-  const Fit fit = gaze_.best(comparison_, lids_.best(comparison_, start));
-  return lids_.best(comparison_, fit);
+  const Fit shut = lids_.best(comparison_, start), fit = gaze_.best(comparison_, shut);
+  return fit.offsets == shut.offsets ? fit : lids_.best(comparison_, fit);
 }
 
 std::vector<FitStart> PictureFit::starts_of(const Fit& tracked) {

@@ -41,9 +41,6 @@ class PictureFit {
   /// from there, too: a mouth that opens at once leaves their contour behind.
   [[nodiscard]] static std::vector<FitStart> starts_of(const Fit& tracked);
 
-  /// mean_difference() of pattern and picture.
-  [[nodiscard]] double difference(const Fit& fit) const { return mean_difference(comparison_, fit); }
-
   /// What this pattern costs in states near a fit.
   [[nodiscard]] PictureCost cost_at(const Fit& fit) const;
 

@@ -1,7 +1,6 @@
 #include "encoder/landmarks/descriptor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "encoder/image/bilinear.h"

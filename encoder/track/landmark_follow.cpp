@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/ibug.h"
+#include "encoder/find/face_finder.h"
 #include "encoder/model/expression_prior.h"
 
 namespace fbs {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kFoundSigma = 0.03;  ///< of a landmark, eye distances
 constexpr double kLidSigma = 0.1;     ///< of a lid's control point about rest, eye distances
-constexpr double kBelieved = 0.5;     ///< less than for a face that is new: its place is known
 
 /// Nose and corners of the eyes move with the head only.
 bool is_rigid(int landmark) {
@@ -64,7 +64,7 @@ std::optional<LandmarkFollow::HeadLandmarks> LandmarkFollow::displacements(const
                                                                            const Offsets& before) const {
   const PoseProjection projection(pose);
   const FoundLandmarks found = search_->follow(picture, projected(projection, skinned(geometry_, before)));
-  if (found.belief < kBelieved) return std::nullopt;
+  if (found.belief < FaceFinder::kBelieved) return std::nullopt;
   const glm::dmat2 to_head = glm::inverse(glm::dmat2(projection.matrix));
   HeadLandmarks out;
   for (int k = 0; k < kLandmarkCount; ++k) {

@@ -163,8 +163,8 @@ struct Round {
   [[nodiscard]] bool drifted() const {
     return drift_degrees() > kMostDegrees || drift_px() > kMostPixels || strayed_px() > kMostPixels;
   }
-  void print(std::string_view name) const {
-    std::printf("%6s %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", std::string(name).c_str(),
+  void print(const std::string& name) const {
+    std::printf("%6s %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f  %s\n", name.c_str(),
                 sum.degrees / pictures, sum.shift_px / pictures, sum.vertices_px / pictures, worst.degrees,
                 worst.shift_px, worst.vertices_px, drift_degrees(), drift_px(), strayed_px(),
                 std::string(generic_head().vertices[strayed()].name).c_str());
