@@ -1,5 +1,6 @@
 #include "encoder/encoder.h"
 
+#include <string>
 #include <utility>
 
 #include "bitstream/packet.h"
@@ -7,13 +8,17 @@
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/face_scene.h"
 #include "encoder/find/found_marks.h"
+#include "encoder/shots/cut_detector.h"
 #include "encoder/still_scene.h"
 
 namespace fbs {
 namespace {
 
-// Pictures, until the first face: between searches, and between those for small faces too.
-constexpr int kSearchEvery = 5, kSearchAllEvery = 30;
+// Pictures, while nobody is followed: between searches, and between those for small faces too.
+constexpr std::uint64_t kSearchEvery = 5, kSearchAllEvery = 30;
+
+/// A face that is lost for longer may be another one: whoever is found is followed.
+constexpr double kLostForSeconds = 2;
 
 }  // namespace
 
@@ -21,26 +26,37 @@ struct Encoder::Impl {
   VideoFormat format;
   EncoderSettings settings;
   FaceFinder finder;
-  std::unique_ptr<SceneEncoder> scene;
-  bool face_seen = false;
-  std::uint64_t pictures = 0;
-  std::vector<std::uint8_t> ready;
-  PictureAnalysis nothing;
+  std::vector<std::uint8_t> ready{};
+  CutDetector cuts{};
+  std::unique_ptr<SceneEncoder> scene{};
+  bool face_seen = false;        ///< in any picture
+  bool follows = false;          ///< the shot shows whom the scene follows
+  std::uint64_t shot_begin = 0;  ///< number of its first picture
+  EncodingReport report{};
+  std::uint64_t lost = 0;  ///< pictures, the last ones, in which the scene's face was not followed
+  PictureAnalysis nothing{};
 
   void take_from_scene() {
     const auto bytes = scene->take();
     ready.insert(ready.end(), bytes.begin(), bytes.end());
   }
 
+  [[nodiscard]] std::uint64_t in_shot() const { return report.pictures - shot_begin; }
+
   /// Marks of the face to follow, if the picture shows one.
-  [[nodiscard]] std::optional<Marks> look_for_face(const Picture& picture) const {
-    if (settings.marks) return settings.marks;
+  /// @return kInvalidArgument when there are faces, but not so many as are asked for
+  [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture) const {
+    if (settings.marks && report.pictures == 0) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
     const auto effort =
-        pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes;
+        in_shot() % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes;
     const auto faces = finder.find(picture, number + 1, effort);
-    if (faces.size() <= number) return std::nullopt;
-    return marks_of(faces[number]);
+    if (faces.empty()) return std::nullopt;
+    if (faces.size() > number) return marks_of(faces[number]);
+    if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
+    return fail(ErrorCode::kInvalidArgument, "no face " + std::to_string(number) + ": picture " +
+                                                 std::to_string(report.pictures) + " shows " +
+                                                 std::to_string(faces.size()) + ", numbered from 0");
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
@@ -53,7 +69,38 @@ struct Encoder::Impl {
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
     face_seen = face_seen || marks.has_value();
+    ++report.scenes;
     return {};
+  }
+
+  /// Pictures after which a face that has been lost may be another one.
+  [[nodiscard]] std::uint64_t lost_for_long() const {
+    return static_cast<std::uint64_t>(kLostForSeconds * format.frame_rate.num / format.frame_rate.den);
+  }
+
+  /// Ahead of a picture: sees to it that there is a scene that suits it.
+  Result<void> choose_scene(const Picture& picture) {
+    const bool cut = cuts.is_cut(picture);
+    if (cut) {
+      ++report.cuts;
+      scene->cut();
+      follows = false;
+      shot_begin = report.pictures;
+    }
+    if (follows && lost >= lost_for_long()) {
+      follows = false;
+      shot_begin = report.pictures;
+    }
+    if (follows || in_shot() % kSearchEvery != 0) return {};
+    if (scene && scene->carries_shots() && scene->recognises(picture)) {
+      follows = true;
+      return {};
+    }
+    const auto marks = look_for_face(picture);
+    if (!marks) return fail(marks.error());
+    follows = marks->has_value();
+    const bool must_begin = !scene || (cut && !scene->carries_shots());
+    return follows || must_begin ? begin_scene(picture, *marks) : Result<void>{};
   }
 };
 
@@ -80,7 +127,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
-  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), {}, false, 0, {}, {}});
+  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder)});
   write_signature(impl->ready);
   return Encoder(std::move(impl));
 }
@@ -89,25 +136,23 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   Impl& i = *impl_;
   if (picture.width() != i.format.width || picture.height() != i.format.height)
     return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
-  if (!i.face_seen && i.pictures % kSearchEvery == 0) {
-    const auto marks = i.look_for_face(picture);
-    if (marks || !i.scene)
-      if (auto begun = i.begin_scene(picture, marks); !begun) return begun;
-  }
+  if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();
-  ++i.pictures;
+  i.lost = i.scene->analysis().followed ? 0 : i.lost + 1;
+  ++i.report.pictures;
+  if (i.lost > 0) ++i.report.without_face;
   return {};
 }
 
 Result<void> Encoder::finish() {
   Impl& i = *impl_;
-  if (i.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
+  if (i.report.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
   if (!i.face_seen && !i.settings.allow_no_face)
     return fail(ErrorCode::kNoFace, "no face found in any picture");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
-  write_packet(i.ready, PacketType::kEnd, encode_end({i.pictures}));
+  write_packet(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
   return {};
 }
 
@@ -117,6 +162,10 @@ std::vector<std::uint8_t> Encoder::take() {
 
 const PictureAnalysis& Encoder::analysis() const {
   return impl_->scene ? impl_->scene->analysis() : impl_->nothing;
+}
+
+const EncodingReport& Encoder::report() const {
+  return impl_->report;
 }
 
 }  // namespace fbs

@@ -12,6 +12,14 @@
 
 namespace fbs {
 
+/// What happened in the video so far.
+struct EncodingReport {
+  std::uint64_t pictures = 0;
+  std::uint64_t without_face = 0;  ///< of them, those in which no face was followed
+  std::uint64_t cuts = 0;
+  std::uint64_t scenes = 0;  ///< that the stream has
+};
+
 /// Encodes one video.
 ///
 ///   auto encoder = Encoder::create(format, settings);
@@ -38,7 +46,8 @@ class Encoder {
   /// The bytes that are ready; the encoder forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take();
 
-  [[nodiscard]] const PictureAnalysis& analysis() const;
+  [[nodiscard]] const PictureAnalysis& analysis() const;  ///< of the picture pushed last
+  [[nodiscard]] const EncodingReport& report() const;
 
  private:
   struct Impl;

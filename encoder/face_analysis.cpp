@@ -45,7 +45,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   seen.state = state_of(now_);
   seen.face = face_shows_;
   if (surround_) {
-    surround_->observe(picture, now_.pose);
+    if (!elsewhere_) surround_->observe(picture, now_.pose);
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);
   }
@@ -64,7 +64,23 @@ PictureCost FaceAnalysis::fit_first(const Picture& picture) {
   return fit_.cost_at(now_);
 }
 
+bool FaceAnalysis::recognises(const Picture& picture) {
+  const FaceSearch::Detection found =
+      search_.find_anywhere(picture, head_, now_.pose, skinned(geometry_, now_.offsets));
+  if (!found.accepted) return false;
+  head_.restart(found.head.pose, WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true));
+  search_.rest();
+  elsewhere_ = false;
+  return true;
+}
+
 PictureCost FaceAnalysis::fit_next(const Picture& picture) {
+  if (elsewhere_) {
+    face_shows_ = false;
+    report_.confidence = 0;
+    now_ = relaxed();
+    return cost_unseen(now_);
+  }
   const HeadVertices vertices = skinned(geometry_, now_.offsets);
   WorkFrame frame = WorkFrame::cut(picture, head_.pose().shift, eye_distance_px_, true);
   const std::optional<TrackedPose> head = follow_head(picture, vertices, frame);
@@ -144,6 +160,7 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
 
 void FaceAnalysis::write_report(const std::array<glm::ivec3, kVertexCount>& vertices) {
   report_.face = true;
+  report_.followed = face_shows_;
   for (std::size_t v = 0; v < kVertexCount; ++v)
     report_.vertices[v] = glm::dvec2(vertices[v].x, vertices[v].y) / kStateUnitsPerPixel;
   const PoseProjection projection(head_.pose());

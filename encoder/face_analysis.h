@@ -34,12 +34,19 @@ class FaceAnalysis {
 
   struct Observation {
     State state;                                      ///< as fitted, in whole units
-    bool face = true;                                 ///< whether it shows; else its state is a guess
+    bool face = true;                                 ///< whether it is followed; else its state is a guess
     PictureCost cost;                                 ///< of other states
     std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
   };
   /// The next picture; the scene's first one first.
   [[nodiscard]] Observation observe(const Picture& picture);
+
+  /// The next picture begins another shot: the face is elsewhere until it is recognised.
+  void cut() { elsewhere_ = true; }
+
+  /// Whether a picture of another shot shows the same head; it is followed again from there on.
+  /// @param picture  to be observed next
+  [[nodiscard]] bool recognises(const Picture& picture);
 
   /// From now on the map says which part of the picture moves with what.
   void set_surround_map(const SurroundMap& map);
@@ -78,8 +85,9 @@ class FaceAnalysis {
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture
-  bool face_shows_ = true;                  ///< in the last picture
+  bool face_shows_ = true;                  ///< in the last picture, and is followed
   bool begun_ = false;
+  bool elsewhere_ = false;  ///< the shot does not show the face, or not yet
   PictureAnalysis report_;
 };
 

@@ -157,7 +157,7 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   durations_.push_back(duration);
   if (!fixed_) learn(picture, seen);
   if (second_pass_) {
-    if (!packets_.started()) second_pass_->face_chroma.add(picture, seen.vertices);
+    if (!packets_.started() && seen.face) second_pass_->face_chroma.add(picture, seen.vertices);
     if (auto added = second_pass_->patterns.add(picture); !added) return added;
   }
   ++pictures_;
@@ -168,7 +168,13 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   return second_pass_ ? Result<void>{} : write_head();
 }
 
+void FaceScene::cut() {
+  analysis_.cut();
+  if (second_pass_) second_pass_->patterns.cut();
+}
+
 void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
+  if (!seen.face) return;
   mouth_colours_.add(picture, seen.vertices);
   const std::uint64_t every = std::max<std::uint64_t>(1, timing_.lookahead / kSurroundPictures);
   if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, seen.state);

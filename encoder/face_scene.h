@@ -28,6 +28,9 @@ class FaceScene : public SceneEncoder {
                                                      const Marks& marks);
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  void cut() override;
+  [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
+  [[nodiscard]] bool carries_shots() const override { return second_pass_.has_value(); }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_.report(); }

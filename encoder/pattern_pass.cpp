@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "bitstream/packet.h"
 #include "decoder/contrast_map.h"
+#include "encoder/image/pyramid.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
 
@@ -23,6 +25,11 @@ constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
 // Modes that are chosen anew later on are shared by so many pictures at most.
 constexpr std::size_t kDraftShared = 3;
+
+/// A shot whose pictures differ by no more from its first, luma levels, shows a still picture. Compared at a
+/// long side of so many pixels, where noise averages out and a talking mouth does not.
+constexpr double kStillLevels = 4;
+constexpr int kStillLongSide = 64;
 
 // To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
 constexpr int kMaxRateTrials = 4;
@@ -42,6 +49,19 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
   store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
 }
 
+Result<void> PatternPass::add(const Picture& picture) {
+  const cv::Mat small =
+      reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
+  if (std::exchange(cut_, false) || segment_.shots.empty()) {
+    segment_.shots.push_back({0, true});
+    shot_first_ = small;
+  }
+  Shot& shot = segment_.shots.back();
+  ++shot.pictures;
+  if (cv::norm(small, shot_first_, cv::NORM_INF) > kStillLevels) shot.still = false;
+  return segment_.pictures.add(picture);
+}
+
 void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> payload) {
   segment_.groups.push_back({states.size(), std::move(payload)});
   for (State s : states) {
@@ -54,13 +74,14 @@ bool PatternPass::segment_ends() const {
   // The motion of a whole segment may be sent before its first picture is shown.
   if (segment_.states.size() + kMaxGroupPictures > kMaxWaitingPictures) return true;
   if (settings_.count > 0) return false;
+  if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
   const double seconds = std::min(kSegmentSeconds, (store_ - 1) / point_.per_second);
   return static_cast<double>(segment_.states.size()) >= std::max(1.0, seconds * fps_of(format_));
 }
 
-Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene, std::size_t count) {
+Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
   Draft draft;
-  draft.times = regular_times(segment_.states.size(), count);
+  draft.times = times_wanted();
   for (const std::size_t time : draft.times) {
     auto source = segment_.pictures.read(time);
     if (!source) return fail(source.error());
@@ -106,8 +127,8 @@ SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
   return out;
 }
 
-Result<double> PatternPass::loss_between(const Scene& scene, std::size_t count) {
-  const auto draft = draft_of(scene, count);
+Result<double> PatternPass::loss_between(const Scene& scene) {
+  const auto draft = draft_of(scene);
   if (!draft) return fail(draft.error());
   return blend_loss(segment_, usable(scene, *draft), kLossEvery);
 }
@@ -131,15 +152,17 @@ void PatternPass::set_size(bool reduced) {
   coding_.quantiser = quantiser_at(reduced);
 }
 
-std::size_t PatternPass::count_wanted() const {
+std::vector<std::size_t> PatternPass::times_wanted() const {
   const std::size_t pictures = segment_.states.size();
   const double seconds = static_cast<double>(pictures) / fps_of(format_);
-  const std::size_t wanted = settings_.count > 0 ? settings_.count : std::lround(point_.per_second * seconds);
-  return std::min(std::clamp<std::size_t>(wanted, 1, store_), pictures);
+  const std::size_t wanted = settings_.count > 0
+                                 ? settings_.count
+                                 : pattern_count(segment_.shots, std::lround(point_.per_second * seconds));
+  return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, store_), pictures));
 }
 
-Result<std::vector<Picture>> PatternPass::trial_pictures(std::size_t count) {
-  const std::vector<std::size_t> times = regular_times(segment_.states.size(), count_wanted());
+Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::size_t> times) {
+  const std::size_t count = std::min(kTrialPictures, times.size());
   std::vector<Picture> out;
   for (std::size_t k = 0; k < count; ++k) {
     auto picture = segment_.pictures.read(times[(times.size() - count) / 2 + k]);
@@ -150,11 +173,11 @@ Result<std::vector<Picture>> PatternPass::trial_pictures(std::size_t count) {
 }
 
 Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
-  const std::size_t count = count_wanted();
-  if (count < 2) return false;
-  const auto loss = loss_between(scene, count);
+  const std::vector<std::size_t> times = times_wanted();
+  if (times.size() < 2) return false;
+  const auto loss = loss_between(scene);
   if (!loss) return fail(loss.error());
-  const auto pictures = trial_pictures(std::min(kTrialPictures, count));
+  const auto pictures = trial_pictures(times);
   if (!pictures) return fail(pictures.error());
   const auto full = trial_cost(format_, *pictures, trial_coding(false));
   if (!full) return fail(full.error());
@@ -162,7 +185,7 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   if (!reduced) return fail(reduced.error());
   double motion = 0;
   for (const Segment::Group& g : segment_.groups) motion += static_cast<double>(g.payload.size());
-  return fbs::reduced_size_pays(*loss, count, motion, *full, *reduced);
+  return fbs::reduced_size_pays(*loss, times.size(), motion, *full, *reduced);
 }
 
 Result<void> PatternPass::choose_size(const Scene& scene) {
@@ -270,7 +293,7 @@ Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const S
 }
 
 Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
-  auto draft = draft_of(scene, count_wanted());
+  auto draft = draft_of(scene);
   if (!draft) return draft;
   if (settings_.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. At half
@@ -300,7 +323,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     const int middle = (low + high) / 2;
     point_ = PatternPoint::at(middle);
     set_size(coding_.reduced);
-    auto draft = draft_of(scene, count_wanted());
+    auto draft = draft_of(scene);
     if (!draft) return fail(draft.error());
     if (auto coded = code(scene, *draft, trial_coding(coding_.reduced)); !coded) return fail(coded.error());
     const auto taken = bytes_of(scene.setup, *draft);
@@ -362,7 +385,7 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::si
     return fail(sized.error());
   }
   // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
-  if (picture_ == 0 && count_wanted() == 1 && settings_.bitrate_kbps == 0)
+  if (picture_ == 0 && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
     coding_.quantiser = settings_.lone_quantiser;
   auto draft = make(scene, refit);
   if (!draft) return fail(draft.error());

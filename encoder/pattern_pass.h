@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
@@ -37,7 +38,9 @@ class PatternPass {
   PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
 
   /// The next picture of the scene.
-  Result<void> add(const Picture& picture) { return segment_.pictures.add(picture); }
+  Result<void> add(const Picture& picture);
+  /// The picture added next begins another shot.
+  void cut() { cut_ = true; }
   /// The next group of them.
   /// @param states  of its pictures
   void add(std::span<const State> states, std::vector<std::uint8_t> payload);
@@ -67,15 +70,16 @@ class PatternPass {
     std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
   };
   /// With pictures as they are for patterns.
-  [[nodiscard]] Result<Draft> draft_of(const Scene& scene, std::size_t count);
+  [[nodiscard]] Result<Draft> draft_of(const Scene& scene);
   /// Error of the pictures between lossless patterns.
-  [[nodiscard]] Result<double> loss_between(const Scene& scene, std::size_t count);
-  [[nodiscard]] std::size_t count_wanted() const;
+  [[nodiscard]] Result<double> loss_between(const Scene& scene);
+  /// Pictures of the segment that are to become patterns.
+  [[nodiscard]] std::vector<std::size_t> times_wanted() const;
   /// Decides whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
   [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
   /// Neighbours from the middle of the segment.
-  [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::size_t count);
+  [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
   /// Of a pattern that is a picture of the segment.
   [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
   /// As the decoder makes it; with its picture as it is where that is not coded yet.
@@ -123,6 +127,8 @@ class PatternPass {
   std::int32_t picture_ = 0;  ///< number of the segment's first
   double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
   Segment segment_;
+  bool cut_ = false;
+  cv::Mat shot_first_;  ///< of the last shot's pictures in the segment, reduced luma
   Coders coders_;
   // How the segment is coded: as the settings say, or what meets the bitrate.
   PatternPoint point_;

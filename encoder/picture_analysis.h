@@ -18,8 +18,9 @@ struct SnakeOutline {
 
 /// Positions in pixels of the picture.
 struct PictureAnalysis {
-  bool face = false;
-  double confidence = 0;                            ///< 0..1
+  bool face = false;      ///< whether the scene has one
+  bool followed = false;  ///< whether it is followed in this picture; else it is held
+  double confidence = 0;  ///< 0..1
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
   std::vector<SnakeOutline> snakes;                 ///< as tracked
 };

@@ -21,6 +21,16 @@ class SceneEncoder {
   /// @param duration  1/90000 s; 0: that of the frame rate
   virtual Result<void> push(const Picture& picture, std::uint32_t duration) = 0;
 
+  /// The picture pushed next begins another shot, which the scene is to carry.
+  virtual void cut() = 0;
+
+  /// Whether the picture, which is pushed next, shows whom the scene follows. It then follows them again from
+  /// there on.
+  [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;
+
+  /// Whether it can carry a shot of anything else, too.
+  [[nodiscard]] virtual bool carries_shots() const = 0;
+
   /// Codes what is still held back.
   virtual Result<void> finish() = 0;
 

@@ -4,6 +4,15 @@
 
 namespace fbs {
 
+bool Segment::is_cut(std::size_t picture) const {
+  std::size_t first = 0;
+  return std::ranges::any_of(shots, [&](const Shot& shot) {
+    const bool here = first == picture && first > 0;
+    first += shot.pictures;
+    return here;
+  });
+}
+
 void Segment::move(std::size_t picture, const State& to) {
   const State before = std::exchange(states[picture], to);
   states[picture].picture = before.picture;

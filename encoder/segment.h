@@ -9,6 +9,7 @@
 #include "bitstream/syntax.h"
 #include "common/state.h"
 #include "encoder/picture_spool.h"
+#include "encoder/plan/pattern_times.h"
 
 namespace fbs {
 
@@ -24,7 +25,10 @@ struct Segment {
   PictureSpool pictures;
   std::vector<Group> groups;
   std::vector<State> states;  ///< of each picture, as coded
+  std::vector<Shot> shots;    ///< that its pictures fall into; the first may have begun before
 
+  /// Whether a picture begins another shot.
+  [[nodiscard]] bool is_cut(std::size_t picture) const;
   /// Gives a picture another state; its number and its blend modes stay.
   void move(std::size_t picture, const State& to);
 };

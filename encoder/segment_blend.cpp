@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
 
 #include "encoder/blend/mode_choice.h"
-#include "encoder/image/planes.h"
 
 namespace fbs {
 namespace {
@@ -20,9 +18,6 @@ constexpr std::size_t kSolveEvery = 2;
 /// Fewer of a long segment or of large pictures are solved for, so that they take no more memory than this,
 /// bytes.
 constexpr std::size_t kSolverBytes = 400e6;
-
-/// Mean difference of luma from one picture to the next that is a cut.
-constexpr double kCutLevels = 12;
 
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
 /// to interpolate.
@@ -46,12 +41,6 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
     }
   }
   return {};
-}
-
-/// Whether one picture has little in common with the one before.
-bool is_cut(const Plane& before, const Plane& now) {
-  return cv::norm(view(before), view(now), cv::NORM_L1) >
-         kCutLevels * static_cast<double>(now.samples.size());
 }
 
 /// Planes that are solved for together, and at which reduction of the picture's size.
@@ -133,15 +122,13 @@ Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPat
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   std::vector<ModeErrors> errors;
   std::vector<std::size_t> shared_by;  // how many pictures, for each of `errors`
-  Plane before;
   const auto done = for_each_picture(
-      segment, patterns, 1, [&](std::size_t t, Picture& picture, const AvailablePatterns& available) {
-        if (t == 0 || shared_by.back() == most || is_cut(before, picture.y)) {
+      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+        if (t == 0 || shared_by.back() == most || segment.is_cut(t)) {
           errors.push_back(blend.errors(picture.y, segment.states[t], available));
           shared_by.push_back(0);
         }
         ++shared_by.back();
-        before = std::move(picture.y);
       });
   if (!done) return fail(done.error());
   for (std::size_t run = 0; run < errors.size(); ++run)

@@ -16,6 +16,9 @@ class StillScene : public SceneEncoder {
                                                      const EncoderSettings& settings, const Picture& first);
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  void cut() override {}
+  [[nodiscard]] bool recognises(const Picture&) override { return false; }
+  [[nodiscard]] bool carries_shots() const override { return false; }
   Result<void> finish() override { return end_group(); }
   [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }

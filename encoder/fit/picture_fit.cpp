@@ -55,7 +55,8 @@ PictureCost PictureFit::cost_at(const Fit& fit) const {
 
 PictureCost PictureFit::cost_near(const Fit& start) const {
   GaussNewtonStep step = gauss_newton_step(comparison_, start);
-  if (std::abs(step.fit.light[kLightOffset] - start.light[kLightOffset]) > kMaxLightStep) step.fit = start;
+  const auto stays = [](double from, double to) { return std::abs(to - from) <= kMaxLightStep; };
+  if (!std::ranges::equal(start.light, step.fit.light, stays)) step.fit = start;
   return cost_of(step.fit, step.difference, step.picture);
 }
 

@@ -41,11 +41,4 @@ int motion_quality_at(double kbps) {
   return std::clamp(static_cast<int>(std::lround(20 + 10 * std::log2(kbps / 1.7))), 0, 50);
 }
 
-std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count) {
-  count = std::clamp<std::size_t>(count, 1, std::max<std::size_t>(pictures, 1));
-  std::vector<std::size_t> out = {0};
-  for (std::size_t k = 1; k < count; ++k) out.push_back((k * (pictures - 1) + (count - 1) / 2) / (count - 1));
-  return out;
-}
-
 }  // namespace fbs

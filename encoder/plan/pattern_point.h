@@ -1,9 +1,6 @@
 // What --quality means for a scene with several patterns: how many, and how finely each is coded.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 namespace fbs {
 
 struct PatternPoint {
@@ -20,9 +17,5 @@ struct PatternPoint {
 
 /// Quality of the motion that goes with a total rate.
 [[nodiscard]] int motion_quality_at(double kbps);
-
-/// Numbers of pictures at regular distances, the first and the last among them, rising.
-/// @param count  wanted; as many as there are pictures at most
-[[nodiscard]] std::vector<std::size_t> regular_times(std::size_t pictures, std::size_t count);
 
 }  // namespace fbs

@@ -146,6 +146,14 @@ void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& de
 
 }  // namespace
 
+FaceSearch::Detection FaceSearch::find_anywhere(const Picture& picture, const HeadTracker& head,
+                                                const Pose& last, const HeadVertices& vertices) const {
+  const Wanted wanted = {picture, head.appearance(), last, vertices, head.appearance().surface(vertices)};
+  Detections detections(wanted);
+  search_everywhere(wanted, *finder_, detections);
+  return detections.best();
+}
+
 FaceSearch::Detection FaceSearch::find(const Picture& picture, const HeadTracker& head, const Pose& last,
                                        const HeadVertices& vertices) {
   const Wanted wanted = {picture, head.appearance(), last, vertices, head.appearance().surface(vertices)};

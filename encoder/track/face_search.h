@@ -33,6 +33,10 @@ class FaceSearch {
   [[nodiscard]] Detection find(const Picture& picture, const HeadTracker& head, const Pose& last,
                                const HeadVertices& vertices);
 
+  /// Looks at faces wherever they are, and nowhere else: for the first picture of another shot.
+  [[nodiscard]] Detection find_anywhere(const Picture& picture, const HeadTracker& head, const Pose& last,
+                                        const HeadVertices& vertices) const;
+
   /// Whether the picture before was a lost one.
   [[nodiscard]] bool lost() const { return lost_pictures_ > 0; }
 

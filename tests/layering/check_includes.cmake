@@ -7,7 +7,7 @@ set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
   decoder/head decoder/animate decoder/raster decoder/blend decoder/draw decoder
-  encoder/image encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
+  encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
   encoder
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
@@ -18,7 +18,7 @@ set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
 set(foreign
   "opencv2/video/@encoder/track/head"
   "opencv2/highgui|opencv2/videoio@cli|cli/video"
-  "opencv2/@encoder/image|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
+  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
   "draco/@bitstream/payload"

@@ -58,6 +58,7 @@ TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
     segment.states.push_back(state);
   }
   segment.groups = before.segment.groups;
+  segment.shots = {{kCut, false}, {kPictures - kCut, false}};
   const auto modes = choose_modes(segment, before.patterns(), 1, kShared);
   ASSERT_TRUE(modes);
   ASSERT_EQ(modes->size(), kPictures);

@@ -24,28 +24,5 @@ TEST(PatternPoint, QualityBeyondItsRangeIsTheNearest) {
   EXPECT_EQ(PatternPoint::at(140).quantiser, PatternPoint::at(100).quantiser);
 }
 
-TEST(RegularTimes, RiseFromTheFirstToTheLastPictureAtEvenDistances) {
-  for (std::size_t pictures = 2; pictures < 40; ++pictures) {
-    for (std::size_t count = 2; count <= pictures; ++count) {
-      const auto times = regular_times(pictures, count);
-      ASSERT_EQ(times.size(), count);
-      EXPECT_EQ(times.front(), 0U);
-      EXPECT_EQ(times.back(), pictures - 1);
-      const std::size_t gap = (pictures - 1) / (count - 1);
-      for (std::size_t k = 1; k < count; ++k) {
-        ASSERT_GT(times[k], times[k - 1]) << pictures << ' ' << count;
-        EXPECT_GE(times[k] - times[k - 1], gap);
-        EXPECT_LE(times[k] - times[k - 1], gap + 1);
-      }
-    }
-  }
-}
-
-TEST(RegularTimes, ThereAreAsManyAsPicturesAtMostAndOneAtLeast) {
-  EXPECT_EQ(regular_times(3, 10), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(regular_times(1, 2), std::vector<std::size_t>{0});
-  EXPECT_EQ(regular_times(9, 0), std::vector<std::size_t>{0});
-}
-
 }  // namespace
 }  // namespace fbs

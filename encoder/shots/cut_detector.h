@@ -1,0 +1,29 @@
+// Cuts: pictures that begin another shot.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "common/picture.h"
+
+namespace fbs {
+
+/// Compares each picture with the one before it, at a long side of 64 pixels: blocks of one are matched in
+/// the other without their means, so that neither motion nor a change of light is a cut. A cut is where
+/// neither picture can be made of the other: what is merely uncovered or covered is missing in one of them
+/// only. A sudden change from or to a plain picture, such as black, is a cut, too. Fades and dissolves are
+/// none.
+class CutDetector {
+ public:
+  /// The next picture; all are of one size.
+  /// @return whether it begins another shot; false for the first one
+  [[nodiscard]] bool is_cut(const Picture& picture);
+
+  /// How much of a picture's contrast cannot be made of another one's blocks, 0..1.
+  /// @param of, by  CV_32F, of one size
+  [[nodiscard]] static double unexplained(const cv::Mat1f& of, const cv::Mat1f& by);
+
+ private:
+  cv::Mat1f before_;  ///< reduced luma; empty ahead of the first picture
+};
+
+}  // namespace fbs
