@@ -26,6 +26,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   EncoderSettings settings;
   settings.quality = arguments.quality;
   settings.patterns = arguments.patterns;
+  settings.key_interval = arguments.key_interval;
   settings.effort = arguments.effort;
   settings.reduced_patterns = arguments.reduced_patterns;
   settings.pattern_quantiser = arguments.pattern_quantiser;

@@ -68,6 +68,10 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
                    "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
                    "then only motion (default: chosen by the encoder)")
       ->check(CLI::Range(1, 64));
+  verb->add_option("--key-interval", a.key_interval,
+                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
+                   "40 with several patterns; none with --patterns 1)")
+      ->check(CLI::Range(0.2, 3600.0));
   verb->add_option("--effort", a.effort,
                    "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "
                    "1 % fewer bytes at equal quality")

@@ -1,6 +1,7 @@
 #include "encoder/face_analysis.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "decoder/head/head_deformation.h"
@@ -45,6 +46,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   seen.state = state_of(now_);
   seen.face = face_shows_;
   if (surround_) {
+    if (std::exchange(surround_begins_, false)) surround_.emplace(picture, seen.state);
     if (!elsewhere_) surround_->observe(picture, now_.pose);
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);

@@ -44,6 +44,10 @@ class FaceAnalysis {
   /// The next picture begins another shot: the face is elsewhere until it is recognised.
   void cut() { elsewhere_ = true; }
 
+  /// The next picture is the first of a scene that goes on with the same head: body and ground count from
+  /// there.
+  void begin_scene() { surround_begins_ = true; }
+
   /// Whether a picture of another shot shows the same head; it is followed again from there on.
   /// @param picture  to be observed next
   [[nodiscard]] bool recognises(const Picture& picture);
@@ -87,6 +91,7 @@ class FaceAnalysis {
   Fit now_;                                 ///< of the last picture
   bool face_shows_ = true;                  ///< in the last picture, and is followed
   bool begun_ = false;
+  bool surround_begins_ = false;
   bool elsewhere_ = false;  ///< the shot does not show the face, or not yet
   PictureAnalysis report_;
 };

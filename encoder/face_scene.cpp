@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
@@ -38,12 +40,13 @@ PartMask parts_of(const EncoderSettings& settings) {
   return parts;
 }
 
-/// The pose in whole steps, all else at rest.
-CodedState coded_pose(const Pose& pose, const QuantiserSteps& steps) {
+/// The nearest state in whole steps, as far as its parts are sent.
+CodedState coded_state(std::span<const double> numbers, const Setup& setup) {
   CodedState coded{};
-  const auto numbers = numbers_of(pose);
-  for (std::size_t i = 0; i < kPoseCount; ++i)
-    coded[i] = static_cast<std::int32_t>(std::lround(numbers[i] / step_of(steps, i)));
+  const CodedLimits limits(setup.steps, setup.parts);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    coded[i] = static_cast<std::int32_t>(
+        std::clamp<double>(std::round(numbers[i] / step_of(setup.steps, i)), limits.min[i], limits.max[i]));
   return coded;
 }
 
@@ -65,6 +68,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.lone_quantiser = settings.pattern_quantiser < 0 ? motion.pattern_quantiser : settings.pattern_quantiser;
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
+  out.key_interval = settings.key_interval;
   out.lambda = motion.lambda;
   out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
   out.refits = std::min(settings.effort, kMaxRefits);
@@ -106,7 +110,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.format = format;
   scene.setup.parts = parts_of(settings);
   scene.setup.steps = rate->point.steps;
-  const CodedState seen_coded = coded_pose(adapted->pose, scene.setup.steps);
+  const CodedState seen_coded = coded_state(numbers_of(adapted->pose), scene.setup);
   const State seen = state_of(seen_coded, scene.setup.steps);
   const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->av1)};
   auto pattern = encode_first_pattern(first_syntax, scene.setup);
@@ -129,6 +133,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
 FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
                      Parts parts)
     : timing_(timing),
+      rate_(parts.rate),
+      key_interval_(settings.key_interval * fps_of(parts.scene.setup.format)),
       still_surround_(!settings.surround),
       scene_(std::move(parts.scene)),
       analysis_(settings, finder,
@@ -138,7 +144,8 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      parts.eye_distance_px),
       observations_(std::move(parts.observations)),
-      head_(std::move(parts.head)) {
+      geometry_payload_(std::move(parts.head.geometry)),
+      pattern_payload_(std::move(parts.head.pattern)) {
   if (settings.patterns != 1) {
     // Braces: clang 14 does not construct aggregates in place.
     second_pass_.emplace(
@@ -151,7 +158,10 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
+  if (ended_) analysis_.begin_scene();
   FaceAnalysis::Observation seen = analysis_.observe(picture);
+  if (std::exchange(ended_, false))
+    if (auto begun = begin_again(picture, seen); !begun) return begun;
   if (second_pass_) second_pass_->refit.add(seen, duration);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
@@ -163,9 +173,43 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   ++pictures_;
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
-  if (fixed_ || pictures_ < timing_.lookahead) return {};
-  fix_head();
-  return second_pass_ ? Result<void>{} : write_head();
+  if (!fixed_ && pictures_ >= timing_.lookahead) {
+    fix_head();
+    if (auto written = second_pass_ ? Result<void>{} : write_head(); !written) return written;
+  }
+  if (second_pass_ || !scene_ends(timing_.group_pictures)) return {};
+  ended_ = true;
+  return finish();
+}
+
+bool FaceScene::scene_ends(std::size_t more) const {
+  if (key_interval_ == 0) return second_pass_.has_value();
+  return durations_.empty() && static_cast<double>(pictures_ + more) > key_interval_;
+}
+
+Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::Observation& seen) {
+  const CodedState rest = coded_state(seen.cost.fit, scene_.setup);
+  const State rest_state = state_of(rest, scene_.setup.steps);
+  scene_.set_geometry({scene_.setup, scene_.geometry->geometry(), map_, rest_state});
+  scene_.patterns.clear();
+  scene_.patterns.push_back(make_pattern(picture, rest_state, scene_.geometry));
+  motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
+  if (second_pass_) {
+    second_pass_->patterns.begin_scene(rest);
+    second_pass_->motion = motion_;
+  } else {
+    FirstPattern first(scene_.setup.format, picture, kSentSpeed);
+    auto coded = first.take(rate_.point.pattern_quantiser);
+    if (!coded) return fail(coded.error());
+    auto payload = encode_first_pattern({0, 0, rest, std::move(coded->av1)}, scene_.setup);
+    if (!payload) return fail(payload.error());
+    pattern_payload_ = std::move(*payload);
+  }
+  observations_.set_first(picture, rest_state);
+  fixed_ = false;
+  pictures_ = 0;
+  packets_.begin_again();
+  return {};
 }
 
 void FaceScene::cut() {
@@ -190,7 +234,8 @@ Result<void> FaceScene::end_group() {
     packets_.add_motion(group->payload);
   costs_.clear();
   durations_.clear();
-  return second_pass_ && second_pass_->patterns.segment_ends() ? end_segment() : Result<void>{};
+  return second_pass_ && second_pass_->patterns.segment_ends(timing_.group_pictures) ? end_segment()
+                                                                                     : Result<void>{};
 }
 
 void FaceScene::fix_head() {
@@ -206,22 +251,20 @@ void FaceScene::fix_head() {
 Result<void> FaceScene::write_head() {
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
-  head_.setup = std::move(*setup);
   auto surround = encode_surround(map_);
   if (!surround) return fail(surround.error());
-  head_.surround = std::move(*surround);
-  packets_.start(head_);
-  head_ = {};
+  packets_.start({std::move(*setup), geometry_payload_, std::move(*surround), pattern_payload_});
   return {};
 }
 
 Result<void> FaceScene::end_segment() {
+  const std::size_t pictures = second_pass_->patterns.pictures();
   if (!fixed_) fix_head();
   if (!packets_.started()) {
     scene_.setup.patterns = second_pass_->patterns.store();
     scene_.setup.contrast = kSurroundContrast;
     scene_.setup.chroma_contrast = second_pass_->face_chroma.contrast();
-    head_.pattern.clear();  // the first segment brings its own
+    pattern_payload_.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }
   const auto refit = [&](Segment& segment, const SegmentPatterns& patterns) {
@@ -233,6 +276,7 @@ Result<void> FaceScene::end_segment() {
   second_pass_->motion = motion_;
   second_pass_->refit.begin_segment();
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  ended_ = scene_ends(pictures);
   return {};
 }
 

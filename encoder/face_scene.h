@@ -44,6 +44,10 @@ class FaceScene : public SceneEncoder {
   /// Until the scene starts: mouth colours, and what the surround's map is fitted to.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
+  /// Begins another scene with the same person at this picture: a place to join.
+  Result<void> begin_again(const Picture& picture, const FaceAnalysis::Observation& seen);
+  /// Whether the next picture is to begin another scene, which otherwise could only after so many more.
+  [[nodiscard]] bool scene_ends(std::size_t more) const;
   /// Fixes what the scene's head says.
   void fix_head();
   Result<void> write_head();
@@ -51,6 +55,8 @@ class FaceScene : public SceneEncoder {
   Result<void> end_segment();
 
   SceneTiming timing_;
+  RatePlan rate_;
+  double key_interval_;  ///< pictures; 0: none where there is one pattern, segments where there are several
   bool still_surround_;
   Scene scene_;  ///< as the decoder builds it; until start() with a guessed surround map
   FaceAnalysis analysis_;
@@ -58,7 +64,8 @@ class FaceScene : public SceneEncoder {
   MotionTrack motion_;
   std::vector<PictureCost> costs_;        ///< of the group's pictures
   std::vector<std::uint32_t> durations_;  ///< of the same, 1/90000 s; 0: nominal
-  std::uint64_t pictures_ = 0;
+  std::uint64_t pictures_ = 0;            ///< of the scene
+  bool ended_ = false;                    ///< the next picture begins another scene
 
   MouthColours mouth_colours_;
   SurroundObservations observations_;  ///< empty from start() on
@@ -71,7 +78,8 @@ class FaceScene : public SceneEncoder {
     FaceChroma face_chroma{};  ///< until the scene starts
   };
   std::optional<SecondPass> second_pass_;  ///< nothing with one pattern
-  SceneHead head_;
+  std::vector<std::uint8_t> geometry_payload_;
+  std::vector<std::uint8_t> pattern_payload_;  ///< of pattern 0; empty where segments bring their own
   ScenePackets packets_;
 };
 

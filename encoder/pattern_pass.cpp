@@ -1,6 +1,7 @@
 #include "encoder/pattern_pass.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "encoder/image/pyramid.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
+#include "encoder/scene_timing.h"
 
 namespace fbs {
 namespace {
@@ -36,10 +38,6 @@ constexpr int kMaxRateTrials = 4;
 constexpr double kBytesPerStep = 1.045;
 constexpr double kRateTolerance = 0.02;
 
-double fps_of(const VideoFormat& format) {
-  return static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
-}
-
 }  // namespace
 
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
@@ -47,6 +45,13 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
     : format_(format), settings_(settings), rest_(rest), point_(settings.point) {
   const double bytes = 1.5 * format.width * format.height;
   store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
+}
+
+void PatternPass::begin_scene(const CodedState& rest) {
+  assert(segment_.states.empty());
+  rest_ = rest;
+  picture_ = 0;
+  coders_ = {};
 }
 
 Result<void> PatternPass::add(const Picture& picture) {
@@ -70,13 +75,17 @@ void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> p
   }
 }
 
-bool PatternPass::segment_ends() const {
+bool PatternPass::segment_ends(std::size_t next) const {
+  const std::size_t pictures = segment_.states.size();
   // The motion of a whole segment may be sent before its first picture is shown.
-  if (segment_.states.size() + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  const double fps = fps_of(format_);
+  if (settings_.key_interval > 0 && static_cast<double>(pictures + next) > settings_.key_interval * fps)
+    return true;
   if (settings_.count > 0) return false;
   if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
   const double seconds = std::min(kSegmentSeconds, (store_ - 1) / point_.per_second);
-  return static_cast<double>(segment_.states.size()) >= std::max(1.0, seconds * fps_of(format_));
+  return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
 }
 
 Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {

@@ -27,6 +27,7 @@ struct PatternPassSettings {
   bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
   int refits = 1;                ///< of fitting states to what is shown
   double lambda = 0;             ///< squared luma levels that a bit is worth
+  double key_interval = 0;       ///< EncoderSettings::key_interval
 };
 
 /// Replaces the motion of a segment by one that suits the patterns that it is drawn from.
@@ -37,6 +38,10 @@ class PatternPass {
   /// @param rest  seen state of pattern 0 as coded
   PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
 
+  /// Another scene begins; the segment before has ended.
+  /// @param rest  seen state of its pattern 0 as coded
+  void begin_scene(const CodedState& rest);
+
   /// The next picture of the scene.
   Result<void> add(const Picture& picture);
   /// The picture added next begins another shot.
@@ -46,7 +51,11 @@ class PatternPass {
   void add(std::span<const State> states, std::vector<std::uint8_t> payload);
 
   /// Whether the segment should end with the group added last.
-  [[nodiscard]] bool segment_ends() const;
+  /// @param next  pictures of the group after it
+  [[nodiscard]] bool segment_ends(std::size_t next) const;
+
+  /// Of the segment so far.
+  [[nodiscard]] std::size_t pictures() const { return segment_.states.size(); }
 
   /// Patterns that the decoder keeps.
   [[nodiscard]] std::int32_t store() const { return store_; }

@@ -28,6 +28,11 @@ void ScenePackets::start(const SceneHead& head) {
   started_ = true;
 }
 
+void ScenePackets::begin_again() {
+  assert(started_ && held_back_.empty());
+  started_ = false;
+}
+
 std::vector<std::uint8_t> ScenePackets::take() {
   return std::exchange(ready_, {});
 }

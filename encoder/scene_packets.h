@@ -24,6 +24,8 @@ class ScenePackets {
   /// Writes a packet; the scene has started.
   void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
+  /// Another scene begins: holds back until it has started. No motion is held back.
+  void begin_again();
 
   /// Bytes that are ready.
   [[nodiscard]] std::size_t waiting() const { return ready_.size(); }

@@ -16,10 +16,12 @@ constexpr double kLookaheadSeconds = 2;
 
 SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& settings)
     : nominal_duration(fbs::nominal_duration(format.frame_rate)) {
-  const double fps = static_cast<double>(format.frame_rate.num) / static_cast<double>(format.frame_rate.den);
+  const double fps = fps_of(format);
   group_pictures = settings.group_pictures > 0
                        ? settings.group_pictures
                        : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
+  if (settings.key_interval > 0)
+    group_pictures = std::clamp<std::size_t>(std::lround(fps * settings.key_interval), 1, group_pictures);
   lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
 }
 

@@ -8,6 +8,11 @@
 
 namespace fbs {
 
+/// Pictures per second.
+[[nodiscard]] inline double fps_of(const VideoFormat& format) {
+  return static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
+}
+
 struct SceneTiming {
   std::size_t group_pictures;      ///< pictures in a motion packet, after the first, which has its own
   std::uint64_t lookahead;         ///< pictures that are seen before the scene's head is written

@@ -164,7 +164,7 @@ TEST(PatternPass, SegmentEndsBeforeTooManyPicturesWait) {
       PatternPass pass(format, settings, {});
       const std::vector<State> group(kMaxGroupPictures);
       int pictures = 0;
-      while (!pass.segment_ends() && pictures < 2 * kMaxWaitingPictures) {
+      while (!pass.segment_ends(kMaxGroupPictures) && pictures < 2 * kMaxWaitingPictures) {
         pass.add(group, {});
         pictures += kMaxGroupPictures;
       }
