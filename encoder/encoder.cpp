@@ -23,7 +23,7 @@ struct Encoder::Impl {
   FaceFinder finder;
   std::unique_ptr<SceneEncoder> scene;
   bool face_seen = false;
-  std::uint64_t pictures = 0;
+  StreamPosition position;  ///< behind the last picture
   std::vector<std::uint8_t> ready;
   PictureAnalysis nothing;
 
@@ -36,8 +36,8 @@ struct Encoder::Impl {
   [[nodiscard]] std::optional<Marks> look_for_face(const Picture& picture) const {
     if (settings.marks) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
-    const auto effort =
-        pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes;
+    const auto effort = position.pictures % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes
+                                                                 : FaceFinder::Effort::kUsualSizes;
     const auto faces = finder.find(picture, number + 1, effort);
     if (faces.size() <= number) return std::nullopt;
     return marks_of(faces[number]);
@@ -48,8 +48,8 @@ struct Encoder::Impl {
       if (auto ended = scene->finish(); !ended) return ended;
       take_from_scene();
     }
-    auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks)
-                       : StillScene::begin(format, settings, picture);
+    auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks, position)
+                       : StillScene::begin(format, settings, picture, position);
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
     face_seen = face_seen || marks.has_value();
@@ -80,7 +80,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
-  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), {}, false, 0, {}, {}});
+  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), {}, false, {}, {}, {}});
   write_signature(impl->ready);
   return Encoder(std::move(impl));
 }
@@ -89,25 +89,26 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   Impl& i = *impl_;
   if (picture.width() != i.format.width || picture.height() != i.format.height)
     return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
-  if (!i.face_seen && i.pictures % kSearchEvery == 0) {
+  if (!i.face_seen && i.position.pictures % kSearchEvery == 0) {
     const auto marks = i.look_for_face(picture);
     if (marks || !i.scene)
       if (auto begun = i.begin_scene(picture, marks); !begun) return begun;
   }
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();
-  ++i.pictures;
+  ++i.position.pictures;
+  i.position.time += duration > 0 ? duration : nominal_duration(i.format.frame_rate);
   return {};
 }
 
 Result<void> Encoder::finish() {
   Impl& i = *impl_;
-  if (i.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
+  if (i.position.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
   if (!i.face_seen && !i.settings.allow_no_face)
     return fail(ErrorCode::kNoFace, "no face found in any picture");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
-  write_packet(i.ready, PacketType::kEnd, encode_end({i.pictures}));
+  write_packet(i.ready, PacketType::kEnd, encode_end({i.position.pictures}));
   return {};
 }
 

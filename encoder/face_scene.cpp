@@ -87,7 +87,7 @@ struct FaceScene::Parts {
 Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format,
                                                        const EncoderSettings& settings,
                                                        const FaceFinder& finder, const Picture& first,
-                                                       const Marks& marks) {
+                                                       const Marks& marks, const StreamPosition& before) {
   const auto adapted = adapt_head(marks);
   if (!adapted) return fail(adapted.error());
   auto geometry = encode_geometry(adapted->geometry);
@@ -103,6 +103,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   if (!coded) return fail(coded.error());
 
   Scene scene;
+  scene.setup.before = before;
   scene.setup.format = format;
   scene.setup.parts = parts_of(settings);
   scene.setup.steps = rate->point.steps;

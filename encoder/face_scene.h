@@ -22,10 +22,11 @@ class FaceScene : public SceneEncoder {
  public:
   /// @param finder  used again when the face is lost; must outlive the scene
   /// @param marks   on the first picture
+  /// @param before  where in the stream the scene begins
   static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
                                                      const EncoderSettings& settings,
                                                      const FaceFinder& finder, const Picture& first,
-                                                     const Marks& marks);
+                                                     const Marks& marks, const StreamPosition& before = {});
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   Result<void> finish() override;
