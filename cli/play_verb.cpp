@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
+#include "cli/loss_report.h"
 #include "cli/module.h"
 #include "cli/player.h"
 #include "cli/stream_file.h"
@@ -24,7 +25,7 @@ Result<void> play(const PlayArguments& arguments) {
   // Decode one picture first, so that a bad stream gives an error and no window.
   auto probe = StreamFile::open(arguments.input);
   if (!probe) return fail(probe.error());
-  if (auto first = probe->next(); !first) return fail(first.error());
+  if (auto first = LossReport().next(*probe); !first) return fail(first.error());
   // highgui aborts the program when there is no display.
   if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: no display");
   try {
