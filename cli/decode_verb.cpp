@@ -12,6 +12,8 @@ namespace fbs::cli {
 Result<Outcome> run_decode(const DecodeArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
+  if (arguments.from > 0)
+    if (auto sought = file->seek(ticks(arguments.from)); !sought) return fail(sought.error());
   StreamDecoder& decoder = file->decoder();
 
   std::unique_ptr<VideoSink> sink;
@@ -25,8 +27,9 @@ Result<Outcome> run_decode(const DecodeArguments& arguments) {
     if (*status == DecodeStatus::kEnd) break;
     if (!sink) {
       // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
-      begin = static_cast<std::int64_t>(decoder.start().time);
-      auto opened = open_video_sink(arguments.output, decoder.format(), {arguments.sound});
+      begin = static_cast<std::int64_t>(arguments.from > 0 ? decoder.position().time : decoder.start().time);
+      auto opened = open_video_sink(arguments.output, decoder.format(),
+                                    {arguments.sound, arguments.from > 0 ? begin : 0});
       if (!opened) return fail(opened.error());
       sink = std::move(*opened);
     }

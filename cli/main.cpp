@@ -19,6 +19,7 @@ using fbs::cli::Outcome;
 using fbs::cli::PlayArguments;
 
 constexpr int kFailed = 2;
+constexpr double kMaxSeconds = 1e8;  // of --from: three years
 
 constexpr const char* kAbout =
     "fbs, a video codec for talking heads. It sends a picture of the person once, then only the motion.\n";
@@ -31,6 +32,7 @@ constexpr const char* kExamples =
     "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
+    "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
     "  fbs inspect talk.fbs                            size of each part of the stream\n"
@@ -57,6 +59,12 @@ using Run = std::function<fbs::Result<Outcome>()>;
 
 fbs::Result<Outcome> complete(const fbs::Result<void>& result) {
   return result.map([] { return Outcome::kComplete; });
+}
+
+void add_from(CLI::App& verb, double& from) {
+  verb.add_option("--from", from, "Begin with the picture of this time")
+      ->check(CLI::Range(0.0, kMaxSeconds))
+      ->type_name("SECONDS");
 }
 
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
@@ -115,6 +123,7 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
                    ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
       ->required();
   verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
+  add_from(*verb, a.from);
   verb->add_flag(
       "--keep-going", a.keep_going,
       "Write all that can be decoded of a damaged or cut stream, and repeat pictures in the place of "
@@ -129,6 +138,7 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
   CLI::App* verb = app.add_subcommand(
       "play", "Play a stream in a window (space: pause, .: step, p: patterns, r: restart, q: quit)");
   verb->add_option("INPUT", play.input, "Stream to play")->required();
+  add_from(*verb, play.from);
   verb->callback([&] { run = [&] { return complete(run_play(play)); }; });
 
   verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");

@@ -43,6 +43,7 @@ struct EncodeArguments {
 struct DecodeArguments {
   std::string input, output;
   std::string sound;        ///< file whose sound is copied into the output
+  double from = 0;          ///< seconds; where to begin
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
   bool quiet = false;
 };
@@ -66,6 +67,7 @@ struct EvaluateArguments {
 
 struct PlayArguments {
   std::string input;
+  double from = 0;  ///< seconds; where to begin
 };
 
 /// Error texts are complete lines for the user: which file, and what is wrong with it.
