@@ -1,5 +1,7 @@
 """A stream of two scenes: joined in the middle, begun at a time, damaged in the first scene."""
-from harness import (LITTLE_LOST, MATERIAL, MOTION, SETUP, TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, flat_y4m,
+import json
+
+from harness import (LITTLE_LOST, MATERIAL, MOTION, SETUP, TALK_FBS, TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, flat_y4m,
                      packets)
 
 FIRST, ALL = 10, 187  # pictures: the encoder looks for a face in every fifth, and the first seven are grey
@@ -18,6 +20,15 @@ class Scenes(ProgramTest):
         self.whole = self.decoded(self.path).pictures
         self.assertEqual(len(self.whole), ALL)
         self.setups = [begin for kind, begin, _ in packets(self.stream) if kind == SETUP]
+
+    def test_scenes_are_listed(self):
+        scenes = json.loads(self.succeed("inspect", self.path, "--json"))["scenes"]
+        self.assertEqual([(s["picture"], s["seconds"], s["face"], s["offset"]) for s in scenes],
+                         [(0, 0, False, 4), (FIRST, FIRST / 30, True, self.setups[1])])
+        self.assertEqual(scenes[0]["bytes"], self.setups[1] - 4)
+        text = self.succeed("inspect", self.path).decode()
+        self.assertIn("scenes", text)
+        self.assertEqual(len(json.loads(self.succeed("inspect", TALK_FBS, "--json"))["scenes"]), 1)
 
     def test_begins_at_any_time(self):
         for seconds, first in ((0, 0), (0.01, 0), (0.0334, 1), (0.3, 9), (FIRST / 30, FIRST), (2, 60), (6.22, ALL - 1)):
@@ -47,6 +58,8 @@ class Scenes(ProgramTest):
     def test_joined_stream_begins_with_its_own_time(self):
         self.write("joined.fbs", self.stream[:4] + self.stream[self.setups[1]:])
         self.assertEqual(self.decoded("joined.fbs").pictures, self.whole[FIRST:])
+        scene = json.loads(self.succeed("inspect", "joined.fbs", "--json"))["scenes"][0]
+        self.assertEqual((scene["picture"], scene["offset"]), (FIRST, 4))
         out = self.succeed("decode", "joined.fbs", "-", "--from", 3)
         self.assertEqual(Y4m(out).pictures, self.whole[90:], "the same time as in the whole stream")
 
