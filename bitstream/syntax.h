@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 4;
+inline constexpr int kFormatVersion = 5;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;
@@ -27,6 +27,31 @@ inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose sta
 inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
+inline constexpr std::uint64_t kMaxStreamPictures = std::uint64_t{1} << 40;
+inline constexpr std::uint64_t kMaxStreamTime = std::uint64_t{1} << 53;  ///< 1/90000 s: 3000 years
+/// Times that a decoder shows a picture again in the place of lost ones. SPEC 6.2.
+inline constexpr std::uint64_t kMaxHeldPictures = std::uint64_t{1} << 14;
+
+/// A place between two pictures of a stream: what comes before it.
+struct StreamPosition {
+  std::uint64_t pictures = 0;  ///< 0..kMaxStreamPictures
+  std::uint64_t time = 0;      ///< sum of their durations in 1/90000 s, 0..kMaxStreamTime
+  friend bool operator==(const StreamPosition&, const StreamPosition&) = default;
+
+  /// Goes on behind a picture.
+  constexpr void add(std::uint32_t duration) {
+    ++pictures;
+    time += duration;
+  }
+};
+
+/// Whether so many pictures can take so long: each has a duration of 1..kMaxDuration.
+/// @param pictures  at most kMaxStreamPictures
+/// @param time      1/90000 s
+[[nodiscard]] constexpr bool can_last(std::uint64_t pictures, std::uint64_t time) {
+  return time >= pictures && time <= pictures * kMaxDuration;
+}
+
 /// Duration of a picture in a group without durations, 1..kMaxDuration in 1/90000 s. SPEC 5.5.
 /// @param rate  pictures per second; not zero
 [[nodiscard]] constexpr std::uint32_t nominal_duration(const Rational& rate) {
@@ -37,12 +62,12 @@ inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one
 inline constexpr int kFollowOne = 4;  ///< weight of a surround point that follows a motion entirely
 
 enum class PacketType : std::uint8_t {
-  kSetup = 1,     ///< begins a stream, or a new scene inside one
+  kSetup = 1,     ///< begins a scene, where a viewer can join
   kGeometry = 2,  ///< the adapted head; absent in a scene without a face
   kSurround = 3,  ///< the motion that each point of the surround follows
   kPattern = 4,   ///< one coded picture and its seen state
   kMotion = 5,    ///< the states of a group of pictures
-  kEnd = 6,       ///< optional: number of pictures
+  kEnd = 6,       ///< number of pictures of the stream
   kBlend = 7,     ///< how consecutive pictures are blended from patterns
 };
 
@@ -61,6 +86,7 @@ struct MouthInterior {
 
 /// Begins a scene. All later packets of the scene depend on it.
 struct Setup {
+  StreamPosition before;  ///< where the scene begins; can_last() is true
   VideoFormat format;
   QuantiserSteps steps;
   PartMask parts = kAllParts;  ///< of the state that are sent; the pose always
@@ -131,7 +157,7 @@ struct BlendGroup {
 
 /// Closes a complete file.
 struct End {
-  std::uint64_t pictures = 0;
+  std::uint64_t pictures = 0;  ///< of the stream, 0..kMaxStreamPictures
   friend bool operator==(const End&, const End&) = default;
 };
 

@@ -1,6 +1,7 @@
 // fbs decode: stream to pictures.
-#include <cstdio>
+#include <optional>
 
+#include "cli/loss_report.h"
 #include "cli/progress.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
@@ -8,49 +9,42 @@
 
 namespace fbs::cli {
 
-Result<void> run_decode(const DecodeArguments& arguments) {
+Result<Outcome> run_decode(const DecodeArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
+  if (arguments.from > 0)
+    if (auto sought = file->seek(ticks(arguments.from)); !sought) return fail(sought.error());
   StreamDecoder& decoder = file->decoder();
 
   std::unique_ptr<VideoSink> sink;
   Picture picture;
-  std::int64_t pts = 0;
-  int faults = 0;
+  std::int64_t begin = 0;  // time in the stream that is 0 in the output
   Progress progress("decoding", std::nullopt, arguments.quiet);
+  LossReport losses(progress);
   for (;;) {
-    auto status = file->next();
-    if (!status) {
-      if (!arguments.keep_going || status.error().code == ErrorCode::kIo ||
-          status.error().code == ErrorCode::kNotFbs)
-        return fail(status.error());
-      progress.finish();
-      std::fprintf(stderr, "fbs: %s; continuing\n", status.error().text.c_str());
-      if (status.error().code == ErrorCode::kTruncated) break;
-      if (++faults >= 1000)
-        return fail(ErrorCode::kInvalidStream, file->name() + ": too many errors, giving up");
-      continue;
-    }
+    const auto status = arguments.keep_going ? losses.next(*file) : file->next();
+    if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
     if (!sink) {
-      auto opened = open_video_sink(arguments.output, decoder.format(), {arguments.sound});
+      // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
+      begin = static_cast<std::int64_t>(arguments.from > 0 ? decoder.position().time : decoder.start().time);
+      auto opened = open_video_sink(arguments.output, decoder.format(),
+                                    {arguments.sound, arguments.from > 0 ? begin : 0});
       if (!opened) return fail(opened.error());
       sink = std::move(*opened);
     }
-    if (auto drawn = decoder.render(picture); !drawn) return drawn;
-    if (auto written = sink->write(picture, pts); !written) return written;
-    pts += decoder.duration();
+    if (!decoder.held() || picture.empty())
+      if (auto drawn = decoder.render(picture); !drawn) return fail(drawn.error());
+    const std::int64_t pts = static_cast<std::int64_t>(decoder.position().time) - begin;
+    if (auto written = sink->write(picture, pts); !written) return fail(written.error());
     progress.update(static_cast<std::int64_t>(decoder.pictures()));
   }
   if (!sink) return fail(ErrorCode::kInvalidStream, file->name() + ": contains no pictures");
+  if (!arguments.keep_going && !decoder.announced_pictures())
+    return fail(ErrorCode::kTruncated, file->name() + ": " + missing_end_text(decoder));
   progress.finish();
-  if (auto finished = sink->finish(); !finished) return finished;
-  const auto announced = decoder.announced_pictures();
-  if (announced && *announced != decoder.pictures())
-    std::fprintf(stderr, "fbs: %s: %llu of %llu pictures missing\n", file->name().c_str(),
-                 static_cast<unsigned long long>(*announced - decoder.pictures()),
-                 static_cast<unsigned long long>(*announced));
-  return {};
+  if (auto finished = sink->finish(); !finished) return fail(finished.error());
+  return arguments.keep_going ? losses.finish(*file) : Outcome::kComplete;
 }
 
 }  // namespace fbs::cli

@@ -11,6 +11,7 @@
 #include "cli/pattern_use.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
+#include "decoder/scene_index.h"
 
 namespace fbs::cli {
 namespace {
@@ -30,6 +31,8 @@ struct Summary {
   std::uint64_t pictures = 0;
   double seconds = 0;
   std::vector<PatternSummary> patterns;  ///< in the order they came
+  std::vector<SceneEntry> scenes;
+  bool ended = false;  ///< has an end packet
   bool face = false;
   PartBitsX256 motion{};
 };
@@ -60,11 +63,25 @@ nlohmann::json to_json(const PatternSummary& p) {
           {"share", share}};
 }
 
+double seconds_of(std::uint64_t time) {
+  return static_cast<double>(time) / kTicksPerSecond;
+}
+
+nlohmann::json to_json(const SceneEntry& s) {
+  return {{"picture", s.before.pictures},
+          {"seconds", seconds_of(s.before.time)},
+          {"offset", s.offset},
+          {"bytes", s.bytes},
+          {"face", s.face}};
+}
+
 nlohmann::json to_json(const Summary& s) {
   nlohmann::json by_part;
   for (const auto& [part, bytes] : motion_by_part(s)) by_part[part] = std::lround(bytes);
   nlohmann::json patterns = nlohmann::json::array();
   for (const PatternSummary& p : s.patterns) patterns.push_back(to_json(p));
+  nlohmann::json scenes = nlohmann::json::array();
+  for (const SceneEntry& scene : s.scenes) scenes.push_back(to_json(scene));
   return {{"bytes", byte_count_json(s.bytes)},
           {"motion", by_part},
           {"frames", s.pictures},
@@ -74,6 +91,8 @@ nlohmann::json to_json(const Summary& s) {
           {"seconds", s.seconds},
           {"pattern_count", s.patterns.size()},
           {"patterns", patterns},
+          {"scenes", scenes},
+          {"ended", s.ended},
           {"face", s.face},
           {"steps",
            {{"rotation", s.steps.rotation},
@@ -109,6 +128,12 @@ void print(const std::string& name, const Summary& s) {
                   s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
   line("other", b.other);
   line("total", b.total);
+  std::printf("  scenes: %zu%s\n", s.scenes.size(), s.ended ? "" : "; no end packet: cut, or not ended yet");
+  for (const SceneEntry& scene : s.scenes)
+    std::printf("    %-14s %9llu bytes %9.2f s, at byte %llu, %s\n",
+                ("picture " + std::to_string(scene.before.pictures)).c_str(),
+                static_cast<unsigned long long>(scene.bytes), seconds_of(scene.before.time),
+                static_cast<unsigned long long>(scene.offset), scene.face ? "a face" : "no face");
   std::printf("  needed before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
   std::printf(
       "  quantiser steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of "
@@ -134,6 +159,9 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
+  const auto bytes = file->read_all();
+  if (!bytes) return fail(bytes.error());
+  decoder.feed(*bytes);
   decoder.count_motion_bits();
   decoder.record_patterns();
   PatternUse use(decoder);
@@ -149,6 +177,8 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   s.format = decoder.format();
   s.pictures = decoder.pictures();
   s.patterns = patterns_of(decoder, use);
+  s.scenes = index_scenes(*bytes);
+  s.ended = decoder.announced_pictures().has_value();
   s.face = decoder.scene().geometry.has_value();
   s.steps = decoder.scene().setup.steps;
   s.motion = decoder.motion_bits();

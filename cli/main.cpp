@@ -15,9 +15,11 @@ using fbs::cli::EncodeArguments;
 using fbs::cli::EvaluateArguments;
 using fbs::cli::ExportArguments;
 using fbs::cli::InspectArguments;
+using fbs::cli::Outcome;
 using fbs::cli::PlayArguments;
 
 constexpr int kFailed = 2;
+constexpr double kMaxSeconds = 1e8;  // of --from: three years
 
 constexpr const char* kAbout =
     "fbs, a video codec for talking heads. It sends a picture of the person once, then only the motion.\n";
@@ -30,13 +32,16 @@ constexpr const char* kExamples =
     "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
+    "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
     "  fbs inspect talk.fbs                            size of each part of the stream\n"
     "  fbs export talk.fbs talk.csv                    head pose and 68 landmarks per picture\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
-    "Exit code: 0 on success; 2 on failure, with one line on standard error.";
+    "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
+    "--keep-going\n"
+    "has lost pictures.";
 
 constexpr const char* kHiddenGroup = "for measurements";
 
@@ -50,7 +55,17 @@ class HidingFormatter : public CLI::Formatter {
   }
 };
 
-using Run = std::function<fbs::Result<void>()>;
+using Run = std::function<fbs::Result<Outcome>()>;
+
+fbs::Result<Outcome> complete(const fbs::Result<void>& result) {
+  return result.map([] { return Outcome::kComplete; });
+}
+
+void add_from(CLI::App& verb, double& from) {
+  verb.add_option("--from", from, "Begin with the picture of this time")
+      ->check(CLI::Range(0.0, kMaxSeconds))
+      ->type_name("SECONDS");
+}
 
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("encode", "Encode a video");
@@ -102,7 +117,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_option("--motion-bitrate", a.motion_bitrate)
       ->check(CLI::Range(0.05, 1000.0))
       ->group(kHiddenGroup);
-  verb->callback([&] { run = [&] { return run_encode(a); }; });
+  verb->callback([&] { run = [&] { return complete(run_encode(a)); }; });
 }
 
 void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
@@ -112,7 +127,12 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
                    ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
       ->required();
   verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
-  verb->add_flag("--keep-going", a.keep_going, "Decode as much as possible of a damaged or truncated stream");
+  add_from(*verb, a.from);
+  verb->add_flag(
+      "--keep-going", a.keep_going,
+      "Write all that can be decoded of a damaged or cut stream, and repeat pictures in the place of "
+      "lost ones; exit code 0: nothing lost; 3: less than a tenth of the pictures, or only the end "
+      "is missing; 4: more");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->callback([&] { run = [&] { return run_decode(a); }; });
 }
@@ -122,7 +142,8 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
   CLI::App* verb = app.add_subcommand(
       "play", "Play a stream in a window (space: pause, .: step, p: patterns, r: restart, q: quit)");
   verb->add_option("INPUT", play.input, "Stream to play")->required();
-  verb->callback([&] { run = [&] { return run_play(play); }; });
+  add_from(*verb, play.from);
+  verb->callback([&] { run = [&] { return complete(run_play(play)); }; });
 
   verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
   verb->add_option("SOURCE", evaluate.source, "Source video")->required();
@@ -133,17 +154,17 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
       ->expected(1, 16);
   verb->add_flag("--json", evaluate.json, "Print JSON");
   verb->add_flag("--quiet", evaluate.quiet, "Print no progress bar");
-  verb->callback([&] { run = [&] { return run_evaluate(evaluate); }; });
+  verb->callback([&] { run = [&] { return complete(run_evaluate(evaluate)); }; });
 
   verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
   verb->add_option("INPUT", inspect.input, "Stream to inspect, or - for standard input")->required();
   verb->add_flag("--json", inspect.json, "Print JSON");
-  verb->callback([&] { run = [&] { return run_inspect(inspect); }; });
+  verb->callback([&] { run = [&] { return complete(run_inspect(inspect)); }; });
 
   verb = app.add_subcommand("export", "Write head pose and landmarks of every picture as a table");
   verb->add_option("INPUT", table.input, "Stream to export, or - for standard input")->required();
   verb->add_option("OUTPUT", table.output, "Table to write (.csv)")->required();
-  verb->callback([&] { run = [&] { return run_export(table); }; });
+  verb->callback([&] { run = [&] { return complete(run_export(table)); }; });
 }
 
 int run_program(int argc, char** argv) {
@@ -171,7 +192,7 @@ int run_program(int argc, char** argv) {
     return kFailed;
   }
   const auto result = run();
-  if (result) return 0;
+  if (result) return static_cast<int>(*result);
   std::fprintf(stderr, "fbs: %s\n", result.error().text.c_str());
   return kFailed;
 }

@@ -24,7 +24,7 @@ double PatternUse::share(std::size_t pattern, Region region) const {
 }
 
 double PatternUse::seconds(std::size_t pattern) const {
-  const std::uint64_t picture = decoder_.pattern_records()[pattern].picture;
+  const std::uint64_t picture = decoder_.pattern_records()[pattern].picture - decoder_.start().pictures;
   return picture < times_.size() ? times_[picture] : end_;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
+#include "cli/loss_report.h"
 #include "cli/module.h"
 #include "cli/player.h"
 #include "cli/stream_file.h"
@@ -20,18 +21,26 @@ bool has_display() {
   return set("DISPLAY") || set("WAYLAND_DISPLAY") || set("QT_QPA_PLATFORM");
 }
 
+/// At the picture to begin with.
+Result<StreamFile> open(const PlayArguments& arguments) {
+  auto file = StreamFile::open(arguments.input);
+  if (file && arguments.from > 0)
+    if (auto sought = file->seek(ticks(arguments.from)); !sought) return fail(sought.error());
+  return file;
+}
+
 Result<void> play(const PlayArguments& arguments) {
   // Decode one picture first, so that a bad stream gives an error and no window.
-  auto probe = StreamFile::open(arguments.input);
+  auto probe = open(arguments);
   if (!probe) return fail(probe.error());
-  if (auto first = probe->next(); !first) return fail(first.error());
+  if (auto first = LossReport().next(*probe); !first) return fail(first.error());
   // highgui aborts the program when there is no display.
   if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: no display");
   try {
     Player player("fbs: " + arguments.input);
     std::fprintf(stderr, "%s\n", Player::kKeys);
     for (;;) {
-      auto file = StreamFile::open(arguments.input);
+      auto file = open(arguments);
       if (!file) return fail(file.error());
       auto left = player.show(*file);
       if (!left) return fail(left.error());

@@ -22,6 +22,7 @@ Player::Player(std::string window) : window_(std::move(window)) {
 Result<Player::Leave> Player::show(StreamFile& file) {
   file.decoder().record_patterns();
   paused_ = ended_ = false;
+  losses_ = {};
   due_ = Clock::now();
   for (;;) {
     if (auto advanced = advance(file); !advanced) return fail(advanced.error());
@@ -34,12 +35,15 @@ Result<Player::Leave> Player::show(StreamFile& file) {
 
 Result<void> Player::advance(StreamFile& file) {
   StreamDecoder& decoder = file.decoder();
-  auto status = file.next();
+  auto status = losses_.next(file);
   if (!status) return fail(status.error());
   ended_ = *status == DecodeStatus::kEnd;
   if (ended_ && decoder.pictures() == 0)
     return fail(ErrorCode::kInvalidStream, file.name() + ": contains no pictures");
-  if (ended_) return {};
+  if (ended_) {
+    losses_.finish(file);
+    return {};
+  }
   Picture picture;
   if (auto drawn = decoder.render(picture); !drawn) return fail(drawn.error());
   image_ = display_image(picture, decoder.format());

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "cli/loss_report.h"
 #include "cli/stream_file.h"
 
 namespace fbs::cli {
@@ -19,8 +20,9 @@ class Player {
   explicit Player(std::string window);
 
   enum class Leave : std::uint8_t { kQuit, kRestart };
-  /// Shows the stream once, then its last picture, until the user leaves.
-  /// @param file  at its beginning
+  /// Shows the stream once, then its last picture, until the user leaves. Goes on after damage, and says at
+  /// the end on standard error what was lost.
+  /// @param file  before its first next()
   Result<Leave> show(StreamFile& file);
 
  private:
@@ -41,6 +43,7 @@ class Player {
   std::string window_;
   bool shows_patterns_ = false;
   cv::Mat image_;  ///< the current picture, enlarged
+  LossReport losses_;
   bool paused_ = false, ended_ = false;
   Clock::time_point due_;  ///< when the next picture is shown
 };

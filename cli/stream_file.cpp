@@ -6,9 +6,26 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <system_error>
 
+#include "decoder/scene_index.h"
+
 namespace fbs::cli {
+namespace {
+
+constexpr std::size_t kBufferSize = 1 << 16;
+
+/// @param length  of the stream, 1/90000 s
+Error past_the_end(const std::string& name, std::uint64_t length) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "nothing there: the stream is %.2f s long",
+                static_cast<double>(length) / kTicksPerSecond);
+  return {ErrorCode::kInvalidArgument, name + ": --from: " + text.data()};
+}
+
+}  // namespace
 
 StreamFile::Descriptor::~Descriptor() {
   if (number_ > STDIN_FILENO) ::close(number_);
@@ -28,17 +45,74 @@ Result<StreamFile> StreamFile::open(const std::string& name) {
 Result<DecodeStatus> StreamFile::next() {
   for (;;) {
     auto status = decoder_.next();
-    if (!status) return fail(about_file(name_, status.error()));
-    if (*status != DecodeStatus::kNeedMore) return status;
-    std::array<std::uint8_t, 1 << 16> buffer;
+    if (!status) {
+      Error error = status.error();
+      error.byte_offset += skipped_;
+      return fail(about_file(name_, error));
+    }
+    const std::uint64_t end = decoder_.position().time + decoder_.duration();
+    switch (*status) {
+      case DecodeStatus::kPicture:
+        if (end <= from_) continue;
+        from_ = 0;
+        return status;
+      case DecodeStatus::kEnd:
+        if (from_ > 0 && decoder_.pictures() > 0) return fail(past_the_end(name_, end));
+        return status;
+      case DecodeStatus::kNeedMore:
+        if (auto read = read_more(); !read) return fail(read.error());
+    }
+  }
+}
+
+Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
+  for (;;) {
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
-    if (n > 0)
-      decoder_.feed(std::span(buffer).first(n));
-    else if (n == 0)
-      decoder_.close();
-    else if (errno != EINTR)
+    if (n >= 0) return static_cast<std::size_t>(n);
+    if (errno != EINTR)
       return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::generic_category().message(errno));
   }
+}
+
+Result<void> StreamFile::read_more() {
+  std::array<std::uint8_t, kBufferSize> buffer;
+  const auto n = read(buffer);
+  if (!n) return fail(n.error());
+  if (*n > 0)
+    decoder_.feed(std::span(buffer).first(*n));
+  else
+    decoder_.close();
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> StreamFile::read_all() {
+  std::vector<std::uint8_t> bytes;
+  for (;;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kBufferSize);
+    const auto n = read(std::span(bytes).subspan(size));
+    if (!n) return fail(n.error());
+    bytes.resize(size + *n);
+    if (*n == 0) return bytes;
+  }
+}
+
+Result<void> StreamFile::seek(std::uint64_t time) {
+  const auto bytes = read_all();
+  if (!bytes) return fail(bytes.error());
+  const auto scenes = index_scenes(*bytes);
+  const SceneEntry* const scene = scene_at(scenes, time);
+  if (scene != nullptr) {
+    decoder_.feed(kSignature);
+    skipped_ = scene->offset - kSignature.size();
+  }
+  decoder_.feed(std::span(*bytes).subspan(scene != nullptr ? scene->offset : 0));
+  from_ = time;
+  return {};
+}
+
+std::uint64_t ticks(double seconds) {
+  return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 
 Error about_file(const std::string& name, const Error& error) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "decoder/stream_decoder.h"
 
@@ -14,13 +15,27 @@ class StreamFile {
  public:
   static Result<StreamFile> open(const std::string& name);
 
-  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore.
+  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore. After seek() kInvalidArgument
+  /// if the stream ends before that time.
   Result<DecodeStatus> next();
+
+  /// Joins the stream at the last scene that begins at or before `time`; next() leaves out pictures that end
+  /// before. Reads the whole stream into memory. Only before the first next().
+  /// @param time  1/90000 s, as in StreamDecoder::position()
+  Result<void> seek(std::uint64_t time);
+
+  /// Reads all that has not been read yet, and does not feed it to the decoder.
+  Result<std::vector<std::uint8_t>> read_all();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
+  /// @return number of bytes; 0 at the end
+  Result<std::size_t> read(std::span<std::uint8_t> buffer);
+  /// Feeds the decoder with the next bytes of the file.
+  Result<void> read_more();
+
   /// A file descriptor, closed by the destructor unless it is standard input.
   class Descriptor {
    public:
@@ -40,7 +55,12 @@ class StreamFile {
   std::string name_;
   Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on what a pipe has
   StreamDecoder decoder_;
+  std::uint64_t skipped_ = 0;  ///< bytes of the file that the decoder does not get
+  std::uint64_t from_ = 0;     ///< time to be reached, 1/90000 s; 0: reached
 };
+
+/// Seconds, from 0 to 1e8, in 1/90000 s.
+[[nodiscard]] std::uint64_t ticks(double seconds);
 
 /// "NAME: text" or "NAME: text (at byte N)".
 [[nodiscard]] Error about_file(const std::string& name, const Error& error);

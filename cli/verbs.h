@@ -10,6 +10,14 @@
 
 namespace fbs::cli {
 
+/// How a verb ended that did not fail; the value is the exit code of the program.
+enum class Outcome : std::uint8_t {
+  kComplete = 0,
+  kLittleLost =
+      3,          ///< decode --keep-going: less than a tenth of the pictures, or an unknown number at the end
+  kMuchLost = 4,  ///< decode --keep-going: a tenth of the pictures or more
+};
+
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
@@ -36,6 +44,7 @@ struct EncodeArguments {
 struct DecodeArguments {
   std::string input, output;
   std::string sound;        ///< file whose sound is copied into the output
+  double from = 0;          ///< seconds; where to begin
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
   bool quiet = false;
 };
@@ -59,11 +68,12 @@ struct EvaluateArguments {
 
 struct PlayArguments {
   std::string input;
+  double from = 0;  ///< seconds; where to begin
 };
 
 /// Error texts are complete lines for the user: which file, and what is wrong with it.
 Result<void> run_encode(const EncodeArguments& arguments);
-Result<void> run_decode(const DecodeArguments& arguments);
+Result<Outcome> run_decode(const DecodeArguments& arguments);
 Result<void> run_inspect(const InspectArguments& arguments);
 Result<void> run_export(const ExportArguments& arguments);
 Result<void> run_evaluate(const EvaluateArguments& arguments);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "bitstream/payload/end_payload.h"
@@ -13,7 +14,7 @@
 namespace fbs {
 namespace {
 
-constexpr const char* kNoPicture = "no picture of the current scene has been decoded yet";
+constexpr const char* kNoPicture = "no picture has been decoded yet";
 
 /// Adds where in the stream the packet began.
 tl::unexpected<Error> at(const Packet& packet, Error error) {
@@ -36,16 +37,23 @@ void StreamDecoder::close() {
 }
 
 Result<DecodeStatus> StreamDecoder::next() {
-  while (!timeline_.has_next()) {
+  for (;;) {
+    if (timeline_.has_next()) return show(timeline_.next());
+    if (clock_.is_behind()) return hold();
+    if (next_scene_) begin_scene();
     auto read = damaged_ ? reader_.resync() : reader_.next();
     if (!read) {
       damaged_ = true;
-      lose();
+      // Without a signature the stream is joined in its middle: nothing of it is known to be lost.
+      if (read.error().code == ErrorCode::kNotFbs)
+        lost_ = true;
+      else
+        lose();
       return fail(read.error());
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
-      if (!has_setup_ && !damaged_ && !std::exchange(missing_setup_reported_, true))
+      if (!has_setup_ && !lost_ && !std::exchange(missing_setup_reported_, true))
         return fail(ErrorCode::kTruncated, "the stream ends before its setup", reader_.offset());
       return DecodeStatus::kEnd;
     }
@@ -53,22 +61,36 @@ Result<DecodeStatus> StreamDecoder::next() {
     count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
   }
-  const Timeline::Entry picture = timeline_.next();
+}
+
+DecodeStatus StreamDecoder::show(const Timeline::Entry& picture) {
   state_ = picture.state;
+  shown_scene_.reset();
+  kept_.reset();
+  position_ = clock_.now();
   duration_ = picture.duration;
+  held_ = false;
+  clock_.show(duration_);
   ++pictures_;
-  announced_picture_ = true;
+  return DecodeStatus::kPicture;
+}
+
+DecodeStatus StreamDecoder::hold() {
+  position_ = clock_.now();
+  duration_ = clock_.hold(nominal_duration(format().frame_rate));
+  held_ = true;
+  ++pictures_;
   return DecodeStatus::kPicture;
 }
 
 Result<void> StreamDecoder::render(Picture& out) {
-  if (!announced_picture_) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  return renderer_.render(scene_, state_, out);
+  if (pictures_ == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
+  return renderer_.render(kept_ ? *kept_ : scene(), state_, out);
 }
 
 Result<void> StreamDecoder::render(const PictureView& out) {
-  if (!announced_picture_) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  return renderer_.render(scene_, state_, out);
+  if (pictures_ == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
+  return renderer_.render(kept_ ? *kept_ : scene(), state_, out);
 }
 
 void StreamDecoder::count(const Packet& packet) {
@@ -97,17 +119,84 @@ void StreamDecoder::count(const Packet& packet) {
 }
 
 Result<void> StreamDecoder::take(const Packet& packet) {
-  if (packet.type == PacketType::kSetup) return take_setup(packet);
-  if (packet.type == PacketType::kEnd) {
-    auto end = decode_end(packet.payload);
-    if (!end) return at(packet, end.error());
-    announced_ = end->pictures;
-    return {};
+  switch (packet.type) {
+    case PacketType::kSetup:
+      return take_setup(packet);
+    case PacketType::kEnd:
+      return take_end(packet);
+    case PacketType::kGeometry:
+    case PacketType::kSurround:
+    case PacketType::kPattern:
+    case PacketType::kMotion:
+    case PacketType::kBlend: {
+      if (lost_) return {};  // SPEC 6.2
+      auto taken = take_of_scene(packet);
+      if (!taken) lose();
+      return taken;
+    }
   }
-  const bool known = packet.type == PacketType::kGeometry || packet.type == PacketType::kSurround ||
-                     packet.type == PacketType::kPattern || packet.type == PacketType::kMotion ||
-                     packet.type == PacketType::kBlend;
-  if (!known) return {};  // SPEC 3.1: skipped
+  return {};  // SPEC 3.1: skipped
+}
+
+void StreamDecoder::lose() {
+  clock_.lose();
+  lost_ = true;
+}
+
+// SPEC 6.1
+Result<void> StreamDecoder::take_setup(const Packet& packet) {
+  const bool reported = lost_;
+  lost_ = true;  // until the scene begins
+  auto setup = decode_setup(packet.payload);
+  if (!setup) return at(packet, setup.error());
+  if (has_setup_ && (setup->format.width != format().width || setup->format.height != format().height))
+    return fail(ErrorCode::kUnsupported, "the picture size changes inside the stream", packet.offset);
+  auto patterns = PatternDecoder::create(setup->format.width, setup->format.height);
+  if (!patterns) return at(packet, patterns.error());
+  const auto missing = clock_.go_to(setup->before);
+  if (!missing) return at(packet, missing.error());
+  next_scene_.emplace(NextScene{*setup, std::move(*patterns)});
+  return report_missing(*missing, reported, packet);
+}
+
+// SPEC 4.7
+Result<void> StreamDecoder::take_end(const Packet& packet) {
+  const auto end = decode_end(packet.payload);
+  if (!end) return at(packet, end.error());
+  announced_ = end->pictures;
+  const std::uint32_t nominal = has_setup_ ? nominal_duration(format().frame_rate) : 1;
+  const auto missing = clock_.go_to_end(end->pictures, nominal);
+  if (!missing) return at(packet, missing.error());
+  return report_missing(*missing, lost_, packet);
+}
+
+Result<void> StreamDecoder::report_missing(std::uint64_t missing, bool reported, const Packet& packet) const {
+  const bool left_out = missing > 0 && pictures_ > 0 && !clock_.is_behind();
+  if (missing == 0 || (reported && !left_out)) return {};
+  const std::string text =
+      std::to_string(missing) + (missing == 1 ? " picture is" : " pictures are") + " missing";
+  if (left_out) return fail(ErrorCode::kTooLarge, text + ", too many to be held", packet.offset);
+  return fail(ErrorCode::kInvalidStream, text, packet.offset);
+}
+
+void StreamDecoder::begin_scene() {
+  const bool shown = pictures_ > 0 && !shown_scene_;
+  if (shown) shown_scene_ = std::move(scene_);
+  scene_ = Scene{next_scene_->setup, std::nullopt, {}};
+  patterns_.emplace(std::move(next_scene_->patterns));
+  next_scene_.reset();
+  pattern_packets_ = {};
+  motion_.reset();
+  blend_.reset();
+  timeline_ = {};
+  lost_ = false;
+  bit_counter_.reset();
+  geometry_.reset();
+  surround_.reset();
+  has_setup_ = true;
+}
+
+Result<void> StreamDecoder::take_of_scene(const Packet& packet) {
   if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
   switch (packet.type) {
     case PacketType::kGeometry: {
@@ -122,49 +211,21 @@ Result<void> StreamDecoder::take(const Packet& packet) {
       surround_ = std::move(*surround);
       return {};
     }
-    default: {
-      auto taken = take_dependent(packet);
-      if (!taken) lose();
-      return taken;
-    }
+    case PacketType::kPattern:
+      return take_patterns(packet);
+    case PacketType::kBlend:
+      return take_blend(packet);
+    default:
+      return take_motion(packet);
   }
 }
 
-void StreamDecoder::lose() {
-  if (scene_.patterns.empty()) return;
-  motion_->lose();
-  lost_ = true;
-}
-
-Result<void> StreamDecoder::take_dependent(const Packet& packet) {
-  // SPEC 6: numbers of pictures, and frames that patterns refer to, are unknown after a loss.
-  if (lost_ && (packet.type == PacketType::kPattern || scene_.setup.patterns > 1))
-    return fail(ErrorCode::kInvalidStream, "a packet depends on a missing one", packet.offset);
-  if (packet.type == PacketType::kPattern) return take_patterns(packet);
-  if (packet.type == PacketType::kBlend) return take_blend(packet);
-  return take_motion(packet);
-}
-
-Result<void> StreamDecoder::take_setup(const Packet& packet) {
-  auto setup = decode_setup(packet.payload);
-  if (!setup) return at(packet, setup.error());
-  if (has_setup_ && (setup->format.width != format().width || setup->format.height != format().height))
-    return fail(ErrorCode::kUnsupported, "the picture size changes inside the stream", packet.offset);
-  auto patterns = PatternDecoder::create(setup->format.width, setup->format.height);
-  if (!patterns) return at(packet, patterns.error());
-  patterns_.emplace(std::move(*patterns));
-  pattern_packets_ = {};
-  scene_ = Scene{*setup, std::nullopt, {}};
-  motion_.reset();
-  blend_.reset();
-  timeline_ = {};
-  lost_ = false;
-  scene_begin_ = pictures_;
-  bit_counter_.reset();
-  geometry_.reset();
-  surround_.reset();
-  has_setup_ = true;
-  announced_picture_ = false;
+Result<void> StreamDecoder::keep_picture() {
+  if (pictures_ == 0 || shown_scene_ || kept_) return {};
+  Picture picture;
+  if (auto drawn = render(picture); !drawn) return drawn;
+  kept_ = Scene{scene_.setup, std::nullopt, {}};
+  kept_->patterns.push_back(make_pattern(std::move(picture), state_, std::nullopt));
   return {};
 }
 
@@ -176,6 +237,7 @@ void StreamDecoder::begin_geometry(const State& rest) {
 Result<void> StreamDecoder::take_patterns(const Packet& packet) {
   const auto patterns = pattern_packets_.decode(packet.payload, scene_.setup, timeline_.end());
   if (!patterns) return at(packet, patterns.error());
+  if (auto kept = keep_picture(); !kept) return kept;
   std::vector<bool> reduced;
   for (const PatternSyntax& pattern : *patterns) {
     const auto taken = take_pattern(pattern);
@@ -217,9 +279,9 @@ void StreamDecoder::record(const Packet& packet, std::span<const PatternSyntax> 
   const auto share = [&](std::uint64_t bytes) { return packet.size * bytes / frames; };
   for (std::size_t k = 0; k < patterns.size(); ++k) {
     const std::uint64_t frames_after = frames_before + patterns[k].av1.size();
-    pattern_records_.push_back({patterns[k].slot,
-                                scene_begin_ + static_cast<std::uint64_t>(patterns[k].picture),
-                                share(frames_after) - share(frames_before), reduced[k]});
+    pattern_records_.push_back(
+        {patterns[k].slot, scene_.setup.before.pictures + static_cast<std::uint64_t>(patterns[k].picture),
+         share(frames_after) - share(frames_before), reduced[k]});
     frames_before = frames_after;
   }
 }

@@ -15,6 +15,7 @@
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"
+#include "decoder/stream_clock.h"
 #include "decoder/timeline.h"
 
 namespace fbs {
@@ -50,8 +51,13 @@ enum class DecodeStatus : std::uint8_t {
 ///   decoder.feed(bytes);  decoder.close();
 ///   while (decoder.next() == DecodeStatus::kPicture && decoder.render(picture)) { ... }
 ///
-/// After an error next() goes on with the first packet behind the damage when it is called again, and returns
-/// kEnd when there is none; pictures that were lost are not replaced.
+/// After an error next() goes on with the first scene behind the damage when it is called again, and returns
+/// kEnd when there is none. An error is reported once; what depends on a lost packet is left out in silence.
+/// Where a setup packet or the end packet says that pictures are missing, the last picture is shown again for
+/// each of them, so that the pictures behind keep their numbers and times: at most kMaxHeldPictures in a row
+/// (SPEC 6.2).
+///
+/// A stream may also be joined at any setup packet: feed kSignature, then the stream from there on.
 class StreamDecoder {
  public:
   StreamDecoder();
@@ -69,35 +75,61 @@ class StreamDecoder {
   void record_patterns() { records_patterns_ = true; }
 
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
-  /// of the packet; kTruncated when the stream ends inside a packet or before its setup.
+  /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
+  /// pictures are missing of whose loss no error has told, or when fewer pictures are announced than have
+  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is.
   Result<DecodeStatus> next();
 
-  /// Draws the picture that next() announced; `out` takes the format's size.
-  /// @return kInvalidArgument when there is none: before the first picture of the stream or, behind an error,
-  ///         of a new setup
+  /// Draws the picture that next() announced last; `out` takes the format's size.
+  /// @return kInvalidArgument before the first picture
   [[nodiscard]] Result<void> render(Picture& out);
   /// The same into memory of the caller, whose planes have the format's size.
   [[nodiscard]] Result<void> render(const PictureView& out);
 
+  // Of the picture that next() announced last; a held picture has the state and scene of the one it repeats.
   [[nodiscard]] const State& state() const { return state_; }
-  [[nodiscard]] const Scene& scene() const { return scene_; }  ///< valid from the first picture on
-  [[nodiscard]] const VideoFormat& format() const { return scene_.setup.format; }
-  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }  ///< announced so far
+  [[nodiscard]] const Scene& scene() const { return shown_scene_ ? *shown_scene_ : scene_; }
+  [[nodiscard]] const VideoFormat& format() const { return scene().setup.format; }
+  /// Number of the picture in the stream, from 0, and its time.
+  [[nodiscard]] const StreamPosition& position() const { return position_; }
+  /// Its duration in 1/90000 s.
+  [[nodiscard]] std::uint32_t duration() const { return duration_; }
+  /// Whether the picture before is shown again, in the place of one that is missing.
+  [[nodiscard]] bool held() const { return held_; }
+
+  /// Position of the first picture: not 0, 0 if the stream was joined in its middle.
+  [[nodiscard]] const StreamPosition& start() const { return clock_.start(); }
+  /// Announced so far, held ones too.
+  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }
+  [[nodiscard]] std::uint64_t held_pictures() const { return clock_.held(); }
+  /// Known to be missing between start() and the last setup packet or the end packet, whether held or not.
+  [[nodiscard]] std::uint64_t missing_pictures() const { return clock_.missing(); }
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
   /// Bits of the motion read so far by part; zero unless count_motion_bits() was called.
   [[nodiscard]] const PartBitsX256& motion_bits() const { return motion_bits_; }
   /// In the order they came; empty unless record_patterns() was called.
   [[nodiscard]] const std::vector<PatternRecord>& pattern_records() const { return pattern_records_; }
-  /// Duration of the announced picture in 1/90000 s.
-  [[nodiscard]] std::uint32_t duration() const { return duration_; }
   /// Number of pictures that the end packet announces, when it has been read.
   [[nodiscard]] std::optional<std::uint64_t> announced_pictures() const { return announced_; }
 
  private:
+  struct NextScene {
+    Setup setup;
+    PatternDecoder patterns;
+  };
+
+  DecodeStatus show(const Timeline::Entry& picture);
+  DecodeStatus hold();
   Result<void> take(const Packet& packet);
   Result<void> take_setup(const Packet& packet);
-  /// A packet of the scene whose loss others depend on: pattern, motion or blend.
-  Result<void> take_dependent(const Packet& packet);
+  Result<void> take_end(const Packet& packet);
+  /// Any other packet.
+  Result<void> take_of_scene(const Packet& packet);
+  /// @param reported  whether an error has told of a loss
+  [[nodiscard]] Result<void> report_missing(std::uint64_t missing, bool reported, const Packet& packet) const;
+  void begin_scene();
+  /// Keeps the last picture as it is drawn now: the store changes.
+  Result<void> keep_picture();
   Result<void> take_patterns(const Packet& packet);
   /// @return whether it is coded at reduced size
   Result<bool> take_pattern(const PatternSyntax& pattern);
@@ -112,10 +144,12 @@ class StreamDecoder {
   void count(const Packet& packet);
 
   PacketReader reader_;
-  bool damaged_ = false;
+  bool damaged_ = false;  ///< the reader has to search
   bool missing_setup_reported_ = false;
 
-  Scene scene_;
+  StreamClock clock_;
+  std::optional<NextScene> next_scene_;  ///< begins when the clock is not behind
+  Scene scene_;                          ///< of the last setup packet
   bool has_setup_ = false;
   std::optional<Geometry> geometry_;
   std::optional<SurroundMap> surround_;
@@ -128,12 +162,17 @@ class StreamDecoder {
 
   std::optional<BlendDecoder> blend_;
   Timeline timeline_;  ///< of the scene
-  bool lost_ = false;  ///< a packet of the scene, after its first pattern
+  bool lost_ = false;  ///< a packet since the last setup packet
+
+  // The picture that was announced last.
   State state_;
-  bool announced_picture_ = false;  ///< state_ is one of scene_
+  std::optional<Scene> shown_scene_;  ///< its scene, if that is not scene_
+  std::optional<Scene> kept_;         ///< shows it, if what it was drawn from has changed
+  StreamPosition position_;
   std::uint32_t duration_ = 0;
+  bool held_ = false;
+
   std::uint64_t pictures_ = 0;
-  std::uint64_t scene_begin_ = 0;  ///< pictures_ before the scene
   bool records_patterns_ = false;
   std::vector<PatternRecord> pattern_records_;
   std::optional<std::uint64_t> announced_;

@@ -33,7 +33,8 @@ struct Encoder::Impl {
   bool follows = false;          ///< the shot shows whom the scene follows
   std::uint64_t shot_begin = 0;  ///< number of its first picture
   EncodingReport report{};
-  std::uint64_t lost = 0;  ///< pictures, the last ones, in which the scene's face was not followed
+  StreamPosition position{};  ///< behind the last picture
+  std::uint64_t lost = 0;     ///< pictures, the last ones, in which the scene's face was not followed
   PictureAnalysis nothing{};
 
   void take_from_scene() {
@@ -64,8 +65,8 @@ struct Encoder::Impl {
       if (auto ended = scene->finish(); !ended) return ended;
       take_from_scene();
     }
-    auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks)
-                       : StillScene::begin(format, settings, picture);
+    auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks, position)
+                       : StillScene::begin(format, settings, picture, position);
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
     face_seen = face_seen || marks.has_value();
@@ -142,6 +143,7 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   i.take_from_scene();
   i.lost = i.scene->analysis().followed ? 0 : i.lost + 1;
   ++i.report.pictures;
+  i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
   if (i.lost > 0) ++i.report.without_face;
   return {};
 }

@@ -91,7 +91,7 @@ struct FaceScene::Parts {
 Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format,
                                                        const EncoderSettings& settings,
                                                        const FaceFinder& finder, const Picture& first,
-                                                       const Marks& marks) {
+                                                       const Marks& marks, const StreamPosition& before) {
   const auto adapted = adapt_head(marks);
   if (!adapted) return fail(adapted.error());
   auto geometry = encode_geometry(adapted->geometry);
@@ -107,6 +107,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   if (!coded) return fail(coded.error());
 
   Scene scene;
+  scene.setup.before = before;
   scene.setup.format = format;
   scene.setup.parts = parts_of(settings);
   scene.setup.steps = rate->point.steps;
@@ -141,6 +142,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
                 {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
                  scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),
       motion_(scene_.setup, parts.seen, parts.rate, timing.nominal_duration),
+      position_(scene_.setup.before),
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      parts.eye_distance_px),
       observations_(std::move(parts.observations)),
@@ -171,6 +173,7 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
     if (auto added = second_pass_->patterns.add(picture); !added) return added;
   }
   ++pictures_;
+  position_.add(duration > 0 ? duration : timing_.nominal_duration);
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
   if (!fixed_ && pictures_ >= timing_.lookahead) {
@@ -205,6 +208,7 @@ Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::
     if (!payload) return fail(payload.error());
     pattern_payload_ = std::move(*payload);
   }
+  scene_.setup.before = position_;
   observations_.set_first(picture, rest_state);
   fixed_ = false;
   pictures_ = 0;

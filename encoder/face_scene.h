@@ -22,10 +22,11 @@ class FaceScene : public SceneEncoder {
  public:
   /// @param finder  used again when the face is lost; must outlive the scene
   /// @param marks   on the first picture
+  /// @param before  where in the stream the scene begins
   static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
                                                      const EncoderSettings& settings,
                                                      const FaceFinder& finder, const Picture& first,
-                                                     const Marks& marks);
+                                                     const Marks& marks, const StreamPosition& before = {});
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
@@ -66,6 +67,7 @@ class FaceScene : public SceneEncoder {
   std::vector<std::uint32_t> durations_;  ///< of the same, 1/90000 s; 0: nominal
   std::uint64_t pictures_ = 0;            ///< of the scene
   bool ended_ = false;                    ///< the next picture begins another scene
+  StreamPosition position_;               ///< behind the last picture
 
   MouthColours mouth_colours_;
   SurroundObservations observations_;  ///< empty from start() on

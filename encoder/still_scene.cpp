@@ -19,9 +19,10 @@ StillScene::StillScene(const Setup& setup, const SceneTiming& timing)
     : timing_(timing), parts_(setup.parts), coder_(setup, CodedState{}) {}
 
 Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& format,
-                                                        const EncoderSettings& settings,
-                                                        const Picture& first) {
+                                                        const EncoderSettings& settings, const Picture& first,
+                                                        const StreamPosition& before) {
   Setup setup;
+  setup.before = before;
   setup.format = format;
   setup.parts = mask_of(PartId::kPose);
   FirstPattern pattern(format, first);

@@ -12,8 +12,10 @@ namespace fbs {
 
 class StillScene : public SceneEncoder {
  public:
+  /// @param before  where in the stream the scene begins
   static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
-                                                     const EncoderSettings& settings, const Picture& first);
+                                                     const EncoderSettings& settings, const Picture& first,
+                                                     const StreamPosition& before = {});
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override {}

@@ -21,10 +21,7 @@ class MotionDecoder {
   ///         kInvalidStream  damaged, or not a key group where one is needed
   [[nodiscard]] Result<MotionGroup> decode(std::span<const std::uint8_t> payload);
 
-  /// A packet was lost: only a key group can be read next.
-  void lose() { reference_.needs_key = true; }
-
-  /// True before the first group and after a loss or an error.
+  /// True before the first group and after an error.
   [[nodiscard]] bool needs_key() const { return reference_.needs_key; }
 
  private:

@@ -15,6 +15,7 @@ Result<End> decode_end(std::span<const std::uint8_t> payload) {
   const End end{reader.varint()};  // SPEC 4.7
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "end packet ends early");
   if (reader.malformed()) return fail(ErrorCode::kInvalidStream, "end packet is damaged");
+  if (end.pictures > kMaxStreamPictures) return fail(ErrorCode::kTooLarge, "too many pictures in the stream");
   return end;
 }
 

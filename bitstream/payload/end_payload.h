@@ -13,7 +13,7 @@ namespace fbs {
 [[nodiscard]] std::vector<std::uint8_t> encode_end(const End& end);
 
 /// Bytes after the known fields are ignored.
-/// @return kTruncated or kInvalidStream
+/// @return kTruncated, kInvalidStream, or kTooLarge beyond kMaxStreamPictures
 [[nodiscard]] Result<End> decode_end(std::span<const std::uint8_t> payload);
 
 }  // namespace fbs

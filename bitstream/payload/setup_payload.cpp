@@ -74,6 +74,10 @@ bool is_step(std::int32_t step) {
 }  // namespace
 
 Result<void> check_setup(const Setup& setup) {
+  if (setup.before.pictures > kMaxStreamPictures || setup.before.time > kMaxStreamTime)
+    return fail(ErrorCode::kTooLarge, "too many pictures before the scene");
+  if (!can_last(setup.before.pictures, setup.before.time))
+    return fail(ErrorCode::kInvalidArgument, "pictures before the scene cannot take the time before it");
   const VideoFormat& f = setup.format;
   if (std::max(f.width, f.height) > kMaxPictureSize)
     return fail(ErrorCode::kTooLarge, "picture is too large");
@@ -108,6 +112,8 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   ByteWriter writer(payload);
   writer.varint(kFormatVersion);
   writer.u8(kGenericHeadId);
+  writer.varint(setup.before.pictures);
+  writer.varint(setup.before.time);
   writer.varint(static_cast<std::uint64_t>(setup.format.width));
   writer.varint(static_cast<std::uint64_t>(setup.format.height));
   write_rational(writer, setup.format.frame_rate);
@@ -138,6 +144,8 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (reader.ok() && head != kGenericHeadId) return fail(ErrorCode::kUnsupported, "generic head is unknown");
 
   Setup setup;
+  setup.before.pictures = reader.varint();
+  setup.before.time = reader.varint();
   setup.format.width = to_int(reader.varint());
   setup.format.height = to_int(reader.varint());
   const auto frame_rate = read_rational(reader);

@@ -35,7 +35,7 @@ bool before(const PatternWeight& a, const PatternWeight& b) {
 PictureSources picture_sources(const StreamDecoder& decoder) {
   const Scene& scene = decoder.scene();
   PictureSources out;
-  out.picture = decoder.pictures() == 0 ? 0 : decoder.pictures() - 1;
+  out.picture = decoder.position().pictures;
   out.arrived = decoder.pattern_records().size();
   out.in_slot = numbers_in_slots(decoder);
   if (scene.patterns.empty()) return out;

@@ -28,6 +28,8 @@ class VideoSink {
 
 struct SinkOptions {
   std::string sound_source;  ///< .mp4 and .mkv: file whose sound is copied into the output; none when empty
+  std::int64_t sound_begin =
+      0;  ///< 1/90000 s: sound before this time is left out, and what follows is earlier
 };
 
 /// Opens `output`:

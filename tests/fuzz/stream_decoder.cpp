@@ -1,5 +1,5 @@
-// Bytes to pictures. The checks of packets are corrected first, since no engine guesses a CRC: so payloads
-// are fuzzed too.
+// Bytes to pictures, of which a bounded number is held. The checks of packets are corrected first, since no
+// engine guesses a CRC: so payloads are fuzzed too.
 #include "decoder/stream_decoder.h"
 
 #include <algorithm>
@@ -42,16 +42,27 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fbs::StreamDecoder decoder;
   decoder.feed(bytes);
   decoder.close();
-  fbs::Picture picture;
-  for (std::size_t steps = 0, drawn = 0; drawn < kMaxPictures; ++steps) {
+  fbs::Picture picture, again;
+  std::size_t in_a_row = 0;  // held pictures
+  for (std::size_t steps = 0, drawn = 0; drawn < kMaxPictures;) {
     require(steps < 300 * size + 16, "the decoder does not come to an end");
     const auto status = decoder.next();
     if (!status) {
+      ++steps;
       require(status.error().code != fbs::ErrorCode::kInternal, "internal error");
       continue;
     }
     if (*status == fbs::DecodeStatus::kEnd) break;
     require(*status == fbs::DecodeStatus::kPicture, "a closed stream asks for more");
+    require(decoder.duration() >= 1 && decoder.duration() <= fbs::kMaxDuration, "a duration out of range");
+    if (decoder.held()) {
+      require(drawn > 0 && ++in_a_row <= fbs::kMaxHeldPictures, "too many pictures are held");
+      if (in_a_row > 1) continue;
+      require(decoder.render(again).has_value() && again == picture, "another picture than the last is held");
+      continue;
+    }
+    ++steps;
+    in_a_row = 0;
     if (std::max(decoder.format().width, decoder.format().height) > kMaxSide) break;
     require(decoder.render(picture).has_value(), "an announced picture is not drawn");
     ++drawn;

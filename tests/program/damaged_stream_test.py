@@ -1,5 +1,6 @@
 """Every intact packet of a damaged stream still decodes, and the damage is reported with its position."""
-from harness import BLEND, FAILED, MOTION, PATTERN, TALK_FBS, TALK_ONE_FBS, ProgramTest, Y4m, packets
+from harness import (BLEND, FAILED, LITTLE_LOST, MOTION, MUCH_LOST, PATTERN, TALK_FBS, TALK_ONE_FBS, ProgramTest, Y4m,
+                     packets)
 
 
 class DamagedStream(ProgramTest):
@@ -24,11 +25,11 @@ class DamagedStream(ProgramTest):
             self.use(stream)
             yield
 
-    def keep_going(self, stream):
+    def keep_going(self, stream, code=LITTLE_LOST):
         """Decodes as much as possible. Returns the pictures and the messages."""
         self.write("bad.fbs", stream)
         done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, code, done.stderr)
         return Y4m(done.stdout).pictures, done.stderr.decode()
 
     def damaged(self, packet):
@@ -59,8 +60,14 @@ class DamagedStream(ProgramTest):
 
     def test_stream_without_its_end_packet_shows_all(self):
         for _ in self.of_each_kind_of_stream():
-            pictures, _ = self.keep_going(self.stream[:self.showing[-1][2]] + b"\x06")
-            self.assertEqual(pictures, self.whole.pictures)
+            for end in (b"", b"\x06"):
+                pictures, report = self.keep_going(self.stream[:self.showing[-1][2]] + end)
+                self.assertEqual(pictures, self.whole.pictures)
+                self.assertIn("the end packet is missing: the stream was cut after 120 pictures", report)
+
+    def test_stream_without_its_end_packet_is_an_error(self):
+        self.write("bad.fbs", self.stream[:self.showing[-1][2]])
+        self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", "end packet is missing", "120 pictures"])
 
     def test_cut_at_every_byte_of_a_group_is_reported(self):
         for packet in (self.motion[-1], self.showing[-1], self.of_kind(PATTERN)[-1]):
@@ -74,13 +81,13 @@ class DamagedStream(ProgramTest):
     def test_damaged_group_is_reported_and_those_before_it_shown(self):
         for _ in self.of_each_kind_of_stream():
             for packet in self.motion[1:] + self.showing[1:] + self.of_kind(PATTERN)[1:]:
-                pictures, report = self.keep_going(self.damaged(packet))
                 before, _ = self.keep_going(self.stream[:packet[1]])
-                self.assertEqual(pictures[:len(before)], before)
-                self.assertIn(f"bad.fbs: packet is damaged (at byte {packet[1]})", report)
-                missing = len(self.whole.pictures) - len(pictures)
+                missing = len(self.whole.pictures) - len(before)
                 self.assertGreater(missing, 0)
-                self.assertIn(f"{missing} of {len(self.whole.pictures)} pictures missing", report)
+                pictures, report = self.keep_going(self.damaged(packet), MUCH_LOST if missing >= 12 else LITTLE_LOST)
+                self.assertEqual(pictures, before + [before[-1]] * missing, "the last is not held")
+                self.assertIn(f"bad.fbs: packet is damaged (at byte {packet[1]})", report)
+                self.assertIn(f"damaged places: 1; pictures lost: {missing} of 120, held: {missing}\n", report)
 
     def test_damage_without_keep_going_leaves_nothing(self):
         for _ in self.of_each_kind_of_stream():
@@ -95,7 +102,7 @@ class DamagedStream(ProgramTest):
                 stream[at] ^= 0xFF
                 self.write("bad.fbs", bytes(stream))
                 done = self.fbs("decode", "bad.fbs", "null:", "--keep-going")
-                self.assertIn(done.returncode, (0, FAILED), f"byte {at}")
+                self.assertIn(done.returncode, (FAILED, LITTLE_LOST, MUCH_LOST), f"byte {at}")
                 self.assertTrue(done.stderr, f"byte {at}: not noticed")
 
     def test_doubled_and_dropped_packets_end_well(self):
@@ -105,4 +112,5 @@ class DamagedStream(ProgramTest):
                 for stream in (self.stream[:end] + packet + self.stream[end:], self.stream[:begin] + self.stream[end:],
                                self.stream + self.stream[4:], self.stream + self.stream):
                     self.write("bad.fbs", stream)
-                    self.assertIn(self.fbs("decode", "bad.fbs", "null:", "--keep-going").returncode, (0, FAILED))
+                    self.assertIn(self.fbs("decode", "bad.fbs", "null:", "--keep-going").returncode,
+                                  (0, FAILED, LITTLE_LOST, MUCH_LOST))

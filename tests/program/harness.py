@@ -18,7 +18,8 @@ TALK_Y4M, TALK_FBS, TALK_ONE_FBS, TALK_TRUTH = (
     MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk_one.fbs", "talk.csv"))
 CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
 
-FAILED = 2             # exit code of fbs
+# Exit codes of fbs: failed; decode --keep-going has lost less than a tenth of the pictures, or more.
+FAILED, LITTLE_LOST, MUCH_LOST = 2, 3, 4
 MAX_SECONDS = 240      # for any one command
 
 
@@ -106,7 +107,7 @@ def packets(stream):
     return found
 
 
-PATTERN, MOTION, BLEND = 4, 5, 7  # packet types
+SETUP, PATTERN, MOTION, END, BLEND = 1, 4, 5, 6, 7  # packet types
 
 
 class ProgramTest(unittest.TestCase):

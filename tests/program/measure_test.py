@@ -4,7 +4,7 @@ import json
 import math
 import os
 
-from harness import TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest
+from harness import FAILED, LITTLE_LOST, TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest
 
 PARTS = ("geometry", "patterns", "motion", "index", "other")
 STATE = ("pose", "light", "mouth interior", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze")
@@ -42,8 +42,8 @@ class Measure(ProgramTest):
         startup = json.loads(self.succeed("inspect", TALK_FBS, "--json"))["bytes"]["startup"]
         self.write("enough.fbs", stream[:startup])
         self.write("short.fbs", stream[:startup - 1])
-        self.assertEqual(self.fbs("decode", "enough.fbs", "null:", "--keep-going").returncode, 0)
-        self.assertEqual(self.fbs("decode", "short.fbs", "null:", "--keep-going").returncode, 2)
+        self.assertEqual(self.fbs("decode", "enough.fbs", "null:", "--keep-going").returncode, LITTLE_LOST)
+        self.assertEqual(self.fbs("decode", "short.fbs", "null:", "--keep-going").returncode, FAILED)
 
     def test_inspect_reads_a_pipe(self):
         self.assertEqual(self.succeed("inspect", "-", "--json", stdin=TALK_FBS.read_bytes()),

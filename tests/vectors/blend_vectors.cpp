@@ -266,7 +266,7 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   auto of_one = pieces_of(talk);
   of_one.insert(of_one.begin() + place_of(of_one, PacketType::kMotion, 1),
                 made[place_of(made, PacketType::kBlend)]);
-  invalid("blend_of_one.fbs", joined(of_one), 1);
+  invalid("blend_of_one.fbs", joined(of_one), 20);
   auto unknown_mode = made;
   unknown_mode[place_of(made, PacketType::kBlend)].payload = blend_of_unknown_mode();
   invalid("blend_mode.fbs", joined(unknown_mode), 0);

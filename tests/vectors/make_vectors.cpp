@@ -8,6 +8,7 @@
 #include "encoder/patterns/pattern_encoder.h"
 #include "tests/vectors/blend_vectors.h"
 #include "tests/vectors/limits_vectors.h"
+#include "tests/vectors/scene_vectors.h"
 #include "tests/vectors/vector_tools.h"
 
 namespace fbs {
@@ -23,9 +24,6 @@ void add_good(Folder& folder, const Bytes& talk) {
   folder.add("odd.fbs", encoded(pictures_of(talker_settings(67, 65, 8)), one_pattern()), 8);
   folder.add("one.fbs", encoded(pictures_of(talker_settings(96, 80, 1)), one_pattern()), 1);
 
-  std::vector<Picture> late(6, Picture(96, 80));
-  for (const Picture& p : pictures_of(talker_settings(96, 80, 10))) late.push_back(p);
-  folder.add("late.fbs", encoded(late, one_pattern()), 16);
   EncoderSettings anything = one_pattern();
   anything.allow_no_face = true;
   folder.add("nobody.fbs", encoded(std::vector<Picture>(4, Picture(64, 64)), anything), 4);
@@ -49,7 +47,7 @@ void add_broken(Folder& folder, const Bytes& talk) {
   folder.add("truncated.fbs", {talk.begin(), talk.begin() + third_motion + 5}, 6, "kTruncated");
   Bytes flipped = talk;
   flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
-  folder.add("flipped_bit.fbs", flipped, 1, "kInvalidStream");
+  folder.add("flipped_bit.fbs", flipped, 20, "kInvalidStream");
   const std::string y4m = "YUV4MPEG2 W64 H64 F30:1 Ip A1:1 C420jpeg\nFRAME\n";
   folder.add("not_fbs.fbs", {y4m.begin(), y4m.end()}, 0, "kNotFbs");
 
@@ -61,8 +59,11 @@ void add_broken(Folder& folder, const Bytes& talk) {
   Bytes newer = pieces[0].payload;
   newer[0] = kFormatVersion + 1;
   folder.add("newer.fbs", with(PacketType::kSetup, newer), 0, "kUnsupported");
-  Bytes oversized = {kFormatVersion, kGenericHeadId, 0x80, 0x80, 0x01, 0x80, 0x80, 0x01};  // 16384 x 16384
-  oversized.insert(oversized.end(), pieces[0].payload.begin() + 5, pieces[0].payload.end());
+  Bytes oversized = pieces[0].payload;
+  const auto size = oversized.begin() + 4;  // behind version, head, pictures and time before
+  const Bytes wide = {0x80, 0x80, 0x01};    // 16384
+  oversized.erase(size, size + 3);          // 128 in two bytes, 96 in one
+  for (int side = 0; side < 2; ++side) oversized.insert(oversized.begin() + 4, wide.begin(), wide.end());
   folder.add("oversized.fbs", with(PacketType::kSetup, oversized), 0, "kTooLarge");
   Bytes long_packet = joined({pieces[0]});
   long_packet.insert(long_packet.end(),
@@ -100,9 +101,11 @@ int main(int argc, char** argv) {
   const fbs::Bytes talk =
       fbs::encoded(fbs::pictures_of(fbs::talker_settings(128, 96, 20)), fbs::one_pattern(5));
   fbs::add_good(folder, talk);
+  fbs::add_scenes(folder);
   fbs::add_limits(folder);
   fbs::add_blends(folder);
   fbs::add_broken(folder, talk);
+  fbs::add_broken_scenes(folder);
   fbs::add_broken_blends(folder, talk);
   return 0;
 }

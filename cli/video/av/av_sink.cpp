@@ -98,7 +98,7 @@ Result<void> AvSink::open(const std::string& output, const SinkOptions& options)
     return muxer_->error("out of memory");
   }
   if (!options.sound_source.empty()) {
-    auto sound = AvSound::open(options.sound_source, *muxer_);
+    auto sound = AvSound::open(options.sound_source, options.sound_begin, *muxer_);
     if (!sound) return fail(sound.error());
     sound_ = std::move(*sound);
   }

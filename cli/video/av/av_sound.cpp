@@ -4,7 +4,7 @@
 
 namespace fbs {
 
-Result<AvSound> AvSound::open(const std::string& source, AvMuxer& muxer) {
+Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvMuxer& muxer) {
   AvSound sound;
   sound.name_ = source;
   int code = 0;
@@ -17,6 +17,11 @@ Result<AvSound> AvSound::open(const std::string& source, AvMuxer& muxer) {
   }
   sound.from_ = sound.container_->streams[index];
   sound.packet_.reset(av_packet_alloc());
+  sound.begins_later_ = begin > 0;
+  const AVRational base = sound.from_->time_base;
+  sound.shift_ = av_rescale_q(begin, kTick, base);
+  if (const std::int64_t start = sound.container_->start_time; start != AV_NOPTS_VALUE)
+    sound.shift_ += av_rescale_q(start, AVRational{1, AV_TIME_BASE}, base);
 
   const AVCodecID codec = sound.from_->codecpar->codec_id;
   if (avformat_query_codec(&muxer.container(), codec, FF_COMPLIANCE_NORMAL) == 0) {
@@ -55,16 +60,12 @@ Result<bool> AvSound::read() {
   do {
     av_packet_unref(packet_.get());
     code = av_read_frame(container_.get(), packet_.get());
-  } while (code >= 0 && packet_->stream_index != from_->index);
+    if (packet_->pts != AV_NOPTS_VALUE) packet_->pts -= shift_;
+    if (packet_->dts != AV_NOPTS_VALUE) packet_->dts -= shift_;
+  } while (code >= 0 && (packet_->stream_index != from_->index || (begins_later_ && packet_->pts < 0)));
   ended_ = code == AVERROR_EOF;
   if (ended_) return false;
   if (code < 0) return fail(ErrorCode::kIo, "cannot read " + name_ + ": " + av_reason(code));
-  if (container_->start_time != AV_NOPTS_VALUE) {
-    const std::int64_t start =
-        av_rescale_q(container_->start_time, AVRational{1, AV_TIME_BASE}, from_->time_base);
-    if (packet_->pts != AV_NOPTS_VALUE) packet_->pts -= start;
-    if (packet_->dts != AV_NOPTS_VALUE) packet_->dts -= start;
-  }
   packet_->pos = -1;
   return true;
 }

@@ -14,8 +14,9 @@ namespace fbs {
 class AvSound {
  public:
   /// Finds the main sound stream of `source` and adds one for it to the muxer.
+  /// @param begin  1/90000 s: time in the source that is 0 in the output
   /// @return ErrorCode::kUnsupported when there is no sound or the container cannot hold it
-  static Result<AvSound> open(const std::string& source, AvMuxer& muxer);
+  static Result<AvSound> open(const std::string& source, std::int64_t begin, AvMuxer& muxer);
 
   /// Writes all packets that begin before `end`.
   /// @param end  1/90000 s
@@ -29,9 +30,11 @@ class AvSound {
   std::string name_;
   AvInput container_;
   AvPacket packet_;
-  AVStream* from_ = nullptr;  ///< of container_
-  AVStream* to_ = nullptr;    ///< of the muxer
-  bool waiting_ = false;      ///< packet_ was read and not yet written
+  AVStream* from_ = nullptr;   ///< of container_
+  AVStream* to_ = nullptr;     ///< of the muxer
+  std::int64_t shift_ = 0;     ///< what is subtracted from times of the source, in from_'s time base
+  bool begins_later_ = false;  ///< sound before time 0 of the output is left out
+  bool waiting_ = false;       ///< packet_ was read and not yet written
   bool ended_ = false;
 };
 

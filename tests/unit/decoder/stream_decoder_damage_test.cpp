@@ -38,14 +38,14 @@ TEST(StreamDecoderDamage, GoesOnBehindAFlippedBit) {
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
     const Played result = played(bytes);
     ASSERT_FALSE(result.errors.empty()) << bit;
-    ASSERT_LE(result.pictures.size(), 20u);
-    // Damage in a motion packet costs its pictures and those up to the next key group, no more.
-    if (bit / 8 >= sample().begins[4] && bit / 8 < sample().begins[8]) {
-      EXPECT_GE(result.pictures.size(), 10u) << bit;
-      for (const Picture& p : result.pictures)
-        EXPECT_NE(std::find(whole.pictures.begin(), whole.pictures.end(), p), whole.pictures.end())
-            << "a wild picture";
-    }
+    // Damage in the first motion packet, or before it, leaves nothing; later the last picture is held up to
+    // the end.
+    const std::size_t packet = std::upper_bound(sample().begins.begin(), sample().begins.end(), bit / 8) -
+                               sample().begins.begin() - 1;
+    const std::size_t decoded = packet <= 4 ? 0 : 5 * (packet - 4);
+    ASSERT_EQ(result.pictures.size(), decoded == 0 ? 0U : 20U) << bit;
+    for (std::size_t i = 0; i < result.pictures.size(); ++i)
+      EXPECT_EQ(result.pictures[i], whole.pictures[std::min(i, decoded - 1)]) << bit;
   }
 }
 
@@ -57,17 +57,25 @@ TEST(StreamDecoderDamage, ErrorsNameTheByteOfTheirPacket) {
   EXPECT_EQ(result.errors[0].byte_offset, sample().begins[5]);
 }
 
-TEST(StreamDecoderDamage, LostGroupCostsThePicturesUpToTheNextKeyGroup) {
-  Bytes bytes = sample().bytes;
-  const auto at = [&](std::size_t packet) {
-    return bytes.begin() + static_cast<std::ptrdiff_t>(sample().begins[packet]);
-  };
-  bytes.erase(at(4), at(5));  // the first group, key: the second cannot be read
-  const Played result = played(bytes), whole = played(sample().bytes);
-  ASSERT_EQ(result.errors.size(), 1u);
-  EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);
-  ASSERT_EQ(result.pictures.size(), 10u);
-  EXPECT_TRUE(std::equal(result.pictures.begin(), result.pictures.end(), whole.pictures.begin() + 10));
+// Even a key group is lost: it may belong to a scene whose setup packet is.
+TEST(StreamDecoderDamage, LossCostsTheRestOfTheScene) {
+  for (const std::size_t lost : {1u, 2u, 3u, 4u, 5u}) {
+    Writer w;
+    w.scene({}, 5).motion(5, 10).motion(10, 15, true).motion(15, 20);
+    w.scene({20, 60000}, 3).end(23);
+    Bytes bytes = w.bytes;
+    bytes[w.begins[lost] + 3] ^= 1;
+    const Played result = played(bytes), whole = played(w.bytes);
+    ASSERT_EQ(result.errors.size(), 1u) << "a loss is reported once";
+    EXPECT_EQ(result.errors[0].byte_offset, w.begins[lost]);
+    if (lost < 5) {
+      EXPECT_EQ(result.pictures, std::vector(whole.pictures.end() - 3, whole.pictures.end())) << lost;
+      EXPECT_EQ(result.positions.front(), (StreamPosition{20, 60000}));
+    } else {
+      ASSERT_EQ(result.pictures.size(), 23u);
+      EXPECT_EQ(result.positions, whole.positions);
+    }
+  }
 }
 
 TEST(StreamDecoderDamage, OrderOfPacketsIsChecked) {
@@ -102,24 +110,24 @@ TEST(StreamDecoderDamage, AnotherSizeInsideAStreamIsUnsupported) {
   EXPECT_EQ(result.pictures.size(), 2u);
 }
 
-// The state of the old scene means nothing in the new one.
-TEST(StreamDecoderDamage, NothingIsDrawnAfterAnErrorBehindANewSetup) {
+TEST(StreamDecoderDamage, LastPictureIsStillDrawnAfterAnErrorBehindANewSetup) {
   for (const bool with_pattern : {false, true}) {
     Writer w;
-    w.setup().geometry().surround().pattern().motion(0, 2, true).setup();
-    if (with_pattern) w.geometry().pattern();
+    w.scene({}, 2).setup(setup_at({2, 6000}));
+    if (with_pattern) w.geometry().pattern(face_picture(3));
     w.packet(PacketType::kMotion, Bytes{});
     StreamDecoder decoder;
     decoder.feed(w.bytes);
     decoder.close();
-    Picture out;
+    Picture last, out;
     for (int i = 0; i < 2; ++i) {
       ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
-      ASSERT_TRUE(decoder.render(out));
+      ASSERT_TRUE(decoder.render(last));
     }
     ASSERT_FALSE(decoder.next());
-    EXPECT_EQ(decoder.render(out).error().code, ErrorCode::kInvalidArgument) << with_pattern;
-    EXPECT_EQ(decoder.render(PictureView(out)).error().code, ErrorCode::kInvalidArgument);
+    ASSERT_TRUE(decoder.render(out));
+    EXPECT_EQ(out, last) << with_pattern;
+    EXPECT_TRUE(decoder.scene().geometry) << "the scene of the picture";
   }
 }
 

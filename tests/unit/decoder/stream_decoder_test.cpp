@@ -111,9 +111,9 @@ TEST(StreamDecoder, SceneWithoutSurroundStandsBeforeStillGround) {
 
 TEST(StreamDecoder, NewSetupBeginsANewScene) {
   Writer w;
-  w.setup().geometry().surround().pattern().motion(0, 5, true);
-  w.setup().pattern(face_picture(2)).motion(3, 6, true);  // nobody there any more
-  w.setup().geometry().surround().pattern().motion(0, 5, true);
+  w.scene({}, 5);
+  w.setup(setup_at({5, 15000})).pattern(face_picture(2)).motion(3, 6, true);  // nobody there any more
+  w.scene({8, 24000}, 5);
   const Played result = played(w.bytes);
   EXPECT_TRUE(result.errors.empty());
   ASSERT_EQ(result.pictures.size(), 13u);
@@ -178,7 +178,8 @@ TEST(StreamDecoder, DurationStaysInRangeAtTheSlowestRate) {
 
 TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   Bytes longer = *encode_setup(setup_of());
-  longer.insert(longer.end(), {1, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
+  longer.insert(longer.end(),
+                {1, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
   const Writer& s = sample();
   Writer w;
   w.packet(PacketType::kSetup, longer);

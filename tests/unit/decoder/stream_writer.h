@@ -37,6 +37,13 @@ inline Setup setup_of(int patterns = 1) {
   return setup;
 }
 
+/// One pattern; the scene begins there.
+inline Setup setup_at(const StreamPosition& before) {
+  Setup setup = setup_of();
+  setup.before = before;
+  return setup;
+}
+
 /// A head that yaws and moves, again and again.
 inline CodedState coded_at(int time) {
   time %= 100;
@@ -116,6 +123,14 @@ class Writer {
     modes.fill(mode);
     return packet(PacketType::kBlend, blend_.encode({key || blend_.needs_key(), {pictures, modes}}));
   }
+  /// A scene of one pattern: pictures 0..`pictures` - 1.
+  Writer& scene(const StreamPosition& before, int pictures, std::vector<std::uint32_t> durations = {}) {
+    return setup(setup_at(before))
+        .geometry()
+        .surround()
+        .pattern()
+        .motion(0, pictures, true, std::move(durations));
+  }
   Writer& end(std::uint64_t pictures) { return packet(PacketType::kEnd, encode_end({pictures})); }
 
   Bytes bytes;
@@ -146,6 +161,8 @@ inline const Writer& sample() {
 struct Played {
   std::vector<Picture> pictures;
   std::vector<std::uint32_t> durations;
+  std::vector<StreamPosition> positions;
+  std::vector<bool> held;
   std::vector<Error> errors;
   ByteCount bytes;
   std::optional<std::uint64_t> announced;
@@ -167,6 +184,8 @@ inline bool play(StreamDecoder& decoder, Played& result) {
     result.pictures.emplace_back();
     EXPECT_TRUE(decoder.render(result.pictures.back()));
     result.durations.push_back(decoder.duration());
+    result.positions.push_back(decoder.position());
+    result.held.push_back(decoder.held());
   }
   ADD_FAILURE() << "a decoder that never ends";
   return true;

@@ -204,13 +204,18 @@ TEST(Encoder, RefusesNoPicturesAtAll) {
   EXPECT_EQ(encoder->finish().error().code, ErrorCode::kInvalidArgument);
 }
 
-// A title before the talk: pictures until a face is found go as a scene without geometry.
+// A title before the talk: pictures until a face is found go as a scene without geometry. The decoder checks
+// the position of the second scene.
 TEST(Encoder, FaceMayAppearLate) {
   Pictures p(7, Picture(128, 96));
   for (Picture& grey : p)
     for (auto& s : grey.y.samples) s = 100;
   p.insert(p.end(), talking().begin(), talking().begin() + 12);
-  const Coded c = coded(p);
+  std::vector<std::uint32_t> durations(p.size());  // 0: nominal
+  durations[2] = 9000;
+  const auto stream = encoded(p, format_of(p), {}, durations);
+  ASSERT_TRUE(stream);
+  const Coded c = decoded(*stream);
   ASSERT_EQ(c.pictures.size(), p.size());
   EXPECT_GT(c.bytes.geometry, 0u);
   EXPECT_GT(squared_error(c.pictures[0].y, p[0].y).psnr(), 40);

@@ -10,6 +10,7 @@ namespace {
 
 Setup sample_setup() {
   Setup setup;
+  setup.before = {1000, 3003000};
   setup.format.width = 352;
   setup.format.height = 288;
   setup.format.frame_rate = {30000, 1001};
@@ -25,7 +26,7 @@ Setup sample_setup() {
 TEST(SetupPayload, RoundTrips) {
   const auto payload = encode_setup(sample_setup());
   ASSERT_TRUE(payload);
-  EXPECT_LE(payload->size(), 31u);
+  EXPECT_LE(payload->size(), 37u);
   const auto read = decode_setup(*payload);
   ASSERT_TRUE(read);
   EXPECT_EQ(*read, sample_setup());
@@ -37,6 +38,15 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
     ErrorCode code;
   };
   const std::vector<Case> cases = {
+      {[](fbs::Setup& s) {
+         s.before = {kMaxStreamPictures + 1, kMaxStreamTime};
+       },
+       ErrorCode::kTooLarge},
+      {[](fbs::Setup& s) { s.before.time = kMaxStreamTime + 1; }, ErrorCode::kTooLarge},
+      {[](fbs::Setup& s) { s.before.time = s.before.pictures - 1; }, ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.before.time = s.before.pictures * kMaxDuration + 1; },
+       ErrorCode::kInvalidArgument},
+      {[](fbs::Setup& s) { s.before.pictures = 0; }, ErrorCode::kInvalidArgument},
       {[](fbs::Setup& s) { s.format.width = kMaxPictureSize + 1; }, ErrorCode::kTooLarge},
       {[](fbs::Setup& s) { s.format.height = kMaxPictureSize + 1; }, ErrorCode::kTooLarge},
       {[](fbs::Setup& s) { s.format.width = kMinPictureSize - 1; }, ErrorCode::kInvalidArgument},
@@ -84,11 +94,13 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
   }
 }
 
-// Payload by hand: version, head, width, height, rate, aspect, colour, steps, parts, mouth.
+// Payload by hand: version, head, pictures before, time before, width, height, rate, aspect, colour, steps,
+// parts, mouth.
 TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {4, 3, 64, 65, 25, 1,   1,   1,  0,   1,  2,
-                                          3, 4, 5,  12, 70, 126, 138, 45, 126, 139};
+  const std::vector<std::uint8_t> good = {5, 3, 2, 9, 64, 65, 25,  1,   1,  1,   0,  1,
+                                          2, 3, 4, 5, 12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
+  EXPECT_EQ(decode_setup(good)->before, (StreamPosition{2, 9}));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
   EXPECT_EQ(decode_setup(good)->steps, (QuantiserSteps{1, 2, 3, 4, 5}));
   EXPECT_EQ(decode_setup(good)->parts,
@@ -100,24 +112,25 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
     const auto read = decode_setup(bytes);
     return read ? ErrorCode::kInternal : read.error().code;
   };
-  EXPECT_EQ(code_with(0, 5), ErrorCode::kUnsupported);
-  for (const std::uint8_t older : {1, 2, 3}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, 6), ErrorCode::kUnsupported);
+  for (const std::uint8_t older : {1, 2, 3, 4}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
-  EXPECT_EQ(code_with(2, 63), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(4, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(5, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(3, 1), ErrorCode::kInvalidStream) << "two pictures in 1/90000 s";
+  EXPECT_EQ(code_with(4, 63), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(6, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(7, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(8, 6), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(9, 0), ErrorCode::kInvalidStream);
-  EXPECT_EQ(code_with(12, 0), ErrorCode::kInvalidStream) << "light";
-  EXPECT_EQ(code_with(13, 0), ErrorCode::kInvalidStream) << "control";
+  EXPECT_EQ(code_with(10, 6), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(11, 0), ErrorCode::kInvalidStream);
+  EXPECT_EQ(code_with(14, 0), ErrorCode::kInvalidStream) << "light";
+  EXPECT_EQ(code_with(15, 0), ErrorCode::kInvalidStream) << "control";
   auto unknown_part = good;
-  unknown_part[14] = 0x80;
-  unknown_part.insert(unknown_part.begin() + 15, 4);  // bit 9 without the pose's: an eleventh part
+  unknown_part[16] = 0x80;
+  unknown_part.insert(unknown_part.begin() + 17, 4);  // bit 9 without the pose's: an eleventh part
   EXPECT_EQ(decode_setup(unknown_part).error().code, ErrorCode::kInvalidStream);
   auto large = good;
-  large.insert(large.begin() + 2, {0x81});  // width 1 + 128 * 64 = 8193
+  large.insert(large.begin() + 4, {0x81});  // width 1 + 128 * 64 = 8193
   EXPECT_EQ(decode_setup(large).error().code, ErrorCode::kTooLarge);
 }
 

@@ -1,0 +1,41 @@
+// What a damaged stream has lost, for its user.
+#pragma once
+
+#include <string>
+
+#include "cli/progress.h"
+#include "cli/stream_file.h"
+#include "cli/verbs.h"
+
+namespace fbs::cli {
+
+/// Counts the damaged places of a stream that is decoded all the same, and sums up at the end. Prints on
+/// standard error.
+class LossReport {
+ public:
+  /// Prints at the end only.
+  LossReport() = default;
+  /// Prints a line for each damaged place too, the first kMaxLines of them.
+  /// @param progress  ends with the first line; must outlive the object
+  explicit LossReport(Progress& progress) : progress_(&progress) {}
+
+  /// file.next() past what is damaged.
+  /// @return kPicture or kEnd; errors after which nothing can be decoded: kIo, kNotFbs, kInternal, and
+  ///         kInvalidArgument for a time past the end
+  Result<DecodeStatus> next(StreamFile& file);
+
+  /// Prints what has been lost, if anything, when the stream has ended.
+  /// @return kComplete, kLittleLost or kMuchLost
+  Outcome finish(StreamFile& file) const;
+
+ private:
+  static constexpr int kMaxLines = 20;
+
+  Progress* progress_ = nullptr;
+  int places_ = 0;
+};
+
+/// "the end packet is missing: the stream was cut after 96 pictures, or has not ended"
+[[nodiscard]] std::string missing_end_text(const StreamDecoder& decoder);
+
+}  // namespace fbs::cli

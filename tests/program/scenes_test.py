@@ -1,0 +1,85 @@
+"""A stream of two scenes: joined in the middle, begun at a time, damaged in the first scene."""
+import json
+
+from harness import (LITTLE_LOST, MATERIAL, MOTION, SETUP, TALK_FBS, TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, flat_y4m,
+                     packets)
+
+FIRST, ALL = 10, 187  # pictures: the encoder looks for a face in every fifth, and the first seven are grey
+
+
+class Scenes(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.path = MATERIAL / "two_scenes.fbs"
+        if not self.path.exists():
+            grey = flat_y4m(176, 144, 7).partition(b"\n")[2]
+            head, _, talk = TALK_Y4M.read_bytes().partition(b"\n")
+            self.write("late.y4m", head + b"\n" + grey + talk + talk[:len(talk) // 2])
+            self.succeed("encode", "late.y4m", self.path, "--quiet", "--patterns", "1")
+        self.stream = self.path.read_bytes()
+        self.whole = self.decoded(self.path).pictures
+        self.assertEqual(len(self.whole), ALL)
+        self.setups = [begin for kind, begin, _ in packets(self.stream) if kind == SETUP]
+
+    def test_scenes_are_listed(self):
+        scenes = json.loads(self.succeed("inspect", self.path, "--json"))["scenes"]
+        self.assertEqual([(s["picture"], s["seconds"], s["face"], s["offset"]) for s in scenes],
+                         [(0, 0, False, 4), (FIRST, FIRST / 30, True, self.setups[1])])
+        self.assertEqual(scenes[0]["bytes"], self.setups[1] - 4)
+        text = self.succeed("inspect", self.path).decode()
+        self.assertIn("scenes", text)
+        self.assertEqual(len(json.loads(self.succeed("inspect", TALK_FBS, "--json"))["scenes"]), 1)
+
+    def test_begins_at_any_time(self):
+        for seconds, first in ((0, 0), (0.01, 0), (0.0334, 1), (0.3, 9), (FIRST / 30, FIRST), (2, 60), (6.22, ALL - 1)):
+            out = self.succeed("decode", self.path, "-", "--from", seconds)
+            self.assertEqual(Y4m(out).pictures, self.whole[first:], seconds)
+
+    def test_begins_at_a_time_of_a_pipe(self):
+        out = self.succeed("decode", "-", "-", "--from", 3, stdin=self.stream)
+        self.assertEqual(Y4m(out).pictures, self.whole[90:])
+
+    def test_skipped_scenes_are_not_read(self):
+        damaged = bytearray(self.stream)
+        damaged[self.setups[0] + 30] ^= 1
+        self.write("bad.fbs", bytes(damaged))
+        out = self.succeed("decode", "bad.fbs", "-", "--from", 1)
+        self.assertEqual(Y4m(out).pictures, self.whole[30:])
+
+    def test_sound_begins_with_the_pictures(self):
+        ffmpeg("-f", "lavfi", "-i", "sine=duration=8", str(self.folder / "tone.wav"))
+        self.succeed("decode", self.path, "out.mkv", "--from", 3, "--sound", "tone.wav")
+        for streams in ("v", "a"):
+            found = ffprobe(self.folder / "out.mkv", "packet=pts_time", "-select_streams", streams)["packets"]
+            times = sorted(float(packet["pts_time"]) for packet in found)
+            self.assertLess(abs(times[0]), 0.1, streams)
+            self.assertLess(abs(times[-1] - (ALL - 91) / 30), 0.15, streams)
+
+    def test_joined_stream_begins_with_its_own_time(self):
+        self.write("joined.fbs", self.stream[:4] + self.stream[self.setups[1]:])
+        self.assertEqual(self.decoded("joined.fbs").pictures, self.whole[FIRST:])
+        scene = json.loads(self.succeed("inspect", "joined.fbs", "--json"))["scenes"][0]
+        self.assertEqual((scene["picture"], scene["offset"]), (FIRST, 4))
+        out = self.succeed("decode", "joined.fbs", "-", "--from", 3)
+        self.assertEqual(Y4m(out).pictures, self.whole[90:], "the same time as in the whole stream")
+
+    def test_damaged_scene_is_held_up_to_the_next(self):
+        motion = [begin for kind, begin, _ in packets(self.stream) if kind == MOTION and begin < self.setups[1]]
+        damaged = bytearray(self.stream)
+        damaged[motion[1] + 3] ^= 1
+        self.write("bad.fbs", bytes(damaged))
+        self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", f"at byte {motion[1]}"])
+        done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
+        self.assertEqual(done.returncode, LITTLE_LOST)
+        self.assertEqual(Y4m(done.stdout).pictures, [self.whole[0]] * FIRST + self.whole[FIRST:])
+        self.assertIn(b"damaged places: 1; pictures lost: 9 of 187, held: 9", done.stderr)
+
+    def test_lost_beginning_leaves_a_gap(self):
+        damaged = bytearray(self.stream)
+        damaged[self.setups[0] + 5] ^= 1
+        self.write("bad.fbs", bytes(damaged))
+        done = self.fbs("decode", "bad.fbs", "out.mkv", "--keep-going")
+        self.assertEqual(done.returncode, LITTLE_LOST)
+        self.assertIn(b"pictures lost: 10 of 187, held: 0", done.stderr)
+        times = [float(packet["pts_time"]) for packet in ffprobe(self.folder / "out.mkv", "packet=pts_time")["packets"]]
+        self.assertAlmostEqual(min(times), FIRST / 30, delta=0.002)
