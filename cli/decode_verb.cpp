@@ -1,56 +1,116 @@
 // fbs decode: stream to pictures.
 #include <cstdio>
+#include <optional>
 
 #include "cli/progress.h"
+#include "cli/stop_signal.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 #include "cli/video/video_sink.h"
 
 namespace fbs::cli {
+namespace {
 
-Result<void> run_decode(const DecodeArguments& arguments) {
-  auto file = StreamFile::open(arguments.input);
+constexpr int kMaxFaults = 1000;  // a stream with more is given up
+
+/// Decodes one stream into one output.
+class Decoding {
+ public:
+  /// @param stop  null: no signal is awaited
+  Decoding(const DecodeArguments& arguments, const StopSignal* stop)
+      : arguments_(arguments), stop_(stop), progress_("decoding", std::nullopt, arguments.quiet) {}
+
+  Result<void> run();
+
+ private:
+  /// The next picture; false at the end of what can be decoded.
+  Result<bool> next();
+  Result<void> report(const Error& fault);
+  Result<void> write();
+  void print_missing() const;
+  [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
+
+  const DecodeArguments& arguments_;
+  const StopSignal* stop_;
+  Progress progress_;
+  std::optional<StreamFile> file_;
+  std::unique_ptr<VideoSink> sink_;  ///< opened with the first picture
+  Picture picture_;
+  std::int64_t pts_ = 0;
+  int faults_ = 0;
+};
+
+Result<void> Decoding::run() {
+  auto file = StreamFile::open(arguments_.input, stop_);
   if (!file) return fail(file.error());
-  StreamDecoder& decoder = file->decoder();
-
-  std::unique_ptr<VideoSink> sink;
-  Picture picture;
-  std::int64_t pts = 0;
-  int faults = 0;
-  Progress progress("decoding", std::nullopt, arguments.quiet);
+  file_.emplace(std::move(*file));
   for (;;) {
-    auto status = file->next();
-    if (!status) {
-      if (!arguments.keep_going || status.error().code == ErrorCode::kIo ||
-          status.error().code == ErrorCode::kNotFbs)
-        return fail(status.error());
-      progress.finish();
-      std::fprintf(stderr, "fbs: %s; continuing\n", status.error().text.c_str());
-      if (status.error().code == ErrorCode::kTruncated) break;
-      if (++faults >= 1000)
-        return fail(ErrorCode::kInvalidStream, file->name() + ": too many errors, giving up");
-      continue;
-    }
-    if (*status == DecodeStatus::kEnd) break;
-    if (!sink) {
-      auto opened = open_video_sink(arguments.output, decoder.format(), {arguments.sound});
-      if (!opened) return fail(opened.error());
-      sink = std::move(*opened);
-    }
-    if (auto drawn = decoder.render(picture); !drawn) return drawn;
-    if (auto written = sink->write(picture, pts); !written) return written;
-    pts += decoder.duration();
-    progress.update(static_cast<std::int64_t>(decoder.pictures()));
+    const auto found = next();
+    if (!found) return fail(found.error());
+    if (!*found) break;
+    if (auto written = write(); !written) return written;
   }
-  if (!sink) return fail(ErrorCode::kInvalidStream, file->name() + ": contains no pictures");
-  progress.finish();
-  if (auto finished = sink->finish(); !finished) return finished;
+  if (!sink_) return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
+  progress_.finish();
+  if (auto finished = sink_->finish(); !finished) return finished;
+  print_missing();
+  return {};
+}
+
+Result<bool> Decoding::next() {
+  for (;;) {
+    if (stop_ != nullptr && stop_->raised()) return fail(ErrorCode::kIo, "stopped");
+    auto status = file_->next();
+    if (status) return *status != DecodeStatus::kEnd;
+    if (auto passed_over = report(status.error()); !passed_over) return fail(passed_over.error());
+    if (status.error().code == ErrorCode::kTruncated) return false;
+  }
+}
+
+/// Prints a fault that is passed over; returns it when it is not to be.
+Result<void> Decoding::report(const Error& fault) {
+  if (!arguments_.keep_going || fault.code == ErrorCode::kIo || fault.code == ErrorCode::kNotFbs)
+    return fail(fault);
+  progress_.finish();
+  std::fprintf(stderr, "fbs: %s; continuing\n", fault.text.c_str());
+  if (fault.code != ErrorCode::kTruncated && ++faults_ >= kMaxFaults)
+    return fail(ErrorCode::kInvalidStream, file_->name() + ": too many errors, giving up");
+  return {};
+}
+
+Result<void> Decoding::write() {
+  if (!sink_) {
+    auto opened = open_video_sink(arguments_.output, decoder().format(), {arguments_.sound});
+    if (!opened) return fail(opened.error());
+    sink_ = std::move(*opened);
+  }
+  if (auto drawn = decoder().render(picture_); !drawn) return drawn;
+  if (auto written = sink_->write(picture_, pts_); !written) return written;
+  pts_ += decoder().duration();
+  progress_.update(static_cast<std::int64_t>(decoder().pictures()));
+  return {};
+}
+
+void Decoding::print_missing() const {
+  const StreamDecoder& decoder = file_->decoder();
   const auto announced = decoder.announced_pictures();
   if (announced && *announced != decoder.pictures())
-    std::fprintf(stderr, "fbs: %s: %llu of %llu pictures missing\n", file->name().c_str(),
+    std::fprintf(stderr, "fbs: %s: %llu of %llu pictures missing\n", file_->name().c_str(),
                  static_cast<unsigned long long>(*announced - decoder.pictures()),
                  static_cast<unsigned long long>(*announced));
-  return {};
+}
+
+}  // namespace
+
+Result<Outcome> run_decode(const DecodeArguments& arguments) {
+  // Standard output has nothing to remove: there a signal ends the program at once.
+  std::optional<StopSignal> stop;
+  if (arguments.output != "-") stop.emplace(nullptr);
+  const auto decoded = Decoding(arguments, stop ? &*stop : nullptr).run();
+  if (decoded) return Outcome::kComplete;
+  if (!stop || !stop->raised()) return fail(decoded.error());
+  if (!arguments.quiet) std::fprintf(stderr, "fbs: stopped by %s; nothing written\n", stop->name());
+  return outcome_of_stop(stop->number());
 }
 
 }  // namespace fbs::cli

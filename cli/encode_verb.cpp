@@ -6,12 +6,15 @@
 #include "cli/display/overlay.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
+#include "cli/source_part.h"
+#include "cli/stop_signal.h"
 #include "cli/stream_file.h"
 #include "cli/video/atomic_file.h"
 
 namespace fbs::cli {
 namespace {
 
+constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal ends at once";
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
 void print_summary(const std::string& output, const Measure& m) {
@@ -64,19 +67,21 @@ void print_warnings(const EncodeArguments& arguments, const VideoSource& source,
                  arguments.bitrate, measure.kbps());
 }
 
-Result<void> encode(const EncodeArguments& arguments) {
+Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
   SourceOptions options;
+  options.stop = &stop;
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
-  auto source = open_video_source(arguments.input, options);
-  if (!source) return fail(source.error());
-  const auto settings = settings_of(arguments, **source);
+  auto opened = open_video_source(arguments.input, options);
+  if (!opened) return fail(opened.error());
+  SourcePart source(std::move(*opened), stop);
+  const auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
   if (!file) return fail(file.error());
   std::optional<Overlay> overlay;
   SeePicture see;
   if (!arguments.overlay.empty()) {
-    auto created = Overlay::create(arguments.overlay, (*source)->format());
+    auto created = Overlay::create(arguments.overlay, source.format());
     if (!created) return fail(created.error());
     overlay.emplace(std::move(*created));
     see = [&](const TimedPicture& p, const PictureAnalysis& a) {
@@ -84,20 +89,34 @@ Result<void> encode(const EncodeArguments& arguments) {
     };
   }
   const auto measure = encode_source(
-      **source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
+      source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
       arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
   if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return finished;
   if (auto committed = file->commit(); !committed) return committed;
-  print_warnings(arguments, **source, *measure);
+  print_warnings(arguments, source, *measure);
   if (!arguments.quiet) print_summary(arguments.output, *measure);
   return {};
+}
+
+/// Encodes until the end or a signal.
+Result<Outcome> encode_until_stopped(const EncodeArguments& arguments) {
+  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
+  const auto encoded = encode(arguments, stop);
+  if (!stop.raised()) return encoded.map([] { return Outcome::kComplete; });
+  if (!encoded)
+    std::fprintf(stderr, "fbs: stopped by %s; nothing written: %s\n", stop.name(),
+                 encoded.error().text.c_str());
+  else if (!arguments.quiet)
+    std::fprintf(stderr, "fbs: stopped by %s\n", stop.name());
+  return outcome_of_stop(stop.number());
 }
 
 }  // namespace
 }  // namespace fbs::cli
 
-FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments, fbs::Result<void>& result) {
-  result = fbs::cli::encode(arguments);
+FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
+                                      fbs::Result<fbs::cli::Outcome>& result) {
+  result = fbs::cli::encode_until_stopped(arguments);
 }

@@ -15,6 +15,7 @@ using fbs::cli::EncodeArguments;
 using fbs::cli::EvaluateArguments;
 using fbs::cli::ExportArguments;
 using fbs::cli::InspectArguments;
+using fbs::cli::Outcome;
 using fbs::cli::PlayArguments;
 
 constexpr int kFailed = 2;
@@ -36,7 +37,7 @@ constexpr const char* kExamples =
     "  fbs export talk.fbs talk.csv                    head pose and 68 landmarks per picture\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
-    "Exit code: 0 on success; 2 on failure, with one line on standard error.";
+    "Exit code: 0 on success; 2 on failure, with one line on standard error; 130 or 143 when stopped.";
 
 constexpr const char* kHiddenGroup = "for measurements";
 
@@ -50,7 +51,11 @@ class HidingFormatter : public CLI::Formatter {
   }
 };
 
-using Run = std::function<fbs::Result<void>()>;
+using Run = std::function<fbs::Result<Outcome>()>;
+
+fbs::Result<Outcome> complete(const fbs::Result<void>& result) {
+  return result.map([] { return Outcome::kComplete; });
+}
 
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("encode", "Encode a video");
@@ -118,7 +123,7 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
   CLI::App* verb = app.add_subcommand(
       "play", "Play a stream in a window (space: pause, .: step, p: patterns, r: restart, q: quit)");
   verb->add_option("INPUT", play.input, "Stream to play")->required();
-  verb->callback([&] { run = [&] { return run_play(play); }; });
+  verb->callback([&] { run = [&] { return complete(run_play(play)); }; });
 
   verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
   verb->add_option("SOURCE", evaluate.source, "Source video")->required();
@@ -129,17 +134,17 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
       ->expected(1, 16);
   verb->add_flag("--json", evaluate.json, "Print JSON");
   verb->add_flag("--quiet", evaluate.quiet, "Print no progress bar");
-  verb->callback([&] { run = [&] { return run_evaluate(evaluate); }; });
+  verb->callback([&] { run = [&] { return complete(run_evaluate(evaluate)); }; });
 
   verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
   verb->add_option("INPUT", inspect.input, "Stream to inspect, or - for standard input")->required();
   verb->add_flag("--json", inspect.json, "Print JSON");
-  verb->callback([&] { run = [&] { return run_inspect(inspect); }; });
+  verb->callback([&] { run = [&] { return complete(run_inspect(inspect)); }; });
 
   verb = app.add_subcommand("export", "Write head pose and landmarks of every picture as a table");
   verb->add_option("INPUT", table.input, "Stream to export, or - for standard input")->required();
   verb->add_option("OUTPUT", table.output, "Table to write (.csv)")->required();
-  verb->callback([&] { run = [&] { return run_export(table); }; });
+  verb->callback([&] { run = [&] { return complete(run_export(table)); }; });
 }
 
 int run_program(int argc, char** argv) {
@@ -167,7 +172,7 @@ int run_program(int argc, char** argv) {
     return kFailed;
   }
   const auto result = run();
-  if (result) return 0;
+  if (result) return static_cast<int>(*result);
   std::fprintf(stderr, "fbs: %s\n", result.error().text.c_str());
   return kFailed;
 }

@@ -14,15 +14,15 @@ StreamFile::Descriptor::~Descriptor() {
   if (number_ > STDIN_FILENO) ::close(number_);
 }
 
-Result<StreamFile> StreamFile::open(const std::string& name) {
-  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO));
+Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* stop) {
+  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO), stop);
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0)
     return fail(ErrorCode::kIo, name + ": cannot open: " + std::generic_category().message(errno));
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
-  return StreamFile(name, std::move(file));
+  return StreamFile(name, std::move(file), stop);
 }
 
 Result<DecodeStatus> StreamFile::next() {
@@ -36,7 +36,7 @@ Result<DecodeStatus> StreamFile::next() {
       decoder_.feed(std::span(buffer).first(n));
     else if (n == 0)
       decoder_.close();
-    else if (errno != EINTR)
+    else if (errno != EINTR || (stop_ != nullptr && stop_->raised()))
       return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::generic_category().message(errno));
   }
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "cli/stop_signal.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {
@@ -12,12 +13,15 @@ namespace fbs::cli {
 /// damaged, the byte.
 class StreamFile {
  public:
-  static Result<StreamFile> open(const std::string& name);
+  /// @param stop  must outlive the object; null: reading is never stopped
+  static Result<StreamFile> open(const std::string& name, const StopSignal* stop = nullptr);
 
-  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore.
+  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore. ErrorCode::kIo when the signal
+  /// comes while it waits for bytes.
   Result<DecodeStatus> next();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
+  [[nodiscard]] const StreamDecoder& decoder() const { return decoder_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
@@ -35,10 +39,12 @@ class StreamFile {
    private:
     int number_;
   };
-  StreamFile(std::string name, Descriptor file) : name_(std::move(name)), file_(std::move(file)) {}
+  StreamFile(std::string name, Descriptor file, const StopSignal* stop)
+      : name_(std::move(name)), file_(std::move(file)), stop_(stop) {}
 
   std::string name_;
   Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on what a pipe has
+  const StopSignal* stop_;
   StreamDecoder decoder_;
 };
 

@@ -1,6 +1,7 @@
 // Arguments of each verb of the program. main.cpp fills them in; one file per verb carries it out.
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,19 @@
 #include "common/result.h"
 
 namespace fbs::cli {
+
+/// How a verb ended that did not fail; the value is the exit code of the program.
+enum class Outcome : std::uint8_t {
+  kComplete = 0,
+  kInterrupted =
+      128 + SIGINT,  ///< encode: the stream has what was read until then; decode: nothing was written
+  kTerminated = 128 + SIGTERM,  ///< the same
+};
+
+/// @param signal  SIGINT or SIGTERM
+[[nodiscard]] constexpr Outcome outcome_of_stop(int signal) {
+  return signal == SIGTERM ? Outcome::kTerminated : Outcome::kInterrupted;
+}
 
 struct EncodeArguments {
   std::string input, output;
@@ -61,8 +75,8 @@ struct PlayArguments {
 };
 
 /// Error texts are complete lines for the user: which file, and what is wrong with it.
-Result<void> run_encode(const EncodeArguments& arguments);
-Result<void> run_decode(const DecodeArguments& arguments);
+Result<Outcome> run_encode(const EncodeArguments& arguments);
+Result<Outcome> run_decode(const DecodeArguments& arguments);
 Result<void> run_inspect(const InspectArguments& arguments);
 Result<void> run_export(const ExportArguments& arguments);
 Result<void> run_evaluate(const EvaluateArguments& arguments);

@@ -11,6 +11,8 @@
 
 namespace fbs {
 
+class StopSignal;
+
 struct TimedPicture {
   Picture picture;
   std::int64_t pts = 0;  ///< presentation time, 1/90000 s from the start of the source; see timestamps.h
@@ -41,6 +43,8 @@ class VideoSource {
 struct SourceOptions {
   Rational sequence_rate{25, 1};  ///< pictures per second of image sequences
   int decoder_threads = 1;        ///< at least 1
+  const StopSignal* stop =
+      nullptr;  ///< must outlive the source; a read that waits ends with an error when it comes
 };
 
 /// Opens `input`:

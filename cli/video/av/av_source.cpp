@@ -99,7 +99,7 @@ class AvSource final : public VideoSource {
 
 Result<void> AvSource::open(const SourceOptions& options) {
   int code = 0;
-  container_ = open_av_input(name_, code);
+  container_ = open_av_input(name_, options.stop, code);
   if (!container_) {
     const bool other_kind = code == AVERROR_INVALIDDATA || code == AVERROR_PROTOCOL_NOT_FOUND;
     return fail(other_kind ? ErrorCode::kUnsupported : ErrorCode::kIo,

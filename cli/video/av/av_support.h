@@ -12,6 +12,7 @@ extern "C" {
 #include <memory>
 #include <string>
 
+#include "cli/stop_signal.h"
 #include "cli/video/timestamps.h"
 
 namespace fbs {
@@ -43,7 +44,8 @@ inline std::string av_reason(int code) {
 
 /// Opens a container for reading and finds its streams. A local file wins over an address of the same
 /// spelling.
+/// @param stop  interrupts opening and reading; null: nothing does
 /// @return null when it fails, with libav's code in `error`
-AvInput open_av_input(const std::string& name, int& error);
+AvInput open_av_input(const std::string& name, const StopSignal* stop, int& error);
 
 }  // namespace fbs
