@@ -89,8 +89,11 @@ Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
     };
   }
   const auto measure = encode_source(
-      source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
-      arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
+      source, *settings,
+      [&](std::span<const std::uint8_t> bytes) {
+        return file->write(bytes).and_then([&] { return file->flush(); });
+      },
+      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
   if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return finished;

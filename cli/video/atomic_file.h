@@ -27,6 +27,9 @@ class AtomicFile {
   /// Appends at the cursor. Bytes may wait in a buffer of 256 KiB.
   Result<void> write(std::span<const std::uint8_t> bytes);
 
+  /// Hands the buffer to the system: a program that is killed afterwards loses none of it.
+  Result<void> flush();
+
   /// Moves the cursor, for containers that write sizes last.
   /// @param offset  bytes from the start of the file
   Result<void> seek(std::uint64_t offset);
@@ -46,7 +49,6 @@ class AtomicFile {
  private:
   AtomicFile() = default;
 
-  Result<void> flush();
   Result<void> write_through(std::span<const std::uint8_t> bytes);
   [[nodiscard]] tl::unexpected<Error> system_error(int code) const;
   void discard() noexcept;

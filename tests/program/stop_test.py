@@ -4,7 +4,7 @@ import signal
 import subprocess
 import time
 
-from harness import FBS, MAX_SECONDS, TALK_FBS, TALK_Y4M, ProgramTest, Y4m, read_y4m
+from harness import FBS, MAX_SECONDS, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, ProgramTest, Y4m, read_y4m
 
 STOPS = {signal.SIGINT: 130, signal.SIGTERM: 143}  # signal: exit code
 PICTURE = len(b"FRAME\n") + 176 * 144 * 3 // 2     # bytes of the talker's
@@ -108,6 +108,22 @@ class Stop(ProgramTest):
         running.send_signal(signal.SIGINT)
         self.assertIn("nothing written", self.ends_with(running, 130))
         self.assertEqual(self.files(), {})
+
+    def test_killed_encoder_leaves_every_whole_group(self):
+        running = self.start("encode", "-", "out.fbs", "--patterns", "1")
+        self.feed(running, 100)  # at 30 pictures a second
+        self.wait_for(lambda: self.part().exists() and self.shown(self.part()) >= 60)
+        running.kill()
+        self.ends_with(running, -signal.SIGKILL)
+        self.assertEqual(list(self.files()), ["out.fbs.part"])
+        done = self.fbs("decode", "out.fbs.part", "-", "--keep-going")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pictures = Y4m(done.stdout).pictures
+        self.assertEqual(pictures, self.decoded(TALK_ONE_FBS).pictures[:len(pictures)])
+
+    def shown(self, stream):
+        """How many pictures of an unfinished stream can be shown."""
+        return len(Y4m(self.fbs("decode", stream, "-", "--keep-going").stdout or b"YUV4MPEG2 W2 H2 F1:1\n").pictures)
 
     def test_stopped_decoder_leaves_nothing(self):
         for stop, code in STOPS.items():
