@@ -73,7 +73,7 @@ Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
   auto opened = open_video_source(arguments.input, options);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), stop);
+  SourcePart source(std::move(*opened), {arguments.frames, arguments.duration}, stop);
   const auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);

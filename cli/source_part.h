@@ -1,31 +1,42 @@
-// The part of a source that is encoded: until a stop signal.
+// The part of a source that is encoded: until a limit or a stop signal.
 #pragma once
 
+#include <cstdint>
 #include <memory>
-#include <utility>
+#include <optional>
 
 #include "cli/stop_signal.h"
 #include "cli/video/video_source.h"
 
 namespace fbs::cli {
 
-/// A source that ends cleanly when the program is asked to stop.
+/// Whichever is reached first; nullopt: no limit.
+struct PartLimits {
+  std::optional<std::int64_t> pictures;  ///< at least 1
+  std::optional<double> seconds;         ///< of source time from the first picture on, above 0
+};
+
+/// A source that ends cleanly at its limits and when the program is asked to stop. No picture behind the last
+/// is read, but with a limit of seconds one.
 class SourcePart final : public VideoSource {
  public:
   /// @param stop  must outlive the object
-  SourcePart(std::unique_ptr<VideoSource> source, const StopSignal& stop)
-      : source_(std::move(source)), stop_(stop) {}
+  SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop);
 
   [[nodiscard]] const VideoFormat& format() const override { return source_->format(); }
   Result<std::optional<TimedPicture>> next() override;
-  [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override {
-    return source_->frame_count_estimate();
-  }
+  /// The limits are an estimate where the source has none.
+  [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
 
  private:
+  [[nodiscard]] bool within_seconds(std::int64_t pts);
+
   std::unique_ptr<VideoSource> source_;
+  PartLimits limits_;
   const StopSignal& stop_;
+  std::int64_t pictures_ = 0;              ///< returned so far
+  std::optional<std::int64_t> first_pts_;  ///< 1/90000 s
   bool ended_ = false;
 };
 

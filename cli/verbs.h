@@ -30,8 +30,10 @@ struct EncodeArguments {
   double bitrate = 0;  ///< target of the total, kbit/s; 0: none, quality decides
   int patterns = 0;    ///< of a scene; 0: chosen by the encoder
   int face = 0;
-  std::string marks;    ///< file; empty: automatic
-  std::string overlay;  ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::string marks;                   ///< file; empty: automatic
+  std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::optional<std::int64_t> frames;  ///< encode at most so many pictures
+  std::optional<double> duration;      ///< encode at most so many seconds of the source
   double sequence_rate = 25;
   bool allow_no_face = false;
   // For measurements; not shown by --help.
