@@ -1,7 +1,9 @@
 // fbs decode: stream to pictures.
+#include <array>
 #include <cstdio>
 #include <optional>
 
+#include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/stop_signal.h"
 #include "cli/stream_file.h"
@@ -40,7 +42,15 @@ class Decoding {
   int faults_ = 0;
 };
 
+Result<void> check_files(const DecodeArguments& a) {
+  if (auto named = check_picture_name(a.output); !named) return named;
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
+  const std::array outputs{NamedFile{"OUTPUT", a.output}};
+  return check_distinct(inputs, outputs);
+}
+
 Result<void> Decoding::run() {
+  if (auto checked = check_files(arguments_); !checked) return checked;
   auto file = StreamFile::open(arguments_.input, stop_);
   if (!file) return fail(file.error());
   file_.emplace(std::move(*file));

@@ -1,4 +1,5 @@
 // fbs encode: video to stream.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -6,6 +7,7 @@
 #include "cli/display/overlay.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
+#include "cli/output_check.h"
 #include "cli/source_part.h"
 #include "cli/stop_signal.h"
 #include "cli/stream_file.h"
@@ -67,7 +69,15 @@ void print_warnings(const EncodeArguments& arguments, const VideoSource& source,
                  arguments.bitrate, measure.kbps());
 }
 
+Result<void> check_files(const EncodeArguments& a) {
+  if (auto named = check_stream_name(a.output); !named) return named;
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks}};
+  const std::array outputs{NamedFile{"OUTPUT", a.output}, NamedFile{"--overlay", a.overlay}};
+  return check_distinct(inputs, outputs);
+}
+
 Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
+  if (auto checked = check_files(arguments); !checked) return checked;
   SourceOptions options;
   options.stop = &stop;
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
