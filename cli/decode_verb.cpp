@@ -3,12 +3,16 @@
 #include <cstdio>
 #include <optional>
 
+#include "cli/decoded_time.h"
 #include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/stop_signal.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
+#include "cli/video/constant_rate.h"
+#include "cli/video/timestamps.h"
 #include "cli/video/video_sink.h"
+#include "cli/video/y4m.h"
 
 namespace fbs::cli {
 namespace {
@@ -28,7 +32,9 @@ class Decoding {
   /// The next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> report(const Error& fault);
+  Result<void> open_sink();
   Result<void> write();
+  void print_rate_change() const;
   void print_missing() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
 
@@ -36,9 +42,10 @@ class Decoding {
   const StopSignal* stop_;
   Progress progress_;
   std::optional<StreamFile> file_;
-  std::unique_ptr<VideoSink> sink_;  ///< opened with the first picture
+  std::unique_ptr<VideoSink> sink_;             ///< opened with the first picture
+  const ConstantRateSink* constant_ = nullptr;  ///< sink_, for outputs without timestamps
   Picture picture_;
-  std::int64_t pts_ = 0;
+  DecodedTime time_;
   int faults_ = 0;
 };
 
@@ -63,6 +70,7 @@ Result<void> Decoding::run() {
   if (!sink_) return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
   progress_.finish();
   if (auto finished = sink_->finish(); !finished) return finished;
+  print_rate_change();
   print_missing();
   return {};
 }
@@ -88,17 +96,41 @@ Result<void> Decoding::report(const Error& fault) {
   return {};
 }
 
-Result<void> Decoding::write() {
-  if (!sink_) {
-    auto opened = open_video_sink(arguments_.output, decoder().format(), {arguments_.sound});
-    if (!opened) return fail(opened.error());
-    sink_ = std::move(*opened);
+Result<void> Decoding::open_sink() {
+  const VideoFormat& format = decoder().format();
+  auto opened = open_video_sink(arguments_.output, format, {arguments_.sound});
+  if (!opened) return fail(opened.error());
+  sink_ = std::move(*opened);
+  time_ = DecodedTime(format.frame_rate);
+  if (is_y4m_output(arguments_.output) && plausible_rate(format.frame_rate)) {
+    auto constant = std::make_unique<ConstantRateSink>(std::move(sink_), format.frame_rate, !arguments_.vfr);
+    constant_ = constant.get();
+    sink_ = std::move(constant);
   }
+  return {};
+}
+
+Result<void> Decoding::write() {
+  if (!sink_)
+    if (auto opened = open_sink(); !opened) return opened;
   if (auto drawn = decoder().render(picture_); !drawn) return drawn;
-  if (auto written = sink_->write(picture_, pts_); !written) return written;
-  pts_ += decoder().duration();
+  if (auto written = sink_->write(picture_, time_.pts()); !written) return written;
+  time_.advance(decoder().duration());
   progress_.update(static_cast<std::int64_t>(decoder().pictures()));
   return {};
+}
+
+void Decoding::print_rate_change() const {
+  if (constant_ == nullptr || !constant_->change().any()) return;
+  const RateChange& change = constant_->change();
+  const std::string output = arguments_.output == "-" ? "standard output" : arguments_.output;
+  if (arguments_.vfr)
+    std::fprintf(stderr, "fbs: %s: variable frame rate, each picture written once; the speed is lost\n",
+                 output.c_str());
+  else
+    std::fprintf(
+        stderr, "fbs: %s: variable frame rate made constant; pictures repeated: %lld, dropped: %lld\n",
+        output.c_str(), static_cast<long long>(change.repeated), static_cast<long long>(change.dropped));
 }
 
 void Decoding::print_missing() const {

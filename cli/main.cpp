@@ -139,6 +139,10 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
                    ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
       ->required();
   verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
+  verb->add_flag(
+      "--vfr", a.vfr,
+      "Y4M: write each picture once; without it pictures are repeated or dropped where the frame rate "
+      "varies, to keep the speed");
   verb->add_flag("--keep-going", a.keep_going, "Decode as much as possible of a damaged or truncated stream");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->callback([&] { run = [&] { return run_decode(a); }; });

@@ -51,6 +51,7 @@ struct EncodeArguments {
 struct DecodeArguments {
   std::string input, output;
   std::string sound;        ///< file whose sound is copied into the output
+  bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
   bool quiet = false;
 };
