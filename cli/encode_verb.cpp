@@ -55,13 +55,17 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
 }
 
 /// File errors already name their file; codec errors are about the input.
-Error about_input(Error error, const std::string& input) {
+Error about_input(Error error, const std::string& name) {
+  const std::string input = name == "-" ? "standard input" : name;
   if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
   return error;
 }
 
-void print_warnings(const EncodeArguments& arguments, const VideoSource& source, const Measure& measure) {
-  if (source.damaged_packets() > 0)
+void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
+  if (source.failure())
+    std::fprintf(stderr, "fbs: %s; the %llu pictures before are encoded\n", source.failure()->text.c_str(),
+                 static_cast<unsigned long long>(measure.pictures));
+  else if (source.damaged_packets() > 0)
     std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
                  static_cast<long long>(source.damaged_packets()));
   if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
@@ -76,8 +80,8 @@ Result<void> check_files(const EncodeArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
-Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
-  if (auto checked = check_files(arguments); !checked) return checked;
+Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop) {
+  if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   SourceOptions options;
   options.stop = &stop;
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
@@ -106,18 +110,18 @@ Result<void> encode(const EncodeArguments& arguments, const StopSignal& stop) {
       see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
   if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
-    if (auto finished = overlay->finish(); !finished) return finished;
-  if (auto committed = file->commit(); !committed) return committed;
+    if (auto finished = overlay->finish(); !finished) return fail(finished.error());
+  if (auto committed = file->commit(); !committed) return fail(committed.error());
   print_warnings(arguments, source, *measure);
   if (!arguments.quiet) print_summary(arguments.output, *measure);
-  return {};
+  return source.failure() || source.damaged_packets() > 0 ? Outcome::kPartial : Outcome::kComplete;
 }
 
 /// Encodes until the end or a signal.
 Result<Outcome> encode_until_stopped(const EncodeArguments& arguments) {
   const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
-  const auto encoded = encode(arguments, stop);
-  if (!stop.raised()) return encoded.map([] { return Outcome::kComplete; });
+  auto encoded = encode(arguments, stop);
+  if (!stop.raised()) return encoded;
   if (!encoded)
     std::fprintf(stderr, "fbs: stopped by %s; nothing written: %s\n", stop.name(),
                  encoded.error().text.c_str());

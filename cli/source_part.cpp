@@ -5,6 +5,15 @@
 #include <utility>
 
 namespace fbs::cli {
+namespace {
+
+/// Whether the pictures before the error are worth keeping.
+bool ends_source(const Error& error) {
+  return error.code == ErrorCode::kTruncated || error.code == ErrorCode::kInvalidStream ||
+         error.code == ErrorCode::kIo;
+}
+
+}  // namespace
 
 SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop)
     : source_(std::move(source)), limits_(limits), stop_(stop) {}
@@ -13,12 +22,19 @@ Result<std::optional<TimedPicture>> SourcePart::next() {
   ended_ = ended_ || stop_.raised() || (limits_.pictures && pictures_ >= *limits_.pictures);
   if (ended_) return std::nullopt;
   auto picture = source_->next();
-  // A read that the signal interrupted fails. What it had read of a picture is lost.
-  if (!picture && stop_.raised()) picture = std::nullopt;
   ended_ = !picture || !*picture || !within_seconds((*picture)->pts);
-  if (ended_) return picture ? std::nullopt : std::move(picture);
+  if (!picture) return end_by(picture.error());
+  if (ended_) return std::nullopt;
   ++pictures_;
   return picture;
+}
+
+Result<std::optional<TimedPicture>> SourcePart::end_by(const Error& error) {
+  // A read that the signal interrupted fails. What it had read of a picture is lost.
+  if (stop_.raised()) return std::nullopt;
+  if (pictures_ == 0 || !ends_source(error)) return fail(error);
+  failure_ = error;
+  return std::nullopt;
 }
 
 bool SourcePart::within_seconds(std::int64_t pts) {

@@ -14,6 +14,7 @@ namespace fbs::cli {
 /// How a verb ended that did not fail; the value is the exit code of the program.
 enum class Outcome : std::uint8_t {
   kComplete = 0,
+  kPartial = 2,  ///< the source was cut off or damaged; what could be read of it was written
   kInterrupted =
       128 + SIGINT,  ///< encode: the stream has what was read until then; decode: nothing was written
   kTerminated = 128 + SIGTERM,  ///< the same

@@ -29,8 +29,9 @@ class VideoSource {
   [[nodiscard]] virtual const VideoFormat& format() const = 0;
 
   /// The next picture, with a pts above the one before; nullopt at the clean end, and again if asked again.
-  /// ErrorCode::kTruncated when the source stops inside a picture, kInvalidStream when it is damaged,
-  /// kUnsupported when the picture size changes. After an error the source must not be used further.
+  /// After the last picture that could be read: ErrorCode::kTruncated when the source is cut off,
+  /// kInvalidStream when it is damaged, kIo when it cannot be read further; kUnsupported when the picture
+  /// size changes. After an error the source must not be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
 
   /// Number of pictures according to the container, for progress bars; nullopt when it does not say.

@@ -9,6 +9,7 @@ extern "C" {
 }
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -41,6 +42,10 @@ inline std::string av_reason(int code) {
   av_strerror(code, text.data(), text.size());
   return text.data();
 }
+
+/// Number of errors that demuxers have logged since the program began. For some faults, such as the sudden
+/// end of a Matroska file, it is the only sign.
+[[nodiscard]] std::int64_t demuxer_complaints();
 
 /// Opens a container for reading and finds its streams. A local file wins over an address of the same
 /// spelling.
