@@ -101,6 +101,7 @@ Result<void> Decoding::open_sink() {
   auto opened = open_video_sink(arguments_.output, format, {arguments_.sound});
   if (!opened) return fail(opened.error());
   sink_ = std::move(*opened);
+  if (sink_->replaced_leftover()) print_replaced_leftover(arguments_.output);
   time_ = DecodedTime(format.frame_rate);
   if (is_y4m_output(arguments_.output) && plausible_rate(format.frame_rate)) {
     auto constant = std::make_unique<ConstantRateSink>(std::move(sink_), format.frame_rate, !arguments_.vfr);

@@ -92,6 +92,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
   if (!file) return fail(file.error());
+  if (file->replaced_leftover()) print_replaced_leftover(arguments.output);
   std::optional<Overlay> overlay;
   SeePicture see;
   if (!arguments.overlay.empty()) {

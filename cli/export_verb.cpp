@@ -54,6 +54,7 @@ Result<void> run_export(const ExportArguments& arguments) {
   if (!file) return fail(file.error());
   auto out = AtomicFile::create(arguments.output);
   if (!out) return fail(out.error());
+  if (out->replaced_leftover()) print_replaced_leftover(arguments.output);
   const auto write = [&](const std::string& text) {
     return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   };

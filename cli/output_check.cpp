@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -89,6 +90,10 @@ Result<void> check_picture_name(const std::string& output) {
   return fail(ErrorCode::kUnsupported, "cannot write " + output +
                                            ": decode writes pictures, not a stream; use .y4m, .mp4, .mkv or "
                                            "frame_%05d.png");
+}
+
+void print_replaced_leftover(const std::string& output) {
+  std::fprintf(stderr, "fbs: replaced %s.part, left by an earlier run\n", output.c_str());
 }
 
 }  // namespace fbs::cli

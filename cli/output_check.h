@@ -1,4 +1,4 @@
-// Checks the names of outputs before anything is opened for writing.
+// Checks of outputs: their names, before anything is opened for writing, and what was in their way.
 #pragma once
 
 #include <span>
@@ -25,5 +25,8 @@ Result<void> check_stream_name(const std::string& output);
 
 /// @return ErrorCode::kUnsupported for a name that ends in `.fbs`: pictures are no stream
 Result<void> check_picture_name(const std::string& output);
+
+/// Says on standard error that `OUTPUT.part` of an earlier run was replaced.
+void print_replaced_leftover(const std::string& output);
 
 }  // namespace fbs::cli

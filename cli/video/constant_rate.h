@@ -47,6 +47,7 @@ class ConstantRateSink final : public VideoSink {
   ConstantRateSink(std::unique_ptr<VideoSink> sink, Rational rate, bool hold);
 
   Result<void> write(const Picture& picture, std::int64_t pts) override;
+  [[nodiscard]] bool replaced_leftover() const override { return sink_->replaced_leftover(); }
   Result<void> finish() override { return sink_->finish(); }
 
   /// Pictures so far that were, or without `hold` would have been, repeated and dropped.
