@@ -9,9 +9,9 @@
 #include "cli/module.h"
 #include "cli/output_check.h"
 #include "cli/source_part.h"
-#include "cli/stop_signal.h"
 #include "cli/stream_file.h"
 #include "cli/video/atomic_file.h"
+#include "cli/video/stop_signal.h"
 
 namespace fbs::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/stop_signal.h"
+#include "cli/video/stop_signal.h"
 #include "cli/video/video_source.h"
 
 namespace fbs::cli {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "cli/stop_signal.h"
+#include "cli/video/stop_signal.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {

@@ -1,4 +1,4 @@
-#include "cli/stop_signal.h"
+#include "cli/video/stop_signal.h"
 
 #include <unistd.h>
 
