@@ -1,50 +1,147 @@
 // fbs decode: stream to pictures.
+#include <array>
+#include <cstdio>
 #include <optional>
 
+#include "cli/decoded_time.h"
 #include "cli/loss_report.h"
+#include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
+#include "cli/video/constant_rate.h"
+#include "cli/video/stop_signal.h"
+#include "cli/video/timestamps.h"
 #include "cli/video/video_sink.h"
+#include "cli/video/y4m.h"
 
 namespace fbs::cli {
+namespace {
+
+/// Decodes one stream into one output.
+class Decoding {
+ public:
+  /// @param stop  null: no signal is awaited
+  Decoding(const DecodeArguments& arguments, const StopSignal* stop)
+      : arguments_(arguments),
+        stop_(stop),
+        progress_("decoding", std::nullopt, arguments.quiet),
+        losses_(progress_) {}
+
+  Result<Outcome> run();
+
+ private:
+  /// The next picture; false at the end of what can be decoded.
+  Result<bool> next();
+  Result<void> open_sink();
+  Result<void> write();
+  void print_rate_change() const;
+  [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
+
+  const DecodeArguments& arguments_;
+  const StopSignal* stop_;
+  Progress progress_;
+  LossReport losses_;
+  std::optional<StreamFile> file_;
+  std::unique_ptr<VideoSink> sink_;             ///< opened with the first picture
+  const ConstantRateSink* constant_ = nullptr;  ///< sink_, for outputs without timestamps
+  Picture picture_;
+  DecodedTime time_;        ///< of the pictures written
+  std::int64_t gaps_ = 0;   ///< of pictures that are missing and not held, 1/90000 s
+  std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
+};
+
+Result<void> check_files(const DecodeArguments& a) {
+  if (auto named = check_picture_name(a.output); !named) return named;
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
+  const std::array outputs{NamedFile{"OUTPUT", a.output}};
+  return check_distinct(inputs, outputs);
+}
+
+Result<Outcome> Decoding::run() {
+  if (auto checked = check_files(arguments_); !checked) return fail(checked.error());
+  auto file = StreamFile::open(arguments_.input, stop_);
+  if (!file) return fail(file.error());
+  file_.emplace(std::move(*file));
+  if (arguments_.from > 0)
+    if (auto sought = file_->seek(ticks(arguments_.from)); !sought) return fail(sought.error());
+  for (;;) {
+    const auto found = next();
+    if (!found) return fail(found.error());
+    if (!*found) break;
+    if (auto written = write(); !written) return fail(written.error());
+  }
+  if (!sink_) return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
+  if (!arguments_.keep_going && !decoder().announced_pictures())
+    return fail(ErrorCode::kTruncated, file_->name() + ": " + missing_end_text(decoder()));
+  progress_.finish();
+  if (auto finished = sink_->finish(); !finished) return fail(finished.error());
+  print_rate_change();
+  return arguments_.keep_going ? losses_.finish(*file_) : Outcome::kComplete;
+}
+
+Result<bool> Decoding::next() {
+  if (stop_ != nullptr && stop_->raised()) return fail(ErrorCode::kIo, "stopped");
+  const auto status = arguments_.keep_going ? losses_.next(*file_) : file_->next();
+  if (!status) return fail(status.error());
+  return *status != DecodeStatus::kEnd;
+}
+
+Result<void> Decoding::open_sink() {
+  const VideoFormat& format = decoder().format();
+  // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
+  next_ = arguments_.from > 0 ? decoder().position().time : decoder().start().time;
+  const std::int64_t sound_begin = arguments_.from > 0 ? static_cast<std::int64_t>(next_) : 0;
+  auto opened = open_video_sink(arguments_.output, format, {arguments_.sound, sound_begin});
+  if (!opened) return fail(opened.error());
+  sink_ = std::move(*opened);
+  if (sink_->replaced_leftover()) print_replaced_leftover(arguments_.output);
+  time_ = DecodedTime(format.frame_rate);
+  if (is_y4m_output(arguments_.output) && plausible_rate(format.frame_rate)) {
+    auto constant = std::make_unique<ConstantRateSink>(std::move(sink_), format.frame_rate, !arguments_.vfr);
+    constant_ = constant.get();
+    sink_ = std::move(constant);
+  }
+  return {};
+}
+
+Result<void> Decoding::write() {
+  if (!sink_)
+    if (auto opened = open_sink(); !opened) return opened;
+  if (!decoder().held() || picture_.empty())
+    if (auto drawn = decoder().render(picture_); !drawn) return drawn;
+  const std::uint64_t now = decoder().position().time;
+  gaps_ += static_cast<std::int64_t>(now - next_);
+  if (auto written = sink_->write(picture_, gaps_ + time_.pts()); !written) return written;
+  time_.advance(decoder().duration());
+  next_ = now + decoder().duration();
+  progress_.update(static_cast<std::int64_t>(decoder().pictures()));
+  return {};
+}
+
+void Decoding::print_rate_change() const {
+  if (constant_ == nullptr || !constant_->change().any()) return;
+  const RateChange& change = constant_->change();
+  const std::string output = arguments_.output == "-" ? "standard output" : arguments_.output;
+  if (arguments_.vfr)
+    std::fprintf(stderr, "fbs: %s: variable frame rate, each picture written once; the speed is lost\n",
+                 output.c_str());
+  else
+    std::fprintf(
+        stderr, "fbs: %s: variable frame rate made constant; pictures repeated: %lld, dropped: %lld\n",
+        output.c_str(), static_cast<long long>(change.repeated), static_cast<long long>(change.dropped));
+}
+
+}  // namespace
 
 Result<Outcome> run_decode(const DecodeArguments& arguments) {
-  auto file = StreamFile::open(arguments.input);
-  if (!file) return fail(file.error());
-  if (arguments.from > 0)
-    if (auto sought = file->seek(ticks(arguments.from)); !sought) return fail(sought.error());
-  StreamDecoder& decoder = file->decoder();
-
-  std::unique_ptr<VideoSink> sink;
-  Picture picture;
-  std::int64_t begin = 0;  // time in the stream that is 0 in the output
-  Progress progress("decoding", std::nullopt, arguments.quiet);
-  LossReport losses(progress);
-  for (;;) {
-    const auto status = arguments.keep_going ? losses.next(*file) : file->next();
-    if (!status) return fail(status.error());
-    if (*status == DecodeStatus::kEnd) break;
-    if (!sink) {
-      // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
-      begin = static_cast<std::int64_t>(arguments.from > 0 ? decoder.position().time : decoder.start().time);
-      auto opened = open_video_sink(arguments.output, decoder.format(),
-                                    {arguments.sound, arguments.from > 0 ? begin : 0});
-      if (!opened) return fail(opened.error());
-      sink = std::move(*opened);
-    }
-    if (!decoder.held() || picture.empty())
-      if (auto drawn = decoder.render(picture); !drawn) return fail(drawn.error());
-    const std::int64_t pts = static_cast<std::int64_t>(decoder.position().time) - begin;
-    if (auto written = sink->write(picture, pts); !written) return fail(written.error());
-    progress.update(static_cast<std::int64_t>(decoder.pictures()));
-  }
-  if (!sink) return fail(ErrorCode::kInvalidStream, file->name() + ": contains no pictures");
-  if (!arguments.keep_going && !decoder.announced_pictures())
-    return fail(ErrorCode::kTruncated, file->name() + ": " + missing_end_text(decoder));
-  progress.finish();
-  if (auto finished = sink->finish(); !finished) return fail(finished.error());
-  return arguments.keep_going ? losses.finish(*file) : Outcome::kComplete;
+  // Standard output has nothing to remove: there a signal ends the program at once.
+  std::optional<StopSignal> stop;
+  if (arguments.output != "-") stop.emplace(nullptr);
+  auto decoded = Decoding(arguments, stop ? &*stop : nullptr).run();
+  if (decoded || !stop || !stop->raised()) return decoded;
+  if (!arguments.quiet) std::fprintf(stderr, "fbs: stopped by %s; nothing written\n", stop->name());
+  return outcome_of_stop(stop->number());
 }
 
 }  // namespace fbs::cli

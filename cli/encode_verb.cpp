@@ -1,4 +1,5 @@
 // fbs encode: video to stream.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -6,12 +7,16 @@
 #include "cli/display/overlay.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
+#include "cli/output_check.h"
+#include "cli/source_part.h"
 #include "cli/stream_file.h"
 #include "cli/video/atomic_file.h"
+#include "cli/video/stop_signal.h"
 
 namespace fbs::cli {
 namespace {
 
+constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal ends at once";
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
 void print_summary(const std::string& output, const Measure& m) {
@@ -51,13 +56,17 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
 }
 
 /// File errors already name their file; codec errors are about the input.
-Error about_input(Error error, const std::string& input) {
+Error about_input(Error error, const std::string& name) {
+  const std::string input = name == "-" ? "standard input" : name;
   if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
   return error;
 }
 
-void print_warnings(const EncodeArguments& arguments, const VideoSource& source, const Measure& measure) {
-  if (source.damaged_packets() > 0)
+void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
+  if (source.failure())
+    std::fprintf(stderr, "fbs: %s; the %llu pictures before are encoded\n", source.failure()->text.c_str(),
+                 static_cast<unsigned long long>(measure.pictures));
+  else if (source.damaged_packets() > 0)
     std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
                  static_cast<long long>(source.damaged_packets()));
   if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
@@ -65,19 +74,30 @@ void print_warnings(const EncodeArguments& arguments, const VideoSource& source,
                  arguments.bitrate, measure.kbps());
 }
 
-Result<void> encode(const EncodeArguments& arguments) {
+Result<void> check_files(const EncodeArguments& a) {
+  if (auto named = check_stream_name(a.output); !named) return named;
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks}};
+  const std::array outputs{NamedFile{"OUTPUT", a.output}, NamedFile{"--overlay", a.overlay}};
+  return check_distinct(inputs, outputs);
+}
+
+Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop) {
+  if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   SourceOptions options;
+  options.stop = &stop;
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
-  auto source = open_video_source(arguments.input, options);
-  if (!source) return fail(source.error());
-  const auto settings = settings_of(arguments, **source);
+  auto opened = open_video_source(arguments.input, options);
+  if (!opened) return fail(opened.error());
+  SourcePart source(std::move(*opened), {arguments.frames, arguments.duration}, stop);
+  const auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
   if (!file) return fail(file.error());
+  if (file->replaced_leftover()) print_replaced_leftover(arguments.output);
   std::optional<Overlay> overlay;
   SeePicture see;
   if (!arguments.overlay.empty()) {
-    auto created = Overlay::create(arguments.overlay, (*source)->format());
+    auto created = Overlay::create(arguments.overlay, source.format());
     if (!created) return fail(created.error());
     overlay.emplace(std::move(*created));
     see = [&](const TimedPicture& p, const PictureAnalysis& a) {
@@ -85,20 +105,37 @@ Result<void> encode(const EncodeArguments& arguments) {
     };
   }
   const auto measure = encode_source(
-      **source, *settings, [&](std::span<const std::uint8_t> bytes) { return file->write(bytes); }, see,
-      arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
+      source, *settings,
+      [&](std::span<const std::uint8_t> bytes) {
+        return file->write(bytes).and_then([&] { return file->flush(); });
+      },
+      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
   if (!measure) return fail(about_input(measure.error(), arguments.input));
   if (overlay)
-    if (auto finished = overlay->finish(); !finished) return finished;
-  if (auto committed = file->commit(); !committed) return committed;
-  print_warnings(arguments, **source, *measure);
+    if (auto finished = overlay->finish(); !finished) return fail(finished.error());
+  if (auto committed = file->commit(); !committed) return fail(committed.error());
+  print_warnings(arguments, source, *measure);
   if (!arguments.quiet) print_summary(arguments.output, *measure);
-  return {};
+  return source.failure() || source.damaged_packets() > 0 ? Outcome::kPartial : Outcome::kComplete;
+}
+
+/// Encodes until the end or a signal.
+Result<Outcome> encode_until_stopped(const EncodeArguments& arguments) {
+  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
+  auto encoded = encode(arguments, stop);
+  if (!stop.raised()) return encoded;
+  if (!encoded)
+    std::fprintf(stderr, "fbs: stopped by %s; nothing written: %s\n", stop.name(),
+                 encoded.error().text.c_str());
+  else if (!arguments.quiet)
+    std::fprintf(stderr, "fbs: stopped by %s\n", stop.name());
+  return outcome_of_stop(stop.number());
 }
 
 }  // namespace
 }  // namespace fbs::cli
 
-FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments, fbs::Result<void>& result) {
-  result = fbs::cli::encode(arguments);
+FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
+                                      fbs::Result<fbs::cli::Outcome>& result) {
+  result = fbs::cli::encode_until_stopped(arguments);
 }

@@ -1,7 +1,9 @@
 // fbs export: the motion of a stream as a table.
+#include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "cli/output_check.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 #include "cli/video/atomic_file.h"
@@ -45,10 +47,14 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
 Result<void> run_export(const ExportArguments& arguments) {
   if (!arguments.output.ends_with(".csv"))
     return fail(ErrorCode::kUnsupported, arguments.output + ": unknown format; use .csv");
+  const std::array inputs{NamedFile{"INPUT", arguments.input}};
+  const std::array outputs{NamedFile{"OUTPUT", arguments.output}};
+  if (auto checked = check_distinct(inputs, outputs); !checked) return checked;
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   auto out = AtomicFile::create(arguments.output);
   if (!out) return fail(out.error());
+  if (out->replaced_leftover()) print_replaced_leftover(arguments.output);
   const auto write = [&](const std::string& text) {
     return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   };

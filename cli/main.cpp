@@ -1,6 +1,8 @@
 // The program fbs: parses the command line and runs one verb.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
@@ -19,7 +21,8 @@ using fbs::cli::Outcome;
 using fbs::cli::PlayArguments;
 
 constexpr int kFailed = 2;
-constexpr double kMaxSeconds = 1e8;  // of --from: three years
+constexpr std::int64_t kMaxFrames = 1'000'000'000;  // of --frames: more than a year
+constexpr double kMaxSeconds = 1e8;                 // of --duration and --from: three years
 
 constexpr const char* kAbout =
     "fbs, a video codec for talking heads. It sends a picture of the person once, then only the motion.\n";
@@ -41,7 +44,7 @@ constexpr const char* kExamples =
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
     "--keep-going\n"
-    "has lost pictures.";
+    "has lost pictures; 130 or 143 when stopped.";
 
 constexpr const char* kHiddenGroup = "for measurements";
 
@@ -61,9 +64,24 @@ fbs::Result<Outcome> complete(const fbs::Result<void>& result) {
   return result.map([] { return Outcome::kComplete; });
 }
 
+/// CLI::Range lets NaN through.
+CLI::Validator number_within(double low, double high) {
+  std::array<char, 64> range{};
+  std::snprintf(range.data(), range.size(), "[%g - %g]", low, high);
+  const auto check = [low, high](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end != text.c_str() && *end == '\0' && value >= low && value <= high) return {};
+    std::array<char, 64> limits{};
+    std::snprintf(limits.data(), limits.size(), " not in range %g to %g", low, high);
+    return "Value " + text + limits.data();
+  };
+  return {check, std::string("FLOAT in ") + range.data()};
+}
+
 void add_from(CLI::App& verb, double& from) {
   verb.add_option("--from", from, "Begin with the picture of this time")
-      ->check(CLI::Range(0.0, kMaxSeconds))
+      ->check(number_within(0, kMaxSeconds))
       ->type_name("SECONDS");
 }
 
@@ -77,7 +95,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
   verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
-      ->check(CLI::Range(0.1, 10000.0))
+      ->check(number_within(0.1, 10000))
       ->excludes("--quality");
   verb->add_option("--patterns", a.patterns,
                    "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
@@ -101,9 +119,16 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
       ->check(CLI::Range(0, 99));
   verb->add_option("--overlay", a.overlay,
                    "Also write a video of the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
+  verb->add_option("--frames", a.frames, "Encode the first N pictures only")
+      ->check(CLI::Range(std::int64_t{1}, kMaxFrames))
+      ->type_name("N");
+  verb->add_option("--duration", a.duration,
+                   "Encode the first SECONDS only; with --frames, whichever ends first")
+      ->check(number_within(0.001, kMaxSeconds))
+      ->type_name("SECONDS");
   verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(number_within(0.01, 1000));
   verb->add_flag("--allow-no-face", a.allow_no_face,
                  "Encode a video without a face as a still picture instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
@@ -115,9 +140,9 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
   verb->add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
   verb->add_option("--motion-bitrate", a.motion_bitrate)
-      ->check(CLI::Range(0.05, 1000.0))
+      ->check(number_within(0.05, 1000))
       ->group(kHiddenGroup);
-  verb->callback([&] { run = [&] { return complete(run_encode(a)); }; });
+  verb->callback([&] { run = [&] { return run_encode(a); }; });
 }
 
 void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
@@ -127,6 +152,10 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
                    ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
       ->required();
   verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
+  verb->add_flag(
+      "--vfr", a.vfr,
+      "Y4M: write each picture once; without it pictures are repeated or dropped where the frame rate "
+      "varies, to keep the speed");
   add_from(*verb, a.from);
   verb->add_flag(
       "--keep-going", a.keep_going,

@@ -6,25 +6,25 @@
 namespace fbs::cli {
 namespace {
 
-template <class Arguments>
-Result<void> run(const char* module, const char* symbol, const Arguments& arguments) {
-  auto function = load_module_function<void(const Arguments&, Result<void>&)>(module, symbol);
+template <class Value, class Arguments>
+Result<Value> run(const char* module, const char* symbol, const Arguments& arguments) {
+  auto function = load_module_function<void(const Arguments&, Result<Value>&)>(module, symbol);
   if (!function) return fail(function.error());
-  Result<void> result;
+  Result<Value> result;
   (*function)(arguments, result);
   return result;
 }
 
 }  // namespace
 
-Result<void> run_encode(const EncodeArguments& arguments) {
-  return run(kEncoderModule, kEncodeSymbol, arguments);
+Result<Outcome> run_encode(const EncodeArguments& arguments) {
+  return run<Outcome>(kEncoderModule, kEncodeSymbol, arguments);
 }
 Result<void> run_evaluate(const EvaluateArguments& arguments) {
-  return run(kEncoderModule, kEvaluateSymbol, arguments);
+  return run<void>(kEncoderModule, kEvaluateSymbol, arguments);
 }
 Result<void> run_play(const PlayArguments& arguments) {
-  return run(kPlayerModule, kPlaySymbol, arguments);
+  return run<void>(kPlayerModule, kPlaySymbol, arguments);
 }
 
 }  // namespace fbs::cli

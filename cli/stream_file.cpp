@@ -31,15 +31,15 @@ StreamFile::Descriptor::~Descriptor() {
   if (number_ > STDIN_FILENO) ::close(number_);
 }
 
-Result<StreamFile> StreamFile::open(const std::string& name) {
-  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO));
+Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* stop) {
+  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO), stop);
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0)
     return fail(ErrorCode::kIo, name + ": cannot open: " + std::generic_category().message(errno));
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
-  return StreamFile(name, std::move(file));
+  return StreamFile(name, std::move(file), stop);
 }
 
 Result<DecodeStatus> StreamFile::next() {
@@ -69,7 +69,7 @@ Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
   for (;;) {
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
     if (n >= 0) return static_cast<std::size_t>(n);
-    if (errno != EINTR)
+    if (errno != EINTR || (stop_ != nullptr && stop_->raised()))
       return fail(ErrorCode::kIo, name_ + ": cannot read: " + std::generic_category().message(errno));
   }
 }

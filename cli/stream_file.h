@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/video/stop_signal.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {
@@ -13,10 +14,11 @@ namespace fbs::cli {
 /// damaged, the byte.
 class StreamFile {
  public:
-  static Result<StreamFile> open(const std::string& name);
+  /// @param stop  must outlive the object; null: reading is never stopped
+  static Result<StreamFile> open(const std::string& name, const StopSignal* stop = nullptr);
 
-  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore. After seek() kInvalidArgument
-  /// if the stream ends before that time.
+  /// StreamDecoder::next() with all the bytes that it needs: never kNeedMore. ErrorCode::kIo when the signal
+  /// comes while it waits for bytes; after seek() kInvalidArgument if the stream ends before that time.
   Result<DecodeStatus> next();
 
   /// Joins the stream at the last scene that begins at or before `time`; next() leaves out pictures that end
@@ -28,6 +30,7 @@ class StreamFile {
   Result<std::vector<std::uint8_t>> read_all();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
+  [[nodiscard]] const StreamDecoder& decoder() const { return decoder_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
@@ -50,10 +53,12 @@ class StreamFile {
    private:
     int number_;
   };
-  StreamFile(std::string name, Descriptor file) : name_(std::move(name)), file_(std::move(file)) {}
+  StreamFile(std::string name, Descriptor file, const StopSignal* stop)
+      : name_(std::move(name)), file_(std::move(file)), stop_(stop) {}
 
   std::string name_;
   Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on what a pipe has
+  const StopSignal* stop_;
   StreamDecoder decoder_;
   std::uint64_t skipped_ = 0;  ///< bytes of the file that the decoder does not get
   std::uint64_t from_ = 0;     ///< time to be reached, 1/90000 s; 0: reached

@@ -1,6 +1,7 @@
 // Arguments of each verb of the program. main.cpp fills them in; one file per verb carries it out.
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,10 +14,19 @@ namespace fbs::cli {
 /// How a verb ended that did not fail; the value is the exit code of the program.
 enum class Outcome : std::uint8_t {
   kComplete = 0,
+  kPartial = 2,  ///< encode: the source was cut off or damaged; what could be read of it was written
   kLittleLost =
       3,          ///< decode --keep-going: less than a tenth of the pictures, or an unknown number at the end
   kMuchLost = 4,  ///< decode --keep-going: a tenth of the pictures or more
+  kInterrupted =
+      128 + SIGINT,  ///< encode: the stream has what was read until then; decode: nothing was written
+  kTerminated = 128 + SIGTERM,  ///< the same
 };
+
+/// @param signal  SIGINT or SIGTERM
+[[nodiscard]] constexpr Outcome outcome_of_stop(int signal) {
+  return signal == SIGTERM ? Outcome::kTerminated : Outcome::kInterrupted;
+}
 
 struct EncodeArguments {
   std::string input, output;
@@ -25,8 +35,10 @@ struct EncodeArguments {
   int patterns = 0;    ///< of a scene; 0: chosen by the encoder
   double key_interval = 0;  ///< seconds; 0: where it costs little
   int face = 0;
-  std::string marks;    ///< file; empty: automatic
-  std::string overlay;  ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::string marks;                   ///< file; empty: automatic
+  std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::optional<std::int64_t> frames;  ///< encode at most so many pictures
+  std::optional<double> duration;      ///< encode at most so many seconds of the source
   double sequence_rate = 25;
   bool allow_no_face = false;
   // For measurements; not shown by --help.
@@ -45,6 +57,7 @@ struct DecodeArguments {
   std::string input, output;
   std::string sound;        ///< file whose sound is copied into the output
   double from = 0;          ///< seconds; where to begin
+  bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
   bool quiet = false;
 };
@@ -72,7 +85,7 @@ struct PlayArguments {
 };
 
 /// Error texts are complete lines for the user: which file, and what is wrong with it.
-Result<void> run_encode(const EncodeArguments& arguments);
+Result<Outcome> run_encode(const EncodeArguments& arguments);
 Result<Outcome> run_decode(const DecodeArguments& arguments);
 Result<void> run_inspect(const InspectArguments& arguments);
 Result<void> run_export(const ExportArguments& arguments);

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/video/partial_file.h"
+
 namespace fbs {
 namespace {
 
@@ -50,10 +52,15 @@ Result<AtomicFile> AtomicFile::create(const std::string& name) {
   }
 
   const std::string partial = file.target_ + ".part";
-  file.descriptor_ =
-      open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, kNewFileMode);
-  if (file.descriptor_ < 0) return file.system_error(errno);
+  const auto made = create_partial_file(partial, kNewFileMode);
+  if (!made && made.error() == EBUSY)
+    return fail(ErrorCode::kIo, "cannot write " + name + ": another process is writing " + partial);
+  if (!made) return file.system_error(made.error());
+  file.descriptor_ = made->descriptor;
+  file.lock_ = fcntl(file.descriptor_, F_DUPFD_CLOEXEC, 0);
+  file.replaced_leftover_ = made->replaced;
   file.partial_ = partial;
+  if (file.lock_ < 0) return file.system_error(errno);
   if (exists && fchmod(file.descriptor_, existing.st_mode & 0777) != 0) return file.system_error(errno);
   return file;
 }
@@ -63,6 +70,8 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       target_(std::move(other.target_)),
       partial_(std::exchange(other.partial_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      lock_(std::exchange(other.lock_, -1)),
+      replaced_leftover_(other.replaced_leftover_),
       direct_(other.direct_),
       buffer_(std::exchange(other.buffer_, {})) {}
 
@@ -73,6 +82,8 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   target_ = std::move(other.target_);
   partial_ = std::exchange(other.partial_, {});
   descriptor_ = std::exchange(other.descriptor_, -1);
+  lock_ = std::exchange(other.lock_, -1);
+  replaced_leftover_ = other.replaced_leftover_;
   direct_ = other.direct_;
   buffer_ = std::exchange(other.buffer_, {});
   return *this;
@@ -114,7 +125,13 @@ Result<void> AtomicFile::commit() {
   assert(!partial_.empty());
   if (std::rename(partial_.c_str(), target_.c_str()) != 0) return system_error(errno);
   partial_.clear();
+  unlock();
   return {};
+}
+
+void AtomicFile::unlock() noexcept {
+  if (lock_ >= 0) ::close(lock_);
+  lock_ = -1;
 }
 
 Result<void> AtomicFile::flush() {
@@ -142,6 +159,7 @@ void AtomicFile::discard() noexcept {
   descriptor_ = -1;
   if (!partial_.empty()) unlink(partial_.c_str());
   partial_.clear();
+  unlock();
 }
 
 }  // namespace fbs

@@ -36,7 +36,7 @@ Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, co
     return fail(ErrorCode::kUnsupported, "cannot write " + output + ": sound needs .mp4 or .mkv");
   }
   if (output == "null:") return std::make_unique<NullSink>();
-  if (output == "-" || output.ends_with(".y4m")) return open_y4m_sink(output, format);
+  if (is_y4m_output(output)) return open_y4m_sink(output, format);
   if (parse_number_pattern(std::filesystem::path(output).filename().string())) {
     return open_by_module(kImageModule, output, format, options);
   }

@@ -22,6 +22,9 @@ class VideoSink {
   ///         after an error the sink must not be used further
   virtual Result<void> write(const Picture& picture, std::int64_t pts) = 0;
 
+  /// Whether an unfinished file of an earlier run was in the way and has been replaced.
+  [[nodiscard]] virtual bool replaced_leftover() const { return false; }
+
   /// Completes the output and gives it its final name. Call it once, last.
   virtual Result<void> finish() = 0;
 };

@@ -11,6 +11,8 @@
 
 namespace fbs {
 
+class StopSignal;
+
 struct TimedPicture {
   Picture picture;
   std::int64_t pts = 0;  ///< presentation time, 1/90000 s from the start of the source; see timestamps.h
@@ -27,8 +29,9 @@ class VideoSource {
   [[nodiscard]] virtual const VideoFormat& format() const = 0;
 
   /// The next picture, with a pts above the one before; nullopt at the clean end, and again if asked again.
-  /// ErrorCode::kTruncated when the source stops inside a picture, kInvalidStream when it is damaged,
-  /// kUnsupported when the picture size changes. After an error the source must not be used further.
+  /// After the last picture that could be read: ErrorCode::kTruncated when the source is cut off,
+  /// kInvalidStream when it is damaged, kIo when it cannot be read further; kUnsupported when the picture
+  /// size changes. After an error the source must not be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
 
   /// Number of pictures according to the container, for progress bars; nullopt when it does not say.
@@ -41,6 +44,8 @@ class VideoSource {
 struct SourceOptions {
   Rational sequence_rate{25, 1};  ///< pictures per second of image sequences
   int decoder_threads = 1;        ///< at least 1
+  const StopSignal* stop =
+      nullptr;  ///< must outlive the source; a read that waits ends with an error when it comes
 };
 
 /// Opens `input`:

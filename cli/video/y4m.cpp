@@ -205,6 +205,8 @@ class Y4mSink final : public VideoSink {
     return written;
   }
 
+  [[nodiscard]] bool replaced_leftover() const override { return file_.replaced_leftover(); }
+
   Result<void> finish() override { return file_.commit(); }
 
  private:

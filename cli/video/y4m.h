@@ -39,6 +39,11 @@ std::string y4m_header(const VideoFormat& format);
 /// @param input  a file name, or `-` for standard input
 Result<std::unique_ptr<VideoSource>> open_y4m_source(const std::string& input);
 
+/// Whether open_video_sink writes Y4M to this output.
+[[nodiscard]] inline bool is_y4m_output(const std::string& output) {
+  return output == "-" || output.ends_with(".y4m");
+}
+
 /// @param output  a file name, or `-` for standard output
 Result<std::unique_ptr<VideoSink>> open_y4m_sink(const std::string& output, const VideoFormat& format);
 

@@ -80,6 +80,28 @@ class SourceKinds(ProgramTest):
         for a, b in zip(source, decoded):
             self.assertAlmostEqual(a - source[0], b - decoded[0], delta=0.0015)
 
+    def test_variable_rate_becomes_constant_in_y4m(self):
+        ffmpeg("-i", TALK_Y4M, "-vf", "select='not(between(n,40,45))'", "-fps_mode", "vfr", "-c:v", "ffv1",
+               self.folder / "in.mkv")  # less than a tenth is missing, so that the rate stays 30
+        self.succeed("encode", "in.mkv", "out.fbs")
+        held = self.fbs("decode", "out.fbs", "held.y4m")
+        self.assertEqual((held.returncode, held.stderr),
+                         (0, b"fbs: held.y4m: variable frame rate made constant; pictures repeated: 6, dropped: 0\n"))
+        once = self.fbs("decode", "out.fbs", "-", "--vfr")
+        self.assertIn(b"fbs: standard output: variable frame rate, each picture written once; the speed is lost", once.stderr)
+        held, once = read_y4m(self.folder / "held.y4m"), Y4m(once.stdout)
+        self.assertEqual(once.shape, (176, 144, 114, 30.0))
+        self.assertEqual(held.pictures, once.pictures[:39] + 7 * once.pictures[39:40] + once.pictures[40:])
+        self.succeed("decode", "out.fbs", "out_%03d.png")
+        self.assertEqual(len(list(self.folder.glob("*.png"))), 114)
+
+    def test_variable_rate_keeps_its_length_in_y4m(self):
+        ffmpeg("-i", TALK_Y4M, "-vf", "select='not(eq(mod(n,7),2)+between(n,40,55))'", "-fps_mode", "vfr",
+               "-c:v", "ffv1", self.folder / "in.mkv")
+        self.succeed("encode", "in.mkv", "out.fbs")
+        times, out = self.times("in.mkv"), self.decoded("out.fbs")
+        self.assertAlmostEqual(len(out.pictures) / out.rate, times[-1] - times[0], delta=2 / out.rate)
+
     def times(self, name):
         packets = ffprobe(self.folder / name, "packet=pts_time")["packets"]
         return sorted(float(packet["pts_time"]) for packet in packets)

@@ -29,6 +29,8 @@ class AvMuxer {
   /// Writes the end of the container and gives the file its name.
   Result<void> finish();
 
+  [[nodiscard]] bool replaced_leftover() const { return file_.replaced_leftover(); }
+
   [[nodiscard]] tl::unexpected<Error> error(const std::string& reason) const;
 
  private:

@@ -65,6 +65,7 @@ class AvSink final : public VideoSink {
 
   Result<void> open(const std::string& output, const SinkOptions& options);
   Result<void> write(const Picture& picture, std::int64_t pts) override;
+  [[nodiscard]] bool replaced_leftover() const override { return muxer_->replaced_leftover(); }
   Result<void> finish() override;
 
  private:

@@ -8,7 +8,7 @@ Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvM
   AvSound sound;
   sound.name_ = source;
   int code = 0;
-  sound.container_ = open_av_input(source, code);
+  sound.container_ = open_av_input(source, nullptr, code);
   if (!sound.container_) return fail(ErrorCode::kIo, "cannot read " + source + ": " + av_reason(code));
   const int index = av_find_best_stream(sound.container_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
   if (index < 0) return fail(ErrorCode::kUnsupported, source + ": contains no sound");

@@ -74,6 +74,9 @@ class AvSource final : public VideoSource {
   Result<bool> decode();
   /// Sends the next packet, or the end, to the decoder.
   Result<void> feed();
+  /// @param code  libav's, of the end of the container
+  /// @param cut   whether it came too early
+  void note_failure(int code, bool cut);
   std::int64_t next_pts();
   [[nodiscard]] std::int64_t on_regular_grid(std::int64_t pts) const;
   [[nodiscard]] tl::unexpected<Error> error(ErrorCode code, const std::string& text) const {
@@ -91,19 +94,23 @@ class AvSource final : public VideoSource {
   Orientation orientation_;
   bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
   bool drained_ = false;        ///< the decoder has got its end-of-stream packet
+  std::optional<Error>
+      failure_;  ///< what ended the container before its end; reported after the last picture
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;
   std::int64_t damaged_packets_ = 0;
+  bool last_packet_cut_ = false;  ///< libav read less of it than it should have
 };
 
 Result<void> AvSource::open(const SourceOptions& options) {
   int code = 0;
-  container_ = open_av_input(name_, code);
+  container_ = open_av_input(name_, options.stop, code);
   if (!container_) {
     const bool other_kind = code == AVERROR_INVALIDDATA || code == AVERROR_PROTOCOL_NOT_FOUND;
     return fail(other_kind ? ErrorCode::kUnsupported : ErrorCode::kIo,
-                "cannot read " + name_ + ": " + (other_kind ? "not a video that we know" : av_reason(code)));
+                "cannot read " + name_ + ": " +
+                    (other_kind ? "not a video that we know, or cut off before its index" : av_reason(code)));
   }
   if (auto opened = open_decoder(options); !opened) return opened;
   auto decoded = decode();
@@ -173,6 +180,7 @@ Result<std::optional<TimedPicture>> AvSource::next() {
 Result<bool> AvSource::decode() {
   for (;;) {
     const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
+    if (code == AVERROR_EOF && failure_) return fail(*failure_);
     if (code == AVERROR_EOF) return false;
     if (code >= 0) return true;
     if (code != AVERROR(EAGAIN)) {
@@ -185,20 +193,28 @@ Result<bool> AvSource::decode() {
 
 Result<void> AvSource::feed() {
   if (drained_) return error(ErrorCode::kInternal, "decoder does not end");
+  const std::int64_t complaints = demuxer_complaints();
   int code = 0;
   do {
     av_packet_unref(packet_.get());
     code = av_read_frame(container_.get(), packet_.get());
   } while (code >= 0 && packet_->stream_index != stream_->index);
-  if (code == AVERROR_EOF) {
+  if (code < 0) {
+    note_failure(code, demuxer_complaints() > complaints || last_packet_cut_);
     drained_ = true;
     avcodec_send_packet(decoder_.get(), nullptr);
     return {};
   }
-  if (code == AVERROR_INVALIDDATA) return error(ErrorCode::kInvalidStream, "damaged container");
-  if (code < 0) return error(ErrorCode::kIo, av_reason(code));
+  last_packet_cut_ = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
   if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) ++damaged_packets_;
   return {};
+}
+
+void AvSource::note_failure(int code, bool cut) {
+  if (code == AVERROR_EOF && !cut) return;
+  const bool damaged = code == AVERROR_EOF || code == AVERROR_INVALIDDATA;
+  failure_ = Error{damaged ? ErrorCode::kTruncated : ErrorCode::kIo,
+                   name_ + ": " + (damaged ? "cut off or damaged" : av_reason(code))};
 }
 
 std::int64_t AvSource::next_pts() {

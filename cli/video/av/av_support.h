@@ -9,9 +9,11 @@ extern "C" {
 }
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
+#include "cli/video/stop_signal.h"
 #include "cli/video/timestamps.h"
 
 namespace fbs {
@@ -41,9 +43,14 @@ inline std::string av_reason(int code) {
   return text.data();
 }
 
+/// Number of errors that demuxers have logged since the program began. For some faults, such as the sudden
+/// end of a Matroska file, it is the only sign.
+[[nodiscard]] std::int64_t demuxer_complaints();
+
 /// Opens a container for reading and finds its streams. A local file wins over an address of the same
 /// spelling.
+/// @param stop  interrupts opening and reading; null: nothing does
 /// @return null when it fails, with libav's code in `error`
-AvInput open_av_input(const std::string& name, int& error);
+AvInput open_av_input(const std::string& name, const StopSignal* stop, int& error);
 
 }  // namespace fbs

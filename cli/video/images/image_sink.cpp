@@ -40,9 +40,12 @@ class ImageSink final : public VideoSink {
     }
     if (auto stored = file.write(bytes_); !stored) return stored;
     if (auto closed = file.close(); !closed) return closed;
+    if (written_ > 0) file.unlock();  // the first file keeps other processes away from the set
     ++written_;
     return {};
   }
+
+  [[nodiscard]] bool replaced_leftover() const override { return replaced_leftover_; }
 
   Result<void> finish() override {
     files_.erase(files_.begin() + static_cast<std::ptrdiff_t>(written_), files_.end());
@@ -56,6 +59,7 @@ class ImageSink final : public VideoSink {
   Result<void> create_next() {
     auto file = AtomicFile::create(pattern_.name(static_cast<std::int64_t>(files_.size()) + 1));
     if (!file) return fail(file.error());
+    replaced_leftover_ = replaced_leftover_ || file->replaced_leftover();
     files_.push_back(std::move(*file));
     return {};
   }
@@ -83,6 +87,7 @@ class ImageSink final : public VideoSink {
   VideoFormat format_;
   std::vector<AtomicFile> files_;  ///< the last one is open, waiting for its picture
   std::size_t written_ = 0;
+  bool replaced_leftover_ = false;
   std::vector<unsigned char> bytes_;
 };
 

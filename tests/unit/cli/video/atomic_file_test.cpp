@@ -59,6 +59,49 @@ TEST_F(AtomicFileTest, ReplacesTheTargetOfALink) {
   EXPECT_EQ(content(path("target")), "new");
 }
 
+TEST_F(AtomicFileTest, SecondWriterIsRefusedUntilTheFirstHasFinished) {
+  auto first = AtomicFile::create(path("a.fbs"));
+  ASSERT_TRUE(first);
+  ASSERT_TRUE(first->write(bytes_of("first")));
+  const auto refused = AtomicFile::create(path("a.fbs"));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text.find("another process is writing"), std::string::npos)
+      << refused.error().text;
+  ASSERT_TRUE(first->close());
+  EXPECT_FALSE(AtomicFile::create(path("a.fbs"))) << "the lock must last until the file has its name";
+  ASSERT_TRUE(first->commit());
+  EXPECT_EQ(content(path("a.fbs")), "first");
+  EXPECT_TRUE(AtomicFile::create(path("a.fbs")));
+}
+
+TEST_F(AtomicFileTest, LeftoverIsReplacedAndNotWrittenInto) {
+  std::ofstream(path("precious")) << "precious";
+  fs::create_hard_link(path("precious"), path("a.fbs.part"));
+  auto file = AtomicFile::create(path("a.fbs"));
+  ASSERT_TRUE(file);
+  EXPECT_TRUE(file->replaced_leftover());
+  ASSERT_TRUE(file->write(bytes_of("new")));
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(content(path("a.fbs")), "new");
+  EXPECT_EQ(content(path("precious")), "precious");
+}
+
+TEST_F(AtomicFileTest, LinkInPlaceOfThePartIsRefused) {
+  std::ofstream(path("precious")) << "precious";
+  fs::create_symlink(path("precious"), path("a.fbs.part"));
+  EXPECT_FALSE(AtomicFile::create(path("a.fbs")));
+  EXPECT_EQ(content(path("precious")), "precious");
+}
+
+TEST_F(AtomicFileTest, FlushedBytesAreInThePart) {
+  auto file = AtomicFile::create(path("a.fbs"));
+  ASSERT_TRUE(file);
+  EXPECT_FALSE(file->replaced_leftover());
+  ASSERT_TRUE(file->write(bytes_of("packet")));
+  ASSERT_TRUE(file->flush());
+  EXPECT_EQ(content(path("a.fbs.part")), "packet");
+}
+
 TEST_F(AtomicFileTest, LeavesDevicesInPlace) {
   auto file = AtomicFile::create("/dev/null");
   ASSERT_TRUE(file);

@@ -1,0 +1,32 @@
+// Checks of outputs: their names, before anything is opened for writing, and what was in their way.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// A file on the command line, with what it is called in errors.
+struct NamedFile {
+  std::string role;  ///< such as "INPUT" or "--overlay"
+  std::string name;  ///< as given; `-` is standard input or output; empty: not given
+};
+
+/// Refuses outputs that are an input, or the same as each other, after following links: by device and inode
+/// where they exist, else by name. Pipes and devices may be shared.
+/// @return ErrorCode::kInvalidArgument, which names both
+Result<void> check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+
+/// A stream goes to a name that ends in `.fbs`, to `-`, or to a pipe or device.
+/// @return ErrorCode::kUnsupported for other names, with one that would do
+Result<void> check_stream_name(const std::string& output);
+
+/// @return ErrorCode::kUnsupported for a name that ends in `.fbs`: pictures are no stream
+Result<void> check_picture_name(const std::string& output);
+
+/// Says on standard error that `OUTPUT.part` of an earlier run was replaced.
+void print_replaced_leftover(const std::string& output);
+
+}  // namespace fbs::cli

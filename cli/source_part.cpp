@@ -1,0 +1,57 @@
+#include "cli/source_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fbs::cli {
+namespace {
+
+/// Whether the pictures before the error are worth keeping.
+bool ends_source(const Error& error) {
+  return error.code == ErrorCode::kTruncated || error.code == ErrorCode::kInvalidStream ||
+         error.code == ErrorCode::kIo;
+}
+
+}  // namespace
+
+SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop)
+    : source_(std::move(source)), limits_(limits), stop_(stop) {}
+
+Result<std::optional<TimedPicture>> SourcePart::next() {
+  ended_ = ended_ || stop_.raised() || (limits_.pictures && pictures_ >= *limits_.pictures);
+  if (ended_) return std::nullopt;
+  auto picture = source_->next();
+  ended_ = !picture || !*picture || !within_seconds((*picture)->pts);
+  if (!picture) return end_by(picture.error());
+  if (ended_) return std::nullopt;
+  ++pictures_;
+  return picture;
+}
+
+Result<std::optional<TimedPicture>> SourcePart::end_by(const Error& error) {
+  // A read that the signal interrupted fails. What it had read of a picture is lost.
+  if (stop_.raised()) return std::nullopt;
+  if (pictures_ == 0 || !ends_source(error)) return fail(error);
+  failure_ = error;
+  return std::nullopt;
+}
+
+bool SourcePart::within_seconds(std::int64_t pts) {
+  if (!first_pts_) first_pts_ = pts;
+  if (!limits_.seconds) return true;
+  return static_cast<double>(pts - *first_pts_) < *limits_.seconds * kTicksPerSecond;
+}
+
+std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
+  auto estimate = source_->frame_count_estimate();
+  const auto limit = [&](std::int64_t pictures) {
+    estimate = estimate ? std::min(*estimate, pictures) : pictures;
+  };
+  if (limits_.pictures) limit(*limits_.pictures);
+  const Rational rate = format().frame_rate;
+  if (limits_.seconds) limit(std::llround(std::ceil(*limits_.seconds * rate.num / rate.den)));
+  return estimate;
+}
+
+}  // namespace fbs::cli

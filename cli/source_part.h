@@ -1,0 +1,49 @@
+// The part of a source that is encoded: until a limit, damage or a stop signal.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "cli/video/stop_signal.h"
+#include "cli/video/video_source.h"
+
+namespace fbs::cli {
+
+/// Whichever is reached first; nullopt: no limit.
+struct PartLimits {
+  std::optional<std::int64_t> pictures;  ///< at least 1
+  std::optional<double> seconds;         ///< of source time from the first picture on, above 0
+};
+
+/// A source that ends cleanly at its limits, where it is cut off or damaged, and when the program is asked to
+/// stop. No picture behind the last is read, but with a limit of seconds one.
+class SourcePart final : public VideoSource {
+ public:
+  /// @param stop  must outlive the object
+  SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop);
+
+  [[nodiscard]] const VideoFormat& format() const override { return source_->format(); }
+  Result<std::optional<TimedPicture>> next() override;
+  /// The limits are an estimate where the source has none.
+  [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
+  [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
+
+  /// The error that ended the source after at least one picture; nullopt: none did.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  /// The end, or the error if it is to be passed on.
+  Result<std::optional<TimedPicture>> end_by(const Error& error);
+  [[nodiscard]] bool within_seconds(std::int64_t pts);
+
+  std::unique_ptr<VideoSource> source_;
+  PartLimits limits_;
+  const StopSignal& stop_;
+  std::int64_t pictures_ = 0;              ///< returned so far
+  std::optional<std::int64_t> first_pts_;  ///< 1/90000 s
+  std::optional<Error> failure_;
+  bool ended_ = false;
+};
+
+}  // namespace fbs::cli
