@@ -54,12 +54,12 @@ class ClosedLoop {
     return pass_on();
   }
 
-  Result<Measure> finish() {
+  Result<Encoded> finish() {
     if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
     if (auto passed = pass_on(); !passed) return fail(passed.error());
     if (decoder_.pictures() < pushed_)
       return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
-    return meter_.result();
+    return Encoded{meter_.result(), encoder_.report()};
   }
 
  private:
@@ -101,7 +101,7 @@ class ClosedLoop {
 
 }  // namespace
 
-Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
+Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
                               const SeePicture& see, Measured what, bool quiet) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
@@ -120,6 +120,15 @@ Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settin
   }
   if (!current) return fail(current.error());
   return loop.finish();
+}
+
+std::string notes_of(const EncodingReport& report) {
+  std::string out;
+  if (report.cuts > 0) out = std::to_string(report.cuts) + (report.cuts == 1 ? " cut" : " cuts");
+  if (report.without_face == 0) return out;
+  if (!out.empty()) out += "; ";
+  return out + "no face followed in " + std::to_string(report.without_face) + " of " +
+         std::to_string(report.pictures) + " pictures";
 }
 
 }  // namespace fbs::cli

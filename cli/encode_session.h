@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "cli/stream_meter.h"
 #include "cli/verbs.h"
@@ -13,10 +14,19 @@ namespace fbs::cli {
 using TakeBytes = std::function<Result<void>(std::span<const std::uint8_t>)>;
 using SeePicture = std::function<Result<void>(const TimedPicture&, const PictureAnalysis&)>;
 
+struct Encoded {
+  Measure measure;
+  EncodingReport report;
+};
+
 /// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and measures it.
 /// @param see  called with every picture after its analysis; may be empty
-[[nodiscard]] Result<Measure> encode_source(VideoSource& source, const EncoderSettings& settings,
+[[nodiscard]] Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings,
                                             const TakeBytes& take, const SeePicture& see, Measured what,
                                             bool quiet);
+
+/// What a user should know of a video with cuts, or in which no face could be followed: a line, or nothing.
+/// "2 cuts; no face followed in 40 of 300 pictures".
+[[nodiscard]] std::string notes_of(const EncodingReport& report);
 
 }  // namespace fbs::cli

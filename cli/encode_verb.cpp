@@ -19,12 +19,15 @@ namespace {
 constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal ends at once";
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
-void print_summary(const std::string& output, const Measure& m) {
+void print_summary(const std::string& output, const Encoded& encoded) {
+  const Measure& m = encoded.measure;
   std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f)", output.c_str(),
                static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total),
                m.kbps(), m.rate(m.bytes.motion));
   if (m.face.count > 0) std::fprintf(stderr, ", PSNR face %.2f dB", m.face.psnr());
   std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
+  if (const std::string notes = notes_of(encoded.report); !notes.empty())
+    std::fprintf(stderr, "%s: %s\n", output.c_str(), notes.c_str());
 }
 
 Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
@@ -104,18 +107,18 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
       return overlay->write(p.picture, p.pts, a);
     };
   }
-  const auto measure = encode_source(
+  const auto encoded = encode_source(
       source, *settings,
       [&](std::span<const std::uint8_t> bytes) {
         return file->write(bytes).and_then([&] { return file->flush(); });
       },
       see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
-  if (!measure) return fail(about_input(measure.error(), arguments.input));
+  if (!encoded) return fail(about_input(encoded.error(), arguments.input));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());
   if (auto committed = file->commit(); !committed) return fail(committed.error());
-  print_warnings(arguments, source, *measure);
-  if (!arguments.quiet) print_summary(arguments.output, *measure);
+  print_warnings(arguments, source, encoded->measure);
+  if (!arguments.quiet) print_summary(arguments.output, *encoded);
   return source.failure() || source.damaged_packets() > 0 ? Outcome::kPartial : Outcome::kComplete;
 }
 

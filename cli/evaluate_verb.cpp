@@ -1,6 +1,8 @@
 // fbs evaluate: rate and distortion of a stream against its source.
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "cli/byte_count_json.h"
 #include "cli/encode_session.h"
@@ -14,6 +16,7 @@ namespace {
 struct Point {
   std::string label;
   Measure measure;
+  std::optional<EncodingReport> report{};  ///< nothing of a stream that was given: it does not say
 };
 
 Result<Measure> measure_stream(const EvaluateArguments& arguments) {
@@ -42,20 +45,20 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
   }
 }
 
-Result<Measure> measure_encoding(const EvaluateArguments& arguments, int quality) {
+Result<Encoded> measure_encoding(const EvaluateArguments& arguments, int quality) {
   auto source = open_video_source(arguments.source);
   if (!source) return fail(source.error());
   EncoderSettings settings;
   settings.quality = quality;
-  auto measure = encode_source(
+  auto encoded = encode_source(
       **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, Measured::kSsim,
       arguments.quiet);
-  if (!measure) {
-    Error error = measure.error();
+  if (!encoded) {
+    Error error = encoded.error();
     error.text = arguments.source + ": " + error.text;
     return fail(std::move(error));
   }
-  return measure;
+  return encoded;
 }
 
 nlohmann::json to_json(const Point& p) {
@@ -71,6 +74,10 @@ nlohmann::json to_json(const Point& p) {
     j["psnr_face"] = m.face.psnr();
     j["ssim_face"] = m.ssim_face;
   }
+  if (p.report) {
+    j["cuts"] = p.report->cuts;
+    j["frames_without_face"] = p.report->without_face;
+  }
   return j;
 }
 
@@ -84,6 +91,8 @@ void print(const std::vector<Point>& points) {
                 m.kbps(), m.rate(m.bytes.motion), b(m.bytes.startup), b(m.bytes.geometry),
                 b(m.bytes.patterns), b(m.bytes.total), m.face.psnr(), m.ssim_face, m.frame.psnr(),
                 m.ssim_frame);
+    if (const std::string notes = p.report ? notes_of(*p.report) : ""; !notes.empty())
+      std::printf("  %s\n", notes.c_str());
   }
 }
 
@@ -92,12 +101,12 @@ Result<void> evaluate(const EvaluateArguments& arguments) {
   if (!arguments.stream.empty()) {
     auto m = measure_stream(arguments);
     if (!m) return fail(m.error());
-    points.push_back({arguments.stream, *m});
+    points.push_back({arguments.stream, *m, std::nullopt});
   } else {
     for (const int quality : arguments.qualities) {
       auto m = measure_encoding(arguments, quality);
       if (!m) return fail(m.error());
-      points.push_back({"quality " + std::to_string(quality), *m});
+      points.push_back({"quality " + std::to_string(quality), m->measure, m->report});
     }
   }
   if (arguments.json) {

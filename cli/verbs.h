@@ -31,8 +31,8 @@ enum class Outcome : std::uint8_t {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
-  double bitrate = 0;  ///< target of the total, kbit/s; 0: none, quality decides
-  int patterns = 0;    ///< of a scene; 0: chosen by the encoder
+  double bitrate = 0;       ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;         ///< of a scene; 0: chosen by the encoder
   double key_interval = 0;  ///< seconds; 0: where it costs little
   int face = 0;
   std::string marks;                   ///< file; empty: automatic
