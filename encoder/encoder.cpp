@@ -8,6 +8,7 @@
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/face_scene.h"
 #include "encoder/find/found_marks.h"
+#include "encoder/scene_timing.h"
 #include "encoder/shots/cut_detector.h"
 #include "encoder/still_scene.h"
 
@@ -76,7 +77,7 @@ struct Encoder::Impl {
 
   /// Pictures after which a face that has been lost may be another one.
   [[nodiscard]] std::uint64_t lost_for_long() const {
-    return static_cast<std::uint64_t>(kLostForSeconds * format.frame_rate.num / format.frame_rate.den);
+    return static_cast<std::uint64_t>(kLostForSeconds * fps_of(format));
   }
 
   /// Ahead of a picture: sees to it that there is a scene that suits it.

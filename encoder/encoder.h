@@ -17,7 +17,7 @@ struct EncodingReport {
   std::uint64_t pictures = 0;
   std::uint64_t without_face = 0;  ///< of them, those in which no face was followed
   std::uint64_t cuts = 0;
-  std::uint64_t scenes = 0;  ///< that the stream has
+  std::uint64_t scenes = 0;  ///< begun for a person or a shot; key intervals divide them further
 };
 
 /// Encodes one video.
