@@ -17,6 +17,8 @@ MATERIAL = BUILD / "tests/program/material"
 TALK_Y4M, TALK_FBS, TALK_ONE_FBS, TALK_TRUTH = (
     MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk_one.fbs", "talk.csv"))
 CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
+TWO_SCENES_FBS = MATERIAL / "two_scenes.fbs"
+GREY_FIRST = 7         # pictures before the talker of the two scenes
 
 # Exit codes of fbs: failed; decode --keep-going has lost less than a tenth of the pictures, or more.
 FAILED, LITTLE_LOST, MUCH_LOST = 2, 3, 4
@@ -24,14 +26,18 @@ MAX_SECONDS = 240      # for any one command
 
 
 def make_material():
-    """A talker of 120 QCIF pictures with its truth and its streams of several patterns and of one, and 150 pictures of one
-    who is closer and turns more."""
+    """A talker of 120 QCIF pictures with its truth and its streams of several patterns and of one, 150 pictures of one who
+    is closer and turns more, and a stream of two scenes: grey pictures, then the talker one and a half times."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
     talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
            "--yaw", "20", "--pitch", "12", "--roll", "10", "--scale", "0.15", "--truth", CLOSE_TRUTH)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_ONE_FBS, "--quiet", "--patterns", "1"], check=True)
+    grey = flat_y4m(176, 144, GREY_FIRST).partition(b"\n")[2]
+    head, _, talk = TALK_Y4M.read_bytes().partition(b"\n")
+    subprocess.run([FBS, "encode", "-", TWO_SCENES_FBS, "--quiet", "--patterns", "1"], check=True,
+                   input=head + b"\n" + grey + talk + talk[:len(talk) // 2])
 
 
 def talker(*arguments):

@@ -1,21 +1,16 @@
 """A stream of two scenes: joined in the middle, begun at a time, damaged in the first scene."""
 import json
 
-from harness import (LITTLE_LOST, MATERIAL, MOTION, SETUP, TALK_FBS, TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, flat_y4m,
+from harness import (GREY_FIRST, LITTLE_LOST, MOTION, SETUP, TALK_FBS, TWO_SCENES_FBS, ProgramTest, Y4m, ffmpeg, ffprobe,
                      packets)
 
-FIRST, ALL = 7, 187  # pictures: the first seven are grey, and the encoder finds the cut
+FIRST, ALL = GREY_FIRST, 187  # pictures: the encoder finds the cut
 
 
 class Scenes(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.path = MATERIAL / "two_scenes.fbs"
-        if not self.path.exists():
-            grey = flat_y4m(176, 144, 7).partition(b"\n")[2]
-            head, _, talk = TALK_Y4M.read_bytes().partition(b"\n")
-            self.write("late.y4m", head + b"\n" + grey + talk + talk[:len(talk) // 2])
-            self.succeed("encode", "late.y4m", self.path, "--quiet", "--patterns", "1")
+        self.path = TWO_SCENES_FBS
         self.stream = self.path.read_bytes()
         self.whole = self.decoded(self.path).pictures
         self.assertEqual(len(self.whole), ALL)
