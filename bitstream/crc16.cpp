@@ -22,32 +22,12 @@ constexpr std::array<std::uint16_t, 256> make_table() {
 
 constexpr std::array<std::uint16_t, 256> kTable = make_table();
 
-// Product of two polynomials modulo the check's polynomial.
-constexpr std::uint16_t multiply(std::uint16_t a, std::uint16_t b) {
-  std::uint32_t product = 0;
-  for (int bit = 15; bit >= 0; --bit) {
-    product <<= 1;
-    if ((product & 0x10000u) != 0) product ^= kPolynomial;
-    if ((b >> bit & 1) != 0) product ^= a;
-  }
-  return static_cast<std::uint16_t>(product);
-}
-
 }  // namespace
 
 std::uint16_t crc16(std::span<const std::uint8_t> data, std::uint16_t crc) {
   unsigned value = crc;
   for (const std::uint8_t byte : data) value = (value << 8 & 0xFFFFu) ^ kTable[(value >> 8) ^ byte];
   return static_cast<std::uint16_t>(value);
-}
-
-std::uint16_t crc16_skip(std::uint16_t crc, std::uint64_t zero_bytes) {
-  std::uint16_t power = 0x100;  // x^8: one byte
-  for (; zero_bytes != 0; zero_bytes >>= 1) {
-    if ((zero_bytes & 1) != 0) crc = multiply(crc, power);
-    power = multiply(power, power);
-  }
-  return crc;
 }
 
 }  // namespace fbs

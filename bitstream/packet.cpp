@@ -5,24 +5,31 @@
 #include <optional>
 
 #include "bitstream/byte_io.h"
-#include "bitstream/crc16.h"
-#include "bitstream/packet_search.h"
 
 namespace fbs {
+namespace {
+
+/// Whether the check of such a packet is that of the packet alone. SPEC 3.1.
+bool begins_chain(PacketType type) {
+  return type == PacketType::kSetup || type == PacketType::kEnd;
+}
+
+}  // namespace
 
 void write_signature(std::vector<std::uint8_t>& stream) {
   stream.insert(stream.end(), kSignature.begin(), kSignature.end());
 }
 
-std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
-                         std::span<const std::uint8_t> payload) {
+std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType type,
+                                std::span<const std::uint8_t> payload) {
   assert(payload.size() <= kMaxPayload);
   const std::size_t begin = stream.size();
   ByteWriter writer(stream);
   writer.u8(static_cast<std::uint8_t>(type));
   writer.varint(payload.size());
   writer.bytes(payload);
-  writer.u16(crc16(std::span(stream).subspan(begin)));
+  check_ = crc16(std::span(stream).subspan(begin), begins_chain(type) ? kCrc16Start : check_);
+  writer.u16(check_);
   return stream.size() - begin;
 }
 
@@ -31,9 +38,10 @@ struct PacketReader::Impl {
   std::uint64_t dropped = 0;  // bytes of the stream before `buffer`
   std::size_t position = 0;   // of next(), in `buffer`
   bool closed = false;
-  bool begun = false;          // the signature has been read or is not required any more
-  std::optional<Error> error;  // what next() returns until resync() finds a packet
-  std::optional<PacketSearch> search;
+  bool begun = false;                 // the signature has been read or is not required any more
+  bool searching = false;             // `position` is that of resync()
+  std::uint16_t check = kCrc16Start;  // of the packet before
+  std::optional<Error> error;         // what next() returns until resync() finds a packet
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
   [[nodiscard]] std::uint64_t offset() const { return dropped + position; }
@@ -50,6 +58,7 @@ struct PacketReader::Impl {
 
   Result<ReadResult> read_signature();
   Result<ReadResult> read_packet();
+  ReadStatus search();
 };
 
 // SPEC 3
@@ -78,13 +87,39 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
 
   const auto payload = reader.bytes(size);
   const std::size_t checked = reader.offset();
-  const std::uint16_t check = reader.u16();
+  const std::uint16_t stored = reader.u16();
   if (reader.past_end()) return need_more("stream ends inside a packet");
-  if (crc16(bytes.first(checked)) != check) return refuse(ErrorCode::kInvalidStream, "packet is damaged");
+  const bool alone = begins_chain(static_cast<PacketType>(type));
+  if (crc16(bytes.first(checked), alone ? kCrc16Start : check) != stored)
+    return refuse(ErrorCode::kInvalidStream,
+                  alone ? "packet is damaged" : "packet is damaged, or one before it is missing");
 
   const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset()};
   position += packet.size;
+  check = stored;
   return ReadResult{ReadStatus::kPacket, packet};
+}
+
+// SPEC 3.2. A candidate is as short as its length, one byte, can say: so it is tested at once, and bytes that
+// are nothing but candidates take linear time as well.
+ReadStatus PacketReader::Impl::search() {
+  for (; position < buffer.size(); ++position) {
+    const auto bytes = ahead();
+    if (!begins_chain(static_cast<PacketType>(bytes[0]))) continue;
+    ByteReader reader(bytes);
+    (void)reader.u8();
+    const std::size_t size = reader.u8();
+    if (size > kMaxSearchedPayload) continue;
+    (void)reader.bytes(size);
+    const std::size_t checked = reader.offset();
+    const std::uint16_t stored = reader.u16();
+    if (reader.past_end()) {
+      if (!closed) return ReadStatus::kNeedMore;
+    } else if (crc16(bytes.first(checked)) == stored) {
+      return ReadStatus::kPacket;
+    }
+  }
+  return closed ? ReadStatus::kEnd : ReadStatus::kNeedMore;
 }
 
 PacketReader::PacketReader() : impl_(std::make_unique<Impl>()) {}
@@ -96,12 +131,10 @@ void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
   // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
-  const std::size_t done = s.search ? s.search->first_open() : s.position;
-  if (done > s.buffer.size() / 2) {
-    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + done);
-    s.dropped += done;
-    s.position -= std::min(done, s.position);
-    if (s.search) s.search->drop_front(done);
+  if (s.position > s.buffer.size() / 2) {
+    s.buffer.erase(s.buffer.begin(), s.buffer.begin() + s.position);
+    s.dropped += s.position;
+    s.position = 0;
   }
   s.buffer.insert(s.buffer.end(), bytes.begin(), bytes.end());
 }
@@ -122,17 +155,12 @@ Result<ReadResult> PacketReader::next() {
 
 Result<ReadResult> PacketReader::resync() {
   Impl& s = *impl_;
-  if (!s.search) s.search.emplace(s.position + (s.error && s.begun ? 1 : 0));
-  const auto found = s.search->find(s.buffer, s.closed);
-  if (!found) {
-    if (!s.closed) return ReadResult{ReadStatus::kNeedMore, {}};
-    s.position = s.buffer.size();
-  } else {
-    s.position = *found;
-  }
+  if (!s.searching) s.position += s.error && s.begun ? 1 : 0;
+  s.searching = true;
+  if (s.search() == ReadStatus::kNeedMore) return ReadResult{ReadStatus::kNeedMore, {}};
   s.begun = true;
+  s.searching = false;
   s.error.reset();
-  s.search.reset();
   return s.read_packet();
 }
 

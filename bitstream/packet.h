@@ -1,12 +1,14 @@
 // Packets: a signature, then type, length, payload and check of each. SPEC 3.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "bitstream/crc16.h"
 #include "bitstream/syntax.h"
 #include "common/result.h"
 
@@ -18,11 +20,19 @@ inline constexpr std::size_t kMaxPayload = std::size_t{1} << 24;  ///< bytes
 /// Appends the signature that begins every stream.
 void write_signature(std::vector<std::uint8_t>& stream);
 
-/// Appends one packet.
-/// @param payload  at most kMaxPayload bytes (assert)
-/// @return number of bytes appended: packet_size()
-std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
-                         std::span<const std::uint8_t> payload);
+/// Writes packets in stream order: the check of a packet goes on from that of the packet before (SPEC 3.1).
+/// A setup packet or the end packet may follow those of any writer.
+class PacketWriter {
+ public:
+  /// Appends the next packet.
+  /// @param payload  at most kMaxPayload bytes (assert)
+  /// @return number of bytes appended: packet_size()
+  std::size_t write(std::vector<std::uint8_t>& stream, PacketType type,
+                    std::span<const std::uint8_t> payload);
+
+ private:
+  std::uint16_t check_ = kCrc16Start;  // of the packet before
+};
 
 /// Bytes of a packet with a payload of so many.
 [[nodiscard]] constexpr std::size_t packet_size(std::size_t payload) {
@@ -30,6 +40,9 @@ std::size_t write_packet(std::vector<std::uint8_t>& stream, PacketType type,
   for (; payload > 0x7F; payload >>= 7) ++size;
   return size;
 }
+
+/// Longest payload of a setup packet or an end packet that resync() finds. SPEC 3.2.
+inline constexpr std::size_t kMaxSearchedPayload = 127;  ///< bytes
 
 /// One packet whose check is right. Its payload still has to be parsed.
 struct Packet {
@@ -79,17 +92,18 @@ class PacketReader {
   /// Reads the next packet. After an error it returns the same error again until resync() finds a packet.
   /// @return kNotFbs         the stream does not begin with the signature, or is empty
   ///         kTruncated      closed inside the signature or a packet; offset of that packet
-  ///         kInvalidStream  check or length field wrong; offset of the packet
+  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is not
+  ///                         there; offset of the packet
   ///         kTooLarge       payload beyond kMaxPayload; offset of the packet
   [[nodiscard]] Result<ReadResult> next();
 
-  /// After an error of next(): searches past the damage for a packet of a known type with the right check and
-  /// a payload of at most kMaxSearchedPayload bytes, and reads it; next() continues after it. May also be
-  /// called first, to join a stream in its middle.
+  /// After an error of next(): searches past the damage for a setup packet or an end packet with the right
+  /// check and at most kMaxSearchedPayload bytes, and reads it; next() continues after it. May also be called
+  /// first, to join a stream in its middle.
   /// @return kPacket; kNeedMore (call resync() again after feeding); kEnd when closed and nothing was found
   [[nodiscard]] Result<ReadResult> resync();
 
-  /// Position of next(), in bytes from the start of the stream.
+  /// Position of next(), or of the search, in bytes from the start of the stream.
   [[nodiscard]] std::uint64_t offset() const;
 
  private:

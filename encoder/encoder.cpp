@@ -156,7 +156,7 @@ Result<void> Encoder::finish() {
     return fail(ErrorCode::kNoFace, "no face found in any picture");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
-  write_packet(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
+  PacketWriter().write(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
   return {};
 }
 

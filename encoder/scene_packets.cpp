@@ -3,17 +3,18 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/packet.h"
-
 namespace fbs {
 
 void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {
-  write_packet(started_ ? ready_ : held_back_, PacketType::kMotion, payload);
+  if (started_)
+    writer_.write(ready_, PacketType::kMotion, payload);
+  else
+    held_back_.emplace_back(payload.begin(), payload.end());
 }
 
 void ScenePackets::add(PacketType type, std::span<const std::uint8_t> payload) {
   assert(started_);
-  write_packet(ready_, type, payload);
+  writer_.write(ready_, type, payload);
 }
 
 void ScenePackets::start(const SceneHead& head) {
@@ -22,8 +23,8 @@ void ScenePackets::start(const SceneHead& head) {
                                       {PacketType::kGeometry, &head.geometry},
                                       {PacketType::kSurround, &head.surround},
                                       {PacketType::kPattern, &head.pattern}})
-    if (!payload->empty()) write_packet(ready_, type, *payload);
-  ready_.insert(ready_.end(), held_back_.begin(), held_back_.end());
+    if (!payload->empty()) writer_.write(ready_, type, *payload);
+  for (const auto& payload : held_back_) writer_.write(ready_, PacketType::kMotion, payload);
   held_back_.clear();
   started_ = true;
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/syntax.h"
+#include "bitstream/packet.h"
 
 namespace fbs {
 
@@ -33,7 +33,9 @@ class ScenePackets {
   [[nodiscard]] std::vector<std::uint8_t> take();
 
  private:
-  std::vector<std::uint8_t> held_back_, ready_;
+  PacketWriter writer_;
+  std::vector<std::vector<std::uint8_t>> held_back_;  // payloads of motion packets
+  std::vector<std::uint8_t> ready_;
   bool started_ = false;
 };
 

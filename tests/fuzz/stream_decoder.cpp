@@ -20,14 +20,16 @@ constexpr std::size_t kMaxPictures = 60;
 void correct_checks(std::vector<std::uint8_t>& bytes) {
   std::copy_n(fbs::kSignature.begin(), std::min(fbs::kSignature.size(), bytes.size()), bytes.begin());
   std::size_t begin = fbs::kSignature.size();
+  std::uint16_t check = fbs::kCrc16Start;
   while (begin < bytes.size()) {
     fbs::ByteReader reader(std::span<const std::uint8_t>(bytes).subspan(begin));
-    (void)reader.u8();
+    const auto type = static_cast<fbs::PacketType>(reader.u8());
     const auto size = reader.varint();
     (void)reader.bytes(size);
     if (!reader.ok() || reader.remaining() < 2) return;
-    const std::uint16_t check =
-        fbs::crc16(std::span<const std::uint8_t>(bytes).subspan(begin, reader.offset()));
+    const bool alone = type == fbs::PacketType::kSetup || type == fbs::PacketType::kEnd;
+    check = fbs::crc16(std::span<const std::uint8_t>(bytes).subspan(begin, reader.offset()),
+                       alone ? fbs::kCrc16Start : check);
     begin += reader.offset();
     bytes[begin++] = static_cast<std::uint8_t>(check >> 8);
     bytes[begin++] = static_cast<std::uint8_t>(check);

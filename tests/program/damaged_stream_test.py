@@ -2,6 +2,8 @@
 from harness import (BLEND, FAILED, LITTLE_LOST, MOTION, MUCH_LOST, PATTERN, TALK_FBS, TALK_ONE_FBS, ProgramTest, Y4m,
                      packets)
 
+DAMAGED = "packet is damaged, or one before it is missing"
+
 
 class DamagedStream(ProgramTest):
     def setUp(self):
@@ -30,7 +32,7 @@ class DamagedStream(ProgramTest):
         self.write("bad.fbs", stream)
         done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
         self.assertEqual(done.returncode, code, done.stderr)
-        return Y4m(done.stdout).pictures, done.stderr.decode()
+        return Y4m(done.stdout).pictures if done.stdout else [], done.stderr.decode()
 
     def damaged(self, packet):
         """The stream with one byte inside `packet` changed."""
@@ -38,6 +40,17 @@ class DamagedStream(ProgramTest):
         stream = bytearray(self.stream)
         stream[(begin + end) // 2] ^= 0x55
         return bytes(stream)
+
+    def expect_the_rest_held(self, stream, at, message):
+        """Expects of a stream that is damaged at byte `at`: the pictures before that, the last of them up to the end, one
+        message with that byte, and a sum of what is lost."""
+        before, _ = self.keep_going(self.stream[:at])
+        missing = len(self.whole.pictures) - len(before)
+        self.assertGreater(missing, 0)
+        pictures, report = self.keep_going(stream, MUCH_LOST if missing >= 12 else LITTLE_LOST)
+        self.assertEqual(pictures, before + [before[-1]] * missing, "the last is not held")
+        self.assertIn(f"bad.fbs: {message} (at byte {at})", report)
+        self.assertIn(f"damaged places: 1; pictures lost: {missing} of 120, held: {missing}\n", report)
 
     def test_packets_cover_the_stream(self):
         ends = [4] + [end for _, _, end in packets(self.stream)]
@@ -81,13 +94,7 @@ class DamagedStream(ProgramTest):
     def test_damaged_group_is_reported_and_those_before_it_shown(self):
         for _ in self.of_each_kind_of_stream():
             for packet in self.motion[1:] + self.showing[1:] + self.of_kind(PATTERN)[1:]:
-                before, _ = self.keep_going(self.stream[:packet[1]])
-                missing = len(self.whole.pictures) - len(before)
-                self.assertGreater(missing, 0)
-                pictures, report = self.keep_going(self.damaged(packet), MUCH_LOST if missing >= 12 else LITTLE_LOST)
-                self.assertEqual(pictures, before + [before[-1]] * missing, "the last is not held")
-                self.assertIn(f"bad.fbs: packet is damaged (at byte {packet[1]})", report)
-                self.assertIn(f"damaged places: 1; pictures lost: {missing} of 120, held: {missing}\n", report)
+                self.expect_the_rest_held(self.damaged(packet), packet[1], DAMAGED)
 
     def test_damage_without_keep_going_leaves_nothing(self):
         for _ in self.of_each_kind_of_stream():
@@ -105,12 +112,39 @@ class DamagedStream(ProgramTest):
                 self.assertIn(done.returncode, (FAILED, LITTLE_LOST, MUCH_LOST), f"byte {at}")
                 self.assertTrue(done.stderr, f"byte {at}: not noticed")
 
-    def test_doubled_and_dropped_packets_end_well(self):
+    def test_removed_packet_is_noticed_at_the_next(self):
         for _ in self.of_each_kind_of_stream():
-            for _, begin, end in (self.motion[1], self.showing[1], self.of_kind(PATTERN)[-1]):
-                packet = self.stream[begin:end]
-                for stream in (self.stream[:end] + packet + self.stream[end:], self.stream[:begin] + self.stream[end:],
-                               self.stream + self.stream[4:], self.stream + self.stream):
-                    self.write("bad.fbs", stream)
-                    self.assertIn(self.fbs("decode", "bad.fbs", "null:", "--keep-going").returncode,
-                                  (0, FAILED, LITTLE_LOST, MUCH_LOST))
+            for _, begin, end in (self.motion[1], self.showing[1], *self.of_kind(PATTERN)[1:2]):
+                self.expect_the_rest_held(self.stream[:begin] + self.stream[end:], begin, DAMAGED)
+
+    def test_removed_last_group_is_noticed_at_the_end(self):
+        for _ in self.of_each_kind_of_stream():
+            _, begin, end = self.showing[-1]
+            self.assertEqual(packets(self.stream)[-1][1], end, "the last group is not the last packet")
+            before, _ = self.keep_going(self.stream[:begin])
+            missing = len(self.whole.pictures) - len(before)
+            self.expect_the_rest_held(self.stream[:begin] + self.stream[end:], begin, f"{missing} pictures are missing")
+
+    def test_removed_beginning_leaves_nothing(self):
+        for _ in self.of_each_kind_of_stream():
+            for _, begin, end in packets(self.stream)[:4]:
+                self.write("bad.fbs", self.stream[:begin] + self.stream[end:])
+                self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", DAMAGED, f"at byte {begin}"])
+                pictures, report = self.keep_going(self.stream[:begin] + self.stream[end:], FAILED)
+                self.assertFalse(pictures)
+                self.assertIn("contains no pictures", report)
+
+    def test_packets_out_of_their_place_are_noticed(self):
+        for _ in self.of_each_kind_of_stream():
+            _, begin, middle = self.motion[1]
+            end = next(end for _, after, end in packets(self.stream) if after == middle)
+            one, other = self.stream[begin:middle], self.stream[middle:end]
+            self.expect_the_rest_held(self.stream[:begin] + other + one + self.stream[end:], begin, DAMAGED)
+            self.expect_the_rest_held(self.stream[:middle] + one + self.stream[middle:], middle, DAMAGED)
+
+    def test_stream_behind_a_stream_ends_well(self):
+        for _ in self.of_each_kind_of_stream():
+            for stream in (self.stream + self.stream[4:], self.stream + self.stream):
+                self.write("bad.fbs", stream)
+                self.assertIn(self.fbs("decode", "bad.fbs", "null:", "--keep-going").returncode,
+                              (0, FAILED, LITTLE_LOST, MUCH_LOST))

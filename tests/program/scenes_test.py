@@ -1,8 +1,8 @@
 """A stream of two scenes: joined in the middle, begun at a time, damaged in the first scene."""
 import json
 
-from harness import (GREY_FIRST, LITTLE_LOST, MOTION, SETUP, TALK_FBS, TWO_SCENES_FBS, ProgramTest, Y4m, ffmpeg, ffprobe,
-                     packets)
+from harness import (GREY_FIRST, LITTLE_LOST, MOTION, MUCH_LOST, SETUP, TALK_FBS, TWO_SCENES_FBS, ProgramTest, Y4m, ffmpeg,
+                     ffprobe, packets)
 
 FIRST, ALL = GREY_FIRST, 187  # pictures: the encoder finds the cut
 
@@ -68,6 +68,28 @@ class Scenes(ProgramTest):
         self.assertEqual(done.returncode, LITTLE_LOST)
         self.assertEqual(Y4m(done.stdout).pictures, [self.whole[0]] * FIRST + self.whole[FIRST:])
         self.assertIn(f"damaged places: 1; pictures lost: {FIRST - 1} of {ALL}, held: {FIRST - 1}".encode(), done.stderr)
+
+    def test_removed_packet_costs_its_scene_alone(self):
+        first_motion = next(begin for kind, begin, _ in packets(self.stream) if kind == MOTION)
+        for kind, begin, end in packets(self.stream):
+            if begin >= self.setups[1]:
+                break
+            before = [self.whole[0]] * FIRST if kind == MOTION and begin > first_motion else []
+            self.write("bad.fbs", self.stream[:begin] + self.stream[end:])
+            self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", f"at byte {begin}"])
+            done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
+            self.assertEqual(done.returncode, LITTLE_LOST)
+            self.assertEqual(Y4m(done.stdout).pictures, before + self.whole[FIRST:])
+
+    def test_removed_setup_costs_its_scene(self):
+        _, begin, end = next(packet for packet in packets(self.stream) if packet[1] == self.setups[1])
+        self.write("bad.fbs", self.stream[:begin] + self.stream[end:])
+        self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", f"at byte {begin}"])
+        done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
+        self.assertEqual(done.returncode, MUCH_LOST)
+        self.assertEqual(Y4m(done.stdout).pictures, self.whole[:FIRST] + [self.whole[FIRST - 1]] * (ALL - FIRST))
+        lost = ALL - FIRST
+        self.assertIn(f"damaged places: 1; pictures lost: {lost} of {ALL}, held: {lost}".encode(), done.stderr)
 
     def test_lost_beginning_leaves_a_gap(self):
         damaged = bytearray(self.stream)

@@ -301,6 +301,7 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   Bytes flipped = joined(made);
   flipped[offset_of(made, place_of(made, PacketType::kBlend, 1)) + 4] ^= 0x10;
   invalid("flipped_blend.fbs", flipped, 2);
+  invalid("removed_blend.fbs", joined_without(made, place_of(made, PacketType::kBlend, 1)), 2);
 }
 
 }  // namespace fbs

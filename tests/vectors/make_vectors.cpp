@@ -39,6 +39,19 @@ void add_good(Folder& folder, const Bytes& talk) {
   pieces.insert(pieces.begin() + 2, {static_cast<PacketType>(99), Bytes(40, 0x5A)});
   pieces.insert(pieces.begin(), {static_cast<PacketType>(8), {}});
   folder.add("later_writer.fbs", joined(pieces), 20);
+  folder.add("removed_unknown.fbs", joined_without(pieces, 3), 0, "kInvalidStream");
+}
+
+/// Packets that a network has lost or delivered twice.
+void add_removed(Folder& folder, const Bytes& talk) {
+  const auto pieces = pieces_of(talk);
+  const std::size_t motion = place_of(pieces, PacketType::kMotion, 1);
+  folder.add("removed_setup.fbs", joined_without(pieces, 0), 0, "kInvalidStream");
+  folder.add("removed_pattern.fbs", joined_without(pieces, place_of(pieces, PacketType::kPattern)), 0,
+             "kInvalidStream");
+  folder.add("removed_motion.fbs", joined_without(pieces, motion), 20, "kInvalidStream");
+  folder.add("removed_end.fbs", joined_without(pieces, pieces.size() - 1), 20);
+  folder.add("doubled_motion.fbs", joined_with_two(pieces, motion), 20, "kInvalidStream");
 }
 
 void add_broken(Folder& folder, const Bytes& talk) {
@@ -105,6 +118,7 @@ int main(int argc, char** argv) {
   fbs::add_limits(folder);
   fbs::add_blends(folder);
   fbs::add_broken(folder, talk);
+  fbs::add_removed(folder, talk);
   fbs::add_broken_scenes(folder);
   fbs::add_broken_blends(folder, talk);
   return 0;

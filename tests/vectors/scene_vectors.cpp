@@ -6,8 +6,8 @@
 namespace fbs {
 namespace {
 
-// Pictures of the scenes. The encoder looks for a face in every fifth picture.
-constexpr std::uint64_t kFirst = 10, kSecond = 6, kAll = kFirst + 2 * kSecond;
+// Pictures of the scenes: the encoder finds the cut to the talker.
+constexpr std::uint64_t kFirst = 6, kSecond = 10, kAll = kFirst + 2 * kSecond;
 
 constexpr StreamPosition position(std::uint64_t pictures) {
   return {pictures, pictures * 3000};  // 30 pictures a second
@@ -39,11 +39,15 @@ Scene moved(Scene scene, const StreamPosition& before) {
   return scene;
 }
 
-Bytes joined_scenes(const std::vector<Scene>& scenes, std::uint64_t pictures) {
+std::vector<Piece> pieces_of_scenes(const std::vector<Scene>& scenes, std::uint64_t pictures) {
   std::vector<Piece> pieces;
   for (const Scene& scene : scenes) pieces.insert(pieces.end(), scene.begin(), scene.end());
   pieces.push_back({PacketType::kEnd, encode_end({pictures})});
-  return joined(pieces);
+  return pieces;
+}
+
+Bytes joined_scenes(const std::vector<Scene>& scenes, std::uint64_t pictures) {
+  return joined(pieces_of_scenes(scenes, pictures));
 }
 
 }  // namespace
@@ -68,6 +72,8 @@ void add_broken_scenes(Folder& folder) {
   Bytes flipped = joined_scenes(three(kThird), kAll);
   flipped[offset_of(scenes[0], scenes[0].size()) + 5] ^= 0x10;
   folder.add("flipped_setup.fbs", flipped, kAll, "kInvalidStream");
+  folder.add("removed_second_setup.fbs",
+             joined_without(pieces_of_scenes(three(kThird), kAll), scenes[0].size()), kAll, "kInvalidStream");
   folder.add("backwards.fbs", joined_scenes(three(5), kAll), kAll, "kInvalidStream");
   const std::uint64_t many = kThird + kMaxHeldPictures + 1;
   folder.add("too_many_before.fbs", joined_scenes(three(many), many + kSecond), kAll, "kTooLarge");

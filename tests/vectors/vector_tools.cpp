@@ -68,7 +68,8 @@ std::vector<Piece> pieces_of(const Bytes& stream) {
 Bytes joined(const std::vector<Piece>& pieces) {
   Bytes out;
   write_signature(out);
-  for (const Piece& p : pieces) write_packet(out, p.type, p.payload);
+  PacketWriter writer;
+  for (const Piece& p : pieces) writer.write(out, p.type, p.payload);
   return out;
 }
 
@@ -81,6 +82,19 @@ std::size_t place_of(const std::vector<Piece>& pieces, PacketType type, int nth)
 std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth) {
   pieces.resize(nth);
   return joined(pieces).size();
+}
+
+Bytes joined_without(const std::vector<Piece>& pieces, std::size_t nth) {
+  Bytes stream = joined(pieces);
+  stream.erase(stream.begin() + offset_of(pieces, nth), stream.begin() + offset_of(pieces, nth + 1));
+  return stream;
+}
+
+Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth) {
+  const Bytes whole = joined(pieces);
+  Bytes stream(whole.begin(), whole.begin() + offset_of(pieces, nth + 1));
+  stream.insert(stream.end(), whole.begin() + offset_of(pieces, nth), whole.end());
+  return stream;
 }
 
 std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {

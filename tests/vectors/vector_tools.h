@@ -44,6 +44,10 @@ Bytes joined(const std::vector<Piece>& pieces);
 std::size_t place_of(const std::vector<Piece>& pieces, PacketType type, int nth = 0);
 /// Offset of packet `nth` in the stream.
 std::size_t offset_of(std::vector<Piece> pieces, std::size_t nth);
+/// The stream as a network delivers it that has lost packet `nth`: the checks are those of the whole stream.
+Bytes joined_without(const std::vector<Piece>& pieces, std::size_t nth);
+/// The same for a network that delivers packet `nth` twice.
+Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth);
 
 /// A pattern packet of a stream.
 struct PatternPiece {

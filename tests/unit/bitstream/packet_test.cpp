@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <optional>
 #include <random>
 #include <utility>
+
+#include "bitstream/byte_io.h"
 
 namespace fbs {
 namespace {
@@ -22,20 +26,50 @@ Bytes random_bytes(std::size_t count, unsigned seed) {
 struct Stream {
   Bytes bytes;
   std::vector<std::size_t> begins;
+  std::vector<PacketType> types;
+
+  Stream() { write_signature(bytes); }
+  void add(PacketType type, const Bytes& payload) {
+    begins.push_back(bytes.size());
+    types.push_back(type);
+    writer.write(bytes, type, payload);
+  }
+  [[nodiscard]] Bytes packet(std::size_t k) const {
+    const auto end = k + 1 < begins.size() ? begins[k + 1] : bytes.size();
+    return {bytes.begin() + begins[k], bytes.begin() + end};
+  }
+  /// The first packet from `k` on that a search can find.
+  [[nodiscard]] std::size_t next_found(std::size_t k) const {
+    while (types[k] != PacketType::kSetup && types[k] != PacketType::kEnd) ++k;
+    return k;
+  }
+  /// The packets with these numbers.
+  [[nodiscard]] Bytes with(std::initializer_list<std::size_t> numbers) const {
+    Bytes out;
+    write_signature(out);
+    for (const std::size_t k : numbers) {
+      const Bytes one = packet(k);
+      out.insert(out.end(), one.begin(), one.end());
+    }
+    return out;
+  }
+
+ private:
+  PacketWriter writer;
 };
 
+/// Two scenes of different packets.
 Stream sample_stream() {
   Stream s;
-  write_signature(s.bytes);
-  const std::array<std::pair<PacketType, std::size_t>, 5> packets = {{{PacketType::kSetup, 18},
+  const std::array<std::pair<PacketType, std::size_t>, 8> packets = {{{PacketType::kSetup, 18},
                                                                       {PacketType::kPattern, 700},
                                                                       {PacketType::kMotion, 0},
                                                                       {PacketType::kMotion, 60},
+                                                                      {PacketType::kSetup, 19},
+                                                                      {PacketType::kPattern, 300},
+                                                                      {PacketType::kMotion, 20},
                                                                       {PacketType::kEnd, 2}}};
-  for (const auto& [type, size] : packets) {
-    s.begins.push_back(s.bytes.size());
-    write_packet(s.bytes, type, random_bytes(size, static_cast<unsigned>(size)));
-  }
+  for (const auto& [type, size] : packets) s.add(type, random_bytes(size, static_cast<unsigned>(size)));
   return s;
 }
 
@@ -51,15 +85,44 @@ std::vector<std::size_t> offsets_until_stop(PacketReader& reader, Result<ReadRes
 TEST(Packet, SizeIsThatOfWhatIsWritten) {
   for (const std::size_t payload : {0u, 1u, 127u, 128u, 16383u, 16384u, 300000u}) {
     Bytes out;
-    EXPECT_EQ(write_packet(out, PacketType::kEnd, Bytes(payload)), packet_size(payload));
+    EXPECT_EQ(PacketWriter().write(out, PacketType::kEnd, Bytes(payload)), packet_size(payload));
     EXPECT_EQ(out.size(), packet_size(payload));
   }
 }
 
 TEST(Packet, WritesFourBytesBesideAShortPayload) {
   Bytes bytes;
-  EXPECT_EQ(write_packet(bytes, PacketType::kMotion, Bytes(127)), 131u);
-  EXPECT_EQ(write_packet(bytes, PacketType::kMotion, Bytes(128)), 133u);
+  PacketWriter writer;
+  EXPECT_EQ(writer.write(bytes, PacketType::kMotion, Bytes(127)), 131u);
+  EXPECT_EQ(writer.write(bytes, PacketType::kMotion, Bytes(128)), 133u);
+}
+
+// SPEC 3.1
+TEST(Packet, CheckGoesOnFromThePacketBefore) {
+  const Bytes setup = {1, 2, 0x5A, 0x5A}, motion = {5, 1, 0xA5};
+  PacketWriter writer;
+  Bytes bytes;
+  for (int scene = 0; scene < 2; ++scene) {
+    bytes.clear();
+    writer.write(bytes, PacketType::kSetup, std::span(setup).subspan(2));
+    writer.write(bytes, PacketType::kMotion, std::span(motion).subspan(2));
+    ByteReader reader(bytes);
+    (void)reader.bytes(setup.size());
+    const std::uint16_t check = crc16(setup);
+    EXPECT_EQ(reader.u16(), check) << "a setup packet begins anew";
+    (void)reader.bytes(motion.size());
+    EXPECT_EQ(reader.u16(), crc16(motion, check));
+  }
+}
+
+TEST(Packet, EndIsTheSameFromAnyWriter) {
+  Bytes bytes, alone;
+  PacketWriter writer;
+  writer.write(bytes, PacketType::kMotion, Bytes(5));
+  bytes.clear();
+  writer.write(bytes, PacketType::kEnd, Bytes{3});
+  PacketWriter().write(alone, PacketType::kEnd, Bytes{3});
+  EXPECT_EQ(bytes, alone);
 }
 
 TEST(PacketReader, YieldsWhatWasWritten) {
@@ -116,9 +179,9 @@ TEST(PacketReader, RefusesWhatIsNoStream) {
 }
 
 TEST(PacketReader, DetectsEveryFlippedBitOfAPacket) {
-  Bytes good;
-  write_signature(good);
-  write_packet(good, PacketType::kMotion, random_bytes(40, 4));
+  Stream stream;
+  stream.add(PacketType::kMotion, random_bytes(40, 4));
+  const Bytes& good = stream.bytes;
   for (std::size_t bit = 4 * 8; bit < good.size() * 8; ++bit) {
     Bytes bytes = good;
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1u << bit % 8);
@@ -142,66 +205,150 @@ TEST(PacketReader, RefusesTooLargeAPayloadBeforeItArrives) {
 }
 
 TEST(PacketReader, YieldsUnknownTypesForTheCallerToSkip) {
-  Bytes bytes;
-  write_signature(bytes);
-  write_packet(bytes, static_cast<PacketType>(200), random_bytes(9, 1));
-  write_packet(bytes, PacketType::kEnd, Bytes{1});
+  Stream s;
+  s.add(static_cast<PacketType>(200), random_bytes(9, 1));
+  s.add(PacketType::kMotion, Bytes{1});
   PacketReader reader;
-  reader.feed(bytes);
+  reader.feed(s.bytes);
   EXPECT_EQ(static_cast<int>(reader.next()->packet.type), 200);
-  EXPECT_EQ(reader.next()->packet.type, PacketType::kEnd);
+  EXPECT_EQ(reader.next()->packet.type, PacketType::kMotion);
+}
+
+/// Expects an error at packet `bad` of those, counted from 0; none if there are no more.
+void expect_error_at(const Bytes& stream, std::size_t bad, const char* what) {
+  PacketReader reader;
+  reader.feed(stream);
+  reader.close();
+  Result<ReadResult> last;
+  EXPECT_EQ(offsets_until_stop(reader, last).size(), bad) << what;
+  ASSERT_FALSE(last.has_value()) << what;
+  EXPECT_EQ(last.error().code, ErrorCode::kInvalidStream) << what;
+  EXPECT_EQ(last.error().byte_offset, reader.offset()) << what;
+}
+
+TEST(PacketReader, NoticesPacketsThatAreNotInTheirPlace) {
+  const Stream s = sample_stream();
+  expect_error_at(s.with({0, 2, 3, 4, 5}), 1, "one is missing");
+  expect_error_at(s.with({0, 1, 3, 4, 5}), 2, "one without a payload is missing");
+  expect_error_at(s.with({0, 3, 4, 5}), 1, "two are missing");
+  expect_error_at(s.with({0, 1, 1, 2, 3}), 2, "one is doubled");
+  expect_error_at(s.with({0, 2, 1, 3, 4}), 1, "two have changed places");
+  expect_error_at(s.with({1, 2, 3, 4, 5}), 0, "a setup packet is missing at the beginning");
+  expect_error_at(s.with({0, 1, 2, 3, 5, 6}), 4, "a setup packet is missing");
+  expect_error_at(s.with({0, 1, 2, 6, 4, 5}), 3, "one is of another scene");
+}
+
+TEST(PacketReader, NoticesThatAnUnknownPacketIsMissing) {
+  Stream s;
+  s.add(PacketType::kSetup, Bytes{1});
+  s.add(static_cast<PacketType>(200), Bytes{2});
+  s.add(PacketType::kMotion, Bytes{3});
+  expect_error_at(s.with({0, 2}), 1, "the unknown one");
+}
+
+// What is missing before them only the number of pictures can tell: SPEC 6.2.
+TEST(PacketReader, SetupAndEndFollowAnything) {
+  const Stream s = sample_stream();
+  PacketReader reader;
+  reader.feed(s.with({0, 1, 4, 5, 7, 4, 4, 7}));
+  reader.close();
+  Result<ReadResult> last;
+  EXPECT_EQ(offsets_until_stop(reader, last).size(), 8u);
+  EXPECT_TRUE(last.has_value());
 }
 
 TEST(PacketReader, ResyncsBehindAnyDamagedByte) {
   const Stream s = sample_stream();
-  for (std::size_t place = 4; place < s.begins[4]; ++place) {
+  for (std::size_t place = 4; place < s.begins.back(); ++place) {
     Bytes bytes = s.bytes;
     bytes[place] = static_cast<std::uint8_t>(bytes[place] ^ 0x55);
     PacketReader reader;
     reader.feed(bytes);
     reader.close();
     Result<ReadResult> last;
-    auto offsets = offsets_until_stop(reader, last);
+    const std::size_t damaged = offsets_until_stop(reader, last).size();
     ASSERT_FALSE(last.has_value()) << place;
-    EXPECT_EQ(last.error().byte_offset, s.begins[offsets.size()]);
+    EXPECT_EQ(last.error().byte_offset, s.begins[damaged]);
     const auto found = reader.resync();
+    const std::size_t next = s.next_found(damaged + 1);
     ASSERT_TRUE(found.has_value() && found->status == ReadStatus::kPacket) << place;
-    EXPECT_EQ(found->packet.offset, s.begins[offsets.size() + 1]) << place;
+    EXPECT_EQ(found->packet.offset, s.begins[next]) << place;
     const auto rest = offsets_until_stop(reader, last);
-    EXPECT_EQ(offsets.size() + 2 + rest.size(), s.begins.size());
+    EXPECT_EQ(next + 1 + rest.size(), s.begins.size());
     EXPECT_TRUE(last.has_value());
   }
 }
 
 TEST(PacketReader, ResyncsInAPipeAndMayJoinInTheMiddle) {
   const Stream s = sample_stream();
+  const std::size_t joined_at = s.begins[1] + 100;
   PacketReader reader;
   std::vector<std::size_t> offsets;
   bool joined = false;
-  for (std::size_t i = s.begins[1] + 100; i < s.bytes.size(); ++i) {
+  for (std::size_t i = joined_at; i < s.bytes.size(); ++i) {
     reader.feed(std::span(s.bytes).subspan(i, 1));
     for (;;) {
       const auto read = joined ? reader.next() : reader.resync();
       ASSERT_TRUE(read.has_value());
       if (read->status != ReadStatus::kPacket) break;
       joined = true;
-      offsets.push_back(read->packet.offset + s.begins[1] + 100);
+      offsets.push_back(read->packet.offset + joined_at);
     }
   }
-  EXPECT_EQ(offsets, (std::vector<std::size_t>{s.begins[2], s.begins[3], s.begins[4]}));
+  EXPECT_EQ(offsets, (std::vector(s.begins.begin() + 4, s.begins.end())));
 }
 
 TEST(PacketReader, ResyncEndsWhereNothingIsLeft) {
   Bytes bytes;
   write_signature(bytes);
-  const Bytes junk(300, 0xFF);
-  bytes.insert(bytes.end(), junk.begin(), junk.end());
+  bytes.resize(300, 0xFF);
   PacketReader reader;
   reader.feed(bytes);
   reader.close();
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_EQ(reader.resync()->status, ReadStatus::kEnd);
   EXPECT_EQ(reader.next()->status, ReadStatus::kEnd);
+}
+
+/// Where a search finds a packet behind `noise` random bytes; nothing: nowhere.
+std::optional<std::size_t> found_behind(std::size_t noise, PacketType type, std::size_t payload) {
+  Bytes bytes = random_bytes(noise, 3);
+  PacketWriter().write(bytes, type, Bytes(payload, 0x5A));
+  PacketReader reader;
+  reader.feed(bytes);
+  reader.close();
+  const auto read = reader.resync();
+  return read->status == ReadStatus::kPacket ? std::optional(read->packet.offset) : std::nullopt;
+}
+
+// SPEC 3.2
+TEST(PacketReader, SearchesForSetupAndEndAlone) {
+  for (int type = 0; type < 256; ++type) {
+    const bool wanted =
+        type == static_cast<int>(PacketType::kSetup) || type == static_cast<int>(PacketType::kEnd);
+    EXPECT_EQ(found_behind(0, static_cast<PacketType>(type), 9).has_value(), wanted) << type;
+  }
+}
+
+TEST(PacketReader, SearchesBehindNoise) {
+  for (const std::size_t noise : {1u, 5u, 300u, 20000u})
+    EXPECT_EQ(found_behind(noise, PacketType::kSetup, 60), noise);
+}
+
+// SPEC 3.2
+TEST(PacketReader, SearchesForShortPayloads) {
+  EXPECT_TRUE(found_behind(0, PacketType::kSetup, kMaxSearchedPayload));
+  EXPECT_FALSE(found_behind(0, PacketType::kSetup, kMaxSearchedPayload + 1));
+}
+
+// Every second byte begins the longest candidate: 16 MB of them take seconds, not hours.
+TEST(PacketReader, SearchIsLinearOnHostileBytes) {
+  Bytes bytes(std::size_t{1} << 20);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = i % 2 == 0 ? 6 : 127;
+  PacketReader reader;
+  reader.feed(bytes);
+  reader.close();
+  EXPECT_EQ(reader.resync()->status, ReadStatus::kEnd);
 }
 
 TEST(PacketReader, SurvivesRandomBytesInRandomPieces) {

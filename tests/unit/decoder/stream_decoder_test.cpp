@@ -180,13 +180,17 @@ TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   Bytes longer = *encode_setup(setup_of());
   longer.insert(longer.end(),
                 {1, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
-  const Writer& s = sample();
   Writer w;
-  w.packet(PacketType::kSetup, longer);
-  w.bytes.insert(w.bytes.end(), s.bytes.begin() + static_cast<std::ptrdiff_t>(s.begins[1]), s.bytes.end());
+  PacketReader reader;
+  reader.feed(sample().bytes);
+  reader.close();
+  for (auto read = reader.next(); read->status == ReadStatus::kPacket; read = reader.next()) {
+    const auto [type, offset, payload, size] = read->packet;
+    w.packet(type, type == PacketType::kSetup ? longer : Bytes(payload.begin(), payload.end()));
+  }
   const Played result = played(w.bytes);
   EXPECT_TRUE(result.errors.empty());
-  EXPECT_EQ(result.pictures, played(s.bytes).pictures);
+  EXPECT_EQ(result.pictures, played(sample().bytes).pictures);
 }
 
 }  // namespace

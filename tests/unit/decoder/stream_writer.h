@@ -73,7 +73,7 @@ class Writer {
   Writer& packet(PacketType type, const Result<Bytes>& payload) {
     EXPECT_TRUE(payload);
     begins.push_back(bytes.size());
-    write_packet(bytes, type, *payload);
+    packets_.write(bytes, type, *payload);
     return *this;
   }
   Writer& setup(const Setup& s = setup_of()) {
@@ -138,6 +138,7 @@ class Writer {
   int told_pictures = 0;  ///< that have a state, where the writer thinks of more than there are
 
  private:
+  PacketWriter packets_;
   Setup setup_;
   std::optional<MotionEncoder> motion_;
   std::optional<PatternEncoder> av1_;

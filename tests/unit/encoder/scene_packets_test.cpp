@@ -39,6 +39,19 @@ TEST(ScenePackets, HoldsMotionBackUntilTheSceneStarts) {
   EXPECT_TRUE(packets.take().empty()) << "they are forgotten";
 }
 
+// Their checks are those of the place where they are written.
+TEST(ScenePackets, HoldsBackAgainInTheNextScene) {
+  ScenePackets packets;
+  for (int scene = 0; scene < 2; ++scene) {
+    packets.add_motion(kPayload);
+    packets.add_motion(kPayload);
+    packets.start({kPayload, {}, {}, kPayload});
+    EXPECT_EQ(types_of(packets.take()), (std::vector{PacketType::kSetup, PacketType::kPattern,
+                                                     PacketType::kMotion, PacketType::kMotion}));
+    packets.begin_again();
+  }
+}
+
 TEST(ScenePackets, LeavesOutWhatTheSceneLacks) {
   ScenePackets packets;
   packets.start({kPayload, {}, {}, kPayload});

@@ -5,6 +5,8 @@
 #include <functional>
 #include <random>
 
+#include "bitstream/packet.h"
+
 namespace fbs {
 namespace {
 
@@ -30,6 +32,20 @@ TEST(SetupPayload, RoundTrips) {
   const auto read = decode_setup(*payload);
   ASSERT_TRUE(read);
   EXPECT_EQ(*read, sample_setup());
+}
+
+// SPEC 3.2: there is room for what later versions may add.
+TEST(SetupPayload, LargestIsFoundAfterDamage) {
+  fbs::Setup setup = sample_setup();
+  setup.before = {kMaxStreamPictures, kMaxStreamTime};
+  setup.format.width = setup.format.height = kMaxPictureSize;
+  setup.format.frame_rate = setup.format.pixel_aspect = {0xFFFFFFFF, 0xFFFFFFFF};
+  setup.steps = {65535, 65535, 65535, 65535, 65535};
+  setup.contrast = kMinContrast;
+  setup.chroma_contrast = kMaxChromaContrast;
+  const auto payload = encode_setup(setup);
+  ASSERT_TRUE(payload);
+  EXPECT_LE(payload->size() + 50, kMaxSearchedPayload);
 }
 
 TEST(SetupPayload, EachBoundIsCheckedBothWays) {
