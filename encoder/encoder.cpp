@@ -8,6 +8,7 @@
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/face_scene.h"
 #include "encoder/find/found_marks.h"
+#include "encoder/planar_scene.h"
 #include "encoder/scene_timing.h"
 #include "encoder/shots/cut_detector.h"
 #include "encoder/still_scene.h"
@@ -67,7 +68,8 @@ struct Encoder::Impl {
       take_from_scene();
     }
     auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks, position)
-                       : StillScene::begin(format, settings, picture, position);
+                 : settings.patterns == 1 ? StillScene::begin(format, settings, picture, position)
+                                          : PlanarScene::begin(format, settings, position);
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
     face_seen = face_seen || marks.has_value();

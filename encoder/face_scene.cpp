@@ -10,6 +10,8 @@
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "encoder/find/adapt.h"
+#include "encoder/model/coded_numbers.h"
+#include "encoder/pass_settings.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/rate_target.h"
 #include "encoder/surround/surround_fit.h"
@@ -25,10 +27,6 @@ constexpr std::uint64_t kSurroundPictures = 12;
 /// PSNR, the frame hardly more; 205 is 1 % better in the face and 1 % worse in the frame.
 constexpr std::int32_t kSurroundContrast = 220;
 
-/// Times that states are fitted to what is shown, whatever the effort. The first gains 4 % of the rate in the
-/// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
-constexpr int kMaxRefits = 2;
-
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
   PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
@@ -38,41 +36,6 @@ PartMask parts_of(const EncoderSettings& settings) {
   if (settings.surround) add({PartId::kBody, PartId::kGround});
   if (settings.snakes) add({PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze});
   return parts;
-}
-
-/// The nearest state in whole steps, as far as its parts are sent.
-CodedState coded_state(std::span<const double> numbers, const Setup& setup) {
-  CodedState coded{};
-  const CodedLimits limits(setup.steps, setup.parts);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    coded[i] = static_cast<std::int32_t>(
-        std::clamp<double>(std::round(numbers[i] / step_of(setup.steps, i)), limits.min[i], limits.max[i]));
-  return coded;
-}
-
-/// What quality means for the motion and the first pattern.
-RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
-  RateTarget target = rate_target(settings, eye_distance_px);
-  if (settings.patterns == 1) return target;
-  target.quality = settings.bitrate > 0 ? motion_quality_at(settings.bitrate)
-                                        : PatternPoint::at(settings.quality).motion_quality;
-  target.bitrate_kbps = 0;  // the patterns take what the motion leaves
-  return target;
-}
-
-PatternPassSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
-  PatternPassSettings out;
-  out.point = PatternPoint::at(settings.quality);
-  out.count = settings.patterns;
-  if (settings.pattern_quantiser >= 0) out.quantiser = settings.pattern_quantiser;
-  out.lone_quantiser = settings.pattern_quantiser < 0 ? motion.pattern_quantiser : settings.pattern_quantiser;
-  out.reduced = settings.reduced_patterns;
-  out.bitrate_kbps = settings.bitrate;
-  out.key_interval = settings.key_interval;
-  out.lambda = motion.lambda;
-  out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
-  out.refits = std::min(settings.effort, kMaxRefits);
-  return out;
 }
 
 }  // namespace

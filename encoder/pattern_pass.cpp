@@ -22,6 +22,9 @@ constexpr double kSegmentSeconds = 40;
 /// Patterns are kept as long as they take less memory than this, bytes.
 constexpr double kStoreBytes = 256e6;
 
+/// The patterns of a segment take no more than this, bytes, several times over while they are made.
+constexpr double kSegmentBytes = 64e6;
+
 // For deciding how many patterns: pictures coded, and every so many drawn.
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
@@ -45,6 +48,10 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
     : format_(format), settings_(settings), rest_(rest), point_(settings.point) {
   const double bytes = 1.5 * format.width * format.height;
   store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
+  most_ =
+      settings.recycles
+          ? static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures))
+          : store_;
 }
 
 void PatternPass::begin_scene(const CodedState& rest) {
@@ -76,7 +83,7 @@ void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> p
 }
 
 bool PatternPass::segment_ends(std::size_t next) const {
-  const std::size_t pictures = segment_.states.size();
+  const std::size_t pictures = this->pictures();
   // The motion of a whole segment may be sent before its first picture is shown.
   if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
   const double fps = fps_of(format_);
@@ -84,7 +91,9 @@ bool PatternPass::segment_ends(std::size_t next) const {
     return true;
   if (settings_.count > 0) return false;
   if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
-  const double seconds = std::min(kSegmentSeconds, (store_ - 1) / point_.per_second);
+  const bool any_density = settings_.recycles && settings_.bitrate_kbps > 0;
+  const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
+  const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
   return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
 }
 
@@ -125,12 +134,12 @@ void PatternPass::place(const Scene& scene, Draft& draft) const {
 
 SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
   SegmentPatterns out{{*scene.geometry, scene.setup.mouth, draft.patterns}, {}};
-  const std::size_t old = draft.patterns.size() - draft.coded.size();
+  const std::size_t old = draft.patterns.size() - draft.coded.size(), slots = scene.setup.patterns;
   for (const std::size_t arrived : draft.arrived) {
     // In the order of the decoder's slots: each new pattern takes the place of the old one in its slot.
-    AvailablePatterns available(std::max(old, arrived));
+    AvailablePatterns available(std::max(old, std::min(arrived, slots)));
     for (std::size_t slot = 0; slot < available.size(); ++slot)
-      available[slot] = slot < arrived ? old + slot : slot;
+      available[slot] = slot < arrived ? old + slot + (arrived - 1 - slot) / slots * slots : slot;
     out.available.push_back(std::move(available));
   }
   return out;
@@ -167,7 +176,10 @@ std::vector<std::size_t> PatternPass::times_wanted() const {
   const std::size_t wanted = settings_.count > 0
                                  ? settings_.count
                                  : pattern_count(segment_.shots, std::lround(point_.per_second * seconds));
-  return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, store_), pictures));
+  // What a group is drawn from is kept all at once.
+  const std::size_t most =
+      settings_.recycles ? std::min<std::size_t>(most_, store_ / 2 * segment_.groups.size()) : most_;
+  return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
 }
 
 Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::size_t> times) {
@@ -246,7 +258,7 @@ Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup,
   std::vector<std::size_t> bytes;
   for (std::size_t k = 0; k < draft.coded.size(); ++k) {
     const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
-    patterns.push_back({static_cast<std::int32_t>(k), picture, rest_, draft.coded[k].av1});
+    patterns.push_back({static_cast<std::int32_t>(k) % store_, picture, rest_, draft.coded[k].av1});
     bytes.push_back(patterns.back().av1.size());
   }
   std::vector<TypedPayload> out;
@@ -285,8 +297,8 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   if (picture_ == 0) scene.patterns.clear();
   for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    if (k < scene.patterns.size())
-      scene.patterns[k] = std::move(draft.patterns[old + k]);
+    if (const std::size_t slot = k % store_; slot < scene.patterns.size())
+      scene.patterns[slot] = std::move(draft.patterns[old + k]);
     else
       scene.patterns.push_back(std::move(draft.patterns[old + k]));
   }
@@ -330,7 +342,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
   int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
   while (high - low > 4) {
     const int middle = (low + high) / 2;
-    point_ = PatternPoint::at(middle);
+    point_ = settings_.point_at(middle);
     set_size(coding_.reduced);
     auto draft = draft_of(scene);
     if (!draft) return fail(draft.error());
@@ -343,14 +355,14 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
 }
 
 Result<void> PatternPass::aim(const Scene& scene, double bytes) {
-  point_ = PatternPoint::at(50);
+  point_ = settings_.point_at(50);
   for (int trial = 0; trial < 2; ++trial) {
     const bool before = coding_.reduced;
     if (auto sized = choose_size(scene); !sized) return sized;
     if (trial > 0 && coding_.reduced == before) break;
     const auto quality = quality_for(scene, bytes);
     if (!quality) return fail(quality.error());
-    point_ = PatternPoint::at(*quality);
+    point_ = settings_.point_at(*quality);
     set_size(coding_.reduced);
   }
   return {};

@@ -18,7 +18,9 @@
 namespace fbs {
 
 struct PatternPassSettings {
-  PatternPoint point{};          ///< where no bitrate is set
+  PatternPoint point{};  ///< where no bitrate is set
+  /// What a quality of 0..100 stands for, where a bitrate decides.
+  PatternPoint (*point_at)(int quality) = &PatternPoint::at;
   std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
   double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
   int lone_quantiser = 40;       ///< where a scene is too short for a second pattern
@@ -26,6 +28,7 @@ struct PatternPassSettings {
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
   bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
   int refits = 1;                ///< of fitting states to what is shown
+  bool recycles = false;         ///< a segment may have more patterns than the decoder keeps
   double lambda = 0;             ///< squared luma levels that a bit is worth
   double key_interval = 0;       ///< EncoderSettings::key_interval
 };
@@ -55,7 +58,7 @@ class PatternPass {
   [[nodiscard]] bool segment_ends(std::size_t next) const;
 
   /// Of the segment so far.
-  [[nodiscard]] std::size_t pictures() const { return segment_.states.size(); }
+  [[nodiscard]] std::size_t pictures() const { return segment_.pictures.count(); }
 
   /// Patterns that the decoder keeps.
   [[nodiscard]] std::int32_t store() const { return store_; }
@@ -133,6 +136,7 @@ class PatternPass {
   PatternPassSettings settings_;
   CodedState rest_;  ///< seen state of the scene's first pattern
   std::int32_t store_;
+  std::int32_t most_;         ///< patterns in a segment
   std::int32_t picture_ = 0;  ///< number of the segment's first
   double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
   Segment segment_;

@@ -15,6 +15,10 @@ namespace {
 // picture.
 constexpr int kLookAhead = 25;
 
+/// libaom's order hints have 7 bits. Look-ahead is less than half of them.
+constexpr std::size_t kOrderHints = 128;
+static_assert(kLookAhead < kOrderHints / 2);
+
 Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Picture> pictures,
                                  const SequenceSettings& settings) {
   VideoFormat size = format;
@@ -36,6 +40,13 @@ Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Pict
   }
   if (auto rest = append(av1->finish()); !rest) return fail(rest.error());
   return out;
+}
+
+/// The picture of an order hint, which counts modulo kOrderHints: the one nearest to those coded so far.
+std::size_t numbered(int order_hint, std::size_t coded) {
+  const std::size_t past = coded % kOrderHints, hint = order_hint, whole = coded - past;
+  if (hint > past + kOrderHints / 2 && whole > 0) return whole - kOrderHints + hint;
+  return past > hint + kOrderHints / 2 ? whole + kOrderHints + hint : whole + hint;
 }
 
 }  // namespace
@@ -60,7 +71,7 @@ Result<std::vector<SequencePattern>> code_pattern_sequence(const VideoFormat& fo
   for (auto& av1 : *frames) {
     auto frame = decoder->decode_frame(av1);
     if (!frame) return fail(frame.error());
-    const auto picture = static_cast<std::size_t>(frame->order_hint);
+    const std::size_t picture = numbered(frame->order_hint, out.size());
     // An overlay: libaom shows a hidden picture by coding it once more, for no other frame to refer to.
     if (picture < pictures.size() && seen[picture] && !frame->referable) continue;
     if (picture >= pictures.size() || seen[picture])

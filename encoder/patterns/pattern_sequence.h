@@ -12,8 +12,8 @@
 
 namespace fbs {
 
-/// libaom's order hints, which tell the pictures apart, have 7 bits.
-inline constexpr std::size_t kMaxSequencePictures = 128;
+/// Pictures of a sequence, all of which are in memory.
+inline constexpr std::size_t kMaxSequencePictures = 512;
 
 struct SequenceSettings {
   int quantiser = 40;  ///< libaom's scale, 0..63; of the frames that no other refers to

@@ -10,6 +10,9 @@ struct PatternPoint {
 
   /// @param quality  0..100
   static PatternPoint at(int quality);
+
+  /// The same for a scene without a face, in which all that moves is in the patterns.
+  static PatternPoint without_face(int quality);
 };
 
 /// Quantiser of patterns of another size: large ones are worth fewer bits a sample.

@@ -53,27 +53,46 @@ int rim_piece_at(glm::dvec2 at) {
   return -1;
 }
 
-}  // namespace
-
-std::vector<Keypoint> select_keypoints(const SurroundPyramid& first, int factor, const Pose& seen) {
+/// Keypoints that belong to no layer yet.
+std::vector<Keypoint> steepest_places(const SurroundPyramid& first, int factor, glm::dvec2 origin,
+                                      double unit_px) {
   const cv::Mat& luma = first[0];
-  const double eye_px = seen.eye_distance_px();
   std::vector<Keypoint> out;
   for (int y = kSquare / 2; y + kSquare < luma.rows; y += kSquare) {
     for (int x = kSquare / 2; x + kSquare < luma.cols; x += kSquare) {
       Keypoint keypoint;
       if (!find_steepest(first, x, y, keypoint)) continue;
       keypoint.place = (keypoint.at + 0.5) * static_cast<double>(factor);
-      keypoint.from_head = (keypoint.place - seen.shift) / eye_px;
-      const LayerShares prior = layers_by_place(seen, keypoint.place);
-      if (prior[kHeadLayer] > kMaxHeadPrior) continue;
-      keypoint.layers = LayerMembership(prior);
+      keypoint.from_head = (keypoint.place - origin) / unit_px;
       keypoint.quarters = quarters_of(luma, x, y);
-      if (prior[kGroundLayer] > kMinGroundOnRim)
-        keypoint.rim_piece = rim_piece_at((keypoint.at + 0.5) / glm::dvec2(luma.cols, luma.rows));
       out.push_back(keypoint);
     }
   }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Keypoint> select_keypoints(const SurroundPyramid& first, int factor, const Pose& seen) {
+  const cv::Mat& luma = first[0];
+  std::vector<Keypoint> out;
+  for (Keypoint& keypoint : steepest_places(first, factor, seen.shift, seen.eye_distance_px())) {
+    const LayerShares prior = layers_by_place(seen, keypoint.place);
+    if (prior[kHeadLayer] > kMaxHeadPrior) continue;
+    keypoint.layers = LayerMembership(prior);
+    if (prior[kGroundLayer] > kMinGroundOnRim)
+      keypoint.rim_piece = rim_piece_at((keypoint.at + 0.5) / glm::dvec2(luma.cols, luma.rows));
+    out.push_back(keypoint);
+  }
+  return out;
+}
+
+std::vector<Keypoint> select_ground_keypoints(const SurroundPyramid& first, int factor, glm::dvec2 origin,
+                                              double unit_px) {
+  std::vector<Keypoint> out = steepest_places(first, factor, origin, unit_px);
+  LayerShares ground{};
+  ground[kGroundLayer] = 1;
+  for (Keypoint& keypoint : out) keypoint.layers = LayerMembership(ground);
   return out;
 }
 

@@ -41,6 +41,12 @@ struct Keypoint {
 [[nodiscard]] std::vector<Keypoint> select_keypoints(const SurroundPyramid& first, int factor,
                                                      const Pose& seen);
 
+/// The same where all of the picture is ground.
+/// @param origin     that places are seen from in `from_head`, pixels of the picture
+/// @param unit_px    in which they are given there, in the place of an eye distance
+[[nodiscard]] std::vector<Keypoint> select_ground_keypoints(const SurroundPyramid& first, int factor,
+                                                            glm::dvec2 origin, double unit_px);
+
 /// Whether enough ground is seen near the rim to say whether the camera moves.
 [[nodiscard]] bool ground_shows(std::span<const Keypoint> keypoints);
 

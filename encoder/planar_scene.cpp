@@ -1,0 +1,162 @@
+#include "encoder/planar_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bitstream/payload/setup_payload.h"
+#include "encoder/model/coded_numbers.h"
+#include "encoder/pass_settings.h"
+#include "encoder/surround/map_grid.h"
+
+namespace fbs {
+namespace {
+
+/// Quality of the motion, and what a bit is worth, are defined relative to a face: one of this share of the
+/// long side.
+constexpr double kEyeDistance = 1.0 / 11;
+
+/// The plane moves if this leaves less of the pictures' differences.
+constexpr double kPays = 0.5;
+
+/// Pixels, at motion quality 50. A step moves all that is drawn by half of it at most.
+constexpr double kStep = 0.125;
+
+SceneGeometry geometry_of(const Setup& setup, const Geometry& head, const State& rest) {
+  return {setup, head, uniform_map({1, 1}, {}), rest};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SceneEncoder>> PlanarScene::begin(const VideoFormat& format,
+                                                         const EncoderSettings& settings,
+                                                         const StreamPosition& before) {
+  auto plane = PicturePlane::create(format);
+  if (!plane) return fail(plane.error());
+  Setup setup;
+  setup.before = before;
+  setup.format = format;
+  setup.parts = mask_of(PartId::kPose);
+  const double eye = kEyeDistance * std::max(format.width, format.height);
+  const RateTarget target = motion_target(settings, eye);
+  const RatePlan rate{OperatingPoint::at(target.quality, eye), target.motion_kbps};
+  setup.steps = plane->steps(kStep);
+  return std::unique_ptr<SceneEncoder>(new PlanarScene(setup, settings, rate, std::move(*plane)));
+}
+
+PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, const RatePlan& rate,
+                         PicturePlane plane)
+    : timing_(setup.format, settings),
+      rate_(rate),
+      plane_(std::move(plane)),
+      key_interval_(settings.key_interval * fps_of(setup.format)),
+      motion_(setup, CodedState{}, rate, timing_.nominal_duration),
+      patterns_(setup.format, planar_pass_settings(settings, rate.point), CodedState{}),
+      position_(setup.before) {
+  scene_.setup = setup;
+  scene_.setup.patterns = patterns_.store();
+}
+
+Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
+  if (ended_) begin_again();
+  GlobalMotion::Observation seen = global_.observe(picture);
+  if (!plane_.covers(seen.since_first)) {
+    if (auto ended = finish(); !ended) return ended;
+    begin_again();
+    seen = global_.observe(picture);
+  }
+  observed_.push_back(
+      {plane_.pose(seen.since_first), plane_.quadratic(seen), seen.moved, seen.still, duration});
+  if (auto added = patterns_.add(picture); !added) return added;
+  ++pictures_;
+  position_.add(duration > 0 ? duration : timing_.nominal_duration);
+  return timing_.group_ends(++in_group_, pictures_) ? end_group() : Result<void>{};
+}
+
+void PlanarScene::cut() {
+  global_.cut();
+  patterns_.cut();
+}
+
+void PlanarScene::begin_again() {
+  ended_ = false;
+  global_ = {};
+  scene_.setup.before = position_;
+  pictures_ = 0;
+  if (packets_.started()) packets_.begin_again();
+}
+
+bool PlanarScene::moves() const {
+  double moved = 0, still = 0;
+  for (const Observed& o : observed_) {
+    moved += o.moved;
+    still += o.still;
+  }
+  return moved < kPays * still;
+}
+
+Result<void> PlanarScene::begin_motion() {
+  const bool moving = moves();
+  // A plane that rests need not be sent: without a geometry the decoder shows the same.
+  const auto numbers = numbers_of(plane_.rest());
+  const CodedState rest = moving ? coded_state(numbers, scene_.setup) : CodedState{};
+  const State rest_state = state_of(rest, scene_.setup.steps);
+  scene_.geometry.emplace(geometry_of(scene_.setup, moving ? plane_.geometry() : no_plane(), rest_state));
+  scene_.patterns.clear();
+  scene_.patterns.push_back(make_pattern({}, rest_state, scene_.geometry));
+  motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
+  patterns_.begin_scene(rest);
+  if (!moving)
+    for (Observed& o : observed_) {
+      o.pose = pose_of(rest_state);
+      o.quadratic = {};
+    }
+  auto setup = encode_setup(scene_.setup);
+  if (!setup) return fail(setup.error());
+  packets_.start({std::move(*setup), moving ? plane_.payload() : std::vector<std::uint8_t>{}, {}, {}});
+  return {};
+}
+
+Result<void> PlanarScene::end_group() {
+  if (in_group_ > 0) groups_.push_back(std::exchange(in_group_, 0));
+  return patterns_.segment_ends(timing_.group_pictures) ? end_segment() : Result<void>{};
+}
+
+Result<void> PlanarScene::add_motion() {
+  auto next = observed_.begin();
+  for (const std::size_t pictures : groups_) {
+    std::vector<PictureCost> costs(pictures);
+    std::vector<std::uint32_t> durations;
+    for (PictureCost& cost : costs) {
+      const auto numbers = numbers_of(next->pose);
+      std::copy(numbers.begin(), numbers.end(), cost.fit.begin());
+      cost.layers.push_back({CostLayer::kHead, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
+      cv::Mat(next->quadratic).copyTo(cost.layers.back().quadratic(cv::Rect(0, 0, kPoseCount, kPoseCount)));
+      durations.push_back(next++->duration);
+    }
+    auto group = motion_.add(costs, durations);
+    if (!group) return fail(group.error());
+    patterns_.add(group->states, std::move(group->payload));
+  }
+  return {};
+}
+
+Result<void> PlanarScene::end_segment() {
+  if (groups_.empty()) return {};
+  if (!packets_.started())
+    if (auto begun = begin_motion(); !begun) return begun;
+  if (auto added = add_motion(); !added) return added;
+  const auto packets = patterns_.end_segment(scene_, packets_.waiting(), {});
+  if (!packets) return fail(packets.error());
+  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  observed_.clear();
+  groups_.clear();
+  ended_ = key_interval_ == 0 || static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_;
+  return {};
+}
+
+Result<void> PlanarScene::finish() {
+  if (auto ended = end_group(); !ended) return ended;
+  return end_segment();
+}
+
+}  // namespace fbs
