@@ -7,6 +7,7 @@
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 #include "cli/video/atomic_file.h"
+#include "decoder/scene_face.h"
 
 namespace fbs::cli {
 namespace {
@@ -25,8 +26,8 @@ std::string number(double v) {
 
 std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
   std::string line = std::to_string(frame);
-  const auto& geometry = decoder.scene().geometry;
-  if (!geometry) {
+  const SceneGeometry* face = face_of(decoder.scene());
+  if (face == nullptr) {
     for (int k = 0; k < 6 + 2 * kLandmarkCount; ++k) line += ",nan";
     return line + "\n";
   }
@@ -34,7 +35,7 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
   for (const std::int32_t angle : {pose.pitch, pose.yaw, pose.roll}) line += number(angle * 360.0 / 65536);
   line +=
       number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
-  const auto vertices = geometry->project_vertices(decoder.state());
+  const auto vertices = face->project_vertices(decoder.state());
   for (const std::uint16_t v : generic_head().landmark_vertex) {
     const glm::ivec3 p = vertices[v];
     line += number(p.x / 64.0) + number(p.y / 64.0);

@@ -11,6 +11,7 @@
 #include "cli/pattern_use.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
+#include "decoder/scene_face.h"
 #include "decoder/scene_index.h"
 
 namespace fbs::cli {
@@ -179,7 +180,7 @@ Result<void> run_inspect(const InspectArguments& arguments) {
   s.patterns = patterns_of(decoder, use);
   s.scenes = index_scenes(*bytes);
   s.ended = decoder.announced_pictures().has_value();
-  s.face = decoder.scene().geometry.has_value();
+  s.face = face_of(decoder.scene()) != nullptr;
   s.steps = decoder.scene().setup.steps;
   s.motion = decoder.motion_bits();
   if (arguments.json)

@@ -4,6 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "decoder/scene_face.h"
+
 namespace fbs::cli {
 namespace {
 
@@ -39,10 +41,10 @@ Result<void> StreamMeter::compare(const Picture& source) {
   if (auto drawn = decoder_.render(drawn_); !drawn) return drawn;
   sum_.frame += squared_error(source.y, drawn_.y);
   if (with_ssim_) sum_.ssim_frame += ssim(source.y, drawn_.y);
-  const auto& geometry = decoder_.scene().geometry;
-  if (!geometry) return {};
+  const SceneGeometry* face = face_of(decoder_.scene());
+  if (face == nullptr) return {};
   if (mask_.samples.size() != source.y.samples.size()) mask_ = Plane(source.width(), source.height());
-  const cv::Rect box = draw_face(*geometry, decoder_.state(), mask_);
+  const cv::Rect box = draw_face(*face, decoder_.state(), mask_);
   sum_.face += squared_error(source.y, drawn_.y, mask_);
   if (with_ssim_ && !box.empty()) sum_.ssim_face += ssim(cut(source.y, box), cut(drawn_.y, box));
   return {};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bitstream/packet.h"
+#include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 
 namespace fbs {
@@ -16,7 +17,10 @@ class Indexer {
   void take(const Packet& packet) {
     if (packet.type == PacketType::kSetup) begin(packet);
     if (packet.type == PacketType::kEnd) close(packet.offset);
-    if (packet.type == PacketType::kGeometry && open_) scenes_.back().face = true;
+    if (packet.type == PacketType::kGeometry && open_) {
+      const auto geometry = decode_geometry(packet.payload);
+      scenes_.back().face = geometry && !is_flat(*geometry);
+    }
   }
 
   /// @param size  of the stream, bytes

@@ -13,7 +13,7 @@ struct SceneEntry {
   StreamPosition before;     ///< position of its first picture
   std::uint64_t offset = 0;  ///< of its setup packet, bytes from the start of the stream
   std::uint64_t bytes = 0;   ///< up to the next scene, the end packet or the end
-  bool face = false;         ///< it has a geometry packet
+  bool face = false;         ///< it has a geometry packet, and not of a plane
 };
 
 /// Reads packets and skips what is damaged. Scenes without a valid setup packet are left out, and so are

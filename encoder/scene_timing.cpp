@@ -20,8 +20,10 @@ SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& setti
   group_pictures = settings.group_pictures > 0
                        ? settings.group_pictures
                        : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
-  if (settings.key_interval > 0)
-    group_pictures = std::clamp<std::size_t>(std::lround(fps * settings.key_interval), 1, group_pictures);
+  if (settings.key_interval > 0) {
+    const double others = std::floor(fps * settings.key_interval) - 1;  // the first has a group of its own
+    group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));
+  }
   lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
 }
 

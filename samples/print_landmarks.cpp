@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "decoder/scene_face.h"
 #include "decoder/stream_decoder.h"
 
 namespace {
@@ -13,15 +14,15 @@ constexpr double kDegrees = 360.0 / 65536;  // the stream counts angles in 2^-16
 constexpr double kPixels = 1.0 / 64;        // and positions in 1/64 pixel
 
 void print(const fbs::StreamDecoder& decoder) {
-  const auto& geometry = decoder.scene().geometry;
-  if (!geometry) {
+  const auto* face = face_of(decoder.scene());
+  if (face == nullptr) {
     std::printf("picture %d: no face\n", static_cast<int>(decoder.pictures()));
     return;
   }
   const fbs::HeadPose pose = fbs::head_pose(decoder.state());
   std::printf("picture %d: pitch %.1f yaw %.1f roll %.1f\n", static_cast<int>(decoder.pictures()),
               pose.pitch * kDegrees, pose.yaw * kDegrees, pose.roll * kDegrees);
-  const auto vertices = geometry->project_vertices(decoder.state());  // all 105 of the head, z being depth
+  const auto vertices = face->project_vertices(decoder.state());  // all 105 of the head, z being depth
   for (const auto vertex : fbs::generic_head().landmark_vertex)
     std::printf("%.2f %.2f\n", vertices[vertex].x * kPixels, vertices[vertex].y * kPixels);
 }

@@ -150,6 +150,11 @@ std::optional<HeadPoints> undo_prediction(const HeadPoints& coded, Prediction pr
 
 }  // namespace
 
+bool is_flat(const Geometry& geometry) {
+  constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // of the flattest face, some ten times as much
+  return std::ranges::all_of(geometry.positions, [](const glm::ivec3& p) { return std::abs(p.z) < kDepth; });
+}
+
 Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t step) {
   if (step < 1 || step > kMaxGeometryStep)
     return fail(ErrorCode::kInvalidArgument, "geometry step is out of range");

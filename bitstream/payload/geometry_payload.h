@@ -28,6 +28,9 @@ struct CodedGeometry {
 [[nodiscard]] Result<CodedGeometry> encode_geometry(const Geometry& geometry,
                                                     std::int32_t step = kDefaultGeometryStep);
 
+/// Whether a head has no depth: then it is no face but a plane that moves the picture.
+[[nodiscard]] bool is_flat(const Geometry& geometry);
+
 /// @return kTooLarge       more than kMaxGeometryPayload bytes
 ///         kTruncated      the payload ends inside its header
 ///         kInvalidStream  Draco cannot decode the bytes, the number of points is not 105, or a coordinate

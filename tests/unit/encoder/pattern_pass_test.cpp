@@ -163,8 +163,10 @@ TEST(PatternPass, SegmentEndsBeforeTooManyPicturesWait) {
       settings.count = count;
       PatternPass pass(format, settings, {});
       const std::vector<State> group(kMaxGroupPictures);
+      const Picture grey(format.width, format.height);
       int pictures = 0;
       while (!pass.segment_ends(kMaxGroupPictures) && pictures < 2 * kMaxWaitingPictures) {
+        for (int i = 0; i < kMaxGroupPictures; ++i) ASSERT_TRUE(pass.add(grey));
         pass.add(group, {});
         pictures += kMaxGroupPictures;
       }

@@ -26,6 +26,16 @@ TEST(SceneTiming, GroupsStayWithinTheFormatsLimits) {
   EXPECT_EQ(timing_at({1, 10}).lookahead, 1U);
 }
 
+TEST(SceneTiming, AKeyIntervalHasRoomForTheFirstGroupAndAnother) {
+  VideoFormat format;
+  format.frame_rate = {25, 1};
+  EncoderSettings settings;
+  for (const auto& [interval, pictures] : {std::pair{1.0, 24U}, {0.3, 6U}, {0.04, 1U}, {9.0, 25U}}) {
+    settings.key_interval = interval;
+    EXPECT_EQ(SceneTiming(format, settings).group_pictures, pictures) << interval;
+  }
+}
+
 TEST(SceneTiming, FirstPictureIsAGroupOfItsOwn) {
   const SceneTiming timing = timing_at({25, 1}, 4);
   EXPECT_TRUE(timing.group_ends(1, 1));

@@ -2,35 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bitstream/packet.h"
-#include "common/quality.h"
-#include "decoder/stream_decoder.h"
+#include "tests/unit/encoder/decoded_packets.h"
 #include "tests/unit/encoder/patterns/scenery.h"
 
 namespace fbs {
 namespace {
-
-struct Shown {
-  std::vector<Picture> pictures;
-  std::vector<std::uint32_t> durations;
-};
-
-Shown decoded(const std::vector<std::uint8_t>& packets) {
-  std::vector<std::uint8_t> stream;
-  write_signature(stream);
-  stream.insert(stream.end(), packets.begin(), packets.end());
-  StreamDecoder decoder;
-  decoder.feed(stream);
-  decoder.close();
-  Shown shown;
-  for (auto status = decoder.next(); status && *status == DecodeStatus::kPicture; status = decoder.next()) {
-    Picture picture;
-    EXPECT_TRUE(decoder.render(picture));
-    shown.pictures.push_back(picture);
-    shown.durations.push_back(decoder.duration());
-  }
-  return shown;
-}
 
 std::unique_ptr<SceneEncoder> begun(const Picture& first) {
   EncoderSettings settings;
@@ -46,7 +22,7 @@ TEST(StillScene, ShowsItsFirstPictureAsLongAsItLasts) {
   for (int t = 0; t < 11; ++t)
     ASSERT_TRUE(scene->push(t == 0 ? first : scenery(96, 80, 40), t == 5 ? 9000 : 0));
   ASSERT_TRUE(scene->finish());
-  const Shown shown = decoded(scene->take());
+  const Shown shown = shown_by(scene->take());
   ASSERT_EQ(shown.pictures.size(), 11U);
   for (const Picture& p : shown.pictures) EXPECT_EQ(p, shown.pictures.front());
   EXPECT_GT(squared_error(shown.pictures.front().y, first.y).psnr(), 30);

@@ -48,7 +48,7 @@ bool is_hidden(const SequencePattern& inter) {
 }
 
 TEST(PatternSequence, CodesEachPictureOnceAndTheFirstFirst) {
-  for (const int count : {1, 2, 3, 5, 8, 9, 10, 16, 17, 18, 26, 33, 64}) {
+  for (const int count : {1, 2, 3, 5, 8, 9, 10, 16, 17, 18, 26, 33, 64, 150, 300}) {
     const auto pictures = pan(64, 64, count);
     const auto coded = sequence_of(pictures, settings_of(40));
     ASSERT_EQ(coded.size(), pictures.size());
