@@ -130,7 +130,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
       ->capture_default_str()
       ->check(number_within(0.01, 1000));
   verb->add_flag("--allow-no-face", a.allow_no_face,
-                 "Encode a video without a face as a still picture instead of failing");
+                 "Encode a video without a face, too, instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
   verb->add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);

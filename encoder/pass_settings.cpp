@@ -41,7 +41,7 @@ PatternPassSettings planar_pass_settings(const EncoderSettings& settings, const 
   PatternPassSettings out = pass_settings(settings, motion);
   out.point_at = &PatternPoint::without_face;
   out.point = out.point_at(settings.quality);
-  out.recycles = true;
+  out.without_face = true;
   out.refits = 0;
   return out;
 }

@@ -36,6 +36,10 @@ constexpr std::size_t kDraftShared = 3;
 constexpr double kStillLevels = 4;
 constexpr int kStillLongSide = 64;
 
+/// Steps of the quantiser, for twice as many pictures to a pattern than usual: stills, such as slides, are
+/// worth finer patterns. The distortion that they share falls with the square of the quantiser.
+constexpr double kStepsPerSharing = 4.5;
+
 // To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
 constexpr int kMaxRateTrials = 4;
 constexpr double kBytesPerStep = 1.045;
@@ -49,7 +53,7 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
   const double bytes = 1.5 * format.width * format.height;
   store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
   most_ =
-      settings.recycles
+      settings.without_face
           ? static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures))
           : store_;
 }
@@ -91,7 +95,7 @@ bool PatternPass::segment_ends(std::size_t next) const {
     return true;
   if (settings_.count > 0) return false;
   if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
-  const bool any_density = settings_.recycles && settings_.bitrate_kbps > 0;
+  const bool any_density = settings_.without_face && settings_.bitrate_kbps > 0;
   const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
   const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
   return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
@@ -154,7 +158,12 @@ Result<double> PatternPass::loss_between(const Scene& scene) {
 int PatternPass::quantiser_at(bool reduced) const {
   if (settings_.quantiser) return *settings_.quantiser;
   const int halvings = reduced ? 1 : 0;
-  return quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
+  const int usual = quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
+  if (!settings_.without_face || settings_.count > 0) return usual;
+  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+  const double wanted = std::min(point_.per_second, fps_of(format_)) * seconds;
+  const double octaves = std::log2(wanted / static_cast<double>(times_wanted().size()));
+  return std::max(0, usual - static_cast<int>(std::lround(kStepsPerSharing * std::max(0.0, octaves))));
 }
 
 SequenceSettings PatternPass::trial_coding(bool reduced) const {
@@ -178,7 +187,7 @@ std::vector<std::size_t> PatternPass::times_wanted() const {
                                  : pattern_count(segment_.shots, std::lround(point_.per_second * seconds));
   // What a group is drawn from is kept all at once.
   const std::size_t most =
-      settings_.recycles ? std::min<std::size_t>(most_, store_ / 2 * segment_.groups.size()) : most_;
+      settings_.without_face ? std::min<std::size_t>(most_, store_ / 2 * segment_.groups.size()) : most_;
   return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
 }
 

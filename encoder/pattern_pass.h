@@ -28,7 +28,7 @@ struct PatternPassSettings {
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
   bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
   int refits = 1;                ///< of fitting states to what is shown
-  bool recycles = false;         ///< a segment may have more patterns than the decoder keeps
+  bool without_face = false;     ///< patterns show all that moves: often more than the decoder keeps at once
   double lambda = 0;             ///< squared luma levels that a bit is worth
   double key_interval = 0;       ///< EncoderSettings::key_interval
 };
