@@ -61,7 +61,7 @@ bool PicturePlane::covers(const PlaneMotion& motion) const {
 }
 
 cv::Matx<double, kPoseCount, kPoseCount> PicturePlane::quadratic(
-    const GlobalMotion::Observation& observation) const {
+    const GlobalMotion::Observation& observation) {
   const glm::dvec2 origin(observation.since_first.shift.real(), observation.since_first.shift.imag());
   State unit;
   unit.pose.fill(1);

@@ -18,15 +18,16 @@ namespace fbs {
 
 class PicturePlane {
  public:
+  /// @return errors of encode_geometry()
   static Result<PicturePlane> create(const VideoFormat& format);
 
   /// Pose of the plane at rest.
   [[nodiscard]] const Pose& rest() const { return rest_; }
+  /// As decoded, and the payload of its packet.
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const std::vector<std::uint8_t>& payload() const { return payload_; }
 
-  /// Of the pose, so that each moves a corner of the picture by no more than its share of what one of the
-  /// translation does.
+  /// Steps of the pose: one of rotation or scale moves a corner of the picture as far as one of translation.
   /// @param step_px  of translation, pixels
   [[nodiscard]] QuantiserSteps steps(double step_px) const;
 
@@ -36,9 +37,9 @@ class PicturePlane {
   /// Whether it fills the picture there.
   [[nodiscard]] bool covers(const PlaneMotion& motion) const;
 
-  /// What other poses would cost: squared luma difference over the picture, kPoseCount numbers of State.
-  [[nodiscard]] cv::Matx<double, kPoseCount, kPoseCount> quadratic(
-      const GlobalMotion::Observation& observation) const;
+  /// What other poses would cost: squared luma differences over the picture, by the numbers of State::pose.
+  [[nodiscard]] static cv::Matx<double, kPoseCount, kPoseCount> quadratic(
+      const GlobalMotion::Observation& observation);
 
  private:
   PicturePlane() = default;

@@ -67,7 +67,7 @@ TEST(PicturePlane, EndsSomewhere) {
 TEST(PicturePlane, CostIsThatOfDisplacedSlopes) {
   GlobalMotion::Observation seen;
   seen.places.push_back({{30, 40}, {4, 0, 0}});  // slopes to the right only
-  const auto q = plane().quadratic(seen);
+  const auto q = PicturePlane::quadratic(seen);
   constexpr double kPixel = kStateUnitsPerPixel;
   EXPECT_NEAR(q(kShiftX, kShiftX) * kPixel * kPixel, 4, 1e-9);
   EXPECT_NEAR(q(kShiftY, kShiftY), 0, 1e-12);
