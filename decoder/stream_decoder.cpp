@@ -192,7 +192,7 @@ void StreamDecoder::begin_scene() {
   lost_ = false;
   bit_counter_.reset();
   geometry_.reset();
-  surround_.reset();
+  surround_ = still_surround();
   has_setup_ = true;
 }
 
@@ -202,15 +202,11 @@ Result<void> StreamDecoder::take_of_scene(const Packet& packet) {
     case PacketType::kGeometry: {
       auto geometry = decode_geometry(packet.payload);
       if (!geometry) return at(packet, geometry.error());
-      geometry_ = *geometry;
+      if (scene_.patterns.empty()) geometry_ = *geometry;
       return {};
     }
-    case PacketType::kSurround: {
-      auto surround = decode_surround(packet.payload);
-      if (!surround) return at(packet, surround.error());
-      surround_ = std::move(*surround);
-      return {};
-    }
+    case PacketType::kSurround:
+      return take_surround(packet);
     case PacketType::kPattern:
       return take_patterns(packet);
     case PacketType::kBlend:
@@ -229,9 +225,18 @@ Result<void> StreamDecoder::keep_picture() {
   return {};
 }
 
-void StreamDecoder::begin_geometry(const State& rest) {
-  if (!geometry_) return;
-  scene_.set_geometry({scene_.setup, *geometry_, surround_ ? std::move(*surround_) : still_surround(), rest});
+void StreamDecoder::begin_geometry() {
+  if (geometry_) scene_.set_geometry({scene_.setup, *geometry_, surround_, rest_});
+}
+
+Result<void> StreamDecoder::take_surround(const Packet& packet) {
+  auto surround = decode_surround(packet.payload);
+  if (!surround) return at(packet, surround.error());
+  surround_ = std::move(*surround);
+  if (!scene_.geometry) return {};
+  if (auto kept = keep_picture(); !kept) return kept;
+  begin_geometry();
+  return {};
 }
 
 Result<void> StreamDecoder::take_patterns(const Packet& packet) {
@@ -259,7 +264,8 @@ Result<bool> StreamDecoder::take_pattern(const PatternSyntax& pattern) {
   if (!frame) return fail(frame.error());
   const State seen = first ? state_of(pattern.state, scene_.setup.steps) : *known;
   if (first) {
-    begin_geometry(seen);
+    rest_ = seen;
+    begin_geometry();
     motion_.emplace(scene_.setup, pattern.state);
     if (scene_.setup.patterns > 1) blend_.emplace();
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern.state);

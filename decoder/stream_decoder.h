@@ -137,7 +137,8 @@ class StreamDecoder {
   Result<void> take_blend(const Packet& packet);
   void lose();
   void note_startup();
-  void begin_geometry(const State& rest);
+  void begin_geometry();
+  Result<void> take_surround(const Packet& packet);
   /// Keeps records of the last patterns, which came in one packet.
   void record(const Packet& packet, std::span<const PatternSyntax> patterns,
               const std::vector<bool>& reduced);
@@ -152,7 +153,8 @@ class StreamDecoder {
   Scene scene_;                          ///< of the last setup packet
   bool has_setup_ = false;
   std::optional<Geometry> geometry_;
-  std::optional<SurroundMap> surround_;
+  SurroundMap surround_ = still_surround();
+  State rest_;  ///< in which the scene's first pattern was seen
   PatternPacketReader pattern_packets_;
   std::optional<PatternDecoder> patterns_;
   std::optional<MotionDecoder> motion_;

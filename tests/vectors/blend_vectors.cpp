@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/blend/blend_syntax.h"
@@ -10,6 +11,7 @@
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "decoder/obu.h"
 #include "encoder/patterns/pattern_sequence.h"
 
@@ -245,6 +247,22 @@ Bytes blend_of_unknown_mode() {
   return coder.finish();
 }
 
+/// The stream with other surrounds before two of its blend packets, the first with as many columns and rows
+/// as pictures are wide.
+std::vector<Piece> with_later_surrounds(std::vector<Piece> pieces) {
+  for (const auto& [blend, columns] : {std::pair{4, 2}, std::pair{2, 67}}) {
+    SurroundMap map{columns, columns, {}, {}};
+    const int points = (columns + 1) * (columns + 1);
+    for (int k = 0; k < points; ++k) {
+      map.head.push_back(static_cast<std::uint8_t>((k * k + blend) % 4));
+      map.body.push_back(static_cast<std::uint8_t>(k % 5));
+    }
+    pieces.insert(pieces.begin() + place_of(pieces, PacketType::kBlend, blend),
+                  Piece{PacketType::kSurround, must(encode_surround(map))});
+  }
+  return pieces;
+}
+
 }  // namespace
 
 void add_blends(Folder& folder) {
@@ -253,6 +271,7 @@ void add_blends(Folder& folder) {
   require_hidden_frames(made);
   folder.add("patterns.fbs", joined(own), 40);
   folder.add("blends.fbs", joined(made), kPictures);
+  folder.add("later_surround.fbs", joined(with_later_surrounds(made)), kPictures);
   folder.add("replaced.fbs", joined(replaced()), kPictures);
   folder.add("cross_fade.fbs", joined(cross_fade(300 - kKeptPictures)), kBars);
 }

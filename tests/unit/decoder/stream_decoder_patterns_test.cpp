@@ -53,6 +53,35 @@ TEST(StreamDecoderPatterns, PicturesWaitForTheirBlend) {
   EXPECT_TRUE(result.errors.empty());
 }
 
+// What a live encoder learns about the surround takes effect between pictures.
+TEST(StreamDecoderPatterns, ALaterSurroundDrawsThePicturesReleasedAfterIt) {
+  const auto with_map = [](int follow) {
+    Writer w;
+    w.setup(setup_of(3)).geometry().surround(follow).pattern().motion(0, 5, true).motion(5, 10).blend(10);
+    return played(w.bytes).pictures;
+  };
+  const auto before = with_map(0), after = with_map(4);
+  ASSERT_NE(before[4], after[4]);
+  Writer w;
+  w.setup(setup_of(3)).geometry().surround(0).pattern().motion(0, 5, true).motion(5, 10).blend(4);
+  w.surround(4).blend(6);
+  const Played result = played(w.bytes);
+  EXPECT_TRUE(result.errors.empty());
+  ASSERT_EQ(result.pictures.size(), 10U);
+  for (std::size_t t = 0; t < 10; ++t) EXPECT_EQ(result.pictures[t], t < 4 ? before[t] : after[t]) << t;
+}
+
+TEST(StreamDecoderPatterns, ALaterSurroundLeavesThePictureShownAsItIs) {
+  Writer w;
+  w.setup(setup_of(3)).geometry().surround(0).pattern().motion(0, 5, true).blend(5).surround(4);
+  StreamDecoder decoder;
+  Played result;
+  play_through(decoder, w, result);
+  Picture again;
+  ASSERT_TRUE(decoder.render(again));
+  EXPECT_EQ(again, result.pictures.back());
+}
+
 TEST(StreamDecoderPatterns, OnePatternInAStoreOfManyDrawsAsAlone) {
   Writer w = begun();
   w.motion(0, 5, true).motion(5, 10).blend(10);

@@ -154,8 +154,12 @@ TEST(StreamDecoder, DrawsIntoTheCallersMemory) {
 // SPEC 6: of several before pattern 0 the last counts; what comes behind it changes nothing.
 TEST(StreamDecoder, GeometryIsFixedByPatternZero) {
   Writer plain, late, twice;
+  Geometry other = toy_geometry();
+  for (glm::ivec3& p : other.positions) p.x += p.x / 4;
   plain.setup().geometry().surround(4).pattern().motion(0, 5, true);
-  late.setup().geometry().surround(4).pattern().surround(0).geometry().motion(0, 5, true);
+  late.setup().geometry().surround(4).pattern().packet(PacketType::kGeometry,
+                                                       encode_geometry(other)->payload);
+  late.surround(4).motion(0, 5, true);
   twice.setup().surround(0).geometry().geometry().surround(4).pattern().motion(0, 5, true);
   const auto expected = played(plain.bytes).pictures;
   EXPECT_EQ(played(late.bytes).pictures, expected);
