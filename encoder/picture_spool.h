@@ -1,15 +1,17 @@
-// Pictures kept on disk, to be read again: a video is looked at more than once, and memory is bounded.
+// Pictures kept to be read again: a video is looked at more than once, and memory is bounded.
 #pragma once
 
 #include <cstdio>
 #include <memory>
+#include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
 
 namespace fbs {
 
-/// An unnamed temporary file of pictures of one size; it vanishes with the object.
+/// Pictures of one size. The first few are in memory, the others in an unnamed temporary file that vanishes
+/// with the object.
 class PictureSpool {
  public:
   /// Appends a picture; all have the size of the first.
@@ -25,6 +27,9 @@ class PictureSpool {
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
+  Result<void> write(const Picture& picture);
+
+  std::vector<Picture> first_;  ///< the rest is in the file
   std::unique_ptr<std::FILE, Close> file_;
   std::size_t count_ = 0;
   int width_ = 0, height_ = 0;
