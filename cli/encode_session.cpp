@@ -1,5 +1,6 @@
 #include "cli/encode_session.h"
 
+#include <optional>
 #include <utility>
 
 #include "cli/progress.h"
@@ -108,15 +109,23 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
   ClosedLoop loop(std::move(*encoder), take, what);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
-  std::int64_t done = 0;
+  // How long a picture lasts is known with the next one, which nobody waits for where it can be helped: a
+  // live picture is given what the one before lasted.
+  const bool waits = !settings.live && !source.has_constant_rate();
+  std::int64_t done = 0, last_pts = -nominal;
   auto current = source.next();
   while (current && *current) {
-    auto next = source.next();
-    if (!next) return fail(next.error());
-    const std::uint32_t duration = *next ? duration_of((*current)->pts, (*next)->pts, nominal) : 0;
+    std::uint32_t duration = source.has_constant_rate() ? 0 : duration_of(last_pts, (*current)->pts, nominal);
+    std::optional<Result<std::optional<TimedPicture>>> next;
+    if (waits) {
+      next = source.next();
+      if (!*next) return fail(next->error());
+      duration = **next ? duration_of((*current)->pts, (**next)->pts, nominal) : 0;
+    }
+    last_pts = (*current)->pts;
     if (auto pushed = loop.push(**current, duration, see); !pushed) return fail(pushed.error());
     progress.update(++done);
-    current = std::move(next);
+    current = next ? std::move(*next) : source.next();
   }
   if (!current) return fail(current.error());
   return loop.finish();

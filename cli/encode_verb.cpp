@@ -35,6 +35,8 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   settings.quality = arguments.quality;
   settings.patterns = arguments.patterns;
   settings.key_interval = arguments.key_interval;
+  if (arguments.live.value_or(arguments.input.starts_with("camera:")))
+    settings.live.emplace(LiveSettings{arguments.delay, arguments.buffer});
   settings.effort = arguments.effort;
   settings.reduced_patterns = arguments.reduced_patterns;
   settings.pattern_quantiser = arguments.pattern_quantiser;

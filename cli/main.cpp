@@ -101,9 +101,21 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
                    "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
                    "then only motion (default: chosen by the encoder)")
       ->check(CLI::Range(1, 64));
+  verb->add_flag("--live,!--no-live", a.live,
+                 "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
+                 "file is better encoded without");
+  verb->add_option("--delay", a.delay, "With --live: seconds of pictures that are encoded together")
+      ->capture_default_str()
+      ->check(number_within(0.01, 5));
+  verb->add_option(
+          "--buffer", a.buffer,
+          "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
+          "that rate")
+      ->capture_default_str()
+      ->check(number_within(0.1, 60));
   verb->add_option("--key-interval", a.key_interval,
                    "Most seconds between the places where a viewer can join and damage ends (default: up to "
-                   "40 with several patterns; none with --patterns 1)")
+                   "40 with several patterns; none with --patterns 1; 10 with --live)")
       ->check(CLI::Range(0.2, 3600.0));
   verb->add_option("--effort", a.effort,
                    "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "

@@ -25,6 +25,7 @@ class SourcePart final : public VideoSource {
 
   [[nodiscard]] const VideoFormat& format() const override { return source_->format(); }
   Result<std::optional<TimedPicture>> next() override;
+  [[nodiscard]] bool has_constant_rate() const override { return source_->has_constant_rate(); }
   /// The limits are an estimate where the source has none.
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }

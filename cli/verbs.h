@@ -31,9 +31,12 @@ enum class Outcome : std::uint8_t {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
-  double bitrate = 0;       ///< target of the total, kbit/s; 0: none, quality decides
-  int patterns = 0;         ///< of a scene; 0: chosen by the encoder
-  double key_interval = 0;  ///< seconds; 0: where it costs little
+  double bitrate = 0;        ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;          ///< of a scene; 0: chosen by the encoder
+  std::optional<bool> live;  ///< whether it is; nothing: a camera is
+  double delay = 0.2;        ///< s, of a live source
+  double buffer = 2;         ///< s, of a live source with a bitrate
+  double key_interval = 0;   ///< seconds; 0: where it costs little
   int face = 0;
   std::string marks;                   ///< file; empty: automatic
   std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none

@@ -124,6 +124,10 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
     return fail(ErrorCode::kInvalidArgument, "number of patterns outside 0..64");
   if (settings.pattern_quantiser < -1 || settings.pattern_quantiser > 63)
     return fail(ErrorCode::kInvalidArgument, "quantiser of patterns outside 0..63");
+  if (settings.live && !(settings.live->delay > 0 && settings.live->buffer > 0))
+    return fail(ErrorCode::kInvalidArgument, "a delay or buffer that is not positive");
+  if (settings.live && settings.patterns > 1)
+    return fail(ErrorCode::kInvalidArgument, "a live scene has one pattern, or as many as it needs");
   if (settings.key_interval < 0) return fail(ErrorCode::kInvalidArgument, "a negative key interval");
   if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");

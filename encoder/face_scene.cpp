@@ -98,9 +98,11 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
                      Parts parts)
     : timing_(timing),
       rate_(parts.rate),
-      key_interval_(settings.key_interval * fps_of(parts.scene.setup.format)),
+      live_(settings.live.has_value()),
+      key_interval_(key_interval_of(settings, parts.scene.setup.format)),
       still_surround_(!settings.surround),
       scene_(std::move(parts.scene)),
+      rest_(scene_.patterns.front().seen),
       analysis_(settings, finder,
                 {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
                  scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),
@@ -114,7 +116,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
   if (settings.patterns != 1) {
     // Braces: clang 14 does not construct aggregates in place.
     second_pass_.emplace(
-        SecondPass{PatternPass(scene_.setup.format, pass_settings(settings, parts.rate.point), parts.seen),
+        SecondPass{face_patterns(settings, parts.rate.point, scene_.setup.format, parts.seen),
                    SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
                                 parts.eye_distance_px),
                    motion_,
@@ -130,19 +132,17 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   if (second_pass_) second_pass_->refit.add(seen, duration);
   costs_.push_back(std::move(seen.cost));
   durations_.push_back(duration);
-  if (!fixed_) learn(picture, seen);
+  if (!map_final_) learn(picture, seen);
   if (second_pass_) {
     if (!packets_.started() && seen.face) second_pass_->face_chroma.add(picture, seen.vertices);
-    if (auto added = second_pass_->patterns.add(picture); !added) return added;
+    if (auto added = second_pass_->patterns->add(picture); !added) return added;
   }
   ++pictures_;
   position_.add(duration > 0 ? duration : timing_.nominal_duration);
   if (timing_.group_ends(durations_.size(), pictures_))
     if (auto ended = end_group(); !ended) return ended;
-  if (!fixed_ && pictures_ >= timing_.lookahead) {
-    fix_head();
-    if (auto written = second_pass_ ? Result<void>{} : write_head(); !written) return written;
-  }
+  if (!map_final_ && pictures_ >= timing_.lookahead)
+    if (auto done = end_lookahead(); !done) return done;
   if (second_pass_ || !scene_ends(timing_.group_pictures)) return {};
   ended_ = true;
   return finish();
@@ -150,18 +150,19 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
 
 bool FaceScene::scene_ends(std::size_t more) const {
   if (key_interval_ == 0) return second_pass_.has_value();
+  if (live_) return static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_;
   return durations_.empty() && static_cast<double>(pictures_ + more) > key_interval_;
 }
 
 Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::Observation& seen) {
   const CodedState rest = coded_state(seen.cost.fit, scene_.setup);
-  const State rest_state = state_of(rest, scene_.setup.steps);
-  scene_.set_geometry({scene_.setup, scene_.geometry->geometry(), map_, rest_state});
+  rest_ = state_of(rest, scene_.setup.steps);
+  scene_.set_geometry({scene_.setup, scene_.geometry->geometry(), map_, rest_});
   scene_.patterns.clear();
-  scene_.patterns.push_back(make_pattern(picture, rest_state, scene_.geometry));
+  scene_.patterns.push_back(make_pattern(picture, rest_, scene_.geometry));
   motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
   if (second_pass_) {
-    second_pass_->patterns.begin_scene(rest);
+    second_pass_->patterns->begin_scene(rest);
     second_pass_->motion = motion_;
   } else {
     FirstPattern first(scene_.setup.format, picture, kSentSpeed);
@@ -172,8 +173,8 @@ Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::
     pattern_payload_ = std::move(*payload);
   }
   scene_.setup.before = position_;
-  observations_.set_first(picture, rest_state);
-  fixed_ = false;
+  observations_.set_first(picture, rest_);
+  fixed_ = map_final_ = false;
   pictures_ = 0;
   packets_.begin_again();
   return {};
@@ -181,7 +182,7 @@ Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::
 
 void FaceScene::cut() {
   analysis_.cut();
-  if (second_pass_) second_pass_->patterns.cut();
+  if (second_pass_) second_pass_->patterns->cut();
 }
 
 void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
@@ -193,26 +194,60 @@ void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& s
 
 Result<void> FaceScene::end_group() {
   if (durations_.empty()) return {};
+  if (live_ && !second_pass_ && !fixed_) {
+    fix_head();
+    if (auto written = write_head(); !written) return written;
+  }
   auto group = motion_.add(costs_, durations_);
   if (!group) return fail(group.error());
   if (second_pass_)
-    second_pass_->patterns.add(group->states, std::move(group->payload));
+    second_pass_->patterns->add(group->states, std::move(group->payload));
   else
     packets_.add_motion(group->payload);
   costs_.clear();
   durations_.clear();
-  return second_pass_ && second_pass_->patterns.segment_ends(timing_.group_pictures) ? end_segment()
-                                                                                     : Result<void>{};
+  return second_pass_ && second_pass_->patterns->segment_ends(timing_.group_pictures) ? end_segment()
+                                                                                      : Result<void>{};
+}
+
+void FaceScene::fit_map() {
+  const Geometry geometry = scene_.geometry->geometry();
+  // A live scene that goes on with the same person keeps the map until its own pictures have shown more.
+  const bool keeps = live_ && map_.columns > 0 && observations_.later().empty();
+  if (still_surround_)
+    map_ = still_surround();
+  else if (!keeps)
+    map_ = fit_surround(scene_.setup, geometry, observations_);
+  analysis_.set_surround_map(map_);
+  scene_.set_geometry({scene_.setup, geometry, map_, rest_});
 }
 
 void FaceScene::fix_head() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
-  const Geometry geometry = scene_.geometry->geometry();
-  map_ = still_surround_ ? still_surround() : fit_surround(scene_.setup, geometry, observations_);
-  analysis_.set_surround_map(map_);
-  scene_.set_geometry({scene_.setup, geometry, map_, scene_.patterns.front().seen});
-  observations_ = SurroundObservations(scene_.setup.format);
+  fit_map();
   fixed_ = true;
+  if (!live_) end_learning();
+}
+
+Result<void> FaceScene::end_lookahead() {
+  if (!live_) {
+    fix_head();
+    return second_pass_ ? Result<void>{} : write_head();
+  }
+  if (!durations_.empty()) return {};  // the map changes between groups
+  const SurroundMap before = map_;
+  fit_map();
+  end_learning();
+  if (map_ == before) return {};
+  auto surround = encode_surround(map_);
+  if (!surround) return fail(surround.error());
+  packets_.add(PacketType::kSurround, *surround);
+  return {};
+}
+
+void FaceScene::end_learning() {
+  observations_ = SurroundObservations(scene_.setup.format);
+  map_final_ = true;
 }
 
 Result<void> FaceScene::write_head() {
@@ -225,10 +260,10 @@ Result<void> FaceScene::write_head() {
 }
 
 Result<void> FaceScene::end_segment() {
-  const std::size_t pictures = second_pass_->patterns.pictures();
+  const std::size_t pictures = second_pass_->patterns->pictures();
   if (!fixed_) fix_head();
   if (!packets_.started()) {
-    scene_.setup.patterns = second_pass_->patterns.store();
+    scene_.setup.patterns = second_pass_->patterns->store();
     scene_.setup.contrast = kSurroundContrast;
     scene_.setup.chroma_contrast = second_pass_->face_chroma.contrast();
     pattern_payload_.clear();  // the first segment brings its own
@@ -238,7 +273,7 @@ Result<void> FaceScene::end_segment() {
     motion_ = second_pass_->motion;
     return second_pass_->refit.run(segment, patterns, motion_);
   };
-  const auto packets = second_pass_->patterns.end_segment(scene_, packets_.waiting(), refit);
+  const auto packets = second_pass_->patterns->end_segment(scene_, packets_.waiting(), refit);
   if (!packets) return fail(packets.error());
   second_pass_->motion = motion_;
   second_pass_->refit.begin_segment();

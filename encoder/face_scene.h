@@ -7,7 +7,7 @@
 #include "decoder/scene.h"
 #include "encoder/face_analysis.h"
 #include "encoder/motion_track.h"
-#include "encoder/pattern_pass.h"
+#include "encoder/pattern_stage.h"
 #include "encoder/patterns/face_chroma.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/scene_encoder.h"
@@ -52,14 +52,23 @@ class FaceScene : public SceneEncoder {
   /// Fixes what the scene's head says.
   void fix_head();
   Result<void> write_head();
+  /// Fits the surround's map to what has been seen by now.
+  void fit_map();
+  /// Enough has been seen for the surround's map: fixes what the scene's head says, or in a live scene, whose
+  /// head has been sent, sends the map.
+  Result<void> end_lookahead();
+  /// Nothing more is learned for the map.
+  void end_learning();
   /// With several patterns: codes and writes what has been held back.
   Result<void> end_segment();
 
   SceneTiming timing_;
   RatePlan rate_;
+  bool live_;
   double key_interval_;  ///< pictures; 0: none where there is one pattern, segments where there are several
   bool still_surround_;
   Scene scene_;  ///< as the decoder builds it; until start() with a guessed surround map
+  State rest_;   ///< in which the first pattern was seen: the map's
   FaceAnalysis analysis_;
 
   MotionTrack motion_;
@@ -70,11 +79,12 @@ class FaceScene : public SceneEncoder {
   StreamPosition position_;               ///< behind the last picture
 
   MouthColours mouth_colours_;
-  SurroundObservations observations_;  ///< empty from start() on
+  SurroundObservations observations_;  ///< empty once the map is final
   bool fixed_ = false;                 ///< whether fix_head() has been called
+  bool map_final_ = false;
   SurroundMap map_;
   struct SecondPass {
-    PatternPass patterns;
+    std::unique_ptr<PatternStage> patterns;
     SegmentRefit refit;
     MotionTrack motion;        ///< as before the segment
     FaceChroma face_chroma{};  ///< until the scene starts

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "encoder/rate_target.h"
+#include "encoder/scene_timing.h"
 
 namespace fbs {
 namespace {
@@ -10,6 +11,28 @@ namespace {
 /// Times that states are fitted to what is shown, whatever the effort. The first gains 4 % of the rate in the
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
+
+/// Between scenes of a live source, unless something else is asked for: where viewers join.
+constexpr double kLiveKeySeconds = 10;
+
+/// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
+constexpr int kLiveFiner = 2;
+
+LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
+                                  const VideoFormat& format) {
+  LivePatternSettings out;
+  out.reduced = settings.reduced_patterns.value_or(false);
+  const int halvings = out.reduced ? 1 : 0;
+  const PatternPoint point = PatternPoint::at(settings.quality);
+  out.quantiser = settings.pattern_quantiser >= 0
+                      ? settings.pattern_quantiser
+                      : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
+  out.lambda = motion.lambda;
+  out.refits = settings.effort > 0;
+  out.bitrate_kbps = settings.bitrate;
+  out.buffer = settings.live->buffer;
+  return out;
+}
 
 }  // namespace
 
@@ -44,6 +67,25 @@ PatternPassSettings planar_pass_settings(const EncoderSettings& settings, const 
   out.without_face = true;
   out.refits = 0;
   return out;
+}
+
+std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
+                                            const VideoFormat& format, const CodedState& rest) {
+  if (settings.live)
+    return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
+  return std::make_unique<PatternPass>(format, pass_settings(settings, motion), rest);
+}
+
+std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
+                                              const VideoFormat& format, const CodedState& rest) {
+  if (settings.live)
+    return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
+  return std::make_unique<PatternPass>(format, planar_pass_settings(settings, motion), rest);
+}
+
+double key_interval_of(const EncoderSettings& settings, const VideoFormat& format) {
+  const bool by_itself = settings.live && settings.key_interval == 0;
+  return (by_itself ? kLiveKeySeconds : settings.key_interval) * fps_of(format);
 }
 
 }  // namespace fbs

@@ -19,9 +19,6 @@ namespace {
 /// A segment ends after so many seconds at most: what is not yet coded is on disk, and its end is a delay.
 constexpr double kSegmentSeconds = 40;
 
-/// Patterns are kept as long as they take less memory than this, bytes.
-constexpr double kStoreBytes = 256e6;
-
 /// The patterns of a segment take no more than this, bytes, several times over while they are made.
 constexpr double kSegmentBytes = 64e6;
 
@@ -40,22 +37,22 @@ constexpr int kStillLongSide = 64;
 /// worth finer patterns. The distortion that they share falls with the square of the quantiser.
 constexpr double kStepsPerSharing = 4.5;
 
-// To meet a rate: recodings at most, and what one step of the quantiser changes bytes by, about.
-constexpr int kMaxRateTrials = 4;
-constexpr double kBytesPerStep = 1.045;
+constexpr int kMaxRateTrials = 4;  // recodings to meet a rate
 constexpr double kRateTolerance = 0.02;
 
 }  // namespace
 
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
                          const CodedState& rest)
-    : format_(format), settings_(settings), rest_(rest), point_(settings.point) {
+    : format_(format),
+      settings_(settings),
+      rest_(rest),
+      store_(pattern_store(format)),
+      most_(store_),
+      point_(settings.point) {
+  if (!settings.without_face) return;
   const double bytes = 1.5 * format.width * format.height;
-  store_ = static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
-  most_ =
-      settings.without_face
-          ? static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures))
-          : store_;
+  most_ = static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures));
 }
 
 void PatternPass::begin_scene(const CodedState& rest) {

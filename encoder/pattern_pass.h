@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -11,9 +10,9 @@
 #include "bitstream/blend/blend_coder.h"
 #include "bitstream/pattern/pattern_packet.h"
 #include "decoder/scene.h"
+#include "encoder/pattern_stage.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
-#include "encoder/segment_blend.h"
 
 namespace fbs {
 
@@ -33,43 +32,20 @@ struct PatternPassSettings {
   double key_interval = 0;       ///< EncoderSettings::key_interval
 };
 
-/// Replaces the motion of a segment by one that suits the patterns that it is drawn from.
-using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
-
-class PatternPass {
+class PatternPass : public PatternStage {
  public:
   /// @param rest  seen state of pattern 0 as coded
   PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
 
-  /// Another scene begins; the segment before has ended.
-  /// @param rest  seen state of its pattern 0 as coded
-  void begin_scene(const CodedState& rest);
-
-  /// The next picture of the scene.
-  Result<void> add(const Picture& picture);
-  /// The picture added next begins another shot.
-  void cut() { cut_ = true; }
-  /// The next group of them.
-  /// @param states  of its pictures
-  void add(std::span<const State> states, std::vector<std::uint8_t> payload);
-
-  /// Whether the segment should end with the group added last.
-  /// @param next  pictures of the group after it
-  [[nodiscard]] bool segment_ends(std::size_t next) const;
-
-  /// Of the segment so far.
-  [[nodiscard]] std::size_t pictures() const { return segment_.pictures.count(); }
-
-  /// Patterns that the decoder keeps.
-  [[nodiscard]] std::int32_t store() const { return store_; }
-
-  /// Codes the segment and begins another.
-  /// @param scene  as the decoder has it before the segment, and after; its setup has store()
-  /// @param other_bytes  that the stream has taken beside segments since the last one
-  /// @param refit  called for segments with several patterns
-  /// @return packets
+  void begin_scene(const CodedState& rest) override;
+  Result<void> add(const Picture& picture) override;
+  void cut() override { cut_ = true; }
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override;
+  [[nodiscard]] bool segment_ends(std::size_t next) const override;
+  [[nodiscard]] std::size_t pictures() const override { return segment_.pictures.count(); }
+  [[nodiscard]] std::int32_t store() const override { return store_; }
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
-                                                              const StateRefit& refit);
+                                                              const StateRefit& refit) override;
 
  private:
   /// Patterns of the segment while they are made.

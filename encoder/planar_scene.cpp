@@ -15,10 +15,6 @@ namespace {
 /// long side.
 constexpr double kEyeDistance = 1.0 / 11;
 
-/// The plane moves if motion leaves less than this of the pictures' differences. Highway, whose sky and road
-/// are no plane, gains 0.1 dB at 0.7, and takes five times as long to decode.
-constexpr double kPays = 0.5;
-
 /// Of the plane's motion, pixels: fine enough not to blur.
 constexpr double kStepPx = 0.125;
 
@@ -49,12 +45,13 @@ PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, co
     : timing_(setup.format, settings),
       rate_(rate),
       plane_(std::move(plane)),
-      key_interval_(settings.key_interval * fps_of(setup.format)),
+      key_interval_(key_interval_of(settings, setup.format)),
       motion_(setup, CodedState{}, rate, timing_.nominal_duration),
-      patterns_(setup.format, planar_pass_settings(settings, rate.point), CodedState{}),
+      patterns_(planar_patterns(settings, rate.point, setup.format, CodedState{})),
+      live_(settings.live.has_value()),
       position_(setup.before) {
   scene_.setup = setup;
-  scene_.setup.patterns = patterns_.store();
+  scene_.setup.patterns = patterns_->store();
 }
 
 Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
@@ -65,9 +62,11 @@ Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
     begin_again();
     seen = global_.observe(picture);
   }
-  observed_.push_back(
-      {plane_.pose(seen.since_first), PicturePlane::quadratic(seen), seen.moved, seen.still, duration});
-  if (auto added = patterns_.add(picture); !added) return added;
+  observed_.push_back({plane_.pose(seen.since_first), PicturePlane::quadratic(seen), duration});
+  const double kept = live_ ? 1 - 1 / std::max(1.0, fps_of(scene_.setup.format)) : 1;
+  moved_ = kept * moved_ + seen.moved;
+  still_ = kept * still_ + seen.still;
+  if (auto added = patterns_->add(picture); !added) return added;
   ++pictures_;
   position_.add(duration > 0 ? duration : timing_.nominal_duration);
   return timing_.group_ends(++in_group_, pictures_) ? end_group() : Result<void>{};
@@ -75,7 +74,7 @@ Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
 
 void PlanarScene::cut() {
   global_.cut();
-  patterns_.cut();
+  patterns_->cut();
 }
 
 void PlanarScene::begin_again() {
@@ -86,40 +85,26 @@ void PlanarScene::begin_again() {
   if (packets_.started()) packets_.begin_again();
 }
 
-bool PlanarScene::moves() const {
-  double moved = 0, still = 0;
-  for (const Observed& o : observed_) {
-    moved += o.moved;
-    still += o.still;
-  }
-  return moved < kPays * still;
-}
-
 Result<void> PlanarScene::begin_motion() {
-  const bool moving = moves();
+  moving_ = moves();
   // A plane that rests need not be sent: without a geometry the decoder shows the same.
   const auto numbers = numbers_of(plane_.rest());
-  const CodedState rest = moving ? coded_state(numbers, scene_.setup) : CodedState{};
+  const CodedState rest = moving_ ? coded_state(numbers, scene_.setup) : CodedState{};
   const State rest_state = state_of(rest, scene_.setup.steps);
-  scene_.geometry.emplace(geometry_of(scene_.setup, moving ? plane_.geometry() : no_plane(), rest_state));
+  scene_.geometry.emplace(geometry_of(scene_.setup, moving_ ? plane_.geometry() : no_plane(), rest_state));
   scene_.patterns.clear();
   scene_.patterns.push_back(make_pattern({}, rest_state, scene_.geometry));
   motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
-  patterns_.begin_scene(rest);
-  if (!moving)
-    for (Observed& o : observed_) {
-      o.pose = pose_of(rest_state);
-      o.quadratic = {};
-    }
+  patterns_->begin_scene(rest);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
-  packets_.start({std::move(*setup), moving ? plane_.payload() : std::vector<std::uint8_t>{}, {}, {}});
+  packets_.start({std::move(*setup), moving_ ? plane_.payload() : std::vector<std::uint8_t>{}, {}, {}});
   return {};
 }
 
 Result<void> PlanarScene::end_group() {
   if (in_group_ > 0) groups_.push_back(std::exchange(in_group_, 0));
-  return patterns_.segment_ends(timing_.group_pictures) ? end_segment() : Result<void>{};
+  return patterns_->segment_ends(timing_.group_pictures) ? end_segment() : Result<void>{};
 }
 
 Result<void> PlanarScene::add_motion() {
@@ -128,6 +113,10 @@ Result<void> PlanarScene::add_motion() {
     std::vector<PictureCost> costs(pictures);
     std::vector<std::uint32_t> durations;
     for (PictureCost& cost : costs) {
+      if (!moving_) {
+        next->pose = pose_of(state_of({}, scene_.setup.steps));
+        next->quadratic = {};
+      }
       const auto numbers = numbers_of(next->pose);
       std::copy(numbers.begin(), numbers.end(), cost.fit.begin());
       cost.layers.push_back({CostLayer::kHead, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
@@ -136,7 +125,7 @@ Result<void> PlanarScene::add_motion() {
     }
     auto group = motion_.add(costs, durations);
     if (!group) return fail(group.error());
-    patterns_.add(group->states, std::move(group->payload));
+    patterns_->add(group->states, std::move(group->payload));
   }
   return {};
 }
@@ -146,12 +135,14 @@ Result<void> PlanarScene::end_segment() {
   if (!packets_.started())
     if (auto begun = begin_motion(); !begun) return begun;
   if (auto added = add_motion(); !added) return added;
-  const auto packets = patterns_.end_segment(scene_, packets_.waiting(), {});
+  const auto packets = patterns_->end_segment(scene_, packets_.waiting(), {});
   if (!packets) return fail(packets.error());
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   observed_.clear();
   groups_.clear();
-  ended_ = key_interval_ == 0 || static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_;
+  if (!live_) moved_ = still_ = 0;
+  ended_ = key_interval_ == 0 || static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_ ||
+           (live_ && !moving_ && moves());
   return {};
 }
 

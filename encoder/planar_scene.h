@@ -6,7 +6,7 @@
 
 #include "decoder/scene.h"
 #include "encoder/motion_track.h"
-#include "encoder/pattern_pass.h"
+#include "encoder/pattern_stage.h"
 #include "encoder/picture_plane.h"
 #include "encoder/scene_encoder.h"
 #include "encoder/scene_packets.h"
@@ -39,15 +39,18 @@ class PlanarScene : public SceneEncoder {
   void begin_again();
   /// Fixes whether the scene's plane moves, from its first segment, and writes the head.
   Result<void> begin_motion();
-  /// Whether the camera moves so much in the segment that the plane pays.
-  [[nodiscard]] bool moves() const;
+  /// Whether the camera moves so much that the plane pays: in the segment, or lately where it is live.
+  [[nodiscard]] bool moves() const { return moved_ < kPays * still_; }
   [[nodiscard]] Result<void> add_motion();
+
+  /// The plane moves if motion leaves less than this of the pictures' differences. Highway, whose sky and
+  /// road are no plane, gains 0.1 dB at 0.7, and takes five times as long to decode.
+  static constexpr double kPays = 0.5;
 
   /// A picture of the segment, until its motion is planned.
   struct Observed {
     Pose pose;
     cv::Matx<double, kPoseCount, kPoseCount> quadratic;
-    double moved, still;  ///< GlobalMotion::Observation
     std::uint32_t duration;
   };
 
@@ -58,7 +61,10 @@ class PlanarScene : public SceneEncoder {
   Scene scene_;          ///< as the decoder builds it; its geometry is not sent where the plane rests
   GlobalMotion global_;
   MotionTrack motion_;
-  PatternPass patterns_;
+  std::unique_ptr<PatternStage> patterns_;
+  bool live_;
+  bool moving_ = false;           ///< the scene has a plane that moves
+  double moved_ = 0, still_ = 0;  ///< sums of Observation::moved and still that moves() goes by
   std::vector<Observed> observed_;
   std::vector<std::size_t> groups_;  ///< pictures of each group of the segment
   std::size_t in_group_ = 0;         ///< pictures of the group so far

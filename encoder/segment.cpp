@@ -4,6 +4,12 @@
 
 namespace fbs {
 
+std::int32_t pattern_store(const VideoFormat& format) {
+  constexpr double kStoreBytes = 256e6;
+  const double bytes = 1.5 * format.width * format.height;
+  return static_cast<std::int32_t>(std::clamp(kStoreBytes / bytes, 4.0, double{kMaxPatterns}));
+}
+
 bool Segment::is_cut(std::size_t picture) const {
   std::size_t first = 0;
   return std::ranges::any_of(shots, [&](const Shot& shot) {

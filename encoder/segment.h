@@ -13,6 +13,9 @@
 
 namespace fbs {
 
+/// Patterns that a decoder keeps: as many as take little memory.
+[[nodiscard]] std::int32_t pattern_store(const VideoFormat& format);
+
 /// A packet to be written.
 using TypedPayload = std::pair<PacketType, std::vector<std::uint8_t>>;
 

@@ -116,6 +116,18 @@ void add_change(const SolvedPlanes& now, const SolvedPlanes& before, const Plane
 
 }  // namespace
 
+Result<std::vector<ModeErrors>> mode_errors(Segment& segment, const SegmentPatterns& patterns) {
+  const BlendErrors blend(patterns.scene,
+                          reduction_to(kCompareWidth, patterns.scene.patterns.front().picture));
+  std::vector<ModeErrors> out;
+  const auto done = for_each_picture(
+      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+        out.push_back(blend.errors(picture.y, segment.states[t], available));
+      });
+  if (!done) return fail(done.error());
+  return out;
+}
+
 Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
                                               double lambda, std::size_t most) {
   const Picture& any = patterns.scene.patterns.front().picture;
@@ -134,7 +146,7 @@ Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPat
   for (std::size_t run = 0; run < errors.size(); ++run)
     for (auto& region : errors[run])
       for (auto& error : region) error *= shared_by[run];
-  const std::vector<RegionModes> chosen = choose_modes(errors, lambda);
+  const std::vector<RegionModes> chosen = cheapest_modes(errors, lambda);
   std::vector<RegionModes> out;
   for (std::size_t run = 0; run < chosen.size(); ++run) out.insert(out.end(), shared_by[run], chosen[run]);
   return out;

@@ -17,6 +17,9 @@ struct SegmentPatterns {
   std::vector<AvailablePatterns> available;  ///< of each group
 };
 
+/// What the modes of each picture cost in distortion. Luma only, at a reduced size.
+[[nodiscard]] Result<std::vector<ModeErrors>> mode_errors(Segment& segment, const SegmentPatterns& patterns);
+
 /// Modes of each picture by rate-distortion cost. Luma only, at a reduced size.
 /// @param lambda  squared luma levels that a bit is worth
 /// @param most    so many pictures at most share their modes, and the first stands for all; never across a

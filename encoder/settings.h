@@ -7,6 +7,12 @@
 
 namespace fbs {
 
+/// Of a source that is encoded as it happens.
+struct LiveSettings {
+  double delay = 0.2;  ///< s; pictures are coded in groups of so many seconds
+  double buffer = 2;   ///< s; where a bitrate is set: nothing waits longer to be sent at that rate
+};
+
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
   double bitrate = 0;          ///< total kbit/s, from which quality follows; 0: quality decides
@@ -18,7 +24,7 @@ struct EncoderSettings {
   int effort = 1;  ///< 0: patterns are pictures as they are; 1: solved for; 2: and states fitted twice
   int face = 0;    ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
-  bool allow_no_face = false;  ///< code a video without any face as one still pattern instead of failing
+  bool allow_no_face = false;  ///< code a video without any face instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
   bool refine = true;          ///< fit the state to the picture; off only to measure what it gains
   bool landmarks = true;       ///< look for landmarks in every picture; off only to measure what it gains
@@ -26,7 +32,8 @@ struct EncoderSettings {
   /// Seconds between scenes at the most: where a viewer can join, and damage ends. 0: where it costs little,
   /// up to 40 with several patterns, never with one.
   double key_interval = 0;
-  int group_pictures = 0;  ///< pictures in a motion packet, 1..256; 0: one second's
+  std::optional<LiveSettings> live;  ///< without look-ahead
+  int group_pictures = 0;            ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
 }  // namespace fbs

@@ -34,6 +34,9 @@ class VideoSource {
   /// size changes. After an error the source must not be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
 
+  /// Whether each picture lasts as long as format().frame_rate says; pts need not be looked at.
+  [[nodiscard]] virtual bool has_constant_rate() const { return false; }
+
   /// Number of pictures according to the container, for progress bars; nullopt when it does not say.
   [[nodiscard]] virtual std::optional<std::int64_t> frame_count_estimate() const = 0;
 

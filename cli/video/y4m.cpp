@@ -85,6 +85,7 @@ class Y4mSource final : public VideoSource {
 
   [[nodiscard]] const VideoFormat& format() const override { return header_.format; }
   Result<std::optional<TimedPicture>> next() override;
+  [[nodiscard]] bool has_constant_rate() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
 
  private:

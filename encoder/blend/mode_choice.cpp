@@ -8,11 +8,12 @@ namespace {
 // Bits of the adaptive code, about, as measured on the ten clips.
 constexpr double kStayBits = 0.06, kChangeBits = 8;
 
-std::vector<BlendMode> cheapest(std::span<const ModeErrors> errors, std::size_t region, double lambda) {
+std::vector<BlendMode> cheapest(std::span<const ModeErrors> errors, std::size_t region, double lambda,
+                                BlendMode before) {
   constexpr auto kCount = static_cast<std::size_t>(kBlendModeCount);
   std::array<double, kCount> cost{};
   cost.fill(lambda * kChangeBits);
-  cost[0] = lambda * kStayBits;  // before the first picture all modes are kByState
+  cost[static_cast<std::size_t>(before)] = lambda * kStayBits;
   std::vector<std::array<std::uint8_t, kCount>> from(errors.size());
   for (std::size_t t = 0; t < errors.size(); ++t) {
     if (t > 0) {
@@ -38,10 +39,11 @@ std::vector<BlendMode> cheapest(std::span<const ModeErrors> errors, std::size_t 
 
 }  // namespace
 
-std::vector<RegionModes> choose_modes(std::span<const ModeErrors> errors, double lambda) {
+std::vector<RegionModes> cheapest_modes(std::span<const ModeErrors> errors, double lambda,
+                                        const RegionModes& before) {
   std::vector<RegionModes> out(errors.size());
   for (std::size_t r = 0; r < kRegionCount; ++r) {
-    const std::vector<BlendMode> modes = cheapest(errors, r, lambda);
+    const std::vector<BlendMode> modes = cheapest(errors, r, lambda, before[r]);
     for (std::size_t t = 0; t < out.size(); ++t) out[t][r] = modes[t];
   }
   return out;

@@ -12,6 +12,8 @@ namespace fbs {
 /// The cheapest sequence of modes of each region (Viterbi, 1967).
 /// @param errors  of consecutive pictures
 /// @param lambda  squared luma levels that a bit is worth
-[[nodiscard]] std::vector<RegionModes> choose_modes(std::span<const ModeErrors> errors, double lambda);
+/// @param before  modes of the picture before; those that a scene begins with
+[[nodiscard]] std::vector<RegionModes> cheapest_modes(std::span<const ModeErrors> errors, double lambda,
+                                                      const RegionModes& before = {});
 
 }  // namespace fbs

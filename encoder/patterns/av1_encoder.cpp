@@ -69,6 +69,7 @@ struct Av1Encoder::Context {
   bool open = false;
   aom_image_t image{};
   std::int64_t count = 0;
+  aom_codec_enc_cfg_t config{};
 
   /// Appends the frames that are ready. @return whether libaom wrote anything, if only to show a frame again
   Result<bool> take(Frames& out);
@@ -97,6 +98,7 @@ Result<Av1Encoder> Av1Encoder::create(const VideoFormat& format, const Av1Settin
   if (aom_codec_enc_init(&context->codec, av1, &config, 0) != AOM_CODEC_OK)
     return fail(ErrorCode::kInternal, "libaom does not open");
   context->open = true;
+  context->config = config;
   if (!set_controls(format, settings, context->codec))
     return fail(ErrorCode::kInternal, "libaom refuses a setting");
   if (aom_img_alloc(&context->image, AOM_IMG_FMT_I420, config.g_w, config.g_h, 32) == nullptr)
@@ -130,6 +132,17 @@ Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture) {
   Frames out;
   if (auto taken = c.take(out); !taken) return fail(taken.error());
   return out;
+}
+
+Result<void> Av1Encoder::set_quantiser(int quantiser) {
+  if (quantiser < 0 || quantiser > kMaxQuantiser)
+    return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
+  Context& c = *context_;
+  c.config.rc_min_quantizer = c.config.rc_max_quantizer = static_cast<unsigned>(quantiser);
+  if (aom_codec_enc_config_set(&c.codec, &c.config) != AOM_CODEC_OK ||
+      aom_codec_control(&c.codec, AOME_SET_CQ_LEVEL, quantiser) != AOM_CODEC_OK)
+    return fail(ErrorCode::kInternal, "libaom refuses a quantiser");
+  return {};
 }
 
 Result<Av1Encoder::Frames> Av1Encoder::finish() {

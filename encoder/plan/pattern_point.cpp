@@ -23,6 +23,14 @@ constexpr Hull kHullWithoutFace = {{{1.5, 63, 20}, {4, 62, 25}, {7, 60, 38}, {13
 /// for each. Without it 720x1280 loses 12 % of its bytes, 176x144 some 3 %.
 constexpr double kStepsPerOctave = 1.4;
 
+/// AV1's step of 8-bit AC coefficients at libaom's quantiser 63, levels, and the logarithm of what each step
+/// of that multiplies it by near there.
+constexpr double kCoarsestStep = 228, kLogStep = 0.088;
+
+/// Of the squared step. For video some 0.15 is usual; here errors add up until a pattern is bought, and each
+/// one serves all pictures to come.
+constexpr double kShare = 1.6;
+
 PatternPoint on(const Hull& hull, int quality) {
   const double place = std::clamp(quality, 0, 100) / 25.0;
   const auto below = std::min(static_cast<std::size_t>(place), hull.size() - 2);
@@ -46,6 +54,16 @@ PatternPoint PatternPoint::without_face(int quality) {
 int quantiser_of(const PatternPoint& point, int width, int height) {
   const double octaves = std::log2(static_cast<double>(width) * height / (352 * 288));
   return std::clamp(static_cast<int>(std::lround(point.quantiser + kStepsPerOctave * octaves)), 0, 63);
+}
+
+double pattern_lambda(int quantiser) {
+  const double step = kCoarsestStep * std::exp(kLogStep * (quantiser - 63));
+  return kShare * step * step;
+}
+
+int quantiser_at_price(int quantiser, double price) {
+  const auto steps = std::lround(std::log(price) / (2 * kLogStep));
+  return std::clamp(quantiser + static_cast<int>(steps), 0, 63);
 }
 
 int motion_quality_at(double kbps) {

@@ -113,7 +113,7 @@ def packets(stream):
     return found
 
 
-SETUP, PATTERN, MOTION, END, BLEND = 1, 4, 5, 6, 7  # packet types
+SETUP, SURROUND, PATTERN, MOTION, END, BLEND = 1, 3, 4, 5, 6, 7  # packet types
 
 
 class ProgramTest(unittest.TestCase):

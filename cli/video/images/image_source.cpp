@@ -69,6 +69,7 @@ class ImageSource final : public VideoSource {
     }
   }
 
+  [[nodiscard]] bool has_constant_rate() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override {
     return static_cast<std::int64_t>(files_.size());
   }

@@ -86,6 +86,28 @@ TEST(PlanarScene, ZoomsAndRolls) {
   EXPECT_GT(shown.psnr(sources), 27);
 }
 
+TEST(PlanarScene, GoesLive) {
+  EncoderSettings live;
+  live.live.emplace();
+  const auto sources = squares(75);
+  const Shown shown = coded(sources, live);
+  EXPECT_EQ(shown.pictures.size(), sources.size());
+  EXPECT_GT(shown.psnr(sources), coded(sources, of_quality(0)).psnr(sources));
+}
+
+// That the camera moves is known after some pictures.
+TEST(PlanarScene, LiveSceneBeginsAgainWhenTheCameraMoves) {
+  EncoderSettings live;
+  live.live.emplace();
+  std::vector<Picture> sources(30, seen_wall(kWidth, kHeight, 1, 0));
+  for (const Picture& p : pan(50)) sources.push_back(p);
+  const Shown shown = coded(sources, live);
+  EXPECT_FALSE(shown.moves.front());
+  EXPECT_TRUE(shown.moves.back());
+  EXPECT_EQ(shown.scenes, 2U);
+  EXPECT_GT(shown.psnr(sources), 25);
+}
+
 TEST(PlanarScene, CarriesAnotherShot) {
   auto sources = squares(40);
   for (const Picture& p : pan(40)) sources.push_back(p);

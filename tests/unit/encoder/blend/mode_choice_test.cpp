@@ -29,7 +29,7 @@ std::vector<ModeErrors> random_errors(std::size_t pictures) {
 
 TEST(ModeChoice, WithoutLambdaTakesTheLeastErrorOfEachPicture) {
   const auto errors = random_errors(40);
-  const auto modes = choose_modes(errors, 0);
+  const auto modes = cheapest_modes(errors, 0);
   ASSERT_EQ(modes.size(), errors.size());
   for (std::size_t t = 0; t < errors.size(); ++t)
     for (std::size_t r = 0; r < kRegionCount; ++r)
@@ -38,7 +38,7 @@ TEST(ModeChoice, WithoutLambdaTakesTheLeastErrorOfEachPicture) {
 }
 
 TEST(ModeChoice, LargeLambdaNeverChanges) {
-  for (const RegionModes& modes : choose_modes(random_errors(40), 1e6)) EXPECT_EQ(modes, RegionModes{});
+  for (const RegionModes& modes : cheapest_modes(random_errors(40), 1e6)) EXPECT_EQ(modes, RegionModes{});
 }
 
 /// Of pictures 20..20 + length - 1, in which kOther is better for the mouth by `gain` each.
@@ -46,7 +46,7 @@ std::size_t pictures_in_other(int length, double gain, double lambda) {
   auto errors = even_errors(60, 1000);
   for (int t = 20; t < 20 + length; ++t) errors[t][kMouth][static_cast<std::size_t>(kOther)] -= gain;
   std::size_t count = 0;
-  const auto modes = choose_modes(errors, lambda);
+  const auto modes = cheapest_modes(errors, lambda);
   for (std::size_t t = 0; t < modes.size(); ++t) {
     if (modes[t][kMouth] == kOther) ++count;
     for (std::size_t r = kMouth + 1; r < kRegionCount; ++r) EXPECT_EQ(modes[t][r], BlendMode::kByState);
@@ -66,13 +66,13 @@ TEST(ModeChoice, ALaterChangeIsWeighedAgainstStaying) {
   auto errors = even_errors(60, 1000);
   for (int t = 10; t < 40; ++t) errors[t][kMouth][static_cast<std::size_t>(kOther)] = 900;
   for (int t = 40; t < 60; ++t) errors[t][kMouth][static_cast<std::size_t>(kOther)] = 1100;
-  const auto modes = choose_modes(errors, 10);
+  const auto modes = cheapest_modes(errors, 10);
   for (int t = 10; t < 40; ++t) EXPECT_EQ(modes[t][kMouth], kOther) << t;
   for (int t = 40; t < 60; ++t) EXPECT_NE(modes[t][kMouth], kOther) << t;
 }
 
 TEST(ModeChoice, NoPicturesHaveNoModes) {
-  EXPECT_TRUE(choose_modes({}, 1).empty());
+  EXPECT_TRUE(cheapest_modes({}, 1).empty());
 }
 
 }  // namespace

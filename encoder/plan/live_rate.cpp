@@ -1,0 +1,33 @@
+#include "encoder/plan/live_rate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fbs {
+namespace {
+
+/// Seconds in which a rate that is twice too high raises the price by e. Shorter ones make quality swing from
+/// pattern to pattern.
+constexpr double kSettlesIn = 8;
+
+/// How much a full bucket adds to the logarithm of the price over a half full one.
+constexpr double kFullness = 2;
+
+}  // namespace
+
+LiveRate::LiveRate(double kbps, double buffer)
+    : bytes_per_second_(125 * kbps), capacity_(bytes_per_second_ * buffer) {}
+
+void LiveRate::add(double bytes, double seconds) {
+  const double drained = bytes_per_second_ * seconds;
+  waiting_ = std::max(0.0, waiting_ + bytes - drained);
+  const double limit = std::log(kMaxFactor);
+  log_price_ = std::clamp(log_price_ + (bytes - drained) / (bytes_per_second_ * kSettlesIn), -limit, limit);
+}
+
+double LiveRate::price() const {
+  const double log_price = log_price_ + kFullness * (waiting_ / capacity_ - 0.5);
+  return std::clamp(std::exp(log_price), 1 / kMaxFactor, kMaxFactor);
+}
+
+}  // namespace fbs

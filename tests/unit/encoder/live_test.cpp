@@ -1,0 +1,137 @@
+// Encoding as it happens: packets leave with each group, and nothing later is waited for.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "common/quality.h"
+#include "decoder/stream_decoder.h"
+#include "encoder/encoder.h"
+#include "tests/unit/talker_clip.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kPictures = 60, kPicturesPerSecond = 20, kGroup = 4;
+
+TalkerClip& clip() {
+  static TalkerClip c([] {
+    auto settings = talker_settings(128, 96, kPictures);
+    settings.frame_rate = {kPicturesPerSecond, 1};
+    settings.eye_distance = 0.2F;
+    return settings;
+  }());
+  return c;
+}
+
+EncoderSettings live_settings() {
+  EncoderSettings settings;
+  settings.live.emplace();
+  settings.live->delay = static_cast<double>(kGroup) / kPicturesPerSecond;
+  return settings;
+}
+
+/// Encodes and decodes at once.
+class LiveLine {
+ public:
+  explicit LiveLine(const EncoderSettings& settings = live_settings())
+      : encoder_(*Encoder::create(clip().format(), settings)) {}
+
+  void push(const Picture& picture) {
+    ASSERT_TRUE(encoder_.push(picture));
+    pass_on();
+  }
+  void finish() {
+    ASSERT_TRUE(encoder_.finish());
+    pass_on();
+  }
+
+  std::vector<Picture> shown;
+  ByteCount bytes;
+  std::size_t patterns = 0;
+
+ private:
+  void pass_on() {
+    decoder_.feed(encoder_.take());
+    for (;;) {
+      const auto status = decoder_.next();
+      ASSERT_TRUE(status) << status.error().text;
+      bytes = decoder_.bytes();
+      patterns = decoder_.scene().patterns.size();
+      if (*status != DecodeStatus::kPicture) return;
+      shown.emplace_back();
+      ASSERT_TRUE(decoder_.render(shown.back()));
+    }
+  }
+
+  Encoder encoder_;
+  StreamDecoder decoder_;
+};
+
+double psnr_of(std::span<const Picture> shown) {
+  SquaredError e;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    e += squared_error(shown[i].y, clip()[static_cast<int>(i)].y);
+  return e.psnr();
+}
+
+TEST(Live, PicturesAreShownAfterTheDelay) {
+  LiveLine line;
+  for (int i = 0; i < kPictures; ++i) {
+    line.push(clip()[i]);
+    EXPECT_GT(static_cast<int>(line.shown.size()), i - kGroup) << i;
+  }
+  line.finish();
+  EXPECT_EQ(line.shown.size(), std::size_t{kPictures});
+}
+
+TEST(Live, PicturesAreFit) {
+  LiveLine line;
+  for (int i = 0; i < kPictures; ++i) line.push(clip()[i]);
+  line.finish();
+  EXPECT_GT(psnr_of(line.shown), 27);
+}
+
+TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
+  LiveLine line;
+  for (int i = 0; i < kPictures; ++i) line.push(clip()[0]);
+  EXPECT_EQ(line.patterns, 1U);
+}
+
+// Another picture of the room, as different as a cut but without one: the light of half of it changes.
+TEST(Live, AChangeIsSentWithItsGroup) {
+  Picture changed = clip()[0];
+  for (int y = 0; y < changed.height(); ++y)
+    for (int x = 0; x < changed.width() / 4; ++x) changed.y.row(y)[x] = static_cast<std::uint8_t>(x + y);
+  LiveLine line;
+  for (int i = 0; i < 3 * kGroup + 1; ++i) line.push(clip()[0]);
+  const auto error = [&] { return squared_error(line.shown.back().y, changed.y).psnr(); };
+  ASSERT_LT(error(), 20);
+  for (int i = 0; i < 2 * kGroup; ++i) line.push(changed);
+  EXPECT_EQ(line.patterns, 2U);
+  EXPECT_GT(error(), 25);
+}
+
+TEST(Live, ViewersCanJoin) {
+  EncoderSettings settings = live_settings();
+  settings.key_interval = 1;
+  auto encoder = Encoder::create(clip().format(), settings);
+  ASSERT_TRUE(encoder);
+  for (int i = 0; i < kPictures; ++i) ASSERT_TRUE(encoder->push(clip()[i]));
+  ASSERT_TRUE(encoder->finish());
+  StreamDecoder decoder;
+  decoder.feed(encoder->take());
+  decoder.close();
+  std::vector<std::uint64_t> scenes;
+  for (;;) {
+    const auto status = decoder.next();
+    ASSERT_TRUE(status) << status.error().text;
+    if (*status != DecodeStatus::kPicture) break;
+    const std::uint64_t first = decoder.scene().setup.before.pictures;
+    if (scenes.empty() || scenes.back() != first) scenes.push_back(first);
+  }
+  ASSERT_GE(scenes.size(), 3U);
+  for (std::size_t i = 1; i < scenes.size(); ++i) EXPECT_LE(scenes[i] - scenes[i - 1], 20U);
+}
+
+}  // namespace
+}  // namespace fbs
