@@ -68,12 +68,7 @@ Error about_input(Error error, const std::string& name) {
 }
 
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
-  if (source.failure())
-    std::fprintf(stderr, "fbs: %s; the %llu pictures before are encoded\n", source.failure()->text.c_str(),
-                 static_cast<unsigned long long>(measure.pictures));
-  else if (source.damaged_packets() > 0)
-    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", arguments.input.c_str(),
-                 static_cast<long long>(source.damaged_packets()));
+  print_source_warning(arguments.input, source, measure.pictures, "encoded");
   if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
                  arguments.bitrate, measure.kbps());
@@ -93,7 +88,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
   auto opened = open_video_source(arguments.input, options);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {arguments.frames, arguments.duration}, stop);
+  SourcePart source(std::move(*opened), {arguments.frames, arguments.duration}, &stop);
   const auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
@@ -121,7 +116,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   if (auto committed = file->commit(); !committed) return fail(committed.error());
   print_warnings(arguments, source, encoded->measure);
   if (!arguments.quiet) print_summary(arguments.output, *encoded);
-  return source.failure() || source.damaged_packets() > 0 ? Outcome::kPartial : Outcome::kComplete;
+  return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }
 
 /// Encodes until the end or a signal.

@@ -3,11 +3,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli/byte_count_json.h"
 #include "cli/encode_session.h"
 #include "cli/module.h"
 #include "cli/progress.h"
+#include "cli/source_part.h"
 #include "cli/stream_file.h"
 
 namespace fbs::cli {
@@ -19,24 +21,28 @@ struct Point {
   std::optional<EncodingReport> report{};  ///< nothing of a stream that was given: it does not say
 };
 
-Result<Measure> measure_stream(const EvaluateArguments& arguments) {
-  auto source = open_video_source(arguments.source);
+Result<SourcePart> open_source(const std::string& name) {
+  auto source = open_video_source(name);
   if (!source) return fail(source.error());
+  return SourcePart(std::move(*source), {}, nullptr);
+}
+
+Result<Measure> measure_stream(const EvaluateArguments& arguments, SourcePart& source) {
   auto file = StreamFile::open(arguments.stream);
   if (!file) return fail(file.error());
   StreamMeter meter(file->decoder(), Measured::kSsim);
-  Progress progress("evaluating", (*source)->frame_count_estimate(), arguments.quiet);
+  Progress progress("evaluating", source.frame_count_estimate(), arguments.quiet);
   for (std::int64_t n = 1;; ++n) {
     auto status = file->next();
     if (!status) return fail(status.error());
-    auto picture = (*source)->next();
+    auto picture = source.next();
     if (!picture) return fail(picture.error());
     const bool ended = *status == DecodeStatus::kEnd;
     if (ended && !*picture) return meter.result();
     if (ended || !*picture)
       return fail(ErrorCode::kInvalidArgument, arguments.stream + ": has " + (ended ? "fewer" : "more") +
                                                    " pictures than " + arguments.source);
-    const VideoFormat &a = file->decoder().format(), &b = (*source)->format();
+    const VideoFormat &a = file->decoder().format(), &b = source.format();
     if (a.width != b.width || a.height != b.height)
       return fail(ErrorCode::kInvalidArgument,
                   arguments.stream + ": picture size differs from " + arguments.source);
@@ -45,13 +51,13 @@ Result<Measure> measure_stream(const EvaluateArguments& arguments) {
   }
 }
 
-Result<Encoded> measure_encoding(const EvaluateArguments& arguments, int quality) {
-  auto source = open_video_source(arguments.source);
-  if (!source) return fail(source.error());
+Result<Encoded> measure_encoding(const EvaluateArguments& arguments, int quality, SourcePart& source) {
   EncoderSettings settings;
   settings.quality = quality;
+  settings.allow_no_face = arguments.allow_no_face;
+  if (arguments.live) settings.live.emplace();
   auto encoded = encode_source(
-      **source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, Measured::kSsim,
+      source, settings, [](std::span<const std::uint8_t>) { return Result<void>{}; }, {}, Measured::kSsim,
       arguments.quiet);
   if (!encoded) {
     Error error = encoded.error();
@@ -96,19 +102,29 @@ void print(const std::vector<Point>& points) {
   }
 }
 
-Result<void> evaluate(const EvaluateArguments& arguments) {
+Result<Outcome> evaluate(const EvaluateArguments& arguments) {
   std::vector<Point> points;
+  std::optional<SourcePart> source;
+  const auto reopen = [&]() -> Result<void> {
+    auto opened = open_source(arguments.source);
+    if (!opened) return fail(opened.error());
+    source.emplace(std::move(*opened));
+    return {};
+  };
   if (!arguments.stream.empty()) {
-    auto m = measure_stream(arguments);
+    if (auto opened = reopen(); !opened) return fail(opened.error());
+    auto m = measure_stream(arguments, *source);
     if (!m) return fail(m.error());
     points.push_back({arguments.stream, *m, std::nullopt});
   } else {
     for (const int quality : arguments.qualities) {
-      auto m = measure_encoding(arguments, quality);
+      if (auto opened = reopen(); !opened) return fail(opened.error());
+      auto m = measure_encoding(arguments, quality, *source);
       if (!m) return fail(m.error());
       points.push_back({"quality " + std::to_string(quality), m->measure, m->report});
     }
   }
+  print_source_warning(arguments.source, *source, points.front().measure.pictures, "measured");
   if (arguments.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Point& p : points) list.push_back(to_json(p));
@@ -116,13 +132,13 @@ Result<void> evaluate(const EvaluateArguments& arguments) {
   } else {
     print(points);
   }
-  return {};
+  return source->is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }
 
 }  // namespace
 }  // namespace fbs::cli
 
 FBS_MODULE_EXPORT void fbs_run_evaluate(const fbs::cli::EvaluateArguments& arguments,
-                                        fbs::Result<void>& result) {
+                                        fbs::Result<fbs::cli::Outcome>& result) {
   result = fbs::cli::evaluate(arguments);
 }

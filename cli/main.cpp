@@ -193,9 +193,12 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
       ->capture_default_str()
       ->check(CLI::Range(0, 100))
       ->expected(1, 16);
+  verb->add_flag("--live", evaluate.live, "Encode as live pictures are");
+  verb->add_flag("--allow-no-face", evaluate.allow_no_face,
+                 "Measure a video without a face instead of failing");
   verb->add_flag("--json", evaluate.json, "Print JSON");
   verb->add_flag("--quiet", evaluate.quiet, "Print no progress bar");
-  verb->callback([&] { run = [&] { return complete(run_evaluate(evaluate)); }; });
+  verb->callback([&] { run = [&] { return run_evaluate(evaluate); }; });
 
   verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
   verb->add_option("INPUT", inspect.input, "Stream to inspect, or - for standard input")->required();

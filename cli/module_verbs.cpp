@@ -20,8 +20,8 @@ Result<Value> run(const char* module, const char* symbol, const Arguments& argum
 Result<Outcome> run_encode(const EncodeArguments& arguments) {
   return run<Outcome>(kEncoderModule, kEncodeSymbol, arguments);
 }
-Result<void> run_evaluate(const EvaluateArguments& arguments) {
-  return run<void>(kEncoderModule, kEvaluateSymbol, arguments);
+Result<Outcome> run_evaluate(const EvaluateArguments& arguments) {
+  return run<Outcome>(kEncoderModule, kEvaluateSymbol, arguments);
 }
 Result<void> run_play(const PlayArguments& arguments) {
   return run<void>(kPlayerModule, kPlaySymbol, arguments);

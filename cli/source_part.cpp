@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace fbs::cli {
@@ -15,11 +16,11 @@ bool ends_source(const Error& error) {
 
 }  // namespace
 
-SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop)
+SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal* stop)
     : source_(std::move(source)), limits_(limits), stop_(stop) {}
 
 Result<std::optional<TimedPicture>> SourcePart::next() {
-  ended_ = ended_ || stop_.raised() || (limits_.pictures && pictures_ >= *limits_.pictures);
+  ended_ = ended_ || stopped() || (limits_.pictures && pictures_ >= *limits_.pictures);
   if (ended_) return std::nullopt;
   auto picture = source_->next();
   ended_ = !picture || !*picture || !within_seconds((*picture)->pts);
@@ -31,7 +32,7 @@ Result<std::optional<TimedPicture>> SourcePart::next() {
 
 Result<std::optional<TimedPicture>> SourcePart::end_by(const Error& error) {
   // A read that the signal interrupted fails. What it had read of a picture is lost.
-  if (stop_.raised()) return std::nullopt;
+  if (stopped()) return std::nullopt;
   if (pictures_ == 0 || !ends_source(error)) return fail(error);
   failure_ = error;
   return std::nullopt;
@@ -52,6 +53,16 @@ std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
   const Rational rate = format().frame_rate;
   if (limits_.seconds) limit(std::llround(std::ceil(*limits_.seconds * rate.num / rate.den)));
   return estimate;
+}
+
+void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
+                          const char* done) {
+  if (source.failure())
+    std::fprintf(stderr, "fbs: %s; the %llu pictures before are %s\n", source.failure()->text.c_str(),
+                 static_cast<unsigned long long>(pictures), done);
+  else if (source.damaged_packets() > 0)
+    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", name.c_str(),
+                 static_cast<long long>(source.damaged_packets()));
 }
 
 }  // namespace fbs::cli

@@ -20,8 +20,8 @@ struct PartLimits {
 /// stop. No picture behind the last is read, but with a limit of seconds one.
 class SourcePart final : public VideoSource {
  public:
-  /// @param stop  must outlive the object
-  SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal& stop);
+  /// @param stop  must outlive the object; null: nothing stops it
+  SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal* stop);
 
   [[nodiscard]] const VideoFormat& format() const override { return source_->format(); }
   Result<std::optional<TimedPicture>> next() override;
@@ -32,19 +32,28 @@ class SourcePart final : public VideoSource {
 
   /// The error that ended the source after at least one picture; nullopt: none did.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+  /// No failure, and no damaged packets.
+  [[nodiscard]] bool is_whole() const { return !failure_ && damaged_packets() == 0; }
 
  private:
   /// The end, or the error if it is to be passed on.
   Result<std::optional<TimedPicture>> end_by(const Error& error);
+  [[nodiscard]] bool stopped() const { return stop_ != nullptr && stop_->raised(); }
   [[nodiscard]] bool within_seconds(std::int64_t pts);
 
   std::unique_ptr<VideoSource> source_;
   PartLimits limits_;
-  const StopSignal& stop_;
+  const StopSignal* stop_;
   std::int64_t pictures_ = 0;              ///< returned so far
   std::optional<std::int64_t> first_pts_;  ///< 1/90000 s
   std::optional<Error> failure_;
   bool ended_ = false;
 };
+
+/// Says on standard error that a source is not whole.
+/// @param pictures  that were read
+/// @param done      what was done with them: "encoded"
+void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
+                          const char* done);
 
 }  // namespace fbs::cli

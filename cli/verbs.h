@@ -78,6 +78,8 @@ struct EvaluateArguments {
   std::string source;
   std::string stream;              ///< empty: encode the source
   std::vector<int> qualities{50};  ///< to encode with when there is no stream
+  bool live = false;               ///< encode as live pictures are
+  bool allow_no_face = false;
   bool json = false;
   bool quiet = false;
 };
@@ -92,7 +94,7 @@ Result<Outcome> run_encode(const EncodeArguments& arguments);
 Result<Outcome> run_decode(const DecodeArguments& arguments);
 Result<void> run_inspect(const InspectArguments& arguments);
 Result<void> run_export(const ExportArguments& arguments);
-Result<void> run_evaluate(const EvaluateArguments& arguments);
+Result<Outcome> run_evaluate(const EvaluateArguments& arguments);
 Result<void> run_play(const PlayArguments& arguments);
 
 /// Verbs that need OpenCV are in modules; these are the functions that the modules export.
