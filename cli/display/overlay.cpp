@@ -2,9 +2,13 @@
 
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "cli/display/display_image.h"
 #include "cli/video/colour.h"
+#include "cli/video/constant_rate.h"
+#include "cli/video/timestamps.h"
+#include "cli/video/y4m.h"
 
 namespace fbs::cli {
 namespace {
@@ -27,6 +31,8 @@ Result<Overlay> Overlay::create(const std::string& name, const VideoFormat& form
   enlarged.height *= zoom;
   auto sink = open_video_sink(name, enlarged);
   if (!sink) return fail(sink.error());
+  if (is_y4m_output(name) && plausible_rate(format.frame_rate))
+    *sink = std::make_unique<ConstantRateSink>(std::move(*sink), format.frame_rate, true);
   return Overlay(std::move(*sink), format, zoom);
 }
 

@@ -10,7 +10,7 @@
 namespace fbs::cli {
 
 /// Writes the source, enlarged when small, with the projected mesh (thin), the snakes (thick) and the
-/// tracker's confidence.
+/// tracker's confidence. In Y4M, which has no timestamps, pictures are repeated or dropped to keep the speed.
 class Overlay {
  public:
   static Result<Overlay> create(const std::string& name, const VideoFormat& format);

@@ -80,6 +80,12 @@ class SourceKinds(ProgramTest):
         for a, b in zip(source, decoded):
             self.assertAlmostEqual(a - source[0], b - decoded[0], delta=0.0015)
 
+    def test_overlay_of_variable_rate_keeps_the_speed(self):
+        ffmpeg("-i", TALK_Y4M, "-vf", "select='not(between(n,40,45))'", "-fps_mode", "vfr", "-c:v", "ffv1",
+               self.folder / "held.mkv")
+        self.succeed("encode", "held.mkv", "out.fbs", "--patterns", 1, "--overlay", "see.y4m")
+        self.assertEqual(len(read_y4m(self.folder / "see.y4m").pictures), 120)
+
     def test_variable_rate_becomes_constant_in_y4m(self):
         ffmpeg("-i", TALK_Y4M, "-vf", "select='not(between(n,40,45))'", "-fps_mode", "vfr", "-c:v", "ffv1",
                self.folder / "in.mkv")  # less than a tenth is missing, so that the rate stays 30
