@@ -17,7 +17,7 @@ MATERIAL = BUILD / "tests/program/material"
 TALK_Y4M, TALK_FBS, TALK_ONE_FBS, TALK_TRUTH = (
     MATERIAL / name for name in ("talk.y4m", "talk.fbs", "talk_one.fbs", "talk.csv"))
 CLOSE_Y4M, CLOSE_TRUTH = (MATERIAL / name for name in ("close.y4m", "close.csv"))
-TWO_SCENES_FBS = MATERIAL / "two_scenes.fbs"
+TWO_SCENES_FBS, KEYED_FBS = (MATERIAL / name for name in ("two_scenes.fbs", "keyed.fbs"))
 GREY_FIRST = 7         # pictures before the talker of the two scenes
 
 # Exit codes of fbs: failed; decode --keep-going has lost less than a tenth of the pictures, or more.
@@ -27,13 +27,15 @@ MAX_SECONDS = 240      # for any one command
 
 def make_material():
     """A talker of 120 QCIF pictures with its truth and its streams of several patterns and of one, 150 pictures of one who
-    is closer and turns more, and a stream of two scenes: grey pictures, then the talker one and a half times."""
+    is closer and turns more, and two streams of several scenes: grey pictures, then the talker one and a half times; and
+    the talker with a scene every half second."""
     MATERIAL.mkdir(parents=True, exist_ok=True)
     talker(TALK_Y4M, "--size", "176x144", "--frames", "120", "--truth", TALK_TRUTH)
     talker(CLOSE_Y4M, "--size", "176x144", "--frames", "150", "--eye-distance", "0.2", "--noise", "2", "--seed", "5",
            "--yaw", "20", "--pitch", "12", "--roll", "10", "--scale", "0.15", "--truth", CLOSE_TRUTH)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_FBS, "--quiet"], check=True)
     subprocess.run([FBS, "encode", TALK_Y4M, TALK_ONE_FBS, "--quiet", "--patterns", "1"], check=True)
+    subprocess.run([FBS, "encode", TALK_Y4M, KEYED_FBS, "--quiet", "--key-interval", "0.5"], check=True)
     grey = flat_y4m(176, 144, GREY_FIRST).partition(b"\n")[2]
     head, _, talk = TALK_Y4M.read_bytes().partition(b"\n")
     subprocess.run([FBS, "encode", "-", TWO_SCENES_FBS, "--quiet", "--patterns", "1"], check=True,
@@ -56,7 +58,7 @@ def ffprobe(path, entries, *options):
 
 
 class Y4m:
-    """A Y4M stream in memory: size, rate, and pictures as bytes of all planes. 8 bits, 4:2:0."""
+    """A Y4M stream in memory: header line, size, rate, and pictures as bytes of all planes. 8 bits, 4:2:0."""
 
     def __init__(self, data):
         head, _, rest = data.partition(b"\n")
@@ -64,6 +66,7 @@ class Y4m:
         self.width, self.height = int(tags["W"]), int(tags["H"])
         numerator, denominator = map(int, tags["F"].split(":"))
         self.rate = numerator / denominator
+        self.header = head + b"\n"
         size = self.width * self.height + 2 * ((self.width + 1) // 2) * ((self.height + 1) // 2)
         step = len(b"FRAME\n") + size
         assert head.startswith(b"YUV4MPEG2 ") and len(rest) % step == 0, "not whole pictures"

@@ -34,7 +34,7 @@ def main(arguments):
     if arguments == ["--make-material"]:
         harness.make_material()
         return 0
-    if not (harness.TALK_ONE_FBS.exists() and harness.TWO_SCENES_FBS.exists()):
+    if not (harness.KEYED_FBS.exists() and harness.TWO_SCENES_FBS.exists()):
         harness.make_material()
     result = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(tests[name] for name in arguments or tests))
     if not result.wasSuccessful():

@@ -1,0 +1,71 @@
+"""Loss costs no more than the scenes that it is in, and what is shown then is held. measure_loss.py measures it at length."""
+import random
+import subprocess
+
+from harness import END, FBS, KEYED_FBS, SETUP, TALK_Y4M, ProgramTest, read_y4m
+from loss import Whole, burst_loss, decode, random_loss, with_flipped_bit, without
+
+
+class Loss(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.whole = Whole(KEYED_FBS)
+        self.assertGreaterEqual(len(self.whole.scenes), 6)
+
+    def expect_right_or_held(self, viewing):
+        for i, right in enumerate(viewing.right):
+            if not right and i >= viewing.black:
+                self.assertGreater(i, 0)
+                self.assertEqual(viewing.digests[i], viewing.digests[i - 1], f"picture {i} is neither right nor held")
+
+    def scenes_hit(self, lost):
+        """Numbers of the scenes that have lost a packet. The end packet is of no scene."""
+        scene, hit = -1, set()
+        for (kind, _, _), gone in zip(self.whole.packets, lost, strict=True):
+            scene += kind == SETUP
+            if gone and kind != END:
+                hit.add(scene)
+        return hit
+
+    def test_lost_packets_cost_their_scenes_alone(self):
+        for channel in (random_loss, burst_loss):
+            for seed in range(8):
+                lost = channel(len(self.whole.packets), 0.06, random.Random(seed))
+                viewing = self.whole.seen(without(self.whole.stream, lost))
+                self.expect_right_or_held(viewing)
+                hit = self.scenes_hit(lost)
+                for i, right in enumerate(viewing.right):
+                    self.assertTrue(right or self.whole.scene_of(i) in hit, f"{channel.__name__} {seed}: picture {i}")
+                self.assertEqual(viewing.exit_code == 0, not any(lost), "noticed")
+
+    def test_flipped_bit_costs_at_most_its_scene(self):
+        for bit in range(32 + 5, 8 * len(self.whole.stream), 8 * len(self.whole.stream) // 40):
+            viewing = self.whole.seen(with_flipped_bit(self.whole.stream, bit))
+            self.expect_right_or_held(viewing)
+            self.assertNotEqual(viewing.exit_code, 0, f"bit {bit} is not noticed")
+            wrong = {self.whole.scene_of(i) for i, right in enumerate(viewing.right) if not right}
+            self.assertLessEqual(len(wrong), 1, f"bit {bit}")
+
+    def test_killed_encoder_leaves_what_can_be_played(self):
+        encoder = subprocess.Popen([FBS, "encode", "-", "out.fbs", "--quiet", "--key-interval", "0.5"], cwd=self.folder,
+                                   stdin=subprocess.PIPE, bufsize=0)
+        self.addCleanup(encoder.wait)
+        self.addCleanup(encoder.kill)
+        self.addCleanup(encoder.stdin.close)
+        source, part, fed = read_y4m(TALK_Y4M), self.folder / "out.fbs.part", 0
+        encoder.stdin.write(source.header)
+        while not part.exists() or part.stat().st_size < len(self.whole.stream) // 2:
+            encoder.stdin.write(b"FRAME\n" + source.pictures[fed])
+            fed += 1
+        encoder.kill()
+        encoder.wait()
+        video, _ = decode(part.read_bytes())
+        self.assertIn(len(video.pictures), range(len(self.whole.pictures) // 3, fed))
+        self.assertEqual(video.pictures, self.whole.pictures[:len(video.pictures)])
+
+    def test_channels_lose_as_much_as_asked(self):
+        for channel, burst in ((random_loss, 1 / 0.9), (burst_loss, 3)):
+            lost = channel(200000, 0.1, random.Random(1))
+            begins = sum(gone and not before for gone, before in zip(lost, [False, *lost]))
+            self.assertAlmostEqual(sum(lost) / len(lost), 0.1, delta=0.005)
+            self.assertAlmostEqual(sum(lost) / begins, burst, delta=0.1)
