@@ -71,11 +71,13 @@ struct PictureMesh {
 [[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
                                    const TextureMesh& texture, bool still);
 
-/// Whether all samples that a run mixes lie inside a plane of this size.
+/// Whether all samples that a run mixes lie inside a plane of this size, even where the steps that are added
+/// up along it have been rounded.
 [[nodiscard]] inline bool is_inside(const SourceRun& source, int count, glm::ivec2 size) {
+  constexpr float kDrift = 0.25F;
   const auto within = [&](const RunValue& v, int samples) {
     const float end = v.first + v.step * static_cast<float>(count - 1);
-    return std::min(v.first, end) >= 0 && std::max(v.first, end) < static_cast<float>(samples - 1);
+    return std::min(v.first, end) >= 0 && std::max(v.first, end) < static_cast<float>(samples - 1) - kDrift;
   };
   return within(source.u, size.x) && within(source.v, size.y);
 }

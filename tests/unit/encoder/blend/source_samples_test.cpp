@@ -185,9 +185,10 @@ TEST(SourceRunIsInside, NeedsAllFourSamplesOfBothEnds) {
   };
   EXPECT_TRUE(inside(0, 1, 0, 0, 7));
   EXPECT_FALSE(inside(0, 1, 0, 0, 8)) << "the last has no right neighbour";
-  EXPECT_TRUE(inside(6.9F, -1, 4.9F, -0.5F, 7));
-  EXPECT_FALSE(inside(6.9F, -1, 4.9F, -0.5F, 8));
+  EXPECT_TRUE(inside(6.7F, -1, 4.7F, -0.5F, 7));
+  EXPECT_FALSE(inside(6.7F, -1, 4.7F, -0.5F, 8));
   EXPECT_FALSE(inside(2, 0, 5, 0, 1)) << "no row below";
+  EXPECT_FALSE(inside(6.9999F, 0, 0, 0, 1)) << "steps that are added up drift";
 }
 
 }  // namespace
