@@ -85,38 +85,57 @@ void add_from(CLI::App& verb, double& from) {
       ->type_name("SECONDS");
 }
 
+/// Options that decide what is sent, and when.
+void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
+  verb.add_option("--quality", a.quality, "From 0 (smallest file) to 100 (best pictures)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  verb.add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
+      ->check(number_within(0.1, 10000))
+      ->excludes("--quality");
+  verb.add_option("--patterns", a.patterns,
+                  "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
+                  "then only motion (default: chosen by the encoder)")
+      ->check(CLI::Range(1, 64));
+  verb.add_flag("--live,!--no-live", a.live,
+                "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
+                "file is better encoded without");
+  verb.add_option("--delay", a.delay, "With --live: seconds of pictures that are encoded together")
+      ->capture_default_str()
+      ->check(number_within(0.01, 5));
+  verb.add_option(
+          "--buffer", a.buffer,
+          "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
+          "that rate")
+      ->capture_default_str()
+      ->check(number_within(0.1, 60));
+  verb.add_option("--key-interval", a.key_interval,
+                  "Most seconds between the places where a viewer can join and damage ends (default: up to "
+                  "40 with several patterns; none with --patterns 1; 10 with --live)")
+      ->check(CLI::Range(0.2, 3600.0));
+}
+
+/// Options that leave out a part of the encoder, to measure what it brings.
+void add_experiments(CLI::App& verb, EncodeArguments& a) {
+  verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
+  verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
+  verb.add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
+  verb.add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
+  verb.add_flag("!--no-landmarks", a.landmarks)->group(kHiddenGroup);
+  verb.add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
+  verb.add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
+  verb.add_option("--motion-bitrate", a.motion_bitrate)
+      ->check(number_within(0.05, 1000))
+      ->group(kHiddenGroup);
+}
+
 void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("encode", "Encode a video");
   verb->add_option("INPUT", a.input,
                    "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
       ->required();
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
-  verb->add_option("--quality", a.quality, "From 0 (smallest file) to 100 (best pictures)")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 100));
-  verb->add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
-      ->check(number_within(0.1, 10000))
-      ->excludes("--quality");
-  verb->add_option("--patterns", a.patterns,
-                   "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
-                   "then only motion (default: chosen by the encoder)")
-      ->check(CLI::Range(1, 64));
-  verb->add_flag("--live,!--no-live", a.live,
-                 "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
-                 "file is better encoded without");
-  verb->add_option("--delay", a.delay, "With --live: seconds of pictures that are encoded together")
-      ->capture_default_str()
-      ->check(number_within(0.01, 5));
-  verb->add_option(
-          "--buffer", a.buffer,
-          "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
-          "that rate")
-      ->capture_default_str()
-      ->check(number_within(0.1, 60));
-  verb->add_option("--key-interval", a.key_interval,
-                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
-                   "40 with several patterns; none with --patterns 1; 10 with --live)")
-      ->check(CLI::Range(0.2, 3600.0));
+  add_encode_rate(*verb, a);
   verb->add_option("--effort", a.effort,
                    "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "
                    "1 % fewer bytes at equal quality")
@@ -144,16 +163,7 @@ void add_encode(CLI::App& app, EncodeArguments& a, Run& run) {
   verb->add_flag("--allow-no-face", a.allow_no_face,
                  "Encode a video without a face, too, instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
-  verb->add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
-  verb->add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
-  verb->add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
-  verb->add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
-  verb->add_flag("!--no-landmarks", a.landmarks)->group(kHiddenGroup);
-  verb->add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
-  verb->add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
-  verb->add_option("--motion-bitrate", a.motion_bitrate)
-      ->check(number_within(0.05, 1000))
-      ->group(kHiddenGroup);
+  add_experiments(*verb, a);
   verb->callback([&] { run = [&] { return run_encode(a); }; });
 }
 
