@@ -11,6 +11,7 @@
 #include "encoder/planar_scene.h"
 #include "encoder/scene_timing.h"
 #include "encoder/shots/cut_detector.h"
+#include "encoder/shots/fade_in.h"
 #include "encoder/still_scene.h"
 
 namespace fbs {
@@ -22,6 +23,9 @@ constexpr std::uint64_t kSearchEvery = 5, kSearchAllEvery = 30;
 /// A face that is lost for longer may be another one: whoever is found is followed.
 constexpr double kLostForSeconds = 2;
 
+/// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
+constexpr double kLongestFade = 3;
+
 }  // namespace
 
 struct Encoder::Impl {
@@ -30,6 +34,7 @@ struct Encoder::Impl {
   FaceFinder finder;
   std::vector<std::uint8_t> ready{};
   CutDetector cuts{};
+  FadeIn fade_in{};
   std::unique_ptr<SceneEncoder> scene{};
   bool face_seen = false;        ///< in any picture
   bool follows = false;          ///< the shot shows whom the scene follows
@@ -63,6 +68,7 @@ struct Encoder::Impl {
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
+    fade_in.begin();
     if (scene) {
       if (auto ended = scene->finish(); !ended) return ended;
       take_from_scene();
@@ -82,6 +88,20 @@ struct Encoder::Impl {
     return static_cast<std::uint64_t>(kLostForSeconds * fps_of(format));
   }
 
+  /// Pictures for which a scene waits for light.
+  [[nodiscard]] std::uint64_t longest_fade() const {
+    return static_cast<std::uint64_t>(kLongestFade * fps_of(format));
+  }
+
+  /// Ahead of a much better picture than the scene began with.
+  Result<void> begin_again(const Picture& picture) {
+    const auto marks = look_for_face(picture);
+    if (!marks) return fail(marks.error());
+    if (follows && !*marks) return {};  // better dark than lost
+    follows = marks->has_value();
+    return begin_scene(picture, *marks);
+  }
+
   /// Ahead of a picture: sees to it that there is a scene that suits it.
   Result<void> choose_scene(const Picture& picture) {
     const bool cut = cuts.is_cut(picture);
@@ -90,12 +110,15 @@ struct Encoder::Impl {
       scene->cut();
       follows = false;
       shot_begin = report.pictures;
+      fade_in.begin();
     }
+    if (fade_in.has_ended(picture)) return begin_again(picture);
     if (follows && lost >= lost_for_long()) {
       follows = false;
       shot_begin = report.pictures;
     }
     if (follows || in_shot() % kSearchEvery != 0) return {};
+    if (scene && fade_in.is_rising() && in_shot() < longest_fade()) return {};
     if (scene && scene->carries_shots() && scene->recognises(picture)) {
       follows = true;
       return {};

@@ -34,7 +34,6 @@ struct Coded {
   Pictures pictures;
   std::vector<std::uint32_t> durations;
   ByteCount bytes;
-  int scenes = 0;
 
   [[nodiscard]] double psnr(const Pictures& source) const {
     SquaredError e;
@@ -291,6 +290,23 @@ TEST(Encoder, SlideAndBackStayOneScene) {
   EXPECT_GT(psnr_from(w.coded, source, 0, 20), 28);
   EXPECT_GT(psnr_from(w.coded, source, 21, 18), 20);
   EXPECT_GT(psnr_from(w.coded, source, 41, 19), 28);
+}
+
+// What is coded of the dark pictures is too coarse for the others.
+TEST(Encoder, FaceOutOfTheDarkHasASceneOfItsOwn) {
+  constexpr int kFade = 15;
+  Pictures p = talking();
+  for (int t = 0; t < kFade; ++t)
+    for (Plane* plane : {&p[t].y, &p[t].u, &p[t].v}) {
+      const int black = plane == &p[t].y ? 16 : 128;
+      for (auto& s : plane->samples) s = static_cast<std::uint8_t>(black + (s - black) * t / kFade);
+    }
+  const Watched w = watched(p);
+  EXPECT_EQ(w.report.scenes, 2U);
+  EXPECT_LE(w.report.without_face, kFade + 8U);
+  EXPECT_GT(psnr_from(w.coded, p, 0, kFade), 29);
+  const Pictures lit(p.begin() + kFade, p.end());
+  EXPECT_GT(psnr_from(w.coded, p, 24, 21), psnr_from(coded(lit), lit, 24 - kFade, 21) - 0.5) << "alone";
 }
 
 TEST(Encoder, AnotherPersonIsAnotherScene) {
