@@ -1,5 +1,6 @@
 #include "cli/encode_session.h"
 
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -52,6 +53,13 @@ class ClosedLoop {
     ++pushed_;
     if (compares_)
       if (auto kept = waiting_.push(now.picture); !kept) return kept;
+    return pass_on();
+  }
+
+  /// Passes on what another thread codes, until there is another picture to read.
+  Result<void> wait_for(const VideoSource& source) {
+    constexpr std::chrono::milliseconds kPatience{5};
+    while (encoder_.is_coding() && !source.is_ready(kPatience)) continue;
     return pass_on();
   }
 
@@ -125,6 +133,7 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
     last_pts = (*current)->pts;
     if (auto pushed = loop.push(**current, duration, see); !pushed) return fail(pushed.error());
     progress.update(++done);
+    if (auto waited = loop.wait_for(source); !waited) return fail(waited.error());
     current = next ? std::move(*next) : source.next();
   }
   if (!current) return fail(current.error());

@@ -37,6 +37,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   settings.key_interval = arguments.key_interval;
   if (arguments.live.value_or(arguments.input.starts_with("camera:")))
     settings.live.emplace(LiveSettings{arguments.delay, arguments.buffer});
+  settings.threads = arguments.threads;
   settings.effort = arguments.effort;
   settings.reduced_patterns = arguments.reduced_patterns;
   settings.pattern_quantiser = arguments.pattern_quantiser;

@@ -109,6 +109,11 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
           "that rate")
       ->capture_default_str()
       ->check(number_within(0.1, 60));
+  verb.add_option(
+          "--threads", a.threads,
+          "With --live: with 2 or more, pictures are encoded while the next ones are analysed (default: "
+          "one for each core)")
+      ->check(CLI::Range(1, 64));
   verb.add_option("--key-interval", a.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
                   "40 with several patterns; none with --patterns 1; 10 with --live)")

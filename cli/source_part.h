@@ -25,6 +25,9 @@ class SourcePart final : public VideoSource {
 
   [[nodiscard]] const VideoFormat& format() const override { return source_->format(); }
   Result<std::optional<TimedPicture>> next() override;
+  [[nodiscard]] bool is_ready(std::chrono::milliseconds patience) const override {
+    return ended_ || source_->is_ready(patience);
+  }
   [[nodiscard]] bool has_constant_rate() const override { return source_->has_constant_rate(); }
   /// The limits are an estimate where the source has none.
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;

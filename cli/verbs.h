@@ -35,6 +35,7 @@ struct EncodeArguments {
   int patterns = 0;          ///< of a scene; 0: chosen by the encoder
   std::optional<bool> live;  ///< whether it is; nothing: a camera is
   double delay = 0.2;        ///< s, of a live source
+  int threads = 0;           ///< of a live source; 0: as many as there are cores
   double buffer = 2;         ///< s, of a live source with a bitrate
   double key_interval = 0;   ///< seconds; 0: where it costs little
   int face = 0;

@@ -153,6 +153,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
     return fail(ErrorCode::kInvalidArgument, "a live scene has one pattern, or as many as it needs");
   if (settings.key_interval < 0) return fail(ErrorCode::kInvalidArgument, "a negative key interval");
   if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
+  if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   Setup setup;
   setup.format = format;
@@ -190,7 +191,12 @@ Result<void> Encoder::finish() {
 }
 
 std::vector<std::uint8_t> Encoder::take() {
+  if (impl_->scene) impl_->take_from_scene();
   return std::exchange(impl_->ready, {});
+}
+
+bool Encoder::is_coding() const {
+  return impl_->scene && impl_->scene->is_coding();
 }
 
 const PictureAnalysis& Encoder::analysis() const {

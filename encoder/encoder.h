@@ -46,6 +46,9 @@ class Encoder {
   /// The bytes that are ready; the encoder forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take();
 
+  /// Whether another thread is coding what has been pushed: bytes become ready without another push.
+  [[nodiscard]] bool is_coding() const;
+
   [[nodiscard]] const PictureAnalysis& analysis() const;  ///< of the picture pushed last
   [[nodiscard]] const EncodingReport& report() const;
 

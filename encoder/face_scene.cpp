@@ -1,14 +1,11 @@
 #include "encoder/face_scene.h"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
+#include <initializer_list>
+#include <thread>
 #include <utility>
 
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/setup_payload.h"
-#include "bitstream/payload/surround_payload.h"
 #include "encoder/find/adapt.h"
 #include "encoder/model/coded_numbers.h"
 #include "encoder/pass_settings.h"
@@ -18,14 +15,6 @@
 
 namespace fbs {
 namespace {
-
-/// Pictures that the surround's map is fitted to, spread over the look-ahead. More cost time and change
-/// little.
-constexpr std::uint64_t kSurroundPictures = 12;
-
-/// Contrast of patterns outside the face. Against full contrast the face takes 3.5 % fewer bytes at the same
-/// PSNR, the frame hardly more; 205 is 1 % better in the face and 1 % worse in the frame.
-constexpr std::int32_t kSurroundContrast = 220;
 
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
@@ -38,18 +27,11 @@ PartMask parts_of(const EncoderSettings& settings) {
   return parts;
 }
 
-}  // namespace
+unsigned thread_count(const EncoderSettings& settings) {
+  return settings.threads > 0 ? static_cast<unsigned>(settings.threads) : std::thread::hardware_concurrency();
+}
 
-struct FaceScene::Parts {
-  Scene scene;
-  CodedState seen;
-  const Picture& first;
-  glm::dvec2 centre;  ///< of the head in it, pixels
-  double eye_distance_px;
-  RatePlan rate;
-  SceneHead head;
-  SurroundObservations observations;
-};
+}  // namespace
 
 Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format,
                                                        const EncoderSettings& settings,
@@ -86,207 +68,77 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
   scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
-  SceneHead head;
-  head.geometry = std::move(geometry->payload);
-  head.pattern = std::move(*pattern);
-  return std::unique_ptr<FaceScene>(new FaceScene(SceneTiming(format, settings), finder, settings,
-                                                  {std::move(scene), seen_coded, first, adapted->pose.shift,
-                                                   eye, *rate, std::move(head), std::move(observations)}));
+  const SceneTiming timing(format, settings);
+  return std::unique_ptr<FaceScene>(
+      new FaceScene(timing, finder, settings, {first, adapted->pose.shift},
+                    {std::move(scene), seen_coded, eye, *rate, std::move(geometry->payload),
+                     std::move(*pattern), std::move(observations)}));
 }
 
 FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
-                     Parts parts)
+                     const FirstPicture& first, FaceCoder::Start start)
     : timing_(timing),
-      rate_(parts.rate),
-      live_(settings.live.has_value()),
-      key_interval_(key_interval_of(settings, parts.scene.setup.format)),
-      still_surround_(!settings.surround),
-      scene_(std::move(parts.scene)),
-      rest_(scene_.patterns.front().seen),
       analysis_(settings, finder,
-                {scene_.setup, scene_.geometry->geometry(), parts.first, scene_.patterns.front().picture,
-                 scene_.patterns.front().seen, parts.centre, parts.eye_distance_px}),
-      motion_(scene_.setup, parts.seen, parts.rate, timing.nominal_duration),
-      position_(scene_.setup.before),
-      mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
-                     parts.eye_distance_px),
-      observations_(std::move(parts.observations)),
-      geometry_payload_(std::move(parts.head.geometry)),
-      pattern_payload_(std::move(parts.head.pattern)) {
-  if (settings.patterns != 1) {
-    // Braces: clang 14 does not construct aggregates in place.
-    second_pass_.emplace(
-        SecondPass{face_patterns(settings, parts.rate.point, scene_.setup.format, parts.seen),
-                   SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
-                                parts.eye_distance_px),
-                   motion_,
-                   {}});
-  }
-}
+                {start.scene.setup, start.scene.geometry->geometry(), first.picture,
+                 start.scene.patterns.front().picture, start.scene.patterns.front().seen, first.centre,
+                 start.eye_distance_px}),
+      coder_(timing, settings, std::move(start)),
+      ahead_(settings.live && coder_.has_several_patterns() && thread_count(settings) > 1) {}
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  if (ended_) analysis_.begin_scene();
-  FaceAnalysis::Observation seen = analysis_.observe(picture);
-  if (std::exchange(ended_, false))
-    if (auto begun = begin_again(picture, seen); !begun) return begun;
-  if (second_pass_) second_pass_->refit.add(seen, duration);
-  costs_.push_back(std::move(seen.cost));
-  durations_.push_back(duration);
-  if (!map_final_) learn(picture, seen);
-  if (second_pass_) {
-    if (!packets_.started() && seen.face) second_pass_->face_chroma.add(picture, seen.vertices);
-    if (auto added = second_pass_->patterns->add(picture); !added) return added;
+  if (!ahead_) {
+    if (std::exchange(cut_, false)) coder_.cut();
+    if (auto done = coder_.add(picture, observed(picture), duration); !done) return done;
+    learn_from_coder();
+    return {};
   }
+  if (std::exchange(coder_leads_, false)) {
+    if (auto done = coding_.wait(); !done) return done;
+    learn_from_coder();
+  }
+  FaceAnalysis::Observation seen = observed(picture);
+  group_.push_back({picture, std::move(seen), duration, std::exchange(cut_, false)});
   ++pictures_;
-  position_.add(duration > 0 ? duration : timing_.nominal_duration);
-  if (timing_.group_ends(durations_.size(), pictures_))
-    if (auto ended = end_group(); !ended) return ended;
-  if (!map_final_ && pictures_ >= timing_.lookahead)
-    if (auto done = end_lookahead(); !done) return done;
-  if (second_pass_ || !scene_ends(timing_.group_pictures)) return {};
-  ended_ = true;
-  return finish();
+  return timing_.group_ends(group_.size(), pictures_) ? code_group() : Result<void>{};
 }
 
-bool FaceScene::scene_ends(std::size_t more) const {
-  if (key_interval_ == 0) return second_pass_.has_value();
-  if (live_) return static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_;
-  return durations_.empty() && static_cast<double>(pictures_ + more) > key_interval_;
+FaceAnalysis::Observation FaceScene::observed(const Picture& picture) {
+  if (std::exchange(begins_, false)) analysis_.begin_scene();
+  return analysis_.observe(picture);
 }
 
-Result<void> FaceScene::begin_again(const Picture& picture, const FaceAnalysis::Observation& seen) {
-  const CodedState rest = coded_state(seen.cost.fit, scene_.setup);
-  rest_ = state_of(rest, scene_.setup.steps);
-  scene_.set_geometry({scene_.setup, scene_.geometry->geometry(), map_, rest_});
-  scene_.patterns.clear();
-  scene_.patterns.push_back(make_pattern(picture, rest_, scene_.geometry));
-  motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
-  if (second_pass_) {
-    second_pass_->patterns->begin_scene(rest);
-    second_pass_->motion = motion_;
-  } else {
-    FirstPattern first(scene_.setup.format, picture, kSentSpeed);
-    auto coded = first.take(rate_.point.pattern_quantiser);
-    if (!coded) return fail(coded.error());
-    auto payload = encode_first_pattern({0, 0, rest, std::move(coded->av1)}, scene_.setup);
-    if (!payload) return fail(payload.error());
-    pattern_payload_ = std::move(*payload);
-  }
-  scene_.setup.before = position_;
-  observations_.set_first(picture, rest_);
-  fixed_ = map_final_ = false;
-  pictures_ = 0;
-  packets_.begin_again();
-  return {};
+void FaceScene::learn_from_coder() {
+  begins_ = coder_.scene_ended();
+  if (const auto map = coder_.take_new_map()) analysis_.set_surround_map(*map);
 }
 
-void FaceScene::cut() {
-  analysis_.cut();
-  if (second_pass_) second_pass_->patterns->cut();
+Result<void> FaceScene::code(Seen seen) {
+  if (seen.cut) coder_.cut();
+  return coder_.add(seen.picture, std::move(seen.observation), seen.duration);
 }
 
-void FaceScene::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
-  if (!seen.face) return;
-  mouth_colours_.add(picture, seen.vertices);
-  const std::uint64_t every = std::max<std::uint64_t>(1, timing_.lookahead / kSurroundPictures);
-  if (!still_surround_ && pictures_ > 0 && pictures_ % every == 0) observations_.add(picture, seen.state);
-}
-
-Result<void> FaceScene::end_group() {
-  if (durations_.empty()) return {};
-  if (live_ && !second_pass_ && !fixed_) {
-    fix_head();
-    if (auto written = write_head(); !written) return written;
-  }
-  auto group = motion_.add(costs_, durations_);
-  if (!group) return fail(group.error());
-  if (second_pass_)
-    second_pass_->patterns->add(group->states, std::move(group->payload));
-  else
-    packets_.add_motion(group->payload);
-  costs_.clear();
-  durations_.clear();
-  return second_pass_ && second_pass_->patterns->segment_ends(timing_.group_pictures) ? end_segment()
-                                                                                      : Result<void>{};
-}
-
-void FaceScene::fit_map() {
-  const Geometry geometry = scene_.geometry->geometry();
-  // A live scene that goes on with the same person keeps the map until its own pictures have shown more.
-  const bool keeps = live_ && map_.columns > 0 && observations_.later().empty();
-  if (still_surround_)
-    map_ = still_surround();
-  else if (!keeps)
-    map_ = fit_surround(scene_.setup, geometry, observations_);
-  analysis_.set_surround_map(map_);
-  scene_.set_geometry({scene_.setup, geometry, map_, rest_});
-}
-
-void FaceScene::fix_head() {
-  mouth_colours_.set_chroma(scene_.setup.mouth);
-  fit_map();
-  fixed_ = true;
-  if (!live_) end_learning();
-}
-
-Result<void> FaceScene::end_lookahead() {
-  if (!live_) {
-    fix_head();
-    return second_pass_ ? Result<void>{} : write_head();
-  }
-  if (!durations_.empty()) return {};  // the map changes between groups
-  const SurroundMap before = map_;
-  fit_map();
-  end_learning();
-  if (map_ == before) return {};
-  auto surround = encode_surround(map_);
-  if (!surround) return fail(surround.error());
-  packets_.add(PacketType::kSurround, *surround);
-  return {};
-}
-
-void FaceScene::end_learning() {
-  observations_ = SurroundObservations(scene_.setup.format);
-  map_final_ = true;
-}
-
-Result<void> FaceScene::write_head() {
-  auto setup = encode_setup(scene_.setup);
-  if (!setup) return fail(setup.error());
-  auto surround = encode_surround(map_);
-  if (!surround) return fail(surround.error());
-  packets_.start({std::move(*setup), geometry_payload_, std::move(*surround), pattern_payload_});
-  return {};
-}
-
-Result<void> FaceScene::end_segment() {
-  const std::size_t pictures = second_pass_->patterns->pictures();
-  if (!fixed_) fix_head();
-  if (!packets_.started()) {
-    scene_.setup.patterns = second_pass_->patterns->store();
-    scene_.setup.contrast = kSurroundContrast;
-    scene_.setup.chroma_contrast = second_pass_->face_chroma.contrast();
-    pattern_payload_.clear();  // the first segment brings its own
-    if (auto written = write_head(); !written) return written;
-  }
-  const auto refit = [&](Segment& segment, const SegmentPatterns& patterns) {
-    motion_ = second_pass_->motion;
-    return second_pass_->refit.run(segment, patterns, motion_);
-  };
-  const auto packets = second_pass_->patterns->end_segment(scene_, packets_.waiting(), refit);
-  if (!packets) return fail(packets.error());
-  second_pass_->motion = motion_;
-  second_pass_->refit.begin_segment();
-  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
-  ended_ = scene_ends(pictures);
-  return {};
+Result<void> FaceScene::code_group() {
+  const bool first = pictures_ == group_.size(), learns = !learned_ && pictures_ >= timing_.lookahead,
+             last = coder_.live_scene_ends(pictures_);
+  coder_leads_ = first || learns || last;
+  learned_ = (learned_ || learns) && !last;
+  if (last) pictures_ = 0;
+  return coding_.start([this, group = std::exchange(group_, {})]() mutable -> Result<void> {
+    for (Seen& seen : group)
+      if (auto done = code(std::move(seen)); !done) return done;
+    return {};
+  });
 }
 
 Result<void> FaceScene::finish() {
-  if (auto ended = end_group(); !ended) return ended;
-  if (second_pass_) return end_segment();
-  if (!fixed_) fix_head();
-  return packets_.started() ? Result<void>{} : write_head();
+  if (auto done = coding_.wait(); !done) return done;
+  for (Seen& seen : std::exchange(group_, {}))
+    if (auto done = code(std::move(seen)); !done) return done;
+  return coder_.finish();
+}
+
+std::vector<std::uint8_t> FaceScene::take() {
+  return coding_.is_idle() ? coder_.take() : std::vector<std::uint8_t>{};
 }
 
 }  // namespace fbs

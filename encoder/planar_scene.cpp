@@ -135,9 +135,10 @@ Result<void> PlanarScene::end_segment() {
   if (!packets_.started())
     if (auto begun = begin_motion(); !begun) return begun;
   if (auto added = add_motion(); !added) return added;
-  const auto packets = patterns_->end_segment(scene_, packets_.waiting(), {});
+  const auto packets = patterns_->end_segment(scene_, packets_.counted(), {});
   if (!packets) return fail(packets.error());
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  packets_.count_from_here();
   observed_.clear();
   groups_.clear();
   if (!live_) moved_ = still_ = 0;

@@ -37,6 +37,9 @@ class SceneEncoder {
   /// Whole packets that are ready; the scene forgets them.
   [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
 
+  /// Whether packets may become ready without another call.
+  [[nodiscard]] virtual bool is_coding() const { return false; }
+
   [[nodiscard]] virtual const PictureAnalysis& analysis() const = 0;
 };
 

@@ -35,6 +35,7 @@ void ScenePackets::begin_again() {
 }
 
 std::vector<std::uint8_t> ScenePackets::take() {
+  written_ += ready_.size();
   return std::exchange(ready_, {});
 }
 

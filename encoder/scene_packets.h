@@ -27,8 +27,10 @@ class ScenePackets {
   /// Another scene begins: holds back until it has started. No motion is held back.
   void begin_again();
 
-  /// Bytes that are ready.
-  [[nodiscard]] std::size_t waiting() const { return ready_.size(); }
+  /// Bytes written since the last call of count_from_here(), taken or not.
+  [[nodiscard]] std::size_t counted() const { return written_ + ready_.size() - counted_from_; }
+  void count_from_here() { counted_from_ = written_ + ready_.size(); }
+
   /// Whole packets that are ready; forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take();
 
@@ -36,6 +38,8 @@ class ScenePackets {
   PacketWriter writer_;
   std::vector<std::vector<std::uint8_t>> held_back_;  // payloads of motion packets
   std::vector<std::uint8_t> ready_;
+  std::size_t written_ = 0;  ///< bytes that have been taken
+  std::size_t counted_from_ = 0;
   bool started_ = false;
 };
 

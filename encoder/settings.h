@@ -33,7 +33,10 @@ struct EncoderSettings {
   /// up to 40 with several patterns, never with one.
   double key_interval = 0;
   std::optional<LiveSettings> live;  ///< without look-ahead
-  int group_pictures = 0;            ///< pictures in a motion packet, 1..256; 0: one second's
+  /// Live, with 2 or more, a group is coded while the pictures after it are analysed; the stream is the same.
+  /// 0: as many as there are cores.
+  int threads = 0;
+  int group_pictures = 0;  ///< pictures in a motion packet, 1..256; 0: one second's
 };
 
 }  // namespace fbs

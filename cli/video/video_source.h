@@ -1,6 +1,7 @@
 // One interface to the sources of pictures: files, image sequences, pipes and cameras.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,6 +34,10 @@ class VideoSource {
   /// kInvalidStream when it is damaged, kIo when it cannot be read further; kUnsupported when the picture
   /// size changes. After an error the source must not be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
+
+  /// Whether next() finds input, or its end, without waiting for it; true where that is not known.
+  /// @param patience  to wait for it here
+  [[nodiscard]] virtual bool is_ready(std::chrono::milliseconds /*patience*/) const { return true; }
 
   /// Whether each picture lasts as long as format().frame_rate says; pts need not be looked at.
   [[nodiscard]] virtual bool has_constant_rate() const { return false; }

@@ -1,5 +1,6 @@
 #include "cli/video/y4m.h"
 
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -85,6 +86,7 @@ class Y4mSource final : public VideoSource {
 
   [[nodiscard]] const VideoFormat& format() const override { return header_.format; }
   Result<std::optional<TimedPicture>> next() override;
+  [[nodiscard]] bool is_ready(std::chrono::milliseconds patience) const override;
   [[nodiscard]] bool has_constant_rate() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
 
@@ -136,6 +138,11 @@ Result<std::optional<TimedPicture>> Y4mSource::next() {
   if (!read) return fail(read.error());
   ++index_;
   return timed;
+}
+
+bool Y4mSource::is_ready(std::chrono::milliseconds patience) const {
+  pollfd input{fileno(file_.get()), POLLIN, 0};
+  return poll(&input, 1, static_cast<int>(patience.count())) != 0;  // an error shows when it is read
 }
 
 std::optional<std::int64_t> Y4mSource::frame_count_estimate() const {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <thread>
 
 #include "common/quality.h"
 #include "decoder/stream_decoder.h"
@@ -27,6 +28,7 @@ EncoderSettings live_settings() {
   EncoderSettings settings;
   settings.live.emplace();
   settings.live->delay = static_cast<double>(kGroup) / kPicturesPerSecond;
+  settings.threads = 1;
   return settings;
 }
 
@@ -109,6 +111,49 @@ TEST(Live, AChangeIsSentWithItsGroup) {
   for (int i = 0; i < 2 * kGroup; ++i) line.push(changed);
   EXPECT_EQ(line.patterns, 2U);
   EXPECT_GT(error(), 25);
+}
+
+std::vector<std::uint8_t> encoded(EncoderSettings settings, int threads) {
+  settings.threads = threads;
+  auto encoder = Encoder::create(clip().format(), settings);
+  EXPECT_TRUE(encoder);
+  std::vector<std::uint8_t> stream;
+  const auto take = [&] {
+    const auto bytes = encoder->take();
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+  };
+  for (int i = 0; i < kPictures; ++i) {
+    EXPECT_TRUE(encoder->push(clip()[i]));
+    take();
+  }
+  EXPECT_TRUE(encoder->finish());
+  take();
+  return stream;
+}
+
+TEST(Live, ThreadsChangeNothing) {
+  EXPECT_EQ(encoded(live_settings(), 2), encoded(live_settings(), 1));
+  EncoderSettings with_keys = live_settings();
+  with_keys.key_interval = 1;
+  EXPECT_EQ(encoded(with_keys, 2), encoded(with_keys, 1));
+  EncoderSettings with_rate = live_settings();
+  with_rate.bitrate = 6;
+  EXPECT_EQ(encoded(with_rate, 2), encoded(with_rate, 1));
+}
+
+TEST(Live, BytesBecomeReadyWithoutAnotherPicture) {
+  EncoderSettings settings = live_settings();
+  settings.threads = 2;
+  auto encoder = Encoder::create(clip().format(), settings);
+  ASSERT_TRUE(encoder);
+  std::size_t groups = 0;
+  for (int i = 0; i < 5 * kGroup + 1; ++i) {
+    ASSERT_TRUE(encoder->push(clip()[i]));
+    if (i % kGroup != 0) continue;
+    while (encoder->is_coding()) std::this_thread::yield();
+    groups += encoder->take().empty() ? 0 : 1;
+  }
+  EXPECT_EQ(groups, 6U);
 }
 
 TEST(Live, ViewersCanJoin) {

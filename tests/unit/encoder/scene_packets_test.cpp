@@ -39,6 +39,18 @@ TEST(ScenePackets, HoldsMotionBackUntilTheSceneStarts) {
   EXPECT_TRUE(packets.take().empty()) << "they are forgotten";
 }
 
+TEST(ScenePackets, CountsWhatIsWrittenWhetherTakenOrNot) {
+  ScenePackets packets;
+  packets.start({kPayload, {}, {}, kPayload});
+  EXPECT_EQ(packets.counted(), 2 * packet_size(kPayload.size()));
+  packets.count_from_here();
+  EXPECT_EQ(packets.counted(), 0U);
+  packets.add_motion(kPayload);
+  EXPECT_EQ(packets.take().size(), 3 * packet_size(kPayload.size()));
+  packets.add_motion(kPayload);
+  EXPECT_EQ(packets.counted(), 2 * packet_size(kPayload.size()));
+}
+
 // Their checks are those of the place where they are written.
 TEST(ScenePackets, HoldsBackAgainInTheNextScene) {
   ScenePackets packets;
