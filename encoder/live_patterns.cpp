@@ -30,12 +30,16 @@ constexpr int kMaxKeyTrials = 3;
 
 constexpr int kMaxQuantiser = 63;
 
-/// As slow as a core can afford, now and then, beside all else: speed 6 takes 12 % more of the whole rate
-/// than 3.
-int live_speed(const VideoFormat& size) {
+/// Speeds of libaom, where a core has time beside all else and where it has not: 6 takes 12 % more of the
+/// whole rate than 3.
+constexpr int kHastySpeed = 6;
+int unhurried_speed(const VideoFormat& size) {
   const int samples = size.width * size.height;
-  return samples <= 352 * 288 ? 3 : samples <= 640 * 480 ? 4 : 6;
+  return samples <= 352 * 288 ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
 }
+
+/// Patterns for which there is time, each second and at once.
+constexpr double kUnhurriedPerSecond = 2, kUnhurriedAtOnce = 2;
 
 /// The face is looked at more than the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR, the
 /// frame as many.
@@ -138,9 +142,8 @@ Result<int> LivePatterns::key_quantiser() {
 }
 
 Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene) {
-  const auto errors = mode_errors(segment_, usable(scene));
-  if (!errors) return fail(errors.error());
-  for (const ModeErrors& e : *errors) regret_.add(least_error(e));
+  if (auto measured = measure(scene); !measured) return fail(measured.error());
+  for (const ModeErrors& e : errors_) regret_.add(least_error(e));
   const double price = rate_ ? rate_->price() : 1;
   const Size& size = segment_.shots.size() > 1 ? key_ : later_;
   const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price));
@@ -158,8 +161,12 @@ VideoFormat LivePatterns::coded_format() const {
   return format;
 }
 
+int LivePatterns::speed() const {
+  return coded_lately_ < kUnhurriedAtOnce ? unhurried_speed(coded_format()) : kHastySpeed;
+}
+
 Result<void> LivePatterns::open(int quantiser) {
-  auto av1 = Av1Encoder::create(coded_format(), {quantiser, live_speed(coded_format())});
+  auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed()});
   if (!av1) return fail(av1.error());
   av1_.emplace(std::move(*av1));
   auto decoder = PatternDecoder::create(format_.width, format_.height);
@@ -169,8 +176,7 @@ Result<void> LivePatterns::open(int quantiser) {
 }
 
 Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
-  if (auto ready = av1_ ? av1_->set_quantiser(quantiser) : open(quantiser); !ready)
-    return fail(ready.error());
+  if (auto ready = av1_ ? av1_->set(quantiser, speed()) : open(quantiser); !ready) return fail(ready.error());
   auto picture = segment_.pictures.read(time);
   if (!picture) return fail(picture.error());
   const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[time];
@@ -182,6 +188,7 @@ Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t ti
   auto decoded = decoder_->decode(frames->front());
   if (!decoded) return fail(decoded.error());
   learn(frames->front().size(), quantiser);
+  ++coded_lately_;
   const std::size_t slot = std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_));
   return Sent{time, slot, std::move(frames->front()), std::move(*decoded)};
 }
@@ -196,7 +203,8 @@ void LivePatterns::learn(std::size_t bytes, int quantiser) {
   }
 }
 
-void LivePatterns::place(Scene& scene, const Sent& sent) const {
+void LivePatterns::place(Scene& scene, const Sent& sent) {
+  errors_.clear();
   const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[sent.time];
   Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
   if (sent.slot < scene.patterns.size())
@@ -205,12 +213,19 @@ void LivePatterns::place(Scene& scene, const Sent& sent) const {
     scene.patterns.push_back(std::move(pattern));
 }
 
-Result<double> LivePatterns::choose(const Scene& scene, std::size_t time) {
-  const auto errors = mode_errors(segment_, usable(scene));
+Result<void> LivePatterns::measure(const Scene& scene) {
+  if (!errors_.empty()) return {};
+  auto errors = mode_errors(segment_, usable(scene));
   if (!errors) return fail(errors.error());
-  const std::vector<RegionModes> modes = cheapest_modes(*errors, settings_.lambda, modes_);
+  errors_ = std::move(*errors);
+  return {};
+}
+
+Result<double> LivePatterns::choose(const Scene& scene, std::size_t time) {
+  if (auto measured = measure(scene); !measured) return fail(measured.error());
+  const std::vector<RegionModes> modes = cheapest_modes(errors_, settings_.lambda, modes_);
   for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
-  return error_of((*errors)[time], modes[time]);
+  return error_of(errors_[time], modes[time]);
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
@@ -253,6 +268,7 @@ Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::
   auto error = choose(scene, time);
   if (error && refit && settings_.refits && !is_key()) {
     if (auto done = refit(segment_, usable(scene)); !done) return fail(done.error());
+    errors_.clear();
     if (sent) place(scene, *sent);
     error = choose(scene, time);
   }
@@ -271,14 +287,17 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   if (!sent) return fail(sent.error());
   auto out = packets(scene.setup, *sent);
   if (!out) return out;
+  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+  coded_lately_ = std::max(0.0, coded_lately_ - kUnhurriedPerSecond * seconds);
   if (rate_) {
     std::size_t bytes = other_bytes;
     for (const auto& [type, payload] : *out) bytes += packet_size(payload.size());
-    rate_->add(static_cast<double>(bytes), static_cast<double>(segment_.states.size()) / fps_of(format_));
+    rate_->add(static_cast<double>(bytes), seconds);
   }
   modes_ = segment_.states.back().blend;
   picture_ += static_cast<std::int32_t>(segment_.states.size());
   segment_ = {};
+  errors_.clear();
   return out;
 }
 

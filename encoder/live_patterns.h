@@ -68,6 +68,8 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] bool is_key() const { return picture_ == 0; }
   /// The size at which patterns are coded.
   [[nodiscard]] VideoFormat coded_format() const;
+  /// libaom's, for the next pattern: hasty where many have been coded lately.
+  [[nodiscard]] int speed() const;
   /// Begins an AV1 sequence.
   Result<void> open(int quantiser);
   /// Codes a picture of the segment.
@@ -75,8 +77,10 @@ class LivePatterns : public PatternStage {
   /// Remembers what it took.
   void learn(std::size_t bytes, int quantiser);
   /// Puts the pattern into the store, as seen in the state that its picture has now.
-  void place(Scene& scene, const Sent& sent) const;
+  void place(Scene& scene, const Sent& sent);
   [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
+  /// Sees to it that errors_ are known.
+  Result<void> measure(const Scene& scene);
   /// Sets the blend modes of the segment. @return error of its picture `time` in them
   Result<double> choose(const Scene& scene, std::size_t time);
   /// A pattern at this quantiser, if any; states and blend modes.
@@ -90,7 +94,8 @@ class LivePatterns : public PatternStage {
   CodedState rest_;
   std::int32_t store_;
   std::optional<LiveRate> rate_;
-  Size key_, later_;  ///< of a whole picture, and of one that others predict
+  Size key_, later_;         ///< of a whole picture, and of one that others predict
+  double coded_lately_ = 0;  ///< patterns, less those for which there has been time since
   // Of the scene.
   std::optional<Av1Encoder> av1_;
   std::optional<PatternDecoder> decoder_;
@@ -101,6 +106,7 @@ class LivePatterns : public PatternStage {
   std::size_t next_slot_ = 0;
   std::int32_t picture_ = 0;  ///< number of the segment's first
   Segment segment_;
+  std::vector<ModeErrors> errors_;  ///< of its pictures; empty: unknown, as states or patterns have changed
   bool cut_ = false;
 };
 

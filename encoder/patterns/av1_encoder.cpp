@@ -134,14 +134,15 @@ Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture) {
   return out;
 }
 
-Result<void> Av1Encoder::set_quantiser(int quantiser) {
+Result<void> Av1Encoder::set(int quantiser, int speed) {
   if (quantiser < 0 || quantiser > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
   Context& c = *context_;
   c.config.rc_min_quantizer = c.config.rc_max_quantizer = static_cast<unsigned>(quantiser);
   if (aom_codec_enc_config_set(&c.codec, &c.config) != AOM_CODEC_OK ||
-      aom_codec_control(&c.codec, AOME_SET_CQ_LEVEL, quantiser) != AOM_CODEC_OK)
-    return fail(ErrorCode::kInternal, "libaom refuses a quantiser");
+      aom_codec_control(&c.codec, AOME_SET_CQ_LEVEL, quantiser) != AOM_CODEC_OK ||
+      aom_codec_control(&c.codec, AOME_SET_CPUUSED, speed) != AOM_CODEC_OK)
+    return fail(ErrorCode::kInternal, "libaom refuses a quantiser or a speed");
   return {};
 }
 

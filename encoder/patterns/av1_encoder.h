@@ -38,9 +38,10 @@ class Av1Encoder {
   /// @return the frames that are coded since the last call, in coding order; without look-ahead exactly one
   Result<Frames> encode(const Picture& picture);
 
-  /// Of the pictures that follow, without look-ahead.
+  /// For the pictures that follow, without look-ahead.
   /// @param quantiser  libaom's scale, 0..63
-  Result<void> set_quantiser(int quantiser);
+  /// @param speed      Av1Settings::speed
+  Result<void> set(int quantiser, int speed);
 
   /// The rest; no picture may follow.
   Result<Frames> finish();
