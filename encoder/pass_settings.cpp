@@ -18,10 +18,15 @@ constexpr double kLiveKeySeconds = 10;
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
 
+/// Pictures with more samples have live patterns at half the width and height: at 512x512 that takes 10 to 29
+/// % less rate in the face, of three clips; at 352x288 25 % more where little moves, 13 % less where much
+/// does.
+constexpr int kMostFullSize = 400 * 400;
+
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
                                   const VideoFormat& format) {
   LivePatternSettings out;
-  out.reduced = settings.reduced_patterns.value_or(false);
+  out.reduced = settings.reduced_patterns.value_or(format.width * format.height > kMostFullSize);
   const int halvings = out.reduced ? 1 : 0;
   const PatternPoint point = PatternPoint::at(settings.quality);
   out.quantiser = settings.pattern_quantiser >= 0
