@@ -23,6 +23,11 @@ constexpr std::uint64_t kSearchEvery = 5, kSearchAllEvery = 30;
 /// A face that is lost for longer may be another one: whoever is found is followed.
 constexpr double kLostForSeconds = 2;
 
+/// A shot without a face, such as a slide, is carried by the scene before it for so long. A scene of its own
+/// shows it better, but costs the face that comes back 2 or 3 kB. The same for a face lost within a shot, as
+/// in an empty room, did not pay.
+constexpr double kInsertSeconds = 1;
+
 /// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
 constexpr double kLongestFade = 3;
 
@@ -36,8 +41,10 @@ struct Encoder::Impl {
   CutDetector cuts{};
   FadeIn fade_in{};
   std::unique_ptr<SceneEncoder> scene{};
+  bool scene_follows = false;    ///< it is a scene with a face
   bool face_seen = false;        ///< in any picture
   bool follows = false;          ///< the shot shows whom the scene follows
+  bool cut_to = false;           ///< the shot began with a cut
   std::uint64_t shot_begin = 0;  ///< number of its first picture
   EncodingReport report{};
   StreamPosition position{};  ///< behind the last picture
@@ -78,19 +85,22 @@ struct Encoder::Impl {
                                           : PlanarScene::begin(format, settings, position);
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
-    face_seen = face_seen || marks.has_value();
+    scene_follows = marks.has_value();
+    face_seen = face_seen || scene_follows;
     ++report.scenes;
     return {};
   }
 
-  /// Pictures after which a face that has been lost may be another one.
-  [[nodiscard]] std::uint64_t lost_for_long() const {
-    return static_cast<std::uint64_t>(kLostForSeconds * fps_of(format));
+  [[nodiscard]] std::uint64_t pictures_in(double seconds) const {
+    return static_cast<std::uint64_t>(seconds * fps_of(format));
   }
 
-  /// Pictures for which a scene waits for light.
-  [[nodiscard]] std::uint64_t longest_fade() const {
-    return static_cast<std::uint64_t>(kLongestFade * fps_of(format));
+  [[nodiscard]] bool lost_for(double seconds) const { return lost >= pictures_in(seconds); }
+
+  /// Whether a scene has to begin, with a face or without.
+  [[nodiscard]] bool must_begin(bool cut) const {
+    if (!scene || (cut && !scene->carries_shots())) return true;
+    return scene_follows && scene->carries_shots() && cut_to && lost_for(kInsertSeconds);
   }
 
   /// Ahead of a much better picture than the scene began with.
@@ -109,16 +119,17 @@ struct Encoder::Impl {
       ++report.cuts;
       scene->cut();
       follows = false;
+      cut_to = true;
       shot_begin = report.pictures;
       fade_in.begin();
     }
     if (fade_in.has_ended(picture)) return begin_again(picture);
-    if (follows && lost >= lost_for_long()) {
-      follows = false;
+    if (follows && lost_for(kLostForSeconds)) {
+      follows = cut_to = false;
       shot_begin = report.pictures;
     }
     if (follows || in_shot() % kSearchEvery != 0) return {};
-    if (scene && fade_in.is_rising() && in_shot() < longest_fade()) return {};
+    if (scene && fade_in.is_rising() && in_shot() < pictures_in(kLongestFade)) return {};
     if (scene && scene->carries_shots() && scene->recognises(picture)) {
       follows = true;
       return {};
@@ -126,8 +137,7 @@ struct Encoder::Impl {
     const auto marks = look_for_face(picture);
     if (!marks) return fail(marks.error());
     follows = marks->has_value();
-    const bool must_begin = !scene || (cut && !scene->carries_shots());
-    return follows || must_begin ? begin_scene(picture, *marks) : Result<void>{};
+    return follows || must_begin(cut) ? begin_scene(picture, *marks) : Result<void>{};
   }
 };
 
