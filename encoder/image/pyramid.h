@@ -49,4 +49,18 @@ template <std::size_t kLevels>
   return out;
 }
 
+/// A picture at any other size, not below a quarter of it, without aliasing. Means over areas, from samples
+/// interpolated at twice the size: OpenCV takes three times as long for means over fractions of samples.
+[[nodiscard]] inline cv::Mat resized(const cv::Mat& picture, cv::Size size) {
+  cv::Mat out;
+  if (size.width >= picture.cols) {
+    cv::resize(picture, out, size, 0, 0, cv::INTER_LINEAR);
+    return out;
+  }
+  cv::Mat twice;
+  cv::resize(picture, twice, {2 * size.width, 2 * size.height}, 0, 0, cv::INTER_LINEAR);
+  cv::resize(twice, out, size, 0, 0, cv::INTER_AREA);
+  return out;
+}
+
 }  // namespace fbs

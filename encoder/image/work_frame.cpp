@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "encoder/image/planes.h"
+#include "encoder/image/pyramid.h"
 
 namespace fbs {
 namespace {
@@ -26,9 +26,7 @@ cv::Mat resized_crop(const Plane& plane, const cv::Rect& wanted, cv::Size size) 
     cv::copyMakeBorder(whole(inside), crop, inside.y - wanted.y, wanted.br().y - inside.br().y,
                        inside.x - wanted.x, wanted.br().x - inside.br().x, cv::BORDER_REPLICATE);
   }
-  cv::Mat out;
-  cv::resize(crop, out, size, 0, 0, size.width < wanted.width ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return out;
+  return resized(crop, size);
 }
 
 }  // namespace

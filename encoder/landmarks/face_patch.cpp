@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
+
+#include "encoder/image/pyramid.h"
 
 namespace fbs {
 namespace {
@@ -30,8 +32,7 @@ FacePatch::FacePatch(const cv::Mat& picture, const FacePlace& place) {
   cv::Mat cut;
   cv::copyMakeBorder(picture(rows, columns), cut, rows.start - corner.y, corner.y + side - rows.end,
                      columns.start - corner.x, corner.x + side - columns.end, cv::BORDER_REPLICATE);
-  cv::resize(cut, luma_, {kPatchSide, kPatchSide}, 0, 0,
-             side > kPatchSide ? cv::INTER_AREA : cv::INTER_LINEAR);
+  luma_ = resized(cut, {kPatchSide, kPatchSide});
   corner_ = {corner.x, corner.y};
   scale_ = static_cast<double>(kPatchSide) / side;
 }
