@@ -38,6 +38,13 @@ int unhurried_speed(const VideoFormat& size) {
   return samples <= 352 * 288 ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
 }
 
+/// Pictures that share their errors at most where modes are chosen anew later on.
+constexpr std::size_t kDraftShared = 3;
+
+std::size_t shared_before(const StateRefit& refit) {
+  return refit ? kDraftShared : 1;
+}
+
 /// Patterns for which there is time, each second and at once.
 constexpr double kUnhurriedPerSecond = 2, kUnhurriedAtOnce = 2;
 
@@ -141,9 +148,10 @@ Result<int> LivePatterns::key_quantiser() {
   return quantiser;
 }
 
-Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene) {
-  if (auto measured = measure(scene); !measured) return fail(measured.error());
-  for (const ModeErrors& e : errors_) regret_.add(least_error(e));
+Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene, std::size_t shared) {
+  if (auto measured = measure(scene, shared); !measured) return fail(measured.error());
+  for (const SegmentErrors::Run& run : errors_.runs)
+    for (std::size_t i = 0; i < run.pictures; ++i) regret_.add(least_error(run.errors));
   const double price = rate_ ? rate_->price() : 1;
   const Size& size = segment_.shots.size() > 1 ? key_ : later_;
   const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price));
@@ -204,7 +212,7 @@ void LivePatterns::learn(std::size_t bytes, int quantiser) {
 }
 
 void LivePatterns::place(Scene& scene, const Sent& sent) {
-  errors_.clear();
+  errors_ = {};
   const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[sent.time];
   Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
   if (sent.slot < scene.patterns.size())
@@ -213,19 +221,19 @@ void LivePatterns::place(Scene& scene, const Sent& sent) {
     scene.patterns.push_back(std::move(pattern));
 }
 
-Result<void> LivePatterns::measure(const Scene& scene) {
-  if (!errors_.empty()) return {};
-  auto errors = mode_errors(segment_, usable(scene));
+Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
+  if (!errors_.runs.empty()) return {};
+  auto errors = mode_errors(segment_, usable(scene), shared);
   if (!errors) return fail(errors.error());
   errors_ = std::move(*errors);
   return {};
 }
 
-Result<double> LivePatterns::choose(const Scene& scene, std::size_t time) {
-  if (auto measured = measure(scene); !measured) return fail(measured.error());
-  const std::vector<RegionModes> modes = cheapest_modes(errors_, settings_.lambda, modes_);
+Result<void> LivePatterns::choose(const Scene& scene, std::size_t shared) {
+  if (auto measured = measure(scene, shared); !measured) return measured;
+  const std::vector<RegionModes> modes = errors_.cheapest_modes(settings_.lambda, modes_);
   for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
-  return error_of(errors_[time], modes[time]);
+  return {};
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
@@ -265,25 +273,25 @@ Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::
     sent.emplace(std::move(*coded));
     place(scene, *sent);
   }
-  auto error = choose(scene, time);
-  if (error && refit && settings_.refits && !is_key()) {
+  if (auto chosen = choose(scene, shared_before(refit)); !chosen) return fail(chosen.error());
+  if (refit) {
     if (auto done = refit(segment_, usable(scene)); !done) return fail(done.error());
-    errors_.clear();
+    errors_ = {};
     if (sent) place(scene, *sent);
-    error = choose(scene, time);
+    if (auto chosen = choose(scene, 1); !chosen) return fail(chosen.error());
   }
-  if (!error) return fail(error.error());
-  if (sent) regret_.begin(*error);
+  if (sent) regret_.begin(error_of(errors_.runs[time].errors, segment_.states[time].blend));
   return sent;
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
                                                             const StateRefit& refit) {
   if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  const StateRefit used = settings_.refits && !is_key() ? refit : StateRefit{};
   Result<std::optional<int>> quantiser =
-      is_key() ? Result<std::optional<int>>(key_quantiser()) : later_quantiser(scene);
+      is_key() ? Result<std::optional<int>>(key_quantiser()) : later_quantiser(scene, shared_before(used));
   if (!quantiser) return fail(quantiser.error());
-  const auto sent = make(scene, *quantiser, refit);
+  const auto sent = make(scene, *quantiser, used);
   if (!sent) return fail(sent.error());
   auto out = packets(scene.setup, *sent);
   if (!out) return out;
@@ -297,7 +305,7 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   modes_ = segment_.states.back().blend;
   picture_ += static_cast<std::int32_t>(segment_.states.size());
   segment_ = {};
-  errors_.clear();
+  errors_ = {};
   return out;
 }
 

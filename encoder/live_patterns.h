@@ -13,6 +13,7 @@
 #include "encoder/patterns/av1_encoder.h"
 #include "encoder/plan/live_rate.h"
 #include "encoder/plan/pattern_regret.h"
+#include "encoder/segment_blend.h"
 
 namespace fbs {
 
@@ -61,7 +62,8 @@ class LivePatterns : public PatternStage {
   /// The quantiser to code the scene's first pattern with.
   [[nodiscard]] Result<int> key_quantiser();
   /// The quantiser to code another pattern with; nothing: none is needed, or none can be sent.
-  [[nodiscard]] Result<std::optional<int>> later_quantiser(const Scene& scene);
+  /// @param shared  errors that are not known yet are shared by so many pictures at most
+  [[nodiscard]] Result<std::optional<int>> later_quantiser(const Scene& scene, std::size_t shared);
   /// The finest one, no finer than `from`, with which a pattern may be sent now; nothing: even the coarsest
   /// takes too much.
   [[nodiscard]] std::optional<int> affordable(const Size& size, int from) const;
@@ -80,10 +82,12 @@ class LivePatterns : public PatternStage {
   void place(Scene& scene, const Sent& sent);
   [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
   /// Sees to it that errors_ are known.
-  Result<void> measure(const Scene& scene);
-  /// Sets the blend modes of the segment. @return error of its picture `time` in them
-  Result<double> choose(const Scene& scene, std::size_t time);
+  /// @param shared  by so many pictures at most
+  Result<void> measure(const Scene& scene, std::size_t shared);
+  /// Sets the blend modes of the segment.
+  Result<void> choose(const Scene& scene, std::size_t shared);
   /// A pattern at this quantiser, if any; states and blend modes.
+  /// @param refit  empty: states stay as they are
   [[nodiscard]] Result<std::optional<Sent>> make(Scene& scene, std::optional<int> quantiser,
                                                  const StateRefit& refit);
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(const Setup& setup,
@@ -106,7 +110,7 @@ class LivePatterns : public PatternStage {
   std::size_t next_slot_ = 0;
   std::int32_t picture_ = 0;  ///< number of the segment's first
   Segment segment_;
-  std::vector<ModeErrors> errors_;  ///< of its pictures; empty: unknown, as states or patterns have changed
+  SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
   bool cut_ = false;
 };
 

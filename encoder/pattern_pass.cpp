@@ -223,9 +223,10 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
 }
 
 Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
-  const auto modes = choose_modes(segment_, usable(scene, draft), settings_.lambda, most);
-  if (!modes) return fail(modes.error());
-  for (std::size_t t = 0; t < modes->size(); ++t) segment_.states[t].blend = (*modes)[t];
+  const auto errors = mode_errors(segment_, usable(scene, draft), most);
+  if (!errors) return fail(errors.error());
+  const std::vector<RegionModes> modes = errors->cheapest_modes(settings_.lambda);
+  for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
   return {};
 }
 

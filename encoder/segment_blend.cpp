@@ -116,39 +116,30 @@ void add_change(const SolvedPlanes& now, const SolvedPlanes& before, const Plane
 
 }  // namespace
 
-Result<std::vector<ModeErrors>> mode_errors(Segment& segment, const SegmentPatterns& patterns) {
-  const BlendErrors blend(patterns.scene,
-                          reduction_to(kCompareWidth, patterns.scene.patterns.front().picture));
-  std::vector<ModeErrors> out;
-  const auto done = for_each_picture(
-      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        out.push_back(blend.errors(picture.y, segment.states[t], available));
-      });
-  if (!done) return fail(done.error());
+std::vector<RegionModes> SegmentErrors::cheapest_modes(double lambda, const RegionModes& before) const {
+  std::vector<ModeErrors> sums;
+  for (const Run& run : runs) {
+    sums.push_back(run.errors);
+    for (auto& region : sums.back())
+      for (auto& error : region) error *= static_cast<double>(run.pictures);
+  }
+  const std::vector<RegionModes> chosen = fbs::cheapest_modes(sums, lambda, before);
+  std::vector<RegionModes> out;
+  for (std::size_t r = 0; r < runs.size(); ++r) out.insert(out.end(), runs[r].pictures, chosen[r]);
   return out;
 }
 
-Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
-                                              double lambda, std::size_t most) {
+Result<SegmentErrors> mode_errors(Segment& segment, const SegmentPatterns& patterns, std::size_t most) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
-  std::vector<ModeErrors> errors;
-  std::vector<std::size_t> shared_by;  // how many pictures, for each of `errors`
+  SegmentErrors out;
   const auto done = for_each_picture(
       segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        if (t == 0 || shared_by.back() == most || segment.is_cut(t)) {
-          errors.push_back(blend.errors(picture.y, segment.states[t], available));
-          shared_by.push_back(0);
-        }
-        ++shared_by.back();
+        if (t == 0 || out.runs.back().pictures == most || segment.is_cut(t))
+          out.runs.push_back({blend.errors(picture.y, segment.states[t], available), 0});
+        ++out.runs.back().pictures;
       });
   if (!done) return fail(done.error());
-  for (std::size_t run = 0; run < errors.size(); ++run)
-    for (auto& region : errors[run])
-      for (auto& error : region) error *= shared_by[run];
-  const std::vector<RegionModes> chosen = cheapest_modes(errors, lambda);
-  std::vector<RegionModes> out;
-  for (std::size_t run = 0; run < chosen.size(); ++run) out.insert(out.end(), shared_by[run], chosen[run]);
   return out;
 }
 

@@ -17,15 +17,24 @@ struct SegmentPatterns {
   std::vector<AvailablePatterns> available;  ///< of each group
 };
 
-/// What the modes of each picture cost in distortion. Luma only, at a reduced size.
-[[nodiscard]] Result<std::vector<ModeErrors>> mode_errors(Segment& segment, const SegmentPatterns& patterns);
+/// What blend modes cost in distortion. Luma only, at a reduced size.
+struct SegmentErrors {
+  /// Pictures in a row for which the first stands.
+  struct Run {
+    ModeErrors errors;  ///< of its first picture
+    std::size_t pictures;
+  };
+  std::vector<Run> runs;
 
-/// Modes of each picture by rate-distortion cost. Luma only, at a reduced size.
-/// @param lambda  squared luma levels that a bit is worth
-/// @param most    so many pictures at most share their modes, and the first stands for all; never across a
-/// cut
-[[nodiscard]] Result<std::vector<RegionModes>> choose_modes(Segment& segment, const SegmentPatterns& patterns,
-                                                            double lambda, std::size_t most);
+  /// Modes of each picture by rate-distortion cost.
+  /// @param lambda  squared luma levels that a bit is worth
+  /// @param before  modes of the picture before the segment
+  [[nodiscard]] std::vector<RegionModes> cheapest_modes(double lambda, const RegionModes& before = {}) const;
+};
+
+/// @param most  so many pictures at most are a run; never across a cut
+[[nodiscard]] Result<SegmentErrors> mode_errors(Segment& segment, const SegmentPatterns& patterns,
+                                                std::size_t most);
 
 /// Luma error of the segment in its cheapest modes, mean over samples, from every so many pictures.
 [[nodiscard]] Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every);

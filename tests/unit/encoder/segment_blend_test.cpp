@@ -37,11 +37,12 @@ struct DrawnSegment {
 TEST(SegmentBlend, FindsTheModesThatPicturesAreDrawnIn) {
   for (const BlendMode mode : {BlendMode::kByTime, nearest(1)}) {
     DrawnSegment d(mode);
-    const auto modes = choose_modes(d.segment, d.patterns(), 100, 1);
-    ASSERT_TRUE(modes);
-    ASSERT_EQ(modes->size(), kPictures);
+    const auto errors = mode_errors(d.segment, d.patterns(), 1);
+    ASSERT_TRUE(errors);
+    const auto modes = errors->cheapest_modes(100);
+    ASSERT_EQ(modes.size(), kPictures);
     std::size_t found = 0;
-    for (const RegionModes& m : *modes) found += m[static_cast<std::size_t>(Region::kFace)] == mode ? 1 : 0;
+    for (const RegionModes& m : modes) found += m[static_cast<std::size_t>(Region::kFace)] == mode ? 1 : 0;
     EXPECT_GE(found, kPictures - 2) << static_cast<int>(mode);
   }
 }
@@ -59,10 +60,11 @@ TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
   }
   segment.groups = before.segment.groups;
   segment.shots = {{kCut, false}, {kPictures - kCut, false}};
-  const auto modes = choose_modes(segment, before.patterns(), 1, kShared);
-  ASSERT_TRUE(modes);
-  ASSERT_EQ(modes->size(), kPictures);
-  const auto of_face = [&](std::size_t t) { return (*modes)[t][static_cast<std::size_t>(Region::kFace)]; };
+  const auto errors = mode_errors(segment, before.patterns(), kShared);
+  ASSERT_TRUE(errors);
+  const auto modes = errors->cheapest_modes(1);
+  ASSERT_EQ(modes.size(), kPictures);
+  const auto of_face = [&](std::size_t t) { return modes[t][static_cast<std::size_t>(Region::kFace)]; };
   EXPECT_EQ(of_face(kCut - 1), BlendMode::kByTime);
   EXPECT_EQ(of_face(kCut), nearest(1));
 }
