@@ -37,8 +37,8 @@ inline constexpr double kGazeSigma = 0.015;       ///< eye distances; of one pup
 
 // Gauss-Newton.
 inline constexpr int kStepsOfLevel[kFitLevels] = {3, 2};  ///< fine level first
-/// A single step that changes a number of the light by more starts where picture and pattern have little in common. Grey
-/// levels; of 2169 pictures of ten clips one changes by more than 8, and none by more than 12.
+/// A single step that changes a number of the light by more starts where picture and pattern have little in
+/// common. Grey levels; of 2169 pictures of ten clips one changes by more than 8, and none by more than 12.
 inline constexpr double kMaxLightStep = 16;
 inline constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;  ///< head units, of a control point
 /// Inner lips farther from where the outer ones carry them are tried from there, too. Eye distances.

@@ -46,7 +46,8 @@ class PictureFit {
 
   /// The same about the fit that one step of the descent from `start` leads to, but for the constant, which
   /// is that at the start: for starts so near that this takes the place of refine() and cost_at(), in a sixth
-  /// of the time. About `start` itself when the step changes a number of the light by more than kMaxLightStep.
+  /// of the time. About `start` itself when the step changes a number of the light by more than
+  /// kMaxLightStep.
   [[nodiscard]] PictureCost cost_near(const Fit& start) const;
 
  private:
