@@ -30,16 +30,19 @@ constexpr int kMaxKeyTrials = 3;
 
 constexpr int kMaxQuantiser = 63;
 
+/// Samples of a picture that a core has time for with all that helps.
+constexpr int kCif = 352 * 288;
+
 /// Speeds of libaom, where a core has time beside all else and where it has not: 6 takes 12 % more of the
 /// whole rate than 3.
 constexpr int kHastySpeed = 6;
 int unhurried_speed(const VideoFormat& size) {
   const int samples = size.width * size.height;
-  return samples <= 352 * 288 ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
+  return samples <= kCif ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
 }
 
-/// Patterns for which there is time: two a second at 352x288, and two at once.
-constexpr double kUnhurriedSamplesPerSecond = 2 * 352 * 288, kUnhurriedAtOnce = 2;
+/// Patterns for which there is time: two a second at CIF, and two at once.
+constexpr double kUnhurriedSamplesPerSecond = 2 * kCif, kUnhurriedAtOnce = 2;
 double unhurried_per_second(const VideoFormat& size) {
   return kUnhurriedSamplesPerSecond / (1.0 * size.width * size.height);
 }
@@ -48,7 +51,7 @@ double unhurried_per_second(const VideoFormat& size) {
 /// takes 4 % of it, and 2 to 3 % more of the rate.
 constexpr std::size_t kDraftShared = 3;
 std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
-  return refit && format.width * format.height > 352 * 288 ? kDraftShared : 1;
+  return refit && format.width * format.height > kCif ? kDraftShared : 1;
 }
 
 /// The face is looked at more than the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR, the
