@@ -2,8 +2,8 @@
 // Fig. 2.
 //
 // Its source is common/generic_head.gltf (made by common/author_generic_head.py; our own drawing, with the
-// published roles of CANDIDE's vertices). common/head_table_tool.cpp turns it into tables at build time. The
-// tables are integers and part of the format: SPEC.md gives their hash.
+// published roles of CANDIDE's vertices). common/head_table_tool.cpp turns it into
+// common/generic_head_table.cpp. The tables are integers and part of the format: SPEC.md gives their hash.
 //
 // Head frame: x to the right of the picture (the subject's left), y down, z away from the viewer;
 // right-handed. Origin: midway between the eye centres in x and y, in the middle of the head in z. Unit:

@@ -1,5 +1,5 @@
-// Build-time tool: reads generic_head.gltf and writes generic_head_table.cpp. It copies integers and changes
-// only the axes: the file has y up, z toward the viewer and counter-clockwise fronts; the table y down, z
+// Reads generic_head.gltf and writes generic_head_table.cpp, which is kept beside it: the target `head_table`
+// of the build runs it, after a change of the head. It copies integers and changes only the axes: the file has y up, z toward the viewer and counter-clockwise fronts; the table y down, z
 // away and clockwise fronts.
 #include <tiny_gltf.h>
 
@@ -176,6 +176,7 @@ bool write_table(std::ostream& out, const Model& model) {
   const Value& vertices = extras.Get("vertices");
   if (!positions || triangles.empty() || length(vertices) != kVertexCount) return false;
   out << "// Made from generic_head.gltf by head_table_tool. Do not edit.\n"
+         "// clang-format off\n"
          "#include \"common/generic_head.h\"\n\nnamespace fbs {\nnamespace {\n\n";
   write_vertices(out, vertices, *positions);
   write_triangles(out, triangles);

@@ -22,7 +22,6 @@ function(fbs_exact_build name)
   add_executable(${name} ${exact_sources})
   target_compile_options(${name} PRIVATE ${ARGN})
   target_link_libraries(${name} PRIVATE fbs_options glm::glm tl::expected draco::draco PkgConfig::dav1d)
-  add_dependencies(${name} fbs_common)  # for the head's table, which is generated
   fbs_exact_test(${name})
 endfunction()
 
@@ -36,7 +35,7 @@ function(fbs_exact_build_clang name)
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/${name}.dir
       COMMAND ${FBS_CLANGXX} -std=c++20 ${ARGN} -I${PROJECT_SOURCE_DIR} -I${PROJECT_BINARY_DIR}
               -MD -MF ${object}.d -c ${source} -o ${object}
-      DEPENDS ${source} fbs_common
+      DEPENDS ${source}
       DEPFILE ${object}.d
       VERBATIM)
     list(APPEND objects ${object})
