@@ -10,7 +10,7 @@ function(fbs_add_module name)
     SUFFIX ".so"
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
-    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_sources(${name} PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/module_version.cpp)
   target_compile_definitions(${name} PRIVATE FBS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE fbs_options)

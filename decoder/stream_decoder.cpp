@@ -151,6 +151,10 @@ Result<void> StreamDecoder::take_setup(const Packet& packet) {
   if (!setup) return at(packet, setup.error());
   if (has_setup_ && (setup->format.width != format().width || setup->format.height != format().height))
     return fail(ErrorCode::kUnsupported, "the picture size changes inside the stream", packet.offset);
+  const auto pixels =
+      static_cast<std::uint64_t>(setup->format.width) * static_cast<std::uint64_t>(setup->format.height);
+  if (max_pixels_ && pixels > *max_pixels_)
+    return fail(ErrorCode::kTooLarge, "the picture has more pixels than are allowed", packet.offset);
   auto patterns = PatternDecoder::create(setup->format.width, setup->format.height);
   if (!patterns) return at(packet, patterns.error());
   const auto missing = clock_.go_to(setup->before);

@@ -74,10 +74,14 @@ class StreamDecoder {
   /// Keeps a record of every pattern from now on. Off by default, since records are never dropped.
   void record_patterns() { records_patterns_ = true; }
 
+  /// Refuses streams whose pictures have more pixels, before memory is taken for them. Unlimited by default.
+  void limit_pixels(std::uint64_t max_pixels) { max_pixels_ = max_pixels; }
+
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
   /// pictures are missing of whose loss no error has told, or when fewer pictures are announced than have
-  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is.
+  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is; or when the
+  /// picture has more pixels than limit_pixels() allows.
   Result<DecodeStatus> next();
 
   /// Draws the picture that next() announced last; `out` takes the format's size.
@@ -158,6 +162,7 @@ class StreamDecoder {
   PatternPacketReader pattern_packets_;
   std::optional<PatternDecoder> patterns_;
   std::optional<MotionDecoder> motion_;
+  std::optional<std::uint64_t> max_pixels_;
   bool counts_motion_bits_ = false;
   std::optional<MotionBitCounter> bit_counter_;  ///< of the scene, if bits are counted
   Renderer renderer_;

@@ -1,0 +1,109 @@
+/* fbs, a video codec for talking heads: the encoder. fbs/fbs.h says what holds for all functions.
+ *
+ *     fbs_encoder_settings settings;
+ *     fbs_encoder_default_settings(&settings, sizeof settings);
+ *     settings.format.width = 352;
+ *     settings.format.height = 288;
+ *     settings.quality = 60;
+ *     fbs_encoder* encoder = NULL;
+ *     fbs_encoder_open(&encoder, &settings);
+ *     do {
+ *       if (more) fbs_encoder_push(encoder, &picture, 0);
+ *       else fbs_encoder_finish(encoder);
+ *       fbs_packet packet;
+ *       while ((status = fbs_encoder_pull(encoder, &packet)) == FBS_OK) write(packet.data, packet.size);
+ *     } while (status == FBS_NEED_DATA);
+ *     fbs_encoder_close(&encoder);
+ *
+ * Without `live` the encoder looks ahead: packets come in bursts, up to forty seconds of video later. */
+#ifndef FBS_ENCODER_H
+#define FBS_ENCODER_H
+
+#include <fbs/fbs.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Filled by fbs_encoder_default_settings(&settings, sizeof settings); width and height are then 0 and have to be
+ * set. */
+typedef struct fbs_encoder_settings {
+  size_t struct_size;
+  fbs_format format;     /**< of all pictures; default 25 pictures per second, square pixels */
+  int quality;           /**< 0..100; default 50 */
+  double bitrate;        /**< kbit/s in all, from which quality follows; 0 (default): quality decides */
+  double seconds;        /**< length of the video, for bitrate; 0 (default): unknown */
+  int effort;            /**< 0..2; default 1. More takes longer and needs fewer bits */
+  int patterns;          /**< pictures of the person in a scene, 1..64; 0 (default): chosen by the encoder */
+  int face;              /**< which face is followed, the largest being 0 (default) */
+  int allow_no_face;     /**< 1: a video without any face is coded all the same; default 0 */
+  double key_interval;   /**< seconds between scenes at most: where a viewer can join. 0 (default): up to 40 */
+  int live;              /**< 1: no look-ahead; default 0 */
+  double live_delay;     /**< live: pictures are coded in groups of so many seconds; default 0.2 */
+  double live_buffer;    /**< live, with bitrate: nothing waits longer to be sent, seconds; default 2 */
+  int threads;           /**< live: 1, or more to code while the next pictures are analysed; the stream is the
+                              same. 0 (default): as many as there are cores */
+} fbs_encoder_settings;
+
+typedef struct fbs_encoder fbs_encoder;
+
+/** A piece of the stream. The stream is all packets one after the other. */
+typedef struct fbs_packet {
+  const uint8_t* data; /**< valid until the next call for this encoder */
+  size_t size;         /**< bytes, at least 1 */
+  int key;             /**< 1: a setup packet: decoding can begin here */
+  uint64_t number;     /**< of the first picture that needs the packet */
+  uint64_t time;       /**< of that picture, ticks */
+} fbs_packet;
+
+/** What happened so far. */
+typedef struct fbs_encoder_report {
+  uint64_t pictures;     /**< pushed */
+  uint64_t without_face; /**< of them, those in which no face was followed */
+  uint64_t cuts;
+  uint64_t scenes; /**< begun for a person or a shot */
+} fbs_encoder_report;
+
+/** As fbs_decoder_default_settings(). */
+FBS_API void fbs_encoder_default_settings(fbs_encoder_settings* settings, size_t struct_size);
+
+/** @param out  set to the encoder, which is freed by fbs_encoder_close(); to null on failure
+ * @return FBS_OK; FBS_ERROR_ARGUMENT: a setting is out of its range; FBS_ERROR_NO_MEMORY */
+FBS_API fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* settings);
+
+/** Frees the encoder, and sets *encoder to null. Packets that were not pulled are lost. Null is fine. */
+FBS_API void fbs_encoder_close(fbs_encoder** encoder);
+
+/** Takes the next picture. It is copied.
+ * @param picture   of the format's size
+ * @param duration  ticks; 0: that of the frame rate
+ * @return FBS_OK; FBS_ERROR_ARGUMENT, and nothing is taken: another size, a stride that is too small, or a
+ *         call after fbs_encoder_finish(); any other error ends the encoding: only pulling and closing are
+ *         left */
+FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture, uint32_t duration);
+
+/** Says that there are no more pictures, and codes what is held back.
+ * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no picture
+ *         or this is the second call */
+FBS_API fbs_status fbs_encoder_finish(fbs_encoder* encoder);
+
+/** Gives out the next packet.
+ * @return FBS_OK; FBS_NEED_DATA: push more, or finish; FBS_END: finished, and all has been given out */
+FBS_API fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out);
+
+FBS_API fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out);
+
+/** The landmarks in the picture pushed last, as they were tracked, without coding loss; `confidence` is the
+ * same for all, 0 where the face is not followed.
+ * @param out  FBS_LANDMARKS points
+ * @return FBS_OK; FBS_ERROR_NO_FACE; FBS_ERROR_ARGUMENT before the first picture */
+FBS_API fbs_status fbs_encoder_get_landmarks(const fbs_encoder* encoder, fbs_landmark* out);
+
+/** As fbs_decoder_error(). */
+FBS_API const char* fbs_encoder_error(const fbs_encoder* encoder);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,263 @@
+/* fbs, a video codec for talking heads: the decoder and what it shares with the encoder (fbs/encoder.h).
+ *
+ *     fbs_decoder* decoder = NULL;
+ *     fbs_decoder_open(&decoder, NULL);
+ *     for (;;) {
+ *       fbs_status status = fbs_decoder_next(decoder, NULL);
+ *       if (status == FBS_OK) {
+ *         fbs_picture picture;
+ *         fbs_decoder_get_picture(decoder, &picture);
+ *         show(&picture);
+ *       } else if (status == FBS_NEED_DATA) {
+ *         if (read(bytes, &size)) fbs_decoder_feed(decoder, bytes, size);
+ *         else fbs_decoder_finish(decoder);
+ *       } else if (status == FBS_END) {
+ *         break;
+ *       } else {
+ *         report(fbs_decoder_error(decoder));  // and go on: what follows the damage is decoded
+ *       }
+ *     }
+ *     fbs_decoder_close(&decoder);
+ *
+ * Every function may be called in any order and with null pointers: a call that makes no sense is answered by
+ * FBS_ERROR_ARGUMENT and changes nothing, except for the error text. What a function gives out through a
+ * pointer is set on FBS_OK only. An object belongs to one thread at a time; several may be used side by side.
+ * Nothing is printed. Exceptions of C++ do not leave the library.
+ *
+ * A struct of settings begins with its size as the caller knows it, so that later versions can add members: it is
+ * filled by the function named at the struct. A member that the library does not know has to stay 0. */
+#ifndef FBS_FBS_H
+#define FBS_FBS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(FBS_STATIC) || !defined(__GNUC__)
+#define FBS_API
+#else
+#define FBS_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- version ---------------------------------------------------------------------------------------------- */
+
+/** Of this header. The library's soname changes with the first number, or while that is 0 with the second. */
+#define FBS_VERSION_MAJOR 0
+#define FBS_VERSION_MINOR 1
+#define FBS_VERSION_PATCH 0
+
+/** Of the library that runs: "0.1.0". */
+FBS_API const char* fbs_version_string(void);
+/** Of the library that runs: major << 16 | minor << 8 | patch. */
+FBS_API uint32_t fbs_version_number(void);
+/** The newest version of the stream format that the library reads, and the one that the encoder writes. */
+FBS_API uint32_t fbs_format_version(void);
+
+/* ---- answers ---------------------------------------------------------------------------------------------- */
+
+/** Errors are negative. */
+typedef enum fbs_status {
+  FBS_OK = 0,
+  FBS_NEED_DATA = 1, /**< nothing is wrong; feed or push more, or finish */
+  FBS_END = 2,       /**< finished, and all has been given out */
+
+  FBS_ERROR_ARGUMENT = -1,    /**< a null pointer, a value out of its range, or a call at the wrong time */
+  FBS_ERROR_NOT_FBS = -2,     /**< the input does not begin as an fbs stream does */
+  FBS_ERROR_DAMAGED = -3,     /**< a packet is damaged, missing, or breaks a rule of the format */
+  FBS_ERROR_TRUNCATED = -4,   /**< the stream ends inside a packet, or before its setup */
+  FBS_ERROR_UNSUPPORTED = -5, /**< a newer version of the format, or a change of the picture's size */
+  FBS_ERROR_TOO_LARGE = -6,   /**< beyond a limit of the format or of the settings */
+  FBS_ERROR_NO_MEMORY = -7,
+  FBS_ERROR_NO_FACE = -8, /**< the encoder found no face, and was not allowed to go without */
+  FBS_ERROR_IO = -9,      /**< the encoder could not use its temporary file */
+  FBS_ERROR_INTERNAL = -10 /**< a bug of the library */
+} fbs_status;
+
+/** "damaged stream", for a user; never null. fbs_decoder_error() says more. */
+FBS_API const char* fbs_status_text(fbs_status status);
+
+/* ---- pictures --------------------------------------------------------------------------------------------- */
+
+/** Smallest and largest width and height of a picture, pixels. */
+#define FBS_MIN_SIDE 64
+#define FBS_MAX_SIDE 8192
+
+/** Times and durations count 1/90000 s. */
+#define FBS_TICKS_PER_SECOND 90000
+
+typedef enum fbs_matrix { FBS_MATRIX_UNSPECIFIED = 0, FBS_MATRIX_BT601 = 1, FBS_MATRIX_BT709 = 2 } fbs_matrix;
+
+/** What all pictures of a stream share. */
+typedef struct fbs_format {
+  uint32_t width, height;                   /**< pixels, FBS_MIN_SIDE..FBS_MAX_SIDE */
+  uint32_t frame_rate_num, frame_rate_den;  /**< nominal pictures per second; each has its own duration */
+  uint32_t pixel_aspect_num, pixel_aspect_den; /**< width of a pixel over its height; 0/1 when unknown */
+  fbs_matrix matrix;                        /**< of YCbCr */
+  int full_range;                           /**< 0: black is 16, white 235; 1: 0 and 255 */
+} fbs_format;
+
+/** 8-bit 4:2:0: planes Y, Cb, Cr. Chroma planes have (width + 1) / 2 by (height + 1) / 2 samples, each at the
+ * centre of the four pixels it belongs to. */
+typedef struct fbs_picture {
+  uint32_t width, height;  /**< pixels */
+  uint8_t* data[3];        /**< first sample of the top row of each plane */
+  ptrdiff_t stride[3];     /**< bytes from a row to the next one below; may be negative */
+} fbs_picture;
+
+/** The same, to be read only. */
+typedef struct fbs_const_picture {
+  uint32_t width, height;
+  const uint8_t* data[3];
+  ptrdiff_t stride[3];
+} fbs_const_picture;
+
+/** A picture's place in its stream. */
+typedef struct fbs_picture_info {
+  uint64_t number;   /**< from 0; numbers that are missing were lost */
+  uint64_t time;     /**< since the beginning of the stream, ticks */
+  uint32_t duration; /**< ticks, at least 1 */
+  int held;          /**< 1: this picture was lost, and the one before is shown again in its place */
+  int new_scene;     /**< 1: the first of a scene: decoding can begin here */
+} fbs_picture_info;
+
+/* ---- the face --------------------------------------------------------------------------------------------- */
+
+/** Positions are pixels from the top left corner of the picture; the centre of the first pixel is 0.5, 0.5.
+ * "right" and "left" are the person's own. */
+typedef struct fbs_landmark {
+  float x, y;
+  /** 0..1: of the wire-frame's triangles that meet in the point, the share of their area in the picture that
+   * is turned to the viewer. 1: seen; 0: the point is on the far side of the head. */
+  float confidence;
+} fbs_landmark;
+
+/** Points of a face, as iBUG (300-W) numbers them from 0. */
+#define FBS_LANDMARKS 68
+
+/** Vertices of the wire-frame. */
+#define FBS_VERTICES 105
+
+/** Control points of the snakes, as bitstream/SPEC.md section 5.1 orders them: outer mouth 0..9, inner mouth
+ * 10..17, right brow 18..21, left brow 22..25, upper lids 26..27 and 28..29, lower lids 30..31 and 32..33,
+ * pupils 34 and 35. */
+#define FBS_CONTROL_POINTS 36
+
+/** Where the head is and what the face does. */
+typedef struct fbs_face_state {
+  float pitch, yaw, roll; /**< degrees; positive: the face looks down, to the picture's left, its top leans
+                               to the picture's right */
+  float x, y;             /**< of the middle of the head at the height of the eyes, pixels */
+  float eye_distance;     /**< of the face seen from the front, pixels */
+  /** Displacement of each control point from the expressionless face, x and y along the head's own axes,
+   * in eye distances. */
+  float control[FBS_CONTROL_POINTS][2];
+} fbs_face_state;
+
+/** A vertex of the wire-frame in the picture. */
+typedef struct fbs_vertex {
+  float x, y; /**< pixels */
+  float z;    /**< eye distances away from the viewer, from the middle of the head */
+} fbs_vertex;
+
+/* ---- decoder ---------------------------------------------------------------------------------------------- */
+
+typedef struct fbs_decoder fbs_decoder;
+
+/** Filled by fbs_decoder_default_settings(&settings, sizeof settings). */
+typedef struct fbs_decoder_settings {
+  size_t struct_size;
+  /** Streams with more pixels in a picture are refused with FBS_ERROR_TOO_LARGE before memory is taken.
+   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes up to 1.5 bytes for each pixel of each of a
+   * scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
+  uint64_t max_pixels;
+} fbs_decoder_settings;
+
+/** @param settings     null: nothing happens
+ * @param struct_size  sizeof *settings: so much is written */
+FBS_API void fbs_decoder_default_settings(fbs_decoder_settings* settings, size_t struct_size);
+
+/** Makes a decoder of one stream.
+ * @param out       set to the decoder, which is freed by fbs_decoder_close(); to null on failure
+ * @param settings  null: defaults; not needed after the call
+ * @return FBS_OK, FBS_ERROR_ARGUMENT, FBS_ERROR_NO_MEMORY */
+FBS_API fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* settings);
+
+/** Frees the decoder, with all that it has given out, and sets *decoder to null. Null is fine. */
+FBS_API void fbs_decoder_close(fbs_decoder** decoder);
+
+/** Takes the next bytes of the stream, in pieces of any size. They are copied. What has been fed and not been
+ * decoded is kept: call fbs_decoder_next() until it needs data.
+ * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
+ *         FBS_ERROR_NO_MEMORY, and nothing is taken */
+FBS_API fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size);
+
+/** Says that no more bytes will come: what is left is given out, then FBS_END. Once more does nothing.
+ * @return FBS_OK, FBS_ERROR_NO_MEMORY */
+FBS_API fbs_status fbs_decoder_finish(fbs_decoder* decoder);
+
+/** Goes on to the next picture. Nothing is drawn yet.
+ * @param info  may be null
+ * @return FBS_OK: there is one, of which the functions below tell;
+ *         FBS_NEED_DATA, FBS_END: there is none; the functions below go on telling of the last one;
+ *         an error: reported once. The next call goes on behind the damage, at the next scene, and gives
+ *         FBS_END when there is none. Pictures that are known to be lost are held: fbs_picture_info.
+ *         After FBS_ERROR_NO_MEMORY nothing is known any more: FBS_END until fbs_decoder_reset() */
+FBS_API fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info);
+
+/** Forgets everything but the settings: the decoder is as new. To seek, reset, then feed the stream from
+ * some setup packet on: fbs_find_scene(). The stream's signature, its first four bytes, may be left out then.
+ * @return FBS_OK; FBS_ERROR_NO_MEMORY, and nothing has changed */
+FBS_API fbs_status fbs_decoder_reset(fbs_decoder* decoder);
+
+/** Draws the picture into memory of the decoder.
+ * @param out  set to planes that stay as they are until the next call for this decoder of any function that
+ *             is not called fbs_decoder_get_...
+ * @return FBS_OK; FBS_ERROR_ARGUMENT before the first picture; FBS_ERROR_NO_MEMORY */
+FBS_API fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out);
+
+/** Draws the picture into memory of the caller.
+ * @param picture  of the format's size, or FBS_ERROR_ARGUMENT is returned; |stride| is at least the plane's
+ *                 width. Exactly width * height samples of each plane are written */
+FBS_API fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture);
+
+/** @return FBS_OK; FBS_NEED_DATA until the setup has arrived */
+FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out);
+
+/* Of the picture that fbs_decoder_next() announced last, without drawing it. Each returns FBS_OK;
+ * FBS_ERROR_NO_FACE in a scene without a face; FBS_ERROR_ARGUMENT before the first picture. */
+
+FBS_API fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out);
+/** @param out  FBS_LANDMARKS points */
+FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out);
+/** @param out  FBS_VERTICES vertices */
+FBS_API fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out);
+
+/** What went wrong in the last call that returned an error for this decoder, in one line; "" before the first.
+ * Never null; valid until the next call for this decoder. */
+FBS_API const char* fbs_decoder_error(const fbs_decoder* decoder);
+/** The byte of the stream that the last error is about, from the first byte fed; 0 if it is about none. */
+FBS_API uint64_t fbs_decoder_error_offset(const fbs_decoder* decoder);
+
+/* ---- without a decoder ------------------------------------------------------------------------------------ */
+
+/** A scene: where decoding can begin. */
+typedef struct fbs_scene {
+  uint64_t offset; /**< of its setup packet, bytes */
+  uint64_t number; /**< of its first picture */
+  uint64_t time;   /**< of its first picture, ticks */
+} fbs_scene;
+
+/** Finds the scene in which a picture of a time lies: the last that begins at or before it, or the first.
+ * Damaged parts of the stream are passed over.
+ * @param bytes  the whole stream
+ * @return FBS_OK; FBS_END when there is no scene in it; FBS_ERROR_ARGUMENT */
+FBS_API fbs_status fbs_find_scene(const uint8_t* bytes, size_t size, uint64_t time, fbs_scene* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,50 @@
+// Where C++ ends: results and exceptions become statuses and a line of text.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "common/result.h"
+#include "fbs/fbs.h"
+
+namespace fbs {
+
+[[nodiscard]] fbs_status status_of(ErrorCode code);
+
+/// What fbs_decoder_error() tells. Takes no memory: there may be none left to tell of.
+class LastError {
+ public:
+  /// Each sets the text, cut to one short line, and returns the status.
+  /// @param offset  in the stream, bytes; 0 for errors about none
+  fbs_status set(fbs_status status, const char* text, std::uint64_t offset = 0);
+  fbs_status set(const Error& error) { return set(status_of(error.code), error.text.c_str()); }
+  fbs_status set_argument(const char* text) { return set(FBS_ERROR_ARGUMENT, text); }
+
+  [[nodiscard]] const char* text() const { return text_.data(); }
+  [[nodiscard]] std::uint64_t offset() const { return offset_; }
+
+ private:
+  std::array<char, 256> text_{};
+  std::uint64_t offset_ = 0;
+};
+
+/// Calls `body`, which returns a status. An exception becomes one.
+template <class Body>
+[[nodiscard]] fbs_status guarded(LastError& error, Body&& body) noexcept {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return error.set(FBS_ERROR_NO_MEMORY, "out of memory");
+  } catch (const std::length_error&) {  // more than any memory holds
+    return error.set(FBS_ERROR_NO_MEMORY, "out of memory");
+  } catch (const std::exception& e) {
+    return error.set(FBS_ERROR_INTERNAL, e.what());
+  } catch (...) {
+    return error.set(FBS_ERROR_INTERNAL, "unknown exception");
+  }
+}
+
+}  // namespace fbs

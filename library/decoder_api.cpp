@@ -1,0 +1,232 @@
+// The decoder of fbs/fbs.h.
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "decoder/scene_face.h"
+#include "decoder/scene_index.h"
+#include "decoder/stream_decoder.h"
+#include "fbs/fbs.h"
+#include "library/boundary.h"
+#include "library/caller_picture.h"
+#include "library/face_data.h"
+#include "library/settings_struct.h"
+#include "library/stream_entry.h"
+
+namespace {
+
+using namespace fbs;
+
+constexpr const char* kNull = "a null pointer";
+constexpr const char* kNoPicture = "there is no picture yet";
+
+constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0};
+/// sizeof(fbs_decoder_settings) in version 0.1.
+constexpr std::size_t kFirstSize = offsetof(fbs_decoder_settings, max_pixels) + sizeof(std::uint64_t);
+
+std::unique_ptr<StreamDecoder> new_stream(const fbs_decoder_settings& settings) {
+  auto stream = std::make_unique<StreamDecoder>();
+  if (settings.max_pixels > 0) stream->limit_pixels(settings.max_pixels);
+  return stream;
+}
+
+}  // namespace
+
+struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is C
+  explicit fbs_decoder(const fbs_decoder_settings& s) : settings(s), stream(new_stream(s)) {}
+
+  [[nodiscard]] bool has_picture() const { return !broken && stream->pictures() > 0; }
+
+  /// Calls `body` with the face's geometry and the state, if there are any.
+  template <class Body>
+  fbs_status with_face(Body&& body) const;
+
+  fbs_decoder_settings settings;
+  std::unique_ptr<StreamDecoder> stream;  ///< never null
+  StreamEntry entry{false};
+  bool finished = false;
+  bool broken = false;    ///< an exception has left the stream in a state that nobody knows
+  Picture picture;        ///< given out
+  bool is_drawn = false;  ///< `picture` is that of the stream
+  mutable LastError error;
+};
+
+template <class Body>
+fbs_status fbs_decoder::with_face(Body&& body) const {
+  return guarded(error, [&] {
+    if (!has_picture()) return error.set_argument(kNoPicture);
+    const SceneGeometry* const face = face_of(stream->scene());
+    if (face == nullptr) return error.set(FBS_ERROR_NO_FACE, "the scene has no face");
+    body(*face, stream->state());
+    return FBS_OK;
+  });
+}
+
+void fbs_decoder_default_settings(fbs_decoder_settings* settings, size_t struct_size) {
+  give_defaults(kDefaults, settings, struct_size, kFirstSize);
+}
+
+fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* settings) {
+  if (out == nullptr) return FBS_ERROR_ARGUMENT;
+  *out = nullptr;
+  fbs_decoder_settings taken = kDefaults;
+  if (settings != nullptr && !take_settings(*settings, kFirstSize, taken)) return FBS_ERROR_ARGUMENT;
+  LastError ignored;
+  return guarded(ignored, [&] {
+    *out = std::make_unique<fbs_decoder>(taken).release();
+    return FBS_OK;
+  });
+}
+
+void fbs_decoder_close(fbs_decoder** decoder) {
+  if (decoder == nullptr) return;
+  const std::unique_ptr<fbs_decoder> closed(*decoder);
+  *decoder = nullptr;
+}
+
+fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (bytes == nullptr && size > 0) return d.error.set_argument(kNull);
+  if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
+  if (d.broken || size == 0) return FBS_OK;
+  return guarded(d.error, [&] {
+    d.entry.feed(*d.stream, {bytes, size});
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_finish(fbs_decoder* decoder) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (d.finished) return FBS_OK;
+  return guarded(d.error, [&] {
+    if (!d.broken) d.entry.close(*d.stream);
+    d.finished = true;
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (d.broken) return FBS_END;
+  d.broken = true;  // unless this returns
+  return guarded(d.error, [&] {
+    const auto status = d.stream->next();
+    d.broken = false;
+    if (!status)
+      return d.error.set(status_of(status.error().code), status.error().text.c_str(),
+                         d.entry.fed_offset(status.error().byte_offset));
+    if (*status != DecodeStatus::kPicture) return *status == DecodeStatus::kEnd ? FBS_END : FBS_NEED_DATA;
+    if (!d.stream->held()) d.is_drawn = false;
+    if (info != nullptr)
+      *info = {d.stream->position().pictures, d.stream->position().time, d.stream->duration(),
+               d.stream->held() ? 1 : 0, !d.stream->held() && d.stream->state().picture == 0 ? 1 : 0};
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  return guarded(d.error, [&] {
+    d.stream = new_stream(d.settings);
+    d.entry = StreamEntry(true);
+    d.finished = d.broken = d.is_drawn = false;
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (out == nullptr) return d.error.set_argument(kNull);
+  if (!d.has_picture()) return d.error.set_argument(kNoPicture);
+  return guarded(d.error, [&] {
+    if (!d.is_drawn)
+      if (const auto drawn = d.stream->render(d.picture); !drawn) return d.error.set(drawn.error());
+    d.is_drawn = true;
+    *out = {static_cast<uint32_t>(d.picture.width()), static_cast<uint32_t>(d.picture.height()), {}, {}};
+    const Plane* const planes[] = {&d.picture.y, &d.picture.u, &d.picture.v};
+    for (std::size_t k = 0; k < 3; ++k) {
+      out->data[k] = planes[k]->samples.data();
+      out->stride[k] = planes[k]->width;
+    }
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (picture == nullptr) return d.error.set_argument(kNull);
+  if (!d.has_picture()) return d.error.set_argument(kNoPicture);
+  if (const char* const fault = fault_of(*picture, d.stream->format())) return d.error.set_argument(fault);
+  return guarded(d.error, [&] {
+    const auto plane = [&](std::size_t k) {
+      const PlaneSize size = plane_size(d.stream->format(), k);
+      return PlaneView(picture->data[k], size.width, size.height, picture->stride[k]);
+    };
+    const auto drawn = d.stream->render(PictureView(plane(0), plane(1), plane(2)));
+    return drawn ? FBS_OK : d.error.set(drawn.error());
+  });
+}
+
+fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return decoder->error.set_argument(kNull);
+  const VideoFormat& format = decoder->stream->format();
+  if (decoder->broken || format.width == 0) return FBS_NEED_DATA;
+  *out = {static_cast<uint32_t>(format.width),
+          static_cast<uint32_t>(format.height),
+          format.frame_rate.num,
+          format.frame_rate.den,
+          format.pixel_aspect.num,
+          format.pixel_aspect.den,
+          static_cast<fbs_matrix>(format.matrix),
+          format.range == ColourRange::kFull ? 1 : 0};
+  return FBS_OK;
+}
+
+fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return decoder->error.set_argument(kNull);
+  return decoder->with_face([&](const SceneGeometry&, const State& state) { *out = face_state(state); });
+}
+
+fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return decoder->error.set_argument(kNull);
+  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
+    write_landmarks(face, state, std::span<fbs_landmark, kLandmarkCount>(out, kLandmarkCount));
+  });
+}
+
+fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return decoder->error.set_argument(kNull);
+  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
+    write_vertices(face, state, std::span<fbs_vertex, kVertexCount>(out, kVertexCount));
+  });
+}
+
+const char* fbs_decoder_error(const fbs_decoder* decoder) {
+  return decoder != nullptr ? decoder->error.text() : "";
+}
+
+uint64_t fbs_decoder_error_offset(const fbs_decoder* decoder) {
+  return decoder != nullptr ? decoder->error.offset() : 0;
+}
+
+fbs_status fbs_find_scene(const uint8_t* bytes, size_t size, uint64_t time, fbs_scene* out) {
+  if ((bytes == nullptr && size > 0) || out == nullptr) return FBS_ERROR_ARGUMENT;
+  LastError ignored;
+  return guarded(ignored, [&] {
+    const auto scenes = index_scenes({bytes, size});
+    const SceneEntry* const scene = scene_at(scenes, time);
+    if (scene == nullptr) return FBS_END;
+    *out = {scene->offset, scene->before.pictures, scene->before.time};
+    return FBS_OK;
+  });
+}

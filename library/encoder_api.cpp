@@ -1,0 +1,157 @@
+// The encoder of fbs/encoder.h.
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "encoder/encoder.h"
+#include "fbs/encoder.h"
+#include "library/boundary.h"
+#include "library/caller_picture.h"
+#include "library/encoder_settings.h"
+#include "library/packet_queue.h"
+#include "library/settings_struct.h"
+
+namespace {
+
+using namespace fbs;
+
+constexpr const char* kNull = "a null pointer";
+
+Picture copy_of(const fbs_const_picture& picture, const VideoFormat& format) {
+  Picture out(format.width, format.height);
+  Plane* const planes[] = {&out.y, &out.u, &out.v};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (int y = 0; y < planes[k]->height; ++y)
+      std::copy_n(picture.data[k] + y * picture.stride[k], planes[k]->width, planes[k]->row(y));
+  return out;
+}
+
+}  // namespace
+
+struct fbs_encoder {  // NOLINT(readability-identifier-naming): the interface is C
+  enum class Phase { kPushing, kFinished, kFailed };
+
+  fbs_encoder(const VideoFormat& f, Encoder e) : format(f), encoder(std::move(e)) {}
+
+  /// Calls `body`, which encodes. Unless it succeeds, the encoding has ended; after an exception what the
+  /// encoder holds may be anything.
+  template <class Body>
+  fbs_status encode(Body&& body);
+
+  VideoFormat format;
+  Encoder encoder;
+  PacketQueue packets;
+  Phase phase = Phase::kPushing;
+  mutable LastError error;
+};
+
+template <class Body>
+fbs_status fbs_encoder::encode(Body&& body) {
+  const Phase before = std::exchange(phase, Phase::kFailed);
+  return guarded(error, [&] {
+    const Result<void> done = body();
+    if (done) {
+      phase = before;
+      return FBS_OK;
+    }
+    packets.add(encoder.take());
+    const bool no_such_face =
+        done.error().code == ErrorCode::kInvalidArgument;  // arguments have been checked
+    return error.set(no_such_face ? FBS_ERROR_NO_FACE : status_of(done.error().code),
+                     done.error().text.c_str());
+  });
+}
+
+void fbs_encoder_default_settings(fbs_encoder_settings* settings, size_t struct_size) {
+  give_defaults(kEncoderDefaults, settings, struct_size, kFirstEncoderSettingsSize);
+}
+
+fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* settings) {
+  if (out == nullptr) return FBS_ERROR_ARGUMENT;
+  *out = nullptr;
+  fbs_encoder_settings taken = kEncoderDefaults;
+  if (settings == nullptr || !take_settings(*settings, kFirstEncoderSettingsSize, taken))
+    return FBS_ERROR_ARGUMENT;
+  LastError ignored;
+  return guarded(ignored, [&] {
+    const auto input = encoder_input(taken);
+    if (!input) return status_of(input.error().code);
+    auto encoder = Encoder::create(input->format, input->settings);
+    if (!encoder) return status_of(encoder.error().code);
+    *out = std::make_unique<fbs_encoder>(input->format, std::move(*encoder)).release();
+    return FBS_OK;
+  });
+}
+
+void fbs_encoder_close(fbs_encoder** encoder) {
+  if (encoder == nullptr) return;
+  const std::unique_ptr<fbs_encoder> closed(*encoder);
+  *encoder = nullptr;
+}
+
+fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture, uint32_t duration) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_encoder& e = *encoder;
+  if (picture == nullptr) return e.error.set_argument(kNull);
+  if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
+  if (duration > kMaxDuration) return e.error.set_argument("a picture lasts for a minute at most");
+  if (const char* const fault = fault_of(*picture, e.format)) return e.error.set_argument(fault);
+  return e.encode([&] { return e.encoder.push(copy_of(*picture, e.format), duration); });
+}
+
+fbs_status fbs_encoder_finish(fbs_encoder* encoder) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_encoder& e = *encoder;
+  if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
+  e.phase = fbs_encoder::Phase::kFinished;
+  if (e.encoder.report().pictures == 0) return e.error.set_argument("there was no picture");
+  return e.encode([&] { return e.encoder.finish(); });
+}
+
+fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_encoder& e = *encoder;
+  if (out == nullptr) return e.error.set_argument(kNull);
+  return guarded(e.error, [&] {
+    auto packet = e.packets.next();
+    if (packet && !*packet && e.phase != fbs_encoder::Phase::kFailed) {
+      e.packets.add(e.encoder.take());
+      packet = e.packets.next();
+    }
+    if (!packet) return e.error.set(packet.error());
+    if (!*packet) return e.phase == fbs_encoder::Phase::kPushing ? FBS_NEED_DATA : FBS_END;
+    const QueuedPacket& p = **packet;
+    *out = {p.bytes.data(), p.bytes.size(), p.key ? 1 : 0, p.first.pictures, p.first.time};
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return encoder->error.set_argument(kNull);
+  const EncodingReport& report = encoder->encoder.report();
+  *out = {report.pictures, report.without_face, report.cuts, report.scenes};
+  return FBS_OK;
+}
+
+fbs_status fbs_encoder_get_landmarks(const fbs_encoder* encoder, fbs_landmark* out) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return encoder->error.set_argument(kNull);
+  if (encoder->phase == fbs_encoder::Phase::kFailed || encoder->encoder.report().pictures == 0)
+    return encoder->error.set_argument("there is no picture");
+  const PictureAnalysis& analysis = encoder->encoder.analysis();
+  if (!analysis.face) return encoder->error.set(FBS_ERROR_NO_FACE, "the scene has no face");
+  const float confidence = analysis.followed ? static_cast<float>(analysis.confidence) : 0;
+  for (std::size_t k = 0; k < kLandmarkCount; ++k) {
+    const glm::dvec2 at = analysis.vertices[vertex_of_landmark(k)];
+    out[k] = {static_cast<float>(at.x), static_cast<float>(at.y), confidence};
+  }
+  return FBS_OK;
+}
+
+const char* fbs_encoder_error(const fbs_encoder* encoder) {
+  return encoder != nullptr ? encoder->error.text() : "";
+}

@@ -1,0 +1,60 @@
+#include "library/encoder_settings.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace fbs {
+namespace {
+
+constexpr double kMaxSeconds = 1e8;  ///< three years: products with rates stay far from overflow
+constexpr double kMaxKbitPerSecond = 1e6;
+constexpr int kMaxEffort = 2;
+
+/// Also false for what is no number.
+bool within(double value, double max) {
+  return value >= 0 && value <= max;
+}
+
+Result<VideoFormat> video_format(const fbs_format& format) {
+  if (format.width < FBS_MIN_SIDE || format.width > FBS_MAX_SIDE || format.height < FBS_MIN_SIDE ||
+      format.height > FBS_MAX_SIDE)
+    return fail(ErrorCode::kInvalidArgument, "width or height outside 64..8192");
+  int matrix = 0;  // a caller may have any number, which an enumeration cannot
+  static_assert(sizeof matrix == sizeof format.matrix);
+  std::memcpy(&matrix, &format.matrix, sizeof matrix);
+  if (matrix < FBS_MATRIX_UNSPECIFIED || matrix > FBS_MATRIX_BT709)
+    return fail(ErrorCode::kInvalidArgument, "the matrix is unknown");
+  return VideoFormat{static_cast<int>(format.width),
+                     static_cast<int>(format.height),
+                     {format.frame_rate_num, format.frame_rate_den},
+                     {format.pixel_aspect_num, format.pixel_aspect_den},
+                     format.full_range != 0 ? ColourRange::kFull : ColourRange::kLimited,
+                     static_cast<ColourMatrix>(matrix)};
+}
+
+}  // namespace
+
+Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
+  const auto format = video_format(settings.format);
+  if (!format) return fail(format.error());
+  if (!within(settings.bitrate, kMaxKbitPerSecond))
+    return fail(ErrorCode::kInvalidArgument, "bitrate out of range");
+  for (const double seconds :
+       {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer})
+    if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
+  if (settings.effort > kMaxEffort) return fail(ErrorCode::kInvalidArgument, "effort outside 0..2");
+  EncoderInput out{*format, {}};
+  out.settings.quality = settings.quality;
+  out.settings.bitrate = settings.bitrate;
+  out.settings.seconds = settings.seconds;
+  out.settings.effort = settings.effort;
+  out.settings.patterns = settings.patterns;
+  out.settings.face = settings.face;
+  out.settings.allow_no_face = settings.allow_no_face != 0;
+  out.settings.key_interval = settings.key_interval;
+  if (settings.live != 0) out.settings.live = LiveSettings{settings.live_delay, settings.live_buffer};
+  out.settings.threads = settings.threads;
+  return out;
+}
+
+}  // namespace fbs

@@ -1,0 +1,41 @@
+// The settings of fbs/encoder.h as the encoder takes them.
+#pragma once
+
+#include <cstddef>
+
+#include "common/picture.h"
+#include "common/result.h"
+#include "encoder/settings.h"
+#include "fbs/encoder.h"
+
+namespace fbs {
+
+inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_settings),
+                                                          {0, 0, 25, 1, 1, 1, FBS_MATRIX_UNSPECIFIED, 0},
+                                                          50,
+                                                          0,
+                                                          0,
+                                                          1,
+                                                          0,
+                                                          0,
+                                                          0,
+                                                          0,
+                                                          0,
+                                                          0.2,
+                                                          2,
+                                                          0};
+
+/// sizeof(fbs_encoder_settings) in version 0.1.
+inline constexpr std::size_t kFirstEncoderSettingsSize =
+    offsetof(fbs_encoder_settings, threads) + sizeof(int);
+
+struct EncoderInput {
+  VideoFormat format;
+  EncoderSettings settings;
+};
+
+/// @return kInvalidArgument for what would not survive the conversion; the rest is Encoder::create()'s to
+/// check
+[[nodiscard]] Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings);
+
+}  // namespace fbs

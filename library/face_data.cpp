@@ -1,0 +1,74 @@
+#include "library/face_data.h"
+
+#include <array>
+#include <cmath>
+
+#include "decoder/head/head_projection.h"
+
+namespace fbs {
+namespace {
+
+constexpr float kDegreesPerUnit = 360.0F / 65536;
+constexpr float kPixelsPerUnit = 1.0F / (1 << kScreenOneLog2);
+constexpr float kEyeDistancesPerUnit = 1.0F / kUnitsPerEyeDistance;
+constexpr double kOctavesPerUnit = 1.0 / 4096;
+
+using Vertices = std::array<glm::ivec3, kVertexCount>;
+
+/// Areas of the triangles at each vertex, those turned to the viewer and those turned away. Their
+/// parallelograms, 1/64 pixel squared: only the ratio matters.
+struct VertexAreas {
+  std::array<double, kVertexCount> seen{}, hidden{};
+};
+
+VertexAreas areas_of(const Vertices& vertices) {
+  VertexAreas out;
+  for (const HeadTriangle& t : generic_head().triangles) {
+    const glm::ivec3 a = vertices[t[1]] - vertices[t[0]], b = vertices[t[2]] - vertices[t[0]];
+    const std::int64_t area = std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+    auto& side = area > 0 ? out.seen : out.hidden;
+    for (const std::uint16_t v : t) side[v] += std::abs(static_cast<double>(area));
+  }
+  return out;
+}
+
+}  // namespace
+
+fbs_face_state face_state(const State& state) {
+  const HeadPose pose = head_pose(state);
+  fbs_face_state out{};
+  out.pitch = static_cast<float>(pose.pitch) * kDegreesPerUnit;
+  out.yaw = static_cast<float>(pose.yaw) * kDegreesPerUnit;
+  out.roll = static_cast<float>(pose.roll) * kDegreesPerUnit;
+  out.x = static_cast<float>(pose.shift_x) * kPixelsPerUnit;
+  out.y = static_cast<float>(pose.shift_y) * kPixelsPerUnit;
+  out.eye_distance = static_cast<float>(std::exp2(pose.log_scale * kOctavesPerUnit));
+  for (std::size_t c = 0; c < kControlCount; ++c) {
+    out.control[c][0] = static_cast<float>(state.control[c].x) * kEyeDistancesPerUnit;
+    out.control[c][1] = static_cast<float>(state.control[c].y) * kEyeDistancesPerUnit;
+  }
+  return out;
+}
+
+void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex, kVertexCount> out) {
+  const Vertices vertices = face.project_vertices(state);
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    out[v] = {static_cast<float>(vertices[v].x) * kPixelsPerUnit,
+              static_cast<float>(vertices[v].y) * kPixelsPerUnit,
+              static_cast<float>(vertices[v].z) * kEyeDistancesPerUnit};
+}
+
+void write_landmarks(const SceneGeometry& face, const State& state,
+                     std::span<fbs_landmark, kLandmarkCount> out) {
+  const Vertices vertices = face.project_vertices(state);
+  const VertexAreas areas = areas_of(vertices);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::size_t v = vertex_of_landmark(k);
+    const double all = areas.seen[v] + areas.hidden[v];
+    out[k] = {static_cast<float>(vertices[v].x) * kPixelsPerUnit,
+              static_cast<float>(vertices[v].y) * kPixelsPerUnit,
+              all > 0 ? static_cast<float>(areas.seen[v] / all) : 0};
+  }
+}
+
+}  // namespace fbs

@@ -1,0 +1,220 @@
+// Calls that make no sense, and calls in any order: nothing crashes, and what is documented holds.
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+
+#include "tests/unit/library/api_decoder.h"
+
+namespace fbs {
+namespace {
+
+TEST(ApiCalls, NullPointersAreAnswered) {
+  fbs_picture_info info;
+  fbs_const_picture picture;
+  fbs_picture memory{};
+  fbs_format format;
+  fbs_face_state state;
+  fbs_landmark landmarks[FBS_LANDMARKS];
+  fbs_vertex vertices[FBS_VERTICES];
+  const std::uint8_t byte = 0;
+  fbs_decoder* none = nullptr;
+  fbs_decoder_default_settings(nullptr, sizeof(fbs_decoder_settings));
+  EXPECT_EQ(fbs_decoder_open(nullptr, nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_feed(none, &byte, 1), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_finish(none), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_next(none, &info), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_reset(none), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_picture(none, &picture), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_draw(none, &memory), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_format(none, &format), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_state(none, &state), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_landmarks(none, landmarks), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_vertices(none, vertices), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(fbs_decoder_error(none), "");
+  EXPECT_EQ(fbs_decoder_error_offset(none), 0u);
+  fbs_decoder_close(nullptr);
+  fbs_decoder_close(&none);
+
+  for (const ApiDecoder& decoder : {api_decoder(), at_first_picture("one.fbs")}) {
+    fbs_decoder* const d = decoder.get();
+    EXPECT_EQ(fbs_decoder_feed(d, nullptr, 1), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_picture(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_draw(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_draw(d, &memory), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_format(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_state(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_landmarks(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_vertices(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_STRNE(fbs_decoder_error(d), "");
+  }
+}
+
+TEST(ApiCalls, CloseForgetsTheObject) {
+  fbs_decoder* decoder = api_decoder().release();
+  fbs_decoder_close(&decoder);
+  EXPECT_EQ(decoder, nullptr);
+  fbs_decoder_close(&decoder);
+}
+
+TEST(ApiCalls, FailureLeavesNoObject) {
+  fbs_decoder_settings settings{};
+  auto* decoder = reinterpret_cast<fbs_decoder*>(&settings);
+  EXPECT_EQ(fbs_decoder_open(&decoder, &settings), FBS_ERROR_ARGUMENT) << "struct_size is 0";
+  EXPECT_EQ(decoder, nullptr);
+}
+
+// A program that was compiled with a later header, and one with an earlier.
+TEST(ApiCalls, SettingsMayBeOfAnotherVersion) {
+  struct Later {
+    fbs_decoder_settings known;
+    std::uint64_t unknown;
+  } later;
+  std::memset(static_cast<void*>(&later), 0xFF, sizeof later);
+  fbs_decoder_default_settings(&later.known, sizeof later);
+  EXPECT_EQ(later.known.struct_size, sizeof later);
+  EXPECT_EQ(later.unknown, 0u);
+  fbs_decoder* decoder = nullptr;
+  EXPECT_EQ(fbs_decoder_open(&decoder, &later.known), FBS_OK);
+  fbs_decoder_close(&decoder);
+  later.unknown = 1;
+  EXPECT_EQ(fbs_decoder_open(&decoder, &later.known), FBS_ERROR_ARGUMENT) << "it asks for what we cannot do";
+
+  fbs_decoder_settings untouched{77, 77};
+  fbs_decoder_default_settings(&untouched, sizeof untouched.struct_size);
+  EXPECT_EQ(untouched.struct_size, 77u) << "no version is so small";
+}
+
+/// Calls functions of a decoder in random order with random arguments, and checks what holds in any order.
+class RandomCalls {
+ public:
+  RandomCalls(unsigned seed, std::span<const std::vector<std::uint8_t>> streams)
+      : random_(seed), streams_(streams), decoder_(api_decoder(random_() % 8 == 0 ? 5000 : 0)) {}
+
+  void run(int calls) {
+    for (int k = 0; k < calls; ++k) call();
+  }
+
+ private:
+  fbs_decoder* get() { return decoder_.get(); }
+
+  void call() {
+    switch (random_() % 12) {
+      case 0:
+      case 1:
+      case 2:
+        return feed();
+      case 3:
+      case 4:
+      case 5:
+        return next();
+      case 6:
+        return draw();
+      case 7:
+        return ask();
+      case 8:
+        return read_picture();
+      case 9:
+        if (random_() % 8 == 0) {
+          EXPECT_EQ(fbs_decoder_finish(get()), FBS_OK);
+          finished_ = true;
+        }
+        return;
+      case 10:
+        if (random_() % 8 == 0) reset();
+        return;
+      default:
+        EXPECT_NE(fbs_decoder_error(get()), nullptr);
+    }
+  }
+
+  void feed() {
+    const auto& stream = streams_[stream_];
+    if (random_() % 16 == 0) at_ = random_() % (stream.size() + 1);
+    const std::size_t size = std::min<std::size_t>(stream.size() - at_, random_() % 900);
+    const fbs_status status = fbs_decoder_feed(get(), stream.data() + at_, size);
+    EXPECT_EQ(status, finished_ ? FBS_ERROR_ARGUMENT : FBS_OK);
+    at_ += size;
+  }
+
+  void next() {
+    fbs_picture_info info{1, 2, 0, 5, 5};
+    const fbs_status status = fbs_decoder_next(get(), random_() % 2 == 0 ? &info : nullptr);
+    EXPECT_NE(status, FBS_ERROR_INTERNAL) << fbs_decoder_error(get());
+    EXPECT_NE(status, FBS_ERROR_ARGUMENT) << fbs_decoder_error(get());
+    if (finished_) {
+      EXPECT_NE(status, FBS_NEED_DATA);
+    } else {
+      EXPECT_NE(status, FBS_END);
+    }
+    has_picture_ = has_picture_ || status == FBS_OK;
+  }
+
+  void draw() {
+    fbs_format format{};
+    if (fbs_decoder_get_format(get(), &format) != FBS_OK) format.width = format.height = 64;
+    std::vector<std::uint8_t> memory(std::size_t{3} * format.width * format.height);
+    const auto stride =
+        static_cast<std::ptrdiff_t>(random_() % (format.width + 1) / 2 + format.width / 2 + 1);
+    std::uint8_t* const at = memory.data();
+    const auto wrong = static_cast<std::uint32_t>(random_() % 2);
+    const fbs_picture picture = {format.width - wrong, format.height, {at, at, at}, {stride, stride, stride}};
+    const fbs_status status = fbs_decoder_draw(get(), &picture);
+    const bool fits = picture.width == format.width && stride >= static_cast<std::ptrdiff_t>(format.width);
+    EXPECT_EQ(status, has_picture_ && fits ? FBS_OK : FBS_ERROR_ARGUMENT) << fbs_decoder_error(get());
+  }
+
+  void ask() {
+    fbs_face_state state;
+    fbs_landmark landmarks[FBS_LANDMARKS];
+    fbs_vertex vertices[FBS_VERTICES];
+    const fbs_status status = fbs_decoder_get_state(get(), &state);
+    EXPECT_EQ(fbs_decoder_get_landmarks(get(), landmarks), status);
+    EXPECT_EQ(fbs_decoder_get_vertices(get(), vertices), status);
+    EXPECT_EQ(status == FBS_ERROR_ARGUMENT, !has_picture_);
+    if (status != FBS_OK) {
+      EXPECT_TRUE(status == FBS_ERROR_ARGUMENT || status == FBS_ERROR_NO_FACE);
+      return;
+    }
+    for (const fbs_landmark& point : landmarks) EXPECT_TRUE(point.confidence >= 0 && point.confidence <= 1);
+  }
+
+  void read_picture() {
+    fbs_const_picture picture;
+    const fbs_status status = fbs_decoder_get_picture(get(), &picture);
+    EXPECT_EQ(status, has_picture_ ? FBS_OK : FBS_ERROR_ARGUMENT);
+    if (status == FBS_OK) {
+      EXPECT_GE(samples_of(picture).size(), std::size_t{64 * 64});
+    }
+  }
+
+  void reset() {
+    EXPECT_EQ(fbs_decoder_reset(get()), FBS_OK);
+    finished_ = has_picture_ = false;
+    stream_ = random_() % streams_.size();
+    at_ = random_() % 2 == 0 ? 0 : 4;
+  }
+
+  std::mt19937 random_;
+  std::span<const std::vector<std::uint8_t>> streams_;
+  ApiDecoder decoder_;
+  std::size_t stream_ = 0, at_ = 0;
+  bool finished_ = false, has_picture_ = false;
+};
+
+// FBS_SEQUENCES=100000 build/release/fbs_unit_tests --gtest_filter=ApiCalls.ComeInAnyOrder
+TEST(ApiCalls, ComeInAnyOrder) {
+  std::vector<std::vector<std::uint8_t>> streams;
+  for (const char* name : {"talk.fbs", "one.fbs", "nobody.fbs", "odd.fbs", "late.fbs", "joined.fbs",
+                           "patterns.fbs", "lost_scene.fbs", "flipped_bit.fbs", "not_fbs.fbs"})
+    streams.push_back(vector_bytes(name));
+  const char* const wished = std::getenv("FBS_SEQUENCES");  // NOLINT(concurrency-mt-unsafe)
+  const unsigned sequences = wished != nullptr ? static_cast<unsigned>(std::atoi(wished)) : 300;
+  for (unsigned seed = 0; seed < sequences && !testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomCalls(seed, streams).run(120);
+  }
+}
+
+}  // namespace
+}  // namespace fbs

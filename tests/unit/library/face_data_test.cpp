@@ -1,0 +1,105 @@
+#include "library/face_data.h"
+
+#include <cmath>
+
+#include "common/ibug.h"
+#include "decoder/scene_face.h"
+#include "decoder/stream_decoder.h"
+#include "tests/unit/library/api_decoder.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+using Landmarks = std::array<fbs_landmark, kLandmarkCount>;
+
+/// Of the generic head, turned by so many degrees.
+Landmarks turned(double yaw_degrees) {
+  const Scene scene = toy_scene(noise_picture(160, 128, 1));
+  State state = toy_state();
+  state.pose[kYaw] = static_cast<std::int32_t>(yaw_degrees * 65536 / 360);
+  Landmarks out;
+  write_landmarks(*scene.geometry, state, out);
+  return out;
+}
+
+TEST(FaceData, StateIsInPixelsDegreesAndEyeDistances) {
+  State state = toy_state(80, 50);
+  state.pose[kPitch] = 65536 / 36;
+  state.pose[kYaw] = -65536 / 18;
+  state.pose[kRoll] = 65536 / 8;
+  state.control[3] = {kUnitsPerEyeDistance / 2, -kUnitsPerEyeDistance};
+  const fbs_face_state face = face_state(state);
+  EXPECT_NEAR(face.pitch, 10, 0.01);
+  EXPECT_NEAR(face.yaw, -20, 0.01);
+  EXPECT_NEAR(face.roll, 45, 0.01);
+  EXPECT_EQ(face.x, 80);
+  EXPECT_EQ(face.y, 50);
+  EXPECT_EQ(face.eye_distance, 32);
+  EXPECT_EQ(face.control[3][0], 0.5F);
+  EXPECT_EQ(face.control[3][1], -1);
+}
+
+TEST(FaceData, SignsAreThoseOfTheHeader) {
+  const auto left = turned(20), frontal = turned(0);
+  const auto tip = static_cast<std::size_t>(ibug::kNoseTip);
+  EXPECT_LT(left[tip].x, frontal[tip].x - 5) << "positive yaw: the face looks to the picture's left";
+  EXPECT_LT(frontal[36].x, frontal[45].x) << "the person's right eye is on the picture's left";
+}
+
+TEST(FaceData, AFrontalFaceIsSeenEntirely) {
+  for (const fbs_landmark& point : turned(0)) EXPECT_EQ(point.confidence, 1);
+}
+
+// The far cheek and the far corner of the mouth go first.
+TEST(FaceData, ConfidenceFallsOnTheFarSide) {
+  const Landmarks profile = turned(85), half = turned(45);
+  for (std::size_t k = 0; k < kLandmarkCount; ++k) {
+    EXPECT_GE(profile[k].confidence, 0);
+    EXPECT_LE(profile[k].confidence, 1);
+  }
+  EXPECT_LT(profile[0].confidence, 0.1F) << "the ear that is turned away";
+  EXPECT_GT(profile[16].confidence, 0.9F);
+  EXPECT_LT(half[0].confidence, 0.5F);
+  EXPECT_GT(half[ibug::kNoseTip].confidence, 0.5F);
+  const Landmarks mirrored = turned(-85);
+  EXPECT_NEAR(mirrored[16].confidence, profile[0].confidence, 0.05);
+}
+
+TEST(FaceData, IsThatOfTheShownPicture) {
+  const auto bytes = vector_bytes("turns.fbs");
+  StreamDecoder plain;
+  plain.feed(bytes);
+  const ApiDecoder decoder = api_decoder();
+  ASSERT_EQ(fbs_decoder_feed(decoder.get(), bytes.data(), bytes.size()), FBS_OK);
+  int pictures = 0;
+  for (; fbs_decoder_next(decoder.get(), nullptr) == FBS_OK; ++pictures) {
+    ASSERT_EQ(*plain.next(), DecodeStatus::kPicture);
+    const auto expected = face_of(plain.scene())->project_vertices(plain.state());
+    fbs_landmark landmarks[FBS_LANDMARKS];
+    fbs_vertex vertices[FBS_VERTICES];
+    ASSERT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks), FBS_OK);
+    ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices), FBS_OK);
+    for (std::size_t k = 0; k < kLandmarkCount; ++k) {
+      const std::size_t v = vertex_of_landmark(k);
+      EXPECT_EQ(landmarks[k].x, static_cast<float>(expected[v].x) / 64);
+      EXPECT_EQ(landmarks[k].y, vertices[v].y);
+      EXPECT_EQ(vertices[v].z, static_cast<float>(expected[v].z) / 4096);
+    }
+  }
+  EXPECT_EQ(pictures, 24);
+}
+
+TEST(FaceData, SomeScenesHaveNone) {
+  const ApiDecoder decoder = at_first_picture("nobody.fbs");
+  fbs_face_state state;
+  fbs_landmark landmarks[FBS_LANDMARKS];
+  fbs_vertex vertices[FBS_VERTICES];
+  EXPECT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices), FBS_ERROR_NO_FACE);
+  EXPECT_STREQ(fbs_decoder_error(decoder.get()), "the scene has no face");
+}
+
+}  // namespace
+}  // namespace fbs
