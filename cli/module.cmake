@@ -15,5 +15,7 @@ function(fbs_add_module name)
   target_compile_definitions(${name} PRIVATE FBS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE fbs_options)
   target_link_options(${name} PRIVATE -Wl,--exclude-libs,ALL)  # only the marked functions are seen from outside
-  install(TARGETS ${name} LIBRARY DESTINATION lib/fbs)
+  if(FBS_INSTALL)
+    install(TARGETS ${name} LIBRARY DESTINATION lib/fbs)  # where the program looks, whatever CMAKE_INSTALL_LIBDIR is
+  endif()
 endfunction()

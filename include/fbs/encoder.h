@@ -25,24 +25,24 @@
 extern "C" {
 #endif
 
-/** Filled by fbs_encoder_default_settings(&settings, sizeof settings); width and height are then 0 and have to be
- * set. */
+/** Filled by fbs_encoder_default_settings(&settings, sizeof settings); width and height are then 0 and have
+ * to be set. */
 typedef struct fbs_encoder_settings {
   size_t struct_size;
-  fbs_format format;     /**< of all pictures; default 25 pictures per second, square pixels */
-  int quality;           /**< 0..100; default 50 */
-  double bitrate;        /**< kbit/s in all, from which quality follows; 0 (default): quality decides */
-  double seconds;        /**< length of the video, for bitrate; 0 (default): unknown */
-  int effort;            /**< 0..2; default 1. More takes longer and needs fewer bits */
-  int patterns;          /**< pictures of the person in a scene, 1..64; 0 (default): chosen by the encoder */
-  int face;              /**< which face is followed, the largest being 0 (default) */
-  int allow_no_face;     /**< 1: a video without any face is coded all the same; default 0 */
-  double key_interval;   /**< seconds between scenes at most: where a viewer can join. 0 (default): up to 40 */
-  int live;              /**< 1: no look-ahead; default 0 */
-  double live_delay;     /**< live: pictures are coded in groups of so many seconds; default 0.2 */
-  double live_buffer;    /**< live, with bitrate: nothing waits longer to be sent, seconds; default 2 */
-  int threads;           /**< live: 1, or more to code while the next pictures are analysed; the stream is the
-                              same. 0 (default): as many as there are cores */
+  fbs_format format;   /**< of all pictures; default 25 pictures per second, square pixels */
+  int quality;         /**< 0..100; default 50 */
+  double bitrate;      /**< kbit/s in all, from which quality follows; 0 (default): quality decides */
+  double seconds;      /**< length of the video, for bitrate; 0 (default): unknown */
+  int effort;          /**< 0..2; default 1. More takes longer and needs fewer bits */
+  int patterns;        /**< pictures of the person in a scene, 1..64; 0 (default): chosen by the encoder */
+  int face;            /**< which face is followed, the largest being 0 (default) */
+  int allow_no_face;   /**< 1: a video without any face is coded all the same; default 0 */
+  double key_interval; /**< seconds between scenes at most: where a viewer can join. 0 (default): up to 40 */
+  int live;            /**< 1: no look-ahead; default 0 */
+  double live_delay;   /**< live: pictures are coded in groups of so many seconds; default 0.2 */
+  double live_buffer;  /**< live, with bitrate: nothing waits longer to be sent, seconds; default 2 */
+  int threads;         /**< live: 1, or more to code while the next pictures are analysed; the stream is the
+                            same. 0 (default): as many as there are cores */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;
@@ -76,19 +76,23 @@ FBS_API void fbs_encoder_close(fbs_encoder** encoder);
 
 /** Takes the next picture. It is copied.
  * @param picture   of the format's size
- * @param duration  ticks; 0: that of the frame rate
- * @return FBS_OK; FBS_ERROR_ARGUMENT, and nothing is taken: another size, a stride that is too small, or a
- *         call after fbs_encoder_finish(); any other error ends the encoding: only pulling and closing are
- *         left */
-FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture, uint32_t duration);
+ * @param duration  ticks, at most those of a minute; 0: that of the frame rate
+ * @return FBS_OK; FBS_ERROR_ARGUMENT, and nothing is taken: another size, a stride that is too small, a
+ * duration that is too long, or a call after the end; any other error ends the encoding: only pulling and
+ * closing are left. FBS_ERROR_NO_FACE: fewer faces than the setting `face` asks for; FBS_ERROR_IO,
+ *         FBS_ERROR_NO_MEMORY, FBS_ERROR_INTERNAL */
+FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture,
+                                    uint32_t duration);
 
 /** Says that there are no more pictures, and codes what is held back.
- * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no picture
- *         or this is the second call */
+ * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no
+ * picture or this is the second call; other errors as of fbs_encoder_push(). The encoding has ended in any
+ * case */
 FBS_API fbs_status fbs_encoder_finish(fbs_encoder* encoder);
 
 /** Gives out the next packet.
- * @return FBS_OK; FBS_NEED_DATA: push more, or finish; FBS_END: finished, and all has been given out */
+ * @return FBS_OK; FBS_NEED_DATA: push more, or finish; FBS_END: the encoding has ended, and all has been
+ * given out */
 FBS_API fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out);
 
 FBS_API fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out);

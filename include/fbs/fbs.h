@@ -24,8 +24,8 @@
  * pointer is set on FBS_OK only. An object belongs to one thread at a time; several may be used side by side.
  * Nothing is printed. Exceptions of C++ do not leave the library.
  *
- * A struct of settings begins with its size as the caller knows it, so that later versions can add members: it is
- * filled by the function named at the struct. A member that the library does not know has to stay 0. */
+ * A struct of settings begins with its size as the caller knows it, so that later versions can add members:
+ * it is filled by the function named at the struct. A member that the library does not know has to stay 0. */
 #ifndef FBS_FBS_H
 #define FBS_FBS_H
 
@@ -42,7 +42,7 @@
 extern "C" {
 #endif
 
-/* ---- version ---------------------------------------------------------------------------------------------- */
+/* ---- version ---- */
 
 /** Of this header. The library's soname changes with the first number, or while that is 0 with the second. */
 #define FBS_VERSION_MAJOR 0
@@ -56,7 +56,7 @@ FBS_API uint32_t fbs_version_number(void);
 /** The newest version of the stream format that the library reads, and the one that the encoder writes. */
 FBS_API uint32_t fbs_format_version(void);
 
-/* ---- answers ---------------------------------------------------------------------------------------------- */
+/* ---- answers ---- */
 
 /** Errors are negative. */
 typedef enum fbs_status {
@@ -71,15 +71,15 @@ typedef enum fbs_status {
   FBS_ERROR_UNSUPPORTED = -5, /**< a newer version of the format, or a change of the picture's size */
   FBS_ERROR_TOO_LARGE = -6,   /**< beyond a limit of the format or of the settings */
   FBS_ERROR_NO_MEMORY = -7,
-  FBS_ERROR_NO_FACE = -8, /**< the encoder found no face, and was not allowed to go without */
-  FBS_ERROR_IO = -9,      /**< the encoder could not use its temporary file */
+  FBS_ERROR_NO_FACE = -8,  /**< the encoder found no face, and was not allowed to go without */
+  FBS_ERROR_IO = -9,       /**< the encoder could not use its temporary file */
   FBS_ERROR_INTERNAL = -10 /**< a bug of the library */
 } fbs_status;
 
 /** "damaged stream", for a user; never null. fbs_decoder_error() says more. */
 FBS_API const char* fbs_status_text(fbs_status status);
 
-/* ---- pictures --------------------------------------------------------------------------------------------- */
+/* ---- pictures ---- */
 
 /** Smallest and largest width and height of a picture, pixels. */
 #define FBS_MIN_SIDE 64
@@ -92,19 +92,19 @@ typedef enum fbs_matrix { FBS_MATRIX_UNSPECIFIED = 0, FBS_MATRIX_BT601 = 1, FBS_
 
 /** What all pictures of a stream share. */
 typedef struct fbs_format {
-  uint32_t width, height;                   /**< pixels, FBS_MIN_SIDE..FBS_MAX_SIDE */
-  uint32_t frame_rate_num, frame_rate_den;  /**< nominal pictures per second; each has its own duration */
+  uint32_t width, height;                      /**< pixels, FBS_MIN_SIDE..FBS_MAX_SIDE */
+  uint32_t frame_rate_num, frame_rate_den;     /**< nominal pictures per second; each has its own duration */
   uint32_t pixel_aspect_num, pixel_aspect_den; /**< width of a pixel over its height; 0/1 when unknown */
-  fbs_matrix matrix;                        /**< of YCbCr */
-  int full_range;                           /**< 0: black is 16, white 235; 1: 0 and 255 */
+  fbs_matrix matrix;                           /**< of YCbCr */
+  int full_range;                              /**< 0: black is 16, white 235; 1: 0 and 255 */
 } fbs_format;
 
 /** 8-bit 4:2:0: planes Y, Cb, Cr. Chroma planes have (width + 1) / 2 by (height + 1) / 2 samples, each at the
  * centre of the four pixels it belongs to. */
 typedef struct fbs_picture {
-  uint32_t width, height;  /**< pixels */
-  uint8_t* data[3];        /**< first sample of the top row of each plane */
-  ptrdiff_t stride[3];     /**< bytes from a row to the next one below; may be negative */
+  uint32_t width, height; /**< pixels */
+  uint8_t* data[3];       /**< first sample of the top row of each plane */
+  ptrdiff_t stride[3];    /**< bytes from a row to the next one below; may be negative */
 } fbs_picture;
 
 /** The same, to be read only. */
@@ -123,7 +123,7 @@ typedef struct fbs_picture_info {
   int new_scene;     /**< 1: the first of a scene: decoding can begin here */
 } fbs_picture_info;
 
-/* ---- the face --------------------------------------------------------------------------------------------- */
+/* ---- the face ---- */
 
 /** Positions are pixels from the top left corner of the picture; the centre of the first pixel is 0.5, 0.5.
  * "right" and "left" are the person's own. */
@@ -162,7 +162,7 @@ typedef struct fbs_vertex {
   float z;    /**< eye distances away from the viewer, from the middle of the head */
 } fbs_vertex;
 
-/* ---- decoder ---------------------------------------------------------------------------------------------- */
+/* ---- decoder ---- */
 
 typedef struct fbs_decoder fbs_decoder;
 
@@ -235,13 +235,13 @@ FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_lan
 /** @param out  FBS_VERTICES vertices */
 FBS_API fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out);
 
-/** What went wrong in the last call that returned an error for this decoder, in one line; "" before the first.
- * Never null; valid until the next call for this decoder. */
+/** What went wrong in the last call that returned an error for this decoder, in one line; "" before the
+ * first. Never null; valid until the next call for this decoder. */
 FBS_API const char* fbs_decoder_error(const fbs_decoder* decoder);
 /** The byte of the stream that the last error is about, from the first byte fed; 0 if it is about none. */
 FBS_API uint64_t fbs_decoder_error_offset(const fbs_decoder* decoder);
 
-/* ---- without a decoder ------------------------------------------------------------------------------------ */
+/* ---- without a decoder ---- */
 
 /** A scene: where decoding can begin. */
 typedef struct fbs_scene {

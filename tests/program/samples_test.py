@@ -4,16 +4,16 @@ import io
 import json
 import subprocess
 
-from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, ffmpeg, talker
+from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, ffmpeg, read_y4m, talker
 
 PICTURES = 120  # of TALK_FBS
 PIXELS = 176 * 144
 
 
 class Samples(ProgramTest):
-    def sample(self, name, *arguments):
-        return subprocess.run([BUILD / name, *arguments], cwd=self.folder, check=True, capture_output=True, text=True,
-                              timeout=MAX_SECONDS).stdout
+    def sample(self, name, *arguments, stdin=b""):
+        return subprocess.run([BUILD / name, *arguments], cwd=self.folder, check=True, capture_output=True, input=stdin,
+                              timeout=MAX_SECONDS).stdout.decode()
 
     def rgb(self, images):
         """Bytes of all pictures of a sequence of PNG files."""
@@ -42,9 +42,15 @@ class Samples(ProgramTest):
                 for value, column in zip(point.split(), (f"x{k}", f"y{k}")):
                     self.assertAlmostEqual(float(value), float(row[column]), delta=0.0051)
 
+    def test_feed_in_pieces_shows_the_same_whatever_their_size(self):
+        printed = {self.sample("feed_in_pieces", TALK_FBS, str(size)) for size in (1, 7, 4096, 1 << 20)}
+        self.assertEqual(len(printed), 1, printed)
+        self.assertTrue(printed.pop().startswith(f"{PICTURES} pictures, 0 of them held"))
+
     def test_encode_frames_encodes_all_of_them(self):
-        self.sample("encode_frames", "frames.fbs")
         talker(self.folder / "frames.y4m", "--size", "176x144", "--frames", "75")
+        raw = b"".join(read_y4m(self.folder / "frames.y4m").pictures)
+        self.sample("encode_frames", "176", "144", "25", "frames.fbs", stdin=raw)
         reported = json.loads(self.succeed("evaluate", "frames.y4m", "frames.fbs", "--json"))["points"][0]
         self.assertEqual(reported["frames"], 75)
         self.assertGreater(reported["psnr_face"], 28)

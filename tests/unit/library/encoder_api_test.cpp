@@ -1,0 +1,418 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "bitstream/packet.h"
+#include "decoder/stream_decoder.h"
+#include "encoder/encoder.h"
+#include "fbs/encoder.h"
+#include "fbs/fbs.h"
+#include "tests/unit/library/api_decoder.h"
+#include "tests/unit/talker_clip.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kSide = 112, kPictures = 45;
+
+struct CloseEncoder {
+  void operator()(fbs_encoder* encoder) const { fbs_encoder_close(&encoder); }
+};
+using ApiEncoder = std::unique_ptr<fbs_encoder, CloseEncoder>;
+
+fbs_encoder_settings quick_settings() {
+  fbs_encoder_settings settings;
+  fbs_encoder_default_settings(&settings, sizeof settings);
+  settings.format.width = settings.format.height = kSide;
+  settings.format.frame_rate_num = 30;  // the talker's
+  settings.effort = 0;
+  return settings;
+}
+
+ApiEncoder api_encoder(const fbs_encoder_settings& settings) {
+  fbs_encoder* encoder = nullptr;
+  EXPECT_EQ(fbs_encoder_open(&encoder, &settings), FBS_OK);
+  return ApiEncoder(encoder);
+}
+
+fbs_status open_status(const fbs_encoder_settings& settings) {
+  fbs_encoder* encoder = nullptr;
+  const fbs_status status = fbs_encoder_open(&encoder, &settings);
+  EXPECT_EQ(encoder != nullptr, status == FBS_OK);
+  fbs_encoder_close(&encoder);
+  return status;
+}
+
+fbs_const_picture view_of(const Picture& p) {
+  return {static_cast<std::uint32_t>(p.width()),
+          static_cast<std::uint32_t>(p.height()),
+          {p.y.samples.data(), p.u.samples.data(), p.v.samples.data()},
+          {p.y.width, p.u.width, p.v.width}};
+}
+
+TalkerClip& clip() {
+  static TalkerClip talker(talker_settings(kSide, kSide, kPictures));
+  return talker;
+}
+
+struct Pulled {
+  std::vector<std::vector<std::uint8_t>> packets;
+  std::vector<fbs_packet> infos;  ///< their data is gone
+  fbs_status last = FBS_OK;
+
+  [[nodiscard]] std::vector<std::uint8_t> stream() const {
+    std::vector<std::uint8_t> out;
+    for (const auto& packet : packets) out.insert(out.end(), packet.begin(), packet.end());
+    return out;
+  }
+};
+
+void pull(fbs_encoder* encoder, Pulled& out) {
+  fbs_packet packet{};
+  while ((out.last = fbs_encoder_pull(encoder, &packet)) == FBS_OK) {
+    out.packets.emplace_back(packet.data, packet.data + packet.size);
+    packet.data = nullptr;
+    out.infos.push_back(packet);
+  }
+}
+
+Pulled encoded(const fbs_encoder_settings& settings, int pictures, std::uint32_t duration = 0) {
+  const ApiEncoder encoder = api_encoder(settings);
+  Pulled out;
+  for (int n = 0; n < pictures; ++n) {
+    const fbs_const_picture picture = view_of(clip()[n]);
+    EXPECT_EQ(fbs_encoder_push(encoder.get(), &picture, n % 3 == 2 ? duration : 0), FBS_OK);
+    pull(encoder.get(), out);
+    EXPECT_EQ(out.last, FBS_NEED_DATA);
+  }
+  EXPECT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK) << fbs_encoder_error(encoder.get());
+  pull(encoder.get(), out);
+  EXPECT_EQ(out.last, FBS_END);
+  return out;
+}
+
+/// Feeds packet by packet: no picture that needs a packet comes before it, and its time is that of the first.
+void expect_right_places(const Pulled& pulled) {
+  StreamDecoder decoder;
+  std::map<std::uint64_t, std::uint64_t> times;  // of the pictures
+  std::uint64_t end = 0;
+  for (std::size_t k = 0; k < pulled.packets.size(); ++k) {
+    const std::uint64_t number = pulled.infos[k].number;
+    EXPECT_TRUE(times.empty() || times.rbegin()->first < number) << "packet " << k;
+    decoder.feed(pulled.packets[k]);
+    for (;;) {
+      const auto status = decoder.next();
+      ASSERT_TRUE(status) << status.error().text;
+      if (*status != DecodeStatus::kPicture) break;
+      times[decoder.position().pictures] = decoder.position().time;
+      end = decoder.position().time + decoder.duration();
+    }
+  }
+  ASSERT_EQ(pulled.infos.back().number, times.size()) << "the end packet";
+  times[times.size()] = end;
+  for (const fbs_packet& packet : pulled.infos) EXPECT_EQ(packet.time, times.at(packet.number));
+}
+
+TEST(EncoderApi, PacketsAreTheStream) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.quality = 40;
+  const Pulled pulled = encoded(settings, kPictures);
+  EncoderSettings same;
+  same.quality = 40;
+  same.effort = 0;
+  auto encoder = Encoder::create(clip().format(), same);
+  std::vector<std::uint8_t> expected;
+  const auto take = [&] {
+    const auto bytes = encoder->take();
+    expected.insert(expected.end(), bytes.begin(), bytes.end());
+  };
+  for (int n = 0; n < kPictures; ++n) {
+    ASSERT_TRUE(encoder->push(clip()[n]));
+    take();
+  }
+  ASSERT_TRUE(encoder->finish());
+  take();
+  EXPECT_EQ(pulled.stream(), expected);
+  const Heard result = heard(pulled.stream());
+  EXPECT_TRUE(result.errors.empty());
+  EXPECT_EQ(result.infos.size(), std::size_t{kPictures});
+}
+
+TEST(EncoderApi, EachPacketTellsItsFirstPicture) {
+  for (const int patterns : {0, 1}) {
+    fbs_encoder_settings settings = quick_settings();
+    settings.patterns = patterns;
+    settings.key_interval = 1;
+    const Pulled pulled = encoded(settings, kPictures, 5000);
+    expect_right_places(pulled);
+    ASSERT_FALSE(pulled.packets.empty());
+    EXPECT_EQ(pulled.infos[0].key, 1);
+    EXPECT_TRUE(std::equal(kSignature.begin(), kSignature.end(), pulled.packets[0].begin()));
+    int keys = 0;
+    for (std::size_t k = 0; k < pulled.packets.size(); ++k) {
+      const std::size_t type_at = k == 0 ? kSignature.size() : 0;
+      EXPECT_EQ(pulled.infos[k].key == 1,
+                pulled.packets[k][type_at] == static_cast<std::uint8_t>(PacketType::kSetup));
+      keys += pulled.infos[k].key;
+    }
+    EXPECT_GT(keys, 1) << "a scene every second";
+  }
+}
+
+TEST(EncoderApi, LivePacketsComeAtOnce) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.live = 1;
+  settings.threads = 1;
+  const ApiEncoder encoder = api_encoder(settings);
+  Pulled pulled;
+  const fbs_const_picture first = view_of(clip()[0]);
+  ASSERT_EQ(fbs_encoder_push(encoder.get(), &first, 0), FBS_OK);
+  pull(encoder.get(), pulled);
+  EXPECT_EQ(heard(pulled.stream()).infos.size(), 1u) << "the first picture leaves alone";
+  expect_right_places(encoded(settings, 20));
+}
+
+TEST(EncoderApi, RowsMayLieInAnyOrder) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.patterns = 1;
+  const ApiEncoder encoder = api_encoder(settings);
+  for (int n = 0; n < 10; ++n) {
+    Picture flipped = clip()[n];
+    fbs_const_picture view = view_of(flipped);
+    Plane* const planes[] = {&flipped.y, &flipped.u, &flipped.v};
+    for (std::size_t k = 0; k < 3; ++k) {
+      Plane& plane = *planes[k];
+      for (int y = 0; y < plane.height / 2; ++y)
+        std::swap_ranges(plane.row(y), plane.row(y) + plane.width, plane.row(plane.height - 1 - y));
+      view.data[k] = plane.row(plane.height - 1);
+      view.stride[k] = -plane.width;
+    }
+    ASSERT_EQ(fbs_encoder_push(encoder.get(), &view, 0), FBS_OK);
+  }
+  ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+  Pulled pulled;
+  pull(encoder.get(), pulled);
+  EXPECT_EQ(pulled.stream(), encoded(settings, 10).stream());
+}
+
+TEST(EncoderApi, LandmarksAreWhereTheDecoderSeesThem) {
+  const ApiEncoder encoder = api_encoder(quick_settings());
+  std::vector<std::array<fbs_landmark, FBS_LANDMARKS>> tracked(20);
+  fbs_landmark none[FBS_LANDMARKS];
+  EXPECT_EQ(fbs_encoder_get_landmarks(encoder.get(), none), FBS_ERROR_ARGUMENT);
+  for (int n = 0; n < 20; ++n) {
+    const fbs_const_picture picture = view_of(clip()[n]);
+    ASSERT_EQ(fbs_encoder_push(encoder.get(), &picture, 0), FBS_OK);
+    ASSERT_EQ(fbs_encoder_get_landmarks(encoder.get(), tracked[static_cast<std::size_t>(n)].data()), FBS_OK);
+  }
+  ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+  Pulled pulled;
+  pull(encoder.get(), pulled);
+  const auto stream = pulled.stream();
+  const ApiDecoder decoder = api_decoder();
+  ASSERT_EQ(fbs_decoder_feed(decoder.get(), stream.data(), stream.size()), FBS_OK);
+  double sum = 0;
+  for (const auto& points : tracked) {
+    ASSERT_EQ(fbs_decoder_next(decoder.get(), nullptr), FBS_OK);
+    fbs_landmark shown[FBS_LANDMARKS];
+    ASSERT_EQ(fbs_decoder_get_landmarks(decoder.get(), shown), FBS_OK);
+    for (std::size_t k = 0; k < FBS_LANDMARKS; ++k) {
+      EXPECT_GT(points[k].confidence, 0);
+      EXPECT_LE(points[k].confidence, 1);
+      sum += std::hypot(points[k].x - shown[k].x, points[k].y - shown[k].y);
+    }
+  }
+  EXPECT_LT(sum / (20 * FBS_LANDMARKS), 0.5) << "pixels";
+}
+
+TEST(EncoderApi, ReportsWhatHappened) {
+  const ApiEncoder encoder = api_encoder(quick_settings());
+  fbs_encoder_report report{};
+  ASSERT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+  EXPECT_EQ(report.pictures, 0u);
+  const fbs_const_picture picture = view_of(clip()[0]);
+  ASSERT_EQ(fbs_encoder_push(encoder.get(), &picture, 0), FBS_OK);
+  ASSERT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+  EXPECT_EQ(report.pictures, 1u);
+  EXPECT_EQ(report.without_face, 0u);
+  EXPECT_EQ(report.scenes, 1u);
+}
+
+TEST(EncoderApi, SettingsOutOfRangeAreRefused) {
+  EXPECT_EQ(open_status(quick_settings()), FBS_OK);
+  fbs_encoder_settings unset;
+  fbs_encoder_default_settings(&unset, sizeof unset);
+  EXPECT_EQ(open_status(unset), FBS_ERROR_ARGUMENT) << "no width, no height";
+  EXPECT_EQ(open_status(fbs_encoder_settings{}), FBS_ERROR_ARGUMENT) << "struct_size is 0";
+  const auto refuses = [](auto&& change) {
+    fbs_encoder_settings settings = quick_settings();
+    change(settings);
+    return open_status(settings) == FBS_ERROR_ARGUMENT;
+  };
+  using Settings = fbs_encoder_settings;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.width = FBS_MIN_SIDE - 1; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.height = FBS_MAX_SIDE + 1; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.height = UINT32_MAX; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.frame_rate_num = 0; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.frame_rate_den = 0; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.frame_rate_num = UINT32_MAX; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.format.pixel_aspect_den = 0; }));
+  EXPECT_TRUE(refuses([](Settings& s) {
+    const int unknown = 3;
+    std::memcpy(static_cast<void*>(&s.format.matrix), &unknown, sizeof unknown);
+  }));
+  for (const int quality : {-1, 101})
+    EXPECT_TRUE(refuses([&](Settings& s) { s.quality = quality; })) << quality;
+  for (const int effort : {-1, 3}) EXPECT_TRUE(refuses([&](Settings& s) { s.effort = effort; })) << effort;
+  for (const int patterns : {-1, 65})
+    EXPECT_TRUE(refuses([&](Settings& s) { s.patterns = patterns; })) << patterns;
+  EXPECT_TRUE(refuses([](Settings& s) { s.face = -1; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.threads = -1; }));
+  for (const double value : {-1.0, kNan, kInfinity, -kInfinity, 1e300}) {
+    EXPECT_TRUE(refuses([&](Settings& s) { s.bitrate = value; })) << value;
+    EXPECT_TRUE(refuses([&](Settings& s) { s.seconds = value; })) << value;
+    EXPECT_TRUE(refuses([&](Settings& s) { s.key_interval = value; })) << value;
+    EXPECT_TRUE(refuses([&](Settings& s) { s.live = 1, s.live_delay = value; })) << value;
+    EXPECT_TRUE(refuses([&](Settings& s) { s.live = 1, s.live_buffer = value; })) << value;
+  }
+  EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.live_delay = 0; }));
+  EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.patterns = 2; }));
+}
+
+TEST(EncoderApi, PicturesThatDoNotFitAreRefused) {
+  const ApiEncoder encoder = api_encoder(quick_settings());
+  const auto refuses = [&](auto&& change, std::uint32_t duration = 0) {
+    fbs_const_picture picture = view_of(clip()[0]);
+    change(picture);
+    return fbs_encoder_push(encoder.get(), &picture, duration) == FBS_ERROR_ARGUMENT &&
+           *fbs_encoder_error(encoder.get()) != '\0';
+  };
+  EXPECT_TRUE(refuses([](fbs_const_picture& p) { ++p.width; }));
+  EXPECT_TRUE(refuses([](fbs_const_picture& p) { --p.height; }));
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(refuses([&](fbs_const_picture& p) { p.data[k] = nullptr; }));
+    EXPECT_TRUE(refuses([&](fbs_const_picture& p) { --p.stride[k]; }));
+  }
+  EXPECT_TRUE(refuses([](fbs_const_picture&) {}, 60 * FBS_TICKS_PER_SECOND + 1));
+  fbs_encoder_report report{};
+  ASSERT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+  EXPECT_EQ(report.pictures, 0u) << "nothing was taken";
+}
+
+TEST(EncoderApi, NullPointersAreAnswered) {
+  fbs_encoder_default_settings(nullptr, sizeof(fbs_encoder_settings));
+  fbs_encoder* none = nullptr;
+  const fbs_encoder_settings settings = quick_settings();
+  const fbs_const_picture picture = view_of(clip()[0]);
+  fbs_packet packet;
+  fbs_encoder_report report;
+  fbs_landmark landmarks[FBS_LANDMARKS];
+  EXPECT_EQ(fbs_encoder_open(nullptr, &settings), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_open(&none, nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_push(none, &picture, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_finish(none), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_pull(none, &packet), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_report(none, &report), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_landmarks(none, landmarks), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(fbs_encoder_error(none), "");
+  fbs_encoder_close(nullptr);
+  fbs_encoder_close(&none);
+  const ApiEncoder encoder = api_encoder(settings);
+  EXPECT_EQ(fbs_encoder_push(encoder.get(), nullptr, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_pull(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_report(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_landmarks(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
+}
+
+// A loop that pushes, finishes and pulls until FBS_END comes to an end whatever happens.
+TEST(EncoderApi, EveryEncodingEnds) {
+  fbs_packet packet;
+  const ApiEncoder empty = api_encoder(quick_settings());
+  EXPECT_EQ(fbs_encoder_pull(empty.get(), &packet), FBS_NEED_DATA);
+  EXPECT_EQ(fbs_encoder_finish(empty.get()), FBS_ERROR_ARGUMENT) << "no picture";
+  EXPECT_EQ(fbs_encoder_pull(empty.get(), &packet), FBS_END);
+
+  const Picture grey(kSide, kSide);
+  const fbs_const_picture view = view_of(grey);
+  const ApiEncoder nobody = api_encoder(quick_settings());
+  for (int n = 0; n < 3; ++n) ASSERT_EQ(fbs_encoder_push(nobody.get(), &view, 0), FBS_OK);
+  EXPECT_EQ(fbs_encoder_finish(nobody.get()), FBS_ERROR_NO_FACE);
+  Pulled pulled;
+  pull(nobody.get(), pulled);
+  EXPECT_EQ(pulled.last, FBS_END);
+  EXPECT_EQ(fbs_encoder_finish(nobody.get()), FBS_ERROR_ARGUMENT) << "a second time";
+  EXPECT_EQ(fbs_encoder_push(nobody.get(), &view, 0), FBS_ERROR_ARGUMENT);
+
+  fbs_encoder_settings settings = quick_settings();
+  settings.allow_no_face = 1;
+  const ApiEncoder allowed = api_encoder(settings);
+  for (int n = 0; n < 3; ++n) ASSERT_EQ(fbs_encoder_push(allowed.get(), &view, 0), FBS_OK);
+  fbs_landmark landmarks[FBS_LANDMARKS];
+  EXPECT_EQ(fbs_encoder_get_landmarks(allowed.get(), landmarks), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_encoder_finish(allowed.get()), FBS_OK);
+  pull(allowed.get(), pulled);
+  EXPECT_EQ(pulled.last, FBS_END);
+}
+
+TEST(EncoderApi, AFaceThatIsNotThereEndsTheEncoding) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.face = 3;
+  const ApiEncoder encoder = api_encoder(settings);
+  const fbs_const_picture picture = view_of(clip()[0]);
+  EXPECT_EQ(fbs_encoder_push(encoder.get(), &picture, 0), FBS_ERROR_NO_FACE);
+  EXPECT_STRNE(fbs_encoder_error(encoder.get()), "");
+  EXPECT_EQ(fbs_encoder_push(encoder.get(), &picture, 0), FBS_ERROR_ARGUMENT);
+  fbs_packet packet;
+  EXPECT_EQ(fbs_encoder_pull(encoder.get(), &packet), FBS_END);
+}
+
+TEST(EncoderApi, CallsComeInAnyOrder) {
+  std::mt19937 random(1);
+  for (int sequence = 0; sequence < 6; ++sequence) {
+    fbs_encoder_settings settings = quick_settings();
+    settings.live = static_cast<int>(random() % 2);
+    settings.patterns = static_cast<int>(random() % 2);
+    const ApiEncoder encoder = api_encoder(settings);
+    bool ended = false;
+    for (int call = 0; call < 40; ++call) {
+      const fbs_const_picture picture = view_of(clip()[static_cast<int>(random() % kPictures)]);
+      fbs_packet packet;
+      fbs_landmark landmarks[FBS_LANDMARKS];
+      fbs_encoder_report report;
+      switch (random() % 6) {
+        case 0:
+        case 1:
+          EXPECT_EQ(fbs_encoder_push(encoder.get(), &picture, random() % 9000),
+                    ended ? FBS_ERROR_ARGUMENT : FBS_OK);
+          break;
+        case 2: {
+          const fbs_status status = fbs_encoder_pull(encoder.get(), &packet);
+          EXPECT_TRUE(status == FBS_OK || status == (ended ? FBS_END : FBS_NEED_DATA)) << status;
+          break;
+        }
+        case 3:
+          EXPECT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+          break;
+        case 4:
+          EXPECT_NE(fbs_encoder_get_landmarks(encoder.get(), landmarks), FBS_ERROR_INTERNAL);
+          break;
+        default:
+          if (random() % 8 == 0) {
+            EXPECT_NE(fbs_encoder_finish(encoder.get()), FBS_ERROR_INTERNAL);
+            ended = true;
+          }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fbs
