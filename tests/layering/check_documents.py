@@ -10,8 +10,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "samples/README.md", "tests/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
-FOLDERS = "bitstream|cli|common|decoder|docs|encoder|samples|scripts|tests"
-SUFFIXES = "cpp|h|py|cmake|sh|md|svg|gltf"
+FOLDERS = "bitstream|cli|common|decoder|docs|encoder|include|library|samples|scripts|tests"
+SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg|gltf"
 # Named in documents, but not ours to have.
 ELSEWHERE = {"measure.py"}
 
@@ -72,7 +72,7 @@ def main():
     file_names = {path.name for path in files} | ELSEWHERE
     symbols = set()
     for path in files:
-        if path.suffix in (".h", ".cpp", ".py") and path.name != pathlib.Path(__file__).name:
+        if path.suffix in (".c", ".h", ".hpp", ".cpp", ".py") and path.name != pathlib.Path(__file__).name:
             symbols.update(NAME.findall((ROOT / path).read_text()))
     documents = sorted(path for pattern in DOCUMENTS for path in ROOT.glob(pattern))
     assert len(documents) > 8, f"only {len(documents)} documents in {ROOT}"

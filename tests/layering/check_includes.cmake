@@ -1,7 +1,8 @@
 # cmake -D ROOT=<repository> -P check_includes.cmake
 # Folders are floors, and so are the rooms inside them: a file includes files on its own floor or below. The lowest comes
 # first. What is directly in bitstream/ (the plain data of the syntax) is below its payloads; what stands
-# directly in decoder/ and encoder/ joins their rooms and is above them.
+# directly in decoder/ and encoder/ joins their rooms and is above them. fbs/ is what include/ holds for others, which itself
+# includes nothing of ours.
 cmake_minimum_required(VERSION 3.25)
 set(floors
   common
@@ -9,6 +10,7 @@ set(floors
   decoder/head decoder/animate decoder/raster decoder/blend decoder/draw decoder
   encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
   encoder
+  fbs library
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
@@ -44,7 +46,8 @@ set(faults 0)
 set(checked 0)
 file(GLOB_RECURSE sources RELATIVE ${ROOT}
   ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp ${ROOT}/decoder/*.h
-  ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
+  ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/include/*.h ${ROOT}/include/*.hpp
+  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
 foreach(source ${sources})
   math(EXPR checked "${checked} + 1")
   floor_of(${source} mine)

@@ -1,4 +1,4 @@
-# cmake -D PROGRAM=<executable that links fbs_decoder alone> -D READELF=<readelf> -D LDD=<ldd> -P check_links.cmake
+# cmake -D PROGRAM=<program or library with the decoder alone> -D READELF=<readelf> -D LDD=<ldd> -P check_links.cmake
 # The decoder, which goes into players and phones, links no OpenCV, OpenImageIO or tinygltf, directly or indirectly.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${READELF} -d ${PROGRAM} OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)

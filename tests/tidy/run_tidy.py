@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("common", "bitstream", "decoder", "encoder", "cli", "samples", "training")
+FOLDERS = ("common", "bitstream", "decoder", "encoder", "library", "cli", "samples", "training")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
@@ -25,7 +25,7 @@ def sources(build):
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         path = os.path.relpath(entry["file"], SOURCE)
-        if path.split("/")[0] in FOLDERS:
+        if path.split("/")[0] in FOLDERS and path.endswith(".cpp"):  # our rules are for C++
             found.setdefault(path, entry["command"])
     return found
 
