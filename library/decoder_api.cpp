@@ -134,6 +134,7 @@ fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
     d.stream = new_stream(d.settings);
     d.entry = StreamEntry(true);
     d.finished = d.broken = d.is_drawn = false;
+    d.error = {};
     return FBS_OK;
   });
 }

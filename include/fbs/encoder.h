@@ -47,13 +47,14 @@ typedef struct fbs_encoder_settings {
 
 typedef struct fbs_encoder fbs_encoder;
 
-/** A piece of the stream. The stream is all packets one after the other. */
+/** A piece of the stream. The stream is all packets one after the other; the first begins with the signature,
+ * and the last says how many pictures there were. */
 typedef struct fbs_packet {
   const uint8_t* data; /**< valid until the next call for this encoder */
   size_t size;         /**< bytes, at least 1 */
   int key;             /**< 1: a setup packet: decoding can begin here */
-  uint64_t number;     /**< of the first picture that needs the packet */
-  uint64_t time;       /**< of that picture, ticks */
+  uint64_t number;     /**< of the first picture that needs the packet; of the last packet: pictures in all */
+  uint64_t time;       /**< of that picture, ticks; of the last packet: the length of the video */
 } fbs_packet;
 
 /** What happened so far. */
@@ -78,21 +79,22 @@ FBS_API void fbs_encoder_close(fbs_encoder** encoder);
  * @param picture   of the format's size
  * @param duration  ticks, at most those of a minute; 0: that of the frame rate
  * @return FBS_OK; FBS_ERROR_ARGUMENT, and nothing is taken: another size, a stride that is too small, a
- * duration that is too long, or a call after the end; any other error ends the encoding: only pulling and
- * closing are left. FBS_ERROR_NO_FACE: fewer faces than the setting `face` asks for; FBS_ERROR_IO,
- *         FBS_ERROR_NO_MEMORY, FBS_ERROR_INTERNAL */
+ *         duration that is too long, or a call after the end; any other error ends the encoding: only pulling
+ *         and closing are left. FBS_ERROR_NO_FACE: fewer faces than the setting `face` asks for;
+ *         FBS_ERROR_IO, FBS_ERROR_NO_MEMORY, FBS_ERROR_INTERNAL */
 FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture,
                                     uint32_t duration);
 
 /** Says that there are no more pictures, and codes what is held back.
  * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no
- * picture or this is the second call; other errors as of fbs_encoder_push(). The encoding has ended in any
- * case */
+ *         picture or this is the second call; other errors as of fbs_encoder_push(). In any case the encoding
+ *         has ended */
 FBS_API fbs_status fbs_encoder_finish(fbs_encoder* encoder);
 
 /** Gives out the next packet.
- * @return FBS_OK; FBS_NEED_DATA: push more, or finish; FBS_END: the encoding has ended, and all has been
- * given out */
+ * @return FBS_OK; FBS_NEED_DATA: push more, or finish. With `live` and `threads` other than 1 packets may be
+ *         ready a little later, without another push; FBS_END: the encoding has ended, and all has been given
+ *         out */
 FBS_API fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out);
 
 FBS_API fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out);

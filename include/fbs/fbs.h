@@ -253,7 +253,7 @@ typedef struct fbs_scene {
 /** Finds the scene in which a picture of a time lies: the last that begins at or before it, or the first.
  * Damaged parts of the stream are passed over.
  * @param bytes  the whole stream
- * @return FBS_OK; FBS_END when there is no scene in it; FBS_ERROR_ARGUMENT */
+ * @return FBS_OK; FBS_END when there is no scene in it; FBS_ERROR_ARGUMENT, FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_find_scene(const uint8_t* bytes, size_t size, uint64_t time, fbs_scene* out);
 
 #ifdef __cplusplus
