@@ -1,6 +1,6 @@
 // Reads generic_head.gltf and writes generic_head_table.cpp, which is kept beside it: the target `head_table`
-// of the build runs it, after a change of the head. It copies integers and changes only the axes: the file has y up, z toward the viewer and counter-clockwise fronts; the table y down, z
-// away and clockwise fronts.
+// of the build runs it, after a change of the head. It copies integers and changes only the axes: the file
+// has y up, z toward the viewer and counter-clockwise fronts; the table y down, z away and clockwise fronts.
 #include <tiny_gltf.h>
 
 #include <array>

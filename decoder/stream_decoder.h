@@ -80,8 +80,8 @@ class StreamDecoder {
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
   /// pictures are missing of whose loss no error has told, or when fewer pictures are announced than have
-  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is; or when the
-  /// picture has more pixels than limit_pixels() allows.
+  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is; or when
+  /// the picture has more pixels than limit_pixels() allows.
   Result<DecodeStatus> next();
 
   /// Draws the picture that next() announced last; `out` takes the format's size.
