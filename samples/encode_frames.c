@@ -1,6 +1,9 @@
 /* encode_frames WIDTH HEIGHT RATE OUT.fbs: encodes pictures that are in memory. Here they are read from
- * standard input, as raw planes; a camera or another decoder would do as well: ffmpeg -i talk.mkv -f rawvideo
- * -pix_fmt yuv420p - | encode_frames 352 288 25 talk.fbs Needs libfbs_encoder. */
+ * standard input, as raw planes; a camera or another decoder would do as well:
+ *
+ *     ffmpeg -i talk.mkv -f rawvideo -pix_fmt yuv420p - | encode_frames 352 288 25 talk.fbs
+ *
+ * Needs libfbs_encoder. */
 #include <fbs/encoder.h>
 #include <stdio.h>
 #include <stdlib.h>
