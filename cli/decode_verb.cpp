@@ -14,9 +14,12 @@
 #include "cli/video/timestamps.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/y4m.h"
+#include "common/md5.h"
 
 namespace fbs::cli {
 namespace {
+
+const std::string kNoOutput = "null:";
 
 /// Decodes one stream into one output.
 class Decoding {
@@ -35,6 +38,7 @@ class Decoding {
   Result<bool> next();
   Result<void> open_sink();
   Result<void> write();
+  void print_md5() const;
   void print_rate_change() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
 
@@ -52,6 +56,9 @@ class Decoding {
 };
 
 Result<void> check_files(const DecodeArguments& a) {
+  if (a.output.empty() && !a.md5) return fail(ErrorCode::kInvalidArgument, "OUTPUT is required, or --md5");
+  if (a.output == "-" && a.md5)
+    return fail(ErrorCode::kInvalidArgument, "--md5: standard output has the pictures already");
   if (auto named = check_picture_name(a.output); !named) return named;
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}};
@@ -76,6 +83,8 @@ Result<Outcome> Decoding::run() {
     return fail(ErrorCode::kTruncated, file_->name() + ": " + missing_end_text(decoder()));
   progress_.finish();
   if (auto finished = sink_->finish(); !finished) return fail(finished.error());
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail(ErrorCode::kIo, "standard output: cannot write");
   print_rate_change();
   return arguments_.keep_going ? losses_.finish(*file_) : Outcome::kComplete;
 }
@@ -92,7 +101,8 @@ Result<void> Decoding::open_sink() {
   // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
   next_ = arguments_.from > 0 ? decoder().position().time : decoder().start().time;
   const std::int64_t sound_begin = arguments_.from > 0 ? static_cast<std::int64_t>(next_) : 0;
-  auto opened = open_video_sink(arguments_.output, format, {arguments_.sound, sound_begin});
+  const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
+  auto opened = open_video_sink(output, format, {arguments_.sound, sound_begin});
   if (!opened) return fail(opened.error());
   sink_ = std::move(*opened);
   if (sink_->replaced_leftover()) print_replaced_leftover(arguments_.output);
@@ -113,10 +123,18 @@ Result<void> Decoding::write() {
   const std::uint64_t now = decoder().position().time;
   gaps_ += static_cast<std::int64_t>(now - next_);
   if (auto written = sink_->write(picture_, gaps_ + time_.pts()); !written) return written;
+  if (arguments_.md5) print_md5();
   time_.advance(decoder().duration());
   next_ = now + decoder().duration();
   progress_.update(static_cast<std::int64_t>(decoder().pictures()));
   return {};
+}
+
+void Decoding::print_md5() const {
+  Md5 md5;
+  md5.add(picture_);
+  std::printf("%s %llu\n", md5.hex().c_str(),
+              static_cast<unsigned long long>(file_->decoder().position().pictures));
 }
 
 void Decoding::print_rate_change() const {

@@ -36,6 +36,7 @@ constexpr const char* kExamples =
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
     "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
+    "  fbs decode talk.fbs --md5                       compare decoders picture by picture\n"
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
     "  fbs inspect talk.fbs                            size of each part of the stream\n"
@@ -176,8 +177,9 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
   CLI::App* verb = app.add_subcommand("decode", "Decode a stream");
   verb->add_option("INPUT", a.input, "Stream to decode, or - for standard input")->required();
   verb->add_option("OUTPUT", a.output,
-                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard")
-      ->required();
+                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard");
+  verb->add_flag("--md5", a.md5,
+                 "Print the MD5 of the planes Y, U, V of each picture, a line each; OUTPUT may be left out");
   verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
   verb->add_flag(
       "--vfr", a.vfr,

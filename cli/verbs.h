@@ -63,6 +63,7 @@ struct DecodeArguments {
   double from = 0;          ///< seconds; where to begin
   bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
+  bool md5 = false;         ///< print the MD5 of each picture; without an output nothing else is written
   bool quiet = false;
 };
 

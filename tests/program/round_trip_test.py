@@ -1,4 +1,5 @@
 """Encoding and decoding keep size, number and rate of the pictures, for every kind of file and pipe."""
+import hashlib
 import os
 import select
 import subprocess
@@ -54,6 +55,15 @@ class RoundTrip(ProgramTest):
     def test_null(self):
         self.assertEqual(self.succeed("decode", TALK_FBS, "null:"), b"")
         self.assertEqual(self.files(), {})
+
+    def test_md5_of_each_picture(self):
+        lines = self.succeed("decode", TALK_FBS, "--md5").decode().splitlines()
+        self.succeed("decode", TALK_FBS, "out.y4m")
+        pictures = read_y4m(self.folder / "out.y4m").pictures
+        self.assertEqual(lines, [f"{hashlib.md5(p).hexdigest()} {n}" for n, p in enumerate(pictures)])
+        self.assertEqual(self.succeed("decode", TALK_FBS, "again.y4m", "--md5").decode().splitlines(), lines)
+        self.fail_cleanly("decode", TALK_FBS, says=["OUTPUT is required"])
+        self.fail_cleanly("decode", TALK_FBS, "-", "--md5", says=["--md5", "standard output"])
 
     def test_mkv(self):
         self.succeed("decode", TALK_FBS, "out.mkv")

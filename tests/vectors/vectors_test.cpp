@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/vectors/md5.h"
+#include "common/md5.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fbs/fbs.h"
-#include "tests/vectors/md5.h"
+#include "common/md5.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {

@@ -1,4 +1,4 @@
-#include "tests/vectors/md5.h"
+#include "common/md5.h"
 
 #include <algorithm>
 #include <bit>
@@ -58,6 +58,10 @@ void Md5::add(std::span<const std::uint8_t> bytes) {
     bytes = bytes.subspan(take);
     if (size_ % 64 == 0) block(buffer_.data());
   }
+}
+
+void Md5::add(const Picture& picture) {
+  for (const Plane* plane : {&picture.y, &picture.u, &picture.v}) add(plane->samples);
 }
 
 std::string Md5::hex() {

@@ -1,4 +1,4 @@
-// MD5 (RFC 1321), for test vectors only: it distinguishes pictures and has no cryptographic use.
+// MD5 (RFC 1321), for test vectors and `fbs decode --md5`: it tells pictures apart, and protects nothing.
 #pragma once
 
 #include <array>
@@ -6,11 +6,15 @@
 #include <span>
 #include <string>
 
+#include "common/picture.h"
+
 namespace fbs {
 
 class Md5 {
  public:
   void add(std::span<const std::uint8_t> bytes);
+  /// The planes Y, U, V of a picture, rows without padding.
+  void add(const Picture& picture);
 
   /// 32 hexadecimal digits. Call once, after all bytes.
   [[nodiscard]] std::string hex();
