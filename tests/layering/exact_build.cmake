@@ -1,7 +1,7 @@
 # fbs_exact_build(NAME option...): stream_md5 with all of common, bitstream and decoder compiled anew with these options.
 # fbs_exact_build_clang(NAME option...): the same by clang++, whatever the compiler of the build is.
 # What every build decodes is compared with one table: design, section 10, "decoding is exact".
-set(exact_sources ${PROJECT_SOURCE_DIR}/tests/vectors/md5.cpp ${PROJECT_SOURCE_DIR}/tests/vectors/stream_digest.cpp
+set(exact_sources ${PROJECT_SOURCE_DIR}/common/md5.cpp ${PROJECT_SOURCE_DIR}/tests/vectors/stream_digest.cpp
                   ${PROJECT_SOURCE_DIR}/tests/vectors/stream_md5.cpp)
 foreach(library fbs_common fbs_bitstream fbs_decoder)
   get_target_property(sources ${library} SOURCES)
