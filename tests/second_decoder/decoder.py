@@ -1,0 +1,101 @@
+"""From the bytes of a stream to its pictures; errors, position and loss (SPEC 6.1, 6.2, 7)."""
+
+from .byte_reader import ByteReader
+from .errors import StreamError, invalid, too_large, unsupported
+from .integers import clamp
+from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
+from .packets import BLEND, END, GEOMETRY, MOTION, PATTERN, SETUP, SURROUND, Damage, packets
+from .scene import Scene
+from .setup import read_setup
+
+_SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND)
+
+
+class Decoder:
+    """Decodes one stream. After pictures() has ended, `errors` has what was wrong, in order."""
+
+    def __init__(self):
+        self.errors = []
+        self._scene = None
+        self._size = None  # width and height of all scenes
+        self._is_lost = False  # everything up to the next setup packet
+        self._position = None  # pictures that have been shown, those before the place of joining included
+        self._time = 0  # sum of their durations, 1/90000 s
+        self._last = None  # the last picture shown
+        self._held = 0  # times that it has been shown in the place of others
+        self._held_duration = 0  # nominal one in its scene
+
+    def pictures(self, data):
+        """Yields each picture: planes Y, U, V, and duration in 1/90000 s."""
+        for packet in packets(data):
+            try:
+                if isinstance(packet, Damage):
+                    raise packet.error
+                yield from self._take(packet)
+            except StreamError as error:
+                self._lose(error)
+
+    def _lose(self, error):
+        if not self._is_lost:
+            self.errors.append(error)
+        self._is_lost = True
+
+    def _take(self, packet):
+        if packet.type == SETUP:
+            yield from self._take_setup(packet.payload)
+        elif packet.type == END:
+            yield from self._take_end(packet.payload)
+        elif packet.type in _SCENE_PACKETS and not self._is_lost:
+            if not self._scene:
+                raise invalid("a packet before the first setup packet")
+            for picture, duration in self._scene.take(packet):
+                self._show(picture, duration)
+                self._held = 0
+                self._held_duration = self._scene.setup.nominal_duration()
+                yield picture, duration
+
+    def _show(self, picture, duration):
+        self._last = picture
+        self._position += 1
+        self._time += duration
+
+    def _take_setup(self, payload):
+        setup = read_setup(payload)
+        size = setup.width, setup.height
+        if self._size and size != self._size:
+            raise unsupported("another picture size in a later scene")
+        if self._position is None:
+            self._position, self._time = setup.pictures_before, setup.time_before
+        yield from self._fill_up_to(setup.pictures_before, setup.time_before)
+        self._size = size
+        self._is_lost = False
+        self._scene = Scene(setup)
+
+    def _take_end(self, payload):
+        pictures = ByteReader(payload).varint()
+        if pictures > MAX_STREAM_PICTURES:
+            raise too_large("too many pictures in a stream")
+        if self._position is not None:
+            missing = pictures - self._position
+            yield from self._fill_up_to(pictures, self._time + missing * self._held_duration)
+
+    def _fill_up_to(self, position, time):
+        """Holds the last picture in the place of missing ones before a position."""
+        missing = position - self._position
+        left = time - self._time
+        if missing < 0 or not missing <= left <= missing * MAX_DURATION:
+            raise invalid("a position contradicts the pictures that were shown")
+        too_many = self._last is not None and self._held + missing > MAX_HELD_PICTURES
+        if too_many:
+            self.errors.append(too_large("too many pictures are missing to be held"))
+        elif missing and not self._is_lost:
+            self.errors.append(invalid("pictures are missing"))
+        if too_many or self._last is None:
+            self._position, self._time = position, time
+            return
+        for r in range(missing, 0, -1):
+            duration = clamp(self._held_duration, max(1, time - self._time - (r - 1) * MAX_DURATION),
+                             time - self._time - (r - 1))
+            self._held += 1
+            self._show(self._last, duration)
+            yield self._last, duration

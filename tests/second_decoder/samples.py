@@ -1,0 +1,105 @@
+"""Arithmetic of samples: textures, light, mouth interior, blending and contrast.
+
+The only module that knows SPEC 4.4 (double), 10.8, 10.10, 10.11, 11.5 (ground), 11.6 and 11.7. All arrays are of
+64-bit integers with one element for each sample to be drawn, unless stated otherwise.
+"""
+
+import numpy as np
+
+from .integers import clamp
+from .limits import MAX_LIGHT
+
+WEIGHT_ONE = 4096
+MAX_AMOUNT = 256  # of mouth colour
+_DOUBLE_EVEN = ((-3, 1), (-2, -9), (-1, 35), (0, 114), (1, -17), (2, 4))  # offset, factor
+_DOUBLE_ODD = ((-2, 4), (-1, -17), (0, 114), (1, 35), (2, -9), (3, 1))
+
+
+def sample_texture(texture, u, v):
+    """Samples of a plane at the texture positions u, v in 2^-16 sample (SPEC 10.8)."""
+    height, width = texture.shape
+    u = clamp(u - 2**15, 0, (width - 1) << 16)
+    v = clamp(v - 2**15, 0, (height - 1) << 16)
+    i, j = u >> 16, v >> 16
+    i_next, j_next = np.minimum(i + 1, width - 1), np.minimum(j + 1, height - 1)
+    p, q = (u >> 8) % 256, (v >> 8) % 256
+    top = texture[j, i] * (256 - p) + texture[j, i_next] * p
+    bottom = texture[j_next, i] * (256 - p) + texture[j_next, i_next] * p
+    return (top * (256 - q) + bottom * q + 2**15) >> 16
+
+
+def light(samples, offset, gain):
+    """Luma samples in another light; offset and gain in 2^-20 grey level (SPEC 10.11)."""
+    o = clamp(offset, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8
+    g = clamp(gain, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8
+    return clamp(((samples << 12) + o + ((samples - 128) * g >> 6) + 2**11) >> 12, 0, 255)
+
+
+def mouth_interior(samples, ramp, amount, colours, offsets):
+    """Samples mixed with the colours of the mouth interior (SPEC 10.10).
+
+    ramp     2^-16 of 0 at the upper lip to 256 at the lower lip
+    amount   of the colours, 1/256; one number
+    colours  of the plane at the upper and at the lower lip
+    offsets  upper, middle and lower, 1/16 grey level
+    """
+    upper, lower = colours
+    base = (16 * upper, 8 * (upper + lower), 16 * lower)
+    c0, c1, c2 = (clamp((colour + offset + 8) >> 4, 0, 255) for colour, offset in zip(base, offsets))
+    at = clamp(ramp >> 16, 0, 256)
+    colour = np.where(at < 128, (c0 * (128 - at) + c1 * at + 64) >> 7, (c1 * (256 - at) + c2 * (at - 128) + 64) >> 7)
+    return (samples * (MAX_AMOUNT - amount) + colour * amount + 128) >> 8
+
+
+class Blend:
+    """Adds the sources at each sample, in their order, by weights whose sum is one (SPEC 11.6)."""
+
+    def __init__(self, count):
+        self._sum = np.zeros(count, np.int64)
+        self._left = np.full(count, WEIGHT_ONE)
+
+    def add(self, at, samples, weight, is_last):
+        """Adds a source.
+
+        at       the samples that have the source, indices
+        weight   2^-16 of the weights of the mesh
+        is_last  the source is the last one of the sample, and has the weight that the others leave
+        """
+        left = self._left[at]
+        weight = np.where(is_last, left, clamp(weight >> 16, 0, left))
+        self._left[at] = left - weight
+        self._sum[at] += weight * samples
+
+    def result(self):
+        return (self._sum + 2**11) >> 12
+
+
+def blend_planes(planes, weights):
+    """Whole planes blended by one weight for each (SPEC 11.5)."""
+    return (sum(weight * plane for weight, plane in zip(weights, planes)) + 2**11) >> 12
+
+
+def restore_contrast(plane, face, outside, inside):
+    """A plane with its full contrast (SPEC 11.7).
+
+    face             share of the face at each sample, 1/255, an array of the size of the plane
+    outside, inside  contrast with which the plane was coded, 1/256
+    """
+    k = outside + ((inside - outside) * face + 127) // 255
+    return clamp(128 + (((plane - 128) * ((2**24 + k // 2) // k) + 2**15) >> 16), 0, 255)
+
+
+def enlarge(plane, width, height):
+    """A reduced plane with twice as many samples, less the last column or row (SPEC 4.4)."""
+    doubled = _double(_double(plane, 1)[:, :width], 0)[:height]
+    return clamp((doubled + 2**13) >> 14, 0, 255)
+
+
+def _double(plane, axis):
+    """Twice as many samples along an axis, times 128."""
+    places = np.arange(plane.shape[axis])
+    even, odd = (sum(factor * plane.take(np.clip(places + offset, 0, len(places) - 1), axis)
+                     for offset, factor in kernel) for kernel in (_DOUBLE_EVEN, _DOUBLE_ODD))
+    shape = list(plane.shape)
+    shape[axis] *= 2
+    return np.stack([even, odd], axis + 1).reshape(shape)
