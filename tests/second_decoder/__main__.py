@@ -1,11 +1,16 @@
 """Decodes a stream: python3 -m second_decoder FILE.fbs OUT.y4m
 
-Writes each picture once, and each error of the stream to standard error.
+Writes each picture once, and the errors of the stream to standard error.
 """
 
 import sys
 
 from .decoder import Decoder
+
+
+def y4m_header(setup):
+    rate = setup.frame_rate
+    return f"YUV4MPEG2 W{setup.width} H{setup.height} F{rate.numerator}:{rate.denominator} Ip C420jpeg\n".encode()
 
 
 def main():
@@ -17,12 +22,11 @@ def main():
     with open(sys.argv[2], "wb") as out:
         for i, (picture, _) in enumerate(decoder.pictures(data)):
             if i == 0:
-                height, width = picture[0].shape
-                out.write(b"YUV4MPEG2 W%d H%d F30:1 Ip C420jpeg\n" % (width, height))
+                out.write(y4m_header(decoder.setup))
             out.write(b"FRAME\n" + b"".join(plane.tobytes() for plane in picture))
     for error in decoder.errors:
         print(error, file=sys.stderr)
-    sys.exit(2 if decoder.errors else 0)
+    sys.exit(1 if decoder.errors else 0)
 
 
 main()

@@ -1,7 +1,7 @@
 """From the bytes of a stream to its pictures; errors, position and loss (SPEC 6.1, 6.2, 7)."""
 
 from .byte_reader import ByteReader
-from .errors import StreamError, invalid, too_large, unsupported
+from .errors import StreamError, invalid, too_large, truncated, unsupported
 from .integers import clamp
 from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
 from .packets import BLEND, END, GEOMETRY, MOTION, PATTERN, SETUP, SURROUND, Damage, packets
@@ -23,7 +23,12 @@ class Decoder:
         self._time = 0  # sum of their durations, 1/90000 s
         self._last = None  # the last picture shown
         self._held = 0  # times that it has been shown in the place of others
-        self._held_duration = 0  # nominal one in its scene
+        self._held_duration = 0  # nominal duration in its scene, or while there is none in the last scene
+
+    @property
+    def setup(self):
+        """That of the scene which is being decoded."""
+        return self._scene.setup
 
     def pictures(self, data):
         """Yields each picture: planes Y, U, V, and duration in 1/90000 s."""
@@ -33,12 +38,15 @@ class Decoder:
                     raise packet.error
                 yield from self._take(packet)
             except StreamError as error:
-                self._lose(error)
+                self._report(error)
+                self._is_lost |= isinstance(packet, Damage) or packet.type != END
+        if not self._scene:
+            self._report(truncated("the stream ends before its first scene"))
 
-    def _lose(self, error):
+    def _report(self, error):
+        """Notes an error, unless it follows from one before."""
         if not self._is_lost:
             self.errors.append(error)
-        self._is_lost = True
 
     def _take(self, packet):
         if packet.type == SETUP:
@@ -67,6 +75,8 @@ class Decoder:
         if self._position is None:
             self._position, self._time = setup.pictures_before, setup.time_before
         yield from self._fill_up_to(setup.pictures_before, setup.time_before)
+        if self._last is None:
+            self._held_duration = setup.nominal_duration()
         self._size = size
         self._is_lost = False
         self._scene = Scene(setup)
@@ -88,8 +98,8 @@ class Decoder:
         too_many = self._last is not None and self._held + missing > MAX_HELD_PICTURES
         if too_many:
             self.errors.append(too_large("too many pictures are missing to be held"))
-        elif missing and not self._is_lost:
-            self.errors.append(invalid("pictures are missing"))
+        elif missing:
+            self._report(invalid("pictures are missing"))
         if too_many or self._last is None:
             self._position, self._time = position, time
             return

@@ -51,8 +51,15 @@ class _Reader:
                 return value
             shift += 7
 
-    def rest(self):
-        return self._data
+    def bits(self, sizes):
+        """Numbers of so many bits each, the low bits first; those that are missing at the end are zero."""
+        count = min((sum(sizes) + 7) // 8, len(self._data))
+        bits = self.number(count)
+        values = []
+        for size in sizes:
+            values.append(bits % 2**size)
+            bits >>= size
+        return values
 
 
 def _signed_32(x):
@@ -115,16 +122,7 @@ def _read_tagged(reader, count):
     sizes = _RansDecoder(reader, TAG_BITS).symbols(count // COMPONENTS)
     if max(sizes) > 32:
         raise invalid("a Draco value has too many bits")
-    data = reader.rest()
-    if sum(sizes) * COMPONENTS > 8 * len(data):
-        raise invalid("Draco data ends early")
-    bits = int.from_bytes(data, "little")
-    values = []
-    for size in sizes:
-        for _ in range(COMPONENTS):
-            values.append(bits % 2**size)
-            bits >>= size
-    return values
+    return reader.bits([size for size in sizes for _ in range(COMPONENTS)])
 
 
 class _RansDecoder:

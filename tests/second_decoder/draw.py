@@ -6,7 +6,8 @@ from .head import HEAD, VERTICES
 from .integers import clamp
 from .mesh import MOUTH_INTERIOR
 from .raster import NO_TRIANGLE, Fragments, Triangles, planes
-from .samples import MAX_AMOUNT, WEIGHT_ONE, Blend, blend_planes, light, mouth_interior, restore_contrast, sample_texture
+from .samples import (MAX_AMOUNT, WEIGHT_ONE, Blend, blend_planes, light, mouth_interior, restore_contrast,
+                      sample_texture)
 from .weights import ground_weights, point_weights
 
 _RAMP = {60: 128, 61: 0, 62: 0, 63: 0, 64: 128, 65: 256, 66: 256, 67: 256}  # of the mouth colours, by landmark
@@ -47,9 +48,8 @@ class _PictureDrawing:
         self._triangles = Triangles(self._now.x[self._corners], self._now.y[self._corners])
         self._is_mouth = np.concatenate([np.zeros(len(surround), bool), MOUTH_INTERIOR])
         self._ramp = np.concatenate([np.zeros(mesh.grid_points, np.int64), _HEAD_RAMP])[self._corners]
-        used = (self._weights[:, self._corners] != 0).any(axis=2)  # sources by triangles
-        self._used = used
-        self._last_source = len(sources) - 1 - used[::-1].argmax(axis=0)
+        self._used = (self._weights[:, self._corners] != 0).any(axis=2)  # sources by triangles
+        self._last_source = len(sources) - 1 - self._used[::-1].argmax(axis=0)
 
     def _drawn_cells(self, mesh):
         """The cells that change what the blended patterns show (SPEC 10.3)."""

@@ -169,7 +169,7 @@ class MotionDecoder:
 
     @staticmethod
     def _others_class(changes, nonzero_so_far):
-        before, before_that = ([0, 0] + changes)[:-3:-1]
+        *_, before_that, before = [0, 0] + changes
         return 9 * min(nonzero_so_far, 3) + 3 * _size_class(before) + _size_class(before_that)
 
     def _read_size(self, p, i, span_and_past, place):

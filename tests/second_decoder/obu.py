@@ -6,29 +6,6 @@ SEQUENCE_HEADER, FRAME = 1, 6
 KEY_FRAME = 0
 
 
-class _Bits:
-    """Bits of an OBU, the high ones first."""
-
-    def __init__(self, data):
-        self._data = data
-        self._position = 0
-
-    def read(self, count):
-        value = 0
-        for _ in range(count):
-            if self._position >= 8 * len(self._data):
-                raise invalid("an OBU ends early")
-            value = value << 1 | self._data[self._position >> 3] >> (7 - self._position % 8) & 1
-            self._position += 1
-        return value
-
-    def uvlc(self):
-        zeros = 0
-        while not self.read(1):
-            zeros += 1
-        return (1 << zeros) - 1 + self.read(zeros) if zeros < 32 else 2**32 - 1
-
-
 def _leb128(data, position):
     """A number of at most eight bytes, and the position after it."""
     value = 0
@@ -61,24 +38,10 @@ def _obus(data):
         position += size
 
 
-def _check_sequence_header(payload):
-    """Main profile and no layers; dav1d tells the rest."""
-    bits = _Bits(payload)
-    if bits.read(3) != 0:
-        raise invalid("AV1 of another profile than Main")
-    bits.read(1)  # still_picture
-    if bits.read(1):  # reduced_still_picture_header: it has one operating point without layers
-        return
-    if bits.read(1):  # timing_info_present_flag
-        bits.read(64)
-        if bits.read(1):  # equal_picture_interval
-            bits.uvlc()
-        if bits.read(1):  # decoder_model_info_present_flag
-            bits.read(47)
-    bits.read(1)  # initial_display_delay_present_flag
-    operating_points, layers = bits.read(5) + 1, bits.read(12)
-    if operating_points > 1 or layers:
-        raise invalid("AV1 with layers")
+def _is_key_frame(sequence_header, frame):
+    reduced_still_picture_header = sequence_header[0] >> 3 & 1
+    show_existing_frame_and_type = frame[0] >> 5
+    return reduced_still_picture_header or show_existing_frame_and_type == KEY_FRAME
 
 
 def check_frame(data, first):
@@ -90,13 +53,8 @@ def check_frame(data, first):
     types = [kind for kind, _ in obus]
     if types not in ([FRAME], [SEQUENCE_HEADER, FRAME]):
         raise invalid("a pattern is not one frame OBU, after at most one sequence header")
-    has_sequence_header = len(obus) == 2
-    if has_sequence_header:
-        _check_sequence_header(obus[0][1])
-    if first:
-        if not has_sequence_header:
-            raise invalid("the first pattern has no sequence header")
-        reduced_still_picture_header = _Bits(obus[0][1]).read(5) & 1
-        show_existing_and_type = _Bits(obus[1][1]).read(3)
-        if not reduced_still_picture_header and show_existing_and_type != KEY_FRAME:
-            raise invalid("the first pattern is not a key frame")
+    payloads = [payload for _, payload in obus]
+    if not all(payloads):
+        raise invalid("an OBU is empty")
+    if first and (len(payloads) == 1 or not _is_key_frame(*payloads)):
+        raise invalid("the first pattern is not a key frame with a sequence header")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from .byte_reader import ByteReader
-from .errors import StreamError, invalid, too_large
+from .errors import StreamError, invalid, too_large, truncated
 from .limits import MAX_PAYLOAD
 
 SIGNATURE = b"\x89fbs"
@@ -74,10 +74,11 @@ def _next_start(data, position):
 
 def packets(data):
     """Yields a Packet or a Damage for each part of a stream."""
-    if not data.startswith(SIGNATURE):
-        yield Damage(StreamError("kNotFbs", "the signature is missing"))
-        return
     position = len(SIGNATURE)
+    if not data.startswith(SIGNATURE):
+        is_cut = data and SIGNATURE.startswith(data)
+        yield Damage(truncated("the signature is cut") if is_cut else StreamError("kNotFbs", "there is no signature"))
+        position = _next_start(data, 0)
     check = 0xFFFF
     while position < len(data):
         try:

@@ -23,9 +23,9 @@ class Plane:
         return (samples << self.bits) + (1 << (self.bits - 1))
 
     def samples_between(self, low, high, size):
-        """The range of columns or rows whose centres are in low..high."""
+        """The first of the columns or rows whose centres are in low..high, and the one after the last."""
         half = 1 << (self.bits - 1)
-        return max(0, (low - half + 2 * half - 1) >> self.bits), min(size, ((high - half) >> self.bits) + 1)
+        return clamp((low + half - 1) >> self.bits, 0, size), clamp((high + half) >> self.bits, 0, size)
 
 
 def planes(width, height):
@@ -55,38 +55,54 @@ class Triangles:
         return (clamp(quotient((first * by - second * ay) << shift, areas), -MAX_GRADIENT, MAX_GRADIENT),
                 clamp(quotient((second * ax - first * bx) << shift, areas), -MAX_GRADIENT, MAX_GRADIENT))
 
-    def coverage(self, t, plane):
-        """Rows and columns around triangle t, as slices, and which of these samples it covers."""
-        left, right = plane.samples_between(min(self.x[t]), max(self.x[t]), plane.width)
-        top, bottom = plane.samples_between(min(self.y[t]), max(self.y[t]), plane.height)
-        x = plane.centres(np.arange(left, max(left, right)))
-        y = plane.centres(np.arange(top, max(top, bottom)))[:, None]
-        covered = np.ones((y.size, x.size), bool)
-        for i in range(3):
-            j = (i + 1) % 3
-            xf, yf, xt, yt = self.x[t, i], self.y[t, i], self.x[t, j], self.y[t, j]
-            is_left_or_top = yt < yf or yt == yf and xt > xf
-            covered &= (yf - yt) * (x - xf) + (xt - xf) * (y - yf) >= (0 if is_left_or_top else 1)
-        return slice(top, top + y.size), slice(left, left + x.size), covered
+    def pieces(self, plane, first=0):
+        """Yields, in order, a Piece of each triangle from `first` on that may cover samples of a plane."""
+        left, right = plane.samples_between(self.x.min(axis=1), self.x.max(axis=1), plane.width)
+        top, bottom = plane.samples_between(self.y.min(axis=1), self.y.max(axis=1), plane.height)
+        is_visible = (self.areas > 0) & (left < right) & (top < bottom)
+        for t in first + np.flatnonzero(is_visible[first:]):
+            x = plane.centres(np.arange(left[t], right[t])) - self.x[t, 0]
+            y = plane.centres(np.arange(top[t], bottom[t]))[:, None] - self.y[t, 0]
+            covered = _inside((self.x[t] - self.x[t, 0]).tolist(), (self.y[t] - self.y[t, 0]).tolist(), x, y)
+            yield Piece(t, (slice(top[t], bottom[t]), slice(left[t], right[t])), x, y, covered)
 
     def draw(self, shown, plane):
         """Writes into `shown`, for each sample, the last triangle that covers it."""
-        for t in np.flatnonzero(self.areas > 0):
-            rows, columns, covered = self.coverage(t, plane)
-            shown[rows, columns][covered] = t
+        for piece in self.pieces(plane):
+            shown[piece.place][piece.covered] = piece.triangle
 
     def draw_with_depth(self, shown, plane, z, first):
         """Writes into `shown` the nearest triangle, of those from `first` on; z are the depths of the corners."""
         depth = np.full(shown.shape, FARTHEST)
         gx, gy = self.gradients(z, plane.bits)
-        for t in first + np.flatnonzero(self.areas[first:] > 0):
-            rows, columns, covered = self.coverage(t, plane)
-            x = plane.centres(np.arange(columns.start, columns.stop)) - self.x[t, 0]
-            y = plane.centres(np.arange(rows.start, rows.stop))[:, None] - self.y[t, 0]
-            here = clamp(z[t, 0] + (gx[t] * x + gy[t] * y >> plane.bits), -2**31, FARTHEST - 1)
-            nearer = covered & (here < depth[rows, columns])
-            depth[rows, columns][nearer] = here[nearer]
-            shown[rows, columns][nearer] = t
+        for piece in self.pieces(plane, first):
+            t = piece.triangle
+            here = z[t, 0] + (gx[t] * piece.x + gy[t] * piece.y >> plane.bits)
+            here = clamp(here, -2**31, FARTHEST - 1)
+            nearer = piece.covered & (here < depth[piece.place])
+            depth[piece.place][nearer] = here[nearer]
+            shown[piece.place][nearer] = t
+
+
+@dataclass
+class Piece:
+    """The rectangle of samples around a triangle."""
+    triangle: int
+    place: tuple  # rows and columns, two slices
+    x: np.ndarray  # centres of the columns less corner 0, 1/64 luma sample
+    y: np.ndarray  # centres of the rows, one in each row
+    covered: np.ndarray  # is a sample covered
+
+
+def _inside(corner_x, corner_y, x, y):
+    """Which of the points (x, y) a triangle covers."""
+    covered = True
+    for i in range(3):
+        j = (i + 1) % 3
+        xf, yf, xt, yt = corner_x[i], corner_y[i], corner_x[j], corner_y[j]
+        is_left_or_top = yt < yf or yt == yf and xt > xf
+        covered = covered & ((yf - yt) * (x - xf) + (xt - xf) * (y - yf) >= (0 if is_left_or_top else 1))
+    return covered
 
 
 class Fragments:

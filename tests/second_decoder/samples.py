@@ -1,7 +1,7 @@
 """Arithmetic of samples: textures, light, mouth interior, blending and contrast.
 
-The only module that knows SPEC 4.4 (double), 10.8, 10.10, 10.11, 11.5 (ground), 11.6 and 11.7. All arrays are of
-64-bit integers with one element for each sample to be drawn, unless stated otherwise.
+The formulas of SPEC 4.4 (double), 10.8, 10.10, 10.11, 11.6 and 11.7, and nothing of them is elsewhere. All arrays are
+of 64-bit integers with one element for each sample to be drawn, unless stated otherwise.
 """
 
 import numpy as np

@@ -6,8 +6,7 @@ import numpy as np
 
 from .head import HEAD, INNER_LIPS, LEFT_BROW, OUTER_LIPS, RIGHT_BROW, VERTICES
 from .integers import clamp, exp2, log2, quotient
-from .mesh import (BODY, FACE, FULL_SHARE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, REGIONS,
-                   RIGHT_EYE)
+from .mesh import BODY, FACE, FULL_SHARE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, RIGHT_EYE
 from .raster import signed_areas
 
 ONE = 4096  # sum of the weights of all sources at a point of the mesh
