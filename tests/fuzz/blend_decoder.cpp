@@ -3,8 +3,11 @@
 
 #include "bitstream/blend/blend_coder.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/seeds.h"
 
-const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kBlend);
+std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
+  return payloads_of(stream, PacketType::kBlend);
+}
 
 namespace {
 

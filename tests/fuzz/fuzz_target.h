@@ -5,9 +5,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
-/// Packets whose payloads make good seeds for this target; 0: whole streams.
-extern const std::uint8_t kSeedPacket;
+namespace fbs::fuzz {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Inputs of this target, taken from a stream: itself, payloads of its packets, its frames.
+std::vector<Bytes> seeds_of(const Bytes& stream);
+
+}  // namespace fbs::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

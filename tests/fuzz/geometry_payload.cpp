@@ -6,8 +6,11 @@
 #include <cstdlib>
 
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/seeds.h"
 
-const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kGeometry);
+std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
+  return payloads_of(stream, PacketType::kGeometry);
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto geometry = fbs::decode_geometry({data, size});

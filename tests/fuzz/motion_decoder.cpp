@@ -5,8 +5,11 @@
 #include "bitstream/motion/motion_encoder.h"
 #include "bitstream/track.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/seeds.h"
 
-const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kMotion);
+std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
+  return payloads_of(stream, PacketType::kMotion);
+}
 
 namespace {
 

@@ -3,7 +3,9 @@
 
 #include "tests/fuzz/fuzz_target.h"
 
-const std::uint8_t kSeedPacket = 0;
+std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
+  return {stream};
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> bytes(data, size);

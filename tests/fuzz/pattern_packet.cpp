@@ -4,8 +4,11 @@
 
 #include "bitstream/entropy/range_coder.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/seeds.h"
 
-const std::uint8_t kSeedPacket = static_cast<std::uint8_t>(fbs::PacketType::kPattern);
+std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
+  return payloads_of(stream, PacketType::kPattern);
+}
 
 namespace {
 
