@@ -1,18 +1,24 @@
 #include "cli/encode_session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
 
+#include "bitstream/syntax.h"
 #include "cli/progress.h"
 #include "encoder/picture_spool.h"
 
 namespace fbs::cli {
 namespace {
 
-/// Duration as the encoder expects it: 0 where the pictures follow the frame rate to within two ticks.
+/// Of a gap between two pictures, 1/90000 s: one hour. A longer one is a clock that was set, and shortened.
+constexpr std::int64_t kMaxGap = 60 * std::int64_t{kMaxDuration};
+
+/// Duration as the encoder expects it: 0 where the pictures follow the frame rate to within two ticks. It may
+/// be more than kMaxDuration.
 std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t nominal) {
-  const std::int64_t d = next_pts - pts, difference = d - nominal;
+  const std::int64_t d = std::min(next_pts - pts, kMaxGap), difference = d - nominal;
   const bool regular = difference >= -2 && difference <= 2;
   return regular || d <= 0 ? 0 : static_cast<std::uint32_t>(d);
 }
@@ -46,14 +52,11 @@ class ClosedLoop {
         compares_(what != Measured::kRate),
         meter_(decoder_, what) {}
 
-  Result<void> push(const TimedPicture& now, std::uint32_t duration, const SeePicture& see) {
-    if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
-    if (see)
-      if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
-    ++pushed_;
-    if (compares_)
-      if (auto kept = waiting_.push(now.picture); !kept) return kept;
-    return pass_on();
+  /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
+  Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
+    for (; duration > kMaxDuration; duration -= kMaxDuration, now.pts += kMaxDuration)
+      if (auto pushed = push_one(now, kMaxDuration, see); !pushed) return pushed;
+    return push_one(now, duration, see);
   }
 
   /// Passes on what another thread codes, until there is another picture to read.
@@ -72,6 +75,16 @@ class ClosedLoop {
   }
 
  private:
+  Result<void> push_one(const TimedPicture& now, std::uint32_t duration, const SeePicture& see) {
+    if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
+    if (see)
+      if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
+    ++pushed_;
+    if (compares_)
+      if (auto kept = waiting_.push(now.picture); !kept) return kept;
+    return pass_on();
+  }
+
   Result<void> pass_on() {
     const auto bytes = encoder_.take();
     if (bytes.empty()) return {};
@@ -131,7 +144,7 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
       duration = **next ? duration_of((*current)->pts, (**next)->pts, nominal) : 0;
     }
     last_pts = (*current)->pts;
-    if (auto pushed = loop.push(**current, duration, see); !pushed) return fail(pushed.error());
+    if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());
     progress.update(++done);
     if (auto waited = loop.wait_for(source); !waited) return fail(waited.error());
     current = next ? std::move(*next) : source.next();

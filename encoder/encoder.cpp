@@ -1,5 +1,6 @@
 #include "encoder/encoder.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,52 @@ constexpr double kInsertSeconds = 1;
 
 /// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
 constexpr double kLongestFade = 3;
+
+/// Whether a number is at least zero and finite; NaN is not.
+bool is_size(double value) {
+  return value >= 0 && std::isfinite(value);
+}
+
+Result<void> check_settings(const EncoderSettings& settings) {
+  if (settings.quality < 0 || settings.quality > 100)
+    return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
+  if (settings.group_pictures < 0 || settings.group_pictures > kMaxGroupPictures)
+    return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
+  if (!is_size(settings.bitrate) || !is_size(settings.seconds) || !is_size(settings.motion_bitrate))
+    return fail(ErrorCode::kInvalidArgument, "a rate or length that is negative or not finite");
+  if (settings.patterns < 0 || settings.patterns > kMaxPatterns)
+    return fail(ErrorCode::kInvalidArgument, "number of patterns outside 0..64");
+  if (settings.pattern_quantiser < -1 || settings.pattern_quantiser > 63)
+    return fail(ErrorCode::kInvalidArgument, "quantiser of patterns outside 0..63");
+  if (settings.live && !(is_size(settings.live->delay) && settings.live->delay > 0 &&
+                         is_size(settings.live->buffer) && settings.live->buffer > 0))
+    return fail(ErrorCode::kInvalidArgument, "a delay or buffer that is not positive and finite");
+  if (settings.live && settings.patterns > 1)
+    return fail(ErrorCode::kInvalidArgument, "a live scene has one pattern, or as many as it needs");
+  if (!is_size(settings.key_interval))
+    return fail(ErrorCode::kInvalidArgument, "a key interval that is negative or not finite");
+  if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
+  if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
+  if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
+  return {};
+}
+
+/// Whether a plane has a size, and all its samples.
+bool is_plane(const Plane& plane, int width, int height) {
+  return plane.width == width && plane.height == height &&
+         plane.samples.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+Result<void> check_picture(const Picture& picture, const VideoFormat& format, std::uint32_t duration) {
+  if (picture.width() != format.width || picture.height() != format.height)
+    return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
+  const int width = (format.width + 1) / 2, height = (format.height + 1) / 2;
+  if (!is_plane(picture.y, format.width, format.height) || !is_plane(picture.u, width, height) ||
+      !is_plane(picture.v, width, height))
+    return fail(ErrorCode::kInvalidArgument, "a picture is not 4:2:0");
+  if (duration > kMaxDuration) return fail(ErrorCode::kInvalidArgument, "a picture lasts more than a minute");
+  return {};
+}
 
 }  // namespace
 
@@ -147,24 +194,7 @@ Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 Encoder::~Encoder() = default;
 
 Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings& settings) {
-  if (settings.quality < 0 || settings.quality > 100)
-    return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
-  if (settings.group_pictures < 0 || settings.group_pictures > kMaxGroupPictures)
-    return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
-  if (settings.bitrate < 0 || settings.seconds < 0 || settings.motion_bitrate < 0)
-    return fail(ErrorCode::kInvalidArgument, "a negative rate or length");
-  if (settings.patterns < 0 || settings.patterns > kMaxPatterns)
-    return fail(ErrorCode::kInvalidArgument, "number of patterns outside 0..64");
-  if (settings.pattern_quantiser < -1 || settings.pattern_quantiser > 63)
-    return fail(ErrorCode::kInvalidArgument, "quantiser of patterns outside 0..63");
-  if (settings.live && !(settings.live->delay > 0 && settings.live->buffer > 0))
-    return fail(ErrorCode::kInvalidArgument, "a delay or buffer that is not positive");
-  if (settings.live && settings.patterns > 1)
-    return fail(ErrorCode::kInvalidArgument, "a live scene has one pattern, or as many as it needs");
-  if (settings.key_interval < 0) return fail(ErrorCode::kInvalidArgument, "a negative key interval");
-  if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
-  if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
-  if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
+  if (auto checked = check_settings(settings); !checked) return fail(checked.error());
   Setup setup;
   setup.format = format;
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
@@ -177,8 +207,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
 
 Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   Impl& i = *impl_;
-  if (picture.width() != i.format.width || picture.height() != i.format.height)
-    return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
+  if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();

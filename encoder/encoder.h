@@ -35,8 +35,9 @@ class Encoder {
   Encoder& operator=(const Encoder&) = delete;
   ~Encoder();
 
-  /// @param picture   of the format's size
-  /// @param duration  1/90000 s; 0: that of the frame rate
+  /// @param picture   4:2:0, of the format's size
+  /// @param duration  1/90000 s, at most kMaxDuration; 0: that of the frame rate
+  /// @return kInvalidArgument for another picture or duration: nothing has changed then
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
   /// Codes what is still held back and ends the stream.

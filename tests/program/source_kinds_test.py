@@ -80,6 +80,15 @@ class SourceKinds(ProgramTest):
         for a, b in zip(source, decoded):
             self.assertAlmostEqual(a - source[0], b - decoded[0], delta=0.0015)
 
+    def test_picture_that_stays_for_minutes_is_shown_again(self):
+        ffmpeg("-i", TALK_Y4M, "-frames:v", "4", "-vf", "setpts='if(lt(N,2),N*0.1,N*70+0.5)/TB'", "-fps_mode", "vfr",
+               "-c:v", "ffv1", self.folder / "in.mkv")
+        self.succeed("encode", "in.mkv", "out.fbs", "--overlay", "see.mkv")
+        self.succeed("decode", "out.fbs", "out.mkv")
+        for name in ("out.mkv", "see.mkv"):
+            for time, expected in zip(self.times(name), (0, 0.1, 60.1, 120.1, 140.5, 200.5, 210.5), strict=True):
+                self.assertAlmostEqual(time, expected, delta=0.0015)
+
     def test_overlay_of_variable_rate_keeps_the_speed(self):
         ffmpeg("-i", TALK_Y4M, "-vf", "select='not(between(n,40,45))'", "-fps_mode", "vfr", "-c:v", "ffv1",
                self.folder / "held.mkv")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include "common/quality.h"
@@ -446,6 +447,20 @@ TEST(Encoder, RefusesSettingsOutOfRange) {
   settings = {};
   settings.effort = -1;
   EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {-1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto with = [&](auto set) {
+      EncoderSettings s;
+      set(s);
+      return refusal(format, s);
+    };
+    EXPECT_EQ(with([&](auto& s) { s.bitrate = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.motion_bitrate = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.seconds = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.key_interval = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.live.emplace().delay = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.live.emplace().buffer = bad; }), ErrorCode::kInvalidArgument) << bad;
+  }
   VideoFormat small = format, large = format;
   small.width = 63;
   large.height = 8193;
@@ -458,6 +473,26 @@ TEST(Encoder, RefusesAPictureOfAnotherSize) {
   ASSERT_TRUE(encoder);
   ASSERT_TRUE(encoder->push(shortly()[0]));
   EXPECT_EQ(encoder->push(Picture(128, 94)).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(Encoder, RefusesAPictureThatLastsTooLongOrLacksSamples) {
+  const Pictures p = shortly();
+  auto encoder = Encoder::create(format_of(p), {});
+  ASSERT_TRUE(encoder);
+  const auto refuses = [&](const Picture& picture, std::uint32_t duration) {
+    const auto pushed = encoder->push(picture, duration);
+    return !pushed && pushed.error().code == ErrorCode::kInvalidArgument;
+  };
+  Picture thin = p[0], dense = p[0], cut = p[0];
+  thin.u = Plane(1, 1);
+  dense.v = Plane(p[0].width(), p[0].height());
+  cut.y.samples.pop_back();
+  EXPECT_TRUE(refuses(p[0], kMaxDuration + 1));
+  for (const Picture& picture : {thin, dense, cut}) EXPECT_TRUE(refuses(picture, 0));
+  // What is refused changes nothing.
+  ASSERT_TRUE(encoder->push(p[0], kMaxDuration));
+  ASSERT_TRUE(encoder->finish());
+  EXPECT_EQ(decoded(encoder->take()).durations, std::vector<std::uint32_t>{kMaxDuration});
 }
 
 }  // namespace
