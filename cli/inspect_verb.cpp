@@ -1,13 +1,16 @@
 // fbs inspect: what a stream contains and the size of each part.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/byte_count_json.h"
 #include "cli/display/picture_sources.h"
+#include "cli/packet_list.h"
 #include "cli/pattern_use.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
@@ -62,6 +65,10 @@ nlohmann::json to_json(const PatternSummary& p) {
           {"bytes", p.bytes},
           {"reduced", p.reduced},
           {"share", share}};
+}
+
+bool is_packet(const PacketEntry& entry) {
+  return entry.type != kDamage;
 }
 
 double seconds_of(std::uint64_t time) {
@@ -154,15 +161,54 @@ std::vector<PatternSummary> patterns_of(const StreamDecoder& decoder, const Patt
   return out;
 }
 
+nlohmann::json to_json(const PacketEntry& p) {
+  nlohmann::json out = {{"offset", p.offset}, {"type", p.type}, {"key", p.key}, {"bytes", p.bytes}};
+  out["seconds"] = p.time ? nlohmann::json(seconds_of(*p.time)) : nlohmann::json();
+  if (!p.error.empty()) out["error"] = p.error;
+  return out;
+}
+
+void print_packets(const std::string& name, const std::vector<PacketEntry>& packets) {
+  std::printf("%s: %zu packets\n", name.c_str(),
+              static_cast<std::size_t>(std::ranges::count_if(packets, is_packet)));
+  std::printf("  %12s  %-8s  %-3s  %12s  %9s\n", "at byte", "type", "key", "time", "bytes");
+  for (const PacketEntry& p : packets) {
+    std::array<char, 32> time{"-"};
+    if (p.time) std::snprintf(time.data(), time.size(), "%.3f s", seconds_of(*p.time));
+    std::printf("  %12llu  %-8s  %-3s  %12s  %9llu%s%s\n", static_cast<unsigned long long>(p.offset),
+                p.type.c_str(), p.key ? "key" : "", time.data(), static_cast<unsigned long long>(p.bytes),
+                p.error.empty() ? "" : "  ", p.error.c_str());
+  }
+}
+
+/// Lists the packets of a stream, damaged or not.
+Result<Outcome> inspect_packets(StreamFile& file, std::span<const std::uint8_t> bytes, bool json) {
+  const std::vector<PacketEntry> packets = list_packets(bytes);
+  if (std::ranges::none_of(packets, is_packet)) {
+    const auto status = file.next();  // says what is wrong; an empty stream has no packets either
+    return status ? fail(ErrorCode::kTruncated, file.name() + ": contains no packets") : fail(status.error());
+  }
+  if (json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const PacketEntry& p : packets) list.push_back(to_json(p));
+    std::printf("%s\n", nlohmann::json{{"packets", list}}.dump(1).c_str());
+  } else {
+    print_packets(file.name(), packets);
+  }
+  const bool whole = std::ranges::all_of(packets, [](const PacketEntry& p) { return p.error.empty(); });
+  return whole ? Outcome::kComplete : Outcome::kLittleLost;
+}
+
 }  // namespace
 
-Result<void> run_inspect(const InspectArguments& arguments) {
+Result<Outcome> run_inspect(const InspectArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   StreamDecoder& decoder = file->decoder();
   const auto bytes = file->read_all();
   if (!bytes) return fail(bytes.error());
   decoder.feed(*bytes);
+  if (arguments.packets) return inspect_packets(*file, *bytes, arguments.json);
   decoder.count_motion_bits();
   decoder.record_patterns();
   PatternUse use(decoder);
@@ -187,7 +233,7 @@ Result<void> run_inspect(const InspectArguments& arguments) {
     std::printf("%s\n", to_json(s).dump(1).c_str());
   else
     print(file->name(), s);
-  return {};
+  return Outcome::kComplete;
 }
 
 }  // namespace fbs::cli

@@ -1,11 +1,13 @@
 // The program fbs: parses the command line and runs one verb.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/verbs.h"
@@ -45,7 +47,7 @@ constexpr const char* kExamples =
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
     "--keep-going\n"
-    "has lost pictures; 130 or 143 when stopped.";
+    "has lost pictures; 3 when inspect --packets has found damage; 130 or 143 when stopped.";
 
 constexpr const char* kHiddenGroup = "for measurements";
 
@@ -219,13 +221,29 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
 
   verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
   verb->add_option("INPUT", inspect.input, "Stream to inspect, or - for standard input")->required();
+  verb->add_flag("--packets", inspect.packets,
+                 "List every packet, also of a damaged stream: place, type, time of the first picture that "
+                 "it concerns, bytes, and what is wrong; exit code 3: something is");
   verb->add_flag("--json", inspect.json, "Print JSON");
-  verb->callback([&] { run = [&] { return complete(run_inspect(inspect)); }; });
+  verb->callback([&] { run = [&] { return run_inspect(inspect); }; });
 
   verb = app.add_subcommand("export", "Write head pose and landmarks of every picture as a table");
   verb->add_option("INPUT", table.input, "Stream to export, or - for standard input")->required();
   verb->add_option("OUTPUT", table.output, "Table to write (.csv)")->required();
   verb->callback([&] { run = [&] { return complete(run_export(table)); }; });
+}
+
+/// What was printed has to arrive: a full disk is noticed here at the latest.
+/// @return `code`, or kFailed
+int end_output(int code) {
+  if (std::fflush(stdout) != 0)
+    std::fprintf(stderr, "fbs: cannot write standard output: %s\n",
+                 std::generic_category().message(errno).c_str());
+  else if (std::ferror(stdout) != 0)  // an earlier write, whose reason is not known any more
+    std::fprintf(stderr, "fbs: cannot write standard output\n");
+  else
+    return code;
+  return kFailed;
 }
 
 int run_program(int argc, char** argv) {
@@ -247,13 +265,13 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    return end_output(app.exit(asked));
   } catch (const CLI::ParseError& wrong) {
     std::fprintf(stderr, "fbs: %s; see fbs --help\n", wrong.what());
     return kFailed;
   }
   const auto result = run();
-  if (result) return static_cast<int>(*result);
+  if (result) return end_output(static_cast<int>(*result));
   std::fprintf(stderr, "fbs: %s\n", result.error().text.c_str());
   return kFailed;
 }

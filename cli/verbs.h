@@ -15,8 +15,9 @@ namespace fbs::cli {
 enum class Outcome : std::uint8_t {
   kComplete = 0,
   kPartial = 2,  ///< encode: the source was cut off or damaged; what could be read of it was written
-  kLittleLost =
-      3,          ///< decode --keep-going: less than a tenth of the pictures, or an unknown number at the end
+  /// decode --keep-going: less than a tenth of the pictures, or an unknown number at the end; inspect
+  /// --packets: something is wrong with the stream
+  kLittleLost = 3,
   kMuchLost = 4,  ///< decode --keep-going: a tenth of the pictures or more
   kInterrupted =
       128 + SIGINT,  ///< encode: the stream has what was read until then; decode: nothing was written
@@ -70,6 +71,7 @@ struct DecodeArguments {
 struct InspectArguments {
   std::string input;
   bool json = false;
+  bool packets = false;  ///< list them
 };
 
 struct ExportArguments {
@@ -94,7 +96,7 @@ struct PlayArguments {
 /// Error texts are complete lines for the user: which file, and what is wrong with it.
 Result<Outcome> run_encode(const EncodeArguments& arguments);
 Result<Outcome> run_decode(const DecodeArguments& arguments);
-Result<void> run_inspect(const InspectArguments& arguments);
+Result<Outcome> run_inspect(const InspectArguments& arguments);
 Result<void> run_export(const ExportArguments& arguments);
 Result<Outcome> run_evaluate(const EvaluateArguments& arguments);
 Result<void> run_play(const PlayArguments& arguments);

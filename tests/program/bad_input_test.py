@@ -177,8 +177,16 @@ class BadInput(ProgramTest):
         self.fail_cleanly("export", TALK_FBS, "out.csv", says=["out.csv"], largest_file=10_000)
 
     def test_full_standard_output(self):
+        for arguments in (("decode", TALK_FBS, "-"), ("encode", TALK_Y4M, "-", "--frames", 5), ("inspect", TALK_FBS),
+                          ("inspect", TALK_FBS, "--json"), ("inspect", TALK_FBS, "--packets"), ("evaluate", TALK_Y4M, TALK_FBS),
+                          ("evaluate", TALK_Y4M, TALK_FBS, "--json"), ("--help",), ("inspect", "--help"), ("--version",)):
+            with self.subTest(arguments), open("/dev/full", "wb") as full:
+                self.fail_cleanly(*arguments, says=["cannot write standard output"], stdout=full)
+
+    def test_full_standard_output_of_the_overlay(self):
         with open("/dev/full", "wb") as full:
-            self.fail_cleanly("decode", TALK_FBS, "-", says=["standard output", "No space left"], stdout=full)
+            self.fail_cleanly("encode", TALK_Y4M, "out.fbs", "--frames", 5, "--overlay", "-",
+                              says=["standard output", "No space left"], stdout=full)
 
 
 def add_rows():
