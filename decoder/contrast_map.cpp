@@ -34,7 +34,7 @@ Plane draw_shares(int width, int height, PlaneScale scale, const TextureMesh& te
   const std::array<ConstPlaneView, 2> face_planes{face, face}, surround_planes{surround, surround};
   const std::array<PlaneView, 2> target_planes{out, unused};
   const std::size_t count = plane_count(scale);
-  std::array<TextureSource, 2> sources;
+  std::array<TextureSource, 2> sources{};  // one sample each: any corners will do, but not undefined ones
   sources[0].planes = std::span(face_planes).first(count);
   sources[1].planes = std::span(surround_planes).first(count);
   const RasterTarget target{scale, std::span(target_planes).first(count), {0, 0, width, height}};

@@ -86,11 +86,13 @@ double CoarseCorrelation::correlation(glm::ivec2 shift) const {
   if (low_.x + shift.x < 0 || low_.y + shift.y < 0 || high_.x + shift.x >= level_.cols ||
       high_.y + shift.y >= level_.rows)
     return 0;
-  const std::size_t stride = level_.step[0];
-  const std::uint8_t* origin = level_.ptr<std::uint8_t>(shift.y) + shift.x;
+  // The shift alone may lead out of the picture: only with a tap's place it is an address.
+  const auto stride = static_cast<std::ptrdiff_t>(level_.step[0]);
+  const std::ptrdiff_t origin = shift.y * stride + shift.x;
+  const auto* samples = level_.ptr<std::uint8_t>();
   float common = 0, sum = 0, squares = 0;
   for (const Tap& t : taps_) {
-    const auto value = static_cast<float>(origin[t.at.y * stride + t.at.x]);
+    const auto value = static_cast<float>(samples[origin + t.at.y * stride + t.at.x]);
     common += t.deviation * value;
     sum += t.weight * value;
     squares += t.weight * value * value;
