@@ -20,7 +20,7 @@ CORPUS, FINDINGS, LOGS = BUILD / "corpus", BUILD / "findings", BUILD / "logs"
 # Without NDEBUG: assertions are findings too.
 FLAGS = "-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS"
 # Most bytes of an input, and seconds and MiB that it may take. The encoder's inputs are choices, each of which takes long.
-LIMITS = {"encoder": (200, 120, 3000), "stream_decoder": (8192, 30, 2048), "packet": (8192, 10, 1024),
+LIMITS = {"encoder": (200, 120, 3000), "stream_decoder": (8192, 60, 2048), "packet": (8192, 10, 1024),
           "scene_index": (8192, 10, 1024), "pattern_decoder": (4096, 10, 2048), "geometry_payload": (8192, 10, 1024)}
 OTHER_LIMITS = (2048, 10, 1024)
 MOST_FINDINGS = 5  # of a target: then it needs a human being, not more time
@@ -105,7 +105,7 @@ def main():
     parser.add_argument("seconds", nargs="?", type=int, default=30)
     parser.add_argument("targets", nargs="*")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     build(arguments.jobs)
     for folder in (FINDINGS, LOGS):
         folder.mkdir(exist_ok=True)
