@@ -20,8 +20,15 @@ CORPUS, FINDINGS, LOGS = BUILD / "corpus", BUILD / "findings", BUILD / "logs"
 # Without NDEBUG: assertions are findings too.
 FLAGS = "-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS"
 # Most bytes of an input, and seconds and MiB that it may take. The encoder's inputs are choices, each of which takes long.
-LIMITS = {"encoder": (200, 120, 3000), "stream_decoder": (8192, 60, 2048), "packet": (8192, 10, 1024),
-          "scene_index": (8192, 10, 1024), "pattern_decoder": (4096, 10, 2048), "geometry_payload": (8192, 10, 1024)}
+LIMITS = {
+    "encoder": (200, 120, 3000),
+    "geometry_payload": (8192, 10, 1024),
+    "packet": (8192, 10, 1024),
+    "packet_list": (8192, 30, 2048),
+    "pattern_decoder": (4096, 10, 2048),
+    "scene_index": (8192, 10, 1024),
+    "stream_decoder": (8192, 60, 2048),
+}
 OTHER_LIMITS = (2048, 10, 1024)
 MOST_FINDINGS = 5  # of a target: then it needs a human being, not more time
 COLUMNS = ("target", "executions", "per s", "edges", "features", "corpus", "found", "slowest s", "peak MiB")
@@ -69,8 +76,8 @@ class Tally:
 
     def row(self):
         rate = self.executions / self.cpu if self.cpu else 0
-        return (self.target, self.executions, f"{rate:.0f}", self.edges, self.features, self.corpus, self.found, self.slowest,
-                self.peak)
+        return (self.target, self.executions, f"{rate:.0f}", self.edges, self.features, self.corpus, self.found,
+                self.slowest, self.peak)
 
 
 def fuzz(target, seconds):
