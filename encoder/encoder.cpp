@@ -32,6 +32,8 @@ constexpr double kInsertSeconds = 1;
 /// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
 constexpr double kLongestFade = 3;
 
+constexpr const char* kEnded = "the stream has ended";
+
 /// Whether a number is at least zero and finite; NaN is not.
 bool is_size(double value) {
   return value >= 0 && std::isfinite(value);
@@ -96,6 +98,7 @@ struct Encoder::Impl {
   EncodingReport report{};
   StreamPosition position{};  ///< behind the last picture
   std::uint64_t lost = 0;     ///< pictures, the last ones, in which the scene's face was not followed
+  bool has_ended = false;     ///< the stream has its end packet
   PictureAnalysis nothing{};
 
   void take_from_scene() {
@@ -207,6 +210,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
 
 Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   Impl& i = *impl_;
+  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
@@ -220,12 +224,14 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
 
 Result<void> Encoder::finish() {
   Impl& i = *impl_;
+  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (i.report.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
   if (!i.face_seen && !i.settings.allow_no_face)
     return fail(ErrorCode::kNoFace, "no face found in any picture");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
   PacketWriter().write(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
+  i.has_ended = true;
   return {};
 }
 

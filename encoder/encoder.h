@@ -37,11 +37,13 @@ class Encoder {
 
   /// @param picture   4:2:0, of the format's size
   /// @param duration  1/90000 s, at most kMaxDuration; 0: that of the frame rate
-  /// @return kInvalidArgument for another picture or duration: nothing has changed then
+  /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
   /// Codes what is still held back and ends the stream.
-  /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all
+  /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or
+  /// when
+  ///         the stream has ended already
   Result<void> finish();
 
   /// The bytes that are ready; the encoder forgets them.

@@ -21,7 +21,7 @@ using fbs::Picture;
 using fbs::VideoFormat;
 
 constexpr int kSideRange = 33;  // sides are 64..96: one picture takes some 10 ms
-constexpr int kMaxPictures = 6, kFrames = 12;
+constexpr int kMaxPictures = 4, kFrames = 12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Choices read from the input; zeros past its end.
@@ -198,23 +198,21 @@ class Session {
       if (choices.flag()) take();
     }
     const auto finished = encoder_.finish();
-    if (finished && !failed_) {
-      take();
-      check_stream();
-    } else if (!finished) {
-      check(finished.error());
-    }
-    if (choices.below(8) == 1) {  // calls after the last
-      (void)encoder_.finish();
-      (void)encoder_.push(last_, 0);
-      take();
-    }
+    if (!finished) return check(finished.error());
+    take();
+    if (!failed_) check_stream();
+    require(refused(encoder_.finish()) && refused(encoder_.push(last_)), "a call after the last");
+    require(encoder_.take().empty(), "bytes after the end");
   }
 
  private:
   static void check(const fbs::Error& error) {
     if (error.code == ErrorCode::kInternal) std::fprintf(stderr, "%s\n", error.text.c_str());
     require(error.code != ErrorCode::kInternal, "internal error");
+  }
+
+  static bool refused(const fbs::Result<void>& result) {
+    return !result && result.error().code == ErrorCode::kInvalidArgument;
   }
 
   /// Calls that have to be refused and to change nothing.
@@ -235,8 +233,7 @@ class Session {
         duration = fbs::kMaxDuration + 1;
         break;
     }
-    const auto pushed = encoder_.push(picture, duration);
-    require(!pushed && pushed.error().code == ErrorCode::kInvalidArgument, "a wrong picture is taken");
+    require(refused(encoder_.push(picture, duration)), "a wrong picture is taken");
   }
 
   void push(Choices& choices) {
@@ -244,7 +241,7 @@ class Session {
     const std::uint32_t duration = read_duration(choices);
     const auto pushed = encoder_.push(picture, duration);
     if (duration > fbs::kMaxDuration) {
-      require(!pushed && pushed.error().code == ErrorCode::kInvalidArgument, "too long a duration is taken");
+      require(refused(pushed), "too long a duration is taken");
       return;
     }
     failed_ = !pushed;

@@ -495,5 +495,16 @@ TEST(Encoder, RefusesAPictureThatLastsTooLongOrLacksSamples) {
   EXPECT_EQ(decoded(encoder->take()).durations, std::vector<std::uint32_t>{kMaxDuration});
 }
 
+TEST(Encoder, RefusesWhatComesAfterTheEnd) {
+  const Pictures p = shortly();
+  auto encoder = Encoder::create(format_of(p), {});
+  ASSERT_TRUE(encoder->push(p[0]));
+  ASSERT_TRUE(encoder->finish());
+  EXPECT_FALSE(encoder->take().empty());
+  EXPECT_EQ(encoder->push(p[1]).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(encoder->finish().error().code, ErrorCode::kInvalidArgument);
+  EXPECT_TRUE(encoder->take().empty());
+}
+
 }  // namespace
 }  // namespace fbs
