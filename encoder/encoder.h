@@ -41,9 +41,8 @@ class Encoder {
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
   /// Codes what is still held back and ends the stream.
-  /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or
-  /// when
-  ///         the stream has ended already
+  /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or the
+  ///         stream has ended already
   Result<void> finish();
 
   /// The bytes that are ready; the encoder forgets them.

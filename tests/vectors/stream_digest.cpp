@@ -4,8 +4,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "decoder/stream_decoder.h"
 #include "common/md5.h"
+#include "decoder/stream_decoder.h"
 
 namespace fbs {
 

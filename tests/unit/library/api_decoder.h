@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "fbs/fbs.h"
 #include "common/md5.h"
+#include "fbs/fbs.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {
