@@ -7,6 +7,7 @@
 #include "cli/loss_report.h"
 #include "cli/output_check.h"
 #include "cli/progress.h"
+#include "cli/standard_output.h"
 #include "cli/stream_file.h"
 #include "cli/verbs.h"
 #include "cli/video/constant_rate.h"
@@ -82,9 +83,9 @@ Result<Outcome> Decoding::run() {
   if (!arguments_.keep_going && !decoder().announced_pictures())
     return fail(ErrorCode::kTruncated, file_->name() + ": " + missing_end_text(decoder()));
   progress_.finish();
+  if (arguments_.md5)  // while the output can still be taken back
+    if (auto printed = flush_standard_output(); !printed) return fail(printed.error());
   if (auto finished = sink_->finish(); !finished) return fail(finished.error());
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    return fail(ErrorCode::kIo, "standard output: cannot write");
   print_rate_change();
   return arguments_.keep_going ? losses_.finish(*file_) : Outcome::kComplete;
 }

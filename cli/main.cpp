@@ -1,15 +1,14 @@
 // The program fbs: parses the command line and runs one verb.
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
-#include <system_error>
 #include <vector>
 
+#include "cli/standard_output.h"
 #include "cli/verbs.h"
 
 namespace {
@@ -233,16 +232,11 @@ void add_others(CLI::App& app, PlayArguments& play, EvaluateArguments& evaluate,
   verb->callback([&] { run = [&] { return complete(run_export(table)); }; });
 }
 
-/// What was printed has to arrive: a full disk is noticed here at the latest.
-/// @return `code`, or kFailed
+/// @return `code`, or kFailed when what was printed does not arrive
 int end_output(int code) {
-  if (std::fflush(stdout) != 0)
-    std::fprintf(stderr, "fbs: cannot write standard output: %s\n",
-                 std::generic_category().message(errno).c_str());
-  else if (std::ferror(stdout) != 0)  // an earlier write, whose reason is not known any more
-    std::fprintf(stderr, "fbs: cannot write standard output\n");
-  else
-    return code;
+  const auto flushed = fbs::cli::flush_standard_output();
+  if (flushed) return code;
+  std::fprintf(stderr, "fbs: %s\n", flushed.error().text.c_str());
   return kFailed;
 }
 

@@ -177,7 +177,8 @@ class BadInput(ProgramTest):
         self.fail_cleanly("export", TALK_FBS, "out.csv", says=["out.csv"], largest_file=10_000)
 
     def test_full_standard_output(self):
-        for arguments in (("decode", TALK_FBS, "-"), ("encode", TALK_Y4M, "-", "--frames", 5), ("inspect", TALK_FBS),
+        for arguments in (("decode", TALK_FBS, "-"), ("decode", TALK_FBS, "--md5"), ("decode", TALK_FBS, "out.y4m", "--md5"),
+                          ("encode", TALK_Y4M, "-", "--frames", 5), ("inspect", TALK_FBS),
                           ("inspect", TALK_FBS, "--json"), ("inspect", TALK_FBS, "--packets"), ("evaluate", TALK_Y4M, TALK_FBS),
                           ("evaluate", TALK_Y4M, TALK_FBS, "--json"), ("--help",), ("inspect", "--help"), ("--version",)):
             with self.subTest(arguments), open("/dev/full", "wb") as full:
