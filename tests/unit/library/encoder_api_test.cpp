@@ -358,8 +358,14 @@ TEST(EncoderApi, EveryEncodingEnds) {
   fbs_landmark landmarks[FBS_LANDMARKS];
   EXPECT_EQ(fbs_encoder_get_landmarks(allowed.get(), landmarks), FBS_ERROR_NO_FACE);
   EXPECT_EQ(fbs_encoder_finish(allowed.get()), FBS_OK);
-  pull(allowed.get(), pulled);
-  EXPECT_EQ(pulled.last, FBS_END);
+  EXPECT_EQ(fbs_encoder_finish(allowed.get()), FBS_ERROR_ARGUMENT) << "a second time";
+  EXPECT_EQ(fbs_encoder_push(allowed.get(), &view, 0), FBS_ERROR_ARGUMENT);
+  Pulled whole;
+  pull(allowed.get(), whole);
+  EXPECT_EQ(whole.last, FBS_END);
+  const Heard result = heard(whole.stream());
+  EXPECT_TRUE(result.errors.empty());
+  EXPECT_EQ(result.infos.size(), 3u) << "calls after the end change nothing";
 }
 
 TEST(EncoderApi, AFaceThatIsNotThereEndsTheEncoding) {
