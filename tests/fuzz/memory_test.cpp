@@ -59,7 +59,9 @@ void operator delete[](void* memory, std::size_t) noexcept {
   release(memory);
 }
 
-extern "C" int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+// Visible, so that dav1d calls it: everything else of ours is hidden.
+extern "C" [[gnu::visibility("default")]] int posix_memalign(void** memory, std::size_t alignment,
+                                                             std::size_t size) noexcept {
   using Function = int (*)(void**, std::size_t, std::size_t);
   static const auto next = reinterpret_cast<Function>(dlsym(RTLD_NEXT, "posix_memalign"));
   aligned += size;
