@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 5;
+inline constexpr int kFormatVersion = 6;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;

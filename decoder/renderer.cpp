@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "decoder/blend/mesh_blend.h"
-#include "decoder/draw/base_picture.h"
 #include "decoder/draw/head_painter.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/head/head_mesh.h"
@@ -33,29 +32,19 @@ SampleArea whole(const PlaneView& plane) {
 bool fits(const TextureMesh& texture, const SceneGeometry& geometry) {
   const std::size_t points = geometry.surround().point_count();
   return texture.head.size() == head_mesh().vertex_count && texture.areas.size() == texture.head.size() &&
-         texture.surround.size() == points && texture.seen_surround.size() == points;
+         texture.surround.size() == points;
 }
 
 Result<void> check(const Scene& scene) {
   if (scene.patterns.empty()) return fail(ErrorCode::kInvalidArgument, "the scene has no pattern yet");
   for (const Pattern& p : scene.patterns) {
-    if (scene.geometry && !fits(p.texture, *scene.geometry))
+    if (scene.geometry && (!p.padded || !fits(p.texture, *scene.geometry)))
       return fail(ErrorCode::kInvalidArgument, "a pattern's texture mesh is not of the scene's geometry");
     if (p.picture.width() != scene.patterns.front().picture.width() ||
         p.picture.height() != scene.patterns.front().picture.height())
       return fail(ErrorCode::kInvalidArgument, "patterns of different sizes");
   }
   return {};
-}
-
-/// Without a face the cross-fade of the patterns is all there is.
-MeshBlend blend_without_mesh(const PictureBlend& blend) {
-  MeshBlend out;
-  for (const WeightedSource& s : blend[static_cast<std::size_t>(Region::kGround)]) {
-    out.sources.push_back({s.source.pattern, true});
-    out.ground.push_back(s.weight * kShareOne);
-  }
-  return out;
 }
 
 MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mesh) {
@@ -66,14 +55,17 @@ MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mes
     textures.push_back(&p.texture);
   }
   const PictureBlend regions = blend_picture(seen, state);
-  return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_without_mesh(regions);
+  return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_regions(regions);
 }
 
 std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) {
   std::vector<DrawnSource> out;
   for (const BlendSource& s : blend.sources) {
     const Pattern& pattern = scene.patterns[s.pattern];
-    out.push_back({planes_of(pattern.picture), s.still ? nullptr : &pattern.texture});
+    if (s.still || !scene.geometry)
+      out.push_back({planes_of(pattern.picture)});
+    else
+      out.push_back({planes_of(pattern.picture), &pattern.texture, &*pattern.padded});
   }
   return out;
 }
@@ -106,12 +98,28 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
   const Drawing drawing{
       mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
       luma, chroma};
-  draw_base(drawing);
+  draw_surround(scene, drawing);
   if (!scene.geometry) return;
-  SurroundPainter surround(drawing);
-  for (const Surround::Cell& cell : scene.geometry->surround().cells()) surround.draw(cell);
   HeadPainter(drawing, PlaneScale::kLuma, luma_depth_).draw();
   HeadPainter(drawing, PlaneScale::kChroma, chroma_depth_).draw();
+}
+
+void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
+  const Picture& size = scene.patterns.front().picture;
+  const NodeGrid grid(size.width(), size.height());
+  fields_.resize(drawing.sources.size());
+  for (SourceField& f : fields_) f.moves = false;
+  if (scene.geometry) {
+    const Surround& surround = scene.geometry->surround();
+    cover_.find(grid, surround.cells(), drawing.mesh.surround);
+    weights_.set(cover_, drawing.blend.regions, surround.shares());
+    for (std::size_t s = 0; s < fields_.size(); ++s)
+      if (const TextureMesh* const texture = drawing.sources[s].texture)
+        displace(cover_, texture->surround, drawing.mesh.surround, size.width(), size.height(), fields_[s]);
+  } else {
+    weights_.set(grid, drawing.blend.regions[static_cast<std::size_t>(Region::kGround)]);
+  }
+  surround_.draw({drawing, grid, fields_, weights_});
 }
 
 Result<void> Renderer::render(const Scene& scene, const State& state, Picture& out) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "decoder/draw/surround_painter.h"
+#include "decoder/field/surround_field.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/scene.h"
 
@@ -30,6 +33,12 @@ class Renderer {
   void draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
             const SampleArea& chroma);
 
+  void draw_surround(const Scene& scene, const Drawing& drawing);
+
+  NodeCover cover_;
+  NodeWeights weights_;
+  std::vector<SourceField> fields_;
+  SurroundPainter surround_;
   DepthPlane luma_depth_, chroma_depth_;
 };
 

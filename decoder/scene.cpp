@@ -6,20 +6,27 @@
 
 namespace fbs {
 
+void Pattern::set_geometry(const SceneGeometry& geometry) {
+  texture = geometry.texture_mesh(seen);
+  if (!padded) padded.emplace(fbs::padded(picture));
+}
+
 Pattern make_pattern(Picture picture, const State& seen, const std::optional<SceneGeometry>& geometry) {
-  return {std::move(picture), seen, geometry ? geometry->texture_mesh(seen) : TextureMesh{}};
+  Pattern out{std::move(picture), seen, {}, {}};
+  if (geometry) out.set_geometry(*geometry);
+  return out;
 }
 
 Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional<SceneGeometry>& geometry,
                            const Setup& setup) {
-  Pattern out = make_pattern(std::move(coded), seen, geometry);
-  if (geometry && ContrastMap::is_needed(setup)) ContrastMap(setup, out.texture).expand(out.picture);
-  return out;
+  if (geometry && ContrastMap::is_needed(setup))
+    ContrastMap(setup, geometry->texture_mesh(seen)).expand(coded);
+  return make_pattern(std::move(coded), seen, geometry);
 }
 
 void Scene::set_geometry(SceneGeometry replacement) {
   geometry.emplace(std::move(replacement));
-  for (Pattern& p : patterns) p.texture = geometry->texture_mesh(p.seen);
+  for (Pattern& p : patterns) p.set_geometry(*geometry);
 }
 
 }  // namespace fbs

@@ -7,14 +7,18 @@
 #include "common/picture.h"
 #include "common/state.h"
 #include "decoder/animate/scene_geometry.h"
+#include "decoder/field/padded_plane.h"
 
 namespace fbs {
 
 /// A decoded picture of the person, and all that is needed to draw from it.
 struct Pattern {
   Picture picture;
-  State seen;           ///< the state it was seen in
-  TextureMesh texture;  ///< of `seen` by the scene's geometry; empty without a face
+  State seen;                           ///< the state it was seen in
+  TextureMesh texture;                  ///< of `seen` by the scene's geometry; empty without a face
+  std::optional<PaddedPicture> padded;  ///< `picture`, to be warped; none without a face
+
+  void set_geometry(const SceneGeometry& geometry);
 };
 
 /// @param geometry  that of the scene; none: a scene without a face

@@ -31,9 +31,10 @@ Picture plain_picture(const Bgr& colour, const VideoFormat& format) {
 }
 
 Pattern painted(const Pattern& pattern, const Bgr& colour, const VideoFormat& format) {
-  Pattern out{plain_picture(colour, format), pattern.seen, pattern.texture};
+  Pattern out{plain_picture(colour, format), pattern.seen, pattern.texture, {}};
   out.texture.light.clear();
   out.texture.mouth_gap = kWidestGap;
+  if (pattern.padded) out.padded.emplace(fbs::padded(out.picture));
   return out;
 }
 

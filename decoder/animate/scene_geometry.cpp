@@ -76,11 +76,10 @@ TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
   TextureMesh texture;
   texture.head.reserve(mesh.head.size());
   for (const glm::ivec3& v : mesh.head) texture.head.emplace_back(v.x, v.y);
-  texture.surround = surround_.texture(mesh.surround);
   texture.light = std::move(mesh.light);
   texture.mouth_gap = mesh.mouth_gap;
   texture.areas = std::move(mesh.areas);
-  texture.seen_surround = std::move(mesh.surround);
+  texture.surround = std::move(mesh.surround);
   return texture;
 }
 

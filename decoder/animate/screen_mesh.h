@@ -27,13 +27,10 @@ struct ScreenMesh {
 /// The same mesh in a pattern, which was seen in a state of its own. Positions are 1/64 pixel of the pattern.
 struct TextureMesh {
   std::vector<glm::ivec2> head;      ///< head_mesh().vertex_count
-  std::vector<glm::ivec2> surround;  ///< grid points; the margin repeats the border: Surround::texture()
+  std::vector<glm::ivec2> surround;  ///< grid points, margin included
   std::vector<VertexLight> light;    ///< that the pattern already has; empty: none
   std::int32_t mouth_gap = 0;        ///< head units
   std::vector<std::int64_t> areas;   ///< ScreenMesh::areas, of what the pattern shows
-  /// Where the grid points themselves were seen, margin included: a cell whose points are still there shows
-  /// what the pattern shows there.
-  std::vector<glm::ivec2> seen_surround;
 };
 
 }  // namespace fbs

@@ -102,13 +102,6 @@ void Surround::project(const State& state, std::vector<glm::ivec2>& out) const {
   }
 }
 
-std::vector<glm::ivec2> Surround::texture(std::span<const glm::ivec2> seen) const {
-  std::vector<glm::ivec2> out;
-  out.reserve(points_.size());
-  for (const Point& p : points_) out.push_back(seen[p.base]);
-  return out;
-}
-
 Surround::Place Surround::place(glm::ivec2 rest) const {
   const glm::ivec2 first = points_[index(0, 0)].rest, last = points_[index(map_.columns, map_.rows)].rest;
   const glm::ivec2 inside(std::clamp(rest.x, first.x, last.x), std::clamp(rest.y, first.y, last.y));

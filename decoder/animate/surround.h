@@ -17,8 +17,8 @@ namespace fbs {
 [[nodiscard]] SurroundMap still_surround();
 
 /// The grid of a SurroundMap, which begins a little inside the picture, with a margin: one more column and
-/// row on each side, half a picture away. A point of the margin repeats the nearest one of the border: it is
-/// displaced as that one is and shows the same, so that what comes in from outside repeats what is near.
+/// row on each side, half a picture away. A point of the margin is displaced as the nearest one of the border
+/// is.
 class Surround {
  public:
   /// @param rest  the rest state: the one in which the grid is regular, that of the first pattern
@@ -26,11 +26,6 @@ class Surround {
 
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.
   void project(const State& state, std::vector<glm::ivec2>& out) const;
-
-  /// Texture coordinates of the grid points in a pattern, 1/64 pixel: where they were seen; in the margin,
-  /// where the border point that they repeat was seen.
-  /// @param seen  the grid points as project() gives them for the pattern's seen state
-  [[nodiscard]] std::vector<glm::ivec2> texture(std::span<const glm::ivec2> seen) const;
 
   /// A fixed place on the grid: one that some cell carries.
   struct Place {
@@ -61,7 +56,7 @@ class Surround {
     glm::ivec2 rest;          ///< 1/64 pixel
     glm::ivec2 from_head;     ///< of its base, relative to the head's origin, 1/256 eye distance
     std::int32_t head, body;  ///< shares, of kFollowOne
-    int base;                 ///< itself; in the margin, the border point that it repeats
+    int base;                 ///< itself; in the margin, the border point that it follows
   };
 
   void place_points(const VideoFormat& format);

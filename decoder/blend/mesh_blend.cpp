@@ -19,9 +19,6 @@ std::vector<BlendSource> sources_of(const PictureBlend& blend) {
   return out;
 }
 
-/// Weights of the sources in each region.
-using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
-
 RegionWeights region_weights(const PictureBlend& blend, std::span<const BlendSource> sources) {
   RegionWeights out;
   for (std::size_t r = 0; r < kRegionCount; ++r) {
@@ -29,18 +26,6 @@ RegionWeights region_weights(const PictureBlend& blend, std::span<const BlendSou
     for (const WeightedSource& s : blend[r])
       out[r][std::lower_bound(sources.begin(), sources.end(), s.source, before) - sources.begin()] = s.weight;
   }
-  return out;
-}
-
-PointWeights point_weights(const RegionWeights& regions, std::span<const RegionShares> shares) {
-  PointWeights out;
-  out.sources = regions.front().size();
-  out.weights.resize(shares.size() * out.sources);
-  for (std::size_t p = 0; p < shares.size(); ++p)
-    for (std::size_t r = 0; r < kRegionCount; ++r)
-      if (shares[p][r] != 0)
-        for (std::size_t s = 0; s < out.sources; ++s)
-          out.weights[p * out.sources + s] += shares[p][r] * regions[r][s];
   return out;
 }
 
@@ -75,16 +60,29 @@ void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t>
 
 }  // namespace
 
-MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
-                     std::span<const TextureMesh* const> textures, const ScreenMesh& mesh) {
+PointWeights point_weights(const RegionWeights& regions, std::span<const RegionShares> shares) {
+  PointWeights out;
+  out.sources = regions.front().size();
+  out.weights.resize(shares.size() * out.sources);
+  for (std::size_t p = 0; p < shares.size(); ++p)
+    for (std::size_t r = 0; r < kRegionCount; ++r)
+      if (shares[p][r] != 0)
+        for (std::size_t s = 0; s < out.sources; ++s)
+          out.weights[p * out.sources + s] += shares[p][r] * regions[r][s];
+  return out;
+}
+
+MeshBlend blend_regions(const PictureBlend& blend) {
   MeshBlend out;
   out.sources = sources_of(blend);
-  const RegionWeights regions = region_weights(blend, out.sources);
-  out.surround = point_weights(regions, geometry.surround().shares());
-  out.head = point_weights(regions, geometry.head_shares());
-  out.ground = regions[static_cast<std::size_t>(Region::kGround)];
-  for (std::int32_t& w : out.ground) w *= kShareOne;
+  out.regions = region_weights(blend, out.sources);
+  return out;
+}
 
+MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
+                     std::span<const TextureMesh* const> textures, const ScreenMesh& mesh) {
+  MeshBlend out = blend_regions(blend);
+  out.head = point_weights(out.regions, geometry.head_shares());
   std::vector<std::int32_t> visible(out.sources.size());
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     for (std::size_t s = 0; s < visible.size(); ++s)

@@ -1,6 +1,7 @@
 // The blend of a picture brought to the points of its mesh. SPEC 11.5. Integers only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,11 +22,21 @@ struct PointWeights {
   }
 };
 
+/// Weights of the sources in each region, in 1/kBlendOne.
+using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
+
+/// The sources of a picture, and what they weigh.
 struct MeshBlend {
   std::vector<BlendSource> sources;  ///< all that some region uses; at most kRegionCount * kMaxRegionSources
-  PointWeights head, surround;       ///< vertices of head_mesh(), grid points of the surround
-  std::vector<std::int32_t> ground;  ///< weights where all is ground
+  RegionWeights regions;
+  PointWeights head;  ///< vertices of head_mesh(); empty in a scene without a face
 };
+
+/// Without weights of the head.
+[[nodiscard]] MeshBlend blend_regions(const PictureBlend& blend);
+
+/// Of points, by their shares of the regions.
+[[nodiscard]] PointWeights point_weights(const RegionWeights& regions, std::span<const RegionShares> shares);
 
 /// @param textures  of each pattern: how much of the head it shows
 /// @param mesh      to be drawn

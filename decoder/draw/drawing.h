@@ -8,6 +8,7 @@
 #include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
 #include "decoder/blend/mesh_blend.h"
+#include "decoder/field/padded_plane.h"
 #include "decoder/head/mouth_interior.h"
 #include "decoder/raster/triangle_setup.h"
 
@@ -15,8 +16,9 @@ namespace fbs {
 
 /// A pattern, and where it holds what is drawn.
 struct DrawnSource {
-  std::array<ConstPlaneView, 3> planes;  ///< Y, U, V
-  const TextureMesh* texture = nullptr;  ///< null: the pattern is shown as it is, not warped
+  std::array<ConstPlaneView, 3> planes;   ///< Y, U, V
+  const TextureMesh* texture = nullptr;   ///< null: the pattern is shown as it is, not warped
+  const PaddedPicture* padded = nullptr;  ///< of what is warped
 };
 
 struct Drawing {

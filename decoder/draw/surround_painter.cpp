@@ -3,40 +3,143 @@
 #include <algorithm>
 
 namespace fbs {
+namespace {
 
-void SurroundPainter::draw(const Surround::Cell& cell) {
-  if (is_ground_at_rest(cell)) return;
-  draw_half({cell[0], cell[1], cell[2]});
-  draw_half({cell[0], cell[2], cell[3]});
+using Whole = BlockMotion::Whole;
+
+/// A block or patch in a plane.
+struct Square {
+  glm::ivec2 first;  ///< its upper left sample
+  int size;
+};
+
+/// @param block  its column and row
+Square block_in(std::size_t plane, glm::ivec2 block) {
+  const int size = plane == 0 ? kBlockSize : kChromaBlockSize;
+  return {block * size, size};
 }
 
-bool SurroundPainter::is_ground_at_rest(const Surround::Cell& cell) const {
-  return std::all_of(cell.begin(), cell.end(), [&](int point) {
-    const auto weights = d_.blend.surround.at(point);
-    if (!std::equal(weights.begin(), weights.end(), d_.blend.ground.begin())) return false;
-    for (std::size_t s = 0; s < weights.size(); ++s) {
-      const TextureMesh* texture = d_.sources[s].texture;
-      if (weights[s] != 0 && texture != nullptr && d_.mesh.surround[point] != texture->seen_surround[point])
-        return false;
+/// @param k  0..3, row by row
+Square patch_of(const Square& block, int k) {
+  const int size = block.size / 2;
+  return {block.first + glm::ivec2(k % 2 * size, k / 2 * size), size};
+}
+
+bool is_inside(const Square& s, const ConstPlaneView& plane) {
+  return s.first.x + s.size <= plane.width && s.first.y + s.size <= plane.height;
+}
+
+/// What of a square lies in a plane.
+glm::ivec2 size_inside(const Square& s, const ConstPlaneView& plane) {
+  return {std::clamp(plane.width - s.first.x, 0, s.size), std::clamp(plane.height - s.first.y, 0, s.size)};
+}
+
+void copy(SampleBlock from, glm::ivec2 size, std::uint8_t* to, std::ptrdiff_t stride) {
+  for (int y = 0; y < size.y; ++y, from.samples += from.stride, to += stride)
+    std::copy_n(from.samples, size.x, to);
+}
+
+SampleBlock own_samples(const ConstPlaneView& plane, const Square& s) {
+  return {plane.data + s.first.y * plane.stride + s.first.x, plane.stride};
+}
+
+void copy_own(const ConstPlaneView& plane, const Square& s, std::uint8_t* out) {
+  const glm::ivec2 size = size_inside(s, plane);
+  if (size.x > 0) copy(own_samples(plane, s), size, out, WarpedBlock::kStride);
+}
+
+}  // namespace
+
+void SurroundPainter::draw(const SurroundDrawing& surround) {
+  const SampleArea& luma = surround.drawing.luma_area;
+  shown_.resize(surround.drawing.sources.size());
+  for (int row = luma.y0 / kBlockSize; row * kBlockSize < luma.y1; ++row)
+    for (int column = luma.x0 / kBlockSize; column * kBlockSize < luma.x1; ++column)
+      draw_block(surround, {column, row});
+}
+
+void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 block) {
+  const std::size_t planes = surround.drawing.chroma_area.empty() ? 1 : 3;
+  collect(surround, block);
+  for (std::size_t p = 0; p < planes; ++p) blended_[p].clear();
+  for (Shown& shown : std::span(shown_).first(count_)) {
+    if (shown.motion.whole == Whole::kNo) {
+      show_patches(shown, block, planes > 1);
+      continue;
     }
-    return true;
-  });
+    for (std::size_t p = 0; p < planes; ++p) {
+      const Square square = block_in(p, block);
+      const ConstPlaneView& own = shown.source->planes[p];
+      std::uint8_t* const memory = shown.memory[p].samples.data();
+      if (shown.motion.whole == Whole::kEven) {
+        const glm::ivec2 by = shown.motion.patch[0].nodes[0];
+        show(p, shown,
+             displaced((*shown.source->padded)[p], square.first, p == 0 ? by : chroma_displacement(by),
+                       square.size, memory));
+      } else if (is_inside(square, own)) {
+        show(p, shown, own_samples(own, square));
+      } else {
+        copy_own(own, square, memory);
+        show(p, shown, {memory, WarpedBlock::kStride});
+      }
+    }
+  }
+  for (std::size_t p = 0; p < planes; ++p) blend(p, block, surround.drawing.target[p]);
 }
 
-void SurroundPainter::draw_half(const std::array<int, 3>& points) {
-  const auto corners = [&](const std::vector<glm::ivec2>& at) {
-    return std::array{at[points[0]], at[points[1]], at[points[2]]};
-  };
-  sources_.collect(d_, d_.blend.surround, points, [&](const DrawnSource& source) {
-    return corners(source.texture == nullptr ? d_.mesh.surround : source.texture->surround);
-  });
-  const auto at = corners(d_.mesh.surround);
-  const ScreenTriangle triangle = {{{at[0]}, {at[1]}, {at[2]}}};
-  for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
-    if (d_.area(scale).empty()) continue;
-    sources_.set_scale(scale);
-    draw_triangle(triangle, sources_.all(), {scale, planes_of_scale(d_.target, scale), d_.area(scale)});
+void SurroundPainter::collect(const SurroundDrawing& surround, glm::ivec2 block) {
+  const int columns = surround.grid.columns();
+  const std::ptrdiff_t first = std::ptrdiff_t{2} * block.y * columns + 2 * block.x;
+  count_ = 0;
+  for (std::size_t s = 0; s < surround.drawing.sources.size(); ++s) {
+    const std::uint16_t* const weights = surround.weights.of(s) + first;
+    Shown& shown = shown_[count_];
+    unsigned any = 0;
+    for (int k = 0; k < 9; ++k) any |= shown.weight[k] = weights[k / 3 * columns + k % 3];
+    if (any == 0) continue;
+    ++count_;
+    shown.source = &surround.drawing.sources[s];
+    const SourceField& field = surround.fields[s];
+    shown.motion = field.moves ? BlockMotion::of(field.displacement.data() + first, columns) : BlockMotion{};
   }
+}
+
+void SurroundPainter::show(std::size_t plane, const Shown& shown, const SampleBlock& block) {
+  blended_[plane].push_back({block, shown.weight});
+}
+
+void SurroundPainter::show_patches(Shown& shown, glm::ivec2 block, bool has_chroma) {
+  const PaddedPicture& texture = *shown.source->padded;
+  const auto place = [&](std::size_t plane, int k) {
+    const int size = block_in(plane, block).size / 2;
+    return shown.memory[plane].samples.data() + k / 2 * size * WarpedBlock::kStride + k % 2 * size;
+  };
+  for (int k = 0; k < 4; ++k) {  // from left to right: WarpedBlock
+    const PatchMotion& motion = shown.motion.patch[k];
+    const Square luma = patch_of(block_in(0, block), k), chroma = patch_of(block_in(1, block), k);
+    if (motion.kind == PatchMotion::Kind::kStill) {
+      copy_own(shown.source->planes[0], luma, place(0, k));
+      for (std::size_t p = 1; p < 3 && has_chroma; ++p)
+        copy_own(shown.source->planes[p], chroma, place(p, k));
+      continue;
+    }
+    warp_luma(texture[0], motion, luma.first, place(0, k));
+    if (has_chroma) warp_chroma(texture[1], texture[2], motion, chroma.first, {place(1, k), place(2, k)});
+  }
+  for (std::size_t p = 0; p < (has_chroma ? 3 : 1); ++p)
+    show(p, shown, {shown.memory[p].samples.data(), WarpedBlock::kStride});
+}
+
+void SurroundPainter::blend(std::size_t plane, glm::ivec2 block, const PlaneView& target) {
+  const std::vector<BlendedSource>& sources = blended_[plane];
+  const Square square = block_in(plane, block);
+  std::uint8_t* const out = target.data + square.first.y * target.stride + square.first.x;
+  if (sources.size() == 1) return copy(sources[0].block, size_inside(square, target), out, target.stride);
+  const auto blended = plane == 0 ? blend_luma_block : blend_chroma_block;
+  if (is_inside(square, target)) return blended(sources, out, target.stride);
+  WarpedBlock whole;
+  blended(sources, whole.samples.data(), WarpedBlock::kStride);
+  copy({whole.samples.data(), WarpedBlock::kStride}, size_inside(square, target), out, target.stride);
 }
 
 }  // namespace fbs

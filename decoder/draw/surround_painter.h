@@ -1,28 +1,51 @@
-// Draws the picture round the face. SPEC 10.3, 10.4.
+// Draws what is round the face, and in scenes without one the picture: patches of all sources, blended.
+// SPEC 10.3 and 11.6.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
 
-#include "decoder/animate/surround.h"
 #include "decoder/draw/drawing.h"
-#include "decoder/draw/triangle_sources.h"
+#include "decoder/field/patch_kernels.h"
+#include "decoder/field/patch_motion.h"
+#include "decoder/field/surround_field.h"
 
 namespace fbs {
 
-/// Draws cells of the surround's grid over the base picture.
+/// Of one picture. `fields` and `weights` are those of the drawing's sources.
+struct SurroundDrawing {
+  const Drawing& drawing;
+  const NodeGrid& grid;
+  const std::vector<SourceField>& fields;
+  const NodeWeights& weights;
+};
+
+/// Keeps scratch memory only.
 class SurroundPainter {
  public:
-  explicit SurroundPainter(const Drawing& drawing) : d_(drawing) {}
-
-  /// Draws both halves of the cell, unless it would look as the base picture does.
-  void draw(const Surround::Cell& cell);
+  /// Draws all blocks that have samples in the drawing's areas.
+  void draw(const SurroundDrawing& surround);
 
  private:
-  [[nodiscard]] bool is_ground_at_rest(const Surround::Cell& cell) const;
-  void draw_half(const std::array<int, 3>& points);
+  /// A source that shows in a block.
+  struct Shown {
+    const DrawnSource* source;
+    std::array<std::uint16_t, 9> weight;
+    BlockMotion motion;
+    std::array<WarpedBlock, 3> memory;  ///< what it shows in each plane, if that has to be drawn
+  };
 
-  const Drawing& d_;
-  TriangleSources sources_;
+  void draw_block(const SurroundDrawing& surround, glm::ivec2 block);
+  void collect(const SurroundDrawing& surround, glm::ivec2 block);
+  void show(std::size_t plane, const Shown& shown, const SampleBlock& block);
+  void show_patches(Shown& shown, glm::ivec2 block, bool has_chroma);
+  void blend(std::size_t plane, glm::ivec2 block, const PlaneView& target);
+
+  std::vector<Shown> shown_;  ///< the first `count_`; the others are memory
+  std::size_t count_ = 0;
+  std::array<std::vector<BlendedSource>, 3> blended_;  ///< of each plane
 };
 
 }  // namespace fbs

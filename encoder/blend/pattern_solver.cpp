@@ -85,11 +85,12 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
     textures.push_back(&scene_.patterns[k].texture);
   }
   const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures, mesh);
+  const PointWeights surround = point_weights(blend.regions, geometry.surround().shares());
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
   Taps taps;
   for (const SurfaceRun& run : surface.runs()) {
     const SurfaceTriangle& t = surface.triangles()[run.triangle];
-    const PointWeights& weights = t.head ? blend.head : blend.surround;
+    const PointWeights& weights = t.head ? blend.head : surround;
     const auto w0 = weights.at(t.corners[0]), w1 = weights.at(t.corners[1]), w2 = weights.at(t.corners[2]);
     const Barycentric& b = surface.barycentric(run.triangle);
     const glm::vec2 at = b.at(static_cast<float>(run.first), static_cast<float>(run.row));

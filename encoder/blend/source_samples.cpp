@@ -56,12 +56,10 @@ float mixed(const float* a, int width, float fx, float fy) {
   return top + fy * (bottom - top);
 }
 
-/// Whether the surround lies where the pattern has it: then the decoder shows the pattern's own samples, in
-/// the margin, too, whose texture would repeat the border.
+/// Whether the surround lies where the pattern has it: then the decoder shows the pattern's own samples.
 bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureMesh& texture) {
-  return !t.head && std::ranges::all_of(t.corners, [&](std::uint16_t k) {
-    return mesh.surround[k] == texture.seen_surround[k];
-  });
+  return !t.head && std::ranges::all_of(
+                        t.corners, [&](std::uint16_t k) { return mesh.surround[k] == texture.surround[k]; });
 }
 
 }  // namespace

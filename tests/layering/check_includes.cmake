@@ -7,13 +7,14 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
-  decoder/head decoder/animate decoder/raster decoder/blend decoder/draw decoder
+  decoder/head decoder/animate decoder/raster decoder/blend decoder/field decoder/draw decoder
   encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
   encoder
   fbs library
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
+          "decoder/raster decoder/field"
           "encoder/landmarks encoder/model" "encoder/track/head encoder/track/snake" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
@@ -23,6 +24,7 @@ set(foreign
   "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
+  "hwy/@decoder/field"
   "draco/@bitstream/payload"
   "nlohmann@encoder/find|cli"
   "OpenImageIO@cli/video/images"

@@ -13,6 +13,7 @@ foreach(library fbs_common fbs_bitstream fbs_decoder)
 endforeach()
 find_package(draco REQUIRED)
 pkg_check_modules(dav1d REQUIRED IMPORTED_TARGET dav1d)
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 
 function(fbs_exact_test name)
   add_test(NAME exact.${name} COMMAND ${name} ${PROJECT_SOURCE_DIR}/tests/vectors)
@@ -21,7 +22,7 @@ endfunction()
 function(fbs_exact_build name)
   add_executable(${name} ${exact_sources})
   target_compile_options(${name} PRIVATE ${ARGN})
-  target_link_libraries(${name} PRIVATE fbs_options glm::glm tl::expected draco::draco PkgConfig::dav1d)
+  target_link_libraries(${name} PRIVATE fbs_options glm::glm tl::expected draco::draco PkgConfig::dav1d PkgConfig::hwy)
   fbs_exact_test(${name})
 endfunction()
 
@@ -43,7 +44,7 @@ function(fbs_exact_build_clang name)
   set(program ${PROJECT_BINARY_DIR}/${name})
   add_custom_command(
     OUTPUT ${program}
-    COMMAND ${FBS_CLANGXX} ${objects} -ldraco ${dav1d_LINK_LIBRARIES} -o ${program}
+    COMMAND ${FBS_CLANGXX} ${objects} -ldraco ${dav1d_LINK_LIBRARIES} ${hwy_LINK_LIBRARIES} -o ${program}
     DEPENDS ${objects}
     VERBATIM)
   add_custom_target(${name} ALL DEPENDS ${program})

@@ -149,31 +149,6 @@ TEST(RendererBlend, RegionsAreBlendedApart) {
   for (const std::uint8_t s : out.y.samples) ASSERT_TRUE(s >= 60 && s <= 180);
 }
 
-// SPEC 10.3: a cell that is not drawn shows the base picture. Drawing it would change nothing.
-TEST(RendererBlend, SkippedGroundCellIsWhatWouldBeDrawn) {
-  std::mt19937 random(4);
-  Scene scene = toy_scene(noise_picture(160, 128, 1), even_surround(10, 8, 0));
-  for (int k = 1; k < 4; ++k) {
-    State seen = any_state(random, 20 * k);
-    seen.ground = {};
-    scene.patterns.push_back(make_pattern(noise_picture(160, 128, 10u + k), seen, scene.geometry));
-  }
-  for (int i = 0; i < 20; ++i) {
-    State state = any_state(random, static_cast<int>(random() % 80));
-    set_modes(random, state);
-    const Picture skipped = rendered(scene, state);
-    Scene drawn = scene;
-    for (Pattern& p : drawn.patterns)
-      for (glm::ivec2& at : p.texture.seen_surround) at.x += 1;  // as if each had moved a little
-    const Picture all = rendered(drawn, state);
-    // The grid leaves a border of two pixels, where the two are not drawn alike.
-    for (int y = 3; y < 125; ++y)
-      ASSERT_TRUE(std::equal(all.y.row(y) + 3, all.y.row(y) + 157, skipped.y.row(y) + 3)) << i << ' ' << y;
-    for (int y = 2; y < 62; ++y)
-      ASSERT_TRUE(std::equal(all.u.row(y) + 2, all.u.row(y) + 78, skipped.u.row(y) + 2)) << i << ' ' << y;
-  }
-}
-
 TEST(RendererBlend, PatternsOfDifferentSizesAreAnError) {
   Scene scene = toy_scene(noise_picture(160, 128, 1));
   scene.patterns.push_back(scene.patterns[0]);

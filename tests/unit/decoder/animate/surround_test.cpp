@@ -81,38 +81,6 @@ TEST(Surround, RestStateGivesTheRegularGridAndItsMargin) {
   }
 }
 
-// In the margin the border's samples repeat, those that lie a little inside the picture.
-TEST(Surround, TextureOfTheRestStateIsTheRegularGridAndInTheMarginItsBorder) {
-  State rest = toy_state(70, 60);
-  rest.pose[kYaw] = 900;
-  const Surround surround = surround_of(whole_map(7, 5, kFollowOne), rest);
-  const auto grid = projected(surround, rest), texture = surround.texture(grid);
-  ASSERT_EQ(texture.size(), grid.size());
-  for (int r = 0; r <= 7; ++r) {
-    for (int c = 0; c <= 9; ++c) {
-      const auto regular = [](int place, int last, int size) {
-        return kInset + (size * 64 - 2 * kInset) * on_picture(place, last) / last;
-      };
-      EXPECT_EQ(texture[r * 10 + c], glm::ivec2(regular(c, 7, kWidth), regular(r, 5, kHeight)))
-          << r << ' ' << c;
-    }
-  }
-  EXPECT_EQ(texture.front(), glm::ivec2(kInset));
-  EXPECT_EQ(texture.back(), glm::ivec2(kWidth, kHeight) * 64 - kInset);
-}
-
-TEST(Surround, TextureOfAnyStateIsItsGridAndInTheMarginItsBorder) {
-  std::mt19937 random(7);
-  for (int i = 0; i < 50; ++i) {
-    const Surround surround = surround_of(random_map(random, 7, 5));
-    const auto grid = projected(surround, random_state(random)), texture = surround.texture(grid);
-    ASSERT_EQ(texture.size(), surround.point_count());
-    for (int r = 0; r <= 7; ++r)
-      for (int c = 0; c <= 9; ++c)
-        ASSERT_EQ(texture[r * 10 + c], grid[(on_picture(r, 5) + 1) * 10 + on_picture(c, 7) + 1]);
-  }
-}
-
 TEST(Surround, FollowsAShiftOfTheHeadByItsShare) {
   for (int share = 0; share <= kFollowOne; ++share) {
     const auto moved = displacements(surround_of(even_surround(8, 8, share)), toy_state(88, 46));

@@ -66,8 +66,10 @@ TEST(MeshBlend, WeightsSumToOneAtEveryPoint) {
       for (std::int64_t& a : t.areas) a = random() % 100000;
     const MeshBlend blend = c.blend(picture);
     expect_rows_of_one(blend.head, c.scene.geometry->head_shares().size());
-    expect_rows_of_one(blend.surround, c.scene.geometry->surround().point_count());
-    EXPECT_EQ(std::accumulate(blend.ground.begin(), blend.ground.end(), 0), kMeshWeightOne);
+    const auto& shares = c.scene.geometry->surround().shares();
+    expect_rows_of_one(point_weights(blend.regions, shares), shares.size());
+    for (const auto& region : blend.regions)
+      EXPECT_EQ(std::accumulate(region.begin(), region.end(), 0), kBlendOne);
   }
 }
 
@@ -88,8 +90,9 @@ TEST(MeshBlend, PointsHaveTheBlendOfTheirRegion) {
   ASSERT_EQ(blend.sources.size(), 3U);
   EXPECT_EQ(blend.head.at(vertex_of_landmark(62))[1], kMeshWeightOne) << "lips";
   EXPECT_EQ(blend.head.at(vertex_of_landmark(27))[0], kMeshWeightOne) << "nose";
-  EXPECT_EQ(blend.ground[2], 200 * kShareOne);
-  EXPECT_EQ(blend.surround.at(0)[2], 200 * kShareOne) << "the margin is ground";
+  EXPECT_EQ(blend.regions[index_of(Region::kGround)][2], 200);
+  const PointWeights surround = point_weights(blend.regions, c.scene.geometry->surround().shares());
+  EXPECT_EQ(surround.at(0)[2], 200 * kShareOne) << "the margin is ground";
 }
 
 TEST(MeshBlend, VerticesAreTakenFromPatternsThatShowThem) {

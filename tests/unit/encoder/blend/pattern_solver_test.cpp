@@ -76,10 +76,19 @@ struct Problem {
     for (const SolvedPlanes& p : solver.solve(drawn, sources, count, settings)) out.push_back(p.plane(0));
     return out;
   }
+  /// Gives the patterns of a scene these luma planes.
+  static void show(Scene& scene, const Planes& luma) {
+    for (std::size_t k = 0; k < luma.size(); ++k) {
+      Pattern& pattern = scene.patterns[k];
+      Picture picture = pattern.picture;
+      picture.y = rounded(luma[k]);
+      pattern = make_pattern(std::move(picture), pattern.seen, scene.geometry);
+    }
+  }
   /// Squared luma error of the pictures as drawn by the renderer.
   [[nodiscard]] double loss(const Planes& planes) const {
     Scene scene = s.scene;
-    for (std::size_t k = 0; k < planes.size(); ++k) scene.patterns[k].picture.y = rounded(planes[k]);
+    show(scene, planes);
     double sum = 0;
     for (std::size_t t = 0; t < states.size(); ++t)
       sum += mean_square(reduce(rendered(scene, states[t]).y, 0), targets[t]);
@@ -189,7 +198,7 @@ TEST(PatternSolver, FirstStepIsAlongTheTransposedDrawing) {
       for (int y = 60 * piece; y < 60 * piece + 60; ++y)
         std::fill_n(x[k].row(y), BlendedScene::kWidth, 200.0F);
       Scene scene = p.s.scene;
-      for (std::size_t i = 0; i < 3; ++i) scene.patterns[i].picture.y = rounded(x[i]);
+      Problem::show(scene, x);
       const Planes drawn = {reduce(rendered(scene, p.states[0]).y, 0)};
       ratios.push_back(product(drawn, p.targets) / product(x, step));
     }

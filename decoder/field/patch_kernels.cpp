@@ -1,0 +1,285 @@
+#include "decoder/field/patch_kernels.h"
+
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "decoder/field/patch_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each kind of processor
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace fbs {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What each of the three nodes of a row of a block has of the weight at a sample, in eighths.
+struct Ramps {
+  alignas(32) std::uint16_t of[3][16];
+};
+constexpr Ramps kLumaRamps = {{{8, 7, 6, 5, 4, 3, 2, 1},
+                               {0, 1, 2, 3, 4, 5, 6, 7, 8, 7, 6, 5, 4, 3, 2, 1},
+                               {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7}}};
+constexpr Ramps kChromaRamps = {{{8, 6, 4, 2}, {0, 2, 4, 6, 8, 6, 4, 2}, {0, 0, 0, 0, 0, 2, 4, 6}}};
+
+/// Blends some columns of a block.
+/// @param kStep  luma samples per sample
+/// @param x      the first column; those of a vector follow
+template <int kStep, class D>
+HWY_INLINE void blend_columns(D d, std::span<const BlendedSource> sources, const Ramps& ramps, std::size_t x,
+                              std::uint8_t* out, std::ptrdiff_t stride) {
+  using V = hn::Vec<D>;
+  constexpr int kRows = kPatchSize / kStep;
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const V ramp0 = hn::Load(d, ramps.of[0] + x), ramp1 = hn::Load(d, ramps.of[1] + x),
+          ramp2 = hn::Load(d, ramps.of[2] + x);
+  const auto across = [&](const std::uint16_t* node) HWY_ATTR {
+    return hn::Add(hn::Add(hn::Mul(hn::Set(d, node[0]), ramp0), hn::Mul(hn::Set(d, node[1]), ramp1)),
+                   hn::Mul(hn::Set(d, node[2]), ramp2));
+  };
+  for (int patch = 0; patch < 2; ++patch) {
+    const int first_row = patch * kRows;
+    V a = hn::Set(d, 32), b = a, c = a, e = a, f = a, g = a, h = a, i = a;  // sums in 1/64 of a level
+    for (const BlendedSource& s : sources) {
+      const V top = across(s.weight.data() + 3 * patch), bottom = across(s.weight.data() + 3 * patch + 3);
+      const V step = hn::Mul(hn::Sub(bottom, top), hn::Set(d, kStep));
+      V weight = hn::ShiftLeft<3>(top);  // 2^-14
+      const std::uint8_t* row = s.block.samples + first_row * s.block.stride + x;
+      const auto add = [&](V& sum) HWY_ATTR {
+        const V sample = hn::ShiftLeft<8>(hn::PromoteTo(d, hn::LoadU(bytes, row)));
+        sum = hn::Add(sum, hn::MulHigh(sample, weight));
+        weight = hn::Add(weight, step);
+        row += s.block.stride;
+      };
+      add(a), add(b), add(c), add(e);
+      if constexpr (kRows == 8) add(f), add(g), add(h), add(i);
+    }
+    std::uint8_t* row = out + first_row * stride + x;
+    const auto store = [&](V sum) HWY_ATTR {
+      hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<D>(), hn::ShiftRight<6>(sum))), bytes,
+                 row);
+      row += stride;
+    };
+    store(a), store(b), store(c), store(e);
+    if constexpr (kRows == 8) store(f), store(g), store(h), store(i);
+  }
+}
+
+void BlendLumaBlock(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+  const hn::CappedTag<std::uint16_t, 16> d;
+  for (std::size_t x = 0; x < 16; x += hn::Lanes(d)) blend_columns<1>(d, sources, kLumaRamps, x, out, stride);
+}
+
+void BlendChromaBlock(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+  const hn::CappedTag<std::uint16_t, 8> d;
+  for (std::size_t x = 0; x < 8; x += hn::Lanes(d))
+    blend_columns<2>(d, sources, kChromaRamps, x, out, stride);
+}
+
+/// Between the upper and the lower samples, each already between left and right.
+template <class D, class V>
+HWY_INLINE V between(D d, V top, V bottom, V fraction) {
+  // The product is rounded to the nearest and halved twice less than it seems: Q15 times 2^9.
+  const V more = hn::MulFixedPoint15(hn::Sub(bottom, top), hn::ShiftLeft<15 - kFractionOneLog2>(fraction));
+  return hn::ShiftRight<kFractionOneLog2>(
+      hn::Add(hn::Add(top, more), hn::Set(d, 1 << (kFractionOneLog2 - 1))));
+}
+
+template <class D>
+HWY_INLINE void warp_columns(D d, const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction,
+                             int rows, std::uint8_t* out) {
+  using V = hn::Vec<D>;
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const V right = hn::Set(d, static_cast<std::int16_t>(fraction.x)),
+          left = hn::Set(d, static_cast<std::int16_t>((1 << kFractionOneLog2) - fraction.x)),
+          down = hn::Set(d, static_cast<std::int16_t>(fraction.y));
+  const auto across = [&]() HWY_ATTR {
+    return hn::Add(hn::Mul(hn::PromoteTo(d, hn::LoadU(bytes, from)), left),
+                   hn::Mul(hn::PromoteTo(d, hn::LoadU(bytes, from + 1)), right));
+  };
+  V top = across();
+  for (int y = 0; y < rows; ++y) {
+    from += stride;
+    const V bottom = across();
+    hn::StoreU(hn::DemoteTo(bytes, between(d, top, bottom, down)), bytes, out);
+    out += WarpedBlock::kStride;
+    top = bottom;
+  }
+}
+
+void WarpEven(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, glm::ivec2 size,
+              std::uint8_t* out) {
+  const hn::CappedTag<std::int16_t, 16> wide;
+  const hn::CappedTag<std::int16_t, 8> d;
+  int x = 0;
+  for (const int n = static_cast<int>(hn::Lanes(wide)); x + n <= size.x; x += n)
+    warp_columns(wide, from + x, stride, fraction, size.y, out + x);
+  for (const int n = static_cast<int>(hn::Lanes(d)); x < size.x; x += n)
+    warp_columns(d, from + x, stride, fraction, size.y, out + x);
+}
+
+/// Where the eight samples of a step lie that are drawn together.
+struct Lanes8 {
+  alignas(32) std::int32_t column[8], row[8];  ///< in the patch, samples
+};
+constexpr Lanes8 kLumaLanes = {{0, 1, 2, 3, 4, 5, 6, 7}, {}};
+constexpr Lanes8 kChromaLanes = {{0, 1, 2, 3, 0, 1, 2, 3}, {0, 0, 0, 0, 1, 1, 1, 1}};
+
+/// One coordinate of the texture positions of a patch.
+/// @param kStep  luma samples per sample
+template <int kStep, class D>
+class PositionRows {
+  using V = hn::Vec<D>;
+  static constexpr int kHalved = kStep == 1 ? 0 : 1;
+  static constexpr int kRowsPerStep = kStep == 1 ? 1 : 2;
+
+ public:
+  /// @param place      of the lanes, along this axis
+  /// @param moves_on   whether the axis is that of the rows
+  HWY_INLINE PositionRows(D d, std::int32_t d00, std::int32_t d10, std::int32_t d01, std::int32_t d11,
+                          const Lanes8& lanes, std::size_t first, bool moves_on)
+      : d_(d),
+        at_(hn::ShiftLeft<kFractionOneLog2>(hn::Load(d, (moves_on ? lanes.row : lanes.column) + first))) {
+    const V column = hn::Mul(hn::Load(d, lanes.column + first), hn::Set(d, kStep)),
+            row = hn::Mul(hn::Load(d, lanes.row + first), hn::Set(d, kStep));
+    const auto along = [&](std::int32_t left, std::int32_t right) HWY_ATTR {
+      return hn::Add(hn::Set(d, 8 * left), hn::Mul(hn::Set(d, right - left), column));
+    };
+    const V per_row = along(d01 - d00, d11 - d10);
+    sum_ = hn::Add(hn::Add(hn::ShiftLeft<3>(along(d00, d10)), hn::Mul(per_row, row)), hn::Set(d, 32));
+    step_ = hn::Mul(per_row, hn::Set(d, kStep * kRowsPerStep));
+    at_step_ = moves_on ? kRowsPerStep << kFractionOneLog2 : 0;
+  }
+
+  /// In 1/64 sample; then goes to the next rows.
+  HWY_INLINE V next() {
+    const V position = hn::Add(at_, hn::ShiftRight<6 + kHalved>(sum_));
+    sum_ = hn::Add(sum_, step_);
+    at_ = hn::Add(at_, hn::Set(d_, at_step_));
+    return position;
+  }
+
+ private:
+  D d_;
+  V at_, sum_, step_;
+  std::int32_t at_step_;
+};
+
+/// Where eight samples are in a texture.
+struct Places8 {
+  alignas(32) std::int32_t offset[8];
+  alignas(16) std::int16_t right[8], down[8];  ///< fractions
+};
+
+HWY_INLINE void sample_eight(const std::uint8_t* from, std::ptrdiff_t stride, const Places8& places,
+                             std::uint8_t* out) {
+  alignas(16) std::uint16_t top[8], bottom[8];
+  for (int k = 0; k < 8; ++k) {
+    const std::uint8_t* const at = from + places.offset[k];
+    std::memcpy(top + k, at, sizeof *top);
+    std::memcpy(bottom + k, at + stride, sizeof *bottom);
+  }
+  const hn::CappedTag<std::uint16_t, 8> d;
+  const hn::RebindToSigned<decltype(d)> s;
+  const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+  for (std::size_t k = 0; k < 8; k += hn::Lanes(d)) {
+    const auto right = hn::BitCast(d, hn::Load(s, places.right + k)),
+               left = hn::Sub(hn::Set(d, 1 << kFractionOneLog2), right);
+    const auto across = [&](const std::uint16_t* pairs) HWY_ATTR {
+      const auto pair = hn::Load(d, pairs);
+      const auto low = hn::And(pair, hn::Set(d, 255)), high = hn::ShiftRight<8>(pair);
+      const bool is_little = std::endian::native == std::endian::little;
+      return hn::BitCast(
+          s, hn::Add(hn::Mul(is_little ? low : high, left), hn::Mul(is_little ? high : low, right)));
+    };
+    const auto sample = between(s, across(top + k), across(bottom + k), hn::Load(s, places.down + k));
+    hn::StoreU(hn::DemoteTo(bytes, sample), bytes, out + k);
+  }
+}
+
+/// Calls draw(step, places) for eight samples after the other.
+template <int kStep, class Draw>
+HWY_INLINE void for_each_eight(std::ptrdiff_t stride, const PatchNodes& nodes, Draw&& draw) {
+  const hn::CappedTag<std::int32_t, 8> d;
+  const hn::Rebind<std::int16_t, decltype(d)> narrow;
+  using Rows = PositionRows<kStep, decltype(d)>;
+  const Lanes8& lanes = kStep == 1 ? kLumaLanes : kChromaLanes;
+  constexpr int kSteps = kStep == 1 ? 8 : 2;
+  alignas(32) Places8 places[kSteps];
+  for (std::size_t k = 0; k < 8; k += hn::Lanes(d)) {
+    Rows x(d, nodes[0].x, nodes[1].x, nodes[2].x, nodes[3].x, lanes, k, false);
+    Rows y(d, nodes[0].y, nodes[1].y, nodes[2].y, nodes[3].y, lanes, k, true);
+    const auto mask = hn::Set(d, (1 << kFractionOneLog2) - 1);
+    for (Places8& p : places) {
+      const auto u = x.next(), v = y.next();
+      const auto row =
+          hn::Mul(hn::ShiftRight<kFractionOneLog2>(v), hn::Set(d, static_cast<std::int32_t>(stride)));
+      hn::Store(hn::Add(row, hn::ShiftRight<kFractionOneLog2>(u)), d, p.offset + k);
+      hn::Store(hn::DemoteTo(narrow, hn::And(u, mask)), narrow, p.right + k);
+      hn::Store(hn::DemoteTo(narrow, hn::And(v, mask)), narrow, p.down + k);
+    }
+  }
+  for (int step = 0; step < kSteps; ++step) draw(step, places[step]);
+}
+
+void WarpBentLuma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                  std::uint8_t* out) {
+  for_each_eight<1>(stride, nodes, [&](int row, const Places8& places) HWY_ATTR {
+    sample_eight(from, stride, places, out + row * WarpedBlock::kStride);
+  });
+}
+
+void WarpBentChroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
+                    const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
+  for_each_eight<2>(stride, nodes, [&](int rows, const Places8& places) HWY_ATTR {
+    for (std::size_t plane = 0; plane < 2; ++plane) {
+      std::uint8_t both[8];
+      sample_eight(from[plane], stride, places, both);
+      std::uint8_t* const to = out[plane] + 2 * rows * WarpedBlock::kStride;
+      std::memcpy(to, both, 4);
+      std::memcpy(to + WarpedBlock::kStride, both + 4, 4);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fbs
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fbs {
+
+HWY_EXPORT(BlendLumaBlock);
+HWY_EXPORT(BlendChromaBlock);
+HWY_EXPORT(WarpEven);
+HWY_EXPORT(WarpBentLuma);
+HWY_EXPORT(WarpBentChroma);
+
+void blend_luma_block(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+  HWY_DYNAMIC_DISPATCH(BlendLumaBlock)(sources, out, stride);
+}
+
+void blend_chroma_block(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+  HWY_DYNAMIC_DISPATCH(BlendChromaBlock)(sources, out, stride);
+}
+
+void warp_even(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, glm::ivec2 size,
+               std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(WarpEven)(from, stride, fraction, size, out);
+}
+
+void warp_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                    std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(WarpBentLuma)(from, stride, nodes, out);
+}
+
+void warp_bent_chroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
+                      const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
+  HWY_DYNAMIC_DISPATCH(WarpBentChroma)(from, stride, nodes, out);
+}
+
+}  // namespace fbs
+#endif
