@@ -29,16 +29,21 @@ SampleArea whole(const PlaneView& plane) {
   return {0, 0, plane.width, plane.height};
 }
 
-bool fits(const TextureMesh& texture, const SceneGeometry& geometry) {
+bool fits(const Pattern& pattern, const SceneGeometry& geometry) {
+  const TextureMesh& texture = pattern.texture;
   const std::size_t points = geometry.surround().point_count();
-  return texture.head.size() == head_mesh().vertex_count && texture.areas.size() == texture.head.size() &&
-         texture.surround.size() == points;
+  if (texture.head.size() != head_mesh().vertex_count || texture.areas.size() != texture.head.size() ||
+      texture.surround.size() != points || !pattern.padded)
+    return false;
+  if (geometry.is_plane()) return true;
+  const AtlasLayout& layout = atlas_layout(geometry.rest_scale());
+  return pattern.atlas.width() == layout.width && pattern.atlas.height() == layout.height;
 }
 
 Result<void> check(const Scene& scene) {
   if (scene.patterns.empty()) return fail(ErrorCode::kInvalidArgument, "the scene has no pattern yet");
   for (const Pattern& p : scene.patterns) {
-    if (scene.geometry && (!p.padded || !fits(p.texture, *scene.geometry)))
+    if (scene.geometry && !fits(p, *scene.geometry))
       return fail(ErrorCode::kInvalidArgument, "a pattern's texture mesh is not of the scene's geometry");
     if (p.picture.width() != scene.patterns.front().picture.width() ||
         p.picture.height() != scene.patterns.front().picture.height())
@@ -58,6 +63,14 @@ MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mes
   return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_regions(regions);
 }
 
+/// The points of surround_triangles(). Of a ScreenMesh or a TextureMesh.
+template <class Mesh>
+std::vector<glm::ivec2> surround_points(const SceneGeometry& geometry, const Mesh& mesh) {
+  std::vector<glm::ivec2> out = mesh.surround;
+  if (geometry.is_plane()) out.insert(out.end(), mesh.head.begin(), mesh.head.end());
+  return out;
+}
+
 std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) {
   std::vector<DrawnSource> out;
   for (const BlendSource& s : blend.sources) {
@@ -65,7 +78,8 @@ std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) 
     if (s.still || !scene.geometry)
       out.push_back({planes_of(pattern.picture)});
     else
-      out.push_back({planes_of(pattern.picture), &pattern.texture, &*pattern.padded});
+      out.push_back({planes_of(pattern.picture), &pattern.texture, &*pattern.padded,
+                     pattern.atlas.empty() ? nullptr : &pattern.atlas});
   }
   return out;
 }
@@ -99,9 +113,13 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
       mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
       luma, chroma};
   draw_surround(scene, drawing);
-  if (!scene.geometry) return;
-  HeadPainter(drawing, PlaneScale::kLuma, luma_depth_).draw();
-  HeadPainter(drawing, PlaneScale::kChroma, chroma_depth_).draw();
+  if (!scene.geometry || scene.geometry->is_plane()) return;
+  const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
+  const HeadWeights weights = head_weights(drawing.blend);
+  atlas_.draw(drawing, weights, layout);
+  const HeadTexture texture{layout, atlas_.planes(), weights};
+  HeadPainter(drawing, texture, PlaneScale::kLuma, luma_depth_).draw();
+  HeadPainter(drawing, texture, PlaneScale::kChroma, chroma_depth_).draw();
 }
 
 void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
@@ -109,15 +127,22 @@ void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
   const NodeGrid grid(size.width(), size.height());
   fields_.resize(drawing.sources.size());
   for (SourceField& f : fields_) f.moves = false;
+  const std::vector<std::int32_t>& ground = drawing.blend.regions[static_cast<std::size_t>(Region::kGround)];
   if (scene.geometry) {
-    const Surround& surround = scene.geometry->surround();
-    cover_.find(grid, surround.cells(), drawing.mesh.surround);
-    weights_.set(cover_, drawing.blend.regions, surround.shares());
+    const SceneGeometry& geometry = *scene.geometry;
+    const std::vector<glm::ivec2> now = surround_points(geometry, drawing.mesh);
+    cover_.find(grid, geometry.surround_triangles(), now);
+    PointWeights corners = point_weights(drawing.blend.regions, geometry.surround().shares());
+    if (geometry.is_plane()) {
+      const std::vector<std::int32_t>& head = drawing.blend.head.weights;
+      corners.weights.insert(corners.weights.end(), head.begin(), head.end());
+    }
+    weights_.set(cover_, corners, ground);
     for (std::size_t s = 0; s < fields_.size(); ++s)
       if (const TextureMesh* const texture = drawing.sources[s].texture)
-        displace(cover_, texture->surround, drawing.mesh.surround, size.width(), size.height(), fields_[s]);
+        displace(cover_, surround_points(geometry, *texture), now, size.width(), size.height(), fields_[s]);
   } else {
-    weights_.set(grid, drawing.blend.regions[static_cast<std::size_t>(Region::kGround)]);
+    weights_.set(grid, ground);
   }
   surround_.draw({drawing, grid, fields_, weights_});
 }

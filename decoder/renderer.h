@@ -6,6 +6,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "decoder/draw/atlas_blend.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/field/surround_field.h"
 #include "decoder/raster/row_runs.h"
@@ -39,6 +40,7 @@ class Renderer {
   NodeWeights weights_;
   std::vector<SourceField> fields_;
   SurroundPainter surround_;
+  AtlasBlend atlas_;
   DepthPlane luma_depth_, chroma_depth_;
 };
 

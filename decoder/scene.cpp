@@ -8,11 +8,15 @@ namespace fbs {
 
 void Pattern::set_geometry(const SceneGeometry& geometry) {
   texture = geometry.texture_mesh(seen);
+  if (picture.y.samples.empty()) return;  // an encoder may know the state before the picture
   if (!padded) padded.emplace(fbs::padded(picture));
+  if (!geometry.is_plane())
+    draw_atlas(atlas_layout(geometry.rest_scale()), {picture.y, picture.u, picture.v}, texture.head,
+               texture.light, atlas);
 }
 
 Pattern make_pattern(Picture picture, const State& seen, const std::optional<SceneGeometry>& geometry) {
-  Pattern out{std::move(picture), seen, {}, {}};
+  Pattern out{std::move(picture), seen, {}, {}, {}};
   if (geometry) out.set_geometry(*geometry);
   return out;
 }

@@ -7,6 +7,7 @@
 #include "common/picture.h"
 #include "common/state.h"
 #include "decoder/animate/scene_geometry.h"
+#include "decoder/atlas/head_atlas.h"
 #include "decoder/field/padded_plane.h"
 
 namespace fbs {
@@ -16,7 +17,8 @@ struct Pattern {
   Picture picture;
   State seen;                           ///< the state it was seen in
   TextureMesh texture;                  ///< of `seen` by the scene's geometry; empty without a face
-  std::optional<PaddedPicture> padded;  ///< `picture`, to be warped; none without a face
+  std::optional<PaddedPicture> padded;  ///< `picture`, to be warped; none without geometry
+  HeadAtlas atlas;                      ///< the head that it shows; empty without a face
 
   void set_geometry(const SceneGeometry& geometry);
 };

@@ -30,11 +30,12 @@ Picture plain_picture(const Bgr& colour, const VideoFormat& format) {
   return out;
 }
 
-Pattern painted(const Pattern& pattern, const Bgr& colour, const VideoFormat& format) {
-  Pattern out{plain_picture(colour, format), pattern.seen, pattern.texture, {}};
-  out.texture.light.clear();
+/// A pattern of one colour that was seen as this one is, but not lit.
+Pattern painted(const Pattern& pattern, const Bgr& colour, const Scene& scene) {
+  State unlit = pattern.seen;
+  unlit.light = {};
+  Pattern out = make_pattern(plain_picture(colour, scene.setup.format), unlit, scene.geometry);
   out.texture.mouth_gap = kWidestGap;
-  if (pattern.padded) out.padded.emplace(fbs::padded(out.picture));
   return out;
 }
 
@@ -50,7 +51,7 @@ Result<RgbImage> pattern_tint(const Scene& scene, const State& state, std::span<
   const VideoFormat& format = scene.setup.format;
   Scene colours{scene.setup, scene.geometry, {}};
   for (std::size_t slot = 0; slot < scene.patterns.size(); ++slot)
-    colours.patterns.push_back(painted(scene.patterns[slot], pattern_colour(in_slot[slot]), format));
+    colours.patterns.push_back(painted(scene.patterns[slot], pattern_colour(in_slot[slot]), scene));
   State unlit = state;
   unlit.light = {};
   Picture drawn;

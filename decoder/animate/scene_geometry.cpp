@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bitstream/payload/geometry_payload.h"
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/head_mesh.h"
 #include "decoder/head/mouth_interior.h"
@@ -35,8 +36,9 @@ std::vector<std::int64_t> vertex_areas(const std::vector<glm::ivec3>& screen) {
 }  // namespace
 
 SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest)
-    : geometry_(geometry), surround_(setup.format, std::move(map), rest) {
+    : geometry_(geometry), surround_(setup.format, std::move(map), rest), is_plane_(is_flat(geometry)) {
   const HeadProjection projection(head_pose(rest));
+  rest_scale_ = projection.scale;
   for (const std::uint16_t v : generic_head().outline) {
     glm::ivec3 p = geometry_.positions[v];
     p.x += p.x * kRingExtension / kRingExtensionOne;
@@ -46,6 +48,15 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
   }
   head_shares_.assign(vertex_shares().begin(), vertex_shares().end());
   for (const Surround::Place& place : ring_) head_shares_.push_back(surround_.shares_at(place));
+  for (const Surround::Cell& c : surround_.cells()) {
+    surround_triangles_.push_back({c[0], c[1], c[2]});
+    surround_triangles_.push_back({c[0], c[2], c[3]});
+  }
+  if (is_plane_) {
+    const auto first = static_cast<std::int32_t>(surround_.point_count());
+    for (const HeadTriangle& t : head_mesh().triangles)
+      surround_triangles_.push_back({first + t[0], first + t[1], first + t[2]});
+  }
 }
 
 void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {

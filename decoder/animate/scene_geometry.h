@@ -31,6 +31,19 @@ class SceneGeometry {
   /// Shares of the regions at each vertex of head_mesh().
   [[nodiscard]] const std::vector<RegionShares>& head_shares() const { return head_shares_; }
 
+  /// Whether the head is flat: a plane that moves the picture, not a face. Nothing of it is drawn; its
+  /// vertices are points of the surround, behind the grid's.
+  [[nodiscard]] bool is_plane() const { return is_plane_; }
+
+  /// The triangles of the surround, in the order in which they are drawn: halves of the cells, and then the
+  /// head's if it is a plane.
+  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& surround_triangles() const {
+    return surround_triangles_;
+  }
+
+  /// Samples per eye distance in the rest state, Q16.
+  [[nodiscard]] std::int64_t rest_scale() const { return rest_scale_; }
+
   [[nodiscard]] const Surround& surround() const { return surround_; }
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
 
@@ -41,6 +54,9 @@ class SceneGeometry {
   Surround surround_;
   std::vector<Surround::Place> ring_;
   std::vector<RegionShares> head_shares_;
+  bool is_plane_;
+  std::vector<std::array<std::int32_t, 3>> surround_triangles_;
+  std::int64_t rest_scale_;
 };
 
 }  // namespace fbs

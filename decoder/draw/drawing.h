@@ -7,6 +7,7 @@
 
 #include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
+#include "decoder/atlas/head_atlas.h"
 #include "decoder/blend/mesh_blend.h"
 #include "decoder/field/padded_plane.h"
 #include "decoder/head/mouth_interior.h"
@@ -19,6 +20,7 @@ struct DrawnSource {
   std::array<ConstPlaneView, 3> planes;   ///< Y, U, V
   const TextureMesh* texture = nullptr;   ///< null: the pattern is shown as it is, not warped
   const PaddedPicture* padded = nullptr;  ///< of what is warped
+  const HeadAtlas* atlas = nullptr;       ///< of what is warped, unless the scene's head is a plane
 };
 
 struct Drawing {

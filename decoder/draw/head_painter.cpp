@@ -21,10 +21,31 @@ SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleAr
           std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
+/// How much of the mouth's interior shows: as far as the lips have parted since the patterns were seen. The
+/// mean over the warped sources of the mouth.
+std::int32_t blended_opacity(const Drawing& d) {
+  const auto& weights = d.blend.regions[static_cast<std::size_t>(Region::kMouth)];
+  std::int32_t sum = 0, of_all = 0;
+  for (std::size_t s = 0; s < weights.size(); ++s) {
+    const TextureMesh* const texture = d.sources[s].texture;
+    if (texture == nullptr) continue;
+    sum += weights[s] * interior_opacity(d.mesh.mouth_gap, texture->mouth_gap);
+    of_all += weights[s];
+  }
+  return of_all == 0 ? 0 : (sum + of_all / 2) / of_all;
+}
+
+/// Something of each corner of a triangle.
+template <class At>
+auto at_corners(const HeadTriangle& triangle, At&& at) {
+  return std::array{at(triangle[0]), at(triangle[1]), at(triangle[2])};
+}
+
 }  // namespace
 
-HeadPainter::HeadPainter(const Drawing& drawing, PlaneScale scale, DepthPlane& depth)
-    : d_(drawing), scale_(scale) {
+HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale,
+                         DepthPlane& depth)
+    : d_(drawing), texture_(texture), scale_(scale), opacity_(blended_opacity(drawing)) {
   const auto planes = planes_of_scale(drawing.target, scale);
   const int width = planes[0].width, height = planes[0].height;
   target_ = {scale, planes, area_of_head(drawing.mesh, scale, drawing.area(scale)), &depth};
@@ -37,47 +58,41 @@ void HeadPainter::draw() {
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {
-  const auto corners = [&](const auto& at) {
-    return std::array{glm::ivec2(at[triangle[0]]), glm::ivec2(at[triangle[1]]), glm::ivec2(at[triangle[2]])};
+  const PointWeights& weights = texture_.weights.screen;
+  const auto weight_of = [&](std::size_t source) {
+    return at_corners(triangle, [&](std::size_t v) { return weights.at(v)[source]; });
   };
-  sources_.collect(d_, d_.blend.head, {triangle[0], triangle[1], triangle[2]},
-                   [&](const DrawnSource& source) {
-                     return source.texture == nullptr ? corners(d_.mesh.head) : corners(source.texture->head);
-                   });
-  sources_.set_scale(scale_);
-  const bool is_interior = std::all_of(triangle.begin(), triangle.end(), is_inner_lip);
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (sources_.drawn(i).texture == nullptr) continue;
-    if (scale_ == PlaneScale::kLuma) add_light(triangle, i);
-    if (is_interior) add_interior(triangle, i);
+  const auto shows = [](const std::array<std::int32_t, 3>& weight) {
+    return (weight[0] | weight[1] | weight[2]) != 0;
+  };
+  const auto on_screen = at_corners(triangle, [&](std::size_t v) { return glm::ivec2(d_.mesh.head[v]); });
+
+  sources_.clear();
+  Light light;
+  InteriorMix interior{{}, opacity_, planes_of_scale(d_.interior, scale_)};
+  if (const auto weight = weight_of(0); shows(weight)) {
+    sources_.push_back({planes_of_scale(texture_.atlas, scale_),
+                        at_corners(triangle, [&](std::size_t v) { return texture_.layout.points[v]; }),
+                        {},
+                        weight});
+    Finish& finish = sources_.back().finish;
+    if (scale_ == PlaneScale::kLuma && !d_.mesh.light.empty()) {
+      light = {at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].offset; }),
+               at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].gain; })};
+      finish.light = &light;
+    }
+    if (opacity_ != 0 && std::all_of(triangle.begin(), triangle.end(), is_inner_lip)) {
+      interior.ramp = at_corners(triangle, mouth_ramp);
+      finish.interior = &interior;
+    }
   }
+  for (std::size_t k = 0; k < texture_.weights.still.size(); ++k)
+    if (const auto weight = weight_of(k + 1); shows(weight))
+      sources_.push_back(
+          {planes_of_scale(d_.sources[texture_.weights.still[k]].planes, scale_), on_screen, {}, weight});
   ScreenTriangle t;
-  for (std::size_t i = 0; i < t.size(); ++i) t[i] = {d_.mesh.head[triangle[i]], d_.mesh.head[triangle[i]].z};
-  draw_triangle(t, sources_.all(), target_);
-}
-
-/// The light that the picture has and the pattern has not.
-void HeadPainter::add_light(const HeadTriangle& triangle, std::size_t i) {
-  const TextureMesh& texture = *sources_.drawn(i).texture;
-  if (d_.mesh.light.empty() && texture.light.empty()) return;
-  const auto at = [](const std::vector<VertexLight>& light, std::size_t v) {
-    return light.empty() ? VertexLight{} : light[v];
-  };
-  for (std::size_t k = 0; k < triangle.size(); ++k) {
-    const VertexLight now = at(d_.mesh.light, triangle[k]), seen = at(texture.light, triangle[k]);
-    light_[i].offset[k] = now.offset - seen.offset;
-    light_[i].gain[k] = now.gain - seen.gain;
-  }
-  sources_[i].finish.light = &light_[i];
-}
-
-/// The mouth's interior, as far as the lips have parted since the pattern was seen.
-void HeadPainter::add_interior(const HeadTriangle& triangle, std::size_t i) {
-  const std::int32_t opacity = interior_opacity(d_.mesh.mouth_gap, sources_.drawn(i).texture->mouth_gap);
-  if (opacity == 0) return;
-  interior_[i] = {{}, opacity, planes_of_scale(d_.interior, scale_)};
-  std::transform(triangle.begin(), triangle.end(), interior_[i].ramp.begin(), mouth_ramp);
-  sources_[i].finish.interior = &interior_[i];
+  for (std::size_t k = 0; k < t.size(); ++k) t[k] = {on_screen[k], d_.mesh.head[triangle[k]].z};
+  draw_triangle(t, sources_, target_);
 }
 
 }  // namespace fbs

@@ -1,35 +1,43 @@
-// Draws the head. SPEC 10.3, 10.4, 10.9.
+// Draws the head from its blended atlas. SPEC 10.4, 10.9 to 10.12.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include "decoder/atlas/atlas_layout.h"
+#include "decoder/blend/head_weights.h"
 #include "decoder/draw/drawing.h"
-#include "decoder/draw/triangle_sources.h"
 #include "decoder/head/head_mesh.h"
+#include "decoder/raster/rasteriser.h"
 #include "decoder/raster/row_runs.h"
 
 namespace fbs {
+
+/// What the triangles of the head are drawn from.
+struct HeadTexture {
+  const AtlasLayout& layout;
+  std::array<ConstPlaneView, 3> atlas;  ///< AtlasBlend::planes()
+  const HeadWeights& weights;
+};
 
 /// Draws the triangles of the head, the nearest on top, into the planes of one scale.
 class HeadPainter {
  public:
   /// @param depth  scratch memory
-  HeadPainter(const Drawing& drawing, PlaneScale scale, DepthPlane& depth);
+  HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale, DepthPlane& depth);
 
   void draw();
 
  private:
   void draw(const HeadTriangle& triangle);
-  void add_light(const HeadTriangle& triangle, std::size_t i);
-  void add_interior(const HeadTriangle& triangle, std::size_t i);
 
   const Drawing& d_;
+  const HeadTexture& texture_;
   PlaneScale scale_;
   RasterTarget target_;
-  TriangleSources sources_;
-  std::array<Light, kMaxTriangleSources> light_;
-  std::array<InteriorMix, kMaxTriangleSources> interior_;
+  std::int32_t opacity_;                ///< of the mouth's interior
+  std::vector<TextureSource> sources_;  ///< of a triangle
 };
 
 }  // namespace fbs

@@ -34,18 +34,13 @@ glm::ivec2 size_inside(const Square& s, const ConstPlaneView& plane) {
   return {std::clamp(plane.width - s.first.x, 0, s.size), std::clamp(plane.height - s.first.y, 0, s.size)};
 }
 
-void copy(SampleBlock from, glm::ivec2 size, std::uint8_t* to, std::ptrdiff_t stride) {
-  for (int y = 0; y < size.y; ++y, from.samples += from.stride, to += stride)
-    std::copy_n(from.samples, size.x, to);
-}
-
 SampleBlock own_samples(const ConstPlaneView& plane, const Square& s) {
   return {plane.data + s.first.y * plane.stride + s.first.x, plane.stride};
 }
 
 void copy_own(const ConstPlaneView& plane, const Square& s, std::uint8_t* out) {
   const glm::ivec2 size = size_inside(s, plane);
-  if (size.x > 0) copy(own_samples(plane, s), size, out, WarpedBlock::kStride);
+  if (size.x > 0) copy_samples(own_samples(plane, s), size, out, WarpedBlock::kStride);
 }
 
 }  // namespace
@@ -92,13 +87,11 @@ void SurroundPainter::collect(const SurroundDrawing& surround, glm::ivec2 block)
   const std::ptrdiff_t first = std::ptrdiff_t{2} * block.y * columns + 2 * block.x;
   count_ = 0;
   for (std::size_t s = 0; s < surround.drawing.sources.size(); ++s) {
-    const std::uint16_t* const weights = surround.weights.of(s) + first;
-    Shown& shown = shown_[count_];
-    unsigned any = 0;
-    for (int k = 0; k < 9; ++k) any |= shown.weight[k] = weights[k / 3 * columns + k % 3];
-    if (any == 0) continue;
-    ++count_;
+    const BlockWeights weights = surround.weights.of_block(s, surround.grid, block);
+    if (!weights.any) continue;
+    Shown& shown = shown_[count_++];
     shown.source = &surround.drawing.sources[s];
+    shown.weight = weights.at;
     const SourceField& field = surround.fields[s];
     shown.motion = field.moves ? BlockMotion::of(field.displacement.data() + first, columns) : BlockMotion{};
   }
@@ -131,15 +124,9 @@ void SurroundPainter::show_patches(Shown& shown, glm::ivec2 block, bool has_chro
 }
 
 void SurroundPainter::blend(std::size_t plane, glm::ivec2 block, const PlaneView& target) {
-  const std::vector<BlendedSource>& sources = blended_[plane];
   const Square square = block_in(plane, block);
   std::uint8_t* const out = target.data + square.first.y * target.stride + square.first.x;
-  if (sources.size() == 1) return copy(sources[0].block, size_inside(square, target), out, target.stride);
-  const auto blended = plane == 0 ? blend_luma_block : blend_chroma_block;
-  if (is_inside(square, target)) return blended(sources, out, target.stride);
-  WarpedBlock whole;
-  blended(sources, whole.samples.data(), WarpedBlock::kStride);
-  copy({whole.samples.data(), WarpedBlock::kStride}, size_inside(square, target), out, target.stride);
+  draw_blend(plane, blended_[plane], size_inside(square, target), out, target.stride);
 }
 
 }  // namespace fbs

@@ -7,13 +7,6 @@ namespace {
 
 constexpr std::int32_t kNone = -1;
 
-using Corners = std::array<std::int32_t, 3>;
-
-Corners corners_of(std::span<const Surround::Cell> cells, std::int32_t triangle) {
-  const Surround::Cell& c = cells[static_cast<std::size_t>(triangle / 2)];
-  return triangle % 2 == 0 ? Corners{c[0], c[1], c[2]} : Corners{c[0], c[2], c[3]};
-}
-
 /// Twice the area of the triangle from an edge to a point; positive on the inner side.
 std::int64_t beside(glm::ivec2 from, glm::ivec2 to, glm::ivec2 p) {
   return (std::int64_t{from.y} - to.y) * (p.x - from.x) + (std::int64_t{to.x} - from.x) * (p.y - from.y);
@@ -43,7 +36,7 @@ struct EdgeTest {
   }
 };
 
-NodePlace place_of(const Corners& corner, std::span<const glm::ivec2> points, glm::ivec2 node) {
+NodePlace place_of(const MeshTriangle& corner, std::span<const glm::ivec2> points, glm::ivec2 node) {
   const glm::ivec2 p0 = points[corner[0]], p1 = points[corner[1]], p2 = points[corner[2]];
   const std::int64_t area = beside(p0, p1, p2);
   const auto share = [&](std::int64_t part) {
@@ -54,20 +47,36 @@ NodePlace place_of(const Corners& corner, std::span<const glm::ivec2> points, gl
 
 }  // namespace
 
-void NodeCover::find(const NodeGrid& grid, std::span<const Surround::Cell> cells,
+void NodeCover::find(const NodeGrid& grid, std::span<const MeshTriangle> triangles,
                      std::span<const glm::ivec2> points) {
   grid_ = grid;
   owner_.assign(grid.size(), kNone);
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(2 * cells.size()); ++t) {
-    const Corners c = corners_of(cells, t);
-    cover(t, {points[c[0]], points[c[1]], points[c[2]]});
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const MeshTriangle& c = triangles[t];
+    cover(static_cast<std::int32_t>(t), {points[c[0]], points[c[1]], points[c[2]]});
   }
   places_.resize(grid.size());
   for (int j = 0, k = 0; j < grid.rows(); ++j)
     for (int i = 0; i < grid.columns(); ++i, ++k)
-      places_[k] = owner_[k] == kNone ? NodePlace{{kNone, kNone, kNone}, {}}
-                                      : place_of(corners_of(cells, owner_[k]), points,
-                                                 {NodeGrid::place(i), NodeGrid::place(j)});
+      places_[k] = owner_[k] == kNone
+                       ? NodePlace{{kNone, kNone, kNone}, {}}
+                       : place_of(triangles[owner_[k]], points, {NodeGrid::place(i), NodeGrid::place(j)});
+}
+
+void NodeCover::take_nearest(std::span<const glm::ivec2> points) {
+  for (int j = 0, k = 0; j < grid_.rows(); ++j) {
+    for (int i = 0; i < grid_.columns(); ++i, ++k) {
+      if (places_[k].is_covered()) continue;
+      const glm::ivec2 node(NodeGrid::place(i), NodeGrid::place(j));
+      const auto distance = [&](glm::ivec2 p) {
+        const std::int64_t x = p.x - node.x, y = p.y - node.y;
+        return x * x + y * y;
+      };
+      const auto nearest =
+          static_cast<std::int32_t>(std::ranges::min_element(points, {}, distance) - points.begin());
+      places_[k] = {{nearest, nearest, nearest}, {}};
+    }
+  }
 }
 
 void NodeCover::cover(std::int32_t triangle, const std::array<glm::ivec2, 3>& at) {

@@ -1,4 +1,4 @@
-// Where on the grid of the surround each node lies. SPEC 10.3. Integers only.
+// In which triangle of a mesh each node lies. SPEC 10.3. Integers only.
 #pragma once
 
 #include <array>
@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "decoder/animate/surround.h"
 #include "decoder/field/node_grid.h"
 
 namespace fbs {
@@ -16,7 +15,7 @@ inline constexpr int kCornerShareOneLog2 = 14;
 
 /// The place of a node in the triangle that it belongs to.
 struct NodePlace {
-  std::array<std::int32_t, 3> corner{};  ///< grid points; corner[0] < 0: no triangle covers the node
+  std::array<std::int32_t, 3> corner{};  ///< points of the mesh; corner[0] < 0: no triangle covers the node
   /// Of corners 1 and 2, in 2^-kCornerShareOneLog2; corner 0 has what they leave.
   std::array<std::int32_t, 2> share{};
 
@@ -30,13 +29,20 @@ struct NodePlace {
   }
 };
 
-/// The places of all nodes of a picture.
+/// Corners of a triangle, clockwise; indices of points.
+using MeshTriangle = std::array<std::int32_t, 3>;
+
+/// The places of all nodes of a grid.
 class NodeCover {
  public:
   /// Finds the last triangle that covers each node.
-  /// @param cells   in the order in which they are drawn: Surround::cells()
-  /// @param points  grid points on the screen, 1/64 luma sample
-  void find(const NodeGrid& grid, std::span<const Surround::Cell> cells, std::span<const glm::ivec2> points);
+  /// @param triangles  in the order in which they are drawn
+  /// @param points     of the mesh, 1/64 luma sample
+  void find(const NodeGrid& grid, std::span<const MeshTriangle> triangles,
+            std::span<const glm::ivec2> points);
+
+  /// Puts each node that no triangle covers at the nearest point, the first of several.
+  void take_nearest(std::span<const glm::ivec2> points);
 
   [[nodiscard]] const NodeGrid& grid() const { return grid_; }
   [[nodiscard]] const std::vector<NodePlace>& places() const { return places_; }
@@ -46,8 +52,7 @@ class NodeCover {
 
   NodeGrid grid_;
   std::vector<NodePlace> places_;
-  std::vector<std::int32_t>
-      owner_;  ///< of each node: twice the cell, 1 more for its second triangle; -1: none
+  std::vector<std::int32_t> owner_;  ///< triangle of each node; -1: none
 };
 
 }  // namespace fbs

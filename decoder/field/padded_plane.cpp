@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace fbs {
-namespace {
-
-constexpr int kLumaInset = 2, kChromaInset = 1;
-
-}  // namespace
 
 PaddedPlane::PaddedPlane(const ConstPlaneView& plane, int inset)
     : stride_(plane.width + 2 * kPadding),

@@ -17,8 +17,11 @@ inline constexpr int kMaxOutside = 24;
 /// that bilinear sampling takes, and what vectors read and do not use.
 inline constexpr int kPadding = 32;
 
-/// A plane with kPadding samples round it. They, and the outermost ones of the plane itself, which are dark
-/// in many videos, repeat what lies a little inside its border.
+/// Samples of the border that are not believed: in many videos they are dark.
+inline constexpr int kLumaInset = 2, kChromaInset = 1;
+
+/// A plane with kPadding samples round it. They, and the outermost ones of the plane itself, repeat what lies
+/// a little inside its border.
 class PaddedPlane {
  public:
   /// @param inset  samples of the border that are not believed

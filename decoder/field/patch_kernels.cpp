@@ -1,5 +1,6 @@
 #include "decoder/field/patch_kernels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -67,12 +68,12 @@ HWY_INLINE void blend_columns(D d, std::span<const BlendedSource> sources, const
   }
 }
 
-void BlendLumaBlock(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+void blend_luma(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
   const hn::CappedTag<std::uint16_t, 16> d;
   for (std::size_t x = 0; x < 16; x += hn::Lanes(d)) blend_columns<1>(d, sources, kLumaRamps, x, out, stride);
 }
 
-void BlendChromaBlock(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
+void blend_chroma(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
   const hn::CappedTag<std::uint16_t, 8> d;
   for (std::size_t x = 0; x < 8; x += hn::Lanes(d))
     blend_columns<2>(d, sources, kChromaRamps, x, out, stride);
@@ -109,8 +110,8 @@ HWY_INLINE void warp_columns(D d, const std::uint8_t* from, std::ptrdiff_t strid
   }
 }
 
-void WarpEven(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, glm::ivec2 size,
-              std::uint8_t* out) {
+void sample_even(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, glm::ivec2 size,
+                 std::uint8_t* out) {
   const hn::CappedTag<std::int16_t, 16> wide;
   const hn::CappedTag<std::int16_t, 8> d;
   int x = 0;
@@ -224,15 +225,15 @@ HWY_INLINE void for_each_eight(std::ptrdiff_t stride, const PatchNodes& nodes, D
   for (int step = 0; step < kSteps; ++step) draw(step, places[step]);
 }
 
-void WarpBentLuma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
-                  std::uint8_t* out) {
+void sample_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                      std::uint8_t* out) {
   for_each_eight<1>(stride, nodes, [&](int row, const Places8& places) HWY_ATTR {
     sample_eight(from, stride, places, out + row * WarpedBlock::kStride);
   });
 }
 
-void WarpBentChroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
-                    const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
+void sample_bent_chroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
+                        const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
   for_each_eight<2>(stride, nodes, [&](int rows, const Places8& places) HWY_ATTR {
     for (std::size_t plane = 0; plane < 2; ++plane) {
       std::uint8_t both[8];
@@ -252,33 +253,49 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fbs {
 
-HWY_EXPORT(BlendLumaBlock);
-HWY_EXPORT(BlendChromaBlock);
-HWY_EXPORT(WarpEven);
-HWY_EXPORT(WarpBentLuma);
-HWY_EXPORT(WarpBentChroma);
+HWY_EXPORT(blend_luma);
+HWY_EXPORT(blend_chroma);
+HWY_EXPORT(sample_even);
+HWY_EXPORT(sample_bent_luma);
+HWY_EXPORT(sample_bent_chroma);
 
 void blend_luma_block(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
-  HWY_DYNAMIC_DISPATCH(BlendLumaBlock)(sources, out, stride);
+  HWY_DYNAMIC_DISPATCH(blend_luma)(sources, out, stride);
 }
 
 void blend_chroma_block(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride) {
-  HWY_DYNAMIC_DISPATCH(BlendChromaBlock)(sources, out, stride);
+  HWY_DYNAMIC_DISPATCH(blend_chroma)(sources, out, stride);
 }
 
 void warp_even(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, glm::ivec2 size,
                std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(WarpEven)(from, stride, fraction, size, out);
+  HWY_DYNAMIC_DISPATCH(sample_even)(from, stride, fraction, size, out);
 }
 
 void warp_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
                     std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(WarpBentLuma)(from, stride, nodes, out);
+  HWY_DYNAMIC_DISPATCH(sample_bent_luma)(from, stride, nodes, out);
 }
 
 void warp_bent_chroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
                       const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
-  HWY_DYNAMIC_DISPATCH(WarpBentChroma)(from, stride, nodes, out);
+  HWY_DYNAMIC_DISPATCH(sample_bent_chroma)(from, stride, nodes, out);
+}
+
+void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptrdiff_t stride) {
+  for (int y = 0; y < size.y; ++y, from.samples += from.stride, out += stride)
+    std::copy_n(from.samples, size.x, out);
+}
+
+void draw_blend(std::size_t plane, std::span<const BlendedSource> sources, glm::ivec2 size, std::uint8_t* out,
+                std::ptrdiff_t stride) {
+  if (sources.size() == 1) return copy_samples(sources.front().block, size, out, stride);
+  const auto blend = plane == 0 ? blend_luma_block : blend_chroma_block;
+  const int block = plane == 0 ? kBlockSize : kChromaBlockSize;
+  if (size == glm::ivec2(block)) return blend(sources, out, stride);
+  WarpedBlock whole;
+  blend(sources, whole.samples.data(), WarpedBlock::kStride);
+  copy_samples({whole.samples.data(), WarpedBlock::kStride}, size, out, stride);
 }
 
 }  // namespace fbs

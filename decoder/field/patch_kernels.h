@@ -34,6 +34,16 @@ void blend_luma_block(std::span<const BlendedSource> sources, std::uint8_t* out,
 /// Blends 8 x 8 samples of one chroma plane.
 void blend_chroma_block(std::span<const BlendedSource> sources, std::uint8_t* out, std::ptrdiff_t stride);
 
+/// Copies some samples of a block.
+void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptrdiff_t stride);
+
+/// Blends a block, or what of it is wanted.
+/// @param plane    0 luma, 1 and 2 chroma
+/// @param sources  at least one
+/// @param size     samples, up to those of a block
+void draw_blend(std::size_t plane, std::span<const BlendedSource> sources, glm::ivec2 size, std::uint8_t* out,
+                std::ptrdiff_t stride);
+
 inline constexpr int kFractionOneLog2 = 6;  ///< of places between samples
 
 /// Memory for what one source shows in a block of a plane. Wider than the block: patches are written whole

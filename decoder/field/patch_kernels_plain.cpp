@@ -18,7 +18,7 @@ std::uint8_t bilinear(const std::uint8_t* at, std::ptrdiff_t stride, int p, int 
 /// @param u     at nine nodes
 /// @param x, y  luma sample of the block
 int weight_at(const std::array<std::uint16_t, 9>& u, int x, int y) {
-  const std::size_t first = static_cast<std::size_t>(y / kPatchSize * 3 + x / kPatchSize);
+  const int first = y / kPatchSize * 3 + x / kPatchSize;
   const int k = x % kPatchSize, l = y % kPatchSize;
   const int top = u[first] * (kPatchSize - k) + u[first + 1] * k;
   const int bottom = u[first + 3] * (kPatchSize - k) + u[first + 4] * k;

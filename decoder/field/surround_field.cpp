@@ -9,41 +9,19 @@
 namespace fbs {
 namespace {
 
-/// Shares of hair and body at a node, in 1/kNodeShareOne; ground has the rest.
-struct NodeShares {
-  std::int32_t hair = 0, body = 0;
-  friend bool operator==(const NodeShares&, const NodeShares&) = default;
-};
-constexpr std::int32_t kNodeShareOne = 256;
-
-NodeShares shares_at(const NodePlace& place, std::span<const RegionShares> shares) {
-  if (!place.is_covered()) return {};
-  const auto at = [&](Region region) {
-    const auto share = [&](int k) {
-      return kNodeShareOne / kShareOne * shares[place.corner[k]][static_cast<std::size_t>(region)];
-    };
-    return place.mean(share(0), share(1), share(2));
-  };
-  NodeShares out;
-  out.hair = std::clamp(at(Region::kHair), 0, kNodeShareOne);
-  out.body = std::clamp(at(Region::kBody), 0, kNodeShareOne - out.hair);
-  return out;
-}
-
-/// Weights of the sources at a node.
-void weigh(const NodeShares& shares, const RegionWeights& regions, std::vector<std::uint16_t>& out) {
-  const auto of = [&](Region region, std::size_t s) { return regions[static_cast<std::size_t>(region)][s]; };
-  const std::int32_t ground = kNodeShareOne - shares.hair - shares.body;
+/// Weights of the sources at a node, 1/kMeshWeightOne, rounded to 1/kNodeWeightOne. The largest takes what
+/// rounding leaves.
+template <class Weight>
+void round_weights(std::size_t sources, Weight&& weight, std::uint16_t* out, std::size_t stride) {
   std::int32_t left = kNodeWeightOne;
   std::size_t largest = 0;
-  for (std::size_t s = 0; s < out.size(); ++s) {
-    const std::int32_t sum = shares.hair * of(Region::kHair, s) + shares.body * of(Region::kBody, s) +
-                             ground * of(Region::kGround, s);
-    out[s] = static_cast<std::uint16_t>(sum / kNodeShareOne);
-    left -= out[s];
-    if (out[s] > out[largest]) largest = s;
+  for (std::size_t s = 0; s < sources; ++s) {
+    const auto rounded = static_cast<std::uint16_t>(weight(s) / (kMeshWeightOne / kNodeWeightOne));
+    out[s * stride] = rounded;
+    left -= rounded;
+    if (rounded > out[largest * stride]) largest = s;
   }
-  out[largest] = static_cast<std::uint16_t>(out[largest] + left);
+  out[largest * stride] = static_cast<std::uint16_t>(out[largest * stride] + left);
 }
 
 }  // namespace
@@ -76,19 +54,34 @@ void displace(const NodeCover& cover, std::span<const glm::ivec2> seen, std::spa
   }
 }
 
-void NodeWeights::set(const NodeCover& cover, const RegionWeights& regions,
-                      std::span<const RegionShares> shares) {
-  const std::size_t sources = regions.front().size();
+void NodeWeights::set(const NodeCover& cover, const PointWeights& corners,
+                      std::span<const std::int32_t> outside) {
   nodes_ = cover.places().size();
-  weights_.resize(nodes_ * sources);
-  std::vector<std::uint16_t> weights(sources);
-  NodeShares last{-1, -1};
+  weights_.resize(nodes_ * corners.sources);
   for (std::size_t k = 0; k < nodes_; ++k) {
-    const NodeShares here = shares_at(cover.places()[k], shares);
-    if (here != last) weigh(here, regions, weights);
-    last = here;
-    for (std::size_t s = 0; s < sources; ++s) weights_[s * nodes_ + k] = weights[s];
+    const NodePlace& place = cover.places()[k];
+    if (!place.is_covered()) {
+      for (std::size_t s = 0; s < corners.sources; ++s)
+        weights_[s * nodes_ + k] = static_cast<std::uint16_t>(outside[s]);
+      continue;
+    }
+    const std::int32_t *const a = corners.at(place.corner[0]).data(),
+                              *const b = corners.at(place.corner[1]).data(),
+                              *const c = corners.at(place.corner[2]).data();
+    round_weights(
+        corners.sources, [&](std::size_t s) { return place.mean(a[s], b[s], c[s]); }, &weights_[k], nodes_);
   }
+}
+
+BlockWeights NodeWeights::of_block(std::size_t source, const NodeGrid& grid, glm::ivec2 block) const {
+  const int columns = grid.columns();
+  const std::uint16_t* node = of(source) + std::ptrdiff_t{2} * block.y * columns + 2 * block.x;
+  BlockWeights out{};
+  unsigned any = 0;
+  for (std::size_t row = 0; row < 3; ++row, node += columns)
+    for (std::size_t i = 0; i < 3; ++i) any |= out.at[3 * row + i] = node[i];
+  out.any = any != 0;
+  return out;
 }
 
 void NodeWeights::set(const NodeGrid& grid, std::span<const std::int32_t> weights) {

@@ -2,6 +2,7 @@
 // SPEC 10.3, 11.1 and 11.5. Integers only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
@@ -25,18 +26,26 @@ void displace(const NodeCover& cover, std::span<const glm::ivec2> seen, std::spa
 
 inline constexpr std::int32_t kNodeWeightOne = kBlendOne;
 
+/// The weights of a source in a block.
+struct BlockWeights {
+  std::array<std::uint16_t, 9> at;  ///< nodes, row by row
+  bool any;                         ///< whether some are not zero
+};
+
 /// Weights of the sources at the nodes, in 1/kNodeWeightOne. Those of one source lie together, row by row.
 class NodeWeights {
  public:
-  /// @param regions  weights of the sources in each region
-  /// @param shares   of the regions at the grid points
-  void set(const NodeCover& cover, const RegionWeights& regions, std::span<const RegionShares> shares);
+  /// @param corners  weights at the points of the mesh
+  /// @param outside  those of nodes that no triangle covers, in 1/kNodeWeightOne
+  void set(const NodeCover& cover, const PointWeights& corners, std::span<const std::int32_t> outside);
   /// The same weights at all nodes.
   void set(const NodeGrid& grid, std::span<const std::int32_t> weights);
 
   [[nodiscard]] const std::uint16_t* of(std::size_t source) const {
     return weights_.data() + source * nodes_;
   }
+  /// @param block  its column and row
+  [[nodiscard]] BlockWeights of_block(std::size_t source, const NodeGrid& grid, glm::ivec2 block) const;
 
  private:
   std::size_t nodes_ = 0;

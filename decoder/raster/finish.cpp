@@ -16,6 +16,16 @@ std::uint8_t lit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
   return static_cast<std::uint8_t>(std::clamp((sum + (1 << 11)) >> 12, 0, 255));
 }
 
+/// The luma that a light has made this.
+std::uint8_t unlit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
+  constexpr std::int32_t kOne = 1 << 18, kLeast = 1 << 16;
+  const std::int64_t factor = std::max(kOne + gain, kLeast);
+  const std::int64_t sum = (std::int64_t{luma - 128} << 18) - (std::int64_t{offset} << 6);
+  constexpr std::int64_t kAbove = 1 << 11;  // so that the quotient is of positive numbers
+  const std::int64_t before = (sum + factor / 2 + kAbove * factor) / factor - kAbove;
+  return static_cast<std::uint8_t>(std::clamp<std::int64_t>(128 + before, 0, 255));
+}
+
 /// The same for four samples, without the clamp.
 /// @param by_gain  (luma - 128) * gain
 SignedWideLanes lit(SignedWideLanes luma, SignedWideLanes offset, SignedWideLanes by_gain) {
@@ -44,12 +54,17 @@ std::array<SignedWideLanes, 2> lanes_of(const Gradient& g) {
           reinterpret_cast<SignedWideLanes>(WideLanes{4, 5, 6, 7} * step)};
 }
 
+std::int32_t limited(std::int64_t v) {
+  return static_cast<std::int32_t>(std::clamp(v, -kMaxLightRow, kMaxLightRow) >> 8);
+}
+
 }  // namespace
 
+void take_back_light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count) {
+  for (int i = 0; i < count; ++i) luma[i] = unlit(luma[i], limited(offset.at(i)), limited(gain.at(i)));
+}
+
 void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count) {
-  const auto limited = [](std::int64_t v) {
-    return static_cast<std::int32_t>(std::clamp(v, -kMaxLightRow, kMaxLightRow) >> 8);
-  };
   for (int i = 0; i < count; ++i) luma[i] = lit(luma[i], limited(offset.at(i)), limited(gain.at(i)));
 }
 
@@ -69,6 +84,13 @@ LightPainter::LightPainter(const TriangleSetup& setup, const Light& light)
       gain_(setup.gradient(light.gain, 0)),
       offset_lanes_(lanes_of(offset_)),
       gain_lanes_(lanes_of(gain_)) {}
+
+Lanes LightPainter::take_back(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const {
+  std::array<std::uint8_t, kLaneCount> row;
+  store_lanes(luma, row.data());
+  take_back_light_row(row.data(), block.along(offset_), block.along(gain_), block.count);
+  return load_lanes(row.data());
+}
 
 Lanes LightPainter::paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const {
   const LinearRow offset = block.along(offset_), gain = block.along(gain_);

@@ -24,8 +24,9 @@ struct InteriorMix {
   std::span<const std::array<std::uint8_t, kInteriorCount>> colours;
 };
 
-/// Null: not done.
+/// Null: not done. In this order.
 struct Finish {
+  const Light* light_before = nullptr;    ///< that has fallen on luma, and is taken back
   const Light* light = nullptr;           ///< on luma
   const InteriorMix* interior = nullptr;  ///< then mixed over all planes
 };
@@ -37,6 +38,9 @@ inline constexpr int kLightOneLog2 = 16;  ///< light along a run counts 2^-16 of
 /// @param offset, gain  as VertexLight, Q16
 void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count);
 
+/// The inverse: luma before this light fell on it.
+void take_back_light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count);
+
 /// Mixes colours over samples in place.
 /// @param colours  where the ramp is 0, 128 and 256
 /// @param opacity  0..256
@@ -44,11 +48,12 @@ void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gai
 void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInteriorCount>& colours,
                       std::int32_t opacity, const LinearRow& ramp, int count);
 
-/// light_row() for a block of a triangle.
+/// light_row() and take_back_light_row() for a block of a triangle.
 class LightPainter {
  public:
   LightPainter(const TriangleSetup& setup, const Light& light);
   [[nodiscard]] Lanes paint(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const;
+  [[nodiscard]] Lanes take_back(const RowBlock<PlaneScale::kLuma>& block, Lanes luma) const;
 
  private:
   Gradient offset_, gain_;

@@ -17,7 +17,7 @@ namespace {
 constexpr int kDepthBits = 16;  // depth keeps its unit
 
 bool is_finished(const TextureSource& s) {
-  return s.finish.light != nullptr || s.finish.interior != nullptr;
+  return s.finish.light != nullptr || s.finish.light_before != nullptr || s.finish.interior != nullptr;
 }
 
 /// The samples of one source: everything that is linear over the triangle but depth.
@@ -30,6 +30,8 @@ class SourcePainter {
     if constexpr (kFinished) {
       if (kScale == PlaneScale::kLuma && source.finish.light != nullptr)
         finish_.light.emplace(setup, *source.finish.light);
+      if (kScale == PlaneScale::kLuma && source.finish.light_before != nullptr)
+        finish_.light_before.emplace(setup, *source.finish.light_before);
       if (source.finish.interior != nullptr) finish_.interior.emplace(setup, *source.finish.interior);
     }
   }
@@ -37,8 +39,10 @@ class SourcePainter {
   [[nodiscard]] BlockSamples<kScale> paint(const RowBlock<kScale>& block) const {
     BlockSamples<kScale> samples = sampler_.sample(block);
     if constexpr (kFinished) {
-      if constexpr (kScale == PlaneScale::kLuma)
+      if constexpr (kScale == PlaneScale::kLuma) {
+        if (finish_.light_before) samples[0] = finish_.light_before->take_back(block, samples[0]);
         if (finish_.light) samples[0] = finish_.light->paint(block, samples[0]);
+      }
       if (finish_.interior) finish_.interior->paint(block, samples);
     }
     return samples;
@@ -46,7 +50,7 @@ class SourcePainter {
 
  private:
   struct Painters {
-    std::optional<LightPainter> light;  ///< luma
+    std::optional<LightPainter> light_before, light;  ///< luma
     std::optional<InteriorPainter<kScale>> interior;
   };
   struct Nothing {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decoder/field/padded_plane.h"
 #include "decoder/head/head_projection.h"
 #include "decoder/head/mouth_interior.h"
 
@@ -10,24 +11,29 @@ namespace fbs {
 namespace {
 
 constexpr float kLevelsPerLightUnit = 1.0F / 16;
-constexpr float kGainLevels = 64;  // State::light counts the gain per so many grey levels
+constexpr float kGainLevels = 64;      // State::light counts the gain per so many grey levels
+constexpr float kLeastFactor = 0.25F;  // that a light is taken for to have multiplied luma by
 
 VertexLight light_of(const std::vector<VertexLight>& light, std::size_t vertex) {
   return light.empty() ? VertexLight{} : light[vertex];
 }
 
-/// Light that the picture has and the pattern has not.
+/// The light of the pattern is taken back, and that of the picture added: SPEC 10.11.
 void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const SurfaceTriangle& t, glm::vec2 at,
                glm::vec2 step, SourceRun& out) {
   if (mesh.light.empty() && texture.light.empty()) return;
   std::array<glm::vec2, 3> l;
   for (std::size_t i = 0; i < 3; ++i) {
     const VertexLight now = light_of(mesh.light, t.corners[i]), seen = light_of(texture.light, t.corners[i]);
-    l[i] = glm::vec2(now.offset - seen.offset, now.gain - seen.gain) * kLevelsPerLightUnit;
+    constexpr float kPerLevel = kLevelsPerLightUnit / kGainLevels;
+    const float ratio = (1 + kPerLevel * static_cast<float>(now.gain)) /
+                        std::max(1 + kPerLevel * static_cast<float>(seen.gain), kLeastFactor);
+    l[i] = {kLevelsPerLightUnit * (static_cast<float>(now.offset) - ratio * static_cast<float>(seen.offset)),
+            ratio - 1};
   }
   const glm::vec2 a = l[1] - l[0], b = l[2] - l[0];
   out.offset = {l[0].x + at.x * a.x + at.y * b.x, step.x * a.x + step.y * b.x};
-  out.gain = (l[0].y + at.x * a.y + at.y * b.y) / kGainLevels;
+  out.gain = l[0].y + at.x * a.y + at.y * b.y;
 }
 
 void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t,
@@ -60,6 +66,12 @@ float mixed(const float* a, int width, float fx, float fy) {
 bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureMesh& texture) {
   return !t.head && std::ranges::all_of(
                         t.corners, [&](std::uint16_t k) { return mesh.surround[k] == texture.surround[k]; });
+}
+
+/// Where the surround's textures begin to repeat what lies inside their border (kLumaInset), in samples of a
+/// reduced plane. Much reduced, its outermost samples have more from inside than from the border.
+float border_inset(int reduction) {
+  return std::max((static_cast<float>(kLumaInset) + 0.5F) / static_cast<float>(1 << reduction) - 0.5F, 0.0F);
 }
 
 }  // namespace
@@ -102,6 +114,7 @@ SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const Te
   const glm::vec2 first = p0 + at.x * p1 + at.y * p2, per_column = step.x * p1 + step.y * p2;
   out.u = {first.x, per_column.x};
   out.v = {first.y, per_column.y};
+  if (!t.head) out.inset = border_inset(picture.reduction);
   if (t.head) {
     add_light(picture.mesh, texture, t, at, step, out);
     add_interior(picture, texture, t, out);

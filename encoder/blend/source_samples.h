@@ -53,6 +53,7 @@ struct RunValue {
 /// How the samples of a run come from a texture. What hardly changes along it has one value.
 struct SourceRun {
   RunValue u, v;                    ///< texture position, samples; integers lie on centres
+  float inset = 0;                  ///< samples of the border that repeat what is inside
   RunValue offset;                  ///< of the light, grey levels
   float gain = 0;                   ///< of the light, per grey level from 128; at the first sample
   float opacity = 0;                ///< of the mouth interior, 0..1
@@ -77,7 +78,8 @@ struct PictureMesh {
   constexpr float kDrift = 0.25F;
   const auto within = [&](const RunValue& v, int samples) {
     const float end = v.first + v.step * static_cast<float>(count - 1);
-    return std::min(v.first, end) >= 0 && std::max(v.first, end) < static_cast<float>(samples - 1) - kDrift;
+    return std::min(v.first, end) >= source.inset &&
+           std::max(v.first, end) < static_cast<float>(samples - 1) - source.inset - kDrift;
   };
   return within(source.u, size.x) && within(source.v, size.y);
 }
@@ -102,8 +104,8 @@ void for_each_footprint(const SourceRun& source, int count, glm::ivec2 size, Use
       at(i, static_cast<int>(u), static_cast<int>(v), u, v);
   } else {
     for (int i = 0; i < count; ++i, u += source.u.step, v += source.v.step) {
-      const float x = std::clamp(u, 0.0F, static_cast<float>(size.x - 1)),
-                  y = std::clamp(v, 0.0F, static_cast<float>(size.y - 1));
+      const float x = std::clamp(u, source.inset, static_cast<float>(size.x - 1) - source.inset),
+                  y = std::clamp(v, source.inset, static_cast<float>(size.y - 1) - source.inset);
       at(i, std::min(static_cast<int>(x), size.x - 2), std::min(static_cast<int>(y), size.y - 2), x, y);
     }
   }

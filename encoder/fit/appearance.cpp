@@ -22,7 +22,6 @@ Appearance::Appearance(const SamplePoints& points, const PatternSamples& pattern
       pattern_(pattern),
       light_(fit.light),
       shade_(interior_opacity(mouth_gap(vertices), pattern.mouth_gap())) {
-  for (std::size_t i = 0; i < kLightCount; ++i) light_[i] -= pattern.light()[i];
   added_ = fit.interior;
   constexpr double kPerGreyLevel = 16;  // units of interior_base()
   const auto base = interior_base(mouth, &YuvColour::y);

@@ -36,7 +36,7 @@ class Appearance {
 
   const SamplePoints& points_;
   const PatternSamples& pattern_;
-  std::array<double, kLightCount> light_;        ///< that the state has and the pattern has not
+  std::array<double, kLightCount> light_;        ///< of the state
   std::array<double, kInteriorCount> interior_;  ///< luma at upper lip, half way and lower lip
   std::array<double, kInteriorCount> added_;     ///< of it, what the state adds
   std::int32_t shade_;

@@ -17,16 +17,14 @@ struct SeenPattern {
   double interior_opacity = 0;  ///< 0..1, of the state's mouth interior where the picture was drawn with one
 };
 
-/// Luma where the mesh lay in the seen state, its expression included; the light and the mouth opening that
-/// are in it.
+/// Luma where the mesh lay in the seen state, its expression included, without the light of that state; and
+/// the mouth opening that is in it.
 class PatternSamples {
  public:
   PatternSamples(const SamplePoints& points, const Geometry& geometry, const SeenPattern& pattern);
 
   /// Negative where the frame does not reach.
   [[nodiscard]] float luma(int level, std::size_t point) const { return luma_[level][point]; }
-  /// Grey levels.
-  [[nodiscard]] const std::array<double, kLightCount>& light() const { return light_; }
   /// As mouth_gap() of the decoder gives it, head units.
   [[nodiscard]] std::int32_t mouth_gap() const { return mouth_gap_; }
   /// Of the mouth interior that the pattern shows, 0..1, and what that adds to its colours, grey levels.
@@ -36,7 +34,6 @@ class PatternSamples {
 
  private:
   std::array<std::vector<float>, kFitLevels> luma_;
-  std::array<double, kLightCount> light_;
   std::array<double, kInteriorCount> interior_;
   std::int32_t mouth_gap_;
   double interior_opacity_;

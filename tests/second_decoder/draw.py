@@ -2,102 +2,124 @@
 
 import numpy as np
 
+from .atlas import atlas_weights
 from .head import HEAD, VERTICES
 from .integers import clamp
-from .mesh import MOUTH_INTERIOR
+from .mesh import MOUTH, MOUTH_INTERIOR
+from .nodes import Nodes, rounded_weights
+from .patches import NODE_ONE, blended, displacements, warped
 from .raster import NO_TRIANGLE, Fragments, Triangles, planes
-from .samples import (MAX_AMOUNT, WEIGHT_ONE, Blend, blend_planes, light, mouth_interior, restore_contrast,
-                      sample_texture)
+from .samples import MAX_AMOUNT, WEIGHT_ONE, Blend, light, mouth_interior, restore_contrast, sample_texture
 from .weights import ground_weights, point_weights
 
 _RAMP = {60: 128, 61: 0, 62: 0, 63: 0, 64: 128, 65: 256, 66: 256, 67: 256}  # of the mouth colours, by landmark
 _HEAD_RAMP = np.array([_RAMP.get(landmark, 0) for landmark in HEAD.landmark] + [0] * len(HEAD.outline))
 
 
-def draw_without_geometry(sources):
+def draw_without_geometry(setup, sources):
     """The picture, planes Y, U, V, of a scene without geometry."""
-    weights = ground_weights(sources)
-    return [blend_planes([source.pattern.planes[i] for source in sources], weights) for i in range(3)]
+    nodes = np.ones((setup.height // 8 + 2, setup.width // 8 + 2), np.int64)
+    weights = [weight * nodes for weight in ground_weights(sources)]
+    return [blended(plane, [source.pattern.planes[k] for source in sources], weights)
+            for k, plane in enumerate(planes(setup.width, setup.height))]
 
 
 def draw(setup, mesh, sources, state):
     """The picture of a state, planes Y, U, V."""
-    picture = draw_without_geometry(sources)
     scene = _PictureDrawing(setup, mesh, sources, state)
-    formats = planes(setup.width, setup.height)
-    luma = scene.fragments(formats[0])
-    chroma = scene.fragments(formats[1])
-    for i, fragments in enumerate((luma, chroma, chroma)):
-        picture[i][fragments.rows, fragments.columns] = scene.samples(i, fragments)
+    picture = scene.surround()
+    if not mesh.is_plane:
+        scene.draw_head(picture)
     return picture
 
 
 class _PictureDrawing:
-    """The triangles of one picture: cells of the surround, then the head."""
+    """One picture: the surround, then the head."""
 
     def __init__(self, setup, mesh, sources, state):
         self._setup = setup
+        self._mesh = mesh
         self._sources = sources
         self._state = state
         self._now = mesh.place(state)
         self._weights = point_weights(mesh, sources, self._now)
-        cells = self._drawn_cells(mesh)
-        surround = np.stack([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
-        self._corners = np.concatenate([surround, mesh.head_triangles])
-        self._first_of_head = len(surround)
-        self._triangles = Triangles(self._now.x[self._corners], self._now.y[self._corners])
-        self._is_mouth = np.concatenate([np.zeros(len(surround), bool), MOUTH_INTERIOR])
-        self._ramp = np.concatenate([np.zeros(mesh.grid_points, np.int64), _HEAD_RAMP])[self._corners]
-        self._used = (self._weights[:, self._corners] != 0).any(axis=2)  # sources by triangles
-        self._last_source = len(sources) - 1 - self._used[::-1].argmax(axis=0)
+        self._planes = planes(setup.width, setup.height)
 
-    def _drawn_cells(self, mesh):
-        """The cells that change what the blended patterns show (SPEC 10.3)."""
-        grid = slice(0, mesh.grid_points)
-        like_ground = (self._weights[:, grid] == ground_weights(self._sources)[:, None]).all(axis=0)
-        for source, weights in zip(self._sources, self._weights):
-            if not source.still:
-                seen = source.pattern.placement
-                same = (self._now.x[grid] == seen.x[grid]) & (self._now.y[grid] == seen.y[grid])
-                like_ground &= same | (weights[grid] == 0)
-        return mesh.cells[~like_ground[mesh.cells].all(axis=1)]
+    def surround(self):
+        """Planes Y, U, V of the picture without the head."""
+        now = self._now
+        nodes = Nodes(self._setup.width, self._setup.height, self._mesh.surround_triangles(), now.x, now.y)
+        fields = []
+        for source in self._sources:
+            seen = source.pattern.placement
+            fields.append(None if source.still else
+                          displacements(nodes, (seen.x, seen.y), (now.x, now.y), self._setup.width, self._setup.height))
+        ground = ground_weights(self._sources)[:, None, None]
+        weights = np.array([nodes.at(weight) for weight in self._weights])
+        weights = np.where(nodes.is_covered, rounded_weights(weights, 4, NODE_ONE), ground)
+        return [blended(plane, [warped(source.pattern.planes[k], plane, field)
+                                for source, field in zip(self._sources, fields)], weights)
+                for k, plane in enumerate(self._planes)]
 
-    def fragments(self, plane):
-        """The samples that surround and head cover in a plane."""
-        shown = np.full((plane.height, plane.width), NO_TRIANGLE)
-        head = self._first_of_head
-        Triangles(self._triangles.x[:head], self._triangles.y[:head]).draw(shown, plane)
-        self._triangles.draw_with_depth(shown, plane, self._now.z[self._corners], head)
-        return Fragments(self._triangles, shown, plane)
+    def draw_head(self, picture):
+        """Draws the head over the picture."""
+        corners = self._mesh.head_triangles
+        triangles = Triangles(self._now.x[corners], self._now.y[corners])
+        head = slice(self._mesh.grid_points, None)
+        shows = (self._weights[:, head] != 0).any(axis=1)
+        warped_ones = [k for k, source in enumerate(self._sources) if shows[k] and not source.still]
+        texture = None
+        if warped_ones:
+            texture = self._mesh.atlas.blend([self._sources[k].pattern.atlas for k in warped_ones],
+                                             atlas_weights(self._weights[warped_ones, head]))
+        weights = [self._weights[warped_ones].sum(axis=0)]
+        weights += [weight for weight, source in zip(self._weights, self._sources) if source.still]
+        for k, plane in enumerate(self._planes):
+            shown = np.full((plane.height, plane.width), NO_TRIANGLE)
+            triangles.draw_with_depth(shown, plane, self._now.z[corners], 0)
+            fragments = Fragments(triangles, shown, plane)
+            stills = [source.pattern.planes[k] for source in self._sources if source.still]
+            samples = [self._from_atlas(texture[k], k, fragments) if texture else None]
+            samples += [self._from_still(plane_of_still, fragments) for plane_of_still in stills]
+            picture[k][fragments.rows, fragments.columns] = self._blend(fragments, samples, weights)
 
-    def samples(self, plane, fragments):
-        """The samples of plane 0, 1 or 2 at the fragments."""
+    def _blend(self, fragments, samples, weights):
+        corners = self._mesh.head_triangles
+        used = np.array([(weight[corners] != 0).any(axis=1) for weight in weights])  # by triangles
+        last = len(weights) - 1 - used[::-1].argmax(axis=0)
         blend = Blend(len(fragments.triangle))
-        for k, source in enumerate(self._sources):
-            at = np.flatnonzero(self._used[k, fragments.triangle])
-            samples = self._sample(plane, fragments, source)[at]
-            weight = fragments.quantities(self._weights[k][self._corners])[at]
-            blend.add(at, samples, weight, self._last_source[fragments.triangle[at]] == k)
+        for k, (sample, weight) in enumerate(zip(samples, weights)):
+            at = np.flatnonzero(used[k, fragments.triangle])
+            if len(at):
+                blend.add(at, sample[at], fragments.quantities(weight[corners])[at], last[fragments.triangle[at]] == k)
         return blend.result()
 
-    def _sample(self, plane, fragments, source):
-        """The samples of one source."""
-        texture = source.pattern.planes[plane]
-        seen = source.pattern.placement
-        x, y = (self._now.x, self._now.y) if source.still else (seen.texture_x, seen.texture_y)
-        samples = sample_texture(texture, fragments.texture_positions(x[self._corners]),
-                                 fragments.texture_positions(y[self._corners]))
-        if source.still:
-            return samples
+    def _from_still(self, texture, fragments):
+        corners = self._mesh.head_triangles
+        return sample_texture(texture, fragments.texture_positions(self._now.x[corners]),
+                              fragments.texture_positions(self._now.y[corners]))
+
+    def _from_atlas(self, texture, plane, fragments):
+        """Samples of plane 0, 1 or 2 from the blended atlas, with light and mouth."""
+        atlas, corners = self._mesh.atlas, self._mesh.head_triangles - self._mesh.grid_points
+        samples = sample_texture(texture, fragments.texture_positions(atlas.x[corners]),
+                                 fragments.texture_positions(atlas.y[corners]))
         if plane == 0:
-            offset, gain = ((now - then)[self._corners] for now, then in
-                            ((self._now.offset, seen.offset), (self._now.gain, seen.gain)))
+            offset, gain = (at[self._mesh.head_triangles] for at in (self._now.offset, self._now.gain))
             samples = light(samples, fragments.quantities(offset), fragments.quantities(gain))
-        amount = clamp(self._now.gap - seen.gap, 0, MAX_AMOUNT)
         colours = self._setup.upper_lip[plane], self._setup.lower_lip[plane]
         offsets = self._state.mouth_interior if plane == 0 else (0, 0, 0)
-        mixed = mouth_interior(samples, fragments.quantities(self._ramp), amount, colours, offsets)
-        return np.where(self._is_mouth[fragments.triangle], mixed, samples)
+        mixed = mouth_interior(samples, fragments.quantities(_HEAD_RAMP[corners]), self._mouth_amount(), colours,
+                               offsets)
+        return np.where(MOUTH_INTERIOR[fragments.triangle], mixed, samples)
+
+    def _mouth_amount(self):
+        """How much of the mouth colours shows (SPEC 10.10)."""
+        weights = [source.regions[MOUTH] for source in self._sources if not source.still]
+        amounts = [clamp(self._now.gap - source.pattern.placement.gap, 0, MAX_AMOUNT)
+                   for source in self._sources if not source.still]
+        total = sum(weights)
+        return (sum(w * a for w, a in zip(weights, amounts)) + total // 2) // total if total else 0
 
 
 def face_shares(mesh, seen, plane):

@@ -17,6 +17,7 @@ FULL_SHARE = 16
 REGION_FEATURES = {MOUTH: (OUTER_LIPS, INNER_LIPS),
                    RIGHT_EYE: (RIGHT_UPPER_LID, RIGHT_LOWER_LID, RIGHT_PUPIL),
                    LEFT_EYE: (LEFT_UPPER_LID, LEFT_LOWER_LID, LEFT_PUPIL)}
+FLATTEST = 63  # depth of a plane, head units
 _RING = len(HEAD.outline)
 _RING_DEPTH = 2048  # of the ring behind the outline, head units
 
@@ -54,8 +55,6 @@ class Placement:
     x: np.ndarray  # on the screen, 1/64 sample
     y: np.ndarray
     z: np.ndarray  # head units; 0 in the grid
-    texture_x: np.ndarray  # in a pattern seen in this state, 1/64 sample
-    texture_y: np.ndarray
     offset: np.ndarray  # light, 1/16 grey level
     gain: np.ndarray
     gap: int  # between the lips, head units
@@ -71,8 +70,16 @@ class Mesh:
         self.cells = self.grid.cells()
         self.head_triangles = HEAD_TRIANGLES + self.grid_points
         self._outline = adapted[HEAD.outline]
+        self.is_plane = bool((np.abs(adapted[:, 2]) <= FLATTEST).all())
+        self.rest_scale = HeadPose(rest).scale
+        self.atlas = None  # of the head: atlas.Atlas
         self._attach_ring(rest)
         self.shares = np.concatenate([self._grid_shares(), _VERTEX_SHARES, self._ring_shares()])
+
+    def surround_triangles(self):
+        """Corners of the triangles that move the surround, in their order (SPEC 10.3)."""
+        halves = np.stack([self.cells[:, [0, 1, 2]], self.cells[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
+        return np.concatenate([halves, self.head_triangles]) if self.is_plane else halves
 
     def place(self, state):
         x, y = self.grid.positions(state)
@@ -89,8 +96,6 @@ class Mesh:
         return Placement(x=np.concatenate([x.ravel(), head_x]),
                          y=np.concatenate([y.ravel(), head_y]),
                          z=np.concatenate([without, head[:, 2], ring_z]),
-                         texture_x=np.concatenate([x[self.grid.base].ravel(), head_x]),
-                         texture_y=np.concatenate([y[self.grid.base].ravel(), head_y]),
                          offset=np.concatenate([without, offset, unlit]),
                          gain=np.concatenate([without, gain, unlit]),
                          gap=lip_gap(vertices))

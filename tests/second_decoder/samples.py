@@ -35,6 +35,13 @@ def light(samples, offset, gain):
     return clamp(((samples << 12) + o + ((samples - 128) * g >> 6) + 2**11) >> 12, 0, 255)
 
 
+def take_back_light(samples, offset, gain):
+    """Luma samples before this light fell on them (SPEC 10.11)."""
+    o = clamp(offset, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8
+    d = np.maximum(2**18 + (clamp(gain, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8), 2**16)
+    return clamp(128 + (((samples - 128) << 18) - (o << 6) + d // 2 + 2**11 * d) // d - 2**11, 0, 255)
+
+
 def mouth_interior(samples, ramp, amount, colours, offsets):
     """Samples mixed with the colours of the mouth interior (SPEC 10.10).
 
@@ -72,11 +79,6 @@ class Blend:
 
     def result(self):
         return (self._sum + 2**11) >> 12
-
-
-def blend_planes(planes, weights):
-    """Whole planes blended by one weight for each (SPEC 11.5)."""
-    return (sum(weight * plane for weight, plane in zip(weights, planes)) + 2**11) >> 12
 
 
 def restore_contrast(plane, face, outside, inside):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .atlas import Atlas
 from .av1 import Av1Decoder
 from .blend import REGIONS, BlendDecoder
 from .draw import draw, draw_without_geometry, with_full_contrast
@@ -26,7 +27,8 @@ class Pattern:
     number: int  # of its picture
     state: State  # in which it is seen
     planes: list  # Y, U, V
-    placement: Placement  # of the mesh in its state; None in a scene without geometry
+    placement: Placement = None  # of the mesh in its state; None in a scene without geometry
+    atlas: list = None  # planes Y, U, V of what it shows of the head, if the scene has a face
 
 
 class Scene:
@@ -66,8 +68,18 @@ class Scene:
 
     def _build_mesh(self):
         self._mesh = Mesh(self.setup, self._surround, self._adapted, self._rest)
+        self._mesh.atlas = Atlas(self._mesh.rest_scale)
         for pattern in self._store.values():
-            pattern.placement = self._mesh.place(pattern.state)
+            self._place(pattern)
+
+    def _place(self, pattern):
+        """Finds where the mesh is in a pattern, and what it shows of the head."""
+        mesh = self._mesh
+        seen = pattern.placement = mesh.place(pattern.state)
+        if not mesh.is_plane:
+            head = slice(mesh.grid_points, None)
+            pattern.atlas = mesh.atlas.of_pattern(pattern.planes, seen.x[head], seen.y[head], seen.offset[head],
+                                                  seen.gain[head])
 
     def _take_pattern(self, payload):
         numbers = {slot: pattern.number for slot, pattern in self._store.items()}
@@ -94,11 +106,12 @@ class Scene:
         frame = self._full_size(self._av1.decode(coded.frame))
         state = self._rest if coded.numbers else State(self._states[coded.number][0])
         if not self._mesh:
-            return Pattern(coded.number, state, frame, None)
-        placement = self._mesh.place(state)
+            return Pattern(coded.number, state, frame)
         if self.setup.contrast or self.setup.chroma_contrast:
-            frame = with_full_contrast(self.setup, self._mesh, placement, frame)
-        return Pattern(coded.number, state, frame, placement)
+            frame = with_full_contrast(self.setup, self._mesh, self._mesh.place(state), frame)
+        pattern = Pattern(coded.number, state, frame)
+        self._place(pattern)
+        return pattern
 
     def _full_size(self, frame):
         """The planes of a frame, enlarged if it is reduced."""
@@ -142,5 +155,5 @@ class Scene:
         if self._mesh:
             picture = draw(self.setup, self._mesh, sources, state)
         else:
-            picture = draw_without_geometry(sources)
+            picture = draw_without_geometry(self.setup, sources)
         return [plane.astype(np.uint8) for plane in picture]

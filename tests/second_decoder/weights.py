@@ -6,7 +6,7 @@ import numpy as np
 
 from .head import HEAD, INNER_LIPS, LEFT_BROW, OUTER_LIPS, RIGHT_BROW, VERTICES
 from .integers import clamp, exp2, log2, quotient
-from .mesh import BODY, FACE, FULL_SHARE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, RIGHT_EYE
+from .mesh import BODY, FACE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, RIGHT_EYE
 from .raster import signed_areas
 
 ONE = 4096  # sum of the weights of all sources at a point of the mesh
@@ -156,8 +156,8 @@ class PictureWeights:
 
 
 def ground_weights(sources):
-    """Weight of each source in the ground, 1/4096."""
-    return np.array([FULL_SHARE * source.regions[GROUND] for source in sources])
+    """Weight of each source in the ground, 1/256."""
+    return np.array([source.regions[GROUND] for source in sources])
 
 
 def point_weights(mesh, sources, now):

@@ -7,7 +7,7 @@
 #include "decoder/blend/picture_blend.h"
 #include "decoder/head/head_mesh.h"
 #include "decoder/renderer.h"
-#include "tests/unit/toy_scene.h"
+#include "tests/unit/decoder/head_area.h"
 
 namespace fbs {
 namespace {
@@ -70,12 +70,13 @@ TEST(RendererBlend, IdenticalPatternsDrawThePictureOfOne) {
 TEST(RendererBlend, StillPatternsInTheirOwnStateDrawThePattern) {
   std::mt19937 random(2);
   for (int i = 0; i < 60; ++i) {
-    const Picture picture = noise_picture(160, 128, static_cast<unsigned>(i));
+    const Picture picture = smooth_picture(160, 128, static_cast<unsigned>(i));
     State state = any_state(random, 0);
     const Scene scene = repeated(picture, state, 4);
     state.picture = static_cast<int>(random() % 40);
     set_modes(random, state);
-    ASSERT_EQ(rendered(scene, state), picture) << i;
+    SCOPED_TRACE(i);
+    expect_shows(rendered(scene, state), picture, head_area(scene, state), {2, 32});
   }
 }
 
@@ -92,22 +93,25 @@ TEST(RendererBlend, StillModesShowAPatternAsItIsWhateverMoves) {
 }
 
 TEST(RendererBlend, CrossFadeOfPatternsAtRestIsTheirWeightedMean) {
-  Scene scene = toy_scene(noise_picture(160, 128, 1), mixed_surround());
+  Scene scene = toy_scene(smooth_picture(160, 128, 1), mixed_surround());
   State later = toy_state();
   later.picture = 40;
-  scene.patterns.push_back(make_pattern(noise_picture(160, 128, 2), later, scene.geometry));
+  scene.patterns.push_back(make_pattern(smooth_picture(160, 128, 2), later, scene.geometry));
   State state = toy_state();
   state.picture = 10;
   state.blend.fill(BlendMode::kByTime);
-  const Picture out = rendered(scene, state);
-  const auto expect_mean = [&](Plane Picture::*plane) {
+  const auto mean_of = [&](Plane Picture::*plane) {
     const Plane &a = scene.patterns[0].picture.*plane, &b = scene.patterns[1].picture.*plane;
+    Plane mean = a;
     for (std::size_t i = 0; i < a.samples.size(); ++i)
-      ASSERT_EQ((out.*plane).samples[i], (3 * a.samples[i] + b.samples[i] + 2) / 4) << i;
+      mean.samples[i] = static_cast<std::uint8_t>((3 * a.samples[i] + b.samples[i] + 2) / 4);
+    return mean;
   };
-  expect_mean(&Picture::y);
-  expect_mean(&Picture::u);
-  expect_mean(&Picture::v);
+  Picture expected(160, 128);
+  expected.y = mean_of(&Picture::y);
+  expected.u = mean_of(&Picture::u);
+  expected.v = mean_of(&Picture::v);
+  expect_shows(rendered(scene, state), expected, head_area(scene, state), {2, 24});
 }
 
 TEST(RendererBlend, SceneWithoutGeometryCrossFadesItsPatterns) {

@@ -25,26 +25,26 @@ bool covers(const std::array<Corner, 3>& t, std::int64_t x, std::int64_t y) {
   return true;
 }
 
-std::array<Corner, 3> at(const std::vector<glm::ivec2>& points, int a, int b, int c) {
-  return {{{points[a].x, points[a].y}, {points[b].x, points[b].y}, {points[c].x, points[c].y}}};
+std::array<Corner, 3> at(const std::vector<glm::ivec2>& points, const MeshTriangle& t) {
+  std::array<Corner, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = {points[t[k]].x, points[t[k]].y};
+  return out;
 }
 
 /// The place that the last covering triangle gives the node.
-NodePlace expected(const std::vector<Surround::Cell>& cells, const std::vector<glm::ivec2>& points, int x,
+NodePlace expected(const std::vector<MeshTriangle>& triangles, const std::vector<glm::ivec2>& points, int x,
                    int y) {
   NodePlace out{{-1, -1, -1}, {}};
-  for (const Surround::Cell& cell : cells) {
-    for (const std::array<int, 3> c : {std::array{cell[0], cell[1], cell[2]}, {cell[0], cell[2], cell[3]}}) {
-      const auto t = at(points, c[0], c[1], c[2]);
-      if (!covers(t, x, y)) continue;
-      const auto beside = [&](Corner from, Corner to) {
-        return (from.y - to.y) * (x - from.x) + (to.x - from.x) * (y - from.y);
-      };
-      const std::int64_t area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
-      out = {{c[0], c[1], c[2]},
-             {static_cast<std::int32_t>(beside(t[2], t[0]) * 16384 / area),
-              static_cast<std::int32_t>(beside(t[0], t[1]) * 16384 / area)}};
-    }
+  for (const MeshTriangle& triangle : triangles) {
+    const auto t = at(points, triangle);
+    if (!covers(t, x, y)) continue;
+    const auto beside = [&](Corner from, Corner to) {
+      return (from.y - to.y) * (x - from.x) + (to.x - from.x) * (y - from.y);
+    };
+    const std::int64_t area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
+    out = {triangle,
+           {static_cast<std::int32_t>(beside(t[2], t[0]) * 16384 / area),
+            static_cast<std::int32_t>(beside(t[0], t[1]) * 16384 / area)}};
   }
   return out;
 }
@@ -64,16 +64,16 @@ TEST(NodeCover, NodesBelongToTheLastTriangleThatCoversThem) {
       if (random() % 2 == 0) p = (p / 512) * 512 + 32;
       points.push_back(p);
     }
-    std::vector<Surround::Cell> cells;
-    for (int k = 0; k < 20; ++k) {
-      const auto any = [&] { return static_cast<int>(random() % points.size()); };
-      cells.push_back({any(), any(), any(), any()});
+    std::vector<MeshTriangle> triangles;
+    for (int k = 0; k < 40; ++k) {
+      const auto any = [&] { return static_cast<std::int32_t>(random() % points.size()); };
+      triangles.push_back({any(), any(), any()});
     }
-    cover.find(grid, cells, points);
+    cover.find(grid, triangles, points);
     ASSERT_EQ(cover.places().size(), grid.size());
     for (int j = 0; j < grid.rows(); ++j) {
       for (int k = 0; k < grid.columns(); ++k) {
-        const NodePlace e = expected(cells, points, 512 * k + 32, 512 * j + 32);
+        const NodePlace e = expected(triangles, points, 512 * k + 32, 512 * j + 32);
         const NodePlace& found = cover.places()[static_cast<std::size_t>(j) * grid.columns() + k];
         ASSERT_EQ(found.corner, e.corner) << i << ": " << k << ',' << j;
         ASSERT_EQ(found.is_covered(), e.corner[0] >= 0);
@@ -81,6 +81,22 @@ TEST(NodeCover, NodesBelongToTheLastTriangleThatCoversThem) {
       }
     }
   }
+}
+
+TEST(NodeCover, BareNodesTakeTheNearestPointTheFirstOfSeveral) {
+  const NodeGrid grid(64, 64);
+  const std::vector<glm::ivec2> points{{0, 0}, {1600, 32}, {1600, 32}, {32, 1600}};
+  NodeCover cover;
+  cover.find(grid, std::vector<MeshTriangle>{{0, 1, 3}}, points);
+  ASSERT_TRUE(cover.places()[0].is_covered());
+  const NodePlace inside = cover.places()[0];
+  cover.take_nearest(points);
+  EXPECT_EQ(cover.places()[0].corner, inside.corner) << "what a triangle covers stays";
+  EXPECT_EQ(cover.places()[0].share, inside.share);
+  const NodePlace right = cover.places()[static_cast<std::size_t>(grid.columns()) - 1];
+  EXPECT_EQ(right.corner, (MeshTriangle{1, 1, 1}));
+  const NodePlace below = cover.places()[static_cast<std::size_t>(grid.rows() - 1) * grid.columns()];
+  EXPECT_EQ(below.corner, (MeshTriangle{3, 3, 3}));
 }
 
 TEST(NodePlace, MeanIsLinearAndRoundedOnce) {

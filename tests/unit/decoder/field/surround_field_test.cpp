@@ -12,6 +12,16 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 128;
 
+/// The halves of the cells.
+std::vector<MeshTriangle> triangles_of(const Surround& surround) {
+  std::vector<MeshTriangle> out;
+  for (const Surround::Cell& c : surround.cells()) {
+    out.push_back({c[0], c[1], c[2]});
+    out.push_back({c[0], c[2], c[3]});
+  }
+  return out;
+}
+
 /// A grid of 8 x 8 cells in a toy scene, in some state.
 struct Grid {
   SurroundMap map = even_surround(8, 8, 0);
@@ -25,7 +35,7 @@ struct Grid {
     surround.project(state, out);
     return out;
   }
-  void find() { cover.find(NodeGrid(kWidth, kHeight), surround.cells(), now); }
+  void find() { cover.find(NodeGrid(kWidth, kHeight), triangles_of(surround), now); }
   [[nodiscard]] SourceField field(const std::vector<glm::ivec2>& seen) const {
     SourceField out;
     displace(cover, seen, now, kWidth, kHeight, out);
@@ -106,7 +116,8 @@ TEST(NodeWeights, SumToOneAtEveryNode) {
   const Grid grid;
   NodeWeights weights;
   for (int i = 0; i < 50; ++i) {
-    weights.set(grid.cover, random_regions(random), surround.shares());
+    const RegionWeights regions = random_regions(random);
+    weights.set(grid.cover, point_weights(regions, surround.shares()), regions[0]);
     for (std::size_t k = 0; k < grid.cover.places().size(); ++k)
       ASSERT_EQ(weights.of(0)[k] + weights.of(1)[k] + weights.of(2)[k], kNodeWeightOne) << k;
   }
@@ -118,7 +129,7 @@ TEST(NodeWeights, AreThoseOfTheRegionThatHasTheNode) {
   for (auto& region : regions) region = {0, 0, 256};
   regions[static_cast<std::size_t>(Region::kGround)] = {57, 0, 199};
   NodeWeights weights;
-  weights.set(grid.cover, regions, grid.surround.shares());
+  weights.set(grid.cover, point_weights(regions, grid.surround.shares()), {});
   for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
     ASSERT_EQ(weights.of(0)[k], 57);
     ASSERT_EQ(weights.of(2)[k], 199);
@@ -132,14 +143,29 @@ TEST(NodeWeights, AreMixedByTheSharesOfRegions) {
   std::vector<glm::ivec2> now;
   surround.project(toy_state(), now);
   NodeCover cover;
-  cover.find(NodeGrid(kWidth, kHeight), surround.cells(), now);
+  cover.find(NodeGrid(kWidth, kHeight), triangles_of(surround), now);
   RegionWeights regions;
   for (auto& region : regions) region = {0, 256};
   regions[static_cast<std::size_t>(Region::kHair)] = {101, 155};
   NodeWeights weights;
-  weights.set(cover, regions, surround.shares());
+  weights.set(cover, point_weights(regions, surround.shares()), {});
   EXPECT_EQ(weights.of(0)[22], 50) << "rounded down";
   EXPECT_EQ(weights.of(1)[22], 206) << "the largest takes the rest";
+}
+
+TEST(NodeWeights, OfNodesThatNothingCoversAreThoseFromOutside) {
+  Grid grid;
+  for (glm::ivec2& p : grid.now) p.x += 1 << 20;
+  grid.find();
+  PointWeights corners{2, {}};
+  for (std::size_t k = 0; k < grid.surround.point_count(); ++k)
+    corners.weights.insert(corners.weights.end(), {kMeshWeightOne, 0});
+  NodeWeights weights;
+  weights.set(grid.cover, corners, std::vector<std::int32_t>{99, 157});
+  for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
+    ASSERT_EQ(weights.of(0)[k], 99);
+    ASSERT_EQ(weights.of(1)[k], 157);
+  }
 }
 
 TEST(NodeWeights, OfASceneWithoutGeometryAreThoseOfTheGround) {

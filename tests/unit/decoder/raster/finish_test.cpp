@@ -49,6 +49,37 @@ TEST(LightRow, IsTheFormatsFormula) {
   }
 }
 
+TEST(TakeBackLightRow, IsTheFormatsFormula) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 20000; ++i) {
+    const int64_t offset = between(random, -2 * kMaxLit, 2 * kMaxLit),
+                  gain = between(random, -2 * kMaxLit, 2 * kMaxLit);
+    const auto luma = static_cast<std::uint8_t>(random());
+    std::uint8_t out = luma;
+    take_back_light_row(&out, {offset, 0}, {gain, 0}, 1);
+    const int64_t o = std::clamp(offset, -kMaxLit, kMaxLit) >> 8,
+                  g = std::clamp(gain, -kMaxLit, kMaxLit) >> 8;
+    const int64_t d = std::max<int64_t>((1 << 18) + g, 1 << 16);
+    const int64_t above = ((int64_t{luma} - 128) << 18) - (o << 6) + d / 2 + (1 << 11) * d;
+    ASSERT_GT(above, 0) << "rounded down, not towards zero";
+    ASSERT_EQ(out, std::clamp<int64_t>(128 + above / d - (1 << 11), 0, 255));
+  }
+}
+
+// Usual lights, on luma that stays between black and white.
+TEST(TakeBackLightRow, GivesBackWhatWasLit) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 20000; ++i) {
+    const int64_t offset = between(random, -(16 * 30 << 16), 16 * 30 << 16),
+                  gain = between(random, -(16 * 20 << 16), 16 * 20 << 16);
+    const auto luma = static_cast<std::uint8_t>(between(random, 80, 176));
+    std::uint8_t out = luma;
+    light_row(&out, {offset, 0}, {gain, 0}, 1);
+    take_back_light_row(&out, {offset, 0}, {gain, 0}, 1);
+    ASSERT_NEAR(out, luma, 1) << "a gain below one leaves fewer levels";
+  }
+}
+
 /// A row of a block as a triangle has it: offset and gain linear over the picture.
 struct LitBlock {
   TriangleSetup setup{{{{{0, 0}}, {{64 * 64, 0}}, {{0, 64 * 64}}}}, PlaneScale::kLuma};

@@ -102,7 +102,7 @@ TEST(SourceSamples, LightIsTheRenderers) {
     maker.pose(state), maker.light(state);
     const auto [head, surround] = against_renderer(s, state);
     EXPECT_LE(head.max, 6) << "gain is constant along a run: " << seed;
-    EXPECT_LT(head.beyond_one, 0.02) << seed;
+    EXPECT_LT(head.beyond_one, 0.025) << "the pattern's light is taken back in whole greys: " << seed;
     EXPECT_NEAR(head.mean, 0, 0.1) << seed;
     expect_like_the_renderers(surround);
   }

@@ -33,14 +33,31 @@ TEST(PatternSamples, FollowTheFaceThroughPoseAndExpression) {
 TEST(PatternSamples, KnowWhatThePatternAlreadyShows) {
   StateMaker maker(6);
   State seen = SeenScene::rest();
-  maker.light(seen);
   maker.mouth(seen);
   const SeenScene scene(seen, wave_plane(SeenScene::kWidth, SeenScene::kHeight, 6));
   const PatternSamples& pattern = scene.comparison.pattern;
-  for (std::size_t i = 0; i < kLightCount; ++i)
-    EXPECT_EQ(pattern.light()[i], seen.light[i] / kLightUnitsPerLevel);
   EXPECT_EQ(pattern.mouth_gap(), mouth_gap(deform(toy_geometry().positions, seen)));
   EXPECT_EQ(pattern.index(), 0);
+}
+
+/// A drawn picture taken as a pattern: what its state's light added is not in the samples.
+TEST(PatternSamples, HaveNoLight) {
+  const SeenScene first(SeenScene::rest(), wave_plane(SeenScene::kWidth, SeenScene::kHeight, 5));
+  StateMaker maker(5);
+  State lit = SeenScene::rest();
+  maker.light(lit);
+  const WorkFrame frame = SeenScene::frame_of(first.drawn(lit));
+  const PatternSamples second(first.comparison.points, toy_geometry(), {frame, lit, 1});
+  const PatternSamples wrong(first.comparison.points, toy_geometry(), {frame, SeenScene::rest(), 1});
+  double right = 0, off = 0;
+  const std::size_t n = first.comparison.points.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const float luma = first.comparison.pattern.luma(0, k);
+    right += std::abs(second.luma(0, k) - luma) / static_cast<double>(n);
+    off += std::abs(wrong.luma(0, k) - luma) / static_cast<double>(n);
+  }
+  EXPECT_LT(right, 0.6);
+  EXPECT_GT(off, 3);
 }
 
 TEST(PatternSamples, AreNegativeBesideTheFrame) {

@@ -1,0 +1,70 @@
+#include "decoder/blend/head_weights.h"
+
+#include <numeric>
+
+#include "decoder/head/head_mesh.h"
+
+namespace fbs {
+namespace {
+
+bool shows(const PointWeights& weights, std::size_t source) {
+  for (std::size_t k = source; k < weights.weights.size(); k += weights.sources)
+    if (weights.weights[k] != 0) return true;
+  return false;
+}
+
+/// Brings weights to a sum of kMeshWeightOne.
+/// @param sum  of the weights, not zero
+void add_row(std::span<const std::int64_t> weights, std::int64_t sum, std::vector<std::int32_t>& out) {
+  const std::size_t first = out.size();
+  std::size_t largest = first;
+  std::int32_t left = kMeshWeightOne;
+  for (const std::int64_t w : weights) {
+    const auto share = static_cast<std::int32_t>((w * kMeshWeightOne + sum / 2) / sum);
+    out.push_back(share);
+    left -= share;
+    if (share > out[largest]) largest = out.size() - 1;
+  }
+  out[largest] += left;
+}
+
+/// Sums of the weights of some sources over the vertices of the head, without the ring.
+std::vector<std::int64_t> totals(const PointWeights& head, const std::vector<std::size_t>& sources) {
+  std::vector<std::int64_t> out(sources.size());
+  for (std::size_t v = 0; v < kVertexCount; ++v)
+    for (std::size_t k = 0; k < sources.size(); ++k) out[k] += head.at(v)[sources[k]];
+  return out;
+}
+
+}  // namespace
+
+HeadWeights head_weights(const MeshBlend& blend) {
+  HeadWeights out;
+  for (std::size_t s = 0; s < blend.sources.size(); ++s)
+    if (shows(blend.head, s)) (blend.sources[s].still ? out.still : out.warped).push_back(s);
+  out.atlas.sources = out.warped.size();
+  out.screen.sources = 1 + out.still.size();
+  const std::vector<std::int64_t> all = totals(blend.head, out.warped);
+  std::vector<std::int64_t> weights(out.warped.size());
+  for (std::size_t v = 0; v < head_mesh().vertex_count; ++v) {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] = blend.head.at(v)[out.warped[k]];
+    out.screen.weights.push_back(static_cast<std::int32_t>(sum));
+    for (const std::size_t s : out.still) out.screen.weights.push_back(blend.head.at(v)[s]);
+    if (weights.empty()) continue;
+    if (sum == 0 && v >= kVertexCount) {  // as at the outline, so that the ring fades to what is still
+      const auto same = out.atlas.at(generic_head().outline[v - kVertexCount]);
+      weights.assign(same.begin(), same.end());
+      sum = kMeshWeightOne;
+    } else if (sum == 0) {
+      weights = all;
+      sum = std::accumulate(all.begin(), all.end(), std::int64_t{0});
+    }
+    // A source that only the ring shows may be the only one.
+    if (sum == 0) weights.front() = sum = 1;
+    add_row(weights, sum, out.atlas.weights);
+  }
+  return out;
+}
+
+}  // namespace fbs

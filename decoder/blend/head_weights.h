@@ -1,0 +1,21 @@
+// How the head is blended: warped sources in the atlas, and the result with still sources on the screen.
+// SPEC 11.5. Integers only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "decoder/blend/mesh_blend.h"
+
+namespace fbs {
+
+struct HeadWeights {
+  std::vector<std::size_t> warped, still;  ///< numbers of the sources that show at some vertex
+  PointWeights atlas;   ///< of `warped`, at the vertices of head_mesh(); each row sums to kMeshWeightOne
+  PointWeights screen;  ///< of the atlas, and then of `still`
+};
+
+[[nodiscard]] HeadWeights head_weights(const MeshBlend& blend);
+
+}  // namespace fbs

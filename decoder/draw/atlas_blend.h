@@ -1,0 +1,32 @@
+// What all sources show of the head, blended in the atlas. SPEC 10.12 and 11.6. Integers only.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "decoder/atlas/head_atlas.h"
+#include "decoder/blend/head_weights.h"
+#include "decoder/draw/drawing.h"
+#include "decoder/field/patch_kernels.h"
+#include "decoder/field/surround_field.h"
+
+namespace fbs {
+
+/// The texture of the head of one picture. Keeps scratch memory only.
+class AtlasBlend {
+ public:
+  /// Draws what the warped sources show. Nothing if there are none.
+  void draw(const Drawing& drawing, const HeadWeights& weights, const AtlasLayout& layout);
+
+  /// Y, U, V of the layout's size, until the next call of draw().
+  [[nodiscard]] std::array<ConstPlaneView, 3> planes() const { return {blended_.y, blended_.u, blended_.v}; }
+
+ private:
+  void blend(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid, glm::ivec2 block);
+
+  NodeWeights nodes_;
+  std::array<std::vector<BlendedSource>, 3> shown_;  ///< in a block, of each plane
+  HeadAtlas blended_;
+};
+
+}  // namespace fbs
