@@ -152,7 +152,8 @@ std::optional<HeadPoints> undo_prediction(const HeadPoints& coded, Prediction pr
 
 bool is_flat(const Geometry& geometry) {
   constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // of the flattest face, some ten times as much
-  return std::ranges::all_of(geometry.positions, [](const glm::ivec3& p) { return std::abs(p.z) < kDepth; });
+  return std::all_of(geometry.positions.begin(), geometry.positions.end(),
+                     [](const glm::ivec3& p) { return std::abs(p.z) < kDepth; });
 }
 
 Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t step) {

@@ -42,12 +42,13 @@ std::vector<std::array<std::int32_t, 3>> all_triangles() {
 bool may_reach(glm::ivec2 block, const AtlasLayout& layout) {
   constexpr int kSize = kBlockSize << kScreenOneLog2;
   const glm::ivec2 first = block * kSize, last = first + kSize;
-  return std::ranges::any_of(layout.triangles, [&](const std::array<std::int32_t, 3>& t) {
-    const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
-    const auto [left, right] = std::minmax({a.x, b.x, c.x});
-    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-    return left <= last.x && right >= first.x && top <= last.y && bottom >= first.y;
-  });
+  return std::any_of(
+      layout.triangles.begin(), layout.triangles.end(), [&](const std::array<std::int32_t, 3>& t) {
+        const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
+        const auto [left, right] = std::minmax({a.x, b.x, c.x});
+        const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+        return left <= last.x && right >= first.x && top <= last.y && bottom >= first.y;
+      });
 }
 
 }  // namespace

@@ -72,8 +72,9 @@ void NodeCover::take_nearest(std::span<const glm::ivec2> points) {
         const std::int64_t x = p.x - node.x, y = p.y - node.y;
         return x * x + y * y;
       };
+      const auto nearer = [&](glm::ivec2 p, glm::ivec2 q) { return distance(p) < distance(q); };
       const auto nearest =
-          static_cast<std::int32_t>(std::ranges::min_element(points, {}, distance) - points.begin());
+          static_cast<std::int32_t>(std::min_element(points.begin(), points.end(), nearer) - points.begin());
       places_[k] = {{nearest, nearest, nearest}, {}};
     }
   }

@@ -128,46 +128,6 @@ struct Lanes8 {
 constexpr Lanes8 kLumaLanes = {{0, 1, 2, 3, 4, 5, 6, 7}, {}};
 constexpr Lanes8 kChromaLanes = {{0, 1, 2, 3, 0, 1, 2, 3}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
-/// One coordinate of the texture positions of a patch.
-/// @param kStep  luma samples per sample
-template <int kStep, class D>
-class PositionRows {
-  using V = hn::Vec<D>;
-  static constexpr int kHalved = kStep == 1 ? 0 : 1;
-  static constexpr int kRowsPerStep = kStep == 1 ? 1 : 2;
-
- public:
-  /// @param place      of the lanes, along this axis
-  /// @param moves_on   whether the axis is that of the rows
-  HWY_INLINE PositionRows(D d, std::int32_t d00, std::int32_t d10, std::int32_t d01, std::int32_t d11,
-                          const Lanes8& lanes, std::size_t first, bool moves_on)
-      : d_(d),
-        at_(hn::ShiftLeft<kFractionOneLog2>(hn::Load(d, (moves_on ? lanes.row : lanes.column) + first))) {
-    const V column = hn::Mul(hn::Load(d, lanes.column + first), hn::Set(d, kStep)),
-            row = hn::Mul(hn::Load(d, lanes.row + first), hn::Set(d, kStep));
-    const auto along = [&](std::int32_t left, std::int32_t right) HWY_ATTR {
-      return hn::Add(hn::Set(d, 8 * left), hn::Mul(hn::Set(d, right - left), column));
-    };
-    const V per_row = along(d01 - d00, d11 - d10);
-    sum_ = hn::Add(hn::Add(hn::ShiftLeft<3>(along(d00, d10)), hn::Mul(per_row, row)), hn::Set(d, 32));
-    step_ = hn::Mul(per_row, hn::Set(d, kStep * kRowsPerStep));
-    at_step_ = moves_on ? kRowsPerStep << kFractionOneLog2 : 0;
-  }
-
-  /// In 1/64 sample; then goes to the next rows.
-  HWY_INLINE V next() {
-    const V position = hn::Add(at_, hn::ShiftRight<6 + kHalved>(sum_));
-    sum_ = hn::Add(sum_, step_);
-    at_ = hn::Add(at_, hn::Set(d_, at_step_));
-    return position;
-  }
-
- private:
-  D d_;
-  V at_, sum_, step_;
-  std::int32_t at_step_;
-};
-
 /// Where eight samples are in a texture.
 struct Places8 {
   alignas(32) std::int32_t offset[8];
@@ -200,49 +160,77 @@ HWY_INLINE void sample_eight(const std::uint8_t* from, std::ptrdiff_t stride, co
   }
 }
 
-/// Calls draw(step, places) for eight samples after the other.
-template <int kStep, class Draw>
-HWY_INLINE void for_each_eight(std::ptrdiff_t stride, const PatchNodes& nodes, Draw&& draw) {
-  const hn::CappedTag<std::int32_t, 8> d;
-  const hn::Rebind<std::int16_t, decltype(d)> narrow;
-  using Rows = PositionRows<kStep, decltype(d)>;
+/// One coordinate of a displacement at the four nodes, in PatchNodes' order.
+using NodeValues = std::array<std::int32_t, 4>;
+
+/// Finds the places of all samples of a patch, eight at a time. No vector is the member of a class: those of
+/// SVE have no size.
+/// @param kStep  luma samples per sample
+template <int kStep, std::size_t kSteps>
+HWY_INLINE void find_places(std::ptrdiff_t stride, const PatchNodes& nodes,
+                            std::array<Places8, kSteps>& out) {
+  constexpr int kHalved = kStep == 1 ? 0 : 1, kRowsPerStep = kStep == 1 ? 1 : 2;
   const Lanes8& lanes = kStep == 1 ? kLumaLanes : kChromaLanes;
-  constexpr int kSteps = kStep == 1 ? 8 : 2;
-  alignas(32) Places8 places[kSteps];
+  const hn::CappedTag<std::int32_t, 8> d;
+  using V = hn::Vec<decltype(d)>;
+  const hn::Rebind<std::int16_t, decltype(d)> narrow;
+  const NodeValues by_x{nodes[0].x, nodes[1].x, nodes[2].x, nodes[3].x},
+      by_y{nodes[0].y, nodes[1].y, nodes[2].y, nodes[3].y};
+  const V mask = hn::Set(d, (1 << kFractionOneLog2) - 1);
   for (std::size_t k = 0; k < 8; k += hn::Lanes(d)) {
-    Rows x(d, nodes[0].x, nodes[1].x, nodes[2].x, nodes[3].x, lanes, k, false);
-    Rows y(d, nodes[0].y, nodes[1].y, nodes[2].y, nodes[3].y, lanes, k, true);
-    const auto mask = hn::Set(d, (1 << kFractionOneLog2) - 1);
-    for (Places8& p : places) {
-      const auto u = x.next(), v = y.next();
-      const auto row =
+    const V column = hn::Load(d, lanes.column + k), row = hn::Load(d, lanes.row + k);
+    const auto along = [&](std::int32_t left, std::int32_t right) HWY_ATTR {
+      return hn::Add(hn::Set(d, 8 * left), hn::Mul(hn::Set(d, (right - left) * kStep), column));
+    };
+    const auto per_row = [&](const NodeValues& v)
+                             HWY_ATTR { return hn::Mul(along(v[2] - v[0], v[3] - v[1]), hn::Set(d, kStep)); };
+    const auto at_first = [&](const NodeValues& v) HWY_ATTR {
+      return hn::Add(hn::Add(hn::ShiftLeft<3>(along(v[0], v[1])), hn::Mul(per_row(v), row)), hn::Set(d, 32));
+    };
+    V sum_x = at_first(by_x), sum_y = at_first(by_y);
+    const V step_x = hn::Mul(per_row(by_x), hn::Set(d, kRowsPerStep)),
+            step_y = hn::Mul(per_row(by_y), hn::Set(d, kRowsPerStep));
+    const V x = hn::ShiftLeft<kFractionOneLog2>(column);
+    V y = hn::ShiftLeft<kFractionOneLog2>(row);
+    for (Places8& p : out) {
+      const V u = hn::Add(x, hn::ShiftRight<6 + kHalved>(sum_x)),
+              v = hn::Add(y, hn::ShiftRight<6 + kHalved>(sum_y));
+      const V rows =
           hn::Mul(hn::ShiftRight<kFractionOneLog2>(v), hn::Set(d, static_cast<std::int32_t>(stride)));
-      hn::Store(hn::Add(row, hn::ShiftRight<kFractionOneLog2>(u)), d, p.offset + k);
+      hn::Store(hn::Add(rows, hn::ShiftRight<kFractionOneLog2>(u)), d, p.offset + k);
       hn::Store(hn::DemoteTo(narrow, hn::And(u, mask)), narrow, p.right + k);
       hn::Store(hn::DemoteTo(narrow, hn::And(v, mask)), narrow, p.down + k);
+      sum_x = hn::Add(sum_x, step_x);
+      sum_y = hn::Add(sum_y, step_y);
+      y = hn::Add(y, hn::Set(d, kRowsPerStep << kFractionOneLog2));
     }
   }
-  for (int step = 0; step < kSteps; ++step) draw(step, places[step]);
 }
 
 void sample_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
                       std::uint8_t* out) {
-  for_each_eight<1>(stride, nodes, [&](int row, const Places8& places) HWY_ATTR {
-    sample_eight(from, stride, places, out + row * WarpedBlock::kStride);
-  });
+  alignas(32) std::array<Places8, 8> rows;
+  find_places<1>(stride, nodes, rows);
+  for (const Places8& places : rows) {
+    sample_eight(from, stride, places, out);
+    out += WarpedBlock::kStride;
+  }
 }
 
 void sample_bent_chroma(const std::array<const std::uint8_t*, 2>& from, std::ptrdiff_t stride,
                         const PatchNodes& nodes, const std::array<std::uint8_t*, 2>& out) {
-  for_each_eight<2>(stride, nodes, [&](int rows, const Places8& places) HWY_ATTR {
-    for (std::size_t plane = 0; plane < 2; ++plane) {
+  alignas(32) std::array<Places8, 2> pairs;  // of rows
+  find_places<2>(stride, nodes, pairs);
+  for (std::size_t plane = 0; plane < 2; ++plane) {
+    std::uint8_t* to = out[plane];
+    for (const Places8& places : pairs) {
       std::uint8_t both[8];
       sample_eight(from[plane], stride, places, both);
-      std::uint8_t* const to = out[plane] + 2 * rows * WarpedBlock::kStride;
       std::memcpy(to, both, 4);
       std::memcpy(to + WarpedBlock::kStride, both + 4, 4);
+      to += 2 * WarpedBlock::kStride;
     }
-  });
+  }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void warp_even_patch(const PaddedPlane& texture, glm::ivec2 corner, glm::ivec2 b
 }  // namespace
 
 PatchMotion PatchMotion::between(const PatchNodes& nodes) {
-  if (std::ranges::all_of(nodes, [](glm::ivec2 d) { return d == glm::ivec2(0); })) return {};
+  if (std::all_of(nodes.begin(), nodes.end(), [](glm::ivec2 d) { return d == glm::ivec2(0); })) return {};
   if (!is_even_enough(nodes)) return {Kind::kBent, nodes};
   const glm::ivec2 mean = mean_of(nodes);
   return {Kind::kEven, {mean, mean, mean, mean}};
@@ -57,10 +57,10 @@ BlockMotion BlockMotion::of(const glm::ivec2* nodes, int columns) {
                PatchMotion::between({middle[0], middle[1], lower[0], lower[1]}),
                PatchMotion::between({middle[1], middle[2], lower[1], lower[2]})};
   const PatchMotion& first = out.patch[0];
-  const bool is_even =
-      first.kind == PatchMotion::Kind::kEven && std::ranges::all_of(out.patch, [&](const PatchMotion& p) {
-        return p.kind == first.kind && p.nodes[0] == first.nodes[0];
-      });
+  const bool is_even = first.kind == PatchMotion::Kind::kEven &&
+                       std::all_of(out.patch.begin(), out.patch.end(), [&](const PatchMotion& p) {
+                         return p.kind == first.kind && p.nodes[0] == first.nodes[0];
+                       });
   out.whole = is_even ? Whole::kEven : Whole::kNo;
   return out;
 }

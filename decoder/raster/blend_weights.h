@@ -43,7 +43,8 @@ class LinearWeight {
     const auto first = static_cast<std::uint32_t>(block.along(gradient_).first);
     const auto low = reinterpret_cast<SignedLanes>(steps_[0] + first),
                high = reinterpret_cast<SignedLanes>(steps_[1] + first);
-    return __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+    constexpr int kA = 1 - kLowPart;  // where the upper half of the first sum is
+    return __builtin_shufflevector(low, high, kA, kA + 2, kA + 4, kA + 6, kA + 8, kA + 10, kA + 12, kA + 14);
   }
   [[nodiscard, gnu::noinline]] SignedLanes at_plain(const RowBlock<kScale>& block) const {
     const LinearRow weight = block.along(gradient_);

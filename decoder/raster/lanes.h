@@ -1,5 +1,5 @@
 // Eight samples at once: vectors of GCC and Clang, which need no library and exist on every machine's
-// baseline (SSE2, NEON, WebAssembly). Integers only.
+// baseline (SSE2, NEON, WebAssembly). Emscripten's library has no std::bit_cast yet. Integers only.
 #pragma once
 
 #include <array>
@@ -21,7 +21,8 @@ using SignedWideLanes = std::int32_t __attribute__((vector_size(2 * kLaneCount))
 /// The same with a sign.
 using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
 
-static_assert(std::endian::native == std::endian::little);  // for the order of bytes in lanes
+/// The place, of the two parts of a lane, of that which counts less.
+inline constexpr int kLowPart = std::endian::native == std::endian::little ? 0 : 1;
 
 /// Eight samples.
 [[nodiscard]] inline Lanes load_lanes(const std::uint8_t* samples) {
@@ -31,8 +32,10 @@ static_assert(std::endian::native == std::endian::little);  // for the order of 
   std::memcpy(&word, samples, sizeof word);
   const auto bytes = reinterpret_cast<Bytes>(Words{word, 0});
   // One instruction, which compilers do not make of __builtin_convertvector().
-  return reinterpret_cast<Lanes>(
-      __builtin_shufflevector(bytes, Bytes{}, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+  constexpr int kA = 16 * kLowPart, kB = 16 - kA;
+  return reinterpret_cast<Lanes>(__builtin_shufflevector(bytes, Bytes{}, kA, kB, kA + 1, kB + 1, kA + 2,
+                                                         kB + 2, kA + 3, kB + 3, kA + 4, kB + 4, kA + 5,
+                                                         kB + 5, kA + 6, kB + 6, kA + 7, kB + 7));
 }
 
 /// @param pair  gives, for each lane, the address of two samples; the first will be the low byte of the lane
@@ -41,7 +44,7 @@ template <class Pair>
   const auto load = [&](int lane) {
     std::uint16_t two = 0;
     std::memcpy(&two, pair(lane), sizeof two);
-    return two;
+    return kLowPart == 0 ? two : __builtin_bswap16(two);
   };
   return Lanes{load(0), load(1), load(2), load(3), load(4), load(5), load(6), load(7)};
 }
@@ -49,7 +52,7 @@ template <class Pair>
 /// Values of 0..255 as bytes in memory order.
 [[nodiscard]] inline std::uint64_t bytes_of(Lanes lanes) {
   using HalfBytes = std::uint8_t __attribute__((vector_size(kLaneCount)));
-  return std::bit_cast<std::uint64_t>(__builtin_convertvector(lanes, HalfBytes));
+  return __builtin_bit_cast(std::uint64_t, __builtin_convertvector(lanes, HalfBytes));
 }
 
 /// @param lanes  0..255
@@ -62,7 +65,8 @@ inline void store_lanes(Lanes lanes, std::uint8_t* samples) {
 /// branch: counts are hard to predict.
 /// @param count  1..kLaneCount
 inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
-  const std::uint64_t mask = ~std::uint64_t{0} >> (8 * (kLaneCount - count));
+  const int others = 8 * (kLaneCount - count);
+  const std::uint64_t mask = kLowPart == 0 ? ~std::uint64_t{0} >> others : ~std::uint64_t{0} << others;
   std::uint64_t bytes = 0;
   std::memcpy(&bytes, samples, sizeof bytes);
   bytes = (bytes & ~mask) | (bytes_of(lanes) & mask);
@@ -71,15 +75,18 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 
 [[nodiscard]] inline std::array<SignedWideLanes, 2> widen(Lanes lanes) {
   // The zeros in this order: compilers make one instruction of an interleave.
-  return {
-      reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 0, 8, 1, 9, 2, 10, 3, 11)),
-      reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, 4, 12, 5, 13, 6, 14, 7, 15))};
+  constexpr int kA = 8 * kLowPart, kB = 8 - kA;
+  return {reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, kA, kB, kA + 1, kB + 1,
+                                                                    kA + 2, kB + 2, kA + 3, kB + 3)),
+          reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, kA + 4, kB + 4, kA + 5,
+                                                                    kB + 5, kA + 6, kB + 6, kA + 7, kB + 7))};
 }
 
 /// @param halves  values of sixteen bits
 [[nodiscard]] inline SignedLanes narrow(const std::array<SignedWideLanes, 2>& halves) {
   const auto low = reinterpret_cast<SignedLanes>(halves[0]), high = reinterpret_cast<SignedLanes>(halves[1]);
-  return __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+  constexpr int kA = kLowPart;
+  return __builtin_shufflevector(low, high, kA, kA + 2, kA + 4, kA + 6, kA + 8, kA + 10, kA + 12, kA + 14);
 }
 
 /// @param halves  values of sixteen bits, which are clamped to 0..255
@@ -93,26 +100,26 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 /// The upper sixteen bits of each product.
 [[nodiscard, gnu::always_inline]] inline Lanes multiply_high(Lanes a, Lanes b) {
   using Array = std::array<std::uint16_t, kLaneCount>;
-  const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
+  const auto x = __builtin_bit_cast(Array, a), y = __builtin_bit_cast(Array, b);
   Array out;
 #ifndef __clang__
 #pragma GCC unroll 1  // left whole, the loop becomes one instruction (PMULHUW)
 #endif
   for (int i = 0; i < kLaneCount; ++i) out[i] = static_cast<std::uint16_t>(std::uint32_t{x[i]} * y[i] >> 16);
-  return std::bit_cast<Lanes>(out);
+  return __builtin_bit_cast(Lanes, out);
 }
 
 /// All bits of each product.
 [[nodiscard, gnu::always_inline]] inline std::array<SignedWideLanes, 2> multiply_wide(SignedLanes a,
                                                                                       SignedLanes b) {
   using Array = std::array<std::int16_t, kLaneCount>;
-  const auto x = std::bit_cast<Array>(a), y = std::bit_cast<Array>(b);
+  const auto x = __builtin_bit_cast(Array, a), y = __builtin_bit_cast(Array, b);
   std::array<std::int32_t, kLaneCount> out;
 #ifndef __clang__
 #pragma GCC unroll 1  // as above (PMULLW and PMULHW)
 #endif
   for (int i = 0; i < kLaneCount; ++i) out[i] = std::int32_t{x[i]} * y[i];
-  return std::bit_cast<std::array<SignedWideLanes, 2>>(out);
+  return __builtin_bit_cast(std::array<SignedWideLanes, 2>, out);
 }
 
 /// 0, step, 2 * step, ... modulo 2^16.
