@@ -7,6 +7,7 @@
 #include <draco/point_cloud/point_cloud.h>
 
 #include <algorithm>
+#include <bit>
 #include <exception>
 #include <memory>
 
@@ -86,6 +87,9 @@ Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points) try {
 }
 
 Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes) try {
+  // Draco copies numbers as they are in memory; with the high byte first it would ask for gigabytes.
+  if constexpr (std::endian::native != std::endian::little)
+    return fail(ErrorCode::kUnsupported, "Draco reads no head on a processor with the high byte first");
   std::vector<char> stream(kDracoStart.begin(), kDracoStart.end());
   stream.insert(stream.end(), bytes.begin(), bytes.end());
   draco::DecoderBuffer buffer;

@@ -21,6 +21,7 @@ using HeadPoints = std::array<glm::ivec3, kVertexCount>;
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points);
 
 /// @return kInvalidStream  Draco cannot decode the bytes
+///         kUnsupported    this processor has the high byte first, where Draco misreads its own streams
 [[nodiscard]] Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes);
 
 }  // namespace fbs
