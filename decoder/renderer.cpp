@@ -31,7 +31,8 @@ SampleArea whole(const PlaneView& plane) {
 
 bool fits(const Pattern& pattern, const SceneGeometry& geometry) {
   const TextureMesh& texture = pattern.texture;
-  const std::size_t points = geometry.surround().point_count();
+  const std::size_t points =
+      geometry.surround().point_count() + (geometry.is_plane() ? head_mesh().vertex_count : 0);
   if (texture.head.size() != head_mesh().vertex_count || texture.areas.size() != texture.head.size() ||
       texture.surround.size() != points || !pattern.padded)
     return false;
@@ -61,14 +62,6 @@ MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mes
   }
   const PictureBlend regions = blend_picture(seen, state);
   return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_regions(regions);
-}
-
-/// The points of surround_triangles(). Of a ScreenMesh or a TextureMesh.
-template <class Mesh>
-std::vector<glm::ivec2> surround_points(const SceneGeometry& geometry, const Mesh& mesh) {
-  std::vector<glm::ivec2> out = mesh.surround;
-  if (geometry.is_plane()) out.insert(out.end(), mesh.head.begin(), mesh.head.end());
-  return out;
 }
 
 std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) {
@@ -130,7 +123,7 @@ void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
   const std::vector<std::int32_t>& ground = drawing.blend.regions[static_cast<std::size_t>(Region::kGround)];
   if (scene.geometry) {
     const SceneGeometry& geometry = *scene.geometry;
-    const std::vector<glm::ivec2> now = surround_points(geometry, drawing.mesh);
+    const std::vector<glm::ivec2>& now = drawing.mesh.surround;
     cover_.find(grid, geometry.surround_triangles(), now);
     PointWeights corners = point_weights(drawing.blend.regions, geometry.surround().shares());
     if (geometry.is_plane()) {
@@ -140,7 +133,7 @@ void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
     weights_.set(cover_, corners, ground);
     for (std::size_t s = 0; s < fields_.size(); ++s)
       if (const TextureMesh* const texture = drawing.sources[s].texture)
-        displace(cover_, surround_points(geometry, *texture), now, size.width(), size.height(), fields_[s]);
+        displace(cover_, texture->surround, now, size.width(), size.height(), fields_[s]);
   } else {
     weights_.set(grid, ground);
   }

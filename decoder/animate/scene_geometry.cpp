@@ -36,7 +36,10 @@ std::vector<std::int64_t> vertex_areas(const std::vector<glm::ivec3>& screen) {
 }  // namespace
 
 SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest)
-    : geometry_(geometry), surround_(setup.format, std::move(map), rest), is_plane_(is_flat(geometry)) {
+    : geometry_(geometry),
+      surround_(setup.format, std::move(map), rest),
+      is_plane_(is_flat(geometry)),
+      surround_triangles_(surround_.triangles()) {
   const HeadProjection projection(head_pose(rest));
   rest_scale_ = projection.scale;
   for (const std::uint16_t v : generic_head().outline) {
@@ -48,10 +51,6 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
   }
   head_shares_.assign(vertex_shares().begin(), vertex_shares().end());
   for (const Surround::Place& place : ring_) head_shares_.push_back(surround_.shares_at(place));
-  for (const Surround::Cell& c : surround_.cells()) {
-    surround_triangles_.push_back({c[0], c[1], c[2]});
-    surround_triangles_.push_back({c[0], c[2], c[3]});
-  }
   if (is_plane_) {
     const auto first = static_cast<std::int32_t>(surround_.point_count());
     for (const HeadTriangle& t : head_mesh().triangles)
@@ -75,6 +74,8 @@ ScreenMesh SceneGeometry::screen_mesh(const State& state) const {
   mesh.head.reserve(head_mesh().vertex_count);
   for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
   project_ring(projection, mesh);
+  if (is_plane_)
+    for (const glm::ivec3& v : mesh.head) mesh.surround.emplace_back(v.x, v.y);
   mesh.areas = vertex_areas(mesh.head);
   mesh.light = vertex_lights(geometry_.positions, state.light);
   mesh.mouth_gap = mouth_gap(vertices);

@@ -37,9 +37,7 @@ class SceneGeometry {
 
   /// The triangles of the surround, in the order in which they are drawn: halves of the cells, and then the
   /// head's if it is a plane.
-  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& surround_triangles() const {
-    return surround_triangles_;
-  }
+  [[nodiscard]] const std::vector<MeshTriangle>& surround_triangles() const { return surround_triangles_; }
 
   /// Samples per eye distance in the rest state, Q16.
   [[nodiscard]] std::int64_t rest_scale() const { return rest_scale_; }
@@ -55,7 +53,7 @@ class SceneGeometry {
   std::vector<Surround::Place> ring_;
   std::vector<RegionShares> head_shares_;
   bool is_plane_;
-  std::vector<std::array<std::int32_t, 3>> surround_triangles_;
+  std::vector<MeshTriangle> surround_triangles_;
   std::int64_t rest_scale_;
 };
 

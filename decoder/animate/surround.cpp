@@ -84,6 +84,15 @@ void Surround::order_cells() {
   for (const std::size_t i : order) cells_.push_back(cells[i]);
 }
 
+std::vector<MeshTriangle> Surround::triangles() const {
+  std::vector<MeshTriangle> out;
+  for (const Cell& c : cells_) {
+    out.push_back({c[0], c[1], c[2]});
+    out.push_back({c[0], c[2], c[3]});
+  }
+  return out;
+}
+
 int Surround::index(int column, int row) const {
   return (row + 1) * (map_.columns + 3) + column + 1;
 }

@@ -9,6 +9,7 @@
 
 #include "bitstream/syntax.h"
 #include "decoder/animate/region_shares.h"
+#include "decoder/head/head_mesh.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -41,6 +42,9 @@ class Surround {
   using Cell = std::array<int, 4>;
   /// In the order in which they are drawn: ground, body, head.
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+
+  /// The halves of the cells, in the same order.
+  [[nodiscard]] std::vector<MeshTriangle> triangles() const;
 
   /// Shares of the regions at each grid point, margin included.
   [[nodiscard]] const std::vector<RegionShares>& shares() const { return shares_; }

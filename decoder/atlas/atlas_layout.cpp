@@ -25,8 +25,8 @@ glm::ivec2 scaled(glm::ivec2 table, int eye_distance) {
           (table.y * eye_distance + kHalf) >> kTableToScreenLog2};
 }
 
-std::vector<std::array<std::int32_t, 3>> all_triangles() {
-  std::vector<std::array<std::int32_t, 3>> out;
+std::vector<MeshTriangle> all_triangles() {
+  std::vector<MeshTriangle> out;
   for (const HeadTriangle& t : head_mesh().triangles) out.push_back({t[0], t[1], t[2]});
   const auto ring = static_cast<std::int32_t>(generic_head().outline.size());
   constexpr std::int32_t kRing = kVertexCount;
@@ -42,13 +42,12 @@ std::vector<std::array<std::int32_t, 3>> all_triangles() {
 bool may_reach(glm::ivec2 block, const AtlasLayout& layout) {
   constexpr int kSize = kBlockSize << kScreenOneLog2;
   const glm::ivec2 first = block * kSize, last = first + kSize;
-  return std::any_of(
-      layout.triangles.begin(), layout.triangles.end(), [&](const std::array<std::int32_t, 3>& t) {
-        const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
-        const auto [left, right] = std::minmax({a.x, b.x, c.x});
-        const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-        return left <= last.x && right >= first.x && top <= last.y && bottom >= first.y;
-      });
+  return std::any_of(layout.triangles.begin(), layout.triangles.end(), [&](const MeshTriangle& t) {
+    const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
+    const auto [left, right] = std::minmax({a.x, b.x, c.x});
+    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+    return left <= last.x && right >= first.x && top <= last.y && bottom >= first.y;
+  });
 }
 
 }  // namespace
@@ -58,14 +57,18 @@ glm::ivec2 skirt_point(glm::ivec2 outline, glm::ivec2 ring) {
   return {clamp_screen(ring.x + by.x / 2), clamp_screen(ring.y + by.y / 2)};
 }
 
+void add_skirt(std::vector<glm::ivec2>& points) {
+  for (std::size_t i = 0; i < generic_head().outline.size(); ++i)
+    points.push_back(skirt_point(points[generic_head().outline[i]], points[kVertexCount + i]));
+}
+
 AtlasLayout::AtlasLayout(int eye_distance) : triangles(all_triangles()) {
   const glm::ivec2 size = scaled(kTableSize, eye_distance);
   const NodeGrid grid((size.x >> kScreenOneLog2) + 1, (size.y >> kScreenOneLog2) + 1);
   width = grid.block_columns * kBlockSize;
   height = grid.block_rows * kBlockSize;
   for (const glm::ivec2 p : kAtlasTable) points.push_back(scaled(p, eye_distance));
-  for (std::size_t i = 0; i < generic_head().outline.size(); ++i)
-    points.push_back(skirt_point(points[generic_head().outline[i]], points[kVertexCount + i]));
+  add_skirt(points);
 
   cover.find(grid, triangles, points);
   cover.take_nearest(points);

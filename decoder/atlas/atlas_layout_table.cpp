@@ -1,4 +1,4 @@
-// The table of atlas_layout.h, by common/author_head_atlas.py: not to be edited.
+// The table of atlas_layout.h, by author_head_atlas.py: not to be edited.
 #include "decoder/atlas/atlas_layout.h"
 
 namespace fbs {

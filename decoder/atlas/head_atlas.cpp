@@ -1,31 +1,20 @@
 #include "decoder/atlas/head_atlas.h"
 
-#include "decoder/head/head_mesh.h"
 #include "decoder/raster/rasteriser.h"
 
 namespace fbs {
-namespace {
-
-/// The points of the layout in a pattern.
-std::vector<glm::ivec2> with_skirt(std::span<const glm::ivec2> positions) {
-  std::vector<glm::ivec2> out(positions.begin(), positions.end());
-  for (std::size_t i = 0; i < generic_head().outline.size(); ++i)
-    out.push_back(skirt_point(positions[generic_head().outline[i]], positions[kVertexCount + i]));
-  return out;
-}
-
-}  // namespace
 
 void draw_atlas(const AtlasLayout& layout, const std::array<ConstPlaneView, 3>& planes,
                 std::span<const glm::ivec2> positions, const std::vector<VertexLight>& light,
                 HeadAtlas& out) {
   if (out.width() != layout.width || out.height() != layout.height)
     out = HeadAtlas(layout.width, layout.height);
-  const std::vector<glm::ivec2> seen = with_skirt(positions);
+  std::vector<glm::ivec2> seen(positions.begin(), positions.end());
+  add_skirt(seen);
   const std::array<PlaneView, 1> luma{out.y};
   const std::array<PlaneView, 2> chroma{out.u, out.v};
   const std::span<const ConstPlaneView> all(planes);
-  for (const auto& triangle : layout.triangles) {
+  for (const MeshTriangle& triangle : layout.triangles) {
     ScreenTriangle at;
     TextureSource source{all.first(1), {}, {}};
     Light seen_light;

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "decoder/blend/share_out.h"
 #include "decoder/head/head_mesh.h"
 
 namespace fbs {
@@ -16,16 +17,9 @@ bool shows(const PointWeights& weights, std::size_t source) {
 /// Brings weights to a sum of kMeshWeightOne.
 /// @param sum  of the weights, not zero
 void add_row(std::span<const std::int64_t> weights, std::int64_t sum, std::vector<std::int32_t>& out) {
-  const std::size_t first = out.size();
-  std::size_t largest = first;
-  std::int32_t left = kMeshWeightOne;
-  for (const std::int64_t w : weights) {
-    const auto share = static_cast<std::int32_t>((w * kMeshWeightOne + sum / 2) / sum);
-    out.push_back(share);
-    left -= share;
-    if (share > out[largest]) largest = out.size() - 1;
-  }
-  out[largest] += left;
+  out.resize(out.size() + weights.size());
+  share_out([&](std::size_t k) { return weights[k]; }, sum, kMeshWeightOne,
+            std::span(out).last(weights.size()));
 }
 
 /// Sums of the weights of some sources over the vertices of the head, without the ring.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "decoder/blend/share_out.h"
+
 namespace fbs {
 namespace {
 
@@ -47,15 +49,8 @@ void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t>
   std::int64_t sum = 0;
   for (std::size_t s = 0; s < weights.size(); ++s) sum += std::int64_t{weights[s]} * visible[s];
   if (sum == 0) return;
-  std::int32_t left = kMeshWeightOne;
-  std::size_t largest = 0;
-  for (std::size_t s = 0; s < weights.size(); ++s) {
-    weights[s] =
-        static_cast<std::int32_t>((std::int64_t{weights[s]} * visible[s] * kMeshWeightOne + sum / 2) / sum);
-    left -= weights[s];
-    if (weights[s] > weights[largest]) largest = s;
-  }
-  weights[largest] += left;
+  share_out([&](std::size_t s) { return std::int64_t{weights[s]} * visible[s]; }, sum, kMeshWeightOne,
+            weights);
 }
 
 }  // namespace

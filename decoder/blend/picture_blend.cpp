@@ -4,6 +4,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "decoder/blend/share_out.h"
 #include "decoder/blend/state_distance.h"
 #include "decoder/head/fixed_math.h"
 
@@ -72,17 +73,11 @@ class Mix {
     });
     std::int64_t sum = 0;
     for (const Item& i : items_) sum += i.weight;
+    std::vector<std::int32_t> weights(items_.size());
+    share_out([&](std::size_t k) { return items_[k].weight; }, sum, kBlendOne, weights);
     RegionBlend out;
-    std::int32_t left = kBlendOne;
-    std::size_t largest = 0;
-    for (const Item& i : items_) {
-      const auto weight = static_cast<std::int32_t>((i.weight * kBlendOne + sum / 2) / sum);
-      if (weight == 0) continue;
-      out.push_back({i.source, weight});
-      left -= weight;
-      if (weight > out[largest].weight) largest = out.size() - 1;
-    }
-    out[largest].weight += left;
+    for (std::size_t k = 0; k < items_.size(); ++k)
+      if (weights[k] != 0) out.push_back({items_[k].source, weights[k]});
     return out;
   }
 

@@ -6,6 +6,11 @@
 #include "decoder/head/mouth_interior.h"
 
 namespace fbs {
+
+static_assert(kMeshWeightOne == kWeightOne);
+static_assert(kMaxTriangleSources ==
+              kRegionCount * kMaxRegionSources);  // the atlas counts for one that is warped
+
 namespace {
 
 /// Samples that the head can cover, within `limit`.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decoder/field/node_grid.h"
+#include "decoder/head/head_mesh.h"
 
 namespace fbs {
 
@@ -15,7 +16,7 @@ inline constexpr int kCornerShareOneLog2 = 14;
 
 /// The place of a node in the triangle that it belongs to.
 struct NodePlace {
-  std::array<std::int32_t, 3> corner{};  ///< points of the mesh; corner[0] < 0: no triangle covers the node
+  MeshTriangle corner{};  ///< points of the mesh; corner[0] < 0: no triangle covers the node
   /// Of corners 1 and 2, in 2^-kCornerShareOneLog2; corner 0 has what they leave.
   std::array<std::int32_t, 2> share{};
 
@@ -28,9 +29,6 @@ struct NodePlace {
     return v0 + static_cast<std::int32_t>((more + kHalf) >> kCornerShareOneLog2);
   }
 };
-
-/// Corners of a triangle, clockwise; indices of points.
-using MeshTriangle = std::array<std::int32_t, 3>;
 
 /// The places of all nodes of a grid.
 class NodeCover {

@@ -6,13 +6,12 @@
 #include "decoder/field/padded_plane.h"
 #include "decoder/head/head_projection.h"
 #include "decoder/head/mouth_interior.h"
+#include "encoder/model/light_units.h"
 
 namespace fbs {
 namespace {
 
-constexpr float kLevelsPerLightUnit = 1.0F / 16;
-constexpr float kGainLevels = 64;      // State::light counts the gain per so many grey levels
-constexpr float kLeastFactor = 0.25F;  // that a light is taken for to have multiplied luma by
+constexpr auto kLevelsPerLightUnit = static_cast<float>(1 / kLightUnitsPerLevel);
 
 VertexLight light_of(const std::vector<VertexLight>& light, std::size_t vertex) {
   return light.empty() ? VertexLight{} : light[vertex];
@@ -25,9 +24,10 @@ void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const Surface
   std::array<glm::vec2, 3> l;
   for (std::size_t i = 0; i < 3; ++i) {
     const VertexLight now = light_of(mesh.light, t.corners[i]), seen = light_of(texture.light, t.corners[i]);
-    constexpr float kPerLevel = kLevelsPerLightUnit / kGainLevels;
-    const float ratio = (1 + kPerLevel * static_cast<float>(now.gain)) /
-                        std::max(1 + kPerLevel * static_cast<float>(seen.gain), kLeastFactor);
+    constexpr auto kPerLevel = static_cast<float>(1 / (kLightUnitsPerLevel * kGainLevels));
+    const float ratio =
+        (1 + kPerLevel * static_cast<float>(now.gain)) /
+        std::max(1 + kPerLevel * static_cast<float>(seen.gain), static_cast<float>(kLeastGainFactor));
     l[i] = {kLevelsPerLightUnit * (static_cast<float>(now.offset) - ratio * static_cast<float>(seen.offset)),
             ratio - 1};
   }

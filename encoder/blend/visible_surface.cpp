@@ -14,11 +14,9 @@ constexpr std::uint32_t kNothing = ~std::uint32_t{0};
 
 std::vector<SurfaceTriangle> all_triangles(const SceneGeometry& geometry) {
   std::vector<SurfaceTriangle> out;
-  const auto point = [](int k) { return static_cast<std::uint16_t>(k); };
-  for (const Surround::Cell& c : geometry.surround().cells()) {
-    out.push_back({{point(c[0]), point(c[1]), point(c[2])}, false});
-    out.push_back({{point(c[0]), point(c[2]), point(c[3])}, false});
-  }
+  const auto point = [](std::int32_t k) { return static_cast<std::uint16_t>(k); };
+  for (const MeshTriangle& t : geometry.surround().triangles())
+    out.push_back({{point(t[0]), point(t[1]), point(t[2])}, false});
   for (const HeadTriangle& t : head_mesh().triangles) out.push_back({t, true});
   return out;
 }

@@ -8,7 +8,7 @@
 namespace fbs {
 
 std::array<double, kLightCount> light_basis(std::array<double, kLightCount> light, double luma) {
-  light[kLightGain] = (luma - 128) / 64;
+  light[kLightGain] = (luma - 128) / kGainLevels;
   return light;
 }
 

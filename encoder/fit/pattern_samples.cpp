@@ -12,11 +12,10 @@ namespace {
 /// Luma before the light of a pattern fell on it: SPEC 10.11. Never negative, which means no luma.
 /// @param basis  SamplePoints::light()
 float unlit(float luma, const Fit& seen, const std::array<double, kLightCount>& basis) {
-  constexpr double kGainLevels = 64, kLeastFactor = 0.25;
   double offset = 0;
   for (std::size_t i = 0; i < kLightCount; ++i)
     if (i != kLightGain) offset += seen.light[i] * basis[i];
-  const double factor = std::max(1 + seen.light[kLightGain] / kGainLevels, kLeastFactor);
+  const double factor = std::max(1 + seen.light[kLightGain] / kGainLevels, kLeastGainFactor);
   return static_cast<float>(std::clamp(128 + (luma - 128 - offset) / factor, 0.0, 255.0));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "encoder/model/expression_basis.h"
+#include "encoder/model/light_units.h"
 #include "encoder/model/pose.h"
 
 namespace fbs {
@@ -16,9 +17,6 @@ struct Fit {
   std::array<double, kInteriorCount> interior{};
   Offsets offsets{};
 };
-
-/// 1/16 grey levels, the unit of State::light and State::interior, per grey level, the fit's.
-inline constexpr double kLightUnitsPerLevel = 16;
 
 /// Numbers of a fit in the order in which PictureFit solves for them: pose (radians, pixels, log2), light,
 /// mouth interior, offsets.

@@ -20,7 +20,6 @@ from dataclasses import dataclass, field
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/exactness"
 VECTORS = ROOT / "tests/vectors"
-LIBRARIES = ("libdav1d", "libdraco", "libhwy")
 PACKAGES = ("libdav1d6", "libdav1d-dev", "libhwy1", "libhwy-dev", "libdraco7", "libdraco-dev", "libc6", "libstdc++6",
             "libgcc-s1")
 WARNINGS = ["-Wall", "-Wextra", "-Werror"]
@@ -172,8 +171,8 @@ def build_web_dav1d(source, prefix):
                      "cpu_family = 'wasm32'\ncpu = 'wasm32'\nendian = 'little'\n")
     build = source / "build-web"
     shutil.rmtree(build, ignore_errors=True)
-    command("meson", "setup", build, source, f"--cross-file={cross}", "-Denable_asm=false", "-Denable_tools=false", "-Denable_tests=false", "-Dbuildtype=release",
-            "-Ddefault_library=static", "-Dlogging=false", f"-Dprefix={prefix}", "-Dlibdir=lib")
+    command("meson", "setup", build, source, f"--cross-file={cross}", "-Denable_asm=false",
+            "-Denable_tools=false", "-Denable_tests=false", "-Dbuildtype=release", "-Ddefault_library=static", "-Dlogging=false", f"-Dprefix={prefix}", "-Dlibdir=lib")
     command("ninja", "-C", build, "install")
 
 
@@ -203,7 +202,6 @@ def decode(build, pool):
         raise Missing(run[0])
     folder = BUILD / build.name
     folder.mkdir(parents=True, exist_ok=True)
-    objects = []
 
     def compiled(source):
         out = folder / (str(source.relative_to(ROOT)).replace("/", "_") + ".o")

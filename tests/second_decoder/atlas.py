@@ -6,19 +6,19 @@ import re
 import numpy as np
 
 from .head import HEAD, VERTICES
-from .integers import checksum, clamp, quotient
+from .integers import checksum, clamp, complete, quotient
 from .limits import MAX_SCREEN
 from .mesh import HEAD_TRIANGLES
 from .nodes import Nodes, rounded_weights
 from .patches import NODE_ONE, blended
 from .raster import NO_TRIANGLE, Fragments, Triangles, planes
 from .samples import sample_texture, take_back_light
+from .weights import ONE
 
 _FILE = pathlib.Path(__file__).parents[2] / "decoder/atlas/atlas_layout_table.cpp"
 _CHECKSUM = 0x7EF7D415AFF39EB7
 _SIZE = (15365, 17039)  # of the table
 _RING = len(HEAD.outline)
-ONE = 4096
 
 
 def _read_table():
@@ -99,6 +99,5 @@ def atlas_weights(weights):
             x = result[:, HEAD.outline[v - VERTICES]] if v >= VERTICES else totals
         if x.sum() == 0:
             x = np.eye(len(x), dtype=np.int64)[0]
-        result[:, v] = (x * ONE + x.sum() // 2) // x.sum()
-        result[result[:, v].argmax(), v] += ONE - result[:, v].sum()
+        result[:, v] = complete((x * ONE + x.sum() // 2) // x.sum(), ONE)
     return result

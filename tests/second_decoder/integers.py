@@ -26,6 +26,15 @@ def clamp(x, low, high):
     return min(max(x, low), high)
 
 
+def complete(parts, whole):
+    """Parts (first axis), of which the first of the largest gets what the others leave of the whole."""
+    result = parts.copy()
+    largest = parts.argmax(axis=0)[None]
+    left = whole - parts.sum(axis=0)[None]
+    np.put_along_axis(result, largest, np.take_along_axis(parts, largest, axis=0) + left, axis=0)
+    return result
+
+
 def rounded(x):
     """The nearest integer of a real number, halves up: round() in the definition of a table."""
     return math.floor(x + 0.5)

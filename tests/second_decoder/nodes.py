@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .integers import nearest, quotient
+from .integers import complete, nearest, quotient
 from .raster import NO_TRIANGLE, Plane, Triangles
 
 PATCH = 8  # luma samples from node to node
@@ -59,11 +59,7 @@ class Nodes:
 
 def rounded_weights(weights, shift, one):
     """Weights of the sources (first axis), less precise by `shift` bits; the largest gets what the others leave."""
-    rounded = weights >> shift
-    left = one - rounded.sum(axis=0)
-    largest = rounded.argmax(axis=0)
-    np.put_along_axis(rounded, largest[None], np.take_along_axis(rounded, largest[None], axis=0) + left, axis=0)
-    return rounded
+    return complete(weights >> shift, one)
 
 
 class Samples:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .head import HEAD, INNER_LIPS, LEFT_BROW, OUTER_LIPS, RIGHT_BROW, VERTICES
-from .integers import clamp, exp2, log2, quotient
+from .integers import clamp, complete, exp2, log2, quotient
 from .mesh import BODY, FACE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, RIGHT_EYE
 from .raster import signed_areas
 
@@ -193,7 +193,5 @@ def _visible_weights(weights, visibility):
     """Weights at the vertices of the head, after sources that hardly show a vertex have given up theirs."""
     shown = weights * visibility
     total = shown.sum(axis=0)
-    changed = (shown * ONE + total // 2) // np.maximum(total, 1)
-    left = ONE - changed.sum(axis=0)
-    changed[changed.argmax(axis=0), np.arange(VERTICES)] += left
+    changed = complete((shown * ONE + total // 2) // np.maximum(total, 1), ONE)
     return np.where(total > 0, changed, weights)

@@ -17,12 +17,17 @@ inline Plane noise_plane(int width, int height, unsigned seed) {
   return plane;
 }
 
-inline Picture noise_picture(int width, int height, unsigned seed) {
+/// A picture of such planes.
+inline Picture picture_of(Plane (*plane)(int, int, unsigned), int width, int height, unsigned seed) {
   Picture picture(width, height);
-  picture.y = noise_plane(width, height, seed);
-  picture.u = noise_plane(picture.u.width, picture.u.height, seed + 1);
-  picture.v = noise_plane(picture.v.width, picture.v.height, seed + 2);
+  picture.y = plane(width, height, seed);
+  picture.u = plane(picture.u.width, picture.u.height, seed + 1);
+  picture.v = plane(picture.v.width, picture.v.height, seed + 2);
   return picture;
+}
+
+inline Picture noise_picture(int width, int height, unsigned seed) {
+  return picture_of(noise_plane, width, height, seed);
 }
 
 /// Noise that changes over six samples: places differ, and a shift by a pixel does not destroy

@@ -91,11 +91,7 @@ inline void expect_shows(const Picture& out, const Picture& expected, const Plan
 
 /// A picture whose head is not blurred by being sampled twice.
 inline Picture smooth_picture(int width, int height, unsigned seed) {
-  Picture out(width, height);
-  out.y = smooth_plane(width, height, seed);
-  out.u = smooth_plane(out.u.width, out.u.height, seed + 1);
-  out.v = smooth_plane(out.v.width, out.v.height, seed + 2);
-  return out;
+  return picture_of(smooth_plane, width, height, seed);
 }
 
 }  // namespace fbs

@@ -16,7 +16,7 @@ constexpr std::int64_t scale(double samples) {
   return static_cast<std::int64_t>(samples * 65536);
 }
 
-std::int64_t twice_area(const AtlasLayout& layout, const std::array<std::int32_t, 3>& t) {
+std::int64_t twice_area(const AtlasLayout& layout, const MeshTriangle& t) {
   const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
   return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }

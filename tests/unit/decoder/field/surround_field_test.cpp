@@ -12,16 +12,6 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 128;
 
-/// The halves of the cells.
-std::vector<MeshTriangle> triangles_of(const Surround& surround) {
-  std::vector<MeshTriangle> out;
-  for (const Surround::Cell& c : surround.cells()) {
-    out.push_back({c[0], c[1], c[2]});
-    out.push_back({c[0], c[2], c[3]});
-  }
-  return out;
-}
-
 /// A grid of 8 x 8 cells in a toy scene, in some state.
 struct Grid {
   SurroundMap map = even_surround(8, 8, 0);
@@ -35,7 +25,7 @@ struct Grid {
     surround.project(state, out);
     return out;
   }
-  void find() { cover.find(NodeGrid(kWidth, kHeight), triangles_of(surround), now); }
+  void find() { cover.find(NodeGrid(kWidth, kHeight), surround.triangles(), now); }
   [[nodiscard]] SourceField field(const std::vector<glm::ivec2>& seen) const {
     SourceField out;
     displace(cover, seen, now, kWidth, kHeight, out);
@@ -143,7 +133,7 @@ TEST(NodeWeights, AreMixedByTheSharesOfRegions) {
   std::vector<glm::ivec2> now;
   surround.project(toy_state(), now);
   NodeCover cover;
-  cover.find(NodeGrid(kWidth, kHeight), triangles_of(surround), now);
+  cover.find(NodeGrid(kWidth, kHeight), surround.triangles(), now);
   RegionWeights regions;
   for (auto& region : regions) region = {0, 256};
   regions[static_cast<std::size_t>(Region::kHair)] = {101, 155};

@@ -9,6 +9,15 @@
 namespace fbs {
 namespace {
 
+/// From the samples of the scene's own pattern.
+double mean_difference(const PatternSamples& samples, const SeenScene& scene) {
+  double sum = 0;
+  const std::size_t n = scene.comparison.points.size();
+  for (std::size_t k = 0; k < n; ++k)
+    sum += std::abs(samples.luma(0, k) - scene.comparison.pattern.luma(0, k));
+  return sum / static_cast<double>(n);
+}
+
 /// Drawn from one pattern and taken as another: what is at a point of the face stays.
 TEST(PatternSamples, FollowTheFaceThroughPoseAndExpression) {
   const SeenScene first(SeenScene::rest(), wave_plane(SeenScene::kWidth, SeenScene::kHeight, 3));
@@ -19,15 +28,8 @@ TEST(PatternSamples, FollowTheFaceThroughPoseAndExpression) {
   const WorkFrame frame = SeenScene::frame_of(first.drawn(other));
   const PatternSamples second(first.comparison.points, toy_geometry(), {frame, other, 1});
   const PatternSamples wrong(first.comparison.points, toy_geometry(), {frame, SeenScene::rest(), 1});
-  double right = 0, off = 0;
-  const std::size_t n = first.comparison.points.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const float luma = first.comparison.pattern.luma(0, k);
-    right += std::abs(second.luma(0, k) - luma) / static_cast<double>(n);
-    off += std::abs(wrong.luma(0, k) - luma) / static_cast<double>(n);
-  }
-  EXPECT_LT(right, 0.5);
-  EXPECT_GT(off, 5);
+  EXPECT_LT(mean_difference(second, first), 0.5);
+  EXPECT_GT(mean_difference(wrong, first), 5);
 }
 
 TEST(PatternSamples, KnowWhatThePatternAlreadyShows) {
@@ -49,15 +51,8 @@ TEST(PatternSamples, HaveNoLight) {
   const WorkFrame frame = SeenScene::frame_of(first.drawn(lit));
   const PatternSamples second(first.comparison.points, toy_geometry(), {frame, lit, 1});
   const PatternSamples wrong(first.comparison.points, toy_geometry(), {frame, SeenScene::rest(), 1});
-  double right = 0, off = 0;
-  const std::size_t n = first.comparison.points.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const float luma = first.comparison.pattern.luma(0, k);
-    right += std::abs(second.luma(0, k) - luma) / static_cast<double>(n);
-    off += std::abs(wrong.luma(0, k) - luma) / static_cast<double>(n);
-  }
-  EXPECT_LT(right, 0.6);
-  EXPECT_GT(off, 3);
+  EXPECT_LT(mean_difference(second, first), 0.6);
+  EXPECT_GT(mean_difference(wrong, first), 3);
 }
 
 TEST(PatternSamples, AreNegativeBesideTheFrame) {

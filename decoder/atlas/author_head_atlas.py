@@ -4,8 +4,8 @@ triangle hides another and all of them have room, also those that are closed or 
 
 Run by hand after a change of the head; the output is committed. --preview OUT.png needs numpy and OpenCV.
 
-    common/author_head_atlas.py                       writes decoder/atlas/atlas_layout_table.cpp
-    common/author_head_atlas.py --preview atlas.png   and draws it
+    decoder/atlas/author_head_atlas.py                       writes atlas_layout_table.cpp beside it
+    decoder/atlas/author_head_atlas.py --preview atlas.png   draws it instead
 """
 
 import argparse
@@ -64,7 +64,7 @@ def ring_of(points, outline):
     return out
 
 
-TABLE = """// The table of atlas_layout.h, by common/author_head_atlas.py: not to be edited.
+TABLE = """// The table of atlas_layout.h, by author_head_atlas.py: not to be edited.
 #include "decoder/atlas/atlas_layout.h"
 
 namespace fbs {
@@ -104,9 +104,9 @@ def area(points, triangle):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--preview")
-    here = pathlib.Path(__file__).parent
+    here = pathlib.Path(__file__).resolve().parent
     arguments = parser.parse_args()
-    positions, triangles, outline = read_head(here / "generic_head.gltf")
+    positions, triangles, outline = read_head(here.parents[1] / "common/generic_head.gltf")
     points = [laid_out(p) for p in positions]
     points += ring_of(points, outline)
     n, first = len(outline), len(positions)
@@ -121,7 +121,7 @@ def main():
     if arguments.preview:
         preview(arguments.preview, table, triangles, size)
     else:
-        write(here.parent / "decoder/atlas/atlas_layout_table.cpp", table)
+        write(here / "atlas_layout_table.cpp", table)
 
 
 def preview(path, table, triangles, size):
