@@ -23,6 +23,7 @@ FLAGS = "-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undef
 LIMITS = {
     "encoder": (200, 120, 3000),
     "geometry_payload": (8192, 10, 1024),
+    "library_decoder": (8192, 60, 2048),
     "packet": (8192, 10, 1024),
     "packet_list": (8192, 30, 2048),
     "pattern_decoder": (4096, 10, 2048),
