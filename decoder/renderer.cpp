@@ -118,8 +118,6 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
 void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
   const Picture& size = scene.patterns.front().picture;
   const NodeGrid grid(size.width(), size.height());
-  fields_.resize(drawing.sources.size());
-  for (SourceField& f : fields_) f.moves = false;
   const std::vector<std::int32_t>& ground = drawing.blend.regions[static_cast<std::size_t>(Region::kGround)];
   if (scene.geometry) {
     const SceneGeometry& geometry = *scene.geometry;
@@ -131,13 +129,15 @@ void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
       corners.weights.insert(corners.weights.end(), head.begin(), head.end());
     }
     weights_.set(cover_, corners, ground);
-    for (std::size_t s = 0; s < fields_.size(); ++s)
-      if (const TextureMesh* const texture = drawing.sources[s].texture)
-        displace(cover_, texture->surround, now, size.width(), size.height(), fields_[s]);
+    seen_.clear();
+    for (const DrawnSource& source : drawing.sources)
+      seen_.push_back(source.texture == nullptr ? nullptr : &source.texture->surround);
+    field_.set(cover_, seen_, now, {size.width(), size.height()});
   } else {
     weights_.set(grid, ground);
+    field_.set_still();
   }
-  surround_.draw({drawing, grid, fields_, weights_});
+  surround_.draw({drawing, grid, field_, weights_});
 }
 
 Result<void> Renderer::render(const Scene& scene, const State& state, Picture& out) {

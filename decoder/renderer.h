@@ -38,7 +38,8 @@ class Renderer {
 
   NodeCover cover_;
   NodeWeights weights_;
-  std::vector<SourceField> fields_;
+  std::vector<const std::vector<glm::ivec2>*> seen_;  ///< the grid's points in each source
+  SurroundField field_;
   SurroundPainter surround_;
   AtlasBlend atlas_;
   DepthPlane luma_depth_, chroma_depth_;

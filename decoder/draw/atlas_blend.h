@@ -7,8 +7,9 @@
 #include "decoder/atlas/head_atlas.h"
 #include "decoder/blend/head_weights.h"
 #include "decoder/draw/drawing.h"
-#include "decoder/field/patch_kernels.h"
-#include "decoder/field/surround_field.h"
+#include "decoder/field/displaced_samples.h"
+#include "decoder/field/node_kernels.h"
+#include "decoder/field/node_weights.h"
 
 namespace fbs {
 
@@ -25,7 +26,7 @@ class AtlasBlend {
   void blend(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid, glm::ivec2 block);
 
   NodeWeights nodes_;
-  std::array<std::vector<BlendedSource>, 3> shown_;  ///< in a block, of each plane
+  std::vector<BlendedSource> shown_;  ///< in a block
   HeadAtlas blended_;
 };
 

@@ -1,132 +1,132 @@
 #include "decoder/draw/surround_painter.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
 
 namespace fbs {
 namespace {
 
-using Whole = BlockMotion::Whole;
+/// A source in a block.
+struct ShownSource {
+  const DrawnSource& source;
+  glm::ivec2 block;  ///< column and row
+  bool has_chroma;
+  BlockMemory& memory;
 
-/// A block or patch in a plane.
-struct Square {
-  glm::ivec2 first;  ///< its upper left sample
-  int size;
+  [[nodiscard]] std::size_t planes() const { return has_chroma ? 3 : 1; }
 };
 
-/// @param block  its column and row
-Square block_in(std::size_t plane, glm::ivec2 block) {
-  const int size = plane == 0 ? kBlockSize : kChromaBlockSize;
-  return {block * size, size};
+constexpr int block_size(std::size_t plane) {
+  return plane == 0 ? kBlockSize : kChromaBlockSize;
+}
+
+SampleBlock own_samples(const ConstPlaneView& plane, glm::ivec2 first) {
+  return {plane.data + first.y * plane.stride + first.x, plane.stride};
+}
+
+/// Copies what of a square lies in a plane.
+void copy_own(const ConstPlaneView& plane, glm::ivec2 first, int size, std::uint8_t* out) {
+  const glm::ivec2 inside(std::clamp(plane.width - first.x, 0, size), std::clamp(plane.height - first.y, 0, size));
+  if (inside.x > 0) copy_samples(own_samples(plane, first), inside, out, WarpedBlock::kStride);
+}
+
+BlockSamples3 still_block(const ShownSource& shown) {
+  BlockSamples3 out{};
+  for (std::size_t p = 0; p < shown.planes(); ++p) {
+    const ConstPlaneView& own = shown.source.planes[p];
+    const int size = block_size(p);
+    const glm::ivec2 first = shown.block * size;
+    if (first.x + size <= own.width && first.y + size <= own.height) {
+      out[p] = own_samples(own, first);
+    } else {
+      std::uint8_t* const to = shown.memory[p].samples.data();
+      copy_own(own, first, size, to);
+      out[p] = {to, WarpedBlock::kStride};
+    }
+  }
+  return out;
 }
 
 /// @param k  0..3, row by row
-Square patch_of(const Square& block, int k) {
-  const int size = block.size / 2;
-  return {block.first + glm::ivec2(k % 2 * size, k / 2 * size), size};
+/// @param s  place of the source in the rows
+PatchNodes patch_nodes(const BlockNodes& nodes, int k, std::size_t s) {
+  const auto at = [&](int column, int line) {
+    const std::int32_t* const d = nodes.displacement_at(k % 2 + column, k / 2 + line) + s;
+    return glm::ivec2(d[0], d[nodes.row]);
+  };
+  return {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
 }
 
-bool is_inside(const Square& s, const ConstPlaneView& plane) {
-  return s.first.x + s.size <= plane.width && s.first.y + s.size <= plane.height;
-}
-
-/// What of a square lies in a plane.
-glm::ivec2 size_inside(const Square& s, const ConstPlaneView& plane) {
-  return {std::clamp(plane.width - s.first.x, 0, s.size), std::clamp(plane.height - s.first.y, 0, s.size)};
-}
-
-SampleBlock own_samples(const ConstPlaneView& plane, const Square& s) {
-  return {plane.data + s.first.y * plane.stride + s.first.x, plane.stride};
-}
-
-void copy_own(const ConstPlaneView& plane, const Square& s, std::uint8_t* out) {
-  const glm::ivec2 size = size_inside(s, plane);
-  if (size.x > 0) copy_samples(own_samples(plane, s), size, out, WarpedBlock::kStride);
+/// Draws patch by patch.
+/// @param first  source of the motions' first place
+BlockSamples3 patched_block(const ShownSource& shown, const BlockNodes& nodes, const BlockMotions& motions,
+                            std::size_t first, std::size_t place) {
+  BlockSamples3 out{};
+  for (std::size_t p = 0; p < shown.planes(); ++p) out[p] = {shown.memory[p].samples.data(), WarpedBlock::kStride};
+  for (int k = 0; k < 4; ++k) {  // from left to right: WarpedBlock
+    const glm::ivec2 within(k % 2, k / 2), patch = 2 * shown.block + within;
+    std::array<std::uint8_t*, 3> to{};
+    for (std::size_t p = 0; p < shown.planes(); ++p) {
+      const int size = block_size(p) / 2;
+      to[p] = shown.memory[p].samples.data() + within.y * size * WarpedBlock::kStride + within.x * size;
+    }
+    switch (motions.kind[k][place]) {
+      case kStill:
+        for (std::size_t p = 0; p < shown.planes(); ++p)
+          copy_own(shown.source.planes[p], patch * (block_size(p) / 2), block_size(p) / 2, to[p]);
+        break;
+      case kEven:
+        draw_even_patch(*shown.source.padded, patch, {motions.by[k][0][place], motions.by[k][1][place]},
+                        shown.has_chroma, to);
+        break;
+      default:
+        draw_bent_patch(*shown.source.padded, patch, patch_nodes(nodes, k, first + place), shown.has_chroma, to);
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
 void SurroundPainter::draw(const SurroundDrawing& surround) {
   const SampleArea& luma = surround.drawing.luma_area;
-  shown_.resize(surround.drawing.sources.size());
+  memory_.resize(surround.drawing.sources.size());
   for (int row = luma.y0 / kBlockSize; row * kBlockSize < luma.y1; ++row)
     for (int column = luma.x0 / kBlockSize; column * kBlockSize < luma.x1; ++column)
       draw_block(surround, {column, row});
 }
 
 void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 block) {
-  const std::size_t planes = surround.drawing.chroma_area.empty() ? 1 : 3;
-  collect(surround, block);
-  for (std::size_t p = 0; p < planes; ++p) blended_[p].clear();
-  for (Shown& shown : std::span(shown_).first(count_)) {
-    if (shown.motion.whole == Whole::kNo) {
-      show_patches(shown, block, planes > 1);
-      continue;
-    }
-    for (std::size_t p = 0; p < planes; ++p) {
-      const Square square = block_in(p, block);
-      const ConstPlaneView& own = shown.source->planes[p];
-      std::uint8_t* const memory = shown.memory[p].samples.data();
-      if (shown.motion.whole == Whole::kEven) {
-        const glm::ivec2 by = shown.motion.patch[0].nodes[0];
-        show(p, shown,
-             displaced((*shown.source->padded)[p], square.first, p == 0 ? by : chroma_displacement(by),
-                       square.size, memory));
-      } else if (is_inside(square, own)) {
-        show(p, shown, own_samples(own, square));
-      } else {
-        copy_own(own, square, memory);
-        show(p, shown, {memory, WarpedBlock::kStride});
-      }
-    }
-  }
-  for (std::size_t p = 0; p < planes; ++p) blend(p, block, surround.drawing.target[p]);
-}
-
-void SurroundPainter::collect(const SurroundDrawing& surround, glm::ivec2 block) {
+  const Drawing& d = surround.drawing;
   const int columns = surround.grid.columns();
-  const std::ptrdiff_t first = std::ptrdiff_t{2} * block.y * columns + 2 * block.x;
-  count_ = 0;
-  for (std::size_t s = 0; s < surround.drawing.sources.size(); ++s) {
-    const BlockWeights weights = surround.weights.of_block(s, surround.grid, block);
-    if (!weights.any) continue;
-    Shown& shown = shown_[count_++];
-    shown.source = &surround.drawing.sources[s];
-    shown.weight = weights.at;
-    const SourceField& field = surround.fields[s];
-    shown.motion = field.moves ? BlockMotion::of(field.displacement.data() + first, columns) : BlockMotion{};
-  }
-}
-
-void SurroundPainter::show(std::size_t plane, const Shown& shown, const SampleBlock& block) {
-  blended_[plane].push_back({block, shown.weight});
-}
-
-void SurroundPainter::show_patches(Shown& shown, glm::ivec2 block, bool has_chroma) {
-  const PaddedPicture& texture = *shown.source->padded;
-  const auto place = [&](std::size_t plane, int k) {
-    const int size = block_in(plane, block).size / 2;
-    return shown.memory[plane].samples.data() + k / 2 * size * WarpedBlock::kStride + k % 2 * size;
-  };
-  for (int k = 0; k < 4; ++k) {  // from left to right: WarpedBlock
-    const PatchMotion& motion = shown.motion.patch[k];
-    const Square luma = patch_of(block_in(0, block), k), chroma = patch_of(block_in(1, block), k);
-    if (motion.kind == PatchMotion::Kind::kStill) {
-      copy_own(shown.source->planes[0], luma, place(0, k));
-      for (std::size_t p = 1; p < 3 && has_chroma; ++p)
-        copy_own(shown.source->planes[p], chroma, place(p, k));
-      continue;
+  const auto node = static_cast<std::size_t>(2 * block.y * columns + 2 * block.x);
+  const std::size_t row = surround.weights.row();
+  const BlockNodes nodes{surround.weights.at(node), surround.field.moves() ? surround.field.at(node) : nullptr, row,
+                         columns};
+  BlockMotions motions;
+  blended_.clear();
+  for (std::size_t first = 0; first < row; first += kRowStep) {
+    find_motions(nodes, first, motions);
+    for (std::uint32_t left = motions.shown; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::size_t>(std::countr_zero(left));
+      const DrawnSource& source = d.sources[first + place];
+      const ShownSource shown{source, block, !d.chroma_area.empty(), memory_[blended_.size()]};
+      BlendedSource& added = blended_.emplace_back();
+      added.weight = nodes.weight + first + place;
+      if (motions.whole[place] == kStill)
+        added.planes = still_block(shown);
+      else if (motions.whole[place] == kEven)
+        added.planes = displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
+                                       shown.has_chroma, shown.memory);
+      else
+        added.planes = patched_block(shown, nodes, motions, first, place);
     }
-    warp_luma(texture[0], motion, luma.first, place(0, k));
-    if (has_chroma) warp_chroma(texture[1], texture[2], motion, chroma.first, {place(1, k), place(2, k)});
   }
-  for (std::size_t p = 0; p < (has_chroma ? 3 : 1); ++p)
-    show(p, shown, {shown.memory[p].samples.data(), WarpedBlock::kStride});
-}
-
-void SurroundPainter::blend(std::size_t plane, glm::ivec2 block, const PlaneView& target) {
-  const Square square = block_in(plane, block);
-  std::uint8_t* const out = target.data + square.first.y * target.stride + square.first.x;
-  draw_blend(plane, blended_[plane], size_inside(square, target), out, target.stride);
+  const auto step = static_cast<std::ptrdiff_t>(row);
+  draw_blend(blended_, {step, columns * step}, block, d.target);
 }
 
 }  // namespace fbs

@@ -1,0 +1,54 @@
+// Blocks blended from what their sources show. SPEC 11.6. Vector code for every kind of processor that Highway
+// knows, chosen at run time; blend_kernels_plain.h defines the results. Integers only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+
+#include "common/picture.h"
+#include "decoder/field/node_grid.h"
+
+namespace fbs {
+
+inline constexpr int kChromaBlockSize = kBlockSize / 2;
+
+/// Samples in anybody's memory.
+struct SampleBlock {
+  const std::uint8_t* samples;
+  std::ptrdiff_t stride;
+};
+
+/// What a source shows in a block.
+struct BlendedSource {
+  std::array<SampleBlock, 3> planes;  ///< Y, U, V; the last two of one stride
+  /// At the block's upper left node. With those of the other sources they sum to kNodeWeightOne at each node.
+  const std::uint16_t* weight;
+};
+
+/// From the weight at a node to those at the next.
+struct NodeSteps {
+  std::ptrdiff_t column, line;
+};
+
+/// Blends 16 x 16 luma samples.
+void blend_luma_block(std::span<const BlendedSource> sources, NodeSteps steps, std::uint8_t* out,
+                      std::ptrdiff_t stride);
+
+/// Blends 8 x 8 samples of both chroma planes.
+void blend_chroma_block(std::span<const BlendedSource> sources, NodeSteps steps,
+                        const std::array<std::uint8_t*, 2>& out, std::ptrdiff_t stride);
+
+/// Copies some samples of a block.
+void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptrdiff_t stride);
+
+/// Blends what of a block lies in a picture.
+/// @param sources  at least one
+/// @param block    its column and row
+/// @param target   Y, U, V; planes without samples are left out
+void draw_blend(std::span<const BlendedSource> sources, NodeSteps steps, glm::ivec2 block,
+                const std::array<PlaneView, 3>& target);
+
+}  // namespace fbs

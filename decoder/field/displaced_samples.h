@@ -1,0 +1,35 @@
+// What a displaced texture shows in a square of the picture. SPEC 10.3. Integers only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "decoder/field/blend_kernels.h"
+#include "decoder/field/padded_plane.h"
+#include "decoder/field/warp_kernels.h"
+
+namespace fbs {
+
+/// Y, U, V.
+using BlockSamples3 = std::array<SampleBlock, 3>;
+using BlockMemory = std::array<WarpedBlock, 3>;
+
+/// Shows a block that is displaced as a whole.
+/// @param block   its column and row
+/// @param by      1/64 luma sample
+/// @param memory  for planes of which the samples lie between those of the texture
+[[nodiscard]] BlockSamples3 displaced_block(const PaddedPicture& texture, glm::ivec2 block, glm::ivec2 by,
+                                            bool has_chroma, BlockMemory& memory);
+
+/// Draws a patch that is displaced as a whole.
+/// @param patch  its column and row
+/// @param out    where its upper left sample comes in each plane
+void draw_even_patch(const PaddedPicture& texture, glm::ivec2 patch, glm::ivec2 by, bool has_chroma,
+                     const std::array<std::uint8_t*, 3>& out);
+
+/// Draws a patch that is displaced linearly between its nodes.
+void draw_bent_patch(const PaddedPicture& texture, glm::ivec2 patch, const PatchNodes& nodes, bool has_chroma,
+                     const std::array<std::uint8_t*, 3>& out);
+
+}  // namespace fbs

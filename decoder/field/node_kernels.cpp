@@ -1,0 +1,213 @@
+#include "decoder/field/node_kernels.h"
+
+#include <algorithm>
+
+#include "decoder/blend/mesh_blend.h"
+#include "decoder/field/fixed_vectors.h"
+#include "decoder/field/node_kernels_plain.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "decoder/field/node_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each kind of processor
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace fbs {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
+           std::size_t row, std::uint16_t* out) {
+  plain::weigh_nodes(places, corners, outside, row, out);
+}
+void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
+              std::int32_t* out) {
+  plain::displace_nodes(cover, moved, limits, row, out);
+}
+void motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {
+  plain::find_motions(nodes, first, out);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Some sources of a row.
+using Sources = hn::CappedTag<std::int32_t, kRowStep>;
+using Values = hn::Vec<Sources>;
+
+/// NodePlace::mean() of small numbers.
+class Mean {
+ public:
+  /// @param rows  of the points  @param size  of a row
+  HWY_INLINE Mean(const NodePlace& place, const std::int32_t* rows, std::size_t size)
+      : a_(rows + static_cast<std::size_t>(place.corner[0]) * size),
+        b_(rows + static_cast<std::size_t>(place.corner[1]) * size),
+        c_(rows + static_cast<std::size_t>(place.corner[2]) * size),
+        place_(place) {}
+  HWY_INLINE Values at(std::size_t s) const {
+    const Sources d;
+    const Values a = hn::LoadU(d, a_ + s), half = hn::Set(d, 1 << (kCornerShareOneLog2 - 1));
+    const Values more = hn::Add(hn::Mul(hn::Sub(hn::LoadU(d, b_ + s), a), hn::Set(d, place_.share[0])),
+                                hn::Mul(hn::Sub(hn::LoadU(d, c_ + s), a), hn::Set(d, place_.share[1])));
+    return hn::Add(a, hn::ShiftRight<kCornerShareOneLog2>(hn::Add(more, half)));
+  }
+
+ private:
+  const std::int32_t *a_, *b_, *c_;
+  const NodePlace& place_;
+};
+
+void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
+           std::size_t row, std::uint16_t* out) {
+  constexpr std::int32_t kNodeWeightOne = kBlendOne;
+  constexpr int kToNodeLog2 = 4;
+  static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
+  // A weight and, after it, from which end of the row it comes: the largest is that of the first of equal ones.
+  constexpr int kPlaceLog2 = 8;
+  constexpr std::int32_t kLastPlace = (1 << kPlaceLog2) - 1;
+  alignas(32) static constexpr std::int32_t kPlaces[kRowStep] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const Sources d;
+  const hn::Rebind<std::uint16_t, Sources> narrow;
+  for (const NodePlace& place : places) {
+    if (place.is_covered()) {
+      const Mean mean(place, corners, row);
+      Values sum = hn::Zero(d), largest = sum;
+      for (std::size_t s = 0; s < row; s += hn::Lanes(d)) {
+        const Values weight = hn::ShiftRight<kToNodeLog2>(mean.at(s));
+        hn::StoreU(hn::DemoteTo(narrow, weight), narrow, out + s);
+        sum = hn::Add(sum, weight);
+        const Values from_end = hn::Sub(hn::Set(d, kLastPlace - static_cast<std::int32_t>(s / kRowStep * kRowStep)),
+                                        hn::Load(d, kPlaces + s % kRowStep));
+        largest = hn::Max(largest, hn::Or(hn::ShiftLeft<kPlaceLog2>(weight), from_end));
+      }
+      const std::int32_t left = kNodeWeightOne - hn::GetLane(hn::SumOfLanes(d, sum));
+      if (left != 0) {
+        std::uint16_t& first = out[kLastPlace - (hn::GetLane(hn::MaxOfLanes(d, largest)) & kLastPlace)];
+        first = static_cast<std::uint16_t>(first + left);
+      }
+    } else {
+      std::copy_n(outside, row, out);
+    }
+    out += row;
+  }
+}
+
+void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
+              std::int32_t* out) {
+  const Sources d;
+  const NodePlace* place = cover.places().data();
+  for (int j = 0; j < cover.grid().rows(); ++j) {
+    for (int i = 0; i < cover.grid().columns(); ++i, ++place, out += 2 * row) {
+      if (!place->is_covered()) {
+        std::fill_n(out, 2 * row, 0);
+        continue;
+      }
+      const Mean mean(*place, moved, 2 * row);
+      const auto bring = [&](std::size_t begin, std::int32_t node, std::int32_t first, std::int32_t last) HWY_ATTR {
+        const Values low = hn::Set(d, first - node), high = hn::Set(d, last - node);
+        for (std::size_t s = begin; s < begin + row; s += hn::Lanes(d))
+          hn::StoreU(hn::Min(hn::Max(mean.at(s), low), high), d, out + s);
+      };
+      bring(0, NodeGrid::place(i), limits.first.x, limits.last.x);
+      bring(row, NodeGrid::place(j), limits.first.y, limits.last.y);
+    }
+  }
+}
+
+/// What a patch does along one axis.
+struct Along {
+  Values any;    ///< zero: it does not move
+  Values range;  ///< between the largest and the smallest displacement
+  Values mean;
+};
+
+HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
+  const Sources d;
+  return {hn::Or(hn::Or(d00, d10), hn::Or(d01, d11)),
+          hn::Sub(hn::Max(hn::Max(d00, d10), hn::Max(d01, d11)), hn::Min(hn::Min(d00, d10), hn::Min(d01, d11))),
+          hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(d, 2)))};
+}
+
+/// Of hn::Lanes(Sources) sources from place s of the rows on, which is place `to` of what is found.
+HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
+  const Sources d;
+  const Values still = hn::Set(d, kStill), even = hn::Set(d, kEven), bent = hn::Set(d, kBent),
+               even_enough = hn::Set(d, 16);
+  Values kinds = hn::Zero(d), other = hn::Zero(d);  // of the patches: the largest; what differs from the first
+  Values first_x = other, first_y = other;
+  const auto at = [&](int column, int line, std::size_t axis)
+                      HWY_ATTR { return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s); };
+  for (int patch = 0; patch < 4; ++patch) {
+    const int i = patch % 2, j = patch / 2;
+    const Along x = along(at(i, j, 0), at(i + 1, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0)),
+                y = along(at(i, j, 1), at(i + 1, j, 1), at(i, j + 1, 1), at(i + 1, j + 1, 1));
+    const auto moves = hn::Ne(hn::Or(x.any, y.any), hn::Zero(d));
+    const auto bends = hn::Gt(hn::Max(x.range, y.range), even_enough);
+    const Values kind = hn::IfThenElse(bends, bent, hn::IfThenElse(moves, even, still));
+    hn::StoreU(kind, d, out.kind[patch].data() + to);
+    hn::StoreU(x.mean, d, out.by[patch][0].data() + to);
+    hn::StoreU(y.mean, d, out.by[patch][1].data() + to);
+    kinds = hn::Or(kinds, kind);
+    if (patch == 0) {
+      first_x = x.mean;
+      first_y = y.mean;
+      other = hn::Xor(kind, even);
+    } else {
+      other = hn::Or(hn::Or(other, hn::Xor(kind, even)),
+                     hn::Or(hn::Xor(x.mean, first_x), hn::Xor(y.mean, first_y)));
+    }
+  }
+  const Values whole = hn::IfThenElse(hn::Eq(other, hn::Zero(d)), even, bent);
+  hn::StoreU(hn::IfThenElse(hn::Eq(kinds, hn::Zero(d)), still, whole), d, out.whole.data() + to);
+}
+
+void motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {
+  const hn::CappedTag<std::uint16_t, kRowStep> d;
+  static_assert(hn::MaxLanes(hn::CappedTag<std::uint16_t, kRowStep>()) == kRowStep);
+  const auto row = [&](int j) HWY_ATTR {
+    return hn::Or(hn::LoadU(d, nodes.weight_at(0, j) + first),
+                  hn::Or(hn::LoadU(d, nodes.weight_at(1, j) + first), hn::LoadU(d, nodes.weight_at(2, j) + first)));
+  };
+  const auto weight = hn::Or(row(0), hn::Or(row(1), row(2)));
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::Ne(weight, hn::Zero(d)), bits);
+  out.shown = bits[0];
+  out.whole.fill(kStill);
+  if (nodes.displacement == nullptr || out.shown == 0) return;
+  const Sources sources;
+  for (std::size_t s = 0; s < kRowStep; s += hn::Lanes(sources)) find_some(nodes, first + s, s, out);
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fbs
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fbs {
+
+HWY_EXPORT(weigh);
+HWY_EXPORT(displace);
+HWY_EXPORT(motions);
+
+void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
+                 std::size_t row, std::uint16_t* out) {
+  HWY_DYNAMIC_DISPATCH(weigh)(places, corners, outside, row, out);
+}
+
+void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
+                    std::int32_t* out) {
+  HWY_DYNAMIC_DISPATCH(displace)(cover, moved, limits, row, out);
+}
+
+void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {
+  HWY_DYNAMIC_DISPATCH(motions)(nodes, first, out);
+}
+
+}  // namespace fbs
+#endif

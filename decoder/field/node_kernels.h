@@ -1,0 +1,74 @@
+// The inner loops over nodes: weights and displacements of all sources, and how blocks are drawn from them.
+// SPEC 10.3 and 11.5. Vector code as in patch_kernels.h; node_kernels_plain.h defines the results. Integers only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+
+#include "decoder/field/node_cover.h"
+#include "decoder/field/source_rows.h"
+
+namespace fbs {
+
+/// Weights of the sources at nodes, in 2^-8, from those at the points of the mesh, in 2^-12. The first of the
+/// largest takes what rounding leaves.
+/// @param corners  rows of the points
+/// @param outside  row of nodes that no triangle covers
+/// @param row      size of a row
+/// @param out      rows of the nodes
+void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
+                 std::size_t row, std::uint16_t* out);
+
+/// Positions of a texture that nodes may show, 1/64 luma sample.
+struct NodeLimits {
+  glm::ivec2 first, last;
+};
+
+/// displace_nodes() takes displacements smaller than this.
+inline constexpr std::int32_t kMaxShortDisplacement = 1 << 15;
+
+/// Displacements of the sources at nodes from those at the points of the mesh, 1/64 luma sample. Those in x are a
+/// row, behind which comes that of those in y.
+/// @param moved  rows of the points
+/// @param out    rows of the nodes
+void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
+                    std::int32_t* out);
+
+/// The rows of a block's upper left node, and how far the next ones are.
+struct BlockNodes {
+  const std::uint16_t* weight;
+  const std::int32_t* displacement;  ///< null: no source moves
+  std::size_t row;                   ///< size of a row
+  std::ptrdiff_t columns;            ///< nodes in a row of the grid
+
+  [[nodiscard]] const std::uint16_t* weight_at(int column, int line) const {
+    return weight + (line * columns + column) * static_cast<std::ptrdiff_t>(row);
+  }
+  [[nodiscard]] const std::int32_t* displacement_at(int column, int line) const {
+    return displacement + (line * columns + column) * static_cast<std::ptrdiff_t>(2 * row);
+  }
+};
+
+/// How a texture is displaced in a patch or block.
+enum MotionKind : std::int32_t {
+  kStill,  ///< it shows its own samples
+  kEven,   ///< all samples are displaced alike
+  kBent,   ///< linearly between the nodes; of a block: patch by patch
+};
+
+/// What kRowStep sources show in a block.
+struct BlockMotions {
+  using Row = std::array<std::int32_t, kRowStep>;
+  std::uint32_t shown;                               ///< a bit for each source that has weight
+  alignas(32) Row whole;                             ///< kind of the block. If kStill, the others are undefined
+  alignas(32) std::array<Row, 4> kind;               ///< of its patches, row by row
+  alignas(32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of their displacement, if kEven
+};
+
+/// @param first  the first of the sources, a multiple of kRowStep
+void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out);
+
+}  // namespace fbs

@@ -1,0 +1,35 @@
+// How much each source weighs at each node. SPEC 11.5. Integers only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "decoder/blend/mesh_blend.h"
+#include "decoder/field/node_cover.h"
+#include "decoder/field/source_rows.h"
+
+namespace fbs {
+
+inline constexpr std::int32_t kNodeWeightOne = kBlendOne;
+
+/// Weights of the sources at the nodes, in 1/kNodeWeightOne. Those of one node lie together.
+class NodeWeights {
+ public:
+  /// @param corners  weights at the points of the mesh
+  /// @param outside  those of nodes that no triangle covers, in 1/kNodeWeightOne
+  void set(const NodeCover& cover, const PointWeights& corners, std::span<const std::int32_t> outside);
+  /// The same weights at all nodes.
+  void set(const NodeGrid& grid, std::span<const std::int32_t> weights);
+
+  [[nodiscard]] std::size_t row() const { return row_; }  ///< from one node to the next
+  /// Of all sources.
+  [[nodiscard]] const std::uint16_t* at(std::size_t node) const { return weights_.data() + node * row_; }
+
+ private:
+  std::size_t row_ = 0;
+  std::vector<std::uint16_t> weights_, outside_;
+  std::vector<std::int32_t> corners_;  ///< rows, 1/kMeshWeightOne
+};
+
+}  // namespace fbs

@@ -1,0 +1,337 @@
+#include "decoder/field/warp_kernels.h"
+
+#include <algorithm>
+
+#include "decoder/field/fixed_vectors.h"
+#include "decoder/field/warp_kernels_plain.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "decoder/field/warp_kernels.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once for each kind of processor
+#include <hwy/highway.h>
+
+#include "decoder/field/two_planes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fbs {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+void even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+               std::uint8_t* out) {
+  plain::warp_even_luma(from, stride, fraction, size, out);
+}
+void even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+                 const ChromaOut& out) {
+  plain::warp_even_chroma(from, stride, fraction, size, out);
+}
+void bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes, std::uint8_t* out) {
+  plain::warp_bent_luma(from, stride, nodes, out);
+}
+void bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                 const ChromaOut& out) {
+  plain::warp_bent_chroma(from, stride, nodes, out);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kOne = 1 << kFractionOneLog2;
+
+/// Between the upper and the lower samples, each already between left and right.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V between(D d, V top, V bottom, V fraction) {
+  // The product is rounded to the nearest and halved twice less than it seems: Q15 times 2^9.
+  const V more = hn::MulFixedPoint15(hn::Sub(bottom, top), hn::ShiftLeft<15 - kFractionOneLog2>(fraction));
+  return hn::ShiftRight<kFractionOneLog2>(hn::Add(hn::Add(top, more), hn::Set(d, kOne / 2)));
+}
+
+/// @param load   of a row and 0 or 1, which is added to the columns
+/// @param store  takes samples and the number of their row
+template <class D, class Load, class Store>
+HWY_INLINE void even_columns(D d, glm::ivec2 fraction, int rows, Load&& load, Store&& store) {
+  using V = hn::Vec<D>;
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const V right = hn::Set(d, static_cast<std::int16_t>(fraction.x)),
+          left = hn::Set(d, static_cast<std::int16_t>(kOne - fraction.x)),
+          down = hn::Set(d, static_cast<std::int16_t>(fraction.y));
+  const auto across = [&](int row) HWY_ATTR {
+    return hn::Add(hn::Mul(hn::PromoteTo(d, load(row, 0)), left), hn::Mul(hn::PromoteTo(d, load(row, 1)), right));
+  };
+  V top = across(0);
+  for (int y = 0; y < rows; ++y) {
+    const V bottom = across(y + 1);
+    store(hn::DemoteTo(bytes, between(d, top, bottom, down)), y);
+    top = bottom;
+  }
+}
+
+template <class D>
+HWY_INLINE void even_luma_columns(D d, const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction,
+                                  int size, std::uint8_t* out) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  for (int x = 0; x < size; x += static_cast<int>(hn::Lanes(d)))
+    even_columns(
+        d, fraction, size,
+        [&](int row, int right) HWY_ATTR { return hn::LoadU(bytes, from + row * stride + x + right); },
+        [&](auto samples, int row) HWY_ATTR { hn::StoreU(samples, bytes, out + row * WarpedBlock::kStride + x); });
+}
+
+void even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+               std::uint8_t* out) {
+  if (size == kPatchSize)
+    even_luma_columns(hn::CappedTag<std::int16_t, kPatchSize>(), from, stride, fraction, size, out);
+  else
+    even_luma_columns(hn::CappedTag<std::int16_t, kBlockSize>(), from, stride, fraction, size, out);
+}
+
+void even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+                 const ChromaOut& out) {
+  const hn::CappedTag<std::int16_t, 16> d;
+  for (std::size_t x = 0; x < 16; x += hn::Lanes(d))
+    even_columns(
+        d, fraction, size,
+        [&](int row, int right) HWY_ATTR {
+          const std::ptrdiff_t at = row * stride + right;
+          return load_two(d, x, from[0] + at, from[1] + at);
+        },
+        [&](auto samples, int row) HWY_ATTR {
+          const std::ptrdiff_t at = row * WarpedBlock::kStride;
+          store_two(d, x, samples, out[0] + at, out[1] + at);
+        });
+}
+
+// A bent patch is drawn in vectors that hold one row of luma, or two; of chroma two rows of each plane, of one or
+// of both. What a vector shows lies in a few rows of the texture, from each of which bytes are looked up.
+
+/// Where the samples of a vector are in a patch.
+struct PatchLanes {
+  alignas(32) std::int16_t column[16], row[16];  ///< luma samples
+  alignas(32) std::int16_t place[16];            ///< 64 for each sample from the patch's first column
+  alignas(32) std::int16_t table[16];            ///< where the bytes of the lane's row begin
+};
+constexpr PatchLanes kLumaLanes = {{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7},
+                                   {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1},
+                                   {0, 64, 128, 192, 256, 320, 384, 448, 0, 64, 128, 192, 256, 320, 384, 448},
+                                   {}};
+constexpr PatchLanes kChromaLanes = {{0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 4, 6},
+                                     {0, 0, 0, 0, 2, 2, 2, 2, 0, 0, 0, 0, 2, 2, 2, 2},
+                                     {0, 64, 128, 192, 0, 64, 128, 192, 0, 64, 128, 192, 0, 64, 128, 192},
+                                     {0, 0, 0, 0, 8, 8, 8, 8, 0, 0, 0, 0, 8, 8, 8, 8}};
+
+/// One coordinate of the displacements of a patch, in short numbers.
+struct ShortDisplacement {
+  std::int32_t first;        ///< that they count from, luma samples: a multiple of what a sample of the plane is
+  std::int16_t upper_left;   ///< 1/64 luma sample; from first on
+  std::int16_t across, down, twist;
+  std::int32_t range;        ///< between the least and the largest
+
+  /// @param step_log2  log2 of luma samples per sample
+  ShortDisplacement(const PatchNodes& nodes, int glm::ivec2::*axis, int step_log2) {
+    const std::int32_t d00 = nodes[0].*axis, d10 = nodes[1].*axis, d01 = nodes[2].*axis, d11 = nodes[3].*axis;
+    const auto [least, most] = std::minmax({d00, d10, d01, d11});
+    first = least >> (kFractionOneLog2 + step_log2) << step_log2;
+    upper_left = static_cast<std::int16_t>(d00 - (first << kFractionOneLog2));
+    across = static_cast<std::int16_t>(d10 - d00);
+    down = static_cast<std::int16_t>(d01 - d00);
+    twist = static_cast<std::int16_t>(d11 - d10 - d01 + d00);
+    range = most - least;
+  }
+};
+
+/// The displacements of a vector's samples, from ShortDisplacement::first on. Sums are less than 2^15: the range is
+/// less than 2^9, and weights sum to 64.
+/// @param kStepLog2  log2 of luma samples per sample
+template <int kStepLog2, class D>
+class Displacements {
+ public:
+  using V = hn::Vec<D>;
+  HWY_INLINE Displacements(D d, const PatchLanes& lanes, std::size_t first_lane, const ShortDisplacement& by,
+                           int rows_per_step)
+      : d_(d), upper_left_(hn::Set(d, by.upper_left)) {
+    const V column = hn::Load(d, lanes.column + first_lane), row = hn::Load(d, lanes.row + first_lane);
+    const V per_row = hn::Add(hn::ShiftLeft<3>(hn::Set(d, by.down)), hn::Mul(column, hn::Set(d, by.twist)));
+    sum_ = hn::Add(hn::Add(hn::ShiftLeft<3>(hn::Mul(column, hn::Set(d, by.across))), hn::Mul(row, per_row)),
+                   hn::Set(d, kOne / 2));
+    step_ = hn::Mul(per_row, hn::Set(d, static_cast<std::int16_t>(rows_per_step << kStepLog2)));
+  }
+  /// Of the next rows, in 1/64 sample of the plane.
+  HWY_INLINE V next() {
+    const V out = hn::Add(upper_left_, hn::ShiftRight<kFractionOneLog2>(sum_));
+    sum_ = hn::Add(sum_, step_);
+    return hn::ShiftRight<kStepLog2>(out);
+  }
+
+ private:
+  D d_;
+  V upper_left_, sum_, step_;
+};
+
+/// Draws the vectors of a patch, one below the other.
+/// @param kSpan  samples of one row lie in so many rows of the texture and one more
+/// @param load   bytes of the rows from one on, as PatchLanes' table says
+/// @param store  takes the samples of some rows and the number of the first
+template <int kSpan, int kStepLog2, class D, class Load, class Store>
+HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, int rows, int rows_per_step,
+                          const ShortDisplacement& by_x, const ShortDisplacement& by_y, Load&& load,
+                          Store&& store) {
+  using V = hn::Vec<D>;
+  const hn::RebindToUnsigned<D> u;
+  const hn::Repartition<std::uint8_t, D> table;
+  const hn::Rebind<std::uint8_t, D> bytes;
+  Displacements<kStepLog2, D> x(d, lanes, first_lane, by_x, rows_per_step),
+      y(d, lanes, first_lane, by_y, rows_per_step);
+  const V place = hn::Load(d, lanes.place + first_lane), first = hn::Load(d, lanes.table + first_lane),
+          mask = hn::Set(d, kOne - 1), one = hn::Set(d, kOne);
+  for (int row = 0; row < rows; row += rows_per_step) {
+    const V across = hn::Add(place, x.next()), down = y.next();
+    // Each lane has the place of its left sample in the low byte, of its right one in the high byte.
+    const V left = hn::Add(hn::ShiftRight<kFractionOneLog2>(across), first);
+    const auto pair = hn::BitCast(table, hn::Add(hn::Or(left, hn::ShiftLeft<8>(left)), hn::Set(d, 256)));
+    const auto look_up = [&](int below) HWY_ATTR {
+      return hn::BitCast(u, hn::TableLookupBytes(load(row + below), pair));
+    };
+    auto top = look_up(0), bottom = look_up(1);
+    auto above = bottom;
+    for (int k = 1; k <= kSpan; ++k) {
+      const auto is_below = hn::RebindMask(u, hn::Gt(down, hn::Set(d, static_cast<std::int16_t>(k * kOne - 1))));
+      const auto under = look_up(k + 1);
+      top = hn::IfThenElse(is_below, above, top);
+      bottom = hn::IfThenElse(is_below, under, bottom);
+      above = under;
+    }
+    const V right_share = hn::And(across, mask), left_share = hn::Sub(one, right_share);
+    const auto mix = [&](auto both) HWY_ATTR {
+      const V low = hn::BitCast(d, hn::And(both, hn::Set(u, 255))), high = hn::BitCast(d, hn::ShiftRight<8>(both));
+      return hn::Add(hn::Mul(low, left_share), hn::Mul(high, right_share));
+    };
+    store(hn::DemoteTo(bytes, between(d, mix(top), mix(bottom), hn::And(down, mask))), row);
+  }
+}
+
+/// Most differences of displacements across a patch that this can draw: sixteen bytes hold what a row shows.
+constexpr std::int32_t kMaxAcross = 384;
+
+template <int kSpan, class D>
+HWY_INLINE void bent_luma_rows(D d, const std::uint8_t* from, std::ptrdiff_t stride,
+                               const ShortDisplacement& by_x, const ShortDisplacement& by_y,
+                               std::uint8_t* out) {
+  const hn::Repartition<std::uint8_t, D> table;
+  const hn::FixedTag<std::uint8_t, 16> row_of_table;
+  const hn::FixedTag<std::uint8_t, 8> drawn_row;
+  constexpr int kRows = hn::MaxLanes(D()) / 8;
+  from += by_y.first * stride + by_x.first;
+  bent_rows<kSpan, 0>(
+      d, kLumaLanes, 0, kPatchSize, kRows, by_x, by_y,
+      [&](int row) HWY_ATTR {
+        const std::uint8_t* const at = from + row * stride;
+        if constexpr (kRows == 2) {
+          return hn::Combine(table, hn::LoadU(row_of_table, at + stride), hn::LoadU(row_of_table, at));
+        } else {
+          return hn::LoadU(row_of_table, at);
+        }
+      },
+      [&](auto samples, int row) HWY_ATTR {
+        std::uint8_t* const to = out + row * WarpedBlock::kStride;
+        if constexpr (kRows == 2) {
+          hn::StoreU(hn::LowerHalf(drawn_row, samples), drawn_row, to);
+          hn::StoreU(hn::UpperHalf(drawn_row, samples), drawn_row, to + WarpedBlock::kStride);
+        } else {
+          hn::StoreU(samples, drawn_row, to);
+        }
+      });
+}
+
+void bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes, std::uint8_t* out) {
+  const hn::CappedTag<std::int16_t, 16> d;
+  const ShortDisplacement x(nodes, &glm::ivec2::x, 0), y(nodes, &glm::ivec2::y, 0);
+  if (x.range <= kMaxAcross && y.range <= kOne)
+    bent_luma_rows<1>(d, from, stride, x, y, out);
+  else if (x.range <= kMaxAcross && y.range <= 3 * kOne)
+    bent_luma_rows<3>(d, from, stride, x, y, out);
+  else
+    plain::warp_bent_luma(from, stride, nodes, out);
+}
+
+template <int kSpan, class D>
+HWY_INLINE void bent_chroma_rows(D d, const ChromaSamples& from, std::ptrdiff_t stride,
+                                 const ShortDisplacement& by_x, const ShortDisplacement& by_y,
+                                 const ChromaOut& out) {
+  const hn::Repartition<std::uint8_t, D> table;
+  const hn::FixedTag<std::uint8_t, 8> row_of_table;
+  const hn::FixedTag<std::uint8_t, 16> two_rows;
+  const std::ptrdiff_t first = by_y.first / 2 * stride + by_x.first / 2;
+  constexpr std::size_t kPlanes = hn::MaxLanes(D()) / 8;
+  for (std::size_t plane = 0; plane < 2; plane += kPlanes)
+    bent_rows<kSpan, 1>(
+        d, kChromaLanes, 0, kPatchSize / 2, 2, by_x, by_y,
+        [&](int row) HWY_ATTR {
+          const auto two = [&](const std::uint8_t* at) HWY_ATTR {
+            at += first + row * stride;
+            return hn::Combine(two_rows, hn::LoadU(row_of_table, at + stride), hn::LoadU(row_of_table, at));
+          };
+          if constexpr (kPlanes == 2)
+            return hn::Combine(table, two(from[1]), two(from[0]));
+          else
+            return two(from[plane]);
+        },
+        [&](auto samples, int row) HWY_ATTR {
+          alignas(16) std::uint8_t drawn[16];
+          hn::StoreU(samples, hn::Rebind<std::uint8_t, D>(), drawn);
+          for (std::size_t k = 0; k < kPlanes; ++k)
+            for (int below = 0; below < 2; ++below)
+              std::copy_n(drawn + 8 * k + 4 * below, 4,
+                          out[plane + k] + (row + below) * WarpedBlock::kStride);
+        });
+}
+
+void bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                 const ChromaOut& out) {
+  const ShortDisplacement x(nodes, &glm::ivec2::x, 1), y(nodes, &glm::ivec2::y, 1);
+  // A halved difference may be one half more than half the difference.
+  if (x.range < kMaxAcross && y.range < 2 * kOne)
+    bent_chroma_rows<1>(hn::CappedTag<std::int16_t, 16>(), from, stride, x, y, out);
+  else
+    plain::warp_bent_chroma(from, stride, nodes, out);
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fbs
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fbs {
+
+HWY_EXPORT(even_luma);
+HWY_EXPORT(even_chroma);
+HWY_EXPORT(bent_luma);
+HWY_EXPORT(bent_chroma);
+
+void warp_even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+                    std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(even_luma)(from, stride, fraction, size, out);
+}
+
+void warp_even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
+                      const ChromaOut& out) {
+  HWY_DYNAMIC_DISPATCH(even_chroma)(from, stride, fraction, size, out);
+}
+
+void warp_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                    std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(bent_luma)(from, stride, nodes, out);
+}
+
+void warp_bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                      const ChromaOut& out) {
+  HWY_DYNAMIC_DISPATCH(bent_chroma)(from, stride, nodes, out);
+}
+
+}  // namespace fbs
+#endif

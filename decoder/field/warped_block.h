@@ -1,0 +1,18 @@
+// Memory for what a source shows in a block.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "decoder/field/node_grid.h"
+
+namespace fbs {
+
+/// In one plane. Wider than the block: patches are written whole vectors at a time, from left to right.
+struct WarpedBlock {
+  static constexpr std::ptrdiff_t kStride = 32;
+  alignas(32) std::array<std::uint8_t, kStride * kBlockSize> samples;
+};
+
+}  // namespace fbs
