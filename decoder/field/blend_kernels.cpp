@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "decoder/field/blend_kernels_plain.h"
-#include "decoder/field/fixed_vectors.h"
+#include "common/fixed_vectors.h"
 #include "decoder/field/warped_block.h"
 
 #undef HWY_TARGET_INCLUDE

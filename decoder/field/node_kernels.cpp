@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "decoder/blend/mesh_blend.h"
-#include "decoder/field/fixed_vectors.h"
+#include "common/fixed_vectors.h"
 #include "decoder/field/node_kernels_plain.h"
 
 #undef HWY_TARGET_INCLUDE

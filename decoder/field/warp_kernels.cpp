@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "decoder/field/fixed_vectors.h"
+#include "common/fixed_vectors.h"
 #include "decoder/field/warp_kernels_plain.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,7 @@ namespace fbs {
 
 void DepthPlane::reset(int w, int height, const SampleArea& area) {
   width = w;
-  depth.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(height));
+  depth.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(height) + kReadBeyond);
   for (int y = area.y0; y < area.y1; ++y)
     std::fill(row(y) + area.x0, row(y) + area.x1, std::numeric_limits<std::int32_t>::max());
 }

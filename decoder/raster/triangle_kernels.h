@@ -1,0 +1,16 @@
+// The inner loops of triangles drawn from one texture. SPEC 10.6 to 10.9 and 11. Vector code for every kind of
+// processor that Highway knows, chosen at run time; draw_triangle() defines the results. Integers only.
+#pragma once
+
+#include "decoder/raster/short_triangle.h"
+
+namespace fbs {
+
+/// Draws the samples that are nearer than what is there.
+/// @param textures, target  a plane each of luma, two of chroma; light falls on luma
+/// @param depth             of the target's planes
+void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
+                         std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                         DepthPlane& depth);
+
+}  // namespace fbs

@@ -1,0 +1,12 @@
+// What the kernels of triangle_kernels.h compute, one sample after the other.
+#pragma once
+
+#include "decoder/raster/short_triangle.h"
+
+namespace fbs::plain {
+
+void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
+                         std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                         DepthPlane& depth);
+
+}  // namespace fbs::plain
