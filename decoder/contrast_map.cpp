@@ -49,13 +49,22 @@ Plane draw_shares(int width, int height, PlaneScale scale, const TextureMesh& te
   return out;
 }
 
-/// Replaces each sample by change(sample - 128, contrast).
+/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside the face or outside it: for
+/// those there are tables.
 template <class Change>
 void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contrast, Change&& change) {
+  const auto changed = [&](int v, int share) {
+    return static_cast<std::uint8_t>(std::clamp(kMiddle + change(v - kMiddle, contrast[share]), 0, 255));
+  };
+  std::array<std::uint8_t, 256> outside, inside;
+  for (int v = 0; v < 256; ++v) {
+    outside[v] = changed(v, 0);
+    inside[v] = changed(v, kShareOne);
+  }
   for (std::size_t i = 0; i < plane.samples.size(); ++i) {
     std::uint8_t& v = plane.samples[i];
-    v = static_cast<std::uint8_t>(
-        std::clamp(kMiddle + change(v - kMiddle, contrast[shares.samples[i]]), 0, 255));
+    const std::uint8_t share = shares.samples[i];
+    v = share == 0 ? outside[v] : share == kShareOne ? inside[v] : changed(v, share);
   }
 }
 

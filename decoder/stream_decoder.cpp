@@ -67,6 +67,7 @@ DecodeStatus StreamDecoder::show(const Timeline::Entry& picture) {
   state_ = picture.state;
   shown_scene_.reset();
   kept_.reset();
+  store_arrivals();
   position_ = clock_.now();
   duration_ = picture.duration;
   held_ = false;
@@ -187,6 +188,8 @@ void StreamDecoder::begin_scene() {
   const bool shown = pictures_ > 0 && !shown_scene_;
   if (shown) shown_scene_ = std::move(scene_);
   scene_ = Scene{next_scene_->setup, std::nullopt, {}};
+  arrivals_.clear();
+  slots_ = 0;
   patterns_.emplace(std::move(next_scene_->patterns));
   next_scene_.reset();
   pattern_packets_ = {};
@@ -229,6 +232,26 @@ Result<void> StreamDecoder::keep_picture() {
   return {};
 }
 
+Result<void> StreamDecoder::store(std::size_t slot, Pattern pattern) {
+  slots_ = std::max(slots_, slot + 1);
+  const bool waits = pictures_ > 0 && !shown_scene_ && !kept_;
+  if (waits && arrivals_.size() == kMaxArrivals)
+    if (auto kept = keep_picture(); !kept) return kept;
+  arrivals_.push_back({slot, std::move(pattern)});
+  if (!waits || kept_) store_arrivals();
+  return {};
+}
+
+void StreamDecoder::store_arrivals() {
+  for (Arrival& a : arrivals_) {
+    if (a.slot < scene_.patterns.size())
+      scene_.patterns[a.slot] = std::move(a.pattern);
+    else
+      scene_.patterns.push_back(std::move(a.pattern));
+  }
+  arrivals_.clear();
+}
+
 void StreamDecoder::begin_geometry() {
   if (geometry_) scene_.set_geometry({scene_.setup, *geometry_, surround_, rest_});
 }
@@ -239,6 +262,7 @@ Result<void> StreamDecoder::take_surround(const Packet& packet) {
   surround_ = std::move(*surround);
   if (!scene_.geometry) return {};
   if (auto kept = keep_picture(); !kept) return kept;
+  store_arrivals();
   begin_geometry();
   return {};
 }
@@ -246,7 +270,6 @@ Result<void> StreamDecoder::take_surround(const Packet& packet) {
 Result<void> StreamDecoder::take_patterns(const Packet& packet) {
   const auto patterns = pattern_packets_.decode(packet.payload, scene_.setup, timeline_.end());
   if (!patterns) return at(packet, patterns.error());
-  if (auto kept = keep_picture(); !kept) return kept;
   std::vector<bool> reduced;
   for (const PatternSyntax& pattern : *patterns) {
     const auto taken = take_pattern(pattern);
@@ -258,8 +281,8 @@ Result<void> StreamDecoder::take_patterns(const Packet& packet) {
 }
 
 Result<bool> StreamDecoder::take_pattern(const PatternSyntax& pattern) {
-  const bool first = scene_.patterns.empty();
-  if (first != (pattern.picture == 0) || pattern.slot > static_cast<int>(scene_.patterns.size()))
+  const bool first = slots_ == 0;
+  if (first != (pattern.picture == 0) || pattern.slot > static_cast<int>(slots_))
     return fail(ErrorCode::kInvalidStream, "a pattern out of order");
   const State* known = first ? nullptr : timeline_.find(pattern.picture);
   if (!first && known == nullptr)
@@ -275,10 +298,8 @@ Result<bool> StreamDecoder::take_pattern(const PatternSyntax& pattern) {
     if (counts_motion_bits_) bit_counter_.emplace(scene_.setup, pattern.state);
   }
   Pattern made = make_coded_pattern(std::move(frame->picture), seen, scene_.geometry, scene_.setup);
-  if (pattern.slot < static_cast<int>(scene_.patterns.size()))
-    scene_.patterns[pattern.slot] = std::move(made);
-  else
-    scene_.patterns.push_back(std::move(made));
+  if (auto stored = store(static_cast<std::size_t>(pattern.slot), std::move(made)); !stored)
+    return fail(stored.error());
   return frame->reduced;
 }
 

@@ -122,6 +122,12 @@ class StreamDecoder {
     PatternDecoder patterns;
   };
 
+  struct Arrival {
+    std::size_t slot;
+    Pattern pattern;
+  };
+  static constexpr std::size_t kMaxArrivals = 4;
+
   DecodeStatus show(const Timeline::Entry& picture);
   DecodeStatus hold();
   Result<void> take(const Packet& packet);
@@ -134,6 +140,9 @@ class StreamDecoder {
   void begin_scene();
   /// Keeps the last picture as it is drawn now: the store changes.
   Result<void> keep_picture();
+  /// Puts a pattern into the store, or has it wait as long as the last picture may be drawn again.
+  Result<void> store(std::size_t slot, Pattern pattern);
+  void store_arrivals();
   Result<void> take_patterns(const Packet& packet);
   /// @return whether it is coded at reduced size
   Result<bool> take_pattern(const PatternSyntax& pattern);
@@ -155,6 +164,7 @@ class StreamDecoder {
   StreamClock clock_;
   std::optional<NextScene> next_scene_;  ///< begins when the clock is not behind
   Scene scene_;                          ///< of the last setup packet
+  std::size_t slots_ = 0;                ///< that its patterns fill, with those that have yet to come into it
   bool has_setup_ = false;
   std::optional<Geometry> geometry_;
   SurroundMap surround_ = still_surround();
@@ -175,6 +185,8 @@ class StreamDecoder {
   State state_;
   std::optional<Scene> shown_scene_;  ///< its scene, if that is not scene_
   std::optional<Scene> kept_;         ///< shows it, if what it was drawn from has changed
+  /// Come into the store with the next picture; a picture is only kept when there are too many.
+  std::vector<Arrival> arrivals_;
   StreamPosition position_;
   std::uint32_t duration_ = 0;
   bool held_ = false;

@@ -38,15 +38,25 @@ std::vector<MeshTriangle> all_triangles() {
   return out;
 }
 
-/// Whether the bounding box of some triangle and the block have samples in common.
-bool may_reach(glm::ivec2 block, const AtlasLayout& layout) {
+/// Whether some sample of a block can be read when the head is drawn: whether it lies in one of the head's triangles
+/// or a little beside it.
+bool is_read(glm::ivec2 block, const AtlasLayout& layout) {
+  constexpr int kMargin = 3 << kScreenOneLog2;  // bilinear samples, of chroma, and what gradients round
   constexpr int kSize = kBlockSize << kScreenOneLog2;
-  const glm::ivec2 first = block * kSize, last = first + kSize;
-  return std::any_of(layout.triangles.begin(), layout.triangles.end(), [&](const MeshTriangle& t) {
-    const glm::ivec2 a = layout.points[t[0]], b = layout.points[t[1]], c = layout.points[t[2]];
-    const auto [left, right] = std::minmax({a.x, b.x, c.x});
-    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-    return left <= last.x && right >= first.x && top <= last.y && bottom >= first.y;
+  const glm::ivec2 first = block * kSize - kMargin, last = (block + 1) * kSize + kMargin;
+  const auto triangles = std::span(layout.triangles).first(head_mesh().triangles.size());
+  return std::any_of(triangles.begin(), triangles.end(), [&](const MeshTriangle& t) {
+    const std::array<glm::ivec2, 3> p{layout.points[t[0]], layout.points[t[1]], layout.points[t[2]]};
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+    if (left > last.x || right < first.x || top > last.y || bottom < first.y) return false;
+    for (std::size_t k = 0; k < p.size(); ++k) {  // no edge has the whole block on its outer side
+      const glm::ivec2 along = p[(k + 1) % p.size()] - p[k];
+      const glm::ivec2 corner(along.y < 0 ? last.x : first.x, along.x > 0 ? last.y : first.y);
+      const glm::ivec2 to = corner - p[k];
+      if (std::int64_t{along.x} * to.y - std::int64_t{along.y} * to.x < 0) return false;
+    }
+    return true;
   });
 }
 
@@ -74,7 +84,7 @@ AtlasLayout::AtlasLayout(int eye_distance) : triangles(all_triangles()) {
   cover.take_nearest(points);
   for (int row = 0; row < grid.block_rows; ++row)
     for (int column = 0; column < grid.block_columns; ++column)
-      if (may_reach({column, row}, *this)) blocks.emplace_back(column, row);
+      if (is_read({column, row}, *this)) blocks.emplace_back(column, row);
 }
 
 const AtlasLayout& atlas_layout(std::int64_t scale) {

@@ -26,7 +26,7 @@ struct AtlasLayout {
   /// Corners of the triangles: head_mesh(), then the skirt's. Clockwise.
   std::vector<MeshTriangle> triangles;
   NodeCover cover;                 ///< of all nodes; those outside have the place of the nearest point
-  std::vector<glm::ivec2> blocks;  ///< column and row of those that triangles reach
+  std::vector<glm::ivec2> blocks;  ///< column and row of those of which the head shows something
 
   explicit AtlasLayout(int eye_distance);
 };
