@@ -38,8 +38,8 @@ std::vector<MeshTriangle> all_triangles() {
   return out;
 }
 
-/// Whether some sample of a block can be read when the head is drawn: whether it lies in one of the head's triangles
-/// or a little beside it.
+/// Whether some sample of a block can be read when the head is drawn: whether it lies in one of the head's
+/// triangles or a little beside it.
 bool is_read(glm::ivec2 block, const AtlasLayout& layout) {
   constexpr int kMargin = 3 << kScreenOneLog2;  // bilinear samples, of chroma, and what gradients round
   constexpr int kSize = kBlockSize << kScreenOneLog2;

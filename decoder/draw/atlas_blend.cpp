@@ -53,9 +53,9 @@ void AtlasBlend::blend(const Drawing& drawing, const HeadWeights& weights, const
     }
   }
   const auto step = static_cast<std::ptrdiff_t>(nodes.row);
-  const std::array<PlaneView, 3> target =
-      drawing.chroma_area.empty() ? std::array<PlaneView, 3>{blended_.y, {}, {}}
-                                  : std::array<PlaneView, 3>{blended_.y, blended_.u, blended_.v};
+  const std::array<PlaneView, 3> target = drawing.chroma_area.empty()
+                                              ? std::array<PlaneView, 3>{blended_.y, {}, {}}
+                                              : std::array<PlaneView, 3>{blended_.y, blended_.u, blended_.v};
   draw_blend(shown_, {step, grid.columns() * step}, block, target);
 }
 

@@ -29,7 +29,8 @@ SampleBlock own_samples(const ConstPlaneView& plane, glm::ivec2 first) {
 
 /// Copies what of a square lies in a plane.
 void copy_own(const ConstPlaneView& plane, glm::ivec2 first, int size, std::uint8_t* out) {
-  const glm::ivec2 inside(std::clamp(plane.width - first.x, 0, size), std::clamp(plane.height - first.y, 0, size));
+  const glm::ivec2 inside(std::clamp(plane.width - first.x, 0, size),
+                          std::clamp(plane.height - first.y, 0, size));
   if (inside.x > 0) copy_samples(own_samples(plane, first), inside, out, WarpedBlock::kStride);
 }
 
@@ -65,7 +66,8 @@ PatchNodes patch_nodes(const BlockNodes& nodes, int k, std::size_t s) {
 BlockSamples3 patched_block(const ShownSource& shown, const BlockNodes& nodes, const BlockMotions& motions,
                             std::size_t first, std::size_t place) {
   BlockSamples3 out{};
-  for (std::size_t p = 0; p < shown.planes(); ++p) out[p] = {shown.memory[p].samples.data(), WarpedBlock::kStride};
+  for (std::size_t p = 0; p < shown.planes(); ++p)
+    out[p] = {shown.memory[p].samples.data(), WarpedBlock::kStride};
   for (int k = 0; k < 4; ++k) {  // from left to right: WarpedBlock
     const glm::ivec2 within(k % 2, k / 2), patch = 2 * shown.block + within;
     std::array<std::uint8_t*, 3> to{};
@@ -83,7 +85,8 @@ BlockSamples3 patched_block(const ShownSource& shown, const BlockNodes& nodes, c
                         shown.has_chroma, to);
         break;
       default:
-        draw_bent_patch(*shown.source.padded, patch, patch_nodes(nodes, k, first + place), shown.has_chroma, to);
+        draw_bent_patch(*shown.source.padded, patch, patch_nodes(nodes, k, first + place), shown.has_chroma,
+                        to);
     }
   }
   return out;
@@ -104,8 +107,8 @@ void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 blo
   const int columns = surround.grid.columns();
   const auto node = static_cast<std::size_t>(2 * block.y * columns + 2 * block.x);
   const std::size_t row = surround.weights.row();
-  const BlockNodes nodes{surround.weights.at(node), surround.field.moves() ? surround.field.at(node) : nullptr, row,
-                         columns};
+  const BlockNodes nodes{surround.weights.at(node),
+                         surround.field.moves() ? surround.field.at(node) : nullptr, row, columns};
   BlockMotions motions;
   blended_.clear();
   for (std::size_t first = 0; first < row; first += kRowStep) {
@@ -119,8 +122,9 @@ void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 blo
       if (motions.whole[place] == kStill)
         added.planes = still_block(shown);
       else if (motions.whole[place] == kEven)
-        added.planes = displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
-                                       shown.has_chroma, shown.memory);
+        added.planes =
+            displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
+                            shown.has_chroma, shown.memory);
       else
         added.planes = patched_block(shown, nodes, motions, first, place);
     }

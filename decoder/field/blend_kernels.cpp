@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "decoder/field/blend_kernels_plain.h"
-#include "common/fixed_vectors.h"
 #include "decoder/field/warped_block.h"
+#include "decoder/vectors/fixed_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/blend_kernels.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for each kind of processor
 #include <hwy/highway.h>
 
-#include "decoder/field/two_planes-inl.h"
+#include "decoder/vectors/two_planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fbs {
@@ -58,8 +58,9 @@ class Columns {
 
   /// Weights along a line of nodes, in 2^-11.
   HWY_INLINE V along(const std::uint16_t* node, NodeSteps steps) const {
-    return hn::Add(hn::Add(hn::Mul(hn::Set(d_, node[0]), left_), hn::Mul(hn::Set(d_, node[steps.column]), middle_)),
-                   hn::Mul(hn::Set(d_, node[2 * steps.column]), right_));
+    return hn::Add(
+        hn::Add(hn::Mul(hn::Set(d_, node[0]), left_), hn::Mul(hn::Set(d_, node[steps.column]), middle_)),
+        hn::Mul(hn::Set(d_, node[2 * steps.column]), right_));
   }
 
  private:
@@ -110,9 +111,8 @@ void blend_luma(std::span<const BlendedSource> sources, NodeSteps steps, std::ui
   for (std::size_t x = 0; x < kBlockSize; x += hn::Lanes(d))
     blend_columns<kPatchSize>(
         d, sources, steps, Columns(d, kLumaRamps, x),
-        [&](const BlendedSource& s, int row) HWY_ATTR {
-          return hn::LoadU(bytes, s.planes[0].samples + row * s.planes[0].stride + x);
-        },
+        [&](const BlendedSource& s, int row)
+            HWY_ATTR { return hn::LoadU(bytes, s.planes[0].samples + row * s.planes[0].stride + x); },
         [&](auto samples, int row) HWY_ATTR { hn::StoreU(samples, bytes, out + row * stride + x); });
 }
 
@@ -176,11 +176,12 @@ void draw_blend(std::span<const BlendedSource> sources, NodeSteps steps, glm::iv
   const bool has_chroma = target[1].data != nullptr;
   const glm::ivec2 luma = block * kBlockSize, chroma = block * kChromaBlockSize;
   const glm::ivec2 luma_size = size_inside(luma, kBlockSize, target[0]),
-                   chroma_size = has_chroma ? size_inside(chroma, kChromaBlockSize, target[1]) : glm::ivec2(0);
+                   chroma_size =
+                       has_chroma ? size_inside(chroma, kChromaBlockSize, target[1]) : glm::ivec2(0);
   std::uint8_t* const y = place_in(target[0], luma);
-  const std::array<std::uint8_t*, 2> uv = has_chroma
-                                              ? std::array{place_in(target[1], chroma), place_in(target[2], chroma)}
-                                              : std::array<std::uint8_t*, 2>{};
+  const std::array<std::uint8_t*, 2> uv =
+      has_chroma ? std::array{place_in(target[1], chroma), place_in(target[2], chroma)}
+                 : std::array<std::uint8_t*, 2>{};
   if (sources.size() == 1) {
     const auto& planes = sources.front().planes;
     copy_samples(planes[0], luma_size, y, target[0].stride);
@@ -200,7 +201,8 @@ void draw_blend(std::span<const BlendedSource> sources, NodeSteps steps, glm::iv
     blend_chroma_block(sources, steps, uv, target[1].stride);
     return;
   }
-  blend_chroma_block(sources, steps, {whole[0].samples.data(), whole[1].samples.data()}, WarpedBlock::kStride);
+  blend_chroma_block(sources, steps, {whole[0].samples.data(), whole[1].samples.data()},
+                     WarpedBlock::kStride);
   for (std::size_t k = 0; k < 2; ++k)
     copy_samples({whole[k].samples.data(), WarpedBlock::kStride}, chroma_size, uv[k], target[1 + k].stride);
 }

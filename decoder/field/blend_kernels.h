@@ -1,5 +1,5 @@
-// Blocks blended from what their sources show. SPEC 11.6. Vector code for every kind of processor that Highway
-// knows, chosen at run time; blend_kernels_plain.h defines the results. Integers only.
+// Blocks blended from what their sources show. SPEC 11.6. Vector code for every kind of processor that
+// Highway knows, chosen at run time; blend_kernels_plain.h defines the results. Integers only.
 #pragma once
 
 #include <array>

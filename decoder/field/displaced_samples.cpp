@@ -15,7 +15,9 @@ struct Place {
       : sample(corner + glm::ivec2(by.x >> kFractionOneLog2, by.y >> kFractionOneLog2)),
         fraction(by & ((1 << kFractionOneLog2) - 1)) {}
   [[nodiscard]] bool is_whole() const { return fraction == glm::ivec2(0); }
-  [[nodiscard]] const std::uint8_t* in(const PaddedPlane& plane) const { return plane.at(sample.x, sample.y); }
+  [[nodiscard]] const std::uint8_t* in(const PaddedPlane& plane) const {
+    return plane.at(sample.x, sample.y);
+  }
 };
 
 /// Displacement of a chroma sample, in 1/64 of it.
@@ -71,7 +73,8 @@ void draw_bent_patch(const PaddedPicture& texture, glm::ivec2 patch, const Patch
   const glm::ivec2 luma = patch * kPatchSize;
   warp_bent_luma(texture[0].at(luma.x, luma.y), texture[0].stride(), nodes, out[0]);
   if (has_chroma)
-    warp_bent_chroma(chroma_at(texture, patch * kChromaPatchSize), texture[1].stride(), nodes, {out[1], out[2]});
+    warp_bent_chroma(chroma_at(texture, patch * kChromaPatchSize), texture[1].stride(), nodes,
+                     {out[1], out[2]});
 }
 
 }  // namespace fbs

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "decoder/blend/mesh_blend.h"
-#include "common/fixed_vectors.h"
 #include "decoder/field/node_kernels_plain.h"
+#include "decoder/vectors/fixed_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/node_kernels.cpp"
@@ -65,7 +65,8 @@ void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const
   constexpr std::int32_t kNodeWeightOne = kBlendOne;
   constexpr int kToNodeLog2 = 4;
   static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
-  // A weight and, after it, from which end of the row it comes: the largest is that of the first of equal ones.
+  // A weight and, after it, from which end of the row it comes: the largest is that of the first of equal
+  // ones.
   constexpr int kPlaceLog2 = 8;
   constexpr std::int32_t kLastPlace = (1 << kPlaceLog2) - 1;
   alignas(32) static constexpr std::int32_t kPlaces[kRowStep] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -79,8 +80,9 @@ void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const
         const Values weight = hn::ShiftRight<kToNodeLog2>(mean.at(s));
         hn::StoreU(hn::DemoteTo(narrow, weight), narrow, out + s);
         sum = hn::Add(sum, weight);
-        const Values from_end = hn::Sub(hn::Set(d, kLastPlace - static_cast<std::int32_t>(s / kRowStep * kRowStep)),
-                                        hn::Load(d, kPlaces + s % kRowStep));
+        const Values from_end =
+            hn::Sub(hn::Set(d, kLastPlace - static_cast<std::int32_t>(s / kRowStep * kRowStep)),
+                    hn::Load(d, kPlaces + s % kRowStep));
         largest = hn::Max(largest, hn::Or(hn::ShiftLeft<kPlaceLog2>(weight), from_end));
       }
       const std::int32_t left = kNodeWeightOne - hn::GetLane(hn::SumOfLanes(d, sum));
@@ -106,11 +108,12 @@ void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimit
         continue;
       }
       const Mean mean(*place, moved, 2 * row);
-      const auto bring = [&](std::size_t begin, std::int32_t node, std::int32_t first, std::int32_t last) HWY_ATTR {
-        const Values low = hn::Set(d, first - node), high = hn::Set(d, last - node);
-        for (std::size_t s = begin; s < begin + row; s += hn::Lanes(d))
-          hn::StoreU(hn::Min(hn::Max(mean.at(s), low), high), d, out + s);
-      };
+      const auto bring = [&](std::size_t begin, std::int32_t node, std::int32_t first, std::int32_t last)
+                             HWY_ATTR {
+                               const Values low = hn::Set(d, first - node), high = hn::Set(d, last - node);
+                               for (std::size_t s = begin; s < begin + row; s += hn::Lanes(d))
+                                 hn::StoreU(hn::Min(hn::Max(mean.at(s), low), high), d, out + s);
+                             };
       bring(0, NodeGrid::place(i), limits.first.x, limits.last.x);
       bring(row, NodeGrid::place(j), limits.first.y, limits.last.y);
     }
@@ -126,9 +129,10 @@ struct Along {
 
 HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
   const Sources d;
-  return {hn::Or(hn::Or(d00, d10), hn::Or(d01, d11)),
-          hn::Sub(hn::Max(hn::Max(d00, d10), hn::Max(d01, d11)), hn::Min(hn::Min(d00, d10), hn::Min(d01, d11))),
-          hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(d, 2)))};
+  return {
+      hn::Or(hn::Or(d00, d10), hn::Or(d01, d11)),
+      hn::Sub(hn::Max(hn::Max(d00, d10), hn::Max(d01, d11)), hn::Min(hn::Min(d00, d10), hn::Min(d01, d11))),
+      hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(d, 2)))};
 }
 
 /// Of hn::Lanes(Sources) sources from place s of the rows on, which is place `to` of what is found.
@@ -136,10 +140,12 @@ HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to
   const Sources d;
   const Values still = hn::Set(d, kStill), even = hn::Set(d, kEven), bent = hn::Set(d, kBent),
                even_enough = hn::Set(d, 16);
-  Values kinds = hn::Zero(d), other = hn::Zero(d);  // of the patches: the largest; what differs from the first
+  Values kinds = hn::Zero(d),
+         other = hn::Zero(d);  // of the patches: the largest; what differs from the first
   Values first_x = other, first_y = other;
-  const auto at = [&](int column, int line, std::size_t axis)
-                      HWY_ATTR { return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s); };
+  const auto at = [&](int column, int line, std::size_t axis) HWY_ATTR {
+    return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s);
+  };
   for (int patch = 0; patch < 4; ++patch) {
     const int i = patch % 2, j = patch / 2;
     const Along x = along(at(i, j, 0), at(i + 1, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0)),
@@ -168,8 +174,9 @@ void motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {
   const hn::CappedTag<std::uint16_t, kRowStep> d;
   static_assert(hn::MaxLanes(hn::CappedTag<std::uint16_t, kRowStep>()) == kRowStep);
   const auto row = [&](int j) HWY_ATTR {
-    return hn::Or(hn::LoadU(d, nodes.weight_at(0, j) + first),
-                  hn::Or(hn::LoadU(d, nodes.weight_at(1, j) + first), hn::LoadU(d, nodes.weight_at(2, j) + first)));
+    return hn::Or(
+        hn::LoadU(d, nodes.weight_at(0, j) + first),
+        hn::Or(hn::LoadU(d, nodes.weight_at(1, j) + first), hn::LoadU(d, nodes.weight_at(2, j) + first)));
   };
   const auto weight = hn::Or(row(0), hn::Or(row(1), row(2)));
   std::uint8_t bits[8] = {};
@@ -200,8 +207,8 @@ void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners,
   HWY_DYNAMIC_DISPATCH(weigh)(places, corners, outside, row, out);
 }
 
-void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
-                    std::int32_t* out) {
+void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
+                    std::size_t row, std::int32_t* out) {
   HWY_DYNAMIC_DISPATCH(displace)(cover, moved, limits, row, out);
 }
 

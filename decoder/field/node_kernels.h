@@ -1,5 +1,6 @@
 // The inner loops over nodes: weights and displacements of all sources, and how blocks are drawn from them.
-// SPEC 10.3 and 11.5. Vector code as in patch_kernels.h; node_kernels_plain.h defines the results. Integers only.
+// SPEC 10.3 and 11.5. Vector code as in patch_kernels.h; node_kernels_plain.h defines the results. Integers
+// only.
 #pragma once
 
 #include <array>
@@ -30,12 +31,12 @@ struct NodeLimits {
 /// displace_nodes() takes displacements smaller than this.
 inline constexpr std::int32_t kMaxShortDisplacement = 1 << 15;
 
-/// Displacements of the sources at nodes from those at the points of the mesh, 1/64 luma sample. Those in x are a
-/// row, behind which comes that of those in y.
+/// Displacements of the sources at nodes from those at the points of the mesh, 1/64 luma sample. Those in x
+/// are a row, behind which comes that of those in y.
 /// @param moved  rows of the points
 /// @param out    rows of the nodes
-void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
-                    std::int32_t* out);
+void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
+                    std::size_t row, std::int32_t* out);
 
 /// The rows of a block's upper left node, and how far the next ones are.
 struct BlockNodes {
@@ -62,9 +63,9 @@ enum MotionKind : std::int32_t {
 /// What kRowStep sources show in a block.
 struct BlockMotions {
   using Row = std::array<std::int32_t, kRowStep>;
-  std::uint32_t shown;                               ///< a bit for each source that has weight
-  alignas(32) Row whole;                             ///< kind of the block. If kStill, the others are undefined
-  alignas(32) std::array<Row, 4> kind;               ///< of its patches, row by row
+  std::uint32_t shown;                  ///< a bit for each source that has weight
+  alignas(32) Row whole;                ///< kind of the block. If kStill, the others are undefined
+  alignas(32) std::array<Row, 4> kind;  ///< of its patches, row by row
   alignas(32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of their displacement, if kEven
 };
 

@@ -40,8 +40,8 @@ void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners,
   }
 }
 
-void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
-                    std::int32_t* out) {
+void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
+                    std::size_t row, std::int32_t* out) {
   const NodePlace* place = cover.places().data();
   for (int j = 0; j < cover.grid().rows(); ++j) {
     for (int i = 0; i < cover.grid().columns(); ++i, ++place, out += 2 * row) {
@@ -80,12 +80,14 @@ void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out)
         };
         const std::int32_t d[] = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
         const auto [least, most] = std::minmax_element(d, d + 4);
-        if ((d[0] | d[1] | d[2] | d[3]) != 0) kind = std::max(kind, *most - *least > kEvenEnough ? kBent : kEven);
+        if ((d[0] | d[1] | d[2] | d[3]) != 0)
+          kind = std::max(kind, *most - *least > kEvenEnough ? kBent : kEven);
         out.by[patch][axis][s] = (d[0] + d[1] + d[2] + d[3] + 2) >> 2;
       }
       out.kind[patch][s] = kind;
       all_still &= kind == kStill;
-      all_even &= kind == kEven && out.by[patch][0][s] == out.by[0][0][s] && out.by[patch][1][s] == out.by[0][1][s];
+      all_even &=
+          kind == kEven && out.by[patch][0][s] == out.by[0][0][s] && out.by[patch][1][s] == out.by[0][1][s];
     }
     out.whole[s] = all_still ? kStill : all_even ? kEven : kBent;
   }

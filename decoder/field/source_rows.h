@@ -1,11 +1,13 @@
-// Tables with a row for each node, in which each source has a place: what kernels do to eight sources at once.
+// Tables with a row for each node, in which each source has a place: what kernels do to eight sources at
+// once.
 #pragma once
 
 #include <cstddef>
 
 namespace fbs {
 
-inline constexpr std::size_t kRowStep = 8;  ///< rows have a multiple of this; places without a source are zero
+inline constexpr std::size_t kRowStep =
+    8;  ///< rows have a multiple of this; places without a source are zero
 
 [[nodiscard]] constexpr std::size_t row_size(std::size_t sources) {
   return (sources + kRowStep - 1) / kRowStep * kRowStep;

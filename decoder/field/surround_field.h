@@ -14,7 +14,8 @@ namespace fbs {
 /// The displacements of all sources at all nodes, 1/64 luma sample.
 class SurroundField {
  public:
-  /// @param seen  the grid points where each source's pattern saw them, 1/64 luma sample; null: the source does
+  /// @param seen  the grid points where each source's pattern saw them, 1/64 luma sample; null: the source
+  /// does
   ///              not move
   /// @param now   the grid points in the picture
   /// @param size  of the picture, luma samples
@@ -27,7 +28,9 @@ class SurroundField {
 
   [[nodiscard]] std::size_t row() const { return row_; }
   /// The displacements in x of all sources, and behind them those in y. Only if it moves.
-  [[nodiscard]] const std::int32_t* at(std::size_t node) const { return displacement_.data() + node * 2 * row_; }
+  [[nodiscard]] const std::int32_t* at(std::size_t node) const {
+    return displacement_.data() + node * 2 * row_;
+  }
   [[nodiscard]] glm::ivec2 at(std::size_t node, std::size_t source) const {
     return moves() ? glm::ivec2(at(node)[source], at(node)[row_ + source]) : glm::ivec2(0);
   }

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "common/fixed_vectors.h"
 #include "decoder/field/warp_kernels_plain.h"
+#include "decoder/vectors/fixed_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/warp_kernels.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once for each kind of processor
 #include <hwy/highway.h>
 
-#include "decoder/field/two_planes-inl.h"
+#include "decoder/vectors/two_planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fbs {
@@ -59,7 +59,8 @@ HWY_INLINE void even_columns(D d, glm::ivec2 fraction, int rows, Load&& load, St
           left = hn::Set(d, static_cast<std::int16_t>(kOne - fraction.x)),
           down = hn::Set(d, static_cast<std::int16_t>(fraction.y));
   const auto across = [&](int row) HWY_ATTR {
-    return hn::Add(hn::Mul(hn::PromoteTo(d, load(row, 0)), left), hn::Mul(hn::PromoteTo(d, load(row, 1)), right));
+    return hn::Add(hn::Mul(hn::PromoteTo(d, load(row, 0)), left),
+                   hn::Mul(hn::PromoteTo(d, load(row, 1)), right));
   };
   V top = across(0);
   for (int y = 0; y < rows; ++y) {
@@ -77,7 +78,8 @@ HWY_INLINE void even_luma_columns(D d, const std::uint8_t* from, std::ptrdiff_t 
     even_columns(
         d, fraction, size,
         [&](int row, int right) HWY_ATTR { return hn::LoadU(bytes, from + row * stride + x + right); },
-        [&](auto samples, int row) HWY_ATTR { hn::StoreU(samples, bytes, out + row * WarpedBlock::kStride + x); });
+        [&](auto samples, int row)
+            HWY_ATTR { hn::StoreU(samples, bytes, out + row * WarpedBlock::kStride + x); });
 }
 
 void even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
@@ -104,8 +106,9 @@ void even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fr
         });
 }
 
-// A bent patch is drawn in vectors that hold one row of luma, or two; of chroma two rows of each plane, of one or
-// of both. What a vector shows lies in a few rows of the texture, from each of which bytes are looked up.
+// A bent patch is drawn in vectors that hold one row of luma, or two; of chroma two rows of each plane, of
+// one or of both. What a vector shows lies in a few rows of the texture, from each of which bytes are looked
+// up.
 
 /// Where the samples of a vector are in a patch.
 struct PatchLanes {
@@ -124,10 +127,10 @@ constexpr PatchLanes kChromaLanes = {{0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 
 
 /// One coordinate of the displacements of a patch, in short numbers.
 struct ShortDisplacement {
-  std::int32_t first;        ///< that they count from, luma samples: a multiple of what a sample of the plane is
-  std::int16_t upper_left;   ///< 1/64 luma sample; from first on
+  std::int32_t first;  ///< that they count from, luma samples: a multiple of what a sample of the plane is
+  std::int16_t upper_left;  ///< 1/64 luma sample; from first on
   std::int16_t across, down, twist;
-  std::int32_t range;        ///< between the least and the largest
+  std::int32_t range;  ///< between the least and the largest
 
   /// @param step_log2  log2 of luma samples per sample
   ShortDisplacement(const PatchNodes& nodes, int glm::ivec2::*axis, int step_log2) {
@@ -142,8 +145,8 @@ struct ShortDisplacement {
   }
 };
 
-/// The displacements of a vector's samples, from ShortDisplacement::first on. Sums are less than 2^15: the range is
-/// less than 2^9, and weights sum to 64.
+/// The displacements of a vector's samples, from ShortDisplacement::first on. Sums are less than 2^15: the
+/// range is less than 2^9, and weights sum to 64.
 /// @param kStepLog2  log2 of luma samples per sample
 template <int kStepLog2, class D>
 class Displacements {
@@ -197,7 +200,8 @@ HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, 
     auto top = look_up(0), bottom = look_up(1);
     auto above = bottom;
     for (int k = 1; k <= kSpan; ++k) {
-      const auto is_below = hn::RebindMask(u, hn::Gt(down, hn::Set(d, static_cast<std::int16_t>(k * kOne - 1))));
+      const auto is_below =
+          hn::RebindMask(u, hn::Gt(down, hn::Set(d, static_cast<std::int16_t>(k * kOne - 1))));
       const auto under = look_up(k + 1);
       top = hn::IfThenElse(is_below, above, top);
       bottom = hn::IfThenElse(is_below, under, bottom);
@@ -205,7 +209,8 @@ HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, 
     }
     const V right_share = hn::And(across, mask), left_share = hn::Sub(one, right_share);
     const auto mix = [&](auto both) HWY_ATTR {
-      const V low = hn::BitCast(d, hn::And(both, hn::Set(u, 255))), high = hn::BitCast(d, hn::ShiftRight<8>(both));
+      const V low = hn::BitCast(d, hn::And(both, hn::Set(u, 255))),
+              high = hn::BitCast(d, hn::ShiftRight<8>(both));
       return hn::Add(hn::Mul(low, left_share), hn::Mul(high, right_share));
     };
     store(hn::DemoteTo(bytes, between(d, mix(top), mix(bottom), hn::And(down, mask))), row);

@@ -1,5 +1,5 @@
-// Displaced samples of the surround. SPEC 10.3. Vector code as in blend_kernels.h; warp_kernels_plain.h defines the
-// results. Integers only.
+// Displaced samples of the surround. SPEC 10.3. Vector code as in blend_kernels.h; warp_kernels_plain.h
+// defines the results. Integers only.
 #pragma once
 
 #include <array>

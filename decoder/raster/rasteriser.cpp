@@ -1,4 +1,3 @@
-#include "decoder/raster/triangle_kernels.h"
 #include "decoder/raster/rasteriser.h"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "decoder/raster/finish.h"
 #include "decoder/raster/row_block.h"
 #include "decoder/raster/texture_sampler.h"
+#include "decoder/raster/triangle_kernels.h"
 
 namespace fbs {
 namespace {

@@ -43,7 +43,8 @@ struct RowRun {
 
 /// Depth of what has been drawn so far, per sample of a plane.
 struct DepthPlane {
-  static constexpr std::size_t kReadBeyond = 8;  ///< vectors may read and write so many behind the last sample
+  static constexpr std::size_t kReadBeyond =
+      8;  ///< vectors may read and write so many behind the last sample
 
   int width = 0;
   std::vector<std::int32_t> depth;

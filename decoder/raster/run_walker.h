@@ -43,7 +43,10 @@ class RunWalker {
 
     Border() = default;
     Border(const Edge& e, int row)
-        : side(e.a > 0 ? 1 : e.a < 0 ? -1 : 0), divisor(e.a == 0 ? 1 : std::abs(e.a)) {
+        : side(e.a > 0   ? 1
+               : e.a < 0 ? -1
+                         : 0),
+          divisor(e.a == 0 ? 1 : std::abs(e.a)) {
       const std::int64_t at_zero = e.b * row + e.c;
       quotient = floor_div(at_zero, divisor);
       remainder = at_zero - quotient * divisor;

@@ -1,5 +1,5 @@
-// A triangle drawn from one texture of which all quantities fit into 32 bits, as nearly all do: what the kernels of
-// triangle_kernels.h draw. Integers only.
+// A triangle drawn from one texture of which all quantities fit into 32 bits, as nearly all do: what the
+// kernels of triangle_kernels.h draw. Integers only.
 #pragma once
 
 #include <cstdint>

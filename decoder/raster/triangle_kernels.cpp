@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstring>
 
-#include "common/fixed_vectors.h"
 #include "decoder/raster/triangle_kernels_plain.h"
+#include "decoder/vectors/fixed_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/raster/triangle_kernels.cpp"
@@ -60,7 +60,8 @@ struct RowStart {
 /// All quantities at the beginning of a row.
 struct RowStarts {
   RowStart u, v, depth, offset, gain;
-  explicit RowStarts(const ShortTriangle& t) : u(t.u), v(t.v), depth(t.depth), offset(t.offset), gain(t.gain) {}
+  explicit RowStarts(const ShortTriangle& t)
+      : u(t.u), v(t.v), depth(t.depth), offset(t.offset), gain(t.gain) {}
   void step() {
     u.step();
     v.step();
@@ -129,13 +130,15 @@ HWY_INLINE Pairs pairs_by_table(const ConstPlaneView& texture, const Places& at)
 HWY_INLINE Pairs pairs_one_by_one(const ConstPlaneView& texture, const Places& at) {
   const Wide d;
   alignas(32) std::int32_t offset[8];
-  const Numbers rows = hn::Mul(hn::PromoteTo(d, at.rows), hn::Set(d, static_cast<std::int32_t>(texture.stride)));
+  const Numbers rows =
+      hn::Mul(hn::PromoteTo(d, at.rows), hn::Set(d, static_cast<std::int32_t>(texture.stride)));
   hn::Store(hn::Add(rows, hn::PromoteTo(d, at.columns)), d, offset);
   const std::uint8_t* const first = texture.data + at.row * texture.stride + at.column;
   const auto load = [&](const std::uint8_t* from, int k) {
     std::uint16_t pair = 0;
     std::memcpy(&pair, from + offset[k], sizeof pair);
-    return std::endian::native == std::endian::little ? pair : static_cast<std::uint16_t>(pair << 8 | pair >> 8);
+    return std::endian::native == std::endian::little ? pair
+                                                      : static_cast<std::uint16_t>(pair << 8 | pair >> 8);
   };
   const auto load_all = [&](const std::uint8_t* from) HWY_ATTR {
     auto pairs = hn::Set(Unsigned(), load(from, 0));
@@ -160,7 +163,8 @@ HWY_INLINE hn::Vec<Unsigned> bilinear(const Pairs& pairs, const Places& at) {
     return hn::Add(hn::Mul(hn::And(pair, hn::Set(u, 255)), left), hn::Mul(hn::ShiftRight<8>(pair), at.right));
   };
   const auto top = across(pairs.top), bottom = across(pairs.bottom);
-  // What is below's share of bottom - top, modulo 2^16: where top is larger, 2^16 were added to the difference.
+  // What is below's share of bottom - top, modulo 2^16: where top is larger, 2^16 were added to the
+  // difference.
   const auto too_much = hn::IfThenElseZero(hn::Lt(bottom, top), share);
   const auto more = hn::Sub(hn::MulHigh(hn::Sub(bottom, top), share), too_much);
   return hn::ShiftRight<8>(hn::Add(hn::Add(top, more), hn::Set(u, 128)));
@@ -173,7 +177,8 @@ HWY_INLINE hn::Vec<Unsigned> lit(hn::Vec<Unsigned> luma, const RowStarts& start,
   const Numbers offset = hn::ShiftRight<8>(start.offset.lanes(x, number)),
                 gain = hn::ShiftRight<8>(start.gain.lanes(x, number));
   const Numbers by_gain = hn::ShiftRight<6>(hn::Mul(hn::Sub(before, hn::Set(d, 128)), gain));
-  const Numbers sum = hn::Add(hn::Add(hn::ShiftLeft<12>(before), offset), hn::Add(by_gain, hn::Set(d, 1 << 11)));
+  const Numbers sum =
+      hn::Add(hn::Add(hn::ShiftLeft<12>(before), offset), hn::Add(by_gain, hn::Set(d, 1 << 11)));
   const Numbers after = hn::Min(hn::Max(hn::ShiftRight<12>(sum), hn::Zero(d)), hn::Set(d, 255));
   return hn::BitCast(Unsigned(), hn::DemoteTo(Short(), after));
 }
@@ -181,8 +186,8 @@ HWY_INLINE hn::Vec<Unsigned> lit(hn::Vec<Unsigned> luma, const RowStarts& start,
 /// Which samples of a step are drawn: those nearer than what is there, whose depth is noted.
 /// @param any  whether there are such
 /// @return 255 for each, otherwise 0
-HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, int x, int count, Numbers number,
-                                 bool& any) {
+HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, int x, int count,
+                                 Numbers number, bool& any) {
   const Wide d;
   const Numbers here = start.depth.lanes(x, number), there = hn::LoadU(d, depth);
   const auto is_nearer = hn::And(hn::Lt(here, there), hn::Lt(hn::Load(d, kNumbers), hn::Set(d, count)));
@@ -192,13 +197,13 @@ HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, in
   return hn::BitCast(Bytes(), hn::DemoteTo(narrow, hn::VecFromMask(d, is_nearer)));
 }
 
-HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const PlaneView& plane, const Step& step) {
+HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const PlaneView& plane,
+                      const Step& step) {
   const Bytes b;
   std::uint8_t* const out = plane.row(step.row) + step.column;
   const auto bytes = hn::DemoteTo(b, hn::BitCast(Short(), samples));
-  const auto mixed = [&](hn::Vec<Bytes> before) HWY_ATTR {
-    return hn::Or(hn::And(bytes, drawn), hn::AndNot(drawn, before));
-  };
+  const auto mixed = [&](hn::Vec<Bytes> before)
+                         HWY_ATTR { return hn::Or(hn::And(bytes, drawn), hn::AndNot(drawn, before)); };
   if (step.column + kLanes <= plane.width) {
     hn::StoreU(mixed(hn::LoadU(b, out)), b, out);
   } else {
@@ -235,16 +240,16 @@ HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool 
 }
 
 template <PlaneScale kScale, int kLookup>
-void draw_rows(const ShortTriangle& t, std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
-               DepthPlane& depth) {
+void draw_rows(const ShortTriangle& t, std::span<const ConstPlaneView> textures,
+               std::span<const PlaneView> target, DepthPlane& depth) {
   RunWalker runs = t.runs;
   RowStarts start(t);
   for (int row = t.box.y0; row < t.box.y1; ++row, start.step()) {
     const RowRun run = runs.next();
     for (int column = run.first; column <= run.last; column += kLanes)
       draw_step<kScale, kLookup>(start, column - t.box.x0,
-                                 {row, column, std::min(run.last - column + 1, kLanes)}, t.has_light, textures,
-                                 target, depth);
+                                 {row, column, std::min(run.last - column + 1, kLanes)}, t.has_light,
+                                 textures, target, depth);
   }
 }
 

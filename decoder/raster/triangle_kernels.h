@@ -1,5 +1,5 @@
-// The inner loops of triangles drawn from one texture. SPEC 10.6 to 10.9 and 11. Vector code for every kind of
-// processor that Highway knows, chosen at run time; draw_triangle() defines the results. Integers only.
+// The inner loops of triangles drawn from one texture. SPEC 10.6 to 10.9 and 11. Vector code for every kind
+// of processor that Highway knows, chosen at run time; draw_triangle() defines the results. Integers only.
 #pragma once
 
 #include "decoder/raster/short_triangle.h"

@@ -7,7 +7,7 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
-  decoder/head decoder/animate decoder/raster decoder/blend decoder/field decoder/atlas decoder/draw decoder
+  decoder/vectors decoder/head decoder/animate decoder/raster decoder/blend decoder/field decoder/atlas decoder/draw decoder
   encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend
   encoder
   fbs library
@@ -24,7 +24,7 @@ set(foreign
   "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
-  "hwy/@decoder/field"
+  "hwy/@decoder/vectors|decoder/field|decoder/raster"
   "draco/@bitstream/payload"
   "nlohmann@encoder/find|cli"
   "OpenImageIO@cli/video/images"

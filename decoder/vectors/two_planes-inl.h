@@ -1,10 +1,10 @@
-// Rows of eight samples of U and V as one row of sixteen, which one vector holds, or two. Compiled for each kind of
-// processor, as Highway's own headers of this name are.
-#if defined(FBS_DECODER_FIELD_TWO_PLANES_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef FBS_DECODER_FIELD_TWO_PLANES_H_
-#undef FBS_DECODER_FIELD_TWO_PLANES_H_
+// Rows of eight samples of U and V as one row of sixteen, which one vector holds, or two. Compiled for each
+// kind of processor, as Highway's own headers of this name are.
+#if defined(FBS_DECODER_VECTORS_TWO_PLANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FBS_DECODER_VECTORS_TWO_PLANES_H_
+#undef FBS_DECODER_VECTORS_TWO_PLANES_H_
 #else
-#define FBS_DECODER_FIELD_TWO_PLANES_H_
+#define FBS_DECODER_VECTORS_TWO_PLANES_H_
 #endif
 
 #include <hwy/highway.h>
@@ -23,9 +23,8 @@ namespace HWY_NAMESPACE {
 /// @param x     the first of them, 0 or 8
 /// @param u, v  eight samples each
 template <class D>
-HWY_INLINE hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::Rebind<std::uint8_t, D>> load_two(D d, std::size_t x,
-                                                                                       const std::uint8_t* u,
-                                                                                       const std::uint8_t* v) {
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::Rebind<std::uint8_t, D>> load_two(
+    D d, std::size_t x, const std::uint8_t* u, const std::uint8_t* v) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::Rebind<std::uint8_t, D> bytes;
   (void)d;

@@ -1,8 +1,7 @@
-// Included before Highway by files with kernels: they are written for vectors whose size is known, of 16 bytes or
+// Included before Highway by files with kernels: they are written for vectors whose size is known, of 16
+// bytes or
 // 32. Processors with vectors of any size (SVE, RISC-V) take the smaller set that they also have.
 #pragma once
-
-#include <hwy/detect_compiler_arch.h>
 
 #undef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
