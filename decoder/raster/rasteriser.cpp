@@ -203,11 +203,8 @@ void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const
   const TriangleSetup setup(t, kScale);
   if (!setup.faces_viewer() || setup.last_row() < target.area.y0 || setup.first_row() >= target.area.y1)
     return;
-  if (const TextureSource& source = sources.front(); sources.size() == 1 && target.depth != nullptr &&
-                                                     source.finish.light_before == nullptr &&
-                                                     source.finish.interior == nullptr)
-    if (const auto triangle = shorten(setup, t, source, target))
-      return draw_short_triangle(*triangle, kScale, source.planes, target.planes, *target.depth);
+  if (const auto triangle = shorten(setup, t, sources, target))
+    return draw_short_triangle(*triangle, kScale, sources, target.planes, *target.depth);
   if (sources.size() == 1)
     paint_rows<kScale>(t, setup, target, SourcePainter<kScale, kFinished>(setup, t, sources.front()));
   else if (all_constant_and_coarse(sources))

@@ -43,28 +43,51 @@ bool is_faint(const std::array<std::int32_t, 3>& light) {
   return std::all_of(light.begin(), light.end(), [](std::int32_t v) { return std::abs(v) < kMaxLight; });
 }
 
+bool is_plain(const Finish& finish) {
+  return finish.light_before == nullptr && finish.interior == nullptr;
+}
+
+/// Whether the samples of a source are those of the picture in the same place.
+bool is_still(const TextureSource& source, const ScreenTriangle& t, const RasterTarget& target) {
+  const ConstPlaneView& plane = source.planes.front();
+  return source.corners == std::array{t[0].at, t[1].at, t[2].at} && is_plain(source.finish) &&
+         source.finish.light == nullptr && plane.width == target.planes.front().width &&
+         plane.height == target.planes.front().height;
+}
+
+bool can_be_short(std::span<const TextureSource> sources, const ScreenTriangle& t,
+                  const RasterTarget& target) {
+  return target.depth != nullptr && sources.size() <= kMaxShortSources && is_plain(sources[0].finish) &&
+         std::all_of(sources.begin() + 1, sources.end(),
+                     [&](const TextureSource& s) { return is_still(s, t, target); });
+}
+
 }  // namespace
 
 std::optional<ShortTriangle> shorten(const TriangleSetup& setup, const ScreenTriangle& triangle,
-                                     const TextureSource& source, const RasterTarget& target) {
+                                     std::span<const TextureSource> sources, const RasterTarget& target) {
+  if (!can_be_short(sources, triangle, target)) return std::nullopt;
+  const TextureSource& source = sources.front();
   const SampleArea box = box_of(triangle, setup, target.area);
   if (box.empty() || !is_inside(source, setup.position_bits())) return std::nullopt;
   const auto& c = source.corners;
-  ShortTriangle out{RunWalker(setup, box.y0, box), box, {}, {}, {}, {}, {}, source.finish.light != nullptr};
+  ShortTriangle out{RunWalker(setup, box.y0, box),  box, {}, {}, {}, {}, {},
+                    source.finish.light != nullptr, {}};
   constexpr std::int64_t kHalf = 1 << 15;  // from places whose integers are between samples to centres
-  const auto quantity = [&](std::int32_t v0, std::int32_t v1, std::int32_t v2, int bits, std::int64_t more,
+  const auto quantity = [&](const std::array<std::int32_t, 3>& value, int bits, std::int64_t more,
                             ShortGradient& to) {
-    return shorten(setup.gradient({v0, v1, v2}, bits), setup, box, more, to);
+    return shorten(setup.gradient(value, bits), setup, box, more, to);
   };
-  if (!quantity(c[0].x, c[1].x, c[2].x, setup.position_bits(), -kHalf, out.u) ||
-      !quantity(c[0].y, c[1].y, c[2].y, setup.position_bits(), -kHalf, out.v) ||
-      !quantity(triangle[0].depth, triangle[1].depth, triangle[2].depth, kGradientOneLog2, 0, out.depth))
+  if (!quantity({c[0].x, c[1].x, c[2].x}, setup.position_bits(), -kHalf, out.u) ||
+      !quantity({c[0].y, c[1].y, c[2].y}, setup.position_bits(), -kHalf, out.v) ||
+      !quantity({triangle[0].depth, triangle[1].depth, triangle[2].depth}, kGradientOneLog2, 0, out.depth))
     return std::nullopt;
+  for (std::size_t k = 0; k + 1 < sources.size(); ++k)
+    if (!quantity(sources[k].weight, 0, 0, out.weight[k])) return std::nullopt;
   if (!out.has_light) return out;
   const Light& light = *source.finish.light;
-  if (!is_faint(light.offset) || !is_faint(light.gain) ||
-      !quantity(light.offset[0], light.offset[1], light.offset[2], 0, 0, out.offset) ||
-      !quantity(light.gain[0], light.gain[1], light.gain[2], 0, 0, out.gain))
+  if (!is_faint(light.offset) || !is_faint(light.gain) || !quantity(light.offset, 0, 0, out.offset) ||
+      !quantity(light.gain, 0, 0, out.gain))
     return std::nullopt;
   return out;
 }

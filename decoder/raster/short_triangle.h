@@ -1,7 +1,9 @@
-// A triangle drawn from one texture of which all quantities fit into 32 bits, as nearly all do: what the
+// A triangle drawn from a texture of which all quantities fit into 32 bits, as nearly all do: what the
 // kernels of triangle_kernels.h draw. Integers only.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -10,6 +12,9 @@
 #include "decoder/raster/run_walker.h"
 
 namespace fbs {
+
+/// The texture, and with it still sources: the samples of a picture where they are.
+inline constexpr std::size_t kMaxShortSources = 3;
 
 /// A quantity that is linear over the triangle.
 struct ShortGradient {
@@ -23,15 +28,21 @@ struct ShortTriangle {
   ShortGradient u, v;  ///< places in the texture, 2^-16 sample; all lie within it
   ShortGradient depth;
   ShortGradient offset, gain;  ///< of the light, as light_row() has it
-  bool has_light;
+  bool has_light = false;
+  /// Of the texture and of what is blended with it but the last, which has what they leave; in 2^-16 of
+  /// 1 / kWeightOne.
+  std::array<ShortGradient, kMaxShortSources - 1> weight;
 };
 
 /// Columns beyond the left one of each place that a kernel may read, and rows below it.
 inline constexpr int kReadColumns = 16, kReadRows = 4;
 
-/// @param source  without an interior to be mixed nor light to be taken back
-/// @return none where the triangle is too large, or its texture lies at the border: draw_triangle() draws it.
+/// @param sources  the texture first. 1..kMaxTriangleSources
+/// @return none where the triangle is too large, its texture lies at the border, or it is drawn from more
+/// than the
+///         above: draw_triangle() draws it by other means
 [[nodiscard]] std::optional<ShortTriangle> shorten(const TriangleSetup& setup, const ScreenTriangle& triangle,
-                                                   const TextureSource& source, const RasterTarget& target);
+                                                   std::span<const TextureSource> sources,
+                                                   const RasterTarget& target);
 
 }  // namespace fbs

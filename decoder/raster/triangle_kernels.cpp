@@ -1,9 +1,11 @@
 #include "decoder/raster/triangle_kernels.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
+#include "decoder/raster/blend_weights.h"
 #include "decoder/raster/triangle_kernels_plain.h"
 #include "decoder/vectors/fixed_vectors.h"
 
@@ -19,9 +21,9 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const ConstPlaneView> textures,
+void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const TextureSource> sources,
                 std::span<const PlaneView> target, DepthPlane& depth) {
-  plain::draw_short_triangle(t, scale, textures, target, depth);
+  plain::draw_short_triangle(t, scale, sources, target, depth);
 }
 
 #else
@@ -60,14 +62,21 @@ struct RowStart {
 /// All quantities at the beginning of a row.
 struct RowStarts {
   RowStart u, v, depth, offset, gain;
+  std::array<RowStart, kMaxShortSources - 1> weight;
   explicit RowStarts(const ShortTriangle& t)
-      : u(t.u), v(t.v), depth(t.depth), offset(t.offset), gain(t.gain) {}
+      : u(t.u),
+        v(t.v),
+        depth(t.depth),
+        offset(t.offset),
+        gain(t.gain),
+        weight{RowStart(t.weight[0]), RowStart(t.weight[1])} {}
   void step() {
     u.step();
     v.step();
     depth.step();
     offset.step();
     gain.step();
+    for (RowStart& w : weight) w.step();
   }
 };
 
@@ -197,6 +206,34 @@ HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, in
   return hn::BitCast(Bytes(), hn::DemoteTo(narrow, hn::VecFromMask(d, is_nearer)));
 }
 
+/// Samples of a plane where they are drawn; those beyond its last column are zero.
+HWY_INLINE Numbers in_place(const ConstPlaneView& plane, const Step& step) {
+  const Wide d;
+  const Bytes b;
+  const std::uint8_t* const from = plane.row(step.row) + step.column;
+  if (step.column + kLanes <= plane.width) return hn::PromoteTo(d, hn::LoadU(b, from));
+  std::uint8_t memory[8] = {};
+  std::copy_n(from, step.count, memory);
+  return hn::PromoteTo(d, hn::LoadU(b, memory));
+}
+
+/// Blends what the texture shows with the other sources.
+HWY_INLINE hn::Vec<Unsigned> blended(hn::Vec<Unsigned> texture, std::span<const TextureSource> sources,
+                                     std::size_t plane, const RowStarts& start, int x, Numbers number,
+                                     const Step& step) {
+  const Wide d;
+  Numbers left = hn::Set(d, kWeightOne), sum = hn::Set(d, kWeightOne / 2), sample = hn::PromoteTo(d, texture);
+  for (std::size_t k = 0; k + 1 < sources.size(); ++k) {
+    const Numbers linear = hn::ShiftRight<kGradientOneLog2>(start.weight[k].lanes(x, number)),
+                  weight = hn::Min(hn::Max(linear, hn::Zero(d)), left);
+    left = hn::Sub(left, weight);
+    sum = hn::Add(sum, hn::Mul(weight, sample));
+    sample = in_place(sources[k + 1].planes[plane], step);
+  }
+  sum = hn::ShiftRight<kWeightOneLog2>(hn::Add(sum, hn::Mul(left, sample)));
+  return hn::BitCast(Unsigned(), hn::DemoteTo(Short(), sum));
+}
+
 HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const PlaneView& plane,
                       const Step& step) {
   const Bytes b;
@@ -219,7 +256,7 @@ enum Lookup : int { kOneByOne = -1, kTwoRows = 1, kFourRows = 3 };
 
 template <PlaneScale kScale, int kLookup>
 HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool has_light,
-                          std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
                           DepthPlane& depth) {
   const Wide d;
   const Numbers number = hn::Min(hn::Load(d, kNumbers), hn::Set(d, step.count - 1));
@@ -230,17 +267,18 @@ HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool 
   for (std::size_t k = 0; k < (kScale == PlaneScale::kLuma ? 1 : 2); ++k) {
     Pairs pairs;
     if constexpr (kLookup == kOneByOne)
-      pairs = pairs_one_by_one(textures[k], at);
+      pairs = pairs_one_by_one(sources[0].planes[k], at);
     else
-      pairs = pairs_by_table<kLookup>(textures[k], at);
+      pairs = pairs_by_table<kLookup>(sources[0].planes[k], at);
     auto samples = bilinear(pairs, at);
     if (kScale == PlaneScale::kLuma && has_light) samples = lit(samples, start, x, number);
+    if (sources.size() > 1) samples = blended(samples, sources, k, start, x, number, step);
     store(samples, drawn, target[k], step);
   }
 }
 
 template <PlaneScale kScale, int kLookup>
-void draw_rows(const ShortTriangle& t, std::span<const ConstPlaneView> textures,
+void draw_rows(const ShortTriangle& t, std::span<const TextureSource> sources,
                std::span<const PlaneView> target, DepthPlane& depth) {
   RunWalker runs = t.runs;
   RowStarts start(t);
@@ -248,8 +286,8 @@ void draw_rows(const ShortTriangle& t, std::span<const ConstPlaneView> textures,
     const RowRun run = runs.next();
     for (int column = run.first; column <= run.last; column += kLanes)
       draw_step<kScale, kLookup>(start, column - t.box.x0,
-                                 {row, column, std::min(run.last - column + 1, kLanes)}, t.has_light,
-                                 textures, target, depth);
+                                 {row, column, std::min(run.last - column + 1, kLanes)}, t.has_light, sources,
+                                 target, depth);
   }
 }
 
@@ -259,23 +297,23 @@ bool fits(std::int32_t per_sample, int columns) {
 }
 
 template <PlaneScale kScale>
-void draw_scale(const ShortTriangle& t, std::span<const ConstPlaneView> textures,
+void draw_scale(const ShortTriangle& t, std::span<const TextureSource> sources,
                 std::span<const PlaneView> target, DepthPlane& depth) {
   constexpr int kMostColumns = kReadColumns - 3;  // and one that fractions add, and the right neighbour
   if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kTwoRows))
-    draw_rows<kScale, kTwoRows>(t, textures, target, depth);
+    draw_rows<kScale, kTwoRows>(t, sources, target, depth);
   else if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kFourRows))
-    draw_rows<kScale, kFourRows>(t, textures, target, depth);
+    draw_rows<kScale, kFourRows>(t, sources, target, depth);
   else
-    draw_rows<kScale, kOneByOne>(t, textures, target, depth);
+    draw_rows<kScale, kOneByOne>(t, sources, target, depth);
 }
 
-void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const ConstPlaneView> textures,
+void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const TextureSource> sources,
                 std::span<const PlaneView> target, DepthPlane& depth) {
   if (scale == PlaneScale::kLuma)
-    draw_scale<PlaneScale::kLuma>(t, textures, target, depth);
+    draw_scale<PlaneScale::kLuma>(t, sources, target, depth);
   else
-    draw_scale<PlaneScale::kChroma>(t, textures, target, depth);
+    draw_scale<PlaneScale::kChroma>(t, sources, target, depth);
 }
 
 #endif
@@ -291,9 +329,9 @@ namespace fbs {
 HWY_EXPORT(draw_short);
 
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
-                         std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                         std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth) {
-  HWY_DYNAMIC_DISPATCH(draw_short)(triangle, scale, textures, target, depth);
+  HWY_DYNAMIC_DISPATCH(draw_short)(triangle, scale, sources, target, depth);
 }
 
 }  // namespace fbs

@@ -7,10 +7,11 @@
 namespace fbs {
 
 /// Draws the samples that are nearer than what is there.
-/// @param textures, target  a plane each of luma, two of chroma; light falls on luma
-/// @param depth             of the target's planes
+/// @param sources  those that the triangle was made from
+/// @param target   a plane of luma, two of chroma; light falls on luma
+/// @param depth    of the target's planes
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
-                         std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                         std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth);
 
 }  // namespace fbs

@@ -6,7 +6,7 @@
 namespace fbs::plain {
 
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
-                         std::span<const ConstPlaneView> textures, std::span<const PlaneView> target,
+                         std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth);
 
 }  // namespace fbs::plain
