@@ -1,7 +1,9 @@
 // fbs decode: stream to pictures.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
+#include <thread>
 
 #include "cli/decoded_time.h"
 #include "cli/loss_report.h"
@@ -66,11 +68,18 @@ Result<void> check_files(const DecodeArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
+/// More than four threads wait for each other.
+int thread_count(int asked) {
+  if (asked > 0) return asked;
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
+}
+
 Result<Outcome> Decoding::run() {
   if (auto checked = check_files(arguments_); !checked) return fail(checked.error());
   auto file = StreamFile::open(arguments_.input, stop_);
   if (!file) return fail(file.error());
   file_.emplace(std::move(*file));
+  decoder().use_threads(thread_count(arguments_.threads));
   if (arguments_.from > 0)
     if (auto sought = file_->seek(ticks(arguments_.from)); !sought) return fail(sought.error());
   for (;;) {

@@ -187,6 +187,9 @@ void add_decode(CLI::App& app, DecodeArguments& a, Run& run) {
       "Y4M: write each picture once; without it pictures are repeated or dropped where the frame rate "
       "varies, to keep the speed");
   add_from(*verb, a.from);
+  verb->add_option("--threads", a.threads,
+                   "Threads that draw each picture (default: one for each core, up to four)")
+      ->check(CLI::Range(1, 64));
   verb->add_flag(
       "--keep-going", a.keep_going,
       "Write all that can be decoded of a damaged or cut stream, and repeat pictures in the place of "

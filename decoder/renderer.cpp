@@ -79,6 +79,9 @@ std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) 
 
 }  // namespace
 
+Renderer::Renderer(int threads)
+    : workers_(std::make_unique<Workers>(threads)), scratch_(static_cast<std::size_t>(workers_->count())) {}
+
 Result<void> Renderer::render(const Scene& scene, const State& state, const PictureView& out) {
   if (auto checked = check(scene); !checked) return checked;
   const auto first = planes_of(scene.patterns.front().picture);
@@ -105,19 +108,37 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
   const Drawing drawing{
       mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
       luma, chroma};
-  draw_surround(scene, drawing);
-  if (!scene.geometry || scene.geometry->is_plane()) return;
-  const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
-  const HeadWeights weights = head_weights(drawing.blend);
-  atlas_.draw(drawing, weights, layout);
-  const HeadTexture texture{layout, atlas_.planes(), weights};
-  HeadPainter(drawing, texture, PlaneScale::kLuma, luma_depth_).draw();
-  HeadPainter(drawing, texture, PlaneScale::kChroma, chroma_depth_).draw();
-}
-
-void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
   const Picture& size = scene.patterns.front().picture;
   const NodeGrid grid(size.width(), size.height());
+  find_nodes(scene, grid, drawing);
+  const bool has_head = scene.geometry && !scene.geometry->is_plane();
+  const HeadWeights weights = has_head ? head_weights(drawing.blend) : HeadWeights{};
+  int atlas_rows = 0;
+  if (has_head) {
+    const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
+    atlas_.begin(weights, layout);
+    atlas_rows = layout.cover.grid().block_rows;
+  }
+  // Rows of the atlas and of the surround, and then the head over it.
+  const SurroundDrawing surround{drawing, grid, field_, weights_};
+  const BlockRows rows = block_rows(drawing);
+  workers_->run(atlas_rows + rows.last - rows.first, [&](int k, int worker) {
+    Scratch& scratch = scratch_[worker];
+    if (k < atlas_rows)
+      atlas_.draw_rows(drawing, k, k + 1, scratch.atlas);
+    else
+      scratch.surround.draw_row(surround, rows.first + k - atlas_rows);
+  });
+  if (!has_head) return;
+  const HeadTexture texture{atlas_layout(scene.geometry->rest_scale()), atlas_.planes(), weights};
+  workers_->run(chroma.empty() ? 1 : 2, [&](int k, int) {
+    HeadPainter(drawing, texture, k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma,
+                k == 0 ? luma_depth_ : chroma_depth_)
+        .draw();
+  });
+}
+
+void Renderer::find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing) {
   const std::vector<std::int32_t>& ground = drawing.blend.regions[static_cast<std::size_t>(Region::kGround)];
   if (scene.geometry) {
     const SceneGeometry& geometry = *scene.geometry;
@@ -132,12 +153,12 @@ void Renderer::draw_surround(const Scene& scene, const Drawing& drawing) {
     seen_.clear();
     for (const DrawnSource& source : drawing.sources)
       seen_.push_back(source.texture == nullptr ? nullptr : &source.texture->surround);
+    const Picture& size = scene.patterns.front().picture;
     field_.set(cover_, seen_, now, {size.width(), size.height()});
   } else {
     weights_.set(grid, ground);
     field_.set_still();
   }
-  surround_.draw({drawing, grid, field_, weights_});
 }
 
 Result<void> Renderer::render(const Scene& scene, const State& state, Picture& out) {

@@ -2,21 +2,27 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
 #include "decoder/draw/atlas_blend.h"
 #include "decoder/draw/surround_painter.h"
+#include "decoder/draw/workers.h"
 #include "decoder/field/surround_field.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/scene.h"
 
 namespace fbs {
 
-/// Draws pictures of a scene. Keeps scratch memory only: what it draws depends on its arguments alone.
+/// Draws pictures of a scene. Keeps scratch memory only: what it draws depends on its arguments alone,
+/// whatever the number of threads.
 class Renderer {
  public:
+  /// @param threads  that share each picture; 1: the caller's alone
+  explicit Renderer(int threads = 1);
+
   /// Draws the picture of `state` into `out`, whose planes have the sizes of the pattern's.
   /// @return kInvalidArgument, and `out` untouched, when the scene has no pattern, when its pattern's texture
   ///         mesh is not one of the scene's geometry, or when `out` has another size
@@ -34,15 +40,23 @@ class Renderer {
   void draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
             const SampleArea& chroma);
 
-  void draw_surround(const Scene& scene, const Drawing& drawing);
+  /// Makes cover_, weights_ and field_.
+  void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
+
+  /// Of a thread.
+  struct Scratch {
+    SurroundPainter surround;
+    std::vector<BlendedSource> atlas;
+  };
 
   NodeCover cover_;
   NodeWeights weights_;
   std::vector<const std::vector<glm::ivec2>*> seen_;  ///< the grid's points in each source
   SurroundField field_;
-  SurroundPainter surround_;
   AtlasBlend atlas_;
   DepthPlane luma_depth_, chroma_depth_;
+  std::unique_ptr<Workers> workers_;
+  std::vector<Scratch> scratch_;  ///< of each
 };
 
 }  // namespace fbs

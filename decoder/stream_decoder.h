@@ -77,6 +77,9 @@ class StreamDecoder {
   /// Refuses streams whose pictures have more pixels, before memory is taken for them. Unlimited by default.
   void limit_pixels(std::uint64_t max_pixels) { max_pixels_ = max_pixels; }
 
+  /// Threads that share the drawing of each picture, at least 1; 1 by default. Pictures are the same.
+  void use_threads(int threads) { renderer_ = Renderer(threads); }
+
   /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
   /// pictures are missing of whose loss no error has told, or when fewer pictures are announced than have

@@ -20,13 +20,14 @@ using namespace fbs;
 constexpr const char* kNull = "a null pointer";
 constexpr const char* kNoPicture = "there is no picture yet";
 
-constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0};
+constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0, 1};
 /// sizeof(fbs_decoder_settings) in version 0.1.
 constexpr std::size_t kFirstSize = offsetof(fbs_decoder_settings, max_pixels) + sizeof(std::uint64_t);
 
 std::unique_ptr<StreamDecoder> new_stream(const fbs_decoder_settings& settings) {
   auto stream = std::make_unique<StreamDecoder>();
   if (settings.max_pixels > 0) stream->limit_pixels(settings.max_pixels);
+  stream->use_threads(settings.threads);
   return stream;
 }
 
@@ -71,6 +72,7 @@ fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* setti
   *out = nullptr;
   fbs_decoder_settings taken = kDefaults;
   if (settings != nullptr && !take_settings(*settings, kFirstSize, taken)) return FBS_ERROR_ARGUMENT;
+  if (taken.threads < 1 || taken.threads > FBS_MAX_THREADS) return FBS_ERROR_ARGUMENT;
   LastError ignored;
   return guarded(ignored, [&] {
     *out = std::make_unique<fbs_decoder>(taken).release();

@@ -31,32 +31,39 @@ BlockSamples3 block_of(const HeadAtlas& atlas, glm::ivec2 block) {
 
 }  // namespace
 
-void AtlasBlend::draw(const Drawing& drawing, const HeadWeights& weights, const AtlasLayout& layout) {
+void AtlasBlend::begin(const HeadWeights& weights, const AtlasLayout& layout) {
+  weights_ = &weights;
+  layout_ = &layout;
   if (weights.warped.empty()) return;
   if (blended_.width() != layout.width || blended_.height() != layout.height)
     blended_ = HeadAtlas(layout.width, layout.height);
   nodes_.set(layout.cover, with_skirt(weights.atlas), {});
-  for (const glm::ivec2 block : layout.blocks) blend(drawing, weights, layout.cover.grid(), block);
 }
 
-void AtlasBlend::blend(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid,
-                       glm::ivec2 block) {
+void AtlasBlend::draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch) {
+  if (weights_->warped.empty()) return;
+  for (const glm::ivec2 block : layout_->blocks)
+    if (block.y >= first && block.y < last) blend(drawing, block, scratch);
+}
+
+void AtlasBlend::blend(const Drawing& drawing, glm::ivec2 block, std::vector<BlendedSource>& shown) {
+  const NodeGrid& grid = layout_->cover.grid();
   const auto node = static_cast<std::size_t>(2 * block.y * grid.columns() + 2 * block.x);
   const BlockNodes nodes{nodes_.at(node), nullptr, nodes_.row(), grid.columns()};
   BlockMotions motions;
-  shown_.clear();
+  shown.clear();
   for (std::size_t first = 0; first < nodes.row; first += kRowStep) {
     find_motions(nodes, first, motions);
     for (std::uint32_t left = motions.shown; left != 0; left &= left - 1) {
       const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(left));
-      shown_.push_back({block_of(*drawing.sources[weights.warped[k]].atlas, block), nodes.weight + k});
+      shown.push_back({block_of(*drawing.sources[weights_->warped[k]].atlas, block), nodes.weight + k});
     }
   }
   const auto step = static_cast<std::ptrdiff_t>(nodes.row);
   const std::array<PlaneView, 3> target = drawing.chroma_area.empty()
                                               ? std::array<PlaneView, 3>{blended_.y, {}, {}}
                                               : std::array<PlaneView, 3>{blended_.y, blended_.u, blended_.v};
-  draw_blend(shown_, {step, grid.columns() * step}, block, target);
+  draw_blend(shown, {step, grid.columns() * step}, block, target);
 }
 
 }  // namespace fbs

@@ -13,20 +13,27 @@
 
 namespace fbs {
 
-/// The texture of the head of one picture. Keeps scratch memory only.
+/// The texture of the head of one picture. Keeps nothing of the picture before.
 class AtlasBlend {
  public:
-  /// Draws what the warped sources show. Nothing if there are none.
-  void draw(const Drawing& drawing, const HeadWeights& weights, const AtlasLayout& layout);
+  /// Makes ready for a picture.
+  void begin(const HeadWeights& weights, const AtlasLayout& layout);
 
-  /// Y, U, V of the layout's size, until the next call of draw().
+  /// Draws what the warped sources show in the blocks of some rows, which may be done by several threads at
+  /// once. Nothing if there are no such sources.
+  /// @param first, last  rows of blocks, the last one not included
+  /// @param scratch      memory of the thread
+  void draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch);
+
+  /// Y, U, V of the layout's size, until the next call of begin().
   [[nodiscard]] std::array<ConstPlaneView, 3> planes() const { return {blended_.y, blended_.u, blended_.v}; }
 
  private:
-  void blend(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid, glm::ivec2 block);
+  void blend(const Drawing& drawing, glm::ivec2 block, std::vector<BlendedSource>& shown);
 
+  const HeadWeights* weights_ = nullptr;
+  const AtlasLayout* layout_ = nullptr;
   NodeWeights nodes_;
-  std::vector<BlendedSource> shown_;  ///< in a block
   HeadAtlas blended_;
 };
 

@@ -20,11 +20,16 @@ struct SurroundDrawing {
   const NodeWeights& weights;
 };
 
-/// Keeps scratch memory only.
+/// Rows of blocks that have samples in the drawing's areas; the last one not included.
+struct BlockRows {
+  int first, last;
+};
+[[nodiscard]] BlockRows block_rows(const Drawing& drawing);
+
+/// Keeps scratch memory only. Several painters may draw different rows of a picture at once.
 class SurroundPainter {
  public:
-  /// Draws all blocks that have samples in the drawing's areas.
-  void draw(const SurroundDrawing& surround);
+  void draw_row(const SurroundDrawing& surround, int row);
 
  private:
   void draw_block(const SurroundDrawing& surround, glm::ivec2 block);

@@ -166,13 +166,18 @@ typedef struct fbs_vertex {
 
 typedef struct fbs_decoder fbs_decoder;
 
+#define FBS_MAX_THREADS 64
+
 /** Filled by fbs_decoder_default_settings(&settings, sizeof settings). */
 typedef struct fbs_decoder_settings {
   size_t struct_size;
   /** Streams with more pixels in a picture are refused with FBS_ERROR_TOO_LARGE before memory is taken.
-   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes up to 1.5 bytes for each pixel of each of a
-   * scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
+   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes for each pixel, and 1 MB, for each
+   * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
   uint64_t max_pixels;
+  /** Threads that draw each picture, 1..FBS_MAX_THREADS, with that of the caller; pictures are the same. They
+   * work during calls of this decoder only. Default: 1. */
+  int threads;
 } fbs_decoder_settings;
 
 /** @param settings     null: nothing happens

@@ -1,0 +1,47 @@
+// Threads that share the parts of one picture.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace fbs {
+
+class Workers {
+ public:
+  /// @param count  threads, with that which calls run(): at least 1, and then no other is begun. One that
+  /// cannot
+  ///               be begun is done without.
+  explicit Workers(int count = 1);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  [[nodiscard]] int count() const { return 1 + static_cast<int>(threads_.size()); }
+
+  /// Calls job(k, worker) once for each k in 0..jobs - 1, in any order, and returns when all are done. Jobs
+  /// that run at the same time have different workers, 0..count() - 1. What a job throws is thrown here,
+  /// once.
+  using Job = std::function<void(int k, int worker)>;
+  void run(int jobs, const Job& job);
+
+ private:
+  void work(int worker);
+  void take_jobs(int worker);
+
+  std::vector<std::thread> threads_;
+  std::mutex mutex_;
+  std::condition_variable begun_, ended_;
+  // Of the call that runs; all under the mutex.
+  const Job* job_ = nullptr;
+  int jobs_ = 0, next_ = 0;
+  int working_ = 0;    ///< threads that have not finished it
+  unsigned call_ = 0;  ///< its number
+  std::exception_ptr fault_;
+  bool stops_ = false;
+};
+
+}  // namespace fbs
