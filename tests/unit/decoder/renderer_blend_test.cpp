@@ -179,5 +179,24 @@ TEST(RendererBlend, SurvivesEveryStateOfAStream) {
   }
 }
 
+TEST(RendererBlend, ThreadsDrawWhatOneDraws) {
+  std::mt19937 random(9);
+  Scene scene = toy_scene(noise_picture(160, 128, 0), mixed_surround());
+  scene.patterns.clear();
+  for (int k = 0; k < 6; ++k)
+    scene.patterns.push_back(make_pattern(noise_picture(160, 128, static_cast<unsigned>(k)),
+                                          any_state(random, 10 * k), scene.geometry));
+  for (const int threads : {2, 3, 7}) {
+    Renderer renderer(threads);
+    for (int i = 0; i < 20; ++i) {
+      State state = any_state(random, i);
+      set_modes(random, state);
+      Picture drawn;
+      ASSERT_TRUE(renderer.render(scene, state, drawn));
+      ASSERT_EQ(drawn, rendered(scene, state)) << threads << " threads, " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fbs

@@ -155,6 +155,33 @@ TEST(DecoderApi, LargePicturesAreRefusedBeforeTheyAreDecoded) {
       << "the settings stay";
 }
 
+TEST(DecoderApi, ThreadsDrawWhatOneDraws) {
+  fbs_decoder_settings settings;
+  fbs_decoder_default_settings(&settings, sizeof settings);
+  EXPECT_EQ(settings.threads, 1);
+  fbs_decoder* decoder = nullptr;
+  for (const int threads : {-1, 0, FBS_MAX_THREADS + 1}) {
+    settings.threads = threads;
+    EXPECT_EQ(fbs_decoder_open(&decoder, &settings), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(decoder, nullptr);
+  }
+  settings.threads = 3;
+  ASSERT_EQ(fbs_decoder_open(&decoder, &settings), FBS_OK);
+  const ApiDecoder several(decoder), one = api_decoder();
+  const auto bytes = vector_bytes("talk.fbs");
+  for (fbs_decoder* d : {several.get(), one.get()}) {
+    ASSERT_EQ(fbs_decoder_feed(d, bytes.data(), bytes.size()), FBS_OK);
+    ASSERT_EQ(fbs_decoder_finish(d), FBS_OK);
+  }
+  while (fbs_decoder_next(one.get(), nullptr) == FBS_OK) {
+    ASSERT_EQ(fbs_decoder_next(several.get(), nullptr), FBS_OK);
+    fbs_const_picture a, b;
+    ASSERT_EQ(fbs_decoder_get_picture(one.get(), &a), FBS_OK);
+    ASSERT_EQ(fbs_decoder_get_picture(several.get(), &b), FBS_OK);
+    ASSERT_EQ(samples_of(a), samples_of(b));
+  }
+}
+
 TEST(DecoderApi, ResetForgetsTheStream) {
   const ApiDecoder decoder = at_first_picture("truncated.fbs");
   ASSERT_EQ(fbs_decoder_reset(decoder.get()), FBS_OK);
