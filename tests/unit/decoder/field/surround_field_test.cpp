@@ -2,36 +2,27 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 #include <random>
 
-#include "tests/unit/toy_scene.h"
+#include "decoder/field/node_kernels.h"
+#include "tests/unit/decoder/every_target.h"
+#include "tests/unit/decoder/field/surround_grid.h"
 
 namespace fbs {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 128;
+using Points = std::vector<glm::ivec2>;
 
-/// A grid of 8 x 8 cells in a toy scene, in some state.
-struct Grid {
-  SurroundMap map = even_surround(8, 8, 0);
-  Surround surround{toy_setup(kWidth, kHeight).format, map, toy_state()};
-  std::vector<glm::ivec2> now = at(toy_state());
-  NodeCover cover;
-
-  explicit Grid(SurroundMap m = even_surround(8, 8, 0)) : map(std::move(m)) { find(); }
-  [[nodiscard]] std::vector<glm::ivec2> at(const State& state) const {
-    std::vector<glm::ivec2> out;
-    surround.project(state, out);
-    return out;
-  }
-  void find() { cover.find(NodeGrid(kWidth, kHeight), surround.triangles(), now); }
-  [[nodiscard]] SourceField field(const std::vector<glm::ivec2>& seen) const {
-    SourceField out;
-    displace(cover, seen, now, kWidth, kHeight, out);
-    return out;
-  }
-};
+/// The field of sources that saw the grid's points so.
+SurroundField field_of(const SurroundGrid& grid, const std::vector<const Points*>& seen) {
+  SurroundField out;
+  out.set(grid.cover, seen, grid.now, {SurroundGrid::kWidth, SurroundGrid::kHeight});
+  return out;
+}
+SurroundField field_of(const SurroundGrid& grid, const Points& seen) {
+  return field_of(grid, std::vector<const Points*>{&seen});
+}
 
 State with_ground(std::array<std::int32_t, kSimilarityCount> ground) {
   State state = toy_state();
@@ -40,132 +31,134 @@ State with_ground(std::array<std::int32_t, kSimilarityCount> ground) {
 }
 
 TEST(SurroundField, OfAPatternSeenAsThePictureIsDoesNotMove) {
-  const Grid grid;
-  EXPECT_FALSE(grid.field(grid.now).moves);
+  const SurroundGrid grid;
+  EXPECT_FALSE(field_of(grid, grid.now).moves());
 }
 
 TEST(SurroundField, OfADisplacedPatternIsItsDisplacementEverywhere) {
-  const Grid grid;
-  const SourceField field = grid.field(grid.at(with_ground({130, -70, 0, 0})));
-  EXPECT_TRUE(field.moves);
-  ASSERT_EQ(field.displacement.size(), grid.cover.places().size());
-  for (const glm::ivec2 d : field.displacement) ASSERT_EQ(d, glm::ivec2(130, -70));
+  const SurroundGrid grid;
+  const SurroundField field = field_of(grid, grid.at(with_ground({130, -70, 0, 0})));
+  EXPECT_TRUE(field.moves());
+  for (std::size_t k = 0; k < grid.cover.places().size(); ++k)
+    ASSERT_EQ(field.at(k, 0), glm::ivec2(130, -70)) << k;
 }
 
 TEST(SurroundField, IsLinearUnderASimilarity) {
-  const Grid grid;
-  const SourceField field = grid.field(grid.at(with_ground({0, 0, 64, 0})));  // larger by 1/32
+  const SurroundGrid grid;
+  const SurroundField field = field_of(grid, grid.at(with_ground({0, 0, 64, 0})));  // larger by 1/32
   const NodeGrid& nodes = grid.cover.grid();
   for (int j = 1; j < 16; ++j)  // in the margin all is displaced as the border is
     for (int i = 1; i < 20; ++i) {
-      const int k = j * nodes.columns() + i;
-      EXPECT_NEAR(field.displacement[k].x, (512 * i + 32 - 80 * 64) / 32.0, 2) << i;
-      EXPECT_NEAR(field.displacement[k].y, (512 * j + 32 - 50 * 64) / 32.0, 2) << j;
+      const glm::ivec2 by = field.at(static_cast<std::size_t>(j * nodes.columns() + i), 0);
+      EXPECT_NEAR(by.x, (512 * i + 32 - 80 * 64) / 32.0, 2) << i;
+      EXPECT_NEAR(by.y, (512 * j + 32 - 50 * 64) / 32.0, 2) << j;
     }
 }
 
 TEST(SurroundField, ReachesNoFartherOutThanAPaddedPlane) {
-  const Grid grid;
-  for (const int by : {-(1 << 20), 1 << 20}) {
-    const SourceField field = grid.field(grid.at(with_ground({by, -by, 0, 0})));
+  const SurroundGrid grid;
+  for (const int by : {-(1 << 20), -20000, 20000, 1 << 20}) {
+    const SurroundField field = field_of(grid, grid.at(with_ground({by, -by, 0, 0})));
     const NodeGrid& nodes = grid.cover.grid();
-    for (int j = 0, k = 0; j < nodes.rows(); ++j)
+    std::size_t k = 0;
+    for (int j = 0; j < nodes.rows(); ++j)
       for (int i = 0; i < nodes.columns(); ++i, ++k) {
-        EXPECT_EQ(512 * i + 32 + field.displacement[k].x, by < 0 ? -24 * 64 : (kWidth + 24) * 64);
-        EXPECT_EQ(512 * j + 32 + field.displacement[k].y, by > 0 ? -24 * 64 : (kHeight + 24) * 64);
+        const glm::ivec2 to = glm::ivec2(512 * i + 32, 512 * j + 32) + field.at(k, 0);
+        EXPECT_EQ(to.x, by < 0 ? -24 * 64 : (SurroundGrid::kWidth + 24) * 64);
+        EXPECT_EQ(to.y, by > 0 ? -24 * 64 : (SurroundGrid::kHeight + 24) * 64);
       }
   }
 }
 
 TEST(SurroundField, NodesThatNothingCoversDoNotMove) {
-  Grid grid;
+  SurroundGrid grid;
   for (glm::ivec2& p : grid.now) p.x += 1 << 20;
   grid.find();
-  const SourceField field = grid.field(grid.at(toy_state()));
-  EXPECT_TRUE(field.moves);
-  for (const glm::ivec2 d : field.displacement) ASSERT_EQ(d, glm::ivec2(0));
+  const SurroundField field = field_of(grid, grid.at(toy_state()));
+  EXPECT_TRUE(field.moves());
+  for (std::size_t k = 0; k < grid.cover.places().size(); ++k) ASSERT_EQ(field.at(k, 0), glm::ivec2(0));
 }
 
-/// Three sources with random weights in each region.
-RegionWeights random_regions(std::mt19937& random) {
-  RegionWeights out;
-  for (auto& region : out) {
-    const auto a = static_cast<std::int32_t>(random() % 257),
-               b = static_cast<std::int32_t>(random() % static_cast<unsigned>(257 - a));
-    region = {a, b, kBlendOne - a - b};
-  }
-  return out;
-}
-
-TEST(NodeWeights, SumToOneAtEveryNode) {
-  std::mt19937 random(2);
-  SurroundMap map = even_surround(8, 8, 0);
-  for (auto& f : map.head) f = static_cast<std::uint8_t>(random() % 5);
-  for (auto& g : map.body) g = static_cast<std::uint8_t>(random() % 5);
-  const Surround surround(toy_setup(kWidth, kHeight).format, map, toy_state());
-  const Grid grid;
-  NodeWeights weights;
-  for (int i = 0; i < 50; ++i) {
-    const RegionWeights regions = random_regions(random);
-    weights.set(grid.cover, point_weights(regions, surround.shares()), regions[0]);
-    for (std::size_t k = 0; k < grid.cover.places().size(); ++k)
-      ASSERT_EQ(weights.of(0)[k] + weights.of(1)[k] + weights.of(2)[k], kNodeWeightOne) << k;
-  }
-}
-
-TEST(NodeWeights, AreThoseOfTheRegionThatHasTheNode) {
-  const Grid grid;
-  RegionWeights regions;
-  for (auto& region : regions) region = {0, 0, 256};
-  regions[static_cast<std::size_t>(Region::kGround)] = {57, 0, 199};
-  NodeWeights weights;
-  weights.set(grid.cover, point_weights(regions, grid.surround.shares()), {});
+// Source 1 is shown as it is, source 2 was seen as the picture is now.
+TEST(SurroundField, EachSourceHasItsOwnDisplacement) {
+  const SurroundGrid grid;
+  std::vector<Points> seen;
+  for (int s = 0; s < 11; ++s) seen.push_back(grid.at(with_ground({40 * s - 80, 7 * s - 14, 0, 0})));
+  std::vector<const Points*> sources;
+  for (const Points& p : seen) sources.push_back(&p);
+  sources[1] = nullptr;
+  const SurroundField field = field_of(grid, sources);
+  EXPECT_EQ(field.row(), 16U);
   for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
-    ASSERT_EQ(weights.of(0)[k], 57);
-    ASSERT_EQ(weights.of(2)[k], 199);
+    for (int s = 0; s < 16; ++s) {
+      const bool still = s == 1 || s > 10;
+      ASSERT_EQ(field.at(k, static_cast<std::size_t>(s)),
+                still ? glm::ivec2(0) : glm::ivec2(40 * s - 80, 7 * s - 14))
+          << s;
+    }
+    ASSERT_EQ(field.at(k) + 2 * field.row(), field.at(k + 1)) << "rows follow each other";
   }
 }
 
-// Half way between ground and hair.
-TEST(NodeWeights, AreMixedByTheSharesOfRegions) {
-  SurroundMap map{1, 1, {2, 2, 2, 2}, {0, 0, 0, 0}};
-  const Surround surround(toy_setup(kWidth, kHeight).format, map, toy_state());
-  std::vector<glm::ivec2> now;
-  surround.project(toy_state(), now);
+TEST(SurroundField, OfSourcesThatDoNotMoveIsStill) {
+  const SurroundGrid grid;
+  const Points moved = grid.at(with_ground({64, 0, 0, 0}));
+  EXPECT_FALSE(field_of(grid, std::vector<const Points*>{nullptr, nullptr}).moves());
+  EXPECT_FALSE(field_of(grid, std::vector<const Points*>{nullptr, &grid.now}).moves());
+  SurroundField field = field_of(grid, std::vector<const Points*>{nullptr, &moved});
+  EXPECT_TRUE(field.moves());
+  field.set_still();
+  EXPECT_FALSE(field.moves());
+  EXPECT_EQ(field.at(5, 1), glm::ivec2(0));
+  field.set(grid.cover, std::vector<const Points*>{&moved}, grid.now,
+            {SurroundGrid::kWidth, SurroundGrid::kHeight});
+  EXPECT_EQ(field.at(5, 0), glm::ivec2(64, 0));
+}
+
+// From kMaxShortDisplacement on there is no vector code. SPEC 10.3: the mean of the corners, and its limits.
+TEST(SurroundField, LongDisplacementsFollowTheSameRule) {
+  const glm::ivec2 size(3000, 200);
+  const Points now{{-700, -700}, {200000, -700}, {-700, 15000}, {200000, 15000}};
+  const std::vector<MeshTriangle> triangles{{0, 1, 2}, {1, 3, 2}};
   NodeCover cover;
-  cover.find(NodeGrid(kWidth, kHeight), surround.triangles(), now);
-  RegionWeights regions;
-  for (auto& region : regions) region = {0, 256};
-  regions[static_cast<std::size_t>(Region::kHair)] = {101, 155};
-  NodeWeights weights;
-  weights.set(cover, point_weights(regions, surround.shares()), {});
-  EXPECT_EQ(weights.of(0)[22], 50) << "rounded down";
-  EXPECT_EQ(weights.of(1)[22], 206) << "the largest takes the rest";
-}
-
-TEST(NodeWeights, OfNodesThatNothingCoversAreThoseFromOutside) {
-  Grid grid;
-  for (glm::ivec2& p : grid.now) p.x += 1 << 20;
-  grid.find();
-  PointWeights corners{2, {}};
-  for (std::size_t k = 0; k < grid.surround.point_count(); ++k)
-    corners.weights.insert(corners.weights.end(), {kMeshWeightOne, 0});
-  NodeWeights weights;
-  weights.set(grid.cover, corners, std::vector<std::int32_t>{99, 157});
-  for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
-    ASSERT_EQ(weights.of(0)[k], 99);
-    ASSERT_EQ(weights.of(1)[k], 157);
-  }
-}
-
-TEST(NodeWeights, OfASceneWithoutGeometryAreThoseOfTheGround) {
-  NodeWeights weights;
-  const NodeGrid grid(64, 64);
-  weights.set(grid, std::vector<std::int32_t>{200, 56});
-  for (std::size_t k = 0; k < grid.size(); ++k) {
-    ASSERT_EQ(weights.of(0)[k], 200);
-    ASSERT_EQ(weights.of(1)[k], 56);
-  }
+  cover.find(NodeGrid(size.x, size.y), triangles, now);
+  on_every_target([&] {
+    std::mt19937 random(1);
+    for (const int most :
+         {300, kMaxShortDisplacement - 1, +kMaxShortDisplacement, kMaxShortDisplacement + 1, 1 << 17}) {
+      Points seen = now, other = now;
+      for (std::size_t k = 0; k < now.size(); ++k) {
+        const auto random_step = [&] { return static_cast<int>(random() % 601) - 300; };
+        seen[k] += glm::ivec2(k % 2 == 0 ? most : most - 7, random_step());
+        other[k] += glm::ivec2(random_step(), random_step());
+      }
+      SurroundField field;
+      field.set(cover, std::vector<const Points*>{&other, &seen}, now, size);
+      int free = 0;
+      for (int j = 0, k = 0; j < cover.grid().rows(); ++j) {
+        for (int i = 0; i < cover.grid().columns(); ++i, ++k) {
+          const NodePlace& place = cover.places()[static_cast<std::size_t>(k)];
+          ASSERT_TRUE(place.is_covered());
+          const glm::ivec2 node(512 * i + 32, 512 * j + 32);
+          for (const std::size_t s : {0U, 1U}) {
+            const Points& from = s == 0 ? other : seen;
+            const auto mean = [&](int glm::ivec2::*axis) {
+              const auto d = [&](std::size_t corner) {
+                const auto p = static_cast<std::size_t>(place.corner[corner]);
+                return from[p].*axis - now[p].*axis;
+              };
+              const int to = node.*axis + place.mean(d(0), d(1), d(2));
+              return std::clamp(to, -24 * 64, (size.*axis + 24) * 64) - node.*axis;
+            };
+            const glm::ivec2 expected(mean(&glm::ivec2::x), mean(&glm::ivec2::y));
+            ASSERT_EQ(field.at(static_cast<std::size_t>(k), s), expected) << most << ": " << i << ',' << j;
+            free += s == 1 && std::abs(expected.x - most) < 8 ? 1 : 0;
+          }
+        }
+      }
+      EXPECT_GT(free, 100) << "not all lie at the limit";
+    }
+  });
 }
 
 }  // namespace
