@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
+#include "common/picture.h"
 #include "decoder/head/head_mesh.h"
+#include "decoder/raster/row_runs.h"
 
 namespace fbs {
 namespace {
@@ -58,18 +61,52 @@ TEST(AtlasLayout, HoldsTheHeadAndASkirtBeyondItsRing) {
   EXPECT_EQ(skirt_point({0, 0}, {1 << 21, -(1 << 21)}), glm::ivec2(1 << 21, -(1 << 21))) << "clamped";
 }
 
-TEST(AtlasLayout, BlocksAreThoseThatTrianglesReach) {
-  const AtlasLayout layout(80);
-  std::set<std::pair<int, int>> listed;
-  for (const glm::ivec2 b : layout.blocks) EXPECT_TRUE(listed.emplace(b.x, b.y).second);
-  const NodeGrid& grid = layout.cover.grid();
-  ASSERT_LE(listed.size(), static_cast<std::size_t>(grid.block_columns) * grid.block_rows);
-  for (const glm::ivec2 p : layout.points) EXPECT_TRUE(listed.contains({p.x / 1024, p.y / 1024}));
-  for (const auto& t : layout.triangles) {
-    const glm::ivec2 middle = (layout.points[t[0]] + layout.points[t[1]] + layout.points[t[2]]) / 3;
-    EXPECT_TRUE(listed.contains({middle.x / 1024, middle.y / 1024}));
+/// Samples whose centre lies in a triangle of the head.
+Plane head_samples(const AtlasLayout& layout) {
+  Plane out(layout.width, layout.height);
+  const auto triangles = std::span(layout.triangles).first(head_mesh().triangles.size());
+  for (const MeshTriangle& t : triangles) {
+    const TriangleSetup setup({{{layout.points[t[0]]}, {layout.points[t[1]]}, {layout.points[t[2]]}}},
+                              PlaneScale::kLuma);
+    for (int y = 0; y < out.height; ++y) {
+      const RowRun run = covered_run(setup, y, {0, 0, out.width, out.height});
+      if (!run.empty()) std::fill_n(out.row(y) + run.first, run.count(), std::uint8_t{1});
+    }
   }
-  for (const NodePlace& node : layout.cover.places()) EXPECT_TRUE(node.is_covered());
+  return out;
+}
+
+/// Whether some of the samples lies in a block, or up to so many samples beside it.
+bool is_near(const Plane& samples, glm::ivec2 block, int margin) {
+  for (int y = std::max(16 * block.y - margin, 0); y < std::min(16 * block.y + 16 + margin, samples.height);
+       ++y)
+    for (int x = std::max(16 * block.x - margin, 0); x < std::min(16 * block.x + 16 + margin, samples.width);
+         ++x)
+      if (samples.row(y)[x] != 0) return true;
+  return false;
+}
+
+// Bilinear samples of chroma, two of luma wide, reach beyond the head; of its skirt nothing else is shown.
+TEST(AtlasLayout, BlocksAreThoseOfWhichTheHeadShowsSomething) {
+  for (const int eyes : {64, 80, 160}) {
+    const AtlasLayout layout(eyes);
+    std::set<std::pair<int, int>> listed;
+    for (const glm::ivec2 b : layout.blocks) EXPECT_TRUE(listed.emplace(b.x, b.y).second);
+    const NodeGrid& grid = layout.cover.grid();
+    const Plane head = head_samples(layout);
+    for (int row = 0; row < grid.block_rows; ++row) {
+      for (int column = 0; column < grid.block_columns; ++column) {
+        const bool is_listed = listed.erase({column, row}) == 1;
+        EXPECT_TRUE(is_listed || !is_near(head, {column, row}, 2)) << eyes << ": " << column << ',' << row;
+        EXPECT_TRUE(!is_listed || is_near(head, {column, row}, 5)) << eyes << ": " << column << ',' << row;
+      }
+    }
+    EXPECT_TRUE(listed.empty()) << "none lies outside the atlas";
+    for (const NodePlace& node : layout.cover.places()) EXPECT_TRUE(node.is_covered());
+  }
+  const AtlasLayout layout(80);
+  const NodeGrid& grid = layout.cover.grid();
+  EXPECT_LT(layout.blocks.size(), static_cast<std::size_t>(grid.block_columns) * grid.block_rows);
 }
 
 // A quarter more samples than the head has in the picture, within what memory and time allow.
