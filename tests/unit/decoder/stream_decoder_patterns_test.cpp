@@ -180,6 +180,133 @@ TEST(StreamDecoderPatterns, PictureIsDrawnFromThePatternsOfItsRelease) {
   EXPECT_EQ(result.pictures[3], decoder.scene().patterns[1].picture);
 }
 
+/// Some patterns in three slots, one after the other in packets of their own.
+void write_patterns(Writer& w, int count) {
+  for (int k = 0; k < count; ++k) w.pattern(face_picture(k + 1), 1 + k % 3, 1 + (3 * k + 1) % 9);
+}
+
+/// Plays a stream up to a byte, and then the rest, with the decoder's picture drawn again in between.
+struct PlayedInTwo {
+  Played result;
+  std::size_t pictures = 0;  ///< of the first part
+  Picture again;
+
+  PlayedInTwo(const Writer& w, std::size_t middle) {
+    StreamDecoder decoder;
+    decoder.feed(std::span(w.bytes).first(middle));
+    EXPECT_FALSE(play(decoder, result));
+    pictures = result.pictures.size();
+    EXPECT_TRUE(decoder.render(again));
+    EXPECT_TRUE(decoder.render(again)) << "and once more";
+    decoder.feed(std::span(w.bytes).subspan(middle));
+    decoder.close();
+    EXPECT_TRUE(play(decoder, result));
+    EXPECT_TRUE(result.errors.empty());
+  }
+};
+
+// Four of them wait for the next picture; before a fifth the picture is kept as it is.
+TEST(StreamDecoderPatterns, PatternsThatArriveLeaveThePictureShownAsItIs) {
+  for (const int count : {1, 4, 5, 9}) {
+    Writer w = begun(4), at_once = begun(4);
+    w.motion(0, 10, true).blend(3);
+    write_patterns(w, count);
+    const std::size_t arrived = w.bytes.size();
+    w.blend(7);
+    const PlayedInTwo played_in_two(w, arrived);
+    ASSERT_EQ(played_in_two.pictures, 3U);
+    EXPECT_EQ(played_in_two.again, played_in_two.result.pictures[2]) << count;
+    // The same store at the next picture.
+    at_once.motion(0, 10, true);
+    write_patterns(at_once, count);
+    const std::vector<Picture> expected = played(at_once.blend(3).blend(7).bytes).pictures;
+    ASSERT_EQ(played_in_two.result.pictures.size(), 10U);
+    for (std::size_t t = 3; t < 10; ++t)
+      EXPECT_EQ(played_in_two.result.pictures[t], expected[t]) << count << ": " << t;
+    EXPECT_NE(played_in_two.result.pictures[2], expected[2]) << "had they not waited";
+  }
+}
+
+TEST(StreamDecoderPatterns, PatternsOfOnePacketLeaveThePictureShownAsItIs) {
+  Writer w = begun(4);
+  w.motion(0, 10, true).blend(3);
+  std::vector<PatternSyntax> patterns;
+  for (int k = 0; k < 6; ++k) patterns.push_back({1 + k % 3, k, {}, w.frame(face_picture(k + 1))});
+  patterns[0].picture = 6;
+  w.patterns(patterns);
+  const std::size_t arrived = w.bytes.size();
+  const PlayedInTwo played_in_two(w.blend(7), arrived);
+  ASSERT_EQ(played_in_two.pictures, 3U);
+  EXPECT_EQ(played_in_two.again, played_in_two.result.pictures[2]);
+}
+
+// Twice a new slot and twice the first one, before the next picture.
+TEST(StreamDecoderPatterns, OfSeveralPatternsInASlotTheLastOneStays) {
+  for (const int slot : {0, 1}) {
+    Writer w = begun(2);
+    w.motion(0, 10, true).blend(3);
+    w.pattern(face_picture(1), slot, 4).pattern(face_picture(5), slot, 5);
+    const std::size_t arrived = w.bytes.size();
+    w.blend(7);
+    const PlayedInTwo played_in_two(w, arrived);
+    EXPECT_EQ(played_in_two.again, played_in_two.result.pictures[2]);
+    StreamDecoder decoder;
+    Played result;
+    play_through(decoder, w, result);
+    ASSERT_EQ(decoder.scene().patterns.size(), slot + 1U);
+    EXPECT_EQ(decoder.scene().patterns[static_cast<std::size_t>(slot)].seen.picture, 5);
+    // The second frame alone: both are decoded, as those of a stream that fills another slot first.
+    Writer other = begun(3);
+    other.motion(0, 10, true).pattern(face_picture(1), 1, 4).pattern(face_picture(5), 2, 5).blend(10);
+    StreamDecoder both;
+    Played unused;
+    play_through(both, other, unused);
+    EXPECT_EQ(decoder.scene().patterns[static_cast<std::size_t>(slot)].picture,
+              both.scene().patterns[2].picture);
+  }
+}
+
+TEST(StreamDecoderPatterns, ASurroundAfterPatternsLeavesThePictureShownAsItIs) {
+  for (const int count : {1, 4, 5}) {
+    const auto write = [&](Writer& w) {
+      write_patterns(w, count);
+      w.surround(4);
+      write_patterns(w, 1);
+    };
+    Writer w = begun(4), at_once = begun(4);
+    write(w.motion(0, 10, true).blend(3));
+    const std::size_t arrived = w.bytes.size();
+    const PlayedInTwo played_in_two(w.blend(7), arrived);
+    ASSERT_EQ(played_in_two.pictures, 3U);
+    EXPECT_EQ(played_in_two.again, played_in_two.result.pictures[2]) << count;
+    write(at_once.motion(0, 10, true));
+    const std::vector<Picture> expected = played(at_once.blend(3).blend(7).bytes).pictures;
+    ASSERT_EQ(played_in_two.result.pictures.size(), 10U);
+    for (std::size_t t = 3; t < 10; ++t)
+      EXPECT_EQ(played_in_two.result.pictures[t], expected[t]) << count << ": " << t;
+  }
+}
+
+// Patterns that waited are those of a scene that nobody sees any more.
+TEST(StreamDecoderPatterns, ANewSceneLeavesThePictureShownAsItIs) {
+  for (const int count : {0, 1, 4, 5}) {
+    Writer w = begun(4);
+    w.motion(0, 3, true).blend(3);
+    for (int k = 0; k < count; ++k) w.pattern(face_picture(k + 1), 1 + k % 3, k % 2 + 1);
+    fbs::Setup next = setup_of(3);
+    next.before = {3, 9000};
+    w.setup(next).geometry().surround().pattern();
+    const std::size_t arrived = w.bytes.size();
+    const PlayedInTwo played_in_two(w.motion(0, 5, true).blend(5), arrived);
+    ASSERT_EQ(played_in_two.pictures, 3U);
+    EXPECT_EQ(played_in_two.again, played_in_two.result.pictures[2]) << count;
+    const Played whole = played(sample().bytes);
+    ASSERT_EQ(played_in_two.result.pictures.size(), 8U);
+    EXPECT_TRUE(std::equal(whole.pictures.begin(), whole.pictures.begin() + 5,
+                           played_in_two.result.pictures.begin() + 3));
+  }
+}
+
 // The rest state stays that of the first pattern.
 TEST(StreamDecoderPatterns, FirstPatternMayBeReplaced) {
   Writer w = begun(2);
