@@ -115,44 +115,62 @@ TEST(SurroundField, OfSourcesThatDoNotMoveIsStill) {
   EXPECT_EQ(field.at(5, 0), glm::ivec2(64, 0));
 }
 
-// From kMaxShortDisplacement on there is no vector code. SPEC 10.3: the mean of the corners, and its limits.
-TEST(SurroundField, LongDisplacementsFollowTheSameRule) {
-  const glm::ivec2 size(3000, 200);
-  const Points now{{-700, -700}, {200000, -700}, {-700, 15000}, {200000, 15000}};
-  const std::vector<MeshTriangle> triangles{{0, 1, 2}, {1, 3, 2}};
+/// Grid points that two triangles have, beyond a picture, and of which two sources are displaced.
+struct LargeCover {
+  static constexpr int kSize = 1500;  ///< of the picture
+  Points now{{-700, -700}, {100000, -700}, {-700, 100000}, {100000, 100000}};
   NodeCover cover;
-  cover.find(NodeGrid(size.x, size.y), triangles, now);
+
+  LargeCover() {
+    const std::vector<MeshTriangle> triangles{{0, 1, 2}, {1, 3, 2}};
+    cover.find(NodeGrid(kSize, kSize), triangles, now);
+  }
+  /// SPEC 10.3: the mean of the corners, as far as the limits of the picture allow.
+  [[nodiscard]] int displacement(const NodePlace& place, int node, const Points& seen,
+                                 int glm::ivec2::*axis) const {
+    const auto d = [&](std::size_t corner) {
+      const auto p = static_cast<std::size_t>(place.corner[corner]);
+      return seen[p].*axis - now[p].*axis;
+    };
+    return std::clamp(node + place.mean(d(0), d(1), d(2)), -24 * 64, (kSize + 24) * 64) - node;
+  }
+};
+
+// From kMaxShortDisplacement on there is no vector code: sums leave 32 bits.
+TEST(SurroundField, LongDisplacementsFollowTheSameRule) {
+  const LargeCover large;
+  const NodeGrid& grid = large.cover.grid();
   on_every_target([&] {
     std::mt19937 random(1);
-    for (const int most :
-         {300, kMaxShortDisplacement - 1, +kMaxShortDisplacement, kMaxShortDisplacement + 1, 1 << 17}) {
-      Points seen = now, other = now;
-      for (std::size_t k = 0; k < now.size(); ++k) {
-        const auto random_step = [&] { return static_cast<int>(random() % 601) - 300; };
-        seen[k] += glm::ivec2(k % 2 == 0 ? most : most - 7, random_step());
-        other[k] += glm::ivec2(random_step(), random_step());
+    for (const glm::ivec2 most : {glm::ivec2(300, 300),
+                                  glm::ivec2(kMaxShortDisplacement - 1),
+                                  {kMaxShortDisplacement, 300},
+                                  {300, 1 << 17},
+                                  {1 << 17, 300},
+                                  glm::ivec2(1 << 20)}) {
+      Points first = large.now, second = large.now;
+      for (std::size_t p = 0; p < large.now.size(); ++p) {
+        const int sign = p % 2 == 0 ? 1 : -1;  // far apart
+        second[p] += glm::ivec2(sign * most.x, -sign * most.y);
+        first[p] +=
+            glm::ivec2(static_cast<int>(random() % 601) - 300, static_cast<int>(random() % 601) - 300);
       }
       SurroundField field;
-      field.set(cover, std::vector<const Points*>{&other, &seen}, now, size);
+      field.set(large.cover, std::vector<const Points*>{&first, &second}, large.now,
+                glm::ivec2(LargeCover::kSize));
+      std::size_t k = 0;
       int free = 0;
-      for (int j = 0, k = 0; j < cover.grid().rows(); ++j) {
-        for (int i = 0; i < cover.grid().columns(); ++i, ++k) {
-          const NodePlace& place = cover.places()[static_cast<std::size_t>(k)];
-          ASSERT_TRUE(place.is_covered());
+      for (int j = 0; j < grid.rows(); ++j) {
+        for (int i = 0; i < grid.columns(); ++i, ++k) {
+          const NodePlace& place = large.cover.places()[k];
           const glm::ivec2 node(512 * i + 32, 512 * j + 32);
           for (const std::size_t s : {0U, 1U}) {
-            const Points& from = s == 0 ? other : seen;
-            const auto mean = [&](int glm::ivec2::*axis) {
-              const auto d = [&](std::size_t corner) {
-                const auto p = static_cast<std::size_t>(place.corner[corner]);
-                return from[p].*axis - now[p].*axis;
-              };
-              const int to = node.*axis + place.mean(d(0), d(1), d(2));
-              return std::clamp(to, -24 * 64, (size.*axis + 24) * 64) - node.*axis;
-            };
-            const glm::ivec2 expected(mean(&glm::ivec2::x), mean(&glm::ivec2::y));
-            ASSERT_EQ(field.at(static_cast<std::size_t>(k), s), expected) << most << ": " << i << ',' << j;
-            free += s == 1 && std::abs(expected.x - most) < 8 ? 1 : 0;
+            const Points& seen = s == 0 ? first : second;
+            const glm::ivec2 expected(large.displacement(place, node.x, seen, &glm::ivec2::x),
+                                      large.displacement(place, node.y, seen, &glm::ivec2::y));
+            ASSERT_EQ(field.at(k, s), expected) << most.x << ',' << most.y << ": " << i << ',' << j;
+            const glm::ivec2 to = node + expected;
+            free += s == 1 && to.x > -24 * 64 && to.x < (LargeCover::kSize + 24) * 64 ? 1 : 0;
           }
         }
       }
