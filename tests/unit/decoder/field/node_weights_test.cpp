@@ -108,11 +108,16 @@ TEST(NodeWeights, PlacesWithoutASourceAreZero) {
       for (std::size_t s = 0; s < row; ++s)
         ASSERT_EQ(weights.at(k)[s], s < expected.size() ? expected[s] : 0) << k << ": " << s;
   };
+  SurroundGrid nowhere;  // nothing covers its nodes
+  for (glm::ivec2& p : nowhere.now) p.x += 1 << 20;
+  nowhere.find();
   for (int round = 0; round < 2; ++round) {
-    weights.set(grid.cover, point_weights(of_many, grid.surround.shares()), many);
-    expect_row(many, 16);
-    weights.set(grid.cover, point_weights(of_two, grid.surround.shares()), of_two[0]);
-    expect_row(of_two[0], 8);
+    for (const NodeCover* cover : {&grid.cover, &nowhere.cover}) {
+      weights.set(*cover, point_weights(of_many, grid.surround.shares()), many);
+      expect_row(many, 16);
+      weights.set(*cover, point_weights(of_two, grid.surround.shares()), of_two[0]);
+      expect_row(of_two[0], 8);
+    }
     weights.set(grid.cover.grid(), many);
     expect_row(many, 16);
     weights.set(grid.cover.grid(), of_two[0]);

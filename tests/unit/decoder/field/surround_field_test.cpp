@@ -87,7 +87,8 @@ TEST(SurroundField, EachSourceHasItsOwnDisplacement) {
   std::vector<const Points*> sources;
   for (const Points& p : seen) sources.push_back(&p);
   sources[1] = nullptr;
-  const SurroundField field = field_of(grid, sources);
+  SurroundField field = field_of(grid, std::vector<const Points*>(16, &seen[7]));  // it keeps its memory
+  field.set(grid.cover, sources, grid.now, {SurroundGrid::kWidth, SurroundGrid::kHeight});
   EXPECT_EQ(field.row(), 16U);
   for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
     for (int s = 0; s < 16; ++s) {
