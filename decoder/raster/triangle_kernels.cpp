@@ -254,6 +254,14 @@ HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const Pla
 /// How a triangle's samples are found: by a table of so many rows and one, or one by one.
 enum Lookup : int { kOneByOne = -1, kTwoRows = 1, kFourRows = 3 };
 
+template <int kLookup>
+HWY_INLINE Pairs pairs_of(const ConstPlaneView& texture, const Places& at) {
+  if constexpr (kLookup == kOneByOne)
+    return pairs_one_by_one(texture, at);
+  else
+    return pairs_by_table<kLookup>(texture, at);
+}
+
 template <PlaneScale kScale, int kLookup>
 HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool has_light,
                           std::span<const TextureSource> sources, std::span<const PlaneView> target,
@@ -265,11 +273,7 @@ HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool 
   if (!any) return;
   const Places at = places_of(start, x, step.count, number);
   for (std::size_t k = 0; k < (kScale == PlaneScale::kLuma ? 1 : 2); ++k) {
-    Pairs pairs;
-    if constexpr (kLookup == kOneByOne)
-      pairs = pairs_one_by_one(sources[0].planes[k], at);
-    else
-      pairs = pairs_by_table<kLookup>(sources[0].planes[k], at);
+    const Pairs pairs = pairs_of<kLookup>(sources[0].planes[k], at);
     auto samples = bilinear(pairs, at);
     if (kScale == PlaneScale::kLuma && has_light) samples = lit(samples, start, x, number);
     if (sources.size() > 1) samples = blended(samples, sources, k, start, x, number, step);

@@ -3,5 +3,9 @@
 // 32. Processors with vectors of any size (SVE, RISC-V) take the smaller set that they also have.
 #pragma once
 
+#ifdef __AVX512F__
+#define HWY_WANT_AVX3_DL  // Highway 1.0.3 refuses to compile for such a processor alone without it
+#endif
+
 #undef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)

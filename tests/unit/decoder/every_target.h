@@ -1,7 +1,7 @@
 // Kernels tested on every kind of vector that this machine has.
 #pragma once
 
-#include "common/fixed_vectors.h"
+#include "decoder/vectors/fixed_vectors.h"
 // Before Highway, as in the kernels: else there would be targets here that they have not.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -47,7 +47,10 @@ struct Blending {
                           {target.y, target.u, target.v},
                           {0, 0, 64, 64},
                           chroma};
-    to.draw(drawing, head_weights(blend), layout);
+    const HeadWeights weights = head_weights(blend);
+    std::vector<BlendedSource> scratch;
+    to.begin(weights, layout);
+    to.draw_rows(drawing, 0, layout.cover.grid().block_rows, scratch);
     return to.planes();
   }
 

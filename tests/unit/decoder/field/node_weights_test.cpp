@@ -112,10 +112,10 @@ TEST(NodeWeights, PlacesWithoutASourceAreZero) {
   for (glm::ivec2& p : nowhere.now) p.x += 1 << 20;
   nowhere.find();
   for (int round = 0; round < 2; ++round) {
-    for (const NodeCover* cover : {&grid.cover, &nowhere.cover}) {
-      weights.set(*cover, point_weights(of_many, grid.surround.shares()), many);
+    for (const SurroundGrid* const in : {&grid, static_cast<const SurroundGrid*>(&nowhere)}) {
+      weights.set(in->cover, point_weights(of_many, grid.surround.shares()), many);
       expect_row(many, 16);
-      weights.set(*cover, point_weights(of_two, grid.surround.shares()), of_two[0]);
+      weights.set(in->cover, point_weights(of_two, grid.surround.shares()), of_two[0]);
       expect_row(of_two[0], 8);
     }
     weights.set(grid.cover.grid(), many);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "common/state.h"
 #include "tests/unit/decoder/raster/textured_triangle.h"
 #include "tests/unit/toy_scene.h"
@@ -16,7 +18,9 @@ struct Case {
   TexturedTriangle triangle = in_place({300, 250}, {1500, 400}, {700, 1700});
   SampleArea area = whole(target);
   Light light{{10, 20, 30}, {40, 50, 60}};
-  bool has_light = false;
+  bool has_light = false, has_depth = true;
+  int stills = 0;  ///< still sources that are blended with it
+  glm::ivec2 still_by{0, 0};
   DepthPlane depth;
 
   [[nodiscard]] std::optional<ShortTriangle> shortened() {
@@ -28,8 +32,14 @@ struct Case {
     EXPECT_TRUE(setup.faces_viewer());
     Finish finish;
     if (has_light) finish.light = &light;
-    return shorten(setup, screen_of(triangle), source_of(triangle, std::span(from).first(planes), finish),
-                   {scale, std::span(to).first(planes), area, &depth});
+    std::vector<TextureSource> sources{source_of(triangle, std::span(from).first(planes), finish)};
+    for (int k = 0; k < stills; ++k) {
+      sources.push_back(source_of(triangle, std::span(from).first(planes)));
+      for (std::size_t i = 0; i < 3; ++i) sources.back().corners[i] = triangle[i].screen + still_by;
+    }
+    if (stills > 0) sources[0].weight = {100, 200, 300};
+    return shorten(setup, screen_of(triangle), sources,
+                   {scale, std::span(to).first(planes), area, has_depth ? &depth : nullptr});
   }
   [[nodiscard]] bool fits() { return shortened().has_value(); }
 };
@@ -150,6 +160,27 @@ TEST(ShortTriangle, LightAtItsLimitIsRefused) {
       }
     }
   }
+}
+
+TEST(ShortTriangle, IsBlendedWithTwoStillSourcesAtMost) {
+  Case c;
+  for (c.stills = 1; c.stills <= 2; ++c.stills) {
+    const auto t = c.shortened();
+    ASSERT_TRUE(t);
+    EXPECT_NEAR(t->weight[0].first, 100 << 16, 20 << 16)
+        << "at the box's corner, near the first of the triangle";
+  }
+  c.stills = 3;
+  EXPECT_FALSE(c.fits());
+  c.stills = 1;
+  c.still_by = {1, 0};
+  EXPECT_FALSE(c.fits()) << "not where the picture has it";
+}
+
+TEST(ShortTriangle, NeedsDepth) {
+  Case c;
+  c.has_depth = false;
+  EXPECT_FALSE(c.fits());
 }
 
 }  // namespace

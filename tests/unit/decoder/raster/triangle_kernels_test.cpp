@@ -8,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "common/state.h"
+#include "decoder/raster/blend_weights.h"
 #include "decoder/raster/triangle_kernels_plain.h"
 #include "tests/unit/decoder/every_target.h"
 #include "tests/unit/decoder/raster/textured_triangle.h"
@@ -41,9 +43,12 @@ struct Case {
   SampleArea area{0, 0, kWidth, kHeight};
   Light light;
   bool has_light = false;
+  /// Still sources that are blended with it, and the weights of all but the last.
+  std::vector<std::array<Plane, 2>> stills;
+  std::array<std::array<std::int32_t, 3>, 2> weights{};
   Drawn before;
 
-  /// Calls draw(source, target) for what is there before.
+  /// Calls draw(sources, target) for what is there before.
   template <class Draw>
   [[nodiscard]] Drawn after(Draw&& draw) const {
     Drawn out = before;
@@ -52,7 +57,15 @@ struct Case {
     const std::size_t planes = plane_count(scale);
     Finish finish;
     if (has_light) finish.light = &light;
-    draw(source_of(triangle, std::span(from).first(planes), finish),
+    std::vector<TextureSource> sources{source_of(triangle, std::span(from).first(planes), finish)};
+    std::vector<std::array<ConstPlaneView, 2>> still_planes;
+    for (const auto& still : stills) still_planes.push_back({still[0], still[1]});
+    for (const auto& still : still_planes) {
+      sources.push_back(source_of(triangle, std::span(still).first(planes)));
+      for (std::size_t i = 0; i < 3; ++i) sources.back().corners[i] = triangle[i].screen;
+    }
+    for (std::size_t k = 0; k + 1 < sources.size(); ++k) sources[k].weight = weights[k];
+    draw(std::span<const TextureSource>(sources),
          RasterTarget{scale, std::span(to).first(planes), area, &out.depth});
     return out;
   }
@@ -61,8 +74,8 @@ struct Case {
     std::optional<ShortTriangle> out;
     const TriangleSetup setup(screen_of(triangle), scale);
     if (!setup.faces_viewer()) return out;
-    (void)after([&](const TextureSource& source, const RasterTarget& target) {
-      out = shorten(setup, screen_of(triangle), source, target);
+    (void)after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
+      out = shorten(setup, screen_of(triangle), sources, target);
     });
     return out;
   }
@@ -70,17 +83,20 @@ struct Case {
   /// @param draw  draw_short_triangle(), or its plain counterpart
   template <class Draw>
   [[nodiscard]] Drawn by(Draw&& draw, const ShortTriangle& t) const {
-    return after([&](const TextureSource& source, const RasterTarget& target) {
-      draw(t, scale, source.planes, target.planes, *target.depth);
+    return after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
+      draw(t, scale, sources, target.planes, *target.depth);
     });
   }
 
-  /// By the rasteriser's own loops, which it takes for several sources: here twice the same one, half each.
+  /// By the rasteriser's own loops, which it takes for several sources that move: here the first once more,
+  /// without weight.
   [[nodiscard]] Drawn by_loops() const {
-    return after([&](const TextureSource& source, const RasterTarget& target) {
-      std::array<TextureSource, 2> twice{source, source};
-      twice[0].weight.fill(kWeightOne / 2);
-      draw_triangle(screen_of(triangle), twice, target);
+    return after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
+      std::vector<TextureSource> more(sources.begin(), sources.end());
+      if (more.size() == 1) more[0].weight.fill(kWeightOne);
+      more.insert(more.begin() + 1, more[0]);
+      more[1].weight.fill(0);
+      draw_triangle(screen_of(triangle), more, target);
     });
   }
 };
@@ -148,6 +164,13 @@ Case random_case(std::mt19937& random, const std::array<Plane, 4>& textures) {
   out.has_light = random() % 2 == 0;
   out.light = random_light(random);
   put_depth(random, out.before.depth);
+  if (random() % 3 != 0) return out;
+  for (unsigned k = 1 + random() % 2; k > 0; --k)
+    out.stills.push_back({noise_plane(kWidth, kHeight, 10 + k), noise_plane(kWidth, kHeight, 20 + k)});
+  for (auto& corners : out.weights)
+    for (std::int32_t& w : corners)
+      w = random() % 3 == 0 ? kWeightOne * static_cast<int>(random() % 2)
+                            : static_cast<int>(random() % kWeightOne);
   return out;
 }
 
@@ -179,7 +202,7 @@ TEST(TriangleKernels, EqualThePlainOneAndTheLoopsOfTheRasteriser) {
   on_every_target([&] {
     std::mt19937 random(1);
     Lookups of_four, of_eight;
-    int drawn = 0, lit = 0, chroma = 0;
+    int drawn = 0, lit = 0, chroma = 0, blended = 0;
     for (int i = 0; i < 3000; ++i) {
       const Case c = random_case(random, textures);
       const auto t = c.shortened();
@@ -192,10 +215,12 @@ TEST(TriangleKernels, EqualThePlainOneAndTheLoopsOfTheRasteriser) {
       of_four.count(*t, 4);
       of_eight.count(*t, 8);
       lit += c.has_light ? 1 : 0;
+      blended += c.stills.empty() ? 0 : 1;
       chroma += c.scale == PlaneScale::kChroma ? 1 : 0;
     }
     EXPECT_GT(drawn, 1000);
     EXPECT_GT(lit, 300);
+    EXPECT_GT(blended, 300);
     EXPECT_GT(chroma, 300);
     of_four.expect_each();
     of_eight.expect_each();
@@ -212,8 +237,8 @@ TEST(TriangleKernels, DrawTriangleIsTheSameWithThemAndWithout) {
       Case c = random_case(random, textures);
       if (i % 2 == 0)
         for (TexturedVertex& v : c.triangle) v.texture -= glm::ivec2(200 << static_cast<int>(c.scale), 0);
-      const Drawn out = c.after([&](const TextureSource& source, const RasterTarget& target) {
-        draw_triangle(screen_of(c.triangle), {&source, 1}, target);
+      const Drawn out = c.after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
+        draw_triangle(screen_of(c.triangle), sources, target);
       });
       ASSERT_EQ(out, c.by_loops()) << i;
       ++taken[c.shortened() ? 1 : 0];
