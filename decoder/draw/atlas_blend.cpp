@@ -48,7 +48,7 @@ void AtlasBlend::draw_rows(const Drawing& drawing, int first, int last, std::vec
 
 void AtlasBlend::blend(const Drawing& drawing, glm::ivec2 block, std::vector<BlendedSource>& shown) {
   const NodeGrid& grid = layout_->cover.grid();
-  const auto node = static_cast<std::size_t>(2 * block.y * grid.columns() + 2 * block.x);
+  const std::size_t node = grid.first_of_block(block.x, block.y);
   const BlockNodes nodes{nodes_.at(node), nullptr, nodes_.row(), grid.columns()};
   BlockMotions motions;
   shown.clear();

@@ -109,7 +109,7 @@ void SurroundPainter::draw_row(const SurroundDrawing& surround, int row) {
 void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 block) {
   const Drawing& d = surround.drawing;
   const int columns = surround.grid.columns();
-  const auto node = static_cast<std::size_t>(2 * block.y * columns + 2 * block.x);
+  const std::size_t node = surround.grid.first_of_block(block.x, block.y);
   const std::size_t row = surround.weights.row();
   const BlockNodes nodes{surround.weights.at(node),
                          surround.field.moves() ? surround.field.at(node) : nullptr, row, columns};

@@ -27,6 +27,11 @@ struct NodeGrid {
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows());
   }
+  /// The upper left node of a block.
+  [[nodiscard]] std::size_t first_of_block(int column, int row) const {
+    return 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
+                static_cast<std::size_t>(column));
+  }
   /// Where node (0, 0) is and how far the next ones are, 1/64 luma sample.
   static constexpr int kFirst = 32, kStepLog2 = 9;
   [[nodiscard]] static int place(int i) { return (i << kStepLog2) + kFirst; }

@@ -84,10 +84,12 @@ HWY_INLINE void even_luma_columns(D d, const std::uint8_t* from, std::ptrdiff_t 
 
 void even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
                std::uint8_t* out) {
-  if (size == kPatchSize)
-    even_luma_columns(hn::CappedTag<std::int16_t, kPatchSize>(), from, stride, fraction, size, out);
+  const hn::CappedTag<std::int16_t, kBlockSize> whole;
+  const hn::CappedTag<std::int16_t, kPatchSize> half;
+  if (hn::Lanes(whole) > hn::Lanes(half) && size == kBlockSize)
+    even_luma_columns(whole, from, stride, fraction, size, out);
   else
-    even_luma_columns(hn::CappedTag<std::int16_t, kBlockSize>(), from, stride, fraction, size, out);
+    even_luma_columns(half, from, stride, fraction, size, out);
 }
 
 void even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
@@ -227,13 +229,13 @@ HWY_INLINE void bent_luma_rows(D d, const std::uint8_t* from, std::ptrdiff_t str
   const hn::Repartition<std::uint8_t, D> table;
   const hn::FixedTag<std::uint8_t, 16> row_of_table;
   const hn::FixedTag<std::uint8_t, 8> drawn_row;
-  constexpr int kRows = hn::MaxLanes(D()) / 8;
+  constexpr int kRowsPerStep = hn::MaxLanes(D()) / 8;
   from += by_y.first * stride + by_x.first;
   bent_rows<kSpan, 0>(
-      d, kLumaLanes, 0, kPatchSize, kRows, by_x, by_y,
+      d, kLumaLanes, 0, kPatchSize, kRowsPerStep, by_x, by_y,
       [&](int row) HWY_ATTR {
         const std::uint8_t* const at = from + row * stride;
-        if constexpr (kRows == 2) {
+        if constexpr (kRowsPerStep == 2) {
           return hn::Combine(table, hn::LoadU(row_of_table, at + stride), hn::LoadU(row_of_table, at));
         } else {
           return hn::LoadU(row_of_table, at);
@@ -241,7 +243,7 @@ HWY_INLINE void bent_luma_rows(D d, const std::uint8_t* from, std::ptrdiff_t str
       },
       [&](auto samples, int row) HWY_ATTR {
         std::uint8_t* const to = out + row * WarpedBlock::kStride;
-        if constexpr (kRows == 2) {
+        if constexpr (kRowsPerStep == 2) {
           hn::StoreU(hn::LowerHalf(drawn_row, samples), drawn_row, to);
           hn::StoreU(hn::UpperHalf(drawn_row, samples), drawn_row, to + WarpedBlock::kStride);
         } else {
