@@ -1,5 +1,5 @@
 // The inner loops over nodes: weights and displacements of all sources, and how blocks are drawn from them.
-// SPEC 10.3 and 11.5. Vector code as in patch_kernels.h; node_kernels_plain.h defines the results. Integers
+// SPEC 10.3 and 11.5. Vector code as in blend_kernels.h; node_kernels_plain.h defines the results. Integers
 // only.
 #pragma once
 
@@ -63,7 +63,7 @@ enum MotionKind : std::int32_t {
 /// What kRowStep sources show in a block.
 struct BlockMotions {
   using Row = std::array<std::int32_t, kRowStep>;
-  std::uint32_t shown;                  ///< a bit for each source that has weight
+  std::uint32_t shown;                  ///< a bit for each source that has weight; the rest is of these only
   alignas(32) Row whole;                ///< kind of the block. If kStill, the others are undefined
   alignas(32) std::array<Row, 4> kind;  ///< of its patches, row by row
   alignas(32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of their displacement, if kEven

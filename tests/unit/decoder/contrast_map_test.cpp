@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bitstream/syntax.h"
 #include "tests/unit/toy_scene.h"
 
@@ -80,6 +82,27 @@ TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
   EXPECT_EQ(p.v.row(1)[1], 128 + 30);
   map.expand(p);
   for (const std::uint8_t v : p.u.samples) EXPECT_NEAR(v, 168, 1);
+}
+
+// SPEC 11.7. Samples wholly inside the face or outside it are looked up in tables.
+TEST(ContrastMap, ExpandsEachLevelByTheRule) {
+  const TextureMesh mesh = texture();
+  auto raised = setup(200);
+  raised.chroma_contrast = 384;
+  const ContrastMap map(raised, mesh);
+  const glm::ivec2 in = middle(mesh);
+  for (int level = 0; level < 256; ++level) {
+    const auto expanded = [&](int contrast) {
+      const int inverse = ((256 << 16) + contrast / 2) / contrast;
+      return std::clamp(128 + (((level - 128) * inverse + (1 << 15)) >> 16), 0, 255);
+    };
+    Picture p = two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level));
+    map.expand(p);
+    ASSERT_EQ(p.y.row(in.y)[in.x], level);
+    ASSERT_EQ(p.u.row(in.y / 2)[in.x / 2], expanded(384)) << level;
+    ASSERT_EQ(p.v.row(in.y / 2)[in.x / 2], expanded(384)) << level;
+    for (const Plane* plane : {&p.y, &p.u, &p.v}) ASSERT_EQ(plane->row(1)[1], expanded(200)) << level;
+  }
 }
 
 TEST(ContrastMap, LargestDeviationsStayInRange) {
