@@ -113,12 +113,9 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
   find_nodes(scene, grid, drawing);
   const bool has_head = scene.geometry && !scene.geometry->is_plane();
   const HeadWeights weights = has_head ? head_weights(drawing.blend) : HeadWeights{};
-  int atlas_rows = 0;
-  if (has_head) {
-    const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
-    atlas_.begin(weights, layout);
-    atlas_rows = layout.cover.grid().block_rows;
-  }
+  const AtlasLayout* const layout = has_head ? &atlas_layout(scene.geometry->rest_scale()) : nullptr;
+  if (has_head) atlas_.begin(weights, *layout);
+  const int atlas_rows = has_head ? layout->cover.grid().block_rows : 0;
   // Rows of the atlas and of the surround, and then the head over it.
   const SurroundDrawing surround{drawing, grid, field_, weights_};
   const BlockRows rows = block_rows(drawing);
@@ -130,7 +127,7 @@ void Renderer::draw(const Scene& scene, const State& state, const Targets& targe
       scratch.surround.draw_row(surround, rows.first + k - atlas_rows);
   });
   if (!has_head) return;
-  const HeadTexture texture{atlas_layout(scene.geometry->rest_scale()), atlas_.planes(), weights};
+  const HeadTexture texture{*layout, atlas_.planes(), weights};
   workers_->run(chroma.empty() ? 1 : 2, [&](int k, int) {
     HeadPainter(drawing, texture, k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma,
                 k == 0 ? luma_depth_ : chroma_depth_)

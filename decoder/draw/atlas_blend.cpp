@@ -1,7 +1,6 @@
 #include "decoder/draw/atlas_blend.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,7 +22,7 @@ BlockSamples3 block_of(const HeadAtlas& atlas, glm::ivec2 block) {
   const std::array<const Plane*, 3> planes{&atlas.y, &atlas.u, &atlas.v};
   BlockSamples3 out{};
   for (std::size_t p = 0; p < 3; ++p) {
-    const glm::ivec2 first = block * (p == 0 ? kBlockSize : kChromaBlockSize);
+    const glm::ivec2 first = block * block_size(p);
     out[p] = {planes[p]->row(first.y) + first.x, planes[p]->width};
   }
   return out;
@@ -50,15 +49,11 @@ void AtlasBlend::blend(const Drawing& drawing, glm::ivec2 block, std::vector<Ble
   const NodeGrid& grid = layout_->cover.grid();
   const std::size_t node = grid.first_of_block(block.x, block.y);
   const BlockNodes nodes{nodes_.at(node), nullptr, nodes_.row(), grid.columns()};
-  BlockMotions motions;
   shown.clear();
-  for (std::size_t first = 0; first < nodes.row; first += kRowStep) {
-    find_motions(nodes, first, motions);
-    for (std::uint32_t left = motions.shown; left != 0; left &= left - 1) {
-      const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(left));
-      shown.push_back({block_of(*drawing.sources[weights_->warped[k]].atlas, block), nodes.weight + k});
-    }
-  }
+  for_each_shown(nodes, [&](std::size_t first, std::size_t place, const BlockMotions&) {
+    const HeadAtlas& atlas = *drawing.sources[weights_->warped[first + place]].atlas;
+    shown.push_back({block_of(atlas, block), nodes.weight + first + place});
+  });
   const auto step = static_cast<std::ptrdiff_t>(nodes.row);
   const std::array<PlaneView, 3> target = drawing.chroma_area.empty()
                                               ? std::array<PlaneView, 3>{blended_.y, {}, {}}

@@ -1,7 +1,6 @@
 #include "decoder/draw/surround_painter.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,18 +18,13 @@ struct ShownSource {
   [[nodiscard]] std::size_t planes() const { return has_chroma ? 3 : 1; }
 };
 
-constexpr int block_size(std::size_t plane) {
-  return plane == 0 ? kBlockSize : kChromaBlockSize;
-}
-
 SampleBlock own_samples(const ConstPlaneView& plane, glm::ivec2 first) {
   return {plane.data + first.y * plane.stride + first.x, plane.stride};
 }
 
 /// Copies what of a square lies in a plane.
 void copy_own(const ConstPlaneView& plane, glm::ivec2 first, int size, std::uint8_t* out) {
-  const glm::ivec2 inside(std::clamp(plane.width - first.x, 0, size),
-                          std::clamp(plane.height - first.y, 0, size));
+  const glm::ivec2 inside = size_inside(first, size, plane);
   if (inside.x > 0) copy_samples(own_samples(plane, first), inside, out, WarpedBlock::kStride);
 }
 
@@ -40,7 +34,7 @@ BlockSamples3 still_block(const ShownSource& shown) {
     const ConstPlaneView& own = shown.source.planes[p];
     const int size = block_size(p);
     const glm::ivec2 first = shown.block * size;
-    if (first.x + size <= own.width && first.y + size <= own.height) {
+    if (size_inside(first, size, own) == glm::ivec2(size)) {
       out[p] = own_samples(own, first);
     } else {
       std::uint8_t* const to = shown.memory[p].samples.data();
@@ -113,26 +107,21 @@ void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 blo
   const std::size_t row = surround.weights.row();
   const BlockNodes nodes{surround.weights.at(node),
                          surround.field.moves() ? surround.field.at(node) : nullptr, row, columns};
-  BlockMotions motions;
   blended_.clear();
-  for (std::size_t first = 0; first < row; first += kRowStep) {
-    find_motions(nodes, first, motions);
-    for (std::uint32_t left = motions.shown; left != 0; left &= left - 1) {
-      const auto place = static_cast<std::size_t>(std::countr_zero(left));
-      const DrawnSource& source = d.sources[first + place];
-      const ShownSource shown{source, block, !d.chroma_area.empty(), memory_[blended_.size()]};
-      BlendedSource& added = blended_.emplace_back();
-      added.weight = nodes.weight + first + place;
-      if (motions.whole[place] == kStill)
-        added.planes = still_block(shown);
-      else if (motions.whole[place] == kEven)
-        added.planes =
-            displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
-                            shown.has_chroma, shown.memory);
-      else
-        added.planes = patched_block(shown, nodes, motions, first, place);
-    }
-  }
+  for_each_shown(nodes, [&](std::size_t first, std::size_t place, const BlockMotions& motions) {
+    const DrawnSource& source = d.sources[first + place];
+    const ShownSource shown{source, block, !d.chroma_area.empty(), memory_[blended_.size()]};
+    BlendedSource& added = blended_.emplace_back();
+    added.weight = nodes.weight + first + place;
+    if (motions.whole[place] == kStill)
+      added.planes = still_block(shown);
+    else if (motions.whole[place] == kEven)
+      added.planes =
+          displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
+                          shown.has_chroma, shown.memory);
+    else
+      added.planes = patched_block(shown, nodes, motions, first, place);
+  });
   const auto step = static_cast<std::ptrdiff_t>(row);
   draw_blend(blended_, {step, columns * step}, block, d.target);
 }

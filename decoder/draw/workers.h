@@ -12,9 +12,7 @@ namespace fbs {
 
 class Workers {
  public:
-  /// @param count  threads, with that which calls run(): at least 1, and then no other is begun. One that
-  /// cannot
-  ///               be begun is done without.
+  /// @param count  threads, at least 1: that which calls run(), and as many more as the system will begin
   explicit Workers(int count = 1);
   ~Workers();
   Workers(const Workers&) = delete;

@@ -160,11 +160,6 @@ void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptr
 
 namespace {
 
-/// What of a block lies in a plane.
-glm::ivec2 size_inside(glm::ivec2 first, int size, const PlaneView& plane) {
-  return {std::clamp(plane.width - first.x, 0, size), std::clamp(plane.height - first.y, 0, size)};
-}
-
 std::uint8_t* place_in(const PlaneView& plane, glm::ivec2 first) {
   return plane.data + first.y * plane.stride + first.x;
 }

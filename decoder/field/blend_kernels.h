@@ -2,6 +2,7 @@
 // Highway knows, chosen at run time; blend_kernels_plain.h defines the results. Integers only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,17 @@
 namespace fbs {
 
 inline constexpr int kChromaBlockSize = kBlockSize / 2;
+
+/// Samples of a block in a row of plane 0 (luma), 1 or 2.
+[[nodiscard]] constexpr int block_size(std::size_t plane) {
+  return plane == 0 ? kBlockSize : kChromaBlockSize;
+}
+
+/// What of a square of samples lies in a plane of some kind.
+template <class View>
+[[nodiscard]] glm::ivec2 size_inside(glm::ivec2 first, int size, const View& plane) {
+  return {std::clamp(plane.width - first.x, 0, size), std::clamp(plane.height - first.y, 0, size)};
+}
 
 /// Samples in anybody's memory.
 struct SampleBlock {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "decoder/blend/mesh_blend.h"
 #include "decoder/field/node_kernels_plain.h"
+#include "decoder/field/node_weights.h"
 #include "decoder/vectors/fixed_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -62,7 +62,6 @@ class Mean {
 
 void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
            std::size_t row, std::uint16_t* out) {
-  constexpr std::int32_t kNodeWeightOne = kBlendOne;
   constexpr int kToNodeLog2 = 4;
   static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
   // A weight and, after it, from which end of the row it comes: the largest is that of the first of equal
@@ -139,7 +138,7 @@ HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
 HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
   const Sources d;
   const Values still = hn::Set(d, kStill), even = hn::Set(d, kEven), bent = hn::Set(d, kBent),
-               even_enough = hn::Set(d, 16);
+               even_enough = hn::Set(d, kEvenEnough);
   Values kinds = hn::Zero(d),
          other = hn::Zero(d);  // of the patches: the largest; what differs from the first
   Values first_x = other, first_y = other;

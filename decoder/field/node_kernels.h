@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -53,6 +54,9 @@ struct BlockNodes {
   }
 };
 
+/// Differences within a patch that nobody sees, 1/64 luma sample.
+inline constexpr std::int32_t kEvenEnough = 16;
+
 /// How a texture is displaced in a patch or block.
 enum MotionKind : std::int32_t {
   kStill,  ///< it shows its own samples
@@ -71,5 +75,17 @@ struct BlockMotions {
 
 /// @param first  the first of the sources, a multiple of kRowStep
 void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out);
+
+/// Calls show(first, place, motions) for each source that has weight in a block, which is source first +
+/// place and has that place in `motions`.
+template <class Show>
+void for_each_shown(const BlockNodes& nodes, Show&& show) {
+  BlockMotions motions;
+  for (std::size_t first = 0; first < nodes.row; first += kRowStep) {
+    find_motions(nodes, first, motions);
+    for (std::uint32_t left = motions.shown; left != 0; left &= left - 1)
+      show(first, static_cast<std::size_t>(std::countr_zero(left)), motions);
+  }
+}
 
 }  // namespace fbs

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
-#include "decoder/blend/mesh_blend.h"
+#include "decoder/field/node_weights.h"
 
 namespace fbs::plain {
 namespace {
-
-/// Differences within a patch that nobody sees, 1/64 luma sample.
-constexpr std::int32_t kEvenEnough = 16;
-
-constexpr std::int32_t kNodeWeightOne = kBlendOne;
 
 /// The first row of a point.
 const std::int32_t* row_of(const std::int32_t* rows, std::int32_t point, std::size_t size) {

@@ -38,9 +38,9 @@ struct ShortTriangle {
 inline constexpr int kReadColumns = 16, kReadRows = 4;
 
 /// @param sources  the texture first. 1..kMaxTriangleSources
-/// @return none where the triangle is too large, its texture lies at the border, or it is drawn from more
-/// than the
-///         above: draw_triangle() draws it by other means
+/// @return none where the triangle is too large, its texture lies at the border, or there is more to draw
+/// than
+///         the above: draw_triangle() does so by other means
 [[nodiscard]] std::optional<ShortTriangle> shorten(const TriangleSetup& setup, const ScreenTriangle& triangle,
                                                    std::span<const TextureSource> sources,
                                                    const RasterTarget& target);
