@@ -34,7 +34,7 @@ BlockSamples3 still_block(const ShownSource& shown) {
     const ConstPlaneView& own = shown.source.planes[p];
     const int size = block_size(p);
     const glm::ivec2 first = shown.block * size;
-    if (size_inside(first, size, own) == glm::ivec2(size)) {
+    if (first.x + size <= own.width && first.y + size <= own.height) {
       out[p] = own_samples(own, first);
     } else {
       std::uint8_t* const to = shown.memory[p].samples.data();
