@@ -3,11 +3,12 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
-#include "cli/loss_report.h"
 #include "cli/module.h"
-#include "cli/player.h"
-#include "cli/stream_file.h"
-#include "cli/verbs.h"
+#include "cli/outcome.h"
+#include "cli/play/play_arguments.h"
+#include "cli/play/player.h"
+#include "cli/stream/loss_report.h"
+#include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 namespace {
@@ -29,7 +30,7 @@ Result<StreamFile> open(const PlayArguments& arguments) {
   return file;
 }
 
-Result<void> play(const PlayArguments& arguments) {
+Result<Outcome> play(const PlayArguments& arguments) {
   // Decode one picture first, so that a bad stream gives an error and no window.
   auto probe = open(arguments);
   if (!probe) return fail(probe.error());
@@ -44,7 +45,7 @@ Result<void> play(const PlayArguments& arguments) {
       if (!file) return fail(file.error());
       auto left = player.show(*file);
       if (!left) return fail(left.error());
-      if (*left == Player::Leave::kQuit) return {};
+      if (*left == Player::Leave::kQuit) return Outcome::kComplete;
     }
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::kIo, "cannot open a window: " + std::string(e.err));
@@ -54,6 +55,7 @@ Result<void> play(const PlayArguments& arguments) {
 }  // namespace
 }  // namespace fbs::cli
 
-FBS_MODULE_EXPORT void fbs_run_play(const fbs::cli::PlayArguments& arguments, fbs::Result<void>& result) {
+FBS_MODULE_EXPORT void fbs_run_play(const fbs::cli::PlayArguments& arguments,
+                                    fbs::Result<fbs::cli::Outcome>& result) {
   result = fbs::cli::play(arguments);
 }

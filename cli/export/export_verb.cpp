@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/export/export_arguments.h"
 #include "cli/output_check.h"
-#include "cli/stream_file.h"
-#include "cli/verbs.h"
+#include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
 #include "decoder/scene_face.h"
 
@@ -45,12 +45,12 @@ std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
 
 }  // namespace
 
-Result<void> run_export(const ExportArguments& arguments) {
+Result<Outcome> run_export(const ExportArguments& arguments) {
   if (!arguments.output.ends_with(".csv"))
     return fail(ErrorCode::kUnsupported, arguments.output + ": unknown format; use .csv");
   const std::array inputs{NamedFile{"INPUT", arguments.input}};
   const std::array outputs{NamedFile{"OUTPUT", arguments.output}};
-  if (auto checked = check_distinct(inputs, outputs); !checked) return checked;
+  if (auto checked = check_distinct(inputs, outputs); !checked) return fail(checked.error());
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
   auto out = AtomicFile::create(arguments.output);
@@ -59,14 +59,14 @@ Result<void> run_export(const ExportArguments& arguments) {
   const auto write = [&](const std::string& text) {
     return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   };
-  if (auto written = write(header()); !written) return written;
+  if (auto written = write(header()); !written) return fail(written.error());
   for (std::uint64_t frame = 0;; ++frame) {
     auto status = file->next();
     if (!status) return fail(status.error());
     if (*status == DecodeStatus::kEnd) break;
-    if (auto written = write(row(frame, file->decoder())); !written) return written;
+    if (auto written = write(row(frame, file->decoder())); !written) return fail(written.error());
   }
-  return out->commit();
+  return out->commit().map([] { return Outcome::kComplete; });
 }
 
 }  // namespace fbs::cli

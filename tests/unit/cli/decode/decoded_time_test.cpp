@@ -1,4 +1,4 @@
-#include "cli/decoded_time.h"
+#include "cli/decode/decoded_time.h"
 
 #include <gtest/gtest.h>
 

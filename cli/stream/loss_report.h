@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "cli/outcome.h"
 #include "cli/progress.h"
-#include "cli/stream_file.h"
-#include "cli/verbs.h"
+#include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 

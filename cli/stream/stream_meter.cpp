@@ -1,4 +1,4 @@
-#include "cli/stream_meter.h"
+#include "cli/stream/stream_meter.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

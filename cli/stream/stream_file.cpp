@@ -1,4 +1,4 @@
-#include "cli/stream_file.h"
+#include "cli/stream/stream_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -5,13 +5,13 @@
 #include <optional>
 #include <thread>
 
-#include "cli/decoded_time.h"
-#include "cli/loss_report.h"
+#include "cli/decode/decode_arguments.h"
+#include "cli/decode/decoded_time.h"
 #include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/standard_output.h"
-#include "cli/stream_file.h"
-#include "cli/verbs.h"
+#include "cli/stream/loss_report.h"
+#include "cli/stream/stream_file.h"
 #include "cli/video/constant_rate.h"
 #include "cli/video/stop_signal.h"
 #include "cli/video/timestamps.h"

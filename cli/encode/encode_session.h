@@ -4,8 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "cli/stream_meter.h"
-#include "cli/verbs.h"
+#include "cli/stream/stream_meter.h"
 #include "cli/video/video_source.h"
 #include "encoder/encoder.h"
 

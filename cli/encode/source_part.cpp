@@ -1,4 +1,4 @@
-#include "cli/source_part.h"
+#include "cli/encode/source_part.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "cli/loss_report.h"
-#include "cli/stream_file.h"
+#include "cli/stream/loss_report.h"
+#include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 

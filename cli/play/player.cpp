@@ -1,4 +1,4 @@
-#include "cli/player.h"
+#include "cli/play/player.h"
 
 #include <algorithm>
 #include <opencv2/highgui.hpp>

@@ -1,4 +1,4 @@
-#include "cli/encode_session.h"
+#include "cli/encode/encode_session.h"
 
 #include <algorithm>
 #include <chrono>

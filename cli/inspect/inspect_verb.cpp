@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/byte_count_json.h"
 #include "cli/display/picture_sources.h"
-#include "cli/packet_list.h"
-#include "cli/pattern_use.h"
-#include "cli/stream_file.h"
-#include "cli/verbs.h"
+#include "cli/inspect/inspect_arguments.h"
+#include "cli/inspect/packet_list.h"
+#include "cli/inspect/pattern_use.h"
+#include "cli/stream/byte_count_json.h"
+#include "cli/stream/stream_file.h"
 #include "decoder/scene_face.h"
 #include "decoder/scene_index.h"
 

@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "cli/display/overlay.h"
-#include "cli/encode_session.h"
+#include "cli/encode/encode_arguments.h"
+#include "cli/encode/encode_session.h"
+#include "cli/encode/source_part.h"
 #include "cli/module.h"
+#include "cli/outcome.h"
 #include "cli/output_check.h"
-#include "cli/source_part.h"
-#include "cli/stream_file.h"
+#include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
 #include "cli/video/stop_signal.h"
 

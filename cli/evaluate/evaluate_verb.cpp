@@ -5,12 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "cli/byte_count_json.h"
-#include "cli/encode_session.h"
+#include "cli/encode/encode_session.h"
+#include "cli/encode/source_part.h"
+#include "cli/evaluate/evaluate_arguments.h"
 #include "cli/module.h"
+#include "cli/outcome.h"
 #include "cli/progress.h"
-#include "cli/source_part.h"
-#include "cli/stream_file.h"
+#include "cli/stream/byte_count_json.h"
+#include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 namespace {

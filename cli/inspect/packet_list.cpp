@@ -1,4 +1,4 @@
-#include "cli/packet_list.h"
+#include "cli/inspect/packet_list.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/loss_report.h"
+#include "cli/stream/loss_report.h"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "cli/pattern_use.h"
+#include "cli/inspect/pattern_use.h"
 
 #include "cli/display/picture_sources.h"
 #include "decoder/blend/picture_blend.h"

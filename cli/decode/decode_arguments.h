@@ -1,0 +1,24 @@
+// Arguments of `fbs decode`.
+#pragma once
+
+#include <string>
+
+#include "cli/outcome.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+struct DecodeArguments {
+  std::string input, output;
+  std::string sound;        ///< file whose sound is copied into the output
+  double from = 0;          ///< seconds; where to begin
+  bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
+  bool keep_going = false;  ///< decode as much as possible of a damaged stream
+  int threads = 0;          ///< that draw each picture; 0: as many as there are cores, up to four
+  bool md5 = false;         ///< print the MD5 of each picture; without an output nothing else is written
+  bool quiet = false;
+};
+
+Result<Outcome> run_decode(const DecodeArguments& arguments);
+
+}  // namespace fbs::cli

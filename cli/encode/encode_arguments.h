@@ -1,0 +1,43 @@
+// Arguments of `fbs encode`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fbs::cli {
+
+struct EncodeArguments {
+  std::string input, output;
+  int quality = 50;
+  double bitrate = 0;        ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;          ///< of a scene; 0: chosen by the encoder
+  std::optional<bool> live;  ///< whether it is; nothing: a camera is
+  double delay = 0.2;        ///< s, of a live source
+  int threads = 0;           ///< of a live source; 0: as many as there are cores
+  double buffer = 2;         ///< s, of a live source with a bitrate
+  double key_interval = 0;   ///< seconds; 0: where it costs little
+  int face = 0;
+  std::string marks;                   ///< file; empty: automatic
+  std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::optional<std::int64_t> frames;  ///< encode at most so many pictures
+  std::optional<double> duration;      ///< encode at most so many seconds of the source
+  double sequence_rate = 25;
+  bool allow_no_face = false;
+  // For measurements; not shown by --help.
+  double motion_bitrate = 0;   ///< target of the motion alone, kbit/s; 0: none
+  int pattern_quantiser = -1;  ///< of AV1; -1: quality decides
+  std::optional<bool> reduced_patterns;
+  int effort = 1;
+  bool snakes = true;
+  bool refine = true;
+  bool landmarks = true;
+  bool surround = true;
+  bool quiet = false;
+};
+
+/// The module of the verbs that encode, and the function of this one.
+inline constexpr const char* kEncoderModule = "fbs_encoder";
+inline constexpr const char* kEncodeSymbol = "fbs_run_encode";
+
+}  // namespace fbs::cli

@@ -1,0 +1,116 @@
+// The options of `fbs encode`.
+#include <cstdint>
+#include <memory>
+
+#include "cli/encode/encode_arguments.h"
+#include "cli/module_verb.h"
+#include "cli/verb.h"
+
+namespace fbs::cli {
+namespace {
+
+constexpr std::int64_t kMaxFrames = 1'000'000'000;  // more than a year
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  fbs encode talk.mkv talk.fbs                    print size, bitrate and PSNR when done\n"
+    "  fbs encode talk.mkv talk.fbs --quality 70       higher quality, larger file\n"
+    "  fbs encode talk.mkv talk.fbs --bitrate 5        aim for a total of 5 kbit/s\n"
+    "  fbs encode talk.mkv talk.fbs --patterns 1       send one picture, then only motion\n"
+    "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
+    "  fbs encode camera:0 talk.fbs                    encode live, until Ctrl-C\n"
+    "  fbs encode shots/frame_%05d.png talk.fbs --rate 30";
+
+void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
+  verb.add_option("--quality", a.quality, "From 0 (smallest file) to 100 (best pictures)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 100));
+  verb.add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
+      ->check(number_within(0.1, 10000))
+      ->excludes("--quality");
+  verb.add_option("--patterns", a.patterns,
+                  "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
+                  "then only motion (default: chosen by the encoder)")
+      ->check(CLI::Range(1, 64));
+  verb.add_flag("--live,!--no-live", a.live,
+                "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
+                "file is better encoded without");
+  verb.add_option("--delay", a.delay, "With --live: seconds of pictures that are encoded together")
+      ->capture_default_str()
+      ->check(number_within(0.01, 5));
+  verb.add_option(
+          "--buffer", a.buffer,
+          "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
+          "that rate")
+      ->capture_default_str()
+      ->check(number_within(0.1, 60));
+  verb.add_option(
+          "--threads", a.threads,
+          "With --live: with 2 or more, pictures are encoded while the next ones are analysed (default: "
+          "one for each core)")
+      ->check(CLI::Range(1, 64));
+  verb.add_option("--key-interval", a.key_interval,
+                  "Most seconds between the places where a viewer can join and damage ends (default: up to "
+                  "40 with several patterns; none with --patterns 1; 10 with --live)")
+      ->check(CLI::Range(0.2, 3600.0));
+}
+
+void add_experiments(CLI::App& verb, EncodeArguments& a) {
+  verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
+  verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
+  verb.add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
+  verb.add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
+  verb.add_flag("!--no-landmarks", a.landmarks)->group(kHiddenGroup);
+  verb.add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
+  verb.add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
+  verb.add_option("--motion-bitrate", a.motion_bitrate)
+      ->check(number_within(0.05, 1000))
+      ->group(kHiddenGroup);
+}
+
+}  // namespace
+
+void add_encode(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<EncodeArguments>();
+  EncodeArguments& a = *arguments;
+  CLI::App* verb = app.add_subcommand("encode", "Encode a video");
+  verb->add_option("INPUT", a.input,
+                   "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
+      ->required();
+  verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
+  add_encode_rate(*verb, a);
+  verb->add_option("--effort", a.effort,
+                   "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "
+                   "1 % fewer bytes at equal quality")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 2));
+  verb->add_option(
+      "--marks", a.marks,
+      "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "
+      "...} or {\"landmarks\": [68 points]}; detected automatically if not given");
+  verb->add_option("--face", a.face, "Face to track; 0 is the largest")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  verb->add_option("--overlay", a.overlay,
+                   "Also write a video of the source with mesh and snakes drawn on it (.mp4, .mkv, .y4m)");
+  verb->add_option("--frames", a.frames, "Encode the first N pictures only")
+      ->check(CLI::Range(std::int64_t{1}, kMaxFrames))
+      ->type_name("N");
+  verb->add_option("--duration", a.duration,
+                   "Encode the first SECONDS only; with --frames, whichever ends first")
+      ->check(number_within(0.001, kMaxSeconds))
+      ->type_name("SECONDS");
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
+      ->capture_default_str()
+      ->check(number_within(0.01, 1000));
+  verb->add_flag("--allow-no-face", a.allow_no_face,
+                 "Encode a video without a face, too, instead of failing");
+  verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
+  add_experiments(*verb, a);
+  verb->footer(kExamples);
+  verb->callback([&run, arguments] {
+    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kEncodeSymbol, *arguments); };
+  });
+}
+
+}  // namespace fbs::cli

@@ -1,0 +1,20 @@
+// A verb that a module carries out (module.h): it needs libraries that take longer to load than most streams
+// take to decode.
+#pragma once
+
+#include "cli/module.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// Calls `void symbol(const Arguments&, Result<Value>&)` of the module.
+template <class Value, class Arguments>
+Result<Value> run_in_module(const char* module, const char* symbol, const Arguments& arguments) {
+  auto function = load_module_function<void(const Arguments&, Result<Value>&)>(module, symbol);
+  if (!function) return fail(function.error());
+  Result<Value> result;
+  (*function)(arguments, result);
+  return result;
+}
+
+}  // namespace fbs::cli

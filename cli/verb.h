@@ -1,0 +1,35 @@
+// What the verbs of the program share: how they end, and how main.cpp gets to know them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "cli/outcome.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// The verb of the command line with all its arguments. Error texts are complete lines for the user: which
+/// file, and what is wrong with it.
+using Run = std::function<Result<Outcome>()>;
+
+/// Each adds a verb with its options and examples; `run` is set when the command line has it.
+void add_encode(CLI::App& app, Run& run);
+void add_decode(CLI::App& app, Run& run);
+void add_play(CLI::App& app, Run& run);
+void add_evaluate(CLI::App& app, Run& run);
+void add_inspect(CLI::App& app, Run& run);
+void add_export(CLI::App& app, Run& run);
+
+/// Options in this group are for measurements, and --help leaves them out.
+inline constexpr const char* kHiddenGroup = "for measurements";
+
+inline constexpr double kMaxSeconds = 1e8;  ///< of options that are times: three years
+
+/// CLI::Range lets NaN through.
+[[nodiscard]] CLI::Validator number_within(double low, double high);
+
+/// --from SECONDS, where a verb begins.
+void add_from(CLI::App& verb, double& from);
+
+}  // namespace fbs::cli
