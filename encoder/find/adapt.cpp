@@ -33,6 +33,11 @@ Pose pose_of_eyes(const std::array<glm::dvec2, 2>& eyes) {
   return pose;
 }
 
+/// A place that a face in a picture may have; a caller's marks may be any numbers.
+bool is_position(glm::dvec2 mark) {
+  return std::abs(mark.x) <= kMaxMarkPx && std::abs(mark.y) <= kMaxMarkPx;
+}
+
 /// Marks in the face's frame, eye distances.
 FrontMarks levelled(const Marks& marks, const Pose& pose, double eye_distance) {
   const double c = std::cos(pose.roll) / eye_distance, s = std::sin(pose.roll) / eye_distance;
@@ -108,6 +113,9 @@ Geometry geometry_of(const FrontPoints& points, double depth_scale) {
 }  // namespace
 
 Result<AdaptedHead> adapt_head(const Marks& marks) {
+  for (const auto& mark : marks.vertex)
+    if (mark && !is_position(*mark))
+      return fail(ErrorCode::kDegenerateInput, "a mark is too far away, or not a number");
   const auto eyes = marks.eyes();
   if (!eyes) return fail(ErrorCode::kDegenerateInput, "an eye has no mark");
   const glm::dvec2 across = (*eyes)[1] - (*eyes)[0];

@@ -18,7 +18,7 @@ struct AdaptedHead {
 /// since yaw moves what lies deep aside; then height), then deforms it elastically (fit_elastically). Depth
 /// is scaled with the mean of width and height and not deformed. The paper marks a frontal picture; in ours
 /// the face may be turned.
-/// @return kDegenerateInput when an eye has no mark
+/// @return kDegenerateInput when an eye has no mark, or a coordinate is not a number or beyond kMaxMarkPx
 [[nodiscard]] Result<AdaptedHead> adapt_head(const Marks& marks);
 
 }  // namespace fbs

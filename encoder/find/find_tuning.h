@@ -16,5 +16,6 @@ constexpr double kMarkSigma = 0.06, kMarkedYawSigma = 0.6;  ///< of a mark; of t
 constexpr double kMinHeadScale = 0.7, kMaxHeadScale = 1.4;  ///< anatomical limits of width and height
 constexpr int kWidthIterations = 5;
 constexpr double kMinEyeDistancePx = 4;
+constexpr double kMaxMarkPx = 1e5;  ///< of a coordinate, either way: beyond every picture
 
 }  // namespace fbs::find_tuning

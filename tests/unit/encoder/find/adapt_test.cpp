@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/unit/talker_clip.h"
@@ -182,6 +183,18 @@ TEST(AdaptHead, AbsurdMarksFoldNoTriangle) {
     EXPECT_EQ(folded_triangles(head->geometry), 0) << i;
     EXPECT_LE(head->iterations, 60);
   }
+}
+
+TEST(AdaptHead, RefusesMarksThatAreNoPositions) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity(), 1e9, -1e9})
+    for (const int landmark : {8, 36}) {  // chin, an eye
+      Marks marks = plain_marks(seen_at(100, 80, 40));
+      marks.set_landmark(landmark, {100, bad});
+      const auto head = adapt_head(marks);
+      ASSERT_FALSE(head) << bad;
+      EXPECT_EQ(head.error().code, ErrorCode::kDegenerateInput);
+    }
 }
 
 TEST(AdaptHead, RefusesMarksWithoutAnEye) {
