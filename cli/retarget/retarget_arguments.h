@@ -1,0 +1,20 @@
+// Arguments of `fbs retarget`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace fbs::cli {
+
+struct RetargetArguments {
+  std::string motion;          ///< stream
+  std::string face;            ///< stream, or a picture
+  std::string output;          ///< stream
+  std::optional<int> quality;  ///< of the picture, 0..100; nothing: kPictureQuality
+  bool quiet = false;
+};
+
+inline constexpr int kPictureQuality = 70;                          ///< it is sent once
+inline constexpr const char* kRetargetSymbol = "fbs_run_retarget";  ///< in the encoder's module
+
+}  // namespace fbs::cli

@@ -1,0 +1,39 @@
+// The options of `fbs retarget`.
+#include <memory>
+
+#include "cli/encode/encode_arguments.h"
+#include "cli/module_verb.h"
+#include "cli/retarget/retarget_arguments.h"
+#include "cli/verb.h"
+
+namespace fbs::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  fbs retarget --motion anna.fbs --face bert.fbs out.fbs       Bert does what Anna does\n"
+    "  fbs retarget --motion anna.fbs --face photo.jpg out.fbs      so does a photograph";
+
+}  // namespace
+
+void add_retarget(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<RetargetArguments>();
+  RetargetArguments& a = *arguments;
+  CLI::App* verb = app.add_subcommand("retarget", "Give a face the motion of another");
+  verb->add_option("--motion", a.motion, "Stream whose pose and expression are used; - for standard input")
+      ->required()
+      ->type_name("STREAM");
+  verb->add_option("--face", a.face, "Whose face: a stream, or a picture of somebody")
+      ->required()
+      ->type_name("STREAM|PICTURE");
+  verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
+  verb->add_option("--quality", a.quality, "Of the picture, from 0 to 100 (default: 70)")
+      ->check(CLI::Range(0, 100));
+  verb->add_flag("--quiet", a.quiet, "Print no summary");
+  verb->footer(kExamples);
+  verb->callback([&run, arguments] {
+    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kRetargetSymbol, *arguments); };
+  });
+}
+
+}  // namespace fbs::cli

@@ -1,0 +1,104 @@
+// fbs retarget: one face with the motion of another.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "bitstream/packet.h"
+#include "cli/encode/encode_session.h"
+#include "cli/encode/source_part.h"
+#include "cli/module.h"
+#include "cli/outcome.h"
+#include "cli/output_check.h"
+#include "cli/retarget/retarget_arguments.h"
+#include "cli/stream/stream_file.h"
+#include "cli/video/atomic_file.h"
+#include "encoder/retarget/retarget.h"
+
+namespace fbs::cli {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Result<Bytes> read_stream(const std::string& name) {
+  auto file = StreamFile::open(name);
+  if (!file) return fail(file.error());
+  return file->read_all();
+}
+
+Result<bool> is_stream(const std::string& name) {
+  std::FILE* file = std::fopen(name.c_str(), "rb");
+  if (file == nullptr) return fail(ErrorCode::kIo, "cannot open " + name);
+  std::array<std::uint8_t, kSignature.size()> start{};
+  const std::size_t read = std::fread(start.data(), 1, start.size(), file);
+  std::fclose(file);
+  return read == start.size() && start == kSignature;
+}
+
+/// A stream of the picture alone.
+Result<Bytes> encode_picture(const RetargetArguments& arguments) {
+  auto opened = open_video_source(arguments.face);
+  if (!opened) return fail(opened.error());
+  SourcePart source(std::move(*opened), {1, std::nullopt}, nullptr);
+  EncoderSettings settings;
+  settings.quality = arguments.quality.value_or(kPictureQuality);
+  settings.patterns = 1;
+  Bytes stream;
+  const auto take = [&](std::span<const std::uint8_t> bytes) -> Result<void> {
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+    return {};
+  };
+  auto encoded = encode_source(source, settings, take, {}, Measured::kRate, true);
+  if (!encoded) return fail(about_file(arguments.face, encoded.error()));
+  return stream;
+}
+
+Result<FaceStream> read_face(const RetargetArguments& arguments) {
+  const auto stream = is_stream(arguments.face);
+  if (!stream) return fail(stream.error());
+  if (*stream && arguments.quality)
+    return fail(ErrorCode::kInvalidArgument,
+                "--quality is for a picture: " + arguments.face + " is a stream, whose patterns are copied");
+  const auto bytes = *stream ? read_stream(arguments.face) : encode_picture(arguments);
+  if (!bytes) return fail(bytes.error());
+  auto face = read_face_stream(*bytes);
+  if (!face) return fail(about_file(arguments.face, face.error()));
+  return face;
+}
+
+Result<void> check_files(const RetargetArguments& a) {
+  if (auto named = check_stream_name(a.output); !named) return named;
+  const std::array inputs{NamedFile{"--motion", a.motion}, NamedFile{"--face", a.face}};
+  const std::array outputs{NamedFile{"OUTPUT", a.output}};
+  return check_distinct(inputs, outputs);
+}
+
+Result<Outcome> retarget_files(const RetargetArguments& arguments) {
+  if (auto checked = check_files(arguments); !checked) return fail(checked.error());
+  const auto moving = read_stream(arguments.motion);
+  if (!moving) return fail(moving.error());
+  const auto motion = read_motion_record(*moving);
+  if (!motion) return fail(about_file(arguments.motion, motion.error()));
+  const auto face = read_face(arguments);
+  if (!face) return fail(face.error());
+  const auto stream = retarget(*motion, *face);
+  if (!stream) return fail(about_file(arguments.output, stream.error()));
+
+  auto out = AtomicFile::create(arguments.output);
+  if (!out) return fail(out.error());
+  if (out->replaced_leftover()) print_replaced_leftover(arguments.output);
+  if (auto written = out->write(*stream); !written) return fail(written.error());
+  if (auto committed = out->commit(); !committed) return fail(committed.error());
+  if (!arguments.quiet)
+    std::fprintf(stderr, "%s: %zu pictures, %zu bytes, %zu patterns\n", arguments.output.c_str(),
+                 motion->pictures.size(), stream->size(), face->later.size() + 1);
+  return Outcome::kComplete;
+}
+
+}  // namespace
+}  // namespace fbs::cli
+
+FBS_MODULE_EXPORT void fbs_run_retarget(const fbs::cli::RetargetArguments& arguments,
+                                        fbs::Result<fbs::cli::Outcome>& result) {
+  result = fbs::cli::retarget_files(arguments);
+}

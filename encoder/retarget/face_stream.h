@@ -1,0 +1,37 @@
+// What a stream knows of a face: its geometry and patterns, apart from how the face moves.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "common/result.h"
+#include "common/state.h"
+
+namespace fbs {
+
+struct FaceStream {
+  struct LaterPattern {
+    State seen;
+    std::vector<std::uint8_t> av1;
+  };
+  Setup setup;
+  Geometry geometry;
+  std::vector<std::uint8_t> geometry_payload;
+  std::vector<std::uint8_t> surround_payload;  ///< the last one of the scene; empty: none
+  PatternSyntax first;
+  State rest;                       ///< in which the first pattern was seen
+  std::vector<LaterPattern> later;  ///< in coding order, in slots 1, 2, ...; at most kMaxPatterns - 1
+  std::array<double, kInteriorCount>
+      interior{};  ///< light of the open mouth, mean of its pictures, 1/16 level
+};
+
+/// Reads the first scene that has a face. Patterns are those that fill the store; what replaces them later is
+/// left out.
+/// @param stream  whole
+/// @return errors of PacketReader and of the payloads, with the byte; kDegenerateInput when no scene has a
+/// face
+[[nodiscard]] Result<FaceStream> read_face_stream(std::span<const std::uint8_t> stream);
+
+}  // namespace fbs

@@ -1,0 +1,18 @@
+// Tracks through given states, with as few knots as follow them closely.
+#pragma once
+
+#include <span>
+
+#include "bitstream/syntax.h"
+#include "encoder/retarget/motion_transfer.h"
+
+namespace fbs {
+
+/// Each span is the longest that stays near all numbers between its ends (greedy). What moves in straight
+/// lines, as the tracks of a stream do, is found again.
+/// @param pictures  numbers of each picture of the group, 1..kMaxGroupPictures
+/// @param anchor    as MotionEncoder::anchor() says
+[[nodiscard]] MotionGroup fitted_tracks(std::span<const StateNumbers> pictures, const CodedState& anchor,
+                                        const Setup& setup);
+
+}  // namespace fbs

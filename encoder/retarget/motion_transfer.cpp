@@ -1,0 +1,192 @@
+#include "encoder/retarget/motion_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <span>
+
+#include "encoder/model/skinning.h"
+
+namespace fbs {
+namespace {
+
+/// Features that differ more than this between two people are marked wrongly.
+constexpr double kMinScale = 0.5, kMaxScale = 2;
+/// Of the pictures, the mouth is taken to be shut in this part at least, unless its lips are farther apart.
+constexpr double kShutShare = 0.1;
+constexpr double kMaxShutGap = kUnitsPerEyeDistance / 40.0;
+constexpr std::array<std::array<int, 2>, 3> kLipPairs{{{61, 67}, {62, 66}, {63, 65}}};  // upper, lower
+
+glm::dvec2 point(const Geometry& geometry, int landmark) {
+  return glm::dvec2(geometry.positions[vertex_of_landmark(static_cast<std::size_t>(landmark))]);
+}
+
+glm::dvec2 middle(const Geometry& geometry, int first, int last) {
+  glm::dvec2 sum{0, 0};
+  for (int k = first; k <= last; ++k) sum += point(geometry, k);
+  return sum / static_cast<double>(last - first + 1);
+}
+
+/// Width and height of each feature by which its motion is measured.
+std::array<glm::dvec2, kFeatureCount> sizes_of(const Geometry& g) {
+  const auto width = [&](int a, int b) { return std::abs(point(g, b).x - point(g, a).x); };
+  const glm::dvec2 mouth{width(48, 54), point(g, 8).y - middle(g, 48, 59).y};
+  const auto brow = [&](int first, int eye) {
+    return glm::dvec2(width(first, first + 4), middle(g, eye, eye + 5).y - middle(g, first, first + 4).y);
+  };
+  const auto eye = [&](int first) {
+    return glm::dvec2(width(first, first + 3),
+                      middle(g, first + 4, first + 5).y - middle(g, first + 1, first + 2).y);
+  };
+  const glm::dvec2 right = eye(36), left = eye(42);
+  return {mouth, mouth, brow(17, 36), brow(22, 42), right, left, right, left, right, left};
+}
+
+double ratio(double shown, double moves) {
+  return shown > 0 && moves > 0 ? std::clamp(shown / moves, kMinScale, kMaxScale) : 1.0;
+}
+
+LipGaps gaps_of(const Geometry& geometry, const Offsets& offsets) {
+  const HeadVertices vertices = skinned(geometry, offsets);
+  LipGaps out{};
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = vertices[vertex_of_landmark(static_cast<std::size_t>(kLipPairs[i][1]))].y -
+             vertices[vertex_of_landmark(static_cast<std::size_t>(kLipPairs[i][0]))].y;
+  return out;
+}
+
+Offsets offsets_of(const State& state) {
+  Offsets out;
+  std::ranges::transform(state.control, out.begin(), [](glm::ivec2 c) { return glm::dvec2(c); });
+  return out;
+}
+
+/// Moves the control points of the inner lips down, and the outer lips with them: both curves run round the
+/// mouth from its right corner.
+/// @param down  of each control point of the inner lips, head units
+void move_lips(std::span<const double> down, Offsets& offsets) {
+  const Feature &inner = feature(FeatureId::kMouthInner), &outer = feature(FeatureId::kMouthOuter);
+  for (std::size_t c = 0; c < down.size(); ++c) offsets[inner.first_control + c].y += down[c];
+  for (int c = 0; c < outer.control_count; ++c) {
+    const double s = static_cast<double>(c) * inner.control_count / outer.control_count;
+    const auto before = static_cast<std::size_t>(s);
+    const double part = s - static_cast<double>(before);
+    offsets[outer.first_control + c].y += (1 - part) * down[before] + part * down[(before + 1) % down.size()];
+  }
+}
+
+constexpr int kLipControls = 8;  ///< of the inner lips
+using GapSlopes = std::array<glm::dvec3, kLipControls>;
+
+/// What each argument of move_lips() adds to the gaps.
+const GapSlopes& gap_slopes() {
+  static const GapSlopes slopes = [] {
+    GapSlopes out;
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      std::array<double, kLipControls> down{};
+      down[c] = 1;
+      Offsets offsets{};
+      move_lips(down, offsets);
+      const LipGaps gaps = gaps_of(Geometry{}, offsets);
+      out[c] = {gaps[0], gaps[1], gaps[2]};
+    }
+    return out;
+  }();
+  return slopes;
+}
+
+/// Moves the lips as little as changes the gaps so.
+void add_to_gaps(const LipGaps& change, Offsets& offsets) {
+  glm::dmat3 squares(0.0);
+  for (const glm::dvec3& slope : gap_slopes()) squares += glm::outerProduct(slope, slope);
+  const glm::dvec3 pull = glm::inverse(squares) * glm::dvec3(change[0], change[1], change[2]);
+  std::array<double, kLipControls> down{};
+  std::ranges::transform(gap_slopes(), down.begin(), [&](glm::dvec3 slope) { return glm::dot(slope, pull); });
+  move_lips(down, offsets);
+}
+
+/// The gaps that the mouth has when it is shut, as it is seen: lips that touch are rarely marked so.
+LipGaps shut_gaps(const MotionRecord& motion) {
+  std::array<std::vector<double>, 3> seen;
+  for (const MotionRecord::Entry& picture : motion.pictures) {
+    const LipGaps gaps = gaps_of(motion.geometries[picture.geometry], offsets_of(picture.state));
+    for (std::size_t i = 0; i < gaps.size(); ++i) seen[i].push_back(gaps[i]);
+  }
+  LipGaps out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto place =
+        seen[i].begin() + static_cast<std::ptrdiff_t>(kShutShare * static_cast<double>(seen[i].size()));
+    std::nth_element(seen[i].begin(), place, seen[i].end());
+    out[i] = std::min(*place, kMaxShutGap);
+  }
+  return out;
+}
+
+}  // namespace
+
+StateNumbers numbers_of(const State& state) {
+  StateNumbers out{};
+  auto* to = out.begin();
+  to = std::ranges::copy(state.pose, to).out;
+  to = std::ranges::copy(state.light, to).out;
+  to = std::ranges::copy(state.interior, to).out;
+  to = std::ranges::copy(state.body, to).out;
+  to = std::ranges::copy(state.ground, to).out;
+  std::ranges::copy(to_coefficients(offsets_of(state)), to);
+  return out;
+}
+
+MotionTransfer::MotionTransfer(const MotionRecord& motion, const FaceStream& face)
+    : motion_(motion),
+      face_(face),
+      shut_(shut_gaps(motion)),
+      ratio_(std::exp2((face.rest.pose[kLogScale] - motion.rest.pose[kLogScale]) / 4096.0)) {
+  const auto shown = sizes_of(face.geometry);
+  for (const Geometry& geometry : motion.geometries) {
+    const auto moves = sizes_of(geometry);
+    auto& scale = scales_.emplace_back();
+    for (std::size_t f = 0; f < kFeatureCount; ++f)
+      scale[f] = {ratio(shown[f].x, moves[f].x), ratio(shown[f].y, moves[f].y)};
+    lip_scales_.push_back(scale[static_cast<std::size_t>(FeatureId::kMouthInner)].y);
+  }
+}
+
+Offsets MotionTransfer::scaled(const State& state, std::size_t geometry) const {
+  Offsets out = offsets_of(state);
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    const Feature& feature = generic_head().features[f];
+    for (int c = 0; c < feature.control_count; ++c) out[feature.first_control + c] *= scales_[geometry][f];
+  }
+  return out;
+}
+
+void MotionTransfer::match_gaps(const MotionRecord::Entry& picture, Offsets& offsets) const {
+  const LipGaps moves = gaps_of(motion_.geometries[picture.geometry], offsets_of(picture.state));
+  const LipGaps now = gaps_of(face_.geometry, offsets);
+  LipGaps change{};
+  for (std::size_t i = 0; i < change.size(); ++i)
+    change[i] = lip_scales_[picture.geometry] * std::max(0.0, moves[i] - shut_[i]) - now[i];
+  add_to_gaps(change, offsets);
+}
+
+StateNumbers MotionTransfer::operator()(const MotionRecord::Entry& picture) const {
+  const State& moves = picture.state;
+  Offsets offsets = scaled(moves, picture.geometry);
+  match_gaps(picture, offsets);
+  StateNumbers out = numbers_of(face_.rest);
+  for (const int angle : {kPitch, kYaw, kRoll, kLogScale})
+    out[angle] += moves.pose[angle] - motion_.rest.pose[angle];
+  for (const int axis : {0, 1}) {
+    const int shift = kShiftX + axis;
+    out[shift] += ratio_ * (moves.pose[shift] - motion_.rest.pose[shift] - moves.ground[axis]);
+    out[first_of(PartId::kBody) + axis] = ratio_ * (moves.body[axis] - moves.ground[axis]);
+  }
+  for (const int turn : {kSimilarityScale, kSimilarityRotation})
+    out[first_of(PartId::kBody) + turn] = ratio_ * moves.body[turn];
+  std::ranges::copy(face_.interior, out.begin() + first_of(PartId::kMouthInterior));
+  std::ranges::copy(to_coefficients(offsets), out.begin() + kFirstCoefficient);
+  return out;
+}
+
+}  // namespace fbs
