@@ -25,8 +25,8 @@ using LipGaps = std::array<double, 3>;
 /// Pose is what differs from the first picture: angles as they are, translation in eye distances, less that
 /// of the background. Offsets of control points are scaled: the mouth's by the widths of the mouths and the
 /// heights from mouth to chin, brows' and eyes' by their own widths and heights, so that shut eyes are shut.
-/// Lips are as far apart as the others are, beyond what these are apart when shut. Light and the inside of
-/// the mouth stay those of the face that is shown.
+/// Lips are as far apart as the others are, and touch where these do, however that is seen. Light and the
+/// inside of the mouth stay those of the face that is shown.
 class MotionTransfer {
  public:
   MotionTransfer(const MotionRecord& motion, const FaceStream& face);
@@ -42,7 +42,7 @@ class MotionTransfer {
   const FaceStream& face_;
   std::vector<std::array<glm::dvec2, kFeatureCount>> scales_;  ///< of offsets, by geometry of the motion
   std::vector<double> lip_scales_;                             ///< of gaps, by geometry of the motion
-  LipGaps shut_{};                                             ///< gaps of the motion's shut mouth
+  LipGaps shut_{};                                             ///< up to which the motion's mouth is shut
   double ratio_;                                               ///< of the eye distances in the first pictures
 };
 
