@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/help_formatter.h"
 #include "cli/standard_output.h"
 #include "cli/verb.h"
 
@@ -36,16 +37,6 @@ constexpr const char* kExamples =
     "--keep-going\n"
     "has lost pictures; 3 when inspect --packets has found damage; 130 or 143 when stopped.";
 
-/// Leaves out the hidden options. CLI11's own way, an empty group, would also leave their names out of
-/// errors.
-class HidingFormatter : public CLI::Formatter {
- public:
-  [[nodiscard]] std::string make_group(std::string group, bool is_positional,
-                                       std::vector<const CLI::Option*> options) const override {
-    return group == fbs::cli::kHiddenGroup ? "" : Formatter::make_group(group, is_positional, options);
-  }
-};
-
 /// @return `code`, or kFailed when what was printed does not arrive
 int end_output(int code) {
   const auto flushed = fbs::cli::flush_standard_output();
@@ -56,7 +47,7 @@ int end_output(int code) {
 
 int run_program(int argc, char** argv) {
   CLI::App app{kAbout, "fbs"};
-  app.formatter(std::make_shared<HidingFormatter>());
+  app.formatter(std::make_shared<fbs::cli::HelpFormatter>());
   app.footer(kExamples);
   app.set_version_flag("--version", "fbs " FBS_VERSION);
   app.require_subcommand(1);
@@ -68,6 +59,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_inspect(app, run);
   fbs::cli::add_export(app, run);
   fbs::cli::add_retarget(app, run);
+  fbs::cli::add_completions(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

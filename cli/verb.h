@@ -21,6 +21,7 @@ void add_evaluate(CLI::App& app, Run& run);
 void add_inspect(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
 void add_retarget(CLI::App& app, Run& run);
+void add_completions(CLI::App& app, Run& run);
 
 /// Options in this group are for measurements, and --help leaves them out.
 inline constexpr const char* kHiddenGroup = "for measurements";

@@ -1,0 +1,14 @@
+// Completion of the command line by shells.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace fbs::cli {
+
+/// A script for the shell that completes verbs and options of `app`, and file names.
+[[nodiscard]] std::string bash_completions(const CLI::App& app);
+[[nodiscard]] std::string zsh_completions(const CLI::App& app);
+[[nodiscard]] std::string fish_completions(const CLI::App& app);
+
+}  // namespace fbs::cli
