@@ -84,8 +84,12 @@ Result<void> Player::run() {
   playback_.take(decoder().position().time, decoder().duration(), Playback::Clock::now());
   if (auto drawn = draw(); !drawn) return drawn;
   while (!quits_) {
-    for (const WindowEvent& event : window_->events(patience()))
+    for (const WindowEvent& event : window_->events(patience())) {
       if (auto taken = take(event); !taken) return taken;
+      // What is recorded shows every change, even of keys that come at once.
+      if (recording_ && !drawn_)
+        if (auto drawn = draw(); !drawn) return drawn;
+    }
     if (!quits_ && drawn_ && playback_.is_due(Playback::Clock::now()))
       if (auto gone = advance(); !gone) return gone;
     if (!drawn_)
@@ -178,7 +182,7 @@ Result<void> Player::take(const WindowEvent& event) {
       shown_ = false;
       break;
     case Kind::kTurn:
-      stage_.edit.add(EditPart::kYaw, turn(event.x));
+      stage_.edit.add(EditPart::kYaw, -turn(event.x));
       stage_.edit.add(EditPart::kPitch, turn(event.y));
       drawn_ = false;
       break;

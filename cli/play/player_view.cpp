@@ -82,8 +82,10 @@ std::vector<Panel> Player::panels() const {
 
 std::vector<std::string> Player::info() const {
   const std::uint64_t begin = decoder().position().time, end = begin + decoder().duration();
-  const double rate = 8e-3 * static_cast<double>(file_->bytes_decoded()) * kTicksPerSecond /
-                      static_cast<double>(std::max<std::uint64_t>(end, 1));
+  // The first second has to carry what comes before the first picture.
+  const std::uint64_t time = std::max<std::uint64_t>(end, kTicksPerSecond);
+  const double rate =
+      8e-3 * static_cast<double>(file_->bytes_decoded()) * kTicksPerSecond / static_cast<double>(time);
   std::array<char, 160> line{};
   std::snprintf(line.data(), line.size(), "%s%s%s   %.1f kbit/s   picture %llu   patterns %zu%s%s",
                 clock_text(begin).c_str(), length_ ? " / " : "", length_ ? clock_text(*length_).c_str() : "",

@@ -15,12 +15,12 @@ constexpr std::int32_t degrees(int d) {
 
 // By EditPart.
 constexpr std::array<StateEdit::Limits, kEditPartCount> kLimits = {{
-    {-degrees(30), degrees(30), degrees(3)},
-    {-degrees(20), degrees(20), degrees(2)},
-    {-degrees(30), degrees(30), degrees(3)},
-    {-400, 640, 80},
-    {-800, 1600, 200},
-    {-300, 480, 60},
+    {-degrees(18), degrees(18), degrees(3)},
+    {-degrees(12), degrees(12), degrees(2)},
+    {-degrees(15), degrees(15), degrees(3)},
+    {-400, 560, 80},
+    {-800, 960, 120},
+    {-240, 420, 60},
     {-kSkinningOne / 4, kSkinningOne, kSkinningOne / 4},
 }};
 
@@ -31,11 +31,12 @@ struct Share {
 };
 
 // Most of an opening is the jaw's. Set by eye: the lips keep their thickness.
-constexpr std::array kInnerOpening = {Share{1, 0, -12}, Share{2, 0, -16}, Share{3, 0, -12}, Share{4, -10, 24},
-                                      Share{5, 0, 80},  Share{6, 0, 100}, Share{7, 0, 80},  Share{0, 10, 24}};
-constexpr std::array kOuterOpening = {Share{1, 0, -6},  Share{2, 0, -12}, Share{3, 0, -12}, Share{4, 0, -6},
-                                      Share{5, -8, 24}, Share{6, 0, 66},  Share{7, 0, 92},  Share{8, 0, 92},
-                                      Share{9, 0, 66},  Share{0, 8, 24}};
+constexpr std::array kInnerOpening = {Share{0, 14, 30}, Share{1, 0, -12},  Share{2, 0, -20},
+                                      Share{3, 0, -12}, Share{4, -14, 30}, Share{5, 26, 96},
+                                      Share{6, 0, 100}, Share{7, -26, 96}};
+constexpr std::array kOuterOpening = {
+    Share{0, 10, 28},  Share{1, 0, -4},  Share{2, 0, -14}, Share{3, 0, -14},  Share{4, 0, -4},
+    Share{5, -10, 28}, Share{6, 18, 96}, Share{7, 2, 108}, Share{8, -2, 108}, Share{9, -18, 96}};
 constexpr std::array kInnerSmile = {Share{0, -80, -60}, Share{1, -36, -16}, Share{3, 36, -16},
                                     Share{4, 80, -60},  Share{5, 36, -16},  Share{7, -36, -16}};
 constexpr std::array kOuterSmile = {Share{0, -100, -70}, Share{1, -50, -28}, Share{4, 50, -28},

@@ -171,7 +171,24 @@ bool Window::full_screen() const {
 }
 
 bool Window::set_full_screen(bool full) {
-  SDL_SetWindowFullscreen(handles_->window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  if (full == full_screen()) return full;
+  SDL_Window* const window = handles_->window;
+  Box& before = before_full_screen_;
+  // SDL leaves the size of the screen to the window manager. Where there is none the window takes it itself.
+  if (full) {
+    SDL_GetWindowPosition(window, &before.x, &before.y);
+    SDL_GetWindowSize(window, &before.width, &before.height);
+    SDL_Rect screen;
+    if (SDL_GetDisplayBounds(std::max(SDL_GetWindowDisplayIndex(window), 0), &screen) == 0) {
+      SDL_SetWindowPosition(window, screen.x, screen.y);
+      SDL_SetWindowSize(window, screen.w, screen.h);
+    }
+  }
+  SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  if (!full) {
+    SDL_SetWindowSize(window, before.width, before.height);
+    SDL_SetWindowPosition(window, before.x, before.y);
+  }
   return full_screen();
 }
 

@@ -77,7 +77,8 @@ class Window {
 
   std::unique_ptr<Handles, Close> handles_;
   Size content_;
-  bool on_bar_ = false;  ///< the button went down there, and is still down
+  Box before_full_screen_;  ///< where the window was
+  bool on_bar_ = false;     ///< the button went down there, and is still down
 };
 
 }  // namespace fbs::cli
