@@ -19,8 +19,8 @@ constexpr std::array<StateEdit::Limits, kEditPartCount> kLimits = {{
     {-degrees(12), degrees(12), degrees(2)},
     {-degrees(15), degrees(15), degrees(3)},
     {-400, 560, 80},
-    {-800, 960, 120},
-    {-240, 420, 60},
+    {-800, 1600, 200},
+    {-280, 560, 70},
     {-kSkinningOne / 4, kSkinningOne, kSkinningOne / 4},
 }};
 
@@ -30,15 +30,12 @@ struct Share {
   std::int8_t x, y;
 };
 
-// Most of an opening is the jaw's. Set by eye: the lips keep their thickness.
-constexpr std::array kInnerOpening = {Share{0, 14, 30}, Share{1, 0, -12},  Share{2, 0, -20},
-                                      Share{3, 0, -12}, Share{4, -14, 30}, Share{5, 26, 96},
-                                      Share{6, 0, 100}, Share{7, -26, 96}};
-constexpr std::array kOuterOpening = {
-    Share{0, 10, 28},  Share{1, 0, -4},  Share{2, 0, -14}, Share{3, 0, -14},  Share{4, 0, -4},
-    Share{5, -10, 28}, Share{6, 18, 96}, Share{7, 2, 108}, Share{8, -2, 108}, Share{9, -18, 96}};
-constexpr std::array kInnerSmile = {Share{0, -80, -60}, Share{1, -36, -16}, Share{3, 36, -16},
-                                    Share{4, 80, -60},  Share{5, 36, -16},  Share{7, -36, -16}};
+// Inner lips ride on outer ones: what moves both is said of the outer ones alone, and lips keep their
+// thickness. Most of an opening is the jaw's. Set by eye.
+constexpr std::array kOuterOpening = {Share{0, 12, 30}, Share{1, 4, -2},   Share{2, 0, -14}, Share{3, 0, -14},
+                                      Share{4, -4, -2}, Share{5, -12, 30}, Share{6, 0, 84},  Share{7, 0, 90},
+                                      Share{8, 0, 90},  Share{9, 0, 84}};
+constexpr std::array kInnerOpening = {Share{5, 16, 6}, Share{7, -16, 6}};
 constexpr std::array kOuterSmile = {Share{0, -100, -70}, Share{1, -50, -28}, Share{4, 50, -28},
                                     Share{5, 100, -70},  Share{6, 50, -28},  Share{9, -50, -28}};
 constexpr std::array kBrow = {Share{0, 0, -100}, Share{1, 0, -100}, Share{2, 0, -100}, Share{3, 0, -100}};
@@ -125,7 +122,6 @@ State StateEdit::applied(const State& state, const Geometry& head) const {
   for (const FeatureId brow : {FeatureId::kBrowRight, FeatureId::kBrowLeft})
     move(out, brow, kBrow, value(EditPart::kBrows));
   if (value(EditPart::kMouth) != 0) move_mouth(out, head, value(EditPart::kMouth));
-  move(out, FeatureId::kMouthInner, kInnerSmile, value(EditPart::kSmile));
   move(out, FeatureId::kMouthOuter, kOuterSmile, value(EditPart::kSmile));
   for (const Eye& eye : kEyes) shut(out, eye, head, value(EditPart::kLids));
   keep_within_limits(out);
