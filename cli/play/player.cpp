@@ -31,13 +31,15 @@ Result<void> Player::open() {
     source_.emplace(std::move(*source));
     shows_source_ = true;
   }
+  // Before the window: an output that cannot be is an error without one.
+  if (auto begun = begin_recording(); !begun) return begun;
   if (auto drawn = stage_.draw(decoder()); !drawn) return drawn;
   const auto first = image();
   if (!first) return fail(first.error());
   auto window = Window::open("fbs: " + arguments_.input, content_of(*first));
   if (!window) return fail(window.error());
   window_.emplace(std::move(*window));
-  return begin_recording();
+  return {};
 }
 
 Result<void> Player::open_stream() {
@@ -84,14 +86,10 @@ Result<void> Player::run() {
   playback_.take(decoder().position().time, decoder().duration(), Playback::Clock::now());
   if (auto drawn = draw(); !drawn) return drawn;
   while (!quits_) {
-    for (const WindowEvent& event : window_->events(patience())) {
-      if (auto taken = take(event); !taken) return taken;
-      // What is recorded shows every change, even of keys that come at once.
-      if (recording_ && !drawn_)
-        if (auto drawn = draw(); !drawn) return drawn;
-    }
-    if (!quits_ && drawn_ && playback_.is_due(Playback::Clock::now()))
+    if (auto taken = take_events(); !taken) return taken;
+    if (!quits_ && drawn_ && (wanted_ || playback_.is_due(Playback::Clock::now())))
       if (auto gone = advance(); !gone) return gone;
+    if (decoder().pictures() == 0) continue;  // of the time that has been gone to
     if (!drawn_)
       if (auto drawn = draw(); !drawn) return drawn;
     if (!shown_)
@@ -101,78 +99,73 @@ Result<void> Player::run() {
 }
 
 std::chrono::milliseconds Player::patience() const {
+  if (wanted_) return std::chrono::milliseconds(0);
   if (!playback_.is_running()) return kIdle;
   const auto left =
       std::chrono::duration_cast<std::chrono::milliseconds>(playback_.until_due(Playback::Clock::now()));
   return std::min(left, kIdle);
 }
 
-Result<bool> Player::decode_next() {
-  auto status = losses_.next(*file_);
+Result<void> Player::advance() {
+  const auto status = losses_.next(*file_);
+  if (!status && std::exchange(interrupted_, false)) return {};
+  const bool wanted = std::exchange(wanted_, false);
   if (status && *status == DecodeStatus::kPicture) {
-    playback_.take(decoder().position().time, decoder().duration(), Playback::Clock::now());
-    return true;
-  }
-  if (!status && interrupted_) {
-    interrupted_ = false;
-    return false;
+    const auto now = Playback::Clock::now();
+    playback_.take(decoder().position().time, decoder().duration(), now);
+    // What is recorded leaves out no picture.
+    if (wanted || recording_ || !playback_.is_late(now)) drawn_ = false;
+    return {};
   }
   // A time past the end of a pipe, whose length was not known, shows its last picture.
-  const bool ended =
-      status || (status.error().code == ErrorCode::kInvalidArgument && decoder().pictures() > 0);
-  if (!ended) return fail(status.error());
-  playback_.end();
-  return false;
-}
-
-Result<void> Player::advance() {
-  const auto decoded = decode_next();
-  if (!decoded) return fail(decoded.error());
-  if (playback_.ended()) return end_stream();
-  // What is recorded leaves out no picture.
-  const bool skipped = !recording_ && playback_.is_late(Playback::Clock::now());
-  if (*decoded && !skipped) drawn_ = false;
+  const bool past_end = !status && status.error().code == ErrorCode::kInvalidArgument;
+  if (!status && !past_end) return fail(status.error());
+  if (decoder().pictures() == 0)
+    return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
+  if (past_end) drawn_ = false;
+  end_stream();
   return {};
 }
 
-Result<void> Player::end_stream() {
+void Player::end_stream() {
+  playback_.end();
+  shown_ = false;
   length_ = decoder().position().time + decoder().duration();
   if (!std::exchange(reported_, true)) losses_.finish(*file_);
-  shown_ = false;
-  return loops_ ? go_to(first_time()) : Result<void>{};
+  // Who steps wants to see the end.
+  if (loops_ && !playback_.paused()) go_to(first_time());
 }
 
-Result<void> Player::go_to(std::uint64_t time) {
+void Player::go_to(std::uint64_t time) {
   if (length_ && *length_ > 0) time = std::min(time, *length_ - 1);
   file_->rejoin(time);
   prepare_decoder();
   playback_.jump();
-  const auto decoded = decode_next();
-  if (!decoded) return fail(decoded.error());
-  drawn_ = false;
-  return {};
+  wanted_ = true;
 }
 
-Result<void> Player::step(int pictures) {
+void Player::step(int pictures) {
   playback_.pause(true, Playback::Clock::now());
-  shown_ = false;
   const std::uint64_t now = decoder().position().time;
-  if (pictures < 0)
-    return now > decoder().start().time || now > 0 ? go_to(now - std::min<std::uint64_t>(now, 1))
-                                                   : Result<void>{};
-  if (playback_.ended()) return {};
-  const auto decoded = decode_next();
-  if (!decoded) return fail(decoded.error());
-  if (playback_.ended()) {
-    // Stepping does not begin again.
-    length_ = decoder().position().time + decoder().duration();
-    if (!std::exchange(reported_, true)) losses_.finish(*file_);
+  if (pictures > 0)
+    wanted_ = !playback_.ended();
+  else if (now > 0)
+    go_to(now - 1);
+}
+
+Result<void> Player::take_events() {
+  for (const WindowEvent& event : window_->events(patience())) {
+    take(event);
+    // Keys that come at once have their effect one after the other, and what is recorded shows each.
+    if (wanted_ && !quits_)
+      if (auto gone = advance(); !gone) return gone;
+    if (!drawn_ && recording_ && decoder().pictures() > 0)
+      if (auto drawn = draw(); !drawn) return drawn;
   }
-  if (*decoded) drawn_ = false;
   return {};
 }
 
-Result<void> Player::take(const WindowEvent& event) {
+void Player::take(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
   switch (event.kind) {
     case Kind::kClose:
@@ -191,43 +184,43 @@ Result<void> Player::take(const WindowEvent& event) {
       drawn_ = false;
       break;
     case Kind::kPlace:
-      if (length_) return go_to(static_cast<std::uint64_t>(event.x * static_cast<double>(*length_)));
+      if (length_) go_to(static_cast<std::uint64_t>(event.x * static_cast<double>(*length_)));
       break;
     case Kind::kKey:
-      if (const auto press = find_key(event.key)) return take_key(*press);
+      if (const auto press = find_key(event.key))
+        press->action <= Action::kLoop ? take_playing_key(*press) : take_view_key(*press);
       break;
   }
-  return {};
 }
 
-Result<void> Player::take_key(const KeyPress& press) {
-  if (press.action <= Action::kLoop) return take_playing_key(press);
-  take_view_key(press);
-  return {};
-}
-
-Result<void> Player::take_playing_key(const KeyPress& press) {
+void Player::take_playing_key(const KeyPress& press) {
   const std::uint64_t now = decoder().position().time;
   shown_ = false;
   switch (press.action) {
     case Action::kPause:
-      if (playback_.ended()) return go_to(first_time());
-      playback_.pause(!playback_.paused(), Playback::Clock::now());
+      if (playback_.ended()) {
+        playback_.pause(false, Playback::Clock::now());
+        go_to(first_time());
+      } else {
+        playback_.pause(!playback_.paused(), Playback::Clock::now());
+      }
       break;
     case Action::kStep:
-      return step(press.amount);
+      step(press.amount);
+      break;
     case Action::kSeek: {
       const std::uint64_t far = ticks(std::abs(press.amount));
-      return go_to(press.amount > 0 ? now + far : now - std::min(now, far));
+      go_to(press.amount > 0 ? now + far : now - std::min(now, far));
+      break;
     }
     case Action::kRestart:
-      return go_to(first_time());
+      go_to(first_time());
+      break;
     default:
       loops_ = !loops_;
-      if (loops_ && playback_.ended()) return go_to(first_time());
+      if (loops_ && playback_.ended()) go_to(first_time());
       break;
   }
-  return {};
 }
 
 void Player::take_view_key(const KeyPress& press) {

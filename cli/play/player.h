@@ -36,19 +36,19 @@ class Player {
   Result<void> begin_recording();
   [[nodiscard]] std::uint64_t first_time() const { return ticks(arguments_.from); }
 
-  /// Goes on to the next picture; at the end to the first, if the stream is looped.
+  /// Goes on to the next picture, at the end to the first if the stream is looped, when it is time or when it
+  /// is wanted. Nothing happens if the user does something while bytes are waited for.
   Result<void> advance();
-  Result<void> end_stream();
-  /// Whether the picture that follows has been decoded. False at the end, and when the user did something
-  /// while bytes were waited for.
-  Result<bool> decode_next();
-  /// Shows the picture of that time.
-  Result<void> go_to(std::uint64_t time);
-  Result<void> step(int pictures);
+  void end_stream();
+  /// Wants the picture of that time.
+  void go_to(std::uint64_t time);
+  /// Wants the picture before or behind.
+  void step(int pictures);
 
-  Result<void> take(const WindowEvent& event);
-  Result<void> take_key(const KeyPress& press);
-  Result<void> take_playing_key(const KeyPress& press);
+  /// Takes what has been done in the window.
+  Result<void> take_events();
+  void take(const WindowEvent& event);
+  void take_playing_key(const KeyPress& press);
   /// Of the keys that change what is shown and not when.
   void take_view_key(const KeyPress& press);
   [[nodiscard]] std::chrono::milliseconds patience() const;
@@ -76,6 +76,7 @@ class Player {
 
   bool loops_ = false, shows_source_ = false, shows_info_ = true, shows_help_ = false;
   bool quits_ = false;
+  bool wanted_ = false;       ///< the next picture, whatever the time
   bool interrupted_ = false;  ///< bytes were waited for when the user did something
   bool reported_ = false;     ///< what was lost
   bool drawn_ = true;         ///< the current picture, as it is to be
