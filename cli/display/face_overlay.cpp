@@ -13,7 +13,7 @@ constexpr int kShift = 4;        // OpenCV draws with positions in 1/16 pixel
 constexpr int kSampleShift = 6;  // vertices are in 1/64
 
 const cv::Scalar kMeshColour(90, 200, 90), kSnakeColour(40, 60, 255);
-constexpr int kWide = 700;  // pixels of an image on which contours are drawn thicker
+constexpr int kWide = 400;  // pixels of an image on which contours are drawn thicker
 
 /// The centre of the first pixel is at 32/64 in the picture and at 0 in OpenCV.
 cv::Point fixed(const glm::ivec3& p, int zoom) {

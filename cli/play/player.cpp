@@ -20,6 +20,27 @@ std::int32_t turn(double share) {
   return static_cast<std::int32_t>(share * kTurnOfDrag);
 }
 
+std::optional<EditPart> edited_part(Action action) {
+  switch (action) {
+    case Action::kYaw:
+      return EditPart::kYaw;
+    case Action::kPitch:
+      return EditPart::kPitch;
+    case Action::kRoll:
+      return EditPart::kRoll;
+    case Action::kBrows:
+      return EditPart::kBrows;
+    case Action::kMouth:
+      return EditPart::kMouth;
+    case Action::kSmile:
+      return EditPart::kSmile;
+    case Action::kLids:
+      return EditPart::kLids;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Result<void> Player::open() {
@@ -187,9 +208,28 @@ void Player::take(const WindowEvent& event) {
       if (length_) go_to(static_cast<std::uint64_t>(event.x * static_cast<double>(*length_)));
       break;
     case Kind::kKey:
-      if (const auto press = find_key(event.key))
-        press->action <= Action::kLoop ? take_playing_key(*press) : take_view_key(*press);
+      if (const auto press = find_key(event.key)) take_key(*press);
       break;
+  }
+}
+
+void Player::take_key(const KeyPress& press) {
+  switch (press.action) {
+    case Action::kPause:
+    case Action::kStep:
+    case Action::kSeek:
+    case Action::kRestart:
+    case Action::kLoop:
+      return take_playing_key(press);
+    case Action::kFullScreen:
+    case Action::kInfo:
+    case Action::kSource:
+    case Action::kHelp:
+    case Action::kLeave:
+    case Action::kQuit:
+      return take_window_key(press);
+    default:
+      return take_picture_key(press);
   }
 }
 
@@ -223,33 +263,33 @@ void Player::take_playing_key(const KeyPress& press) {
   }
 }
 
-void Player::take_view_key(const KeyPress& press) {
-  const auto edit = [&](EditPart part) { stage_.edit.step(part, press.amount); };
+void Player::take_window_key(const KeyPress& press) {
   shown_ = false;
   switch (press.action) {
     case Action::kFullScreen:
       window_->set_full_screen(!window_->full_screen());
-      return;
+      break;
     case Action::kInfo:
       shows_info_ = !shows_info_;
-      return;
+      break;
     case Action::kSource:
       shows_source_ = !shows_source_ && source_;
-      return;
+      break;
     case Action::kHelp:
       shows_help_ = !shows_help_;
-      return;
+      break;
     case Action::kLeave:
       quits_ = !window_->full_screen();
       window_->set_full_screen(false);
-      return;
-    case Action::kQuit:
-      quits_ = true;
-      return;
+      break;
     default:
+      quits_ = true;
       break;
   }
-  drawn_ = false;  // all others change the picture
+}
+
+void Player::take_picture_key(const KeyPress& press) {
+  drawn_ = false;
   switch (press.action) {
     case Action::kWire:
       stage_.overlays.wire = !stage_.overlays.wire;
@@ -259,27 +299,6 @@ void Player::take_view_key(const KeyPress& press) {
       break;
     case Action::kPatterns:
       stage_.overlays.patterns = !stage_.overlays.patterns;
-      break;
-    case Action::kYaw:
-      edit(EditPart::kYaw);
-      break;
-    case Action::kPitch:
-      edit(EditPart::kPitch);
-      break;
-    case Action::kRoll:
-      edit(EditPart::kRoll);
-      break;
-    case Action::kBrows:
-      edit(EditPart::kBrows);
-      break;
-    case Action::kMouth:
-      edit(EditPart::kMouth);
-      break;
-    case Action::kSmile:
-      edit(EditPart::kSmile);
-      break;
-    case Action::kLids:
-      edit(EditPart::kLids);
       break;
     case Action::kReset:
       stage_.edit.reset();
@@ -294,6 +313,7 @@ void Player::take_view_key(const KeyPress& press) {
       stage_.pattern.reset();
       break;
     default:
+      if (const auto part = edited_part(press.action)) stage_.edit.step(*part, press.amount);
       break;
   }
 }

@@ -48,9 +48,13 @@ class Player {
   /// Takes what has been done in the window.
   Result<void> take_events();
   void take(const WindowEvent& event);
+  void take_key(const KeyPress& press);
+  /// Of the keys that change when what is shown.
   void take_playing_key(const KeyPress& press);
-  /// Of the keys that change what is shown and not when.
-  void take_view_key(const KeyPress& press);
+  /// Of those that change the window and not the picture.
+  void take_window_key(const KeyPress& press);
+  /// Of those that change the picture.
+  void take_picture_key(const KeyPress& press);
   [[nodiscard]] std::chrono::milliseconds patience() const;
 
   /// Draws the current picture and shows it; records it if it is another or has changed.
