@@ -100,7 +100,7 @@ Result<void> Player::begin_recording() {
 
 Result<void> Player::run() {
   file_->on_wait([this] {
-    interrupted_ = window_->has_events();
+    interrupted_ = Window::has_events();
     return !interrupted_;
   });
   playback_.jump();  // the time that the window took to open does not count

@@ -47,7 +47,7 @@ class Window {
   /// What has been done since the last call; waits for something for so long.
   std::vector<WindowEvent> events(std::chrono::milliseconds patience);
   /// Whether events() would return any. Waits for nothing.
-  [[nodiscard]] bool has_events();
+  [[nodiscard]] static bool has_events();
 
   /// Shows an image with the panels over it.
   /// @param content   its size in square pixels; when it changes, a window that is not full screen does too
