@@ -53,14 +53,22 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-MeshBlend blend_of(const Scene& scene, const State& state, const ScreenMesh& mesh) {
+PictureBlend blend_of_state(const Scene& scene, const State& state) {
   std::vector<const State*> seen;
+  for (const Pattern& p : scene.patterns) seen.push_back(&p.seen);
+  return blend_picture(seen, state);
+}
+
+/// Gives the picture the size of the scene's.
+void fit(Picture& out, const Scene& scene) {
+  const Picture& pattern = scene.patterns.front().picture;
+  if (out.width() != pattern.width() || out.height() != pattern.height())
+    out = Picture(pattern.width(), pattern.height());
+}
+
+MeshBlend on_mesh(const PictureBlend& regions, const Scene& scene, const ScreenMesh& mesh) {
   std::vector<const TextureMesh*> textures;
-  for (const Pattern& p : scene.patterns) {
-    seen.push_back(&p.seen);
-    textures.push_back(&p.texture);
-  }
-  const PictureBlend regions = blend_picture(seen, state);
+  for (const Pattern& p : scene.patterns) textures.push_back(&p.texture);
   return scene.geometry ? blend_mesh(regions, *scene.geometry, textures, mesh) : blend_regions(regions);
 }
 
@@ -87,7 +95,19 @@ Result<void> Renderer::render(const Scene& scene, const State& state, const Pict
   const auto first = planes_of(scene.patterns.front().picture);
   const Targets targets = {out.y, out.u, out.v};
   if (!std::equal(first.begin(), first.end(), targets.begin(), same_size)) return fail(another_size());
-  draw(scene, state, targets, whole(out.y), whole(out.u));
+  draw(scene, state, blend_of_state(scene, state), targets, whole(out.y), whole(out.u));
+  return {};
+}
+
+Result<void> Renderer::render_from(std::size_t pattern, const Scene& scene, const State& state,
+                                   Picture& out) {
+  if (auto checked = check(scene); !checked) return checked;
+  if (pattern >= scene.patterns.size())
+    return fail(ErrorCode::kInvalidArgument, "the scene has no pattern of that number");
+  fit(out, scene);
+  PictureBlend alone;
+  alone.fill({{{static_cast<std::uint8_t>(pattern), false}, kBlendOne}});
+  draw(scene, state, alone, {out.y, out.u, out.v}, whole(out.y), whole(out.u));
   return {};
 }
 
@@ -97,14 +117,14 @@ Result<void> Renderer::render_luma(const Scene& scene, const State& state, const
   if (!same_size(scene.patterns.front().picture.y, out)) return fail(another_size());
   const SampleArea inside{std::max(area.x0, 0), std::max(area.y0, 0), std::min(area.x1, out.width),
                           std::min(area.y1, out.height)};
-  if (!inside.empty()) draw(scene, state, {out, {}, {}}, inside, {});
+  if (!inside.empty()) draw(scene, state, blend_of_state(scene, state), {out, {}, {}}, inside, {});
   return {};
 }
 
-void Renderer::draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
-                    const SampleArea& chroma) {
+void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& regions,
+                    const Targets& targets, const SampleArea& luma, const SampleArea& chroma) {
   const ScreenMesh mesh = scene.geometry ? scene.geometry->screen_mesh(state) : ScreenMesh{};
-  const MeshBlend blend = blend_of(scene, state, mesh);
+  const MeshBlend blend = on_mesh(regions, scene, mesh);
   const Drawing drawing{
       mesh, blend, sources_of(scene, blend), interior_colours(scene.setup.mouth, mesh.interior), targets,
       luma, chroma};
@@ -160,9 +180,7 @@ void Renderer::find_nodes(const Scene& scene, const NodeGrid& grid, const Drawin
 
 Result<void> Renderer::render(const Scene& scene, const State& state, Picture& out) {
   if (auto checked = check(scene); !checked) return checked;
-  const Picture& pattern = scene.patterns.front().picture;
-  if (out.width() != pattern.width() || out.height() != pattern.height())
-    out = Picture(pattern.width(), pattern.height());
+  fit(out, scene);
   return render(scene, state, PictureView(out));
 }
 

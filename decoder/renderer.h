@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "decoder/blend/picture_blend.h"
 #include "decoder/draw/atlas_blend.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/draw/workers.h"
@@ -31,14 +33,20 @@ class Renderer {
   /// The same into a picture, which takes the pattern's size.
   [[nodiscard]] Result<void> render(const Scene& scene, const State& state, Picture& out);
 
+  /// Draws the picture of `state` from one pattern alone, warped everywhere, whatever the modes of the state.
+  /// @param pattern  index into Scene::patterns
+  /// @return kInvalidArgument as above, and when there is no such pattern
+  [[nodiscard]] Result<void> render_from(std::size_t pattern, const Scene& scene, const State& state,
+                                         Picture& out);
+
   /// Draws an area of the picture's luma; what lies outside is undefined.
   [[nodiscard]] Result<void> render_luma(const Scene& scene, const State& state, const SampleArea& area,
                                          const PlaneView& out);
 
  private:
   using Targets = std::array<PlaneView, 3>;
-  void draw(const Scene& scene, const State& state, const Targets& targets, const SampleArea& luma,
-            const SampleArea& chroma);
+  void draw(const Scene& scene, const State& state, const PictureBlend& regions, const Targets& targets,
+            const SampleArea& luma, const SampleArea& chroma);
 
   /// Makes cover_, weights_ and field_.
   void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);

@@ -94,6 +94,13 @@ Result<void> StreamDecoder::render(const PictureView& out) {
   return renderer_.render(kept_ ? *kept_ : scene(), state_, out);
 }
 
+Result<void> StreamDecoder::render_state(const State& state, std::optional<std::size_t> pattern,
+                                         Picture& out) {
+  if (pictures_ == 0 || kept_) return render(out);
+  return pattern ? renderer_.render_from(*pattern, scene(), state, out)
+                 : renderer_.render(scene(), state, out);
+}
+
 void StreamDecoder::count(const Packet& packet) {
   // Count skipped bytes as other.
   bytes_.other += packet.offset - bytes_.total;

@@ -93,6 +93,14 @@ class StreamDecoder {
   /// The same into memory of the caller, whose planes have the format's size.
   [[nodiscard]] Result<void> render(const PictureView& out);
 
+  /// Draws a state of the caller's in the scene of that picture: what a viewer sees who moves the face.
+  /// Leaves alone what render() draws. A held picture whose scene is not kept any more is drawn as it is.
+  /// @param state    within the limits of common/state.h
+  /// @param pattern  index into scene().patterns: draws from it alone; none: the blend of `state`
+  /// @return kInvalidArgument before the first picture, and when there is no such pattern
+  [[nodiscard]] Result<void> render_state(const State& state, std::optional<std::size_t> pattern,
+                                          Picture& out);
+
   // Of the picture that next() announced last; a held picture has the state and scene of the one it repeats.
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const Scene& scene() const { return shown_scene_ ? *shown_scene_ : scene_; }

@@ -5,6 +5,7 @@
 #include "cli/display/pattern_legend.h"
 #include "cli/display/pattern_tint.h"
 #include "cli/display/picture_sources.h"
+#include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {
 namespace {
@@ -24,6 +25,27 @@ cv::Mat tinted(const cv::Mat& image, RgbImage& tint) {
   return out;
 }
 
+PictureSources sources_of(const StreamDecoder& decoder, const DrawnState& drawn) {
+  PictureSources out = picture_sources(decoder, drawn.state);
+  if (!drawn.pattern || *drawn.pattern >= out.in_slot.size()) return out;
+  for (std::vector<PatternWeight>& region : out.regions)
+    if (!region.empty()) region = {{out.in_slot[*drawn.pattern], region.front().still, kBlendOne}};
+  return out;
+}
+
+RgbImage plain_tint(const Bgr& colour) {
+  return {1, 1, {colour.begin(), colour.end()}};
+}
+
+Result<cv::Mat> tinted_by(const PictureSources& sources, const Scene& scene, const DrawnState& drawn,
+                          const cv::Mat& image) {
+  Result<RgbImage> tint = drawn.pattern && *drawn.pattern < sources.in_slot.size()
+                              ? plain_tint(pattern_colour(sources.in_slot[*drawn.pattern]))
+                              : pattern_tint(scene, drawn.state, sources.in_slot);
+  if (!tint) return fail(tint.error());
+  return tinted(image, *tint);
+}
+
 cv::Mat beside(const cv::Mat& left, const cv::Mat& right) {
   cv::Mat out(std::max(left.rows, right.rows), left.cols + right.cols, CV_8UC3, cv::Scalar());
   left.copyTo(out(cv::Rect({0, 0}, left.size())));
@@ -33,13 +55,21 @@ cv::Mat beside(const cv::Mat& left, const cv::Mat& right) {
 
 }  // namespace
 
+Result<cv::Mat> pattern_tinted(const StreamDecoder& decoder, const DrawnState& drawn, const cv::Mat& image) {
+  if (decoder.scene().patterns.empty()) return image;
+  return tinted_by(sources_of(decoder, drawn), decoder.scene(), drawn, image);
+}
+
+Result<cv::Mat> pattern_overlay(const StreamDecoder& decoder, const DrawnState& drawn, const cv::Mat& image) {
+  if (decoder.scene().patterns.empty()) return image;
+  const PictureSources sources = sources_of(decoder, drawn);
+  const auto tinted = tinted_by(sources, decoder.scene(), drawn, image);
+  if (!tinted) return fail(tinted.error());
+  return beside(*tinted, pattern_legend(sources, image.rows));
+}
+
 Result<cv::Mat> pattern_overlay(const StreamDecoder& decoder, const cv::Mat& image) {
-  const Scene& scene = decoder.scene();
-  if (scene.patterns.empty()) return image;
-  const PictureSources sources = picture_sources(decoder);
-  auto tint = pattern_tint(scene, decoder.state(), sources.in_slot);
-  if (!tint) return fail(tint.error());
-  return beside(tinted(image, *tint), pattern_legend(sources, image.rows));
+  return pattern_overlay(decoder, {decoder.state(), std::nullopt}, image);
 }
 
 }  // namespace fbs::cli

@@ -33,6 +33,10 @@ bool before(const PatternWeight& a, const PatternWeight& b) {
 }  // namespace
 
 PictureSources picture_sources(const StreamDecoder& decoder) {
+  return picture_sources(decoder, decoder.state());
+}
+
+PictureSources picture_sources(const StreamDecoder& decoder, const State& state) {
   const Scene& scene = decoder.scene();
   PictureSources out;
   out.picture = decoder.position().pictures;
@@ -42,7 +46,7 @@ PictureSources picture_sources(const StreamDecoder& decoder) {
 
   std::vector<const State*> seen;
   for (const Pattern& p : scene.patterns) seen.push_back(&p.seen);
-  const PictureBlend blend = blend_picture(seen, decoder.state());
+  const PictureBlend blend = blend_picture(seen, state);
   for (std::size_t r = 0; r < kRegionCount; ++r) {
     if (!scene.geometry && static_cast<Region>(r) != Region::kGround) continue;
     for (const WeightedSource& s : blend[r])

@@ -35,5 +35,7 @@ struct PictureSources {
 /// Of the picture that the decoder announced last.
 /// @param decoder  records its patterns
 [[nodiscard]] PictureSources picture_sources(const StreamDecoder& decoder);
+/// The same with another state drawn in its place.
+[[nodiscard]] PictureSources picture_sources(const StreamDecoder& decoder, const State& state);
 
 }  // namespace fbs::cli

@@ -7,7 +7,11 @@ namespace fbs::cli {
 
 struct PlayArguments {
   std::string input;
-  double from = 0;  ///< seconds; where to begin
+  std::string source;   ///< video to be shown beside the stream; none when empty
+  std::string record;   ///< output for what is seen; none when empty
+  double from = 0;      ///< seconds; where to begin
+  bool loop = false;    ///< begin again at the end
+  bool paused = false;  ///< show the first picture and wait
 };
 
 /// The module of the verb, and its function.

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/module_verb.h"
+#include "cli/play/key_map.h"
 #include "cli/play/play_arguments.h"
 #include "cli/verb.h"
 
@@ -11,18 +12,27 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  fbs play talk.fbs\n"
-    "  fbs play talk.fbs --from 90                     begin at 1:30";
+    "  fbs play talk.fbs --from 90                     begin at 1:30\n"
+    "  fbs play talk.fbs --source talk.mkv             what it was made of beside it\n"
+    "  fbs play talk.fbs --record seen.mp4             keep what the keys make of it\n"
+    "  fbs encode camera:0 - --live | fbs play -       look at oneself";
 
 }  // namespace
 
 void add_play(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<PlayArguments>();
   PlayArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand(
-      "play", "Play a stream in a window (space: pause, .: step, p: patterns, r: restart, q: quit)");
-  verb->add_option("INPUT", a.input, "Stream to play")->required();
+  CLI::App* verb = app.add_subcommand("play", "Play a stream in a window; keys move the face");
+  verb->add_option("INPUT", a.input, "Stream to play, or - for standard input")->required();
   add_from(*verb, a.from);
-  verb->footer(kExamples);
+  verb->add_flag("--loop", a.loop, "Begin again at the end");
+  verb->add_flag("--paused", a.paused, "Begin paused");
+  verb->add_option("--source", a.source, "Show this video, of which the stream was made, beside it");
+  verb->add_option(
+      "--record", a.record,
+      "Save what is seen, at the size of the picture and at the speed of the stream: .mp4, .mkv, "
+      ".y4m, frame_%05d.png; while paused, a picture for each change");
+  verb->footer("Keys and mouse:\n" + key_help() + "\n\n" + kExamples);
   verb->callback([&run, arguments] {
     run = [arguments] { return run_in_module<Outcome>(kPlayerModule, kPlaySymbol, *arguments); };
   });

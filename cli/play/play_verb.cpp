@@ -1,55 +1,32 @@
 // fbs play: shows a stream in a window.
-#include <cstdio>
-#include <cstdlib>
-#include <opencv2/core.hpp>
+#include <array>
 
 #include "cli/module.h"
 #include "cli/outcome.h"
+#include "cli/output_check.h"
 #include "cli/play/play_arguments.h"
 #include "cli/play/player.h"
-#include "cli/stream/loss_report.h"
-#include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 namespace {
 
-bool has_display() {
-  const auto set = [](const char* name) {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
-    const char* value = std::getenv(name);
-    return value != nullptr && *value != '\0';
-  };
-  return set("DISPLAY") || set("WAYLAND_DISPLAY") || set("QT_QPA_PLATFORM");
-}
-
-/// At the picture to begin with.
-Result<StreamFile> open(const PlayArguments& arguments) {
-  auto file = StreamFile::open(arguments.input);
-  if (file && arguments.from > 0)
-    if (auto sought = file->seek(ticks(arguments.from)); !sought) return fail(sought.error());
-  return file;
+Result<void> check_files(const PlayArguments& a) {
+  if (a.record == "-")
+    return fail(ErrorCode::kInvalidArgument,
+                "--record: pictures are saved in a file; use .y4m, .mp4 or .mkv");
+  if (auto named = check_picture_name(a.record); !named) return named;
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--source", a.source}};
+  const std::array outputs{NamedFile{"--record", a.record}};
+  return check_distinct(inputs, outputs);
 }
 
 Result<Outcome> play(const PlayArguments& arguments) {
-  // Decode one picture first, so that a bad stream gives an error and no window.
-  auto probe = open(arguments);
-  if (!probe) return fail(probe.error());
-  if (auto first = LossReport().next(*probe); !first) return fail(first.error());
-  // highgui aborts the program when there is no display.
-  if (!has_display()) return fail(ErrorCode::kIo, "cannot open a window: no display");
-  try {
-    Player player("fbs: " + arguments.input);
-    std::fprintf(stderr, "%s\n", Player::kKeys);
-    for (;;) {
-      auto file = open(arguments);
-      if (!file) return fail(file.error());
-      auto left = player.show(*file);
-      if (!left) return fail(left.error());
-      if (*left == Player::Leave::kQuit) return Outcome::kComplete;
-    }
-  } catch (const cv::Exception& e) {
-    return fail(ErrorCode::kIo, "cannot open a window: " + std::string(e.err));
-  }
+  if (auto checked = check_files(arguments); !checked) return fail(checked.error());
+  Player player(arguments);
+  // One picture is decoded first, so that a bad stream gives an error and no window.
+  if (auto opened = player.open(); !opened) return fail(opened.error());
+  if (auto played = player.run(); !played) return fail(played.error());
+  return Outcome::kComplete;
 }
 
 }  // namespace

@@ -1,51 +1,90 @@
-// A window in which streams are played, and its keys.
+// Plays a stream in a window, as keys and mouse say.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "cli/play/key_map.h"
+#include "cli/play/play_arguments.h"
+#include "cli/play/playback.h"
+#include "cli/play/recording.h"
+#include "cli/play/source_track.h"
+#include "cli/play/stage.h"
+#include "cli/play/window.h"
 #include "cli/stream/loss_report.h"
 #include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
 
-/// Throws cv::Exception when the window cannot be opened or drawn into.
+/// One stream in one window. Goes on after damage, and says at its end on standard error what was lost.
 class Player {
  public:
-  static constexpr const char* kKeys = "space: pause   .: step   p: patterns   r: restart   q: quit";
+  /// @param arguments  must outlive the object
+  explicit Player(const PlayArguments& arguments) : arguments_(arguments) {}
 
-  /// @param window  its title
-  explicit Player(std::string window);
-
-  enum class Leave : std::uint8_t { kQuit, kRestart };
-  /// Shows the stream once, then its last picture, until the user leaves. Goes on after damage, and says at
-  /// the end on standard error what was lost.
-  /// @param file  before its first next()
-  Result<Leave> show(StreamFile& file);
+  /// Opens the stream and all other files, decodes the first picture and opens the window, in this order.
+  Result<void> open();
+  /// Shows the stream, then its last picture, until the user leaves.
+  Result<void> run();
 
  private:
-  using Clock = std::chrono::steady_clock;
-  enum class Wish : std::uint8_t { kNone, kNext, kQuit, kRestart };
+  Result<void> open_stream();
+  /// A decoder begins with every go_to().
+  void prepare_decoder();
+  Result<void> begin_recording();
+  [[nodiscard]] std::uint64_t first_time() const { return ticks(arguments_.from); }
 
-  /// Goes on to the next picture and draws it.
-  Result<void> advance(StreamFile& file);
-  /// Draws the current picture.
-  Result<void> draw(const StreamDecoder& decoder);
-  /// Takes keys until the next picture is due or the user wishes something else; never returns kNone.
-  Result<Wish> wait(const StreamDecoder& decoder);
-  Result<Wish> take_key(int key, const StreamDecoder& decoder);
-  /// How long to wait for a key.
-  [[nodiscard]] int milliseconds() const;
-  [[nodiscard]] bool is_due() const { return !paused_ && !ended_ && Clock::now() >= due_; }
+  /// Goes on to the next picture, at the end to the first if the stream is looped, when it is time or when it
+  /// is wanted. Nothing happens if the user does something while bytes are waited for.
+  Result<void> advance();
+  void end_stream();
+  /// Wants the picture of that time.
+  void go_to(std::uint64_t time);
+  /// Wants the picture before or behind.
+  void step(int pictures);
 
-  std::string window_;
-  bool shows_patterns_ = false;
-  cv::Mat image_;  ///< the current picture, enlarged
+  /// Takes what has been done in the window.
+  Result<void> take_events();
+  void take(const WindowEvent& event);
+  void take_key(const KeyPress& press);
+  /// Of the keys that change when what is shown.
+  void take_playing_key(const KeyPress& press);
+  /// Of those that change the window and not the picture.
+  void take_window_key(const KeyPress& press);
+  /// Of those that change the picture.
+  void take_picture_key(const KeyPress& press);
+  [[nodiscard]] std::chrono::milliseconds patience() const;
+
+  /// Draws the current picture and shows it; records it if it is another or has changed.
+  Result<void> draw();
+  Result<void> show();
+  [[nodiscard]] Result<cv::Mat> image();
+  [[nodiscard]] Size content_of(const cv::Mat& image) const;
+  [[nodiscard]] std::vector<Panel> panels() const;
+  [[nodiscard]] std::vector<std::string> info() const;
+  [[nodiscard]] double progress() const;
+  [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
+  [[nodiscard]] const StreamDecoder& decoder() const { return file_->decoder(); }
+
+  const PlayArguments& arguments_;
+  std::optional<StreamFile> file_;
   LossReport losses_;
-  bool paused_ = false, ended_ = false;
-  Clock::time_point due_;  ///< when the next picture is shown
+  std::optional<std::uint64_t> length_;  ///< of the stream, 1/90000 s, when it is known
+  Playback playback_;
+  Stage stage_;
+  std::optional<SourceTrack> source_;
+  std::optional<Recording> recording_;
+  std::optional<Window> window_;
+
+  bool loops_ = false, shows_source_ = false, shows_info_ = true, shows_help_ = false;
+  bool quits_ = false;
+  bool wanted_ = false;       ///< the next picture, whatever the time
+  bool interrupted_ = false;  ///< bytes were waited for when the user did something
+  bool reported_ = false;     ///< what was lost
+  bool drawn_ = true;         ///< the current picture, as it is to be
+  bool shown_ = true;         ///< the window shows that
 };
 
 }  // namespace fbs::cli

@@ -1,6 +1,7 @@
 #include "cli/stream/stream_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -67,6 +68,7 @@ Result<DecodeStatus> StreamFile::next() {
 
 Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
   for (;;) {
+    if (!wait()) return fail(ErrorCode::kIo, name_ + ": stopped");
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
     if (n >= 0) return static_cast<std::size_t>(n);
     if (errno != EINTR || (stop_ != nullptr && stop_->raised()))
@@ -74,10 +76,19 @@ Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
   }
 }
 
+bool StreamFile::wait() const {
+  if (!idle_) return true;
+  pollfd asked{file_.number(), POLLIN, 0};
+  while (::poll(&asked, 1, static_cast<int>(kIdle.count())) == 0)
+    if (!idle_()) return false;
+  return true;  // after an error too: read() says what it is
+}
+
 Result<void> StreamFile::read_more() {
   std::array<std::uint8_t, kBufferSize> buffer;
   const auto n = read(buffer);
   if (!n) return fail(n.error());
+  if (kept_) kept_->insert(kept_->end(), buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(*n));
   if (*n > 0)
     decoder_.feed(std::span(buffer).first(*n));
   else
@@ -98,17 +109,28 @@ Result<std::vector<std::uint8_t>> StreamFile::read_all() {
 }
 
 Result<void> StreamFile::seek(std::uint64_t time) {
-  const auto bytes = read_all();
+  auto bytes = read_all();
   if (!bytes) return fail(bytes.error());
-  const auto scenes = index_scenes(*bytes);
+  join(*bytes, time);
+  if (kept_) kept_ = std::move(*bytes);
+  return {};
+}
+
+void StreamFile::rejoin(std::uint64_t time) {
+  decoder_ = StreamDecoder();
+  skipped_ = 0;
+  join(kept(), time);
+}
+
+void StreamFile::join(std::span<const std::uint8_t> bytes, std::uint64_t time) {
+  const auto scenes = index_scenes(bytes);
   const SceneEntry* const scene = scene_at(scenes, time);
   if (scene != nullptr) {
     decoder_.feed(kSignature);
     skipped_ = scene->offset - kSignature.size();
   }
-  decoder_.feed(std::span(*bytes).subspan(scene != nullptr ? scene->offset : 0));
+  decoder_.feed(bytes.subspan(scene != nullptr ? scene->offset : 0));
   from_ = time;
-  return {};
 }
 
 std::uint64_t ticks(double seconds) {

@@ -1,6 +1,11 @@
 // A stream read piecewise from a file or a pipe.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +31,24 @@ class StreamFile {
   /// @param time  1/90000 s, as in StreamDecoder::position()
   Result<void> seek(std::uint64_t time);
 
+  /// Keeps a copy of all that is read from now on, for rejoin(). Only before the first next() or seek().
+  void keep_bytes() { kept_.emplace(); }
+
+  /// Goes to another time of what has been read, or on from there: as seek(), but with what keep_bytes()
+  /// kept, and as often as wished. decoder() begins anew, as it was made.
+  void rejoin(std::uint64_t time);
+
+  /// Calls `idle` while bytes are waited for, every kIdle. Where it returns false, next() ends with kIo.
+  void on_wait(std::function<bool()> idle) { idle_ = std::move(idle); }
+  static constexpr std::chrono::milliseconds kIdle{20};
+
+  /// Bytes of the stream up to where the decoder has read.
+  [[nodiscard]] std::uint64_t bytes_decoded() const { return skipped_ + decoder_.bytes().total; }
+  /// Bytes that keep_bytes() has kept.
+  [[nodiscard]] std::span<const std::uint8_t> kept() const {
+    return kept_ ? std::span<const std::uint8_t>(*kept_) : std::span<const std::uint8_t>();
+  }
+
   /// Reads all that has not been read yet, and does not feed it to the decoder.
   Result<std::vector<std::uint8_t>> read_all();
 
@@ -36,6 +59,9 @@ class StreamFile {
  private:
   /// @return number of bytes; 0 at the end
   Result<std::size_t> read(std::span<std::uint8_t> buffer);
+  /// Whether there is something to read, or the end; false when idle_ says so.
+  [[nodiscard]] bool wait() const;
+  void join(std::span<const std::uint8_t> bytes, std::uint64_t time);
   /// Feeds the decoder with the next bytes of the file.
   Result<void> read_more();
 
@@ -62,6 +88,8 @@ class StreamFile {
   StreamDecoder decoder_;
   std::uint64_t skipped_ = 0;  ///< bytes of the file that the decoder does not get
   std::uint64_t from_ = 0;     ///< time to be reached, 1/90000 s; 0: reached
+  std::optional<std::vector<std::uint8_t>> kept_;
+  std::function<bool()> idle_;
 };
 
 /// Seconds, from 0 to 1e8, in 1/90000 s.

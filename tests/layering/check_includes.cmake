@@ -20,7 +20,8 @@ set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
 # What big libraries are for, and the only rooms that may include them.
 set(foreign
   "opencv2/video/@encoder/track/head"
-  "opencv2/highgui|opencv2/videoio@cli|cli/video"
+  "opencv2/videoio@cli/video"
+  "opencv2/highgui@none"
   "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
@@ -30,6 +31,7 @@ set(foreign
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
   "CLI/@cli"
+  "SDL@cli"
   "tiny_gltf@none")
 set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table out of glTF; in no library
 # Interfaces that modules implement: they stand in cli/video, which is above them.

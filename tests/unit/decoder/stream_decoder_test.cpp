@@ -24,6 +24,41 @@ TEST(StreamDecoder, PlaysEveryPicture) {
   for (std::size_t i = 1; i < 20; ++i) EXPECT_NE(result.pictures[i], result.pictures[i - 1]) << i;
 }
 
+TEST(StreamDecoder, DrawsAStateOfTheCallersAndKeepsItsOwn) {
+  StreamDecoder decoder;
+  Picture own, same, turned, after;
+  EXPECT_EQ(decoder.render_state({}, std::nullopt, own).error().code, ErrorCode::kInvalidArgument);
+  decoder.feed(sample().bytes);
+  for (int k = 0; k < 5; ++k) ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  ASSERT_TRUE(decoder.render(own));
+  ASSERT_TRUE(decoder.render_state(decoder.state(), std::nullopt, same));
+  EXPECT_EQ(own, same);
+  State state = decoder.state();
+  state.pose[kRoll] += 2000;
+  ASSERT_TRUE(decoder.render_state(state, std::nullopt, turned));
+  EXPECT_NE(own, turned);
+  ASSERT_TRUE(decoder.render(after));
+  EXPECT_EQ(own, after);
+}
+
+TEST(StreamDecoder, DrawsFromOnePatternAloneWhateverTheModes) {
+  Writer w;
+  w.setup(setup_of(2)).geometry().surround().pattern();
+  w.motion(0, 10, true).pattern(face_picture(3), 1, 4).blend(10, BlendMode::kStillBefore);
+  StreamDecoder decoder;
+  decoder.feed(w.bytes);
+  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+  State plain = decoder.state();
+  plain.blend.fill(BlendMode::kByTime);  // of the first picture: all from the first pattern, warped
+  Picture by_time, first, second, none;
+  ASSERT_TRUE(decoder.render_state(plain, std::nullopt, by_time));
+  ASSERT_TRUE(decoder.render_state(decoder.state(), 0, first));
+  ASSERT_TRUE(decoder.render_state(decoder.state(), 1, second));
+  EXPECT_EQ(first, by_time);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(decoder.render_state(decoder.state(), 2, none).error().code, ErrorCode::kInvalidArgument);
+}
+
 TEST(StreamDecoder, CountsEveryByteOnce) {
   const auto& b = sample().begins;
   const ByteCount bytes = played(sample().bytes).bytes;

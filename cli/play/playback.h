@@ -1,0 +1,66 @@
+// When which picture of a stream is shown. Knows no window and no decoder.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fbs::cli {
+
+/// Ties the time of a stream to a monotonic clock. Pictures that are decoded too late are not to be drawn; a
+/// stream that cannot be decoded as fast as it plays is slowed down instead, and so is one that pauses to
+/// wait for its bytes.
+class Playback {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Time = Clock::time_point;
+
+  /// The next picture has been decoded.
+  /// @param begin     in the stream, 1/90000 s
+  /// @param duration  1/90000 s
+  void take(std::uint64_t begin, std::uint32_t duration, Time now);
+  /// Pictures follow that are not those behind the last: the next one is shown at once.
+  void jump() { anchor_.reset(); }
+  /// There is no picture behind the last. take() goes on.
+  void end() { ended_ = true; }
+
+  void pause(bool paused, Time now);
+  [[nodiscard]] bool paused() const { return paused_; }
+  [[nodiscard]] bool ended() const { return ended_; }
+
+  /// Whether the time of the picture behind the last taken has come.
+  [[nodiscard]] bool is_due(Time now) const {
+    return is_running() && until_due(now) <= Clock::duration::zero();
+  }
+  /// Until it comes; not below zero. Only while is_running().
+  [[nodiscard]] Clock::duration until_due(Time now) const;
+  /// Neither paused nor ended.
+  [[nodiscard]] bool is_running() const { return !paused_ && !ended_; }
+
+  /// Whether the picture that was taken last need not be drawn: its time is over. One is drawn
+  /// after kMostSkipped, however late.
+  [[nodiscard]] bool is_late(Time now) const;
+  /// The picture has been drawn.
+  void drawn(Time now) { drawn_ = now; }
+
+  static constexpr std::chrono::milliseconds kMostSkipped{200};  ///< between two pictures that are drawn
+  static constexpr std::chrono::milliseconds kMostLate{500};     ///< then the stream is slowed down
+
+ private:
+  struct Anchor {
+    std::uint64_t stream;  ///< 1/90000 s
+    Time wall;
+  };
+  [[nodiscard]] Time wall_time(std::uint64_t stream) const;
+
+  std::optional<Anchor> anchor_;
+  std::uint64_t begin_ = 0, end_ = 0;  ///< of the picture taken last, 1/90000 s
+  std::optional<Time> drawn_;
+  bool paused_ = false, ended_ = false;
+};
+
+/// The time in a stream as players write it: "1:02:03.45" or "2:03.45".
+[[nodiscard]] std::string clock_text(std::uint64_t ticks);
+
+}  // namespace fbs::cli
