@@ -28,7 +28,9 @@ constexpr const char* kExamples =
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
     "  fbs inspect talk.fbs                            size of each part of the stream\n"
-    "  fbs export talk.fbs talk.csv                    head pose and 68 landmarks per picture\n"
+    "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
+    "  fbs export talk.fbs talk.csv                    pose, landmarks and expression per picture\n"
+    "  fbs track talk.mkv talk.csv                     the same of a video, without a stream\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
@@ -66,6 +68,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_evaluate(app, run);
   fbs::cli::add_inspect(app, run);
   fbs::cli::add_export(app, run);
+  fbs::cli::add_track(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -39,7 +39,10 @@ Result<std::vector<HeadLook>> make_head_looks(const HeadRecording& recording) {
     (*encode_png)(cropped(rgb_from_picture(head.pattern, format.range, format.matrix), texture_area(head)),
                   png);
     if (!png) return fail(png.error());
-    out.push_back({std::move(*png), srgb_of(head.mouth.upper, format), srgb_of(head.mouth.lower, format)});
+    HeadLook look{std::move(*png), {}};
+    const auto colours = mouth_colours(head);
+    for (std::size_t i = 0; i < colours.size(); ++i) look.mouth[i] = srgb_of(colours[i], format);
+    out.push_back(std::move(look));
   }
   return out;
 }

@@ -8,9 +8,13 @@
 namespace fbs {
 namespace {
 
-/// The inner lips say whether a mouth is open or not, which the outer ones, drawn out by a beard or a shadow,
-/// should not overrule.
+/// The inner lips say whether a mouth is open, which the outer ones, drawn out by a beard or a shadow, should
+/// not overrule.
 constexpr double kInnerLipMetric = 4;
+
+/// Of a control point itself, so that no direction has a length of nothing; a vertex on its feature has about
+/// one.
+constexpr double kControlMetric = 1e-3;
 
 /// Largest offset of a control point in a detail at a weight of one, head units.
 constexpr double kDetailSize = kUnitsPerEyeDistance / 16.0;
@@ -18,11 +22,30 @@ constexpr double kDetailSize = kUnitsPerEyeDistance / 16.0;
 /// What is left of a vector of length one in directions that are used already; below this it is rounding.
 constexpr double kDependent = 1e-6;
 
-double product(const std::vector<double>& metric, const std::vector<double>& a,
+/// @param a, b  x0, y0, x1 ...
+double product(const std::vector<std::vector<double>>& metric, const std::vector<double>& a,
                const std::vector<double>& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += metric[i] * a[i] * b[i];
+  for (std::size_t i = 0; i < metric.size(); ++i)
+    for (std::size_t j = 0; j < metric.size(); ++j)
+      sum += metric[i][j] * (a[2 * i] * b[2 * j] + a[2 * i + 1] * b[2 * j + 1]);
   return sum;
+}
+
+/// What the vertices on the features say of two control points: the product of their displacements.
+std::vector<std::vector<double>> vertex_metric(std::size_t first, std::size_t count) {
+  std::vector<std::vector<double>> metric(count, std::vector<double>(count));
+  for (std::size_t i = 0; i < count; ++i) metric[i][i] = kControlMetric;
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    const auto id = static_cast<FeatureId>(f);
+    const double weight = id == FeatureId::kMouthInner ? kInnerLipMetric : 1;
+    for (const FeatureVertex& v : feature(id).vertices)
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          metric[i][j] +=
+              weight * skinning_weight(v.vertex, first + i) * skinning_weight(v.vertex, first + j);
+  }
+  return metric;
 }
 
 std::vector<double> numbers_of(const ControlOffsets& offsets, std::size_t first, std::size_t count) {
@@ -42,7 +65,7 @@ ControlOffsets offsets_of(const std::vector<double>& numbers, std::size_t first)
 
 /// Gram-Schmidt: takes the directions away from `v`, twice against rounding.
 /// @return its coordinates in them, and the length of what is left
-std::vector<double> orthogonalise(const std::vector<double>& metric,
+std::vector<double> orthogonalise(const std::vector<std::vector<double>>& metric,
                                   const std::vector<std::vector<double>>& directions,
                                   std::vector<double>& v) {
   std::vector<double> coordinates(directions.size());
@@ -74,13 +97,7 @@ ExpressionTargets::Part ExpressionTargets::make_part(const ExpressionPart& expre
   Part part;
   part.first = expression.first_control;
   const std::size_t n = 2U * expression.control_count;
-  const Feature& inner = feature(FeatureId::kMouthInner);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t control = part.first + i / 2;
-    const bool is_inner =
-        control >= inner.first_control && control < inner.first_control + inner.control_count;
-    part.metric.push_back(is_inner ? kInnerLipMetric : 1);
-  }
+  part.metric = vertex_metric(part.first, expression.control_count);
   for (const ControlOffsets& movement : movements) {
     std::vector<double> v = numbers_of(movement, part.first, expression.control_count);
     part.triangle.push_back(orthogonalise(part.metric, part.orthonormal, v));
@@ -128,8 +145,8 @@ ExpressionTargets::ExpressionTargets(const Geometry& head) {
 std::vector<double> ExpressionTargets::coefficients(const Part& part, const State& state) {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < part.metric.size(); ++i) {
-    const glm::ivec2 c = state.control[part.first + i / 2];
-    numbers.push_back(i % 2 == 0 ? c.x : c.y);
+    const glm::ivec2 c = state.control[part.first + i];
+    numbers.insert(numbers.end(), {static_cast<double>(c.x), static_cast<double>(c.y)});
   }
   std::vector<double> out;
   for (const auto& direction : part.orthonormal) out.push_back(product(part.metric, direction, numbers));

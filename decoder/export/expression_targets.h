@@ -52,7 +52,7 @@ class ExpressionTargets {
   /// with a name, the others the rest.
   struct Part {
     std::size_t first = 0;                         ///< control point
-    std::vector<double> metric;                    ///< of each number x0, y0, x1 ...
+    std::vector<std::vector<double>> metric;       ///< of its control points, in x and in y
     std::vector<std::vector<double>> orthonormal;  ///< as many as there are numbers
     std::vector<std::vector<double>>
         triangle;  ///< row k: movement k in the first k + 1 orthonormal directions

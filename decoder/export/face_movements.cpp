@@ -32,52 +32,29 @@ ControlOffsets moved(glm::dvec2 by, std::initializer_list<Share> shares) {
   return out;
 }
 
-constexpr FeatureId kOuter = FeatureId::kMouthOuter, kInner = FeatureId::kMouthInner;
+constexpr FeatureId kLips = FeatureId::kMouthOuter;
 
-// Control points of the lips begin at the right corner and go over the upper lip to the left one, and back:
-// outer 0, 1..4, 5, 6..9 and inner 0, 1..3, 4, 5..7.
+// Control points of the lips begin at the right corner, 0, and go over the upper lip, 1..4, to the left
+// corner, 5, and back, 6..9. The inner lips follow the outer ones; their own control points only add to that.
 std::vector<ControlOffsets> mouth_movements() {
   std::vector<ControlOffsets> out(kMouthMovements);
-  out[kJawOpen] = moved({0, kJawDrop}, {{kOuter, 0, 0.3},
-                                        {kOuter, 5, 0.3},
-                                        {kOuter, 6, 0.8},
-                                        {kOuter, 7, 1},
-                                        {kOuter, 8, 1},
-                                        {kOuter, 9, 0.8},
-                                        {kInner, 0, 0.3},
-                                        {kInner, 4, 0.3},
-                                        {kInner, 5, 0.85},
-                                        {kInner, 6, 1},
-                                        {kInner, 7, 0.85}});
-  out[kUpperLipUpRight] =
-      moved({0, -kUpperLipRise},
-            {{kOuter, 1, 0.8}, {kOuter, 2, 1}, {kOuter, 3, 0.3}, {kInner, 1, 1}, {kInner, 2, 0.5}});
-  out[kUpperLipUpLeft] =
-      moved({0, -kUpperLipRise},
-            {{kOuter, 4, 0.8}, {kOuter, 3, 1}, {kOuter, 2, 0.3}, {kInner, 3, 1}, {kInner, 2, 0.5}});
+  out[kJawOpen] = moved(
+      {0, kJawDrop},
+      {{kLips, 0, 0.15}, {kLips, 5, 0.15}, {kLips, 6, 0.75}, {kLips, 7, 1}, {kLips, 8, 1}, {kLips, 9, 0.75}});
+  out[kUpperLipUpRight] = moved({0, -kUpperLipRise}, {{kLips, 1, 0.8}, {kLips, 2, 1}, {kLips, 3, 0.3}});
+  out[kUpperLipUpLeft] = moved({0, -kUpperLipRise}, {{kLips, 4, 0.8}, {kLips, 3, 1}, {kLips, 2, 0.3}});
   const auto right_corner = [](glm::dvec2 by) {
-    return moved(by, {{kOuter, 0, 1},
-                      {kOuter, 1, 0.5},
-                      {kOuter, 9, 0.5},
-                      {kInner, 0, 1},
-                      {kInner, 1, 0.4},
-                      {kInner, 7, 0.4}});
+    return moved(by, {{kLips, 0, 1}, {kLips, 1, 0.5}, {kLips, 9, 0.5}});
   };
   const auto left_corner = [](glm::dvec2 by) {
-    return moved(by, {{kOuter, 5, 1},
-                      {kOuter, 4, 0.5},
-                      {kOuter, 6, 0.5},
-                      {kInner, 4, 1},
-                      {kInner, 3, 0.4},
-                      {kInner, 5, 0.4}});
+    return moved(by, {{kLips, 5, 1}, {kLips, 4, 0.5}, {kLips, 6, 0.5}});
   };
   out[kCornerUpRight] = right_corner({0, -kCornerReach});
   out[kCornerUpLeft] = left_corner({0, -kCornerReach});
   out[kCornerOutRight] = right_corner({-kCornerReach, 0});
   out[kCornerOutLeft] = left_corner({kCornerReach, 0});
-  for (const FeatureId lips : {kOuter, kInner})
-    for (std::size_t i = 0; i < feature(lips).control_count; ++i)
-      out[kMouthLeft][feature(lips).first_control + i] = {kMouthShift, 0};
+  for (std::size_t i = 0; i < feature(kLips).control_count; ++i)
+    out[kMouthLeft][feature(kLips).first_control + i] = {kMouthShift, 0};
   return out;
 }
 

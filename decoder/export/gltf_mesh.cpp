@@ -129,12 +129,9 @@ tinygltf::Primitive mouth_primitive(GltfBuffer& buffer, const RecordedHead& head
   std::vector<glm::vec3> positions, colours;
   for (const std::uint16_t v : vertices) {
     positions.emplace_back(all[v]);
-    const float lower = static_cast<float>(mouth_ramp(v)) / kMouthRampEnd;
-    glm::vec3 colour{};
-    for (int c = 0; c < 3; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      colour[c] = linear(look.mouth_upper[channel]) * (1 - lower) + linear(look.mouth_lower[channel]) * lower;
-    }
+    const auto place = static_cast<std::size_t>(2 * mouth_ramp(v) / kMouthRampEnd);
+    const Srgb& srgb = look.mouth[place];
+    const glm::vec3 colour(linear(srgb[0]), linear(srgb[1]), linear(srgb[2]));
     colours.push_back(colour);
   }
   std::vector<std::uint16_t> own;

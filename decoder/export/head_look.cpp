@@ -37,6 +37,25 @@ std::vector<glm::dvec2> texture_coordinates(const RecordedHead& head, const Text
   return out;
 }
 
+std::array<YuvColour, kInteriorCount> mouth_colours(const RecordedHead& head) {
+  const std::int32_t gap_seen = mouth_gap(deform(head.geometry.positions, head.seen));
+  std::array<std::int64_t, kInteriorCount> sum{};
+  std::int64_t weight = 0;
+  for (const RecordedState& s : head.states) {
+    const std::int32_t opacity =
+        interior_opacity(mouth_gap(deform(head.geometry.positions, s.state)), gap_seen);
+    weight += opacity;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::int64_t{opacity} * s.state.interior[i];
+  }
+  std::array<std::int32_t, kInteriorCount> added{};
+  if (weight > 0)
+    for (std::size_t i = 0; i < sum.size(); ++i) added[i] = static_cast<std::int32_t>(sum[i] / weight);
+  const auto planes = interior_colours(head.mouth, added);
+  std::array<YuvColour, kInteriorCount> out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {planes[0][i], planes[1][i], planes[2][i]};
+  return out;
+}
+
 bool pattern_shows_mouth(const RecordedHead& head) {
   return mouth_gap(deform(head.geometry.positions, head.seen)) >= kInteriorOpaque;
 }

@@ -20,9 +20,13 @@ using Srgb = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
 /// What only a program that knows image files can make.
 struct HeadLook {
-  std::vector<std::uint8_t> png;      ///< of texture_area()
-  Srgb mouth_upper{}, mouth_lower{};  ///< colours of RecordedHead::mouth
+  std::vector<std::uint8_t> png;             ///< of texture_area()
+  std::array<Srgb, kInteriorCount> mouth{};  ///< mouth_colours()
 };
+
+/// Colours between parted lips at the upper lip, half way and at the lower lip: the decoder's own, with the
+/// light that the recording adds to them on average, where the mouth is open.
+[[nodiscard]] std::array<YuvColour, kInteriorCount> mouth_colours(const RecordedHead& head);
 
 /// The face in the pattern and a margin for filters. It lies in the picture.
 [[nodiscard]] TextureArea texture_area(const RecordedHead& head);
