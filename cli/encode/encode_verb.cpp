@@ -63,13 +63,6 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   return settings;
 }
 
-/// File errors already name their file; codec errors are about the input.
-Error about_input(Error error, const std::string& name) {
-  const std::string input = name == "-" ? "standard input" : name;
-  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
-  return error;
-}
-
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded");
   if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)

@@ -76,13 +76,6 @@ class Tracker {
   std::int64_t first_pts_ = 0;  ///< 1/90000 s
 };
 
-/// File errors already name their file; codec errors are about the input.
-Error about_input(Error error, const std::string& name) {
-  const std::string input = name == "-" ? "standard input" : name;
-  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
-  return error;
-}
-
 Result<void> track_all(SourcePart& source, Tracker& tracker, bool quiet) {
   Progress progress("tracking", source.frame_count_estimate(), quiet);
   for (std::int64_t done = 0;;) {
