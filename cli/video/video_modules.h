@@ -29,4 +29,8 @@ using OpenSinkFunction = void(const std::string& output, const VideoFormat& form
 inline constexpr const char* kEncodePngSymbol = "fbs_encode_png";
 using EncodePngFunction = void(const RgbImage& image, Result<std::vector<std::uint8_t>>& png);
 
+/// Of kImageModule: one image as a picture of a video.
+inline constexpr const char* kReadImageSymbol = "fbs_read_image";
+using ReadImageFunction = void(const std::string& name, const VideoFormat& format, Result<Picture>& picture);
+
 }  // namespace fbs

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "tiny_gltf.h"
+#include "decoder/export/tinygltf.h"
 
 namespace fbs {
 

@@ -6,6 +6,7 @@
 #include "cli/video/images/image_sink.h"
 #include "cli/video/images/image_source.h"
 #include "cli/video/images/png.h"
+#include "cli/video/images/still_image.h"
 #include "cli/video/video_modules.h"
 
 FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,
@@ -34,5 +35,14 @@ FBS_MODULE_EXPORT void fbs_encode_png(const fbs::RgbImage& image,
   } catch (const std::exception& problem) {
     png = fbs::fail(fbs::ErrorCode::kInternal,
                     std::string("OpenImageIO cannot encode a PNG: ") + problem.what());
+  }
+}
+
+FBS_MODULE_EXPORT void fbs_read_image(const std::string& name, const fbs::VideoFormat& format,
+                                      fbs::Result<fbs::Picture>& picture) {
+  try {
+    picture = fbs::read_still_image(name, format);
+  } catch (const std::exception& problem) {
+    picture = fbs::fail(fbs::ErrorCode::kIo, "cannot read " + name + ": " + problem.what());
   }
 }

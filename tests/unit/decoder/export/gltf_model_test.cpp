@@ -1,11 +1,12 @@
 #include "decoder/export/gltf_model.h"
 
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "decoder/export/head_pose_track.h"
+#include "decoder/export/tinygltf.h"
 #include "tests/unit/decoder/export/recorded_talk.h"
 
 namespace fbs {
@@ -155,13 +156,19 @@ TEST(GltfModel, HidesAHeadWhileAnotherIsShown) {
 
 TEST(GltfModel, IsCompressedOnRequest) {
   const HeadRecording recording = toy_recording();
-  const tinygltf::Model model = exported(recording, {.binary = true, .draco = true});
-  EXPECT_EQ(model.extensionsRequired, std::vector<std::string>{"KHR_draco_mesh_compression"});
-  const auto& face = model.meshes[0].primitives[0];
-  EXPECT_TRUE(face.extensions.contains("KHR_draco_mesh_compression"));
-  EXPECT_EQ(accessor(model, face.attributes.at("POSITION")).bufferView, -1);
-  const tinygltf::Model plain = exported(recording);
-  EXPECT_LT(model.buffers[0].data.size(), plain.buffers[0].data.size());
+  const std::vector<HeadLook> looks{toy_look()};
+  const auto json_of = [&](bool draco) {
+    const auto text = write_gltf(recording, looks, {.binary = false, .draco = draco});
+    EXPECT_TRUE(text);
+    return nlohmann::json::parse(*text);
+  };
+  const auto model = json_of(true), plain = json_of(false);
+  EXPECT_EQ(model["extensionsRequired"], nlohmann::json::array({"KHR_draco_mesh_compression"}));
+  EXPECT_FALSE(plain.contains("extensionsRequired"));
+  const auto& face = model["meshes"][0]["primitives"][0];
+  EXPECT_TRUE(face["extensions"].contains("KHR_draco_mesh_compression"));
+  EXPECT_FALSE(model["accessors"][face["attributes"]["POSITION"].get<std::size_t>()].contains("bufferView"));
+  EXPECT_LT(model["buffers"][0]["byteLength"], plain["buffers"][0]["byteLength"]);
 }
 
 TEST(GltfModel, AsTextHoldsTheSame) {
