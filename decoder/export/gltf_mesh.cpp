@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "decoder/export/draco_mesh.h"
 #include "decoder/head/mouth_interior.h"
@@ -65,6 +66,7 @@ std::vector<std::map<std::string, int>> add_targets(GltfBuffer& buffer, const He
   int still = -1;  // one accessor for all that move nothing here
   for (const MorphTarget& target : morphs.targets()) {
     std::vector<glm::vec3> moved;
+    moved.reserve(vertices.size());
     for (const std::uint16_t v : vertices) moved.emplace_back(target.displacements[v]);
     const bool moves =
         std::any_of(moved.begin(), moved.end(), [](const glm::vec3& d) { return d != glm::vec3(0); });
@@ -112,8 +114,8 @@ Result<tinygltf::Primitive> face_primitive(tinygltf::Model& model, GltfBuffer& b
                             {"NORMAL", buffer.add_vectors(mesh.normals, false)},
                             {"TEXCOORD_0", buffer.add_vectors(mesh.texture)}};
   }
-  std::vector<std::uint16_t> all;
-  for (std::uint16_t v = 0; v < vertices.size(); ++v) all.push_back(v);
+  std::vector<std::uint16_t> all(vertices.size());
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
   primitive.targets = add_targets(buffer, morphs, all);
   return primitive;
 }
@@ -135,6 +137,7 @@ tinygltf::Primitive mouth_primitive(GltfBuffer& buffer, const RecordedHead& head
     colours.push_back(colour);
   }
   std::vector<std::uint16_t> own;
+  own.reserve(corners.size());
   for (const std::uint16_t v : corners)
     own.push_back(
         static_cast<std::uint16_t>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()));

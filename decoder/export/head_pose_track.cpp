@@ -58,6 +58,7 @@ std::vector<glm::vec3> vertex_normals(const std::vector<glm::dvec3>& vertices,
     for (std::size_t k = 0; k < 3; ++k) sums[corners[t + k]] += glm::cross(b - a, c - a);
   }
   std::vector<glm::vec3> out;
+  out.reserve(sums.size());
   for (const glm::dvec3& s : sums)
     out.emplace_back(glm::length(s) > 1e-9 ? glm::normalize(s) : glm::dvec3(0, 0, 1));
   return out;
