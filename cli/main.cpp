@@ -29,7 +29,9 @@ constexpr const char* kExamples =
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
     "  fbs inspect talk.fbs                            size of each part of the stream\n"
-    "  fbs export talk.fbs talk.csv                    head pose and 68 landmarks per picture\n"
+    "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
+    "  fbs export talk.fbs talk.csv                    pose, landmarks and expression per picture\n"
+    "  fbs track talk.mkv talk.csv                     the same of a video, without a stream\n"
     "  fbs retarget --motion a.fbs --face b.fbs c.fbs  b's face with a's motion\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
@@ -58,6 +60,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_evaluate(app, run);
   fbs::cli::add_inspect(app, run);
   fbs::cli::add_export(app, run);
+  fbs::cli::add_track(app, run);
   fbs::cli::add_retarget(app, run);
   fbs::cli::add_completions(app, run);
   try {

@@ -20,6 +20,7 @@ void add_play(CLI::App& app, Run& run);
 void add_evaluate(CLI::App& app, Run& run);
 void add_inspect(CLI::App& app, Run& run);
 void add_export(CLI::App& app, Run& run);
+void add_track(CLI::App& app, Run& run);
 void add_retarget(CLI::App& app, Run& run);
 void add_completions(CLI::App& app, Run& run);
 

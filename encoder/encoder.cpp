@@ -59,6 +59,8 @@ Result<void> check_settings(const EncoderSettings& settings) {
     return fail(ErrorCode::kInvalidArgument, "a key interval that is negative or not finite");
   if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
   if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
+  if (settings.first_pattern && settings.patterns != 1)
+    return fail(ErrorCode::kInvalidArgument, "a first pattern, but not one pattern alone");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   return {};
 }
@@ -137,6 +139,7 @@ struct Encoder::Impl {
     scene = std::move(*begun);
     scene_follows = marks.has_value();
     face_seen = face_seen || scene_follows;
+    if (scene_follows) settings.first_pattern.reset();  // later scenes have another first picture
     ++report.scenes;
     return {};
   }
@@ -201,6 +204,9 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   Setup setup;
   setup.format = format;
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
+  if (settings.first_pattern)
+    if (auto checked = check_picture(*settings.first_pattern, format, 0); !checked)
+      return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
   auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder)});

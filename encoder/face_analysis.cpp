@@ -52,7 +52,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
     surround_->add_to(seen.state);
   }
   seen.vertices = project_vertices(geometry_.positions, seen.state);
-  write_report(seen.vertices);
+  write_report(seen);
   return seen;
 }
 
@@ -160,11 +160,13 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   return best.fit;
 }
 
-void FaceAnalysis::write_report(const std::array<glm::ivec3, kVertexCount>& vertices) {
+void FaceAnalysis::write_report(const Observation& seen) {
   report_.face = true;
   report_.followed = face_shows_;
+  report_.geometry = geometry_;
+  report_.state = seen.state;
   for (std::size_t v = 0; v < kVertexCount; ++v)
-    report_.vertices[v] = glm::dvec2(vertices[v].x, vertices[v].y) / kStateUnitsPerPixel;
+    report_.vertices[v] = glm::dvec2(seen.vertices[v].x, seen.vertices[v].y) / kStateUnitsPerPixel;
   const PoseProjection projection(head_.pose());
   report_.snakes.clear();
   for (std::size_t i = 0; i < features_.count(); ++i) {

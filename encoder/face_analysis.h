@@ -76,7 +76,7 @@ class FaceAnalysis {
   /// From the contours' expression, or from another start if that is nearer to the picture: the expression
   /// that its landmarks show, whatever came before.
   [[nodiscard]] Fit refined(const Picture& picture, const Fit& tracked);
-  void write_report(const std::array<glm::ivec3, kVertexCount>& vertices);
+  void write_report(const Observation& seen);
 
   bool snakes_, refine_;
   double eye_distance_px_;

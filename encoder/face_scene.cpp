@@ -43,7 +43,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   if (!geometry) return fail(geometry.error());
 
   // Where there are several it is only what pictures are compared with until those of a segment are coded.
-  FirstPattern first_pattern(format, first, settings.patterns == 1 ? kSentSpeed : kTrialSpeed);
+  const Picture& shown = settings.first_pattern ? *settings.first_pattern : first;
+  FirstPattern first_pattern(format, shown, settings.patterns == 1 ? kSentSpeed : kTrialSpeed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });
@@ -69,8 +70,10 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
   const SceneTiming timing(format, settings);
+  // A picture of another hand is no measure for the motion.
+  const Picture pattern_seen = settings.first_pattern ? first : scene.patterns.front().picture;
   return std::unique_ptr<FaceScene>(
-      new FaceScene(timing, finder, settings, {first, adapted->pose.shift},
+      new FaceScene(timing, finder, settings, {first, pattern_seen, adapted->pose.shift},
                     {std::move(scene), seen_coded, eye, *rate, std::move(geometry->payload),
                      std::move(*pattern), std::move(observations)}));
 }
@@ -79,9 +82,8 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
                      const FirstPicture& first, FaceCoder::Start start)
     : timing_(timing),
       analysis_(settings, finder,
-                {start.scene.setup, start.scene.geometry->geometry(), first.picture,
-                 start.scene.patterns.front().picture, start.scene.patterns.front().seen, first.centre,
-                 start.eye_distance_px}),
+                {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
+                 start.scene.patterns.front().seen, first.centre, start.eye_distance_px}),
       coder_(timing, settings, std::move(start)),
       ahead_(settings.live && coder_.has_several_patterns() && thread_count(settings) > 1) {}
 

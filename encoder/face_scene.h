@@ -46,7 +46,8 @@ class FaceScene : public SceneEncoder {
   };
   struct FirstPicture {
     const Picture& picture;
-    glm::dvec2 centre;  ///< of the head in it, pixels
+    const Picture& pattern;  ///< that others are compared with
+    glm::dvec2 centre;       ///< of the head in it, pixels
   };
   FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
             const FirstPicture& first, FaceCoder::Start start);

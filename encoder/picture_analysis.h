@@ -1,11 +1,13 @@
-// What the analysis saw in a picture: for overlays and measurements.
+// What the analysis saw in a picture: for overlays, tables and measurements.
 #pragma once
 
 #include <array>
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "bitstream/syntax.h"
 #include "common/generic_head.h"
+#include "common/state.h"
 
 namespace fbs {
 
@@ -21,6 +23,8 @@ struct PictureAnalysis {
   bool face = false;      ///< whether the scene has one
   bool followed = false;  ///< whether it is followed in this picture; else it is held
   double confidence = 0;  ///< 0..1
+  Geometry geometry;      ///< of the face
+  State state;            ///< as fitted, in whole units: finer than what a stream may send of it
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
   std::vector<SnakeOutline> snakes;                 ///< as tracked
 };

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/picture.h"
 #include "encoder/find/marks.h"
 
 namespace fbs {
@@ -24,6 +25,9 @@ struct EncoderSettings {
   int effort = 1;  ///< 0: patterns are pictures as they are; 1: solved for; 2: and states fitted twice
   int face = 0;    ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
+  /// With one pattern: sent in the place of the first picture with a face, of its size and with its face in
+  /// the same place. The head and all motion are those of the video.
+  std::optional<Picture> first_pattern;
   bool allow_no_face = false;  ///< code a video without any face instead of failing
   bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
   bool refine = true;          ///< fit the state to the picture; off only to measure what it gains

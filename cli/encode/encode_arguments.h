@@ -18,6 +18,7 @@ struct EncodeArguments {
   double buffer = 2;         ///< s, of a live source with a bitrate
   double key_interval = 0;   ///< seconds; 0: where it costs little
   int face = 0;
+  std::string pattern;                 ///< image file: the first pattern; empty: the first picture
   std::string marks;                   ///< file; empty: automatic
   std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
   std::optional<std::int64_t> frames;  ///< encode at most so many pictures

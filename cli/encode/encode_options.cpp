@@ -88,6 +88,9 @@ void add_encode(CLI::App& app, Run& run) {
       "--marks", a.marks,
       "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "
       "...} or {\"landmarks\": [68 points]}; detected automatically if not given");
+  verb->add_option("--pattern", a.pattern,
+                   "With --patterns 1: an image to send in the place of the first picture with a face, "
+                   "painted over or drawn by hand (.png, .exr ...), of the video's size");
   verb->add_option("--face", a.face, "Face to track; 0 is the largest")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));

@@ -14,6 +14,7 @@
 #include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
 #include "cli/video/stop_signal.h"
+#include "cli/video/video_modules.h"
 
 namespace fbs::cli {
 namespace {
@@ -30,6 +31,15 @@ void print_summary(const std::string& output, const Encoded& encoded) {
   std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
   if (const std::string notes = notes_of(encoded.report); !notes.empty())
     std::fprintf(stderr, "%s: %s\n", output.c_str(), notes.c_str());
+}
+
+/// An image in the video's format.
+Result<Picture> read_image(const std::string& name, const VideoFormat& format) {
+  const auto read = load_module_function<ReadImageFunction>(kImageModule, kReadImageSymbol);
+  if (!read) return fail(read.error());
+  Result<Picture> picture;
+  (*read)(name, format, picture);
+  return picture;
 }
 
 Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
@@ -56,18 +66,16 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     if (!marks) return fail(about_file(arguments.marks, marks.error()));
     settings.marks = *marks;
   }
+  if (!arguments.pattern.empty()) {
+    auto pattern = read_image(arguments.pattern, source.format());
+    if (!pattern) return fail(pattern.error());
+    settings.first_pattern = std::move(*pattern);
+  }
   if (const auto pictures = source.frame_count_estimate(); pictures && *pictures > 0) {
     const Rational& rate = source.format().frame_rate;
     settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
   }
   return settings;
-}
-
-/// File errors already name their file; codec errors are about the input.
-Error about_input(Error error, const std::string& name) {
-  const std::string input = name == "-" ? "standard input" : name;
-  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
-  return error;
 }
 
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
@@ -79,7 +87,11 @@ void print_warnings(const EncodeArguments& arguments, const SourcePart& source, 
 
 Result<void> check_files(const EncodeArguments& a) {
   if (auto named = check_stream_name(a.output); !named) return named;
-  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks}};
+  if (!a.pattern.empty() && a.patterns != 1)
+    return fail(ErrorCode::kInvalidArgument,
+                "--pattern needs --patterns 1: with several, patterns are made of the video's pictures");
+  const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks},
+                          NamedFile{"--pattern", a.pattern}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}, NamedFile{"--overlay", a.overlay}};
   return check_distinct(inputs, outputs);
 }

@@ -55,6 +55,12 @@ std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
   return estimate;
 }
 
+Error about_input(Error error, const std::string& name) {
+  const std::string input = name == "-" ? "standard input" : name;
+  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
+  return error;
+}
+
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
                           const char* done) {
   if (source.failure())

@@ -53,6 +53,9 @@ class SourcePart final : public VideoSource {
   bool ended_ = false;
 };
 
+/// An error about a source: names it unless it names its file already.
+[[nodiscard]] Error about_input(Error error, const std::string& name);
+
 /// Says on standard error that a source is not whole.
 /// @param pictures  that were read
 /// @param done      what was done with them: "encoded"

@@ -10,6 +10,8 @@ namespace fbs::cli {
 
 struct ExportArguments {
   std::string input, output;
+  std::string format;  ///< of a table: "csv", "json"; empty: by the name of the output
+  bool draco = false;  ///< of a .glb or .gltf
 };
 
 Result<Outcome> run_export(const ExportArguments& arguments);

@@ -1,9 +1,13 @@
-// fbs export: the motion of a stream as a table.
+// fbs export: the heads of a stream as models, or their motion as a table.
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "cli/export/export_arguments.h"
+#include "cli/export/head_looks.h"
+#include "cli/export/model_module.h"
+#include "cli/export/obj_sequence.h"
+#include "cli/export/table_output.h"
+#include "cli/module.h"
 #include "cli/output_check.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
@@ -12,61 +16,141 @@
 namespace fbs::cli {
 namespace {
 
-std::string header() {
-  std::string line = "frame,rx_deg,ry_deg,rz_deg,tx_px,ty_px,scale";
-  for (int k = 0; k < kLandmarkCount; ++k) line += ",x" + std::to_string(k) + ",y" + std::to_string(k);
-  return line + "\n";
+enum class OutputKind : std::uint8_t { kTable, kGlb, kGltf, kObj };
+
+struct Output {
+  OutputKind kind = OutputKind::kTable;
+  TableFormat table = TableFormat::kCsv;  ///< of a table
+};
+
+Result<OutputKind> model_kind(const std::string& name) {
+  if (name.ends_with(".glb")) return OutputKind::kGlb;
+  if (name.ends_with(".gltf")) return OutputKind::kGltf;
+  if (name.ends_with(".obj")) return OutputKind::kObj;
+  return fail(ErrorCode::kUnsupported, name + ": unknown format; use .glb, .gltf, .obj, .csv or .json");
 }
 
-std::string number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, ",%.3f", v);
-  return text;
+Result<Output> output_of(const ExportArguments& a) {
+  const auto table = table_format(a.output, a.format);
+  if (!table) return fail(table.error());
+  Output out;
+  if (*table) {
+    out.table = **table;
+  } else if (const auto kind = model_kind(a.output)) {
+    out.kind = *kind;
+  } else {
+    return fail(kind.error());
+  }
+  if (a.draco && out.kind != OutputKind::kGlb && out.kind != OutputKind::kGltf)
+    return fail(ErrorCode::kInvalidArgument, "--draco needs an OUTPUT that ends in .glb or .gltf");
+  return out;
 }
 
-std::string row(std::uint64_t frame, const StreamDecoder& decoder) {
-  std::string line = std::to_string(frame);
+/// Calls `take(decoder)` with every picture.
+template <class Take>
+Result<void> for_each_picture(StreamFile& file, const Take& take) {
+  for (;;) {
+    const auto status = file.next();
+    if (!status) return fail(status.error());
+    if (*status == DecodeStatus::kEnd) return {};
+    if (Result<void> taken = take(file.decoder()); !taken) return taken;
+  }
+}
+
+/// A stream does not say how sure its encoder was: a face is believed.
+FaceRow row_of(const StreamDecoder& decoder, FaceMeasure& measure) {
+  FaceRow row;
+  row.frame = decoder.position().pictures - decoder.start().pictures;
+  row.seconds = static_cast<double>(decoder.position().time - decoder.start().time) / kTicksPerSecond;
   const SceneGeometry* face = face_of(decoder.scene());
-  if (face == nullptr) {
-    for (int k = 0; k < 6 + 2 * kLandmarkCount; ++k) line += ",nan";
-    return line + "\n";
+  if (face == nullptr) return row;
+  row.success = !decoder.held();
+  row.confidence = row.success ? 1 : 0;
+  row.face = measure(face->geometry(), decoder.state());
+  return row;
+}
+
+Result<void> export_table(StreamFile& file, const ExportArguments& a, TableFormat format) {
+  auto out = TableOutput::create(a.output, format);
+  if (!out) return fail(out.error());
+  FaceMeasure measure;
+  bool begun = false;
+  auto written = for_each_picture(file, [&](const StreamDecoder& decoder) {
+    if (!begun)
+      if (auto head = out->begin(decoder.format()); !head) return head;
+    begun = true;
+    return out->add(row_of(decoder, measure));
+  });
+  if (!written) return written;
+  if (!begun)
+    if (auto head = out->begin(file.decoder().format()); !head) return head;
+  return out->finish();
+}
+
+Result<HeadRecording> record(StreamFile& file) {
+  HeadRecording recording;
+  auto read = for_each_picture(file, [&](const StreamDecoder& decoder) -> Result<void> {
+    recording.add(decoder.scene(), decoder.state(), decoder.position().time, decoder.duration());
+    return {};
+  });
+  if (!read) return fail(read.error());
+  if (recording.heads().empty())
+    return fail(ErrorCode::kNoFace, file.name() + ": no face in any picture: there is no head to export");
+  return recording;
+}
+
+/// What a user may not expect of the model.
+void print_notes(const std::string& output, const HeadRecording& recording) {
+  const std::size_t heads = recording.heads().size();
+  if (heads > 1)
+    std::fprintf(stderr, "%s: %zu heads, each shown while the stream shows it\n", output.c_str(), heads);
+  else if (recording.shown().size() > 1)
+    std::fprintf(stderr, "%s: the head is hidden while the stream shows none\n", output.c_str());
+}
+
+Result<void> export_gltf(const HeadRecording& recording, const ExportArguments& a, bool binary) {
+  const auto looks = make_head_looks(recording);
+  if (!looks) return fail(looks.error());
+  const auto write = load_module_function<WriteGltfFunction>(kModelModule, kWriteGltfSymbol);
+  if (!write) return fail(write.error());
+  Result<std::vector<std::uint8_t>> model;
+  (*write)(recording, *looks, {binary, a.draco}, model);
+  if (!model) return fail(model.error());
+  auto out = AtomicFile::create(a.output);
+  if (!out) return fail(out.error());
+  if (out->replaced_leftover()) print_replaced_leftover(a.output);
+  if (auto written = out->write(*model); !written) return written;
+  return out->commit();
+}
+
+Result<void> export_model(StreamFile& file, const ExportArguments& a, OutputKind kind) {
+  std::optional<NumberPattern> pattern;
+  if (kind == OutputKind::kObj) {
+    auto parsed = obj_pattern(a.output);
+    if (!parsed) return fail(parsed.error());
+    pattern = std::move(*parsed);
   }
-  const HeadPose pose = head_pose(decoder.state());
-  for (const std::int32_t angle : {pose.pitch, pose.yaw, pose.roll}) line += number(angle * 360.0 / 65536);
-  line +=
-      number(pose.shift_x / 64.0) + number(pose.shift_y / 64.0) + number(std::exp2(pose.log_scale / 4096.0));
-  const auto vertices = face->project_vertices(decoder.state());
-  for (const std::uint16_t v : generic_head().landmark_vertex) {
-    const glm::ivec3 p = vertices[v];
-    line += number(p.x / 64.0) + number(p.y / 64.0);
-  }
-  return line + "\n";
+  const auto recording = record(file);
+  if (!recording) return fail(recording.error());
+  auto written = pattern ? write_obj_sequence(*recording, *pattern)
+                         : export_gltf(*recording, a, kind == OutputKind::kGlb);
+  if (written) print_notes(a.output, *recording);
+  return written;
 }
 
 }  // namespace
 
 Result<Outcome> run_export(const ExportArguments& arguments) {
-  if (!arguments.output.ends_with(".csv"))
-    return fail(ErrorCode::kUnsupported, arguments.output + ": unknown format; use .csv");
+  const auto output = output_of(arguments);
+  if (!output) return fail(output.error());
   const std::array inputs{NamedFile{"INPUT", arguments.input}};
   const std::array outputs{NamedFile{"OUTPUT", arguments.output}};
   if (auto checked = check_distinct(inputs, outputs); !checked) return fail(checked.error());
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
-  auto out = AtomicFile::create(arguments.output);
-  if (!out) return fail(out.error());
-  if (out->replaced_leftover()) print_replaced_leftover(arguments.output);
-  const auto write = [&](const std::string& text) {
-    return out->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  };
-  if (auto written = write(header()); !written) return fail(written.error());
-  for (std::uint64_t frame = 0;; ++frame) {
-    auto status = file->next();
-    if (!status) return fail(status.error());
-    if (*status == DecodeStatus::kEnd) break;
-    if (auto written = write(row(frame, file->decoder())); !written) return fail(written.error());
-  }
-  return out->commit().map([] { return Outcome::kComplete; });
+  auto done = output->kind == OutputKind::kTable ? export_table(*file, arguments, output->table)
+                                                 : export_model(*file, arguments, output->kind);
+  return done.map([] { return Outcome::kComplete; });
 }
 
 }  // namespace fbs::cli

@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "cli/video/colour.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 
@@ -22,5 +24,13 @@ using OpenSourceFunction = void(const std::string& input, const SourceOptions& o
 
 using OpenSinkFunction = void(const std::string& output, const VideoFormat& format,
                               const SinkOptions& options, Result<std::unique_ptr<VideoSink>>& sink);
+
+/// Of kImageModule: an image as a PNG file in memory.
+inline constexpr const char* kEncodePngSymbol = "fbs_encode_png";
+using EncodePngFunction = void(const RgbImage& image, Result<std::vector<std::uint8_t>>& png);
+
+/// Of kImageModule: one image as a picture of a video.
+inline constexpr const char* kReadImageSymbol = "fbs_read_image";
+using ReadImageFunction = void(const std::string& name, const VideoFormat& format, Result<Picture>& picture);
 
 }  // namespace fbs

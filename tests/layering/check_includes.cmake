@@ -8,13 +8,14 @@ set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
   decoder/vectors decoder/head decoder/animate decoder/raster decoder/blend decoder/field decoder/atlas decoder/draw decoder
+  decoder/export
   encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
-          "decoder/raster decoder/field"
+          "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
           "encoder/landmarks encoder/model" "encoder/track/head encoder/track/snake" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
@@ -26,13 +27,13 @@ set(foreign
   "aom/@encoder/patterns"
   "dav1d/@decoder"
   "hwy/@decoder/vectors|decoder/field|decoder/raster"
-  "draco/@bitstream/payload"
+  "draco/@bitstream/payload|decoder/export"
   "nlohmann@encoder/find|cli"
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
   "CLI/@cli"
   "SDL@cli"
-  "tiny_gltf@none")
+  "tiny_gltf@decoder/export")
 set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table out of glTF; in no library
 # Interfaces that modules implement: they stand in cli/video, which is above them.
 set(module_interface "cli/(module|verbs|progress)\\.h|cli/video/[a-z0-9_]+\\.h")

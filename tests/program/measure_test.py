@@ -57,7 +57,7 @@ class Measure(ProgramTest):
     def test_export_has_a_row_for_each_picture(self):
         self.succeed("export", TALK_FBS, "out.csv")
         header, table = rows(self.folder / "out.csv")
-        self.assertEqual(header, POSE + POINTS)
+        self.assertEqual(header[:len(POSE + POINTS)], POSE + POINTS)
         self.assertEqual([row["frame"] for row in table], list(range(120)))
         for row in table:
             self.assertTrue(all(math.isfinite(row[name]) for name in POSE))

@@ -7,7 +7,7 @@ import unittest
 
 from harness import FBS, TALK_FBS, TALK_Y4M, ProgramTest
 
-VERBS = ("encode", "decode", "play", "evaluate", "inspect", "export")
+VERBS = ("encode", "decode", "play", "evaluate", "inspect", "export", "track")
 
 
 class Terminal(ProgramTest):

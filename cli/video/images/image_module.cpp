@@ -5,6 +5,8 @@
 #include "cli/module.h"
 #include "cli/video/images/image_sink.h"
 #include "cli/video/images/image_source.h"
+#include "cli/video/images/png.h"
+#include "cli/video/images/still_image.h"
 #include "cli/video/video_modules.h"
 
 FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,
@@ -23,5 +25,24 @@ FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::Video
     sink = fbs::open_image_sink(output, format);
   } catch (const std::exception& problem) {
     sink = fbs::fail(fbs::ErrorCode::kIo, "cannot write " + output + ": " + problem.what());
+  }
+}
+
+FBS_MODULE_EXPORT void fbs_encode_png(const fbs::RgbImage& image,
+                                      fbs::Result<std::vector<std::uint8_t>>& png) {
+  try {
+    png = fbs::encode_png(image);
+  } catch (const std::exception& problem) {
+    png = fbs::fail(fbs::ErrorCode::kInternal,
+                    std::string("OpenImageIO cannot encode a PNG: ") + problem.what());
+  }
+}
+
+FBS_MODULE_EXPORT void fbs_read_image(const std::string& name, const fbs::VideoFormat& format,
+                                      fbs::Result<fbs::Picture>& picture) {
+  try {
+    picture = fbs::read_still_image(name, format);
+  } catch (const std::exception& problem) {
+    picture = fbs::fail(fbs::ErrorCode::kIo, "cannot read " + name + ": " + problem.what());
   }
 }

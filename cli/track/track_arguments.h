@@ -1,0 +1,23 @@
+// Arguments of `fbs track`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fbs::cli {
+
+struct TrackArguments {
+  std::string input, output;
+  std::string format;  ///< of the table: "csv", "json"; empty: by the name of the output
+  int face = 0;
+  std::string marks;                   ///< file; empty: automatic
+  std::optional<std::int64_t> frames;  ///< track at most so many pictures
+  std::optional<double> duration;      ///< track at most so many seconds of the source
+  double sequence_rate = 25;
+  bool quiet = false;
+};
+
+inline constexpr const char* kTrackSymbol = "fbs_run_track";  ///< of the encoder's module
+
+}  // namespace fbs::cli

@@ -1,0 +1,55 @@
+// The options of `fbs track`.
+#include <memory>
+
+#include "cli/encode/encode_arguments.h"
+#include "cli/module_verb.h"
+#include "cli/track/track_arguments.h"
+#include "cli/verb.h"
+
+namespace fbs::cli {
+namespace {
+
+constexpr std::int64_t kMaxFrames = 1'000'000'000;  // more than a year
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  fbs track talk.mkv talk.csv                     head pose, 68 landmarks, gaze, expression\n"
+    "  fbs track talk.mkv talk.json --face 1           of the second largest face\n"
+    "  fbs track talk.mkv - | cut -d, -f1-7            pose on standard output\n"
+    "  fbs track camera:0 live.csv --duration 10";
+
+}  // namespace
+
+void add_track(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<TrackArguments>();
+  TrackArguments& a = *arguments;
+  CLI::App* verb = app.add_subcommand("track", "Follow a face, and write its motion as a table");
+  verb->add_option("INPUT", a.input,
+                   "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
+      ->required();
+  verb->add_option("OUTPUT", a.output, "Table to write (.csv, .json), or - for standard output")->required();
+  verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
+      ->check(CLI::IsMember({"csv", "json"}));
+  verb->add_option("--marks", a.marks,
+                   "JSON file with the positions of facial points in the first picture, as for encode");
+  verb->add_option("--face", a.face, "Face to track; 0 is the largest")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  verb->add_option("--frames", a.frames, "Track the first N pictures only")
+      ->check(CLI::Range(std::int64_t{1}, kMaxFrames))
+      ->type_name("N");
+  verb->add_option("--duration", a.duration,
+                   "Track the first SECONDS only; with --frames, whichever ends first")
+      ->check(number_within(0.001, kMaxSeconds))
+      ->type_name("SECONDS");
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
+      ->capture_default_str()
+      ->check(number_within(0.01, 1000));
+  verb->add_flag("--quiet", a.quiet, "Print no progress bar");
+  verb->footer(kExamples);
+  verb->callback([&run, arguments] {
+    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kTrackSymbol, *arguments); };
+  });
+}
+
+}  // namespace fbs::cli

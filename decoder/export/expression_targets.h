@@ -1,0 +1,72 @@
+// The expression of a state as weights of named shapes ("blendshapes"), for animation programs.
+//
+// The shapes together reach every expression that a stream can code, and the weights give the control points
+// of the state exactly. Names are those of ARKit's ARFaceAnchor.BlendShapeLocation where a shape means the
+// same movement; left and right are the subject's own.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bitstream/syntax.h"
+#include "common/generic_head.h"
+#include "common/state.h"
+
+namespace fbs {
+
+/// Offsets of all control points, head units, x to the right of the picture and y down.
+using ControlOffsets = std::array<glm::dvec2, kControlCount>;
+
+struct ExpressionTarget {
+  std::string name;
+  bool detail = false;       ///< without a meaning of its own: what the named shapes leave over
+  ControlOffsets offsets{};  ///< at a weight of one
+};
+
+/// The shapes for one adapted head.
+///
+/// A named movement at a weight of one is as large as people make it: the jaw opens by 0.6 eye distances, an
+/// eyelid closes the eye, the pupil turns by 30 degrees. Weights are 0 in the adapted, expressionless face.
+/// Those of shapes that have an opposite (mouthSmile and mouthFrown, eyeBlink and eyeWide, eyeLookIn and
+/// eyeLookOut ...) are never negative; jawOpen, mouthUpperUp, browInnerUpAsymmetry, eyeSquint and the details
+/// may be.
+class ExpressionTargets {
+ public:
+  /// @param head  decides how far an eyelid has to go to close the eye
+  explicit ExpressionTargets(const Geometry& head);
+
+  /// The named shapes first, then the details.
+  [[nodiscard]] std::span<const ExpressionTarget> targets() const { return targets_; }
+  /// Number of shapes that have a meaning.
+  [[nodiscard]] std::size_t named_count() const { return named_count_; }
+
+  /// @return of each target; the offsets at these weights sum to the state's to within rounding of doubles
+  [[nodiscard]] std::vector<double> weights(const State& state) const;
+
+ private:
+  /// Directions of a part of the face that are orthonormal in its metric. The first ones span the movements
+  /// with a name, the others the rest.
+  struct Part {
+    std::size_t first = 0;                         ///< control point
+    std::vector<std::vector<double>> metric;       ///< of its control points, in x and in y
+    std::vector<std::vector<double>> orthonormal;  ///< as many as there are numbers
+    std::vector<std::vector<double>>
+        triangle;  ///< row k: movement k in the first k + 1 orthonormal directions
+  };
+  /// What the part's movements amount to, and then its details.
+  [[nodiscard]] static std::vector<double> coefficients(const Part& part, const State& state);
+  static Part make_part(const ExpressionPart& expression, std::span<const ControlOffsets> movements);
+
+  std::vector<ExpressionTarget> targets_;
+  std::size_t named_count_ = 0;
+  std::array<Part, kExpressionPartCount> parts_;
+};
+
+/// How far the shape moves a vertex at a weight of one, head units; z is zero.
+[[nodiscard]] glm::dvec2 displacement(const ExpressionTarget& target, std::size_t vertex);
+
+}  // namespace fbs
