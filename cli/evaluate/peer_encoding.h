@@ -1,0 +1,24 @@
+// Codes a source with another codec through ffmpeg.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/evaluate/peer_codec.h"
+#include "cli/video/stop_signal.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// Writes the raw stream to `file`, which appears when it is complete.
+/// @param stop  may be null
+/// @return kIo with what ffmpeg said, or when the signal came
+Result<void> encode_peer(const std::string& source, const PeerCodec& codec, const PeerVariant& variant,
+                         int crf, const std::string& file, const StopSignal* stop);
+
+/// Bytes of the packets in a raw stream. Of .ivf without its headers and the temporal delimiters of AV1, two
+/// bytes a picture that no container needs; of anything else, of the file.
+/// @return kIo; kInvalidStream for a damaged .ivf
+Result<std::uint64_t> packet_bytes(const std::string& file);
+
+}  // namespace fbs::cli
