@@ -1,5 +1,6 @@
 #include "cli/evaluate/clip_means.h"
 
+#include <cmath>
 #include <filesystem>
 
 namespace fbs::cli {
@@ -38,6 +39,23 @@ std::optional<double> mean_bd_rate(const std::vector<ClipReport>& clips, Area ar
     ++count;
   }
   return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+std::string means_sentence(const std::vector<ClipReport>& clips) {
+  std::string out;
+  for (const Area area : {Area::kFace, Area::kFrame}) {
+    const auto mean = mean_bd_rate(clips, area);
+    if (!mean) continue;
+    const std::string rate =
+        std::to_string(std::lround(std::abs(*mean))) + " % " + (*mean < 0 ? "less" : "more") + " rate";
+    if (out.empty())
+      out = "Over " + std::to_string(clips.size()) + " clips, fbs needs " + rate +
+            " than the best of the other codecs";
+    else
+      out += " and " + rate;
+    out += area == Area::kFace ? " for the same face" : " for the same frame";
+  }
+  return out.empty() ? out : out + " (mean BD-rate of luma PSNR).";
 }
 
 }  // namespace fbs::cli

@@ -28,4 +28,8 @@ struct ClipFigures {
 /// Over the clips that have one; nothing without any.
 [[nodiscard]] std::optional<double> mean_bd_rate(const std::vector<ClipReport>& clips, Area area);
 
+/// "Over 3 clips, fbs needs 55 % less rate than the best of the other codecs for the same face, and ...";
+/// empty without a mean.
+[[nodiscard]] std::string means_sentence(const std::vector<ClipReport>& clips);
+
 }  // namespace fbs::cli

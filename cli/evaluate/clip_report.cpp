@@ -20,7 +20,18 @@ const char* name_of(Area area) {
   return area == Area::kFace ? "face" : "frame";
 }
 
-/// "2.9 dB better than the best of the other codecs (29.5 against 26.6 dB)".
+/// "x264, x265 and AV1", as far as they are there.
+std::string names_of(const std::vector<RdPoint>& peers) {
+  std::vector<std::string> names;
+  for (const RdPoint& p : peers)
+    if (names.empty() || names.back() != p.codec) names.push_back(p.codec);
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return out;
+}
+
+/// "2.9 dB better (29.5 against 26.6 dB)".
 std::string better(double ours, double theirs) {
   const double difference = ours - theirs;
   const std::string both = " (" + fixed(ours, 1) + " against " + fixed(theirs, 1) + " dB)";
@@ -37,7 +48,7 @@ std::string own_sentence(const RdPoint& point) {
 /// At the rate of `point` against the envelope of the peers.
 std::string sentence_at_rate(const ClipReport& clip, const RdPoint& point) {
   std::string out = "At " + fixed(point.kbps(), 1) + " kbit/s (" + point.label +
-                    "), compared with the best of the other codecs,";
+                    "), compared with the best of " + names_of(clip.peers) + ",";
   const char* joint = " the ";
   for (const Area area : {Area::kFace, Area::kFrame}) {
     const auto ours = psnr_of(point, area), theirs = quality_at(psnr_curve(clip.peers, area), point.kbps());
@@ -104,8 +115,9 @@ std::string summary_of(const ClipReport& clip) {
   const Curve frame = psnr_curve(clip.peers, Area::kFrame);
   std::string out;
   if (point->kbps() < frame.front().kbps)
-    out = own_sentence(*point) + " No other codec goes that low: the least of them takes " +
-          fixed(frame.front().kbps, 1) + " kbit/s for a frame of " + fixed(frame.front().quality, 1) + " dB.";
+    out = own_sentence(*point) + " None of " + names_of(clip.peers) +
+          " goes that low: the least of them takes " + fixed(frame.front().kbps, 1) +
+          " kbit/s for a frame of " + fixed(frame.front().quality, 1) + " dB.";
   else
     out = sentence_at_rate(clip, *point);
   return out + rate_sentence(clip, Area::kFace) + rate_sentence(clip, Area::kFrame);

@@ -1,4 +1,5 @@
 // fbs evaluate: rate and distortion of streams against their source.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -71,7 +72,9 @@ Result<Outcome> evaluate_clips(const EvaluateArguments& arguments, const std::ve
   else
     print_clips(report->clips);
   for (const std::string& line : report->failed) std::fprintf(stderr, "fbs: left out: %s\n", line.c_str());
-  return report->failed.empty() ? Outcome::kComplete : Outcome::kPartial;
+  const bool whole =
+      std::all_of(report->clips.begin(), report->clips.end(), [](const ClipReport& c) { return c.whole; });
+  return whole && report->failed.empty() ? Outcome::kComplete : Outcome::kPartial;
 }
 
 Result<Outcome> evaluate(const EvaluateArguments& arguments, const StopSignal& stop) {

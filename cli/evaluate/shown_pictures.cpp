@@ -62,7 +62,7 @@ Result<std::unique_ptr<ShownPictures>> open_fbs_pictures(const std::string& stre
 Result<std::unique_ptr<ShownPictures>> open_peer_pictures(const PeerStream& stream) {
   const std::string size = std::to_string(stream.width) + ":" + std::to_string(stream.height);
   auto decoder = ChildProcess::start(
-      {"ffmpeg", "-v", "error", "-nostdin", "-i", stream.file, "-vsync", "passthrough", "-vf",
+      {"ffmpeg", "-v", "error", "-nostdin", "-i", stream.file, "-fps_mode", "passthrough", "-vf",
        "scale=" + size + ":flags=bicubic", "-pix_fmt", "yuv420p", "-f", "rawvideo", "-"},
       ChildProcess::Pipe::kFromStandardOutput, stream.file + ".log");
   if (!decoder) return fail(decoder.error());

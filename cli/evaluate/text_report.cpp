@@ -28,16 +28,13 @@ std::optional<double> if_any(const AreaSummary& area, double value) {
 void print_point(const RdPoint& p) {
   const QualitySummary sum = summarise(p.pictures);
   const auto b = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
-  std::printf("%-*s %9.3f %9.3f %9llu %9llu %9llu %7llu %9llu", kNameWidth, p.label.c_str(), p.kbps(),
+  std::printf("%-*s %8.3f %7.3f %8llu %8llu %8llu %6llu %8llu", kNameWidth, p.label.c_str(), p.kbps(),
               p.rate(p.bytes.motion), b(p.bytes.startup), b(p.bytes.geometry), b(p.bytes.patterns),
               b(p.bytes.other), b(p.bytes.total));
-  for (const AreaSummary* area : {&sum.face, &sum.frame}) {
-    std::printf("%s%s%s%s%s", number(if_any(*area, area->y.psnr()), 8, 2).c_str(),
-                number(if_any(*area, area->u.psnr()), 6, 2).c_str(),
-                number(if_any(*area, area->v.psnr()), 6, 2).c_str(),
+  for (const AreaSummary* area : {&sum.face, &sum.frame})
+    std::printf("%s%s%s", number(if_any(*area, area->y.psnr()), 8, 2).c_str(),
                 number(if_any(*area, area->ssim), 6, 4).c_str(),
                 number(if_any(*area, area->ms_ssim), 7, 4).c_str());
-  }
   if (p.vmaf) std::printf(" %6.2f", *p.vmaf);
   std::printf("\n");
   if (const std::string notes = p.report ? notes_of(*p.report) : ""; !notes.empty())
@@ -56,10 +53,9 @@ void print_differences(const ClipReport& clip) {
 }  // namespace
 
 void print_clip(const ClipReport& clip) {
-  std::printf("%-*s %9s %9s %9s %9s %9s %7s %9s %8s %6s %6s %6s %7s %8s %6s %6s %6s %7s%s\n", kNameWidth, "",
-              "kbit/s", "motion", "startup B", "geometry", "patterns", "other", "total B", "face Y", "U", "V",
-              "SSIM", "MS-SSIM", "frame Y", "U", "V", "SSIM", "MS-SSIM",
-              clip.vmaf_available ? "   VMAF" : "");
+  std::printf("%-*s %8s %7s %8s %8s %8s %6s %8s %8s %6s %7s %8s %6s %7s%s\n", kNameWidth, "", "kbit/s",
+              "motion", "startup", "geometry", "patterns", "other", "total B", "face dB", "SSIM", "MS-SSIM",
+              "frame dB", "SSIM", "MS-SSIM", clip.vmaf_available ? "   VMAF" : "");
   for (const RdPoint& p : clip.points) print_point(p);
   const std::size_t pictures = clip.times.size();
   if (clip.points.size() > 1 || clip.compared || clip.believed < pictures)

@@ -14,9 +14,8 @@ namespace {
 // In units of the view box: about pixels on a wide screen.
 constexpr double kWidth = 560, kHeight = 360;
 constexpr double kLeft = 46, kRight = 74, kTop = 26, kBottom = 44;
-constexpr double kLabelHeight = 14;
+constexpr double kLabelHeight = 14, kLabelWidth = 20;
 constexpr double kTextHalf = 4;  // from the base line to the middle of a line of text
-constexpr double kBarHeight = 20, kBarGap = 8, kBarLeft = 130, kBarRight = 110;
 
 std::string n(double value) {
   std::array<char, 32> text{};
@@ -35,8 +34,8 @@ std::string line_between(double x0, double y0, double x1, double y1, const char*
          "\" class=\"" + style + "\"/>";
 }
 
-std::string svg(double width, double height, const std::string& title, const std::string& content) {
-  return "<svg viewBox=\"0 0 " + n(width) + " " + n(height) + "\" role=\"img\" aria-label=\"" +
+std::string svg(const std::string& title, const std::string& content) {
+  return "<svg viewBox=\"0 0 " + n(kWidth) + " " + n(kHeight) + "\" role=\"img\" aria-label=\"" +
          escaped(title) + "\">" + content + "</svg>";
 }
 
@@ -113,20 +112,34 @@ struct EndLabel {
   double x, y;
 };
 
-/// Names beside the ends of the lines, moved apart where they would cover each other.
-std::string names(const std::vector<ChartSeries>& series, const Scale& x, const Scale& y) {
-  std::vector<EndLabel> labels;
-  for (const ChartSeries& s : series)
-    if (!s.name.empty() && !s.points.empty())
-      labels.push_back({&s, x(s.points.back().x) + 8, y(s.points.back().y) + kTextHalf});
+/// Moves labels apart that would cover each other, within the chart.
+void spread(std::vector<EndLabel>& labels) {
   std::sort(labels.begin(), labels.end(), [](const EndLabel& a, const EndLabel& b) { return a.y < b.y; });
   for (std::size_t i = 1; i < labels.size(); ++i)
     labels[i].y = std::max(labels[i].y, labels[i - 1].y + kLabelHeight);
   double lowest = kHeight - kBottom;
   for (std::size_t i = labels.size(); i-- > 0; lowest -= kLabelHeight)
     labels[i].y = std::min(labels[i].y, lowest);
+}
+
+/// Names at the ends of the lines: to the right where nothing follows, else above.
+std::string names(const std::vector<ChartSeries>& series, const Scale& x, const Scale& y) {
+  double last = 0;
+  for (const ChartSeries& s : series)
+    if (!s.points.empty()) last = std::max(last, x(s.points.back().x));
+  std::vector<EndLabel> right;
   std::string out;
-  for (const EndLabel& l : labels)
+  for (const ChartSeries& s : series) {
+    if (s.name.empty() || s.points.empty()) continue;
+    const ChartPoint& end = s.points.back();
+    if (x(end.x) < last - kLabelWidth || !end.label.empty())
+      out += text_at(x(end.x) + 6, y(end.y) - 8, end.label.empty() ? "middle" : "start", s.name,
+                     "name " + s.style);
+    else
+      right.push_back({&s, x(end.x) + 8, y(end.y) + kTextHalf});
+  }
+  spread(right);
+  for (const EndLabel& l : right)
     out += text_at(l.x, l.y, "start", l.series->name, "name " + l.series->style);
   return out;
 }
@@ -170,32 +183,7 @@ std::string line_chart(const ChartSetting& setting, const std::vector<ChartSerie
   const Scale y(widened(ys, false), kHeight - kBottom, kTop, false);
   std::string content = axes(setting, x, y);
   for (const ChartSeries& s : series) content += marks(s, x, y);
-  return svg(kWidth, kHeight, setting.title, content + names(series, x, y));
-}
-
-std::string stacked_bars(const std::string& title, const std::vector<Bar>& bars) {
-  double most = 0;
-  for (const Bar& bar : bars) {
-    double sum = 0;
-    for (const BarPart& part : bar.parts) sum += part.value;
-    most = std::max(most, sum);
-  }
-  if (most <= 0) return "";
-  const double unit = (2 * kWidth - kBarLeft - kBarRight) / most;
-  std::string content;
-  double top = 0;
-  for (const Bar& bar : bars) {
-    double left = kBarLeft;
-    content += text_at(kBarLeft - 8, top + kBarHeight / 2 + kTextHalf, "end", bar.name, "tick");
-    for (const BarPart& part : bar.parts) {
-      content += "<rect x=\"" + n(left) + "\" y=\"" + n(top) + "\" width=\"" + n(part.value * unit) +
-                 "\" height=\"" + n(kBarHeight) + "\" class=\"part " + part.style + "\"/>";
-      left += part.value * unit;
-    }
-    content += text_at(left + 8, top + kBarHeight / 2 + kTextHalf, "start", bar.note, "tick");
-    top += kBarHeight + kBarGap;
-  }
-  return svg(2 * kWidth, top, title, content);
+  return svg(setting.title, content + names(series, x, y));
 }
 
 }  // namespace fbs::cli

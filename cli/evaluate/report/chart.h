@@ -1,4 +1,4 @@
-// Charts as SVG: lines over two axes, and stacked bars. Colours are classes that report.css gives.
+// Charts as SVG: lines over two axes. Colours are classes that report.css gives.
 #pragma once
 
 #include <string>
@@ -27,20 +27,6 @@ struct ChartSetting {
 
 /// Nothing for series without points.
 [[nodiscard]] std::string line_chart(const ChartSetting& setting, const std::vector<ChartSeries>& series);
-
-struct BarPart {
-  std::string style;  ///< class: "startup", "geometry", "patterns", "motion", "other"
-  double value = 0;
-};
-
-struct Bar {
-  std::string name;  ///< left of it
-  std::string note;  ///< right of it
-  std::vector<BarPart> parts;
-};
-
-/// Horizontal bars on one scale.
-[[nodiscard]] std::string stacked_bars(const std::string& title, const std::vector<Bar>& bars);
 
 /// For text and attribute values of HTML and SVG.
 [[nodiscard]] std::string escaped(const std::string& text);

@@ -101,17 +101,20 @@ std::string time_rival_text(const ClipReport& clip) {
 }
 
 std::string byte_bars(const ClipReport& clip) {
-  std::vector<Bar> bars;
+  std::uint64_t most = 1;
+  for (const RdPoint& p : clip.points) most = std::max(most, p.bytes.total);
+  std::string out;
   for (const RdPoint& p : clip.points) {
-    const auto v = [](std::uint64_t bytes) { return static_cast<double>(bytes); };
-    bars.push_back({point_name(p),
-                    std::to_string(p.bytes.total) + " bytes",
-                    {{"geometry", v(p.bytes.geometry)},
-                     {"patterns", v(p.bytes.patterns)},
-                     {"motion", v(p.bytes.motion)},
-                     {"other", v(p.bytes.other)}}});
+    out += "<span class=\"bar-name\">" + escaped(point_name(p)) + "</span><span class=\"bar\">";
+    for (const auto& [style, bytes] :
+         {std::pair{"geometry", p.bytes.geometry}, std::pair{"patterns", p.bytes.patterns},
+          std::pair{"motion", p.bytes.motion}, std::pair{"other", p.bytes.other}})
+      out += std::string("<i class=\"") + style + "\" title=\"" + style + ": " + std::to_string(bytes) +
+             " bytes\" style=\"width: " +
+             decimal(100 * static_cast<double>(bytes) / static_cast<double>(most), 2) + "%\"></i>";
+    out += "</span><span class=\"bar-bytes\">" + std::to_string(p.bytes.total) + " bytes</span>\n";
   }
-  return stacked_bars("Bytes of each stream by part", bars);
+  return "<div class=\"bars\">" + out + "</div>";
 }
 
 }  // namespace fbs::cli

@@ -1,4 +1,4 @@
-// The charts of one clip in the report, as SVG.
+// The charts of one clip in the report: curves as SVG, bars as HTML.
 #pragma once
 
 #include <string>

@@ -54,7 +54,10 @@ std::string image(const Still::Image& i, const Still& still, const ClipReport& c
   if (i.point == nullptr) {
     caption += ", picture " + std::to_string(still.picture) + ", " + still.why + " for fbs";
   } else {
-    caption += ", " + escaped(i.point->label) + ", " + decimal(i.point->kbps(), 1) + " kbit/s";
+    const std::string& label = i.point->label;
+    caption += ", " +
+               escaped(label.starts_with(name + " ") ? label.substr(name.size() + 1) : point_name(*i.point)) +
+               ", " + decimal(i.point->kbps(), 1) + " kbit/s";
     const PictureQuality& q = i.point->pictures.at(still.picture);
     if (q.face) caption += ": face " + decimal(q.face->y.psnr(), 1) + " dB, ";
     caption += (q.face ? "frame " : ": frame ") + decimal(q.frame.y.psnr(), 1) + " dB";
@@ -89,13 +92,14 @@ Result<std::string> clip_section(const ClipReport& clip, bool with_heading) {
   if (!stills) return fail(stills.error());
   const std::string rival = time_rival_text(clip);
   const bool face = clip.believed > 0;
+  const std::string grey = clip.peers.empty() ? "" : "; grey: the best of the others";
   return filled(clip_html(),
                 {{"heading", with_heading ? "<h2>" + escaped(figures_of(clip).name) + "</h2>" : ""},
                  {"summary", escaped(summary_of(clip))},
                  {"facts", facts_of(clip)},
-                 {"face_caption", face ? "Face: luma PSNR over bitrate" : "Face: in no picture"},
+                 {"face_caption", face ? "Face: luma PSNR over bitrate" + grey : "Face: in no picture"},
                  {"face_curve", rate_chart(clip, Area::kFace)},
-                 {"frame_caption", "Frame: luma PSNR over bitrate"},
+                 {"frame_caption", "Frame: luma PSNR over bitrate" + grey},
                  {"frame_curve", rate_chart(clip, Area::kFrame)},
                  {"streams", point_table(clip)},
                  {"bars", byte_bars(clip)},
@@ -106,6 +110,14 @@ Result<std::string> clip_section(const ClipReport& clip, bool with_heading) {
                  {"frame_time_caption", "Frame: luma PSNR of each picture" + rival},
                  {"frame_time", time_chart(clip, Area::kFrame)},
                  {"peers", peer_table(clip)}});
+}
+
+/// What comes before several clips.
+std::string overview(const std::vector<ClipReport>& clips) {
+  std::string out;
+  if (const std::string means = means_sentence(clips); !means.empty())
+    out = "<p class=\"summary\">" + escaped(means) + "</p>";
+  return out + clip_table(clips);
 }
 
 std::string title_of(const std::string& source) {
@@ -127,7 +139,7 @@ Result<void> write_html(const std::string& name, const std::string& source,
   }
   const std::string page = filled(report_html(), {{"title", escaped(title_of(source))},
                                                   {"style", std::string(report_css())},
-                                                  {"head", several ? clip_table(clips) : ""},
+                                                  {"head", several ? overview(clips) : ""},
                                                   {"clips", sections},
                                                   {"legend", std::string(legend_html())}});
   auto file = AtomicFile::create(name);
