@@ -1,5 +1,6 @@
 #include "cli/evaluate/argument_check.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/output_check.h"
@@ -20,6 +21,8 @@ Result<void> check_folder(const EvaluateArguments& a) {
 }
 
 Result<void> check_streams(const EvaluateArguments& a) {
+  if (std::count(a.streams.begin(), a.streams.end(), "-") + (a.source == "-" ? 1 : 0) > 1)
+    return refuse("- : standard input can be read once only");
   const char* option = !a.qualities.empty() ? "--quality"
                        : a.live             ? "--live"
                        : a.allow_no_face    ? "--allow-no-face"

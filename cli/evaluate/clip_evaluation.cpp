@@ -12,6 +12,7 @@
 #include "cli/evaluate/measurement.h"
 #include "cli/evaluate/peer_encoding.h"
 #include "cli/evaluate/vmaf.h"
+#include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
 #include "cli/video/y4m.h"
 
@@ -44,7 +45,8 @@ class ClipEvaluation {
 
  private:
   Result<void> open(const std::string& source);
-  Result<void> copy_standard_input(const std::string& copy);
+  Result<void> copy_source(const std::string& source);
+  Result<void> copy_stream(RdPoint& point);
   Result<void> make_streams();
   Result<void> encode(int quality);
   Result<void> read_tracks();
@@ -68,12 +70,19 @@ class ClipEvaluation {
   bool warned_ = false;
 };
 
-Result<void> ClipEvaluation::copy_standard_input(const std::string& copy) {
+/// What can be read once only.
+bool is_pipe(const std::string& name) {
+  std::error_code error;
+  return name == "-" || fs::is_fifo(name, error);
+}
+
+Result<void> ClipEvaluation::copy_source(const std::string& name) {
+  clip_.read_from = run_.path("source.y4m");
   SourceOptions options;
   options.stop = &stop_;
-  auto source = open_video_source("-", options);
+  auto source = open_video_source(name, options);
   if (!source) return fail(source.error());
-  auto sink = open_y4m_sink(copy, (*source)->format());
+  auto sink = open_y4m_sink(clip_.read_from, (*source)->format());
   if (!sink) return fail(sink.error());
   for (;;) {
     auto picture = (*source)->next();
@@ -83,12 +92,21 @@ Result<void> ClipEvaluation::copy_standard_input(const std::string& copy) {
   }
 }
 
+Result<void> ClipEvaluation::copy_stream(RdPoint& point) {
+  auto stream = StreamFile::open(point.label, &stop_);
+  if (!stream) return fail(stream.error());
+  const auto bytes = stream->read_all();
+  if (!bytes) return fail(bytes.error());
+  point.file = run_.path("stream.fbs");
+  auto file = AtomicFile::create(point.file);
+  if (!file) return fail(file.error());
+  return file->write(*bytes).and_then([&] { return file->commit(); });
+}
+
 Result<void> ClipEvaluation::open(const std::string& source) {
   clip_.read_from = source;
-  if (source == "-") {
-    clip_.read_from = run_.path("source.y4m");
-    if (auto copied = copy_standard_input(clip_.read_from); !copied) return copied;
-  }
+  if (is_pipe(source))
+    if (auto copied = copy_source(source); !copied) return copied;
   auto opened = open_video_source(clip_.read_from);
   if (!opened) return fail(opened.error());
   clip_.format = (*opened)->format();
@@ -101,6 +119,8 @@ Result<void> ClipEvaluation::make_streams() {
     RdPoint& point = clip_.points.emplace_back();
     point.label = point.file = stream;
     point.codec = "fbs";
+    if (is_pipe(stream))
+      if (auto copied = copy_stream(point); !copied) return copied;
   }
   if (!arguments_.streams.empty()) return {};
   std::vector<int> qualities = arguments_.qualities;
@@ -235,7 +255,9 @@ Result<RdPoint> ClipEvaluation::peer_point(const PeerCodec& codec, const PeerVar
   json key = {{"source", key_["source"]}, {"options", codec.options}};
   const auto made = run_.find(name, key);
   if (!made || *made != file_stamp(point.file)) {
-    if (auto coded = encode_peer(clip_.read_from, codec, variant, crf, point.file, &stop_); !coded)
+    if (auto coded =
+            encode_peer(clip_.read_from, {codec, variant, crf, point.file, arguments_.quiet}, &stop_);
+        !coded)
       return fail(coded.error());
     if (clip_.whole)
       if (auto kept = run_.keep(name, key, file_stamp(point.file)); !kept) return fail(kept.error());

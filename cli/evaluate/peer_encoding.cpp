@@ -9,6 +9,7 @@
 
 #include "cli/encode/source_part.h"
 #include "cli/evaluate/child_process.h"
+#include "cli/progress.h"
 
 namespace fbs::cli {
 namespace {
@@ -24,32 +25,21 @@ std::string side_text(int side, int divisor) {
   return std::to_string((side / divisor + 1) / 2 * 2);
 }
 
-std::vector<std::string> command_of(const VideoFormat& format, const PeerCodec& codec,
-                                    const PeerVariant& variant, int crf, const std::string& file) {
-  std::vector<std::string> out{"ffmpeg",
-                               "-v",
-                               "error",
-                               "-y",
-                               "-f",
-                               "rawvideo",
-                               "-pix_fmt",
-                               "yuv420p",
-                               "-s",
-                               std::to_string(format.width) + "x" + std::to_string(format.height),
-                               "-r",
-                               rate_text(format.frame_rate, variant.step),
-                               "-i",
-                               "-",
-                               "-vf",
-                               "scale=" + side_text(format.width, variant.divisor) + ":" +
-                                   side_text(format.height, variant.divisor) + ":flags=bicubic",
-                               "-pix_fmt",
-                               "yuv420p",
-                               "-c:v",
-                               codec.encoder,
-                               "-crf",
-                               std::to_string(crf)};
-  out.insert(out.end(), codec.options.begin(), codec.options.end());
+std::vector<std::string> command_of(const VideoFormat& format, const PeerJob& job, const std::string& file) {
+  const auto side = [&](int n) { return side_text(n, job.variant.divisor); };
+  std::vector<std::string> out{
+      "ffmpeg",   "-v",
+      "error",    "-y",
+      "-f",       "rawvideo",
+      "-pix_fmt", "yuv420p",
+      "-s",       std::to_string(format.width) + "x" + std::to_string(format.height),
+      "-r",       rate_text(format.frame_rate, job.variant.step),
+      "-i",       "-",
+      "-vf",      "scale=" + side(format.width) + ":" + side(format.height) + ":flags=bicubic",
+      "-pix_fmt", "yuv420p",
+      "-c:v",     job.codec.encoder,
+      "-crf",     std::to_string(job.crf)};
+  out.insert(out.end(), job.codec.options.begin(), job.codec.options.end());
   out.push_back(file);
   return out;
 }
@@ -57,6 +47,41 @@ std::vector<std::string> command_of(const VideoFormat& format, const PeerCodec& 
 bool write_picture(const Picture& picture, ChildProcess& ffmpeg) {
   return ffmpeg.write(picture.y.samples) && ffmpeg.write(picture.u.samples) &&
          ffmpeg.write(picture.v.samples);
+}
+
+/// Passes on every picture of the source that the variant has.
+Result<void> feed(SourcePart& source, const PeerJob& job, ChildProcess& ffmpeg) {
+  Progress progress("coding " + peer_label(job.codec, job.variant, job.crf), source.frame_count_estimate(),
+                    job.quiet);
+  for (std::int64_t n = 0;; ++n) {
+    auto picture = source.next();
+    if (!picture) return fail(picture.error());
+    if (!*picture) return {};
+    // Where ffmpeg takes no more, its end says why.
+    if (n % job.variant.step == 0 && !write_picture((*picture)->picture, ffmpeg)) return {};
+    progress.update(n + 1);
+  }
+}
+
+Result<void> encode_to(const std::string& unfinished, const std::string& name, const PeerJob& job,
+                       const StopSignal* stop) {
+  SourceOptions options;
+  options.stop = stop;
+  auto opened = open_video_source(name, options);
+  if (!opened) return fail(opened.error());
+  SourcePart source(std::move(*opened), {}, stop);
+  auto ffmpeg = ChildProcess::start(command_of(source.format(), job, unfinished),
+                                    ChildProcess::Pipe::kToStandardInput, job.file + ".log");
+  if (!ffmpeg) return fail(ffmpeg.error());
+  if (auto fed = feed(source, job, *ffmpeg); !fed) return fed;
+  if (stop != nullptr && stop->raised()) return fail(ErrorCode::kIo, job.file + ": stopped");
+  if (auto finished = ffmpeg->finish(); !finished)
+    return fail(ErrorCode::kIo,
+                finished.error().text + " (coding " + name + " with " + job.codec.encoder + ")");
+  std::error_code error;
+  fs::rename(unfinished, job.file, error);
+  if (error) return fail(ErrorCode::kIo, "cannot write " + job.file + ": " + error.message());
+  return {};
 }
 
 std::uint32_t little_endian_32(const std::vector<std::uint8_t>& bytes, std::size_t at) {
@@ -67,31 +92,12 @@ std::uint32_t little_endian_32(const std::vector<std::uint8_t>& bytes, std::size
 
 }  // namespace
 
-Result<void> encode_peer(const std::string& source, const PeerCodec& codec, const PeerVariant& variant,
-                         int crf, const std::string& file, const StopSignal* stop) {
-  SourceOptions options;
-  options.stop = stop;
-  auto opened = open_video_source(source, options);
-  if (!opened) return fail(opened.error());
-  SourcePart part((std::move(*opened)), {}, stop);
-  const std::string unfinished = file + ".part";
-  auto ffmpeg = ChildProcess::start(command_of(part.format(), codec, variant, crf, unfinished),
-                                    ChildProcess::Pipe::kToStandardInput, file + ".log");
-  if (!ffmpeg) return fail(ffmpeg.error());
-  for (int n = 0;; ++n) {
-    auto picture = part.next();
-    if (!picture) return fail(picture.error());
-    if (!*picture) break;
-    if (n % variant.step == 0 && !write_picture((*picture)->picture, *ffmpeg)) break;
-  }
-  if (stop != nullptr && stop->raised()) return fail(ErrorCode::kIo, file + ": stopped");
-  if (auto finished = ffmpeg->finish(); !finished)
-    return fail(ErrorCode::kIo,
-                finished.error().text + " (coding " + source + " with " + codec.encoder + ")");
-  std::error_code error;
-  fs::rename(unfinished, file, error);
-  if (error) return fail(ErrorCode::kIo, "cannot write " + file + ": " + error.message());
-  return {};
+Result<void> encode_peer(const std::string& source, const PeerJob& job, const StopSignal* stop) {
+  const std::string unfinished = job.file + ".part";
+  auto encoded = encode_to(unfinished, source, job, stop);
+  std::error_code ignored;
+  if (!encoded) fs::remove(unfinished, ignored);
+  return encoded;
 }
 
 Result<std::uint64_t> packet_bytes(const std::string& file) {

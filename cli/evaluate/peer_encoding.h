@@ -10,11 +10,18 @@
 
 namespace fbs::cli {
 
-/// Writes the raw stream to `file`, which appears when it is complete.
+struct PeerJob {
+  PeerCodec codec;
+  PeerVariant variant;
+  int crf = 0;
+  std::string file;    ///< of the raw stream
+  bool quiet = false;  ///< no progress bar
+};
+
+/// Codes the source. The file appears when it is complete; what is half done is removed.
 /// @param stop  may be null
 /// @return kIo with what ffmpeg said, or when the signal came
-Result<void> encode_peer(const std::string& source, const PeerCodec& codec, const PeerVariant& variant,
-                         int crf, const std::string& file, const StopSignal* stop);
+Result<void> encode_peer(const std::string& source, const PeerJob& job, const StopSignal* stop);
 
 /// Bytes of the packets in a raw stream. Of .ivf without its headers and the temporal delimiters of AV1, two
 /// bytes a picture that no container needs; of anything else, of the file.

@@ -80,6 +80,12 @@ class Reports(EvaluateTest):
         self.assertEqual([point["frames"] for point in points], [PICTURES, PICTURES])
 
 
+    def test_stream_from_a_pipe(self):
+        piped, named = (json.loads(self.succeed("evaluate", TALK_Y4M, name, "--json", stdin=TALK_FBS.read_bytes()))["points"][0]
+                        for name in ("-", TALK_FBS))
+        self.assertEqual({**piped, "point": ""}, {**named, "point": ""})
+
+
 class Runs(EvaluateTest):
     ARGUMENTS = ("evaluate", "talk.y4m", "--quality", "30", "60", "--html", "out.html", "--quiet")
 
@@ -199,6 +205,7 @@ class Refused(EvaluateTest):
                            ("talk.y4m --region faces.csv", "more than talk.y4m"),
                            ("talk.y4m --region talk.fbs", "has no columns"),
                            ("talk.y4m --keep talk.fbs/run", "cannot make the folder"),
+                           ("- -", "read once only"),
                            ("camera:0", "record it first")):
             with self.subTest(line):
                 self.fail_cleanly("evaluate", *line.split(), "--quiet", says=[says])
