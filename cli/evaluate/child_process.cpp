@@ -28,16 +28,16 @@ std::string last_line(const std::string& file) {
   return last;
 }
 
-std::vector<char*> pointers(const std::vector<std::string>& command) {
+std::vector<char*> pointers(std::vector<std::string>& command) {
   std::vector<char*> out;
-  for (const std::string& word : command) out.push_back(const_cast<char*>(word.c_str()));
+  out.reserve(command.size() + 1);
+  for (std::string& word : command) out.push_back(word.data());
   out.push_back(nullptr);
   return out;
 }
 
 /// posix_spawnp() with `pipe` as one standard stream, and null and the log as the others.
-int spawn(const std::vector<std::string>& command, int pipe, bool to_child, const std::string& log,
-          pid_t& id) {
+int spawn(std::vector<std::string> command, int pipe, bool to_child, const std::string& log, pid_t& id) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   const int ours = to_child ? STDIN_FILENO : STDOUT_FILENO, other = to_child ? STDOUT_FILENO : STDIN_FILENO;
@@ -88,7 +88,7 @@ void ChildProcess::close_pipe() {
   pipe_ = -1;
 }
 
-bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
+bool ChildProcess::write(std::span<const std::uint8_t> bytes) const {
   while (!bytes.empty()) {
     const ssize_t n = send(pipe_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
@@ -98,7 +98,7 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-std::size_t ChildProcess::read(std::span<std::uint8_t> bytes) {
+std::size_t ChildProcess::read(std::span<std::uint8_t> bytes) const {
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::read(pipe_, bytes.data() + done, bytes.size() - done);

@@ -31,10 +31,10 @@ class ChildProcess {
   ~ChildProcess();
 
   /// @return false when the program does not take more; finish() says why
-  [[nodiscard]] bool write(std::span<const std::uint8_t> bytes);
+  [[nodiscard]] bool write(std::span<const std::uint8_t> bytes) const;
   /// Fills `bytes` as far as the program writes as much.
   /// @return number of bytes
-  [[nodiscard]] std::size_t read(std::span<std::uint8_t> bytes);
+  [[nodiscard]] std::size_t read(std::span<std::uint8_t> bytes) const;
 
   /// Closes the pipe and waits for the end of the program.
   /// @return kIo with the last line of its standard error unless its exit code is 0

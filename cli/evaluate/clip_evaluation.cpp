@@ -45,7 +45,7 @@ class ClipEvaluation {
 
  private:
   Result<void> open(const std::string& source);
-  Result<void> copy_source(const std::string& source);
+  Result<void> copy_source(const std::string& name);
   Result<void> copy_stream(RdPoint& point);
   Result<void> make_streams();
   Result<void> encode(int quality);

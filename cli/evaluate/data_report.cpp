@@ -92,11 +92,11 @@ json clip_json(const ClipReport& clip) {
   return out;
 }
 
-Result<void> write_csv(const std::string& name, const std::vector<ClipReport>& clips) {
-  auto file = AtomicFile::create(name);
-  if (!file) return fail(file.error());
+Result<void> write_csv(const std::string& file, const std::vector<ClipReport>& clips) {
+  auto out = AtomicFile::create(file);
+  if (!out) return fail(out.error());
   const auto write = [&](const std::string& text) {
-    return file->write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    return out->write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
   };
   if (auto written = write("clip,point,picture,time_s,psnr_y,psnr_u,psnr_v,ssim,ms_ssim,"
                            "face_psnr_y,face_psnr_u,face_psnr_v,face_ssim,face_ms_ssim,face_samples\n");
@@ -106,7 +106,7 @@ Result<void> write_csv(const std::string& name, const std::vector<ClipReport>& c
     for (const auto* points : {&clip.points, &clip.peers})
       for (const RdPoint& p : *points)
         if (auto written = write(csv_lines(clip, p)); !written) return written;
-  return file->commit();
+  return out->commit();
 }
 
 }  // namespace fbs::cli

@@ -26,10 +26,6 @@ struct PictureQuality {
   friend bool operator==(const PictureQuality&, const PictureQuality&) = default;
 };
 
-inline bool operator==(const SquaredError& a, const SquaredError& b) {
-  return a.sum == b.sum && a.count == b.count;
-}
-
 /// @param source, shown  of the same size
 /// @param face  empty: no face
 [[nodiscard]] PictureQuality compare_pictures(const Picture& source, const Picture& shown,

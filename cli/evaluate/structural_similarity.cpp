@@ -17,9 +17,8 @@ constexpr double kC1 = 6.5025, kC2 = 58.5225;                           // (0.01
 constexpr std::array kWeights{0.0448, 0.2856, 0.3001, 0.2363, 0.1333};  // finest scale first
 
 cv::Mat as_float(const Plane& plane) {
-  const cv::Mat samples(plane.height, plane.width, CV_8UC1, const_cast<std::uint8_t*>(plane.samples.data()));
-  cv::Mat out;
-  samples.convertTo(out, CV_32F);
+  cv::Mat out(plane.height, plane.width, CV_32F);
+  for (int y = 0; y < plane.height; ++y) std::copy_n(plane.row(y), plane.width, out.ptr<float>(y));
   return out;
 }
 

@@ -128,7 +128,7 @@ std::string title_of(const std::string& source) {
 
 }  // namespace
 
-Result<void> write_html(const std::string& name, const std::string& source,
+Result<void> write_html(const std::string& file, const std::string& source,
                         const std::vector<ClipReport>& clips) {
   const bool several = clips.size() > 1;
   std::string sections;
@@ -142,10 +142,10 @@ Result<void> write_html(const std::string& name, const std::string& source,
                                                   {"head", several ? overview(clips) : ""},
                                                   {"clips", sections},
                                                   {"legend", std::string(legend_html())}});
-  auto file = AtomicFile::create(name);
-  if (!file) return fail(file.error());
+  auto out = AtomicFile::create(file);
+  if (!out) return fail(out.error());
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(page.data()), page.size());
-  return file->write(bytes).and_then([&] { return file->commit(); });
+  return out->write(bytes).and_then([&] { return out->commit(); });
 }
 
 }  // namespace fbs::cli
