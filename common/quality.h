@@ -22,6 +22,8 @@ struct SquaredError {
     return *this;
   }
 
+  friend bool operator==(const SquaredError&, const SquaredError&) = default;
+
   /// 10 log10(255^2 / mean); 99 for identical pictures; 0 without samples. dB.
   [[nodiscard]] double psnr() const;
 };

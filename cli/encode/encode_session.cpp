@@ -50,7 +50,7 @@ class ClosedLoop {
       : encoder_(std::move(encoder)),
         take_(take),
         compares_(what != Measured::kRate),
-        meter_(decoder_, what) {}
+        meter_(decoder_) {}
 
   /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
   Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {

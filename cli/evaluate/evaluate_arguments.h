@@ -1,17 +1,27 @@
 // Arguments of `fbs evaluate`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace fbs::cli {
 
+/// Of --quality when it is not given: from the lowest rate of a recognisable face to where other codecs win.
+inline constexpr int kDefaultQualities[] = {20, 35, 50, 65, 80};
+
 struct EvaluateArguments {
-  std::string source;
-  std::string stream;              ///< empty: encode the source
-  std::vector<int> qualities{50};  ///< to encode with when there is no stream
-  bool live = false;               ///< encode as live pictures are
+  std::string source;                ///< a video, or a folder of them
+  std::vector<std::string> streams;  ///< empty: encode the source
+  std::vector<int> qualities;        ///< to encode with when there is no stream; empty: kDefaultQualities
+  bool live = false;                 ///< encode as live pictures are
   bool allow_no_face = false;
+  bool peers = false;       ///< code with other codecs, too
+  std::string region;       ///< table of landmarks that says where the face is; empty: a stream says it
+  std::string csv;          ///< file for the values of each picture; empty: none
+  std::string html;         ///< file for the report; empty: none
+  std::string keep;         ///< folder for what is finished; empty: beside the report, else a temporary one
+  std::optional<int> jobs;  ///< videos of a folder at the same time
   bool json = false;
   bool quiet = false;
 };

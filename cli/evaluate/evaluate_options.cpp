@@ -11,9 +11,14 @@ namespace {
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  fbs evaluate talk.mkv                           encode, then compare with the source\n"
+    "  fbs evaluate talk.mkv                           encode at five qualities, compare with the source\n"
     "  fbs evaluate talk.mkv talk.fbs                  measure a stream\n"
-    "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities";
+    "  fbs evaluate talk.mkv a.fbs b.fbs               compare two streams, with the face of the first\n"
+    "  fbs evaluate talk.mkv --quality 30 50 70        choose the qualities\n"
+    "  fbs evaluate talk.mkv --peers --html talk.html  draw curves beside x264, x265 and AV1\n"
+    "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
+    "\n"
+    "A run with --html or --keep that is interrupted goes on where it was when it is started again.";
 
 }  // namespace
 
@@ -21,16 +26,24 @@ void add_evaluate(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   EvaluateArguments& a = *arguments;
   CLI::App* verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
-  verb->add_option("SOURCE", a.source, "Source video")->required();
-  verb->add_option("STREAM", a.stream, "Stream to measure; if not given, the source is encoded first");
-  verb->add_option("--quality", a.qualities, "One or more qualities to encode with")
-      ->capture_default_str()
+  verb->add_option("SOURCE", a.source, "Source video, or a folder of videos")->required();
+  verb->add_option("STREAM", a.streams, "Streams to measure; if none is given, the source is encoded first");
+  verb->add_option("--quality", a.qualities, "One or more qualities to encode with [20 35 50 65 80]")
       ->check(CLI::Range(0, 100))
       ->expected(1, 16);
   verb->add_flag("--live", a.live, "Encode as live pictures are");
   verb->add_flag("--allow-no-face", a.allow_no_face, "Measure a video without a face instead of failing");
+  verb->add_flag("--peers", a.peers, "Also encode with x264, x265 and AV1, through ffmpeg; takes minutes");
+  verb->add_option("--region", a.region, "Table of 68 landmarks that says where the face is (see export)")
+      ->type_name("CSV");
+  verb->add_option("--html", a.html, "Write a report with curves and pictures")->type_name("FILE");
+  verb->add_option("--csv", a.csv, "Write the values of each picture")->type_name("FILE");
+  verb->add_option("--keep", a.keep, "Folder for what is finished [NAME.fbs-run beside --html NAME.html]")
+      ->type_name("DIR");
+  verb->add_option("--jobs", a.jobs, "Videos of a folder to evaluate at the same time")
+      ->check(CLI::Range(1, 64));
   verb->add_flag("--json", a.json, "Print JSON");
-  verb->add_flag("--quiet", a.quiet, "Print no progress bar");
+  verb->add_flag("--quiet", a.quiet, "Print no progress");
   verb->footer(kExamples);
   verb->callback([&run, arguments] {
     run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kEvaluateSymbol, *arguments); };

@@ -14,8 +14,7 @@ struct Measure {
   std::uint64_t pictures = 0;
   double seconds = 0;
   ByteCount bytes;
-  SquaredError frame, face;              ///< luma; the face is the area inside the mesh's outline
-  double ssim_frame = 0, ssim_face = 0;  ///< means over the pictures; 0 unless asked for
+  SquaredError frame, face;  ///< luma; the face is the area inside the mesh's outline
 
   [[nodiscard]] double kbps() const { return rate(bytes.total); }
   [[nodiscard]] double rate(std::uint64_t of_bytes) const {
@@ -23,20 +22,17 @@ struct Measure {
   }
 };
 
-/// What of a stream is measured. Drawing its pictures to compare them takes a tenth of an encoder's time,
-/// SSIM longer than encoding.
+/// What of a stream is measured. Drawing its pictures to compare them takes a tenth of an encoder's time.
 enum class Measured : std::uint8_t {
   kRate,
   kPsnr,  ///< and the rate
-  kSsim,  ///< and both
 };
 
 /// Sums up the pictures of a stream and their differences from the source.
 class StreamMeter {
  public:
   /// @param decoder  must outlive the object
-  StreamMeter(StreamDecoder& decoder, Measured what)
-      : decoder_(decoder), with_ssim_(what == Measured::kSsim) {}
+  explicit StreamMeter(StreamDecoder& decoder) : decoder_(decoder) {}
 
   /// Adds the current picture of the decoder.
   void add();
@@ -47,7 +43,6 @@ class StreamMeter {
 
  private:
   StreamDecoder& decoder_;
-  bool with_ssim_;
   Picture drawn_;
   Plane mask_;
   Measure sum_;

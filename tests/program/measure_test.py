@@ -4,7 +4,7 @@ import json
 import math
 import os
 
-from harness import FAILED, LITTLE_LOST, TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest
+from harness import FAILED, LITTLE_LOST, TALK_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest, talker
 
 PARTS = ("geometry", "patterns", "motion", "index", "other")
 STATE = ("pose", "light", "mouth interior", "body", "ground", "mouth", "brows", "upper lids", "lower lids", "gaze")
@@ -99,9 +99,14 @@ class Measure(ProgramTest):
 
     def test_evaluate_without_stream_encodes(self):
         with_stream, without = (json.loads(self.succeed("evaluate", TALK_Y4M, *stream, "--json"))["points"][0]
-                                for stream in ((TALK_FBS,), ()))
+                                for stream in ((TALK_FBS,), ("--quality", "50")))
         for key in ("frames", "kbps", "bytes", "psnr_face", "psnr_frame"):
             self.assertEqual(with_stream[key], without[key], key)
+
+    def test_evaluate_encodes_at_five_qualities_by_default(self):
+        talker(self.folder / "short.y4m", "--size", "128x96", "--frames", "6")
+        points = json.loads(self.succeed("evaluate", "short.y4m", "--json"))["points"]
+        self.assertEqual([point["point"] for point in points], [f"quality {n}" for n in (20, 35, 50, 65, 80)])
 
     def test_quality_buys_pictures(self):
         points = json.loads(self.succeed("evaluate", TALK_Y4M, "--quality", "10", "50", "90", "--json"))["points"]

@@ -1,0 +1,31 @@
+// Evaluates one source: streams of fbs, then other codecs, all against the same pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/evaluate/clip_report.h"
+#include "cli/evaluate/evaluate_arguments.h"
+#include "cli/evaluate/peer_codec.h"
+#include "cli/evaluate/run_folder.h"
+#include "cli/video/stop_signal.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// What ffmpeg can do for us.
+struct Tools {
+  std::vector<PeerCodec> peers;  ///< empty unless asked for
+  bool vmaf = false;
+};
+
+/// @return kUnsupported when peers are asked for and ffmpeg has none of them
+Result<Tools> find_tools(const EvaluateArguments& arguments);
+
+/// What the run folder has of it is not done again.
+/// @param source  a video; `-` is copied to the run folder first
+/// @return errors name the file; kIo when the signal came
+Result<ClipReport> evaluate_clip(const EvaluateArguments& arguments, const std::string& source,
+                                 const Tools& tools, const RunFolder& run, const StopSignal& stop);
+
+}  // namespace fbs::cli

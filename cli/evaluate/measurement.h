@@ -1,0 +1,32 @@
+// Measures the pictures of a stream against those of its source.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/encode/source_part.h"
+#include "cli/evaluate/face_regions.h"
+#include "cli/evaluate/rd_point.h"
+#include "cli/evaluate/shown_pictures.h"
+#include "cli/video/stop_signal.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// What all streams of a source are measured with.
+struct MeasurementSetting {
+  std::string source;
+  const FaceRegions* regions = nullptr;
+  bool vmaf = false;
+  bool quiet = false;  ///< no progress bar
+  const StopSignal* stop = nullptr;
+};
+
+/// Fills `point.pictures` and `point.vmaf`. A source that is cut off is measured as far as it goes.
+/// @param log  name of a file that ffmpeg may write
+/// @return the source, read to its end; kInvalidArgument when size or number of the pictures differ from its
+/// own
+Result<SourcePart> measure_pictures(const MeasurementSetting& setting, ShownPictures& shown,
+                                    const std::string& log, RdPoint& point);
+
+}  // namespace fbs::cli

@@ -1,0 +1,33 @@
+// The codecs that fbs is compared with: what of them an installed ffmpeg has, and how each is asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fbs::cli {
+
+struct PeerCodec {
+  std::string name;                  ///< for people: "x265", "AV1"
+  std::string encoder;               ///< of ffmpeg
+  std::string suffix;                ///< of a file with its raw stream
+  std::vector<std::string> options;  ///< of ffmpeg, for the best a slow preset gives at low rates
+  std::vector<int> crfs;             ///< constant rate factors, from the lowest rate up
+};
+
+/// One picture size and rate at which a peer codes the source.
+struct PeerVariant {
+  int divisor = 1;  ///< of width and height
+  int step = 1;     ///< every how many pictures of the source one is coded
+};
+
+/// x264, x265 and SVT-AV1 (or libaom), as far as ffmpeg has them; none without ffmpeg.
+[[nodiscard]] std::vector<PeerCodec> installed_peers();
+
+/// Full and half size, at full, half and a third of the rate; half size only where its sides are 64 samples
+/// or more, the least that SVT-AV1 takes.
+[[nodiscard]] std::vector<PeerVariant> peer_variants(int width, int height);
+
+/// "x265 1/2 size 1/3 rate crf 45".
+[[nodiscard]] std::string peer_label(const PeerCodec& codec, const PeerVariant& variant, int crf);
+
+}  // namespace fbs::cli

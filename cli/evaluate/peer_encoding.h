@@ -1,0 +1,31 @@
+// Codes a source with another codec through ffmpeg.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cli/evaluate/peer_codec.h"
+#include "cli/video/stop_signal.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+struct PeerJob {
+  PeerCodec codec;
+  PeerVariant variant;
+  int crf = 0;
+  std::string file;    ///< of the raw stream
+  bool quiet = false;  ///< no progress bar
+};
+
+/// Codes the source. The file appears when it is complete; what is half done is removed.
+/// @param stop  may be null
+/// @return kIo with what ffmpeg said, or when the signal came
+Result<void> encode_peer(const std::string& source, const PeerJob& job, const StopSignal* stop);
+
+/// Bytes of the packets in a raw stream. Of .ivf without its headers and the temporal delimiters of AV1, two
+/// bytes a picture that no container needs; of anything else, of the file.
+/// @return kIo; kInvalidStream for a damaged .ivf
+Result<std::uint64_t> packet_bytes(const std::string& file);
+
+}  // namespace fbs::cli

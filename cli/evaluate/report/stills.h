@@ -1,0 +1,27 @@
+// Pictures of streams beside those of the source.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/evaluate/clip_report.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// The same picture of the source, of fbs, and of another codec where there is one.
+struct Still {
+  std::size_t picture = 0;
+  std::string why;  ///< "typical", "worst"
+  struct Image {
+    std::string jpeg;                ///< the file's bytes, base64
+    const RdPoint* point = nullptr;  ///< null: the source
+  };
+  std::vector<Image> images;
+};
+
+/// The picture of the median PSNR of the face (of the frame, without a face) in shown_point(), and that of
+/// the least. The pointers are into `clip`.
+Result<std::vector<Still>> make_stills(const ClipReport& clip);
+
+}  // namespace fbs::cli

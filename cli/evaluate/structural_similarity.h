@@ -1,0 +1,25 @@
+// SSIM and MS-SSIM of two planes, with OpenCV.
+#pragma once
+
+#include "common/picture.h"
+
+namespace fbs::cli {
+
+struct StructuralSimilarity {
+  double ssim = 0;     ///< -1..1
+  double ms_ssim = 0;  ///< 0..1
+};
+
+/// SSIM: Wang, Bovik, Sheikh and Simoncelli, *Image Quality Assessment*, 2004, as common/quality.h has it.
+/// MS-SSIM: Wang, Simoncelli and Bovik, *Multiscale Structural Similarity for Image Quality Assessment*,
+/// 2003, with their five weights; a scale is the mean of 2 x 2 samples of the one before. Differs: borders
+/// are reflected, and scales at which a side would be shorter than the 11 samples of the window are left out,
+/// the other weights taking their share; so small faces and QCIF have a value, which those of larger pictures
+/// should not be compared with.
+/// @param a, b  of the same size, not empty
+[[nodiscard]] StructuralSimilarity structural_similarity(const Plane& a, const Plane& b);
+
+/// Scales that MS-SSIM has for a plane of this size: 1 to 5.
+[[nodiscard]] int ms_ssim_scales(int width, int height);
+
+}  // namespace fbs::cli

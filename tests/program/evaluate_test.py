@@ -1,0 +1,211 @@
+"""fbs evaluate: reports, runs that go on, other codecs, folders, and what is refused. See measure_test.py for its values."""
+import csv
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from harness import FBS, TALK_FBS, TALK_ONE_FBS, TALK_TRUTH, TALK_Y4M, ProgramTest, flat_y4m, talker
+
+PICTURES = 24
+
+
+class EvaluateTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        talker(self.folder / "talk.y4m", "--size", "176x144", "--frames", str(PICTURES), "--seed", "3")
+
+    def modified(self, pattern):
+        """Time of change of each file that fits."""
+        return {path.name: path.stat().st_mtime_ns for path in self.folder.glob(pattern)}
+
+
+class Reports(EvaluateTest):
+    def test_csv_has_a_line_for_each_picture_of_each_stream(self):
+        self.succeed("evaluate", "talk.y4m", "--quality", "30", "60", "--csv", "out.csv", "--quiet")
+        with open(self.folder / "out.csv", newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual(len(lines), 2 * PICTURES)
+        self.assertEqual({line["point"] for line in lines}, {"quality 30", "quality 60"})
+        for number, line in enumerate(lines[:PICTURES]):
+            self.assertEqual(int(line["picture"]), number)
+            self.assertAlmostEqual(float(line["time_s"]), number / 30, places=4)
+            self.assertTrue(15 < float(line["face_psnr_y"]) < 60 and 15 < float(line["psnr_u"]) < 60)
+            self.assertTrue(0 < float(line["face_ms_ssim"]) <= 1)
+            self.assertGreater(int(line["face_samples"]), 500)
+
+    def test_html_loads_nothing_and_has_curves_and_pictures(self):
+        self.succeed("evaluate", "talk.y4m", "--quality", "20", "50", "--html", "out.html", "--quiet")
+        page = (self.folder / "out.html").read_text()
+        self.assertNotRegex(page, r"https?://|<script|@import|url\(|<link")
+        self.assertNotIn("{{", page)
+        self.assertGreaterEqual(page.count("<svg"), 4)
+        pictures = re.findall(r'src="([^"]{30})', page)
+        self.assertEqual(len(pictures), 4)  # source and fbs, twice
+        for source in pictures:
+            self.assertTrue(source.startswith("data:image/jpeg;base64,/9j/"), source)
+        self.assertIn("24 of 24 pictures", page)
+        self.assertRegex(page, r'class="summary">At [\d.]+ kbit/s')
+
+    def test_streams_share_the_face_of_the_first(self):
+        report = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_ONE_FBS, TALK_FBS, "--json", "--csv", "out.csv"))
+        self.assertEqual([point["point"] for point in report["points"]], [str(TALK_ONE_FBS), str(TALK_FBS)])
+        self.assertIn(str(TALK_ONE_FBS), report["region"]["from"])
+        with open(self.folder / "out.csv", newline="") as file:
+            lines = list(csv.DictReader(file))
+        samples = [[line["face_samples"] for line in lines if line["point"] == str(name)] for name in (TALK_ONE_FBS, TALK_FBS)]
+        self.assertEqual(samples[0], samples[1])
+
+    def test_region_from_landmarks(self):
+        own, given = (json.loads(self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--json", *region))
+                      for region in ((), ("--region", TALK_TRUTH)))
+        self.assertEqual(given["region"], {"from": str(TALK_TRUTH), "frames": 120})
+        self.assertEqual(own["points"][0]["psnr_frame"], given["points"][0]["psnr_frame"])
+        self.assertNotEqual(own["points"][0]["psnr_face"], given["points"][0]["psnr_face"])
+
+    def test_says_in_how_many_pictures_the_face_is_believed(self):
+        header, *lines = TALK_TRUTH.read_text().splitlines()
+        self.write("half.csv", "\n".join([header] + lines[:60]).encode() + b"\n")
+        report = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--json", "--region", "half.csv"))
+        self.assertEqual(report["region"]["frames"], 60)
+        self.assertIn(b"60 of 120 pictures", self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--region", "half.csv"))
+
+    def test_source_from_a_pipe(self):
+        data = (self.folder / "talk.y4m").read_bytes()
+        points = json.loads(self.succeed("evaluate", "-", "--quality", "30", "50", "--json", stdin=data))["points"]
+        self.assertEqual([point["frames"] for point in points], [PICTURES, PICTURES])
+
+
+    def test_stream_from_a_pipe(self):
+        piped, named = (json.loads(self.succeed("evaluate", TALK_Y4M, name, "--json", stdin=TALK_FBS.read_bytes()))["points"][0]
+                        for name in ("-", TALK_FBS))
+        self.assertEqual({**piped, "point": ""}, {**named, "point": ""})
+
+
+class Runs(EvaluateTest):
+    ARGUMENTS = ("evaluate", "talk.y4m", "--quality", "30", "60", "--html", "out.html", "--quiet")
+
+    def test_second_run_makes_nothing_again(self):
+        first = self.succeed(*self.ARGUMENTS)
+        before = self.modified("out.fbs-run/*")
+        self.assertIn("quality-30.fbs", before)
+        self.assertEqual(self.succeed(*self.ARGUMENTS), first)
+        self.assertEqual(self.modified("out.fbs-run/*"), before)
+
+    def test_what_is_half_done_is_not_taken_for_done(self):
+        first = self.succeed(*self.ARGUMENTS)
+        run = self.folder / "out.fbs-run"
+        stream = (run / "quality-30.fbs").read_bytes()
+        (run / "quality-30.fbs").write_bytes(stream[:-20])
+        before = self.modified("out.fbs-run/*")
+        self.assertEqual(self.succeed(*self.ARGUMENTS), first)
+        self.assertEqual((run / "quality-30.fbs").read_bytes(), stream)
+        after = self.modified("out.fbs-run/*")
+        self.assertEqual({name for name in after if after[name] != before[name] and "60" in name}, set())
+
+    def test_another_source_is_measured_anew(self):
+        self.succeed(*self.ARGUMENTS)
+        talker(self.folder / "talk.y4m", "--size", "176x144", "--frames", str(PICTURES), "--seed", "4")
+        again = self.succeed(*self.ARGUMENTS)
+        shutil.rmtree(self.folder / "out.fbs-run")
+        self.assertEqual(self.succeed(*self.ARGUMENTS), again)
+
+    def test_interrupted_run_leaves_no_report_and_goes_on(self):
+        arguments = [*self.ARGUMENTS[:3], *map(str, range(0, 96, 8)), *self.ARGUMENTS[5:]]
+        running = subprocess.Popen([FBS, *arguments], cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+        first = self.folder / "out.fbs-run/quality-0.json"
+        while not first.exists() and running.poll() is None:
+            time.sleep(0.01)
+        running.send_signal(signal.SIGINT)
+        _, error = running.communicate(timeout=60)
+        self.assertEqual(running.returncode, 130, error)
+        self.assertIn(b"goes on from there", error)
+        self.assertFalse((self.folder / "out.html").exists())
+        self.assertEqual(list(self.folder.rglob("*.part")), [])
+        before = first.stat().st_mtime_ns
+        self.succeed(*arguments)
+        self.assertEqual(first.stat().st_mtime_ns, before)
+        self.assertTrue((self.folder / "out.html").exists())
+
+    def test_without_a_place_to_keep_nothing_is_left(self):
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        self.succeed("evaluate", "talk.y4m", "--quality", "30", environment={**os.environ, "TMPDIR": str(temporary)})
+        self.assertEqual(list(temporary.iterdir()), [])
+
+
+@unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+class Peers(EvaluateTest):
+    def test_other_codecs_are_measured_alike(self):
+        report = json.loads(self.succeed("evaluate", "talk.y4m", "--quality", "20", "35", "50", "80", "--peers", "--json", "--html",
+                                         "out.html", "--quiet"))
+        self.assertTrue(report["peers"])
+        most = max(point["kbps"] for point in report["points"])
+        for codec in {point["codec"] for point in report["peers"]}:
+            rates = [point["kbps"] for point in report["peers"] if point["codec"] == codec]
+            self.assertGreater(max(rates), most, codec)
+        for point in report["peers"]:
+            self.assertEqual(point["frames"], PICTURES, point["point"])
+            self.assertTrue(10 < point["psnr_face"] < 60 and 10 < point["psnr_v_frame"] < 60, point["point"])
+        self.assertEqual(set(report["bd_rate"]), {"face", "frame"})
+        self.assertEqual((self.folder / "out.html").read_text().count("data:image/jpeg"), 6)
+
+    def test_needs_ffmpeg(self):
+        self.fail_cleanly("evaluate", "talk.y4m", "--peers", says=["--peers needs ffmpeg"],
+                          environment={**os.environ, "PATH": "/nowhere"})
+
+
+class Folders(EvaluateTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "clips").mkdir()
+        (self.folder / "talk.y4m").rename(self.folder / "clips/a.y4m")
+        talker(self.folder / "clips/b.y4m", "--size", "128x96", "--frames", "12", "--seed", "5")
+
+    def test_one_report_of_all_videos(self):
+        report = json.loads(self.succeed("evaluate", "clips", "--quality", "50", "--jobs", "2", "--json", "--html", "all.html", "--csv",
+                                         "all.csv", "--quiet"))
+        self.assertEqual([clip["source"] for clip in report["clips"]], ["clips/a.y4m", "clips/b.y4m"])
+        self.assertEqual([clip["points"][0]["frames"] for clip in report["clips"]], [PICTURES, 12])
+        page = (self.folder / "all.html").read_text()
+        self.assertEqual(page.count('<section class="clip">'), 2)
+        self.assertEqual(len((self.folder / "all.csv").read_text().splitlines()), 1 + PICTURES + 12)
+
+    def test_a_video_that_fails_does_not_stop_the_others(self):
+        self.write("clips/grey.y4m", flat_y4m(128, 96, 3))
+        done = self.fbs("evaluate", "clips", "--quality", "50", "--json", "--quiet")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr.decode(), r"\Afbs: left out: clips/grey.y4m: [^\n]*face[^\n]*\n\Z")
+        report = json.loads(done.stdout)
+        self.assertEqual((len(report["clips"]), len(report["failed"])), (2, 1))
+
+
+class Refused(EvaluateTest):
+    def test_what_does_not_go_together(self):
+        (self.folder / "clips").mkdir()
+        shutil.copy(self.folder / "talk.y4m", self.folder / "clips")
+        self.write("talk.fbs", TALK_FBS.read_bytes())
+        self.write("faces.csv", TALK_TRUTH.read_bytes())
+        for line, says in (("clips talk.fbs", "STREAM goes with one video"),
+                           ("clips --region faces.csv", "--region goes with one video"),
+                           ("talk.y4m --jobs 2", "--jobs is for a folder"),
+                           ("talk.y4m talk.fbs --quality 50", "--quality is for encoding"),
+                           ("talk.y4m talk.fbs --live", "--live is for encoding"),
+                           ("talk.y4m talk.fbs --allow-no-face", "--allow-no-face is for encoding"),
+                           ("talk.y4m --csv talk.y4m", "--csv talk.y4m is the same file as SOURCE"),
+                           ("talk.y4m talk.fbs --html talk.fbs", "--html talk.fbs is the same file as STREAM"),
+                           ("clips --html clips/talk.y4m", "the same file as the video"),
+                           ("talk.y4m --html out --csv out", "the same file"),
+                           ("talk.y4m --csv -", "needs the name of a file"),
+                           ("talk.y4m --html absent/out.html", "there is no folder absent"),
+                           ("talk.y4m --region faces.csv", "more than talk.y4m"),
+                           ("talk.y4m --region talk.fbs", "has no columns"),
+                           ("talk.y4m --keep talk.fbs/run", "cannot make the folder"),
+                           ("- -", "read once only"),
+                           ("camera:0", "record it first")):
+            with self.subTest(line):
+                self.fail_cleanly("evaluate", *line.split(), "--quiet", says=[says])
