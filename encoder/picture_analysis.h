@@ -18,9 +18,11 @@ struct SnakeOutline {
 
 /// Positions in pixels of the picture.
 struct PictureAnalysis {
-  bool face = false;      ///< whether the scene has one
-  bool followed = false;  ///< whether it is followed in this picture; else it is held
-  double confidence = 0;  ///< 0..1
+  bool face = false;            ///< whether the scene has one
+  bool followed = false;        ///< whether it is followed in this picture; else it is held
+  double confidence = 0;        ///< 0..1
+  bool had_landmarks = false;   ///< whether EncoderSettings::landmarks were a start of its fit
+  bool from_landmarks = false;  ///< and the best one
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
   std::vector<SnakeOutline> snakes;                 ///< as tracked
 };
