@@ -61,6 +61,10 @@ Result<void> check_settings(const EncoderSettings& settings) {
   if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
   if (settings.first_pattern && settings.patterns != 1)
     return fail(ErrorCode::kInvalidArgument, "a first pattern, but not one pattern alone");
+  if (settings.track_only && settings.landmarks)
+    return fail(ErrorCode::kInvalidArgument, "landmarks are a start of the fit, and there is none");
+  if (settings.track_only && !(settings.expression && settings.contours))
+    return fail(ErrorCode::kInvalidArgument, "tracking alone, but of no contours");
   if (settings.face < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of a face");
   return {};
 }
@@ -219,12 +223,17 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
+  if (i.settings.landmarks)
+    if (const auto seen = i.settings.landmarks->find(i.report.pictures); seen != i.settings.landmarks->end())
+      i.scene->give_landmarks(seen->second);
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();
   i.lost = i.scene->analysis().followed ? 0 : i.lost + 1;
   ++i.report.pictures;
   i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
   if (i.lost > 0) ++i.report.without_face;
+  if (i.scene->analysis().had_landmarks) ++i.report.with_landmarks;
+  if (i.scene->analysis().from_landmarks) ++i.report.from_landmarks;
   return {};
 }
 

@@ -16,6 +16,8 @@ namespace fbs {
 struct EncodingReport {
   std::uint64_t pictures = 0;
   std::uint64_t without_face = 0;  ///< of them, those in which no face was followed
+  /// Pictures whose EncoderSettings::landmarks could be a start of the fit, and those where they were best.
+  std::uint64_t with_landmarks = 0, from_landmarks = 0;
   std::uint64_t cuts = 0;
   std::uint64_t scenes = 0;  ///< begun for a person or a shot; key intervals divide them further
 };

@@ -24,17 +24,19 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
 
 FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder,
                            const AnalysisStart& start, const WorkFrame& first)
-    : snakes_(settings.snakes),
-      refine_(settings.refine),
+    : track_only_(settings.track_only),
+      expression_(settings.expression),
+      contours_(settings.contours),
       eye_distance_px_(start.eye_distance_px),
       geometry_(start.geometry),
       mouth_(start.setup.mouth),
       head_(start.geometry, pose_of(start.seen), first),
       search_(finder),
-      features_(start.geometry, pose_of(start.seen), first),
+      features_(start.geometry, pose_of(start.seen), first, settings.descent),
+      given_expression_(start.geometry),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
-  if (settings.refine && settings.landmarks)
+  if (settings.landmark_search && !settings.track_only)
     landmarks_.emplace(finder.landmarks(), start.geometry, now_.pose, view(start.first.y));
   if (settings.surround) surround_.emplace(start.first, start.seen);
 }
@@ -43,6 +45,10 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   Observation seen;
   seen.cost = begun_ ? fit_next(picture) : fit_first(picture);
   begun_ = true;
+  // Where the tracker and the fit put the same face, the first time that both have it.
+  if (given_ && face_shows_ && !given_expression_.is_calibrated())
+    given_expression_.calibrate(*given_, now_.pose, now_.offsets);
+  given_.reset();
   seen.state = state_of(now_);
   seen.face = face_shows_;
   if (surround_) {
@@ -77,6 +83,7 @@ bool FaceAnalysis::recognises(const Picture& picture) {
 }
 
 PictureCost FaceAnalysis::fit_next(const Picture& picture) {
+  report_.had_landmarks = report_.from_landmarks = false;
   if (elsewhere_) {
     face_shows_ = false;
     report_.confidence = 0;
@@ -93,8 +100,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   }
   Fit start = tracked(frame, *head);
   fit_.set_picture(frame, mouth_);
-  start = fit_.with_best_eyes(start);
-  now_ = refine_ ? refined(picture, start) : start;
+  now_ = track_only_ ? start : refined(picture, fit_.with_best_eyes(start));
   return fit_.cost_at(now_);
 }
 
@@ -131,7 +137,7 @@ Fit FaceAnalysis::relaxed() {
 
 Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
   Fit fit{head.pose, now_.light, now_.interior, now_.offsets};
-  if (!snakes_) return fit;
+  if (!expression_ || !contours_) return fit;
   features_.track(frame, fit.pose, head_.flow());
   fit.offsets = features_.offsets();
   // Pupils have no contour: the fit to the picture moves them.
@@ -145,13 +151,19 @@ Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
 Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   std::vector<FitStart> starts = PictureFit::starts_of(tracked);
   const std::size_t contours = starts.size();
+  const auto start_from = [&](const Offsets& seen) {
+    starts.push_back({tracked, kLandmarkStartCounts});
+    std::copy_n(seen.begin(), feature(FeatureId::kPupilRight).first_control,
+                starts.back().fit.offsets.begin());
+  };
   if (landmarks_)
-    if (const auto seen = landmarks_->find(view(picture.y), tracked.pose, tracked.offsets)) {
-      starts.push_back({tracked, kLandmarkStartCounts});
-      std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control,
-                  starts.back().fit.offsets.begin());
-    }
+    if (const auto seen = landmarks_->find(view(picture.y), tracked.pose, tracked.offsets)) start_from(*seen);
+  const std::size_t searched = starts.size();
+  if (given_ && given_expression_.is_calibrated())
+    start_from(given_expression_.offsets(*given_, tracked.pose));
   const BestFit best = fit_.refine(starts);
+  report_.had_landmarks = starts.size() > searched;
+  report_.from_landmarks = best.start >= searched;
   if (best.start < contours) return best.fit;
   // Lids have no memory to set right: a blink is searched for in each picture.
   Offsets followed = features_.offsets();

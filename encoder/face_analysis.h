@@ -41,6 +41,9 @@ class FaceAnalysis {
   /// The next picture; the scene's first one first.
   [[nodiscard]] Observation observe(const Picture& picture);
 
+  /// Landmarks of the next picture, by another tracker: its fit starts from them, too.
+  void give_landmarks(const LandmarkPoints& landmarks) { given_ = landmarks; }
+
   /// The next picture begins another shot: the face is elsewhere until it is recognised.
   void cut() { elsewhere_ = true; }
 
@@ -74,11 +77,11 @@ class FaceAnalysis {
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
   /// From the contours' expression, or from another start if that is nearer to the picture: the expression
-  /// that its landmarks show, whatever came before.
+  /// that its landmarks show, found here or given, whatever came before.
   [[nodiscard]] Fit refined(const Picture& picture, const Fit& tracked);
   void write_report(const Observation& seen);
 
-  bool snakes_, refine_;
+  bool track_only_, expression_, contours_;
   double eye_distance_px_;
   Geometry geometry_;
   MouthInterior mouth_;
@@ -86,6 +89,8 @@ class FaceAnalysis {
   FaceSearch search_;
   FeatureTracker features_;
   std::optional<LandmarkFollow> landmarks_;  ///< nothing when they are not looked for
+  LandmarkExpression given_expression_;
+  std::optional<LandmarkPoints> given_;  ///< of the next picture
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
   Fit now_;                                 ///< of the last picture

@@ -18,12 +18,15 @@ namespace {
 
 /// The parts of the state that are sent. Lower lids have neither a snake nor enough in the picture to fit.
 PartMask parts_of(const EncoderSettings& settings) {
-  PartMask parts = mask_of(PartId::kPose) | mask_of(PartId::kLight) | mask_of(PartId::kMouthInterior);
+  PartMask parts = mask_of(PartId::kPose);
   const auto add = [&](std::initializer_list<PartId> ids) {
     for (const PartId id : ids) parts = static_cast<PartMask>(parts | mask_of(id));
   };
   if (settings.surround) add({PartId::kBody, PartId::kGround});
-  if (settings.snakes) add({PartId::kMouth, PartId::kBrows, PartId::kUpperLids, PartId::kGaze});
+  if (settings.expression) add({PartId::kMouth, PartId::kBrows, PartId::kUpperLids});
+  if (settings.track_only) return parts;  // no contour shows the others
+  add({PartId::kLight, PartId::kMouthInterior});
+  if (settings.expression) add({PartId::kGaze});
   return parts;
 }
 

@@ -25,6 +25,7 @@ class FaceScene : public SceneEncoder {
                                                      const Marks& marks, const StreamPosition& before = {});
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  void give_landmarks(const LandmarkPoints& landmarks) override { analysis_.give_landmarks(landmarks); }
   void cut() override {
     analysis_.cut();
     cut_ = true;

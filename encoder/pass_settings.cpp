@@ -33,7 +33,7 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
                       ? settings.pattern_quantiser
                       : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
   out.lambda = motion.lambda;
-  out.refits = settings.effort > 0;
+  out.refits = settings.effort > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
   return out;
@@ -61,7 +61,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.key_interval = settings.key_interval;
   out.lambda = motion.lambda;
   out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
-  out.refits = std::min(settings.effort, kMaxRefits);
+  out.refits = settings.track_only ? 0 : std::min(settings.effort, kMaxRefits);
   return out;
 }
 

@@ -20,11 +20,13 @@ struct SnakeOutline {
 
 /// Positions in pixels of the picture.
 struct PictureAnalysis {
-  bool face = false;      ///< whether the scene has one
-  bool followed = false;  ///< whether it is followed in this picture; else it is held
-  double confidence = 0;  ///< 0..1
-  Geometry geometry;      ///< of the face
-  State state;            ///< as fitted, in whole units: finer than what a stream may send of it
+  bool face = false;            ///< whether the scene has one
+  bool followed = false;        ///< whether it is followed in this picture; else it is held
+  double confidence = 0;        ///< 0..1
+  Geometry geometry;            ///< of the face
+  State state;                  ///< as fitted, in whole units: finer than what a stream may send of it
+  bool had_landmarks = false;   ///< whether EncoderSettings::landmarks were a start of its fit
+  bool from_landmarks = false;  ///< and the best one
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted
   std::vector<SnakeOutline> snakes;                 ///< as tracked
 };

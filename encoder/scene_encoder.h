@@ -6,6 +6,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
+#include "encoder/landmarks/landmark_file.h"
 #include "encoder/picture_analysis.h"
 
 namespace fbs {
@@ -20,6 +21,9 @@ class SceneEncoder {
   /// The scene's first picture is pushed too.
   /// @param duration  1/90000 s; 0: that of the frame rate
   virtual Result<void> push(const Picture& picture, std::uint32_t duration) = 0;
+
+  /// Landmarks of the picture pushed next, by another tracker.
+  virtual void give_landmarks(const LandmarkPoints& /*landmarks*/) {}
 
   /// The picture pushed next begins another shot, which the scene is to carry.
   virtual void cut() = 0;

@@ -1,10 +1,12 @@
 // What an encoder can be asked for.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "common/picture.h"
 #include "encoder/find/marks.h"
+#include "encoder/landmarks/landmark_file.h"
 
 namespace fbs {
 
@@ -28,11 +30,18 @@ struct EncoderSettings {
   /// With one pattern: sent in the place of the first picture with a face, of its size and with its face in
   /// the same place. The head and all motion are those of the video.
   std::optional<Picture> first_pattern;
+  /// Of any tracker, by number of the picture pushed: one more start for the fit of each. None: null.
+  std::shared_ptr<const LandmarkTrack> landmarks;
   bool allow_no_face = false;  ///< code a video without any face instead of failing
-  bool snakes = true;          ///< follow mouth and brows; off only to measure what they gain
-  bool refine = true;          ///< fit the state to the picture; off only to measure what it gains
-  bool landmarks = true;       ///< look for landmarks in every picture; off only to measure what it gains
-  bool surround = true;        ///< let hair, body and ground move; off only to measure what it gains
+  /// The paper's own path: contours move the mesh, and no state is fitted to a pattern. Light, mouth interior
+  /// and gaze are not sent.
+  bool track_only = false;
+  // Off only to measure what each gains:
+  bool expression = true;       ///< send mouth, brows, lids and gaze
+  bool contours = true;         ///< the fit begins at the contours; off: where it ended one picture before
+  bool descent = true;          ///< snakes descend; off: they stay at the best of their starts
+  bool landmark_search = true;  ///< look for landmarks in every picture
+  bool surround = true;         ///< let hair, body and ground move
   /// Seconds between scenes at the most: where a viewer can join, and damage ends. 0: where it costs little,
   /// up to 40 with several patterns, never with one.
   double key_interval = 0;

@@ -18,8 +18,10 @@ struct EncodeArguments {
   double buffer = 2;         ///< s, of a live source with a bitrate
   double key_interval = 0;   ///< seconds; 0: where it costs little
   int face = 0;
-  std::string pattern;                 ///< image file: the first pattern; empty: the first picture
-  std::string marks;                   ///< file; empty: automatic
+  std::string pattern;    ///< image file: the first pattern; empty: the first picture
+  std::string marks;      ///< file; empty: automatic
+  std::string landmarks;  ///< file; empty: none
+  bool track_only = false;
   std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
   std::optional<std::int64_t> frames;  ///< encode at most so many pictures
   std::optional<double> duration;      ///< encode at most so many seconds of the source
@@ -30,9 +32,10 @@ struct EncodeArguments {
   int pattern_quantiser = -1;  ///< of AV1; -1: quality decides
   std::optional<bool> reduced_patterns;
   int effort = 1;
-  bool snakes = true;
-  bool refine = true;
-  bool landmarks = true;
+  bool expression = true;
+  bool contours = true;
+  bool descent = true;
+  bool landmark_search = true;
   bool surround = true;
   bool quiet = false;
 };

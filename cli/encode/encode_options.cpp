@@ -18,6 +18,7 @@ constexpr const char* kExamples =
     "  fbs encode talk.mkv talk.fbs --bitrate 5        aim for a total of 5 kbit/s\n"
     "  fbs encode talk.mkv talk.fbs --patterns 1       send one picture, then only motion\n"
     "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
+    "  fbs encode talk.mkv talk.fbs --landmarks open_face.csv  also start from another tracker's landmarks\n"
     "  fbs encode camera:0 talk.fbs                    encode live, until Ctrl-C\n"
     "  fbs encode shots/frame_%05d.png talk.fbs --rate 30";
 
@@ -58,9 +59,11 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
 void add_experiments(CLI::App& verb, EncodeArguments& a) {
   verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
-  verb.add_flag("!--no-snakes", a.snakes)->group(kHiddenGroup);
-  verb.add_flag("!--no-refine", a.refine)->group(kHiddenGroup);
-  verb.add_flag("!--no-landmarks", a.landmarks)->group(kHiddenGroup);
+  // What each part of the analysis gains: docs/paper.md.
+  verb.add_flag("!--no-expression", a.expression)->group(kHiddenGroup)->excludes("--track-only");
+  verb.add_flag("!--no-contours-in-fit", a.contours)->group(kHiddenGroup)->excludes("--track-only");
+  verb.add_flag("!--no-descent", a.descent)->group(kHiddenGroup);
+  verb.add_flag("!--no-landmark-search", a.landmark_search)->group(kHiddenGroup);
   verb.add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
   verb.add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
   verb.add_option("--motion-bitrate", a.motion_bitrate)
@@ -91,6 +94,14 @@ void add_encode(CLI::App& app, Run& run) {
   verb->add_option("--pattern", a.pattern,
                    "With --patterns 1: an image to send in the place of the first picture with a face, "
                    "painted over or drawn by hand (.png, .exr ...), of the video's size");
+  verb->add_option(
+      "--landmarks", a.landmarks,
+      "CSV file with the 68 landmarks of each picture by any tracker (MediaPipe, OpenFace, dlib): "
+      "one more start for the fit of each picture, used where it is best");
+  verb->add_flag("--track-only", a.track_only,
+                 "The method of the paper alone: contours move the mesh, and nothing is fitted to decoded "
+                 "pictures")
+      ->excludes("--landmarks");
   verb->add_option("--face", a.face, "Face to track; 0 is the largest")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));

@@ -47,10 +47,7 @@ class WaitingPictures {
 class ClosedLoop {
  public:
   ClosedLoop(Encoder encoder, const TakeBytes& take, Measured what)
-      : encoder_(std::move(encoder)),
-        take_(take),
-        compares_(what != Measured::kRate),
-        meter_(decoder_) {}
+      : encoder_(std::move(encoder)), take_(take), compares_(what != Measured::kRate), meter_(decoder_) {}
 
   /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
   Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
@@ -156,10 +153,14 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
 std::string notes_of(const EncodingReport& report) {
   std::string out;
   if (report.cuts > 0) out = std::to_string(report.cuts) + (report.cuts == 1 ? " cut" : " cuts");
-  if (report.without_face == 0) return out;
-  if (!out.empty()) out += "; ";
-  return out + "no face followed in " + std::to_string(report.without_face) + " of " +
-         std::to_string(report.pictures) + " pictures";
+  const auto add = [&](const std::string& note) { out += (out.empty() ? "" : "; ") + note; };
+  if (report.with_landmarks > 0)
+    add("landmarks used in " + std::to_string(report.from_landmarks) + " of " +
+        std::to_string(report.with_landmarks) + " pictures that have them");
+  if (report.without_face > 0)
+    add("no face followed in " + std::to_string(report.without_face) + " of " +
+        std::to_string(report.pictures) + " pictures");
+  return out;
 }
 
 }  // namespace fbs::cli

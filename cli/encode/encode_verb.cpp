@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/display/overlay.h"
 #include "cli/encode/encode_arguments.h"
@@ -57,9 +59,11 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   settings.allow_no_face = arguments.allow_no_face;
   settings.bitrate = arguments.bitrate;
   settings.motion_bitrate = arguments.motion_bitrate;
-  settings.snakes = arguments.snakes;
-  settings.refine = arguments.refine;
-  settings.landmarks = arguments.landmarks;
+  settings.track_only = arguments.track_only;
+  settings.expression = arguments.expression;
+  settings.contours = arguments.contours;
+  settings.descent = arguments.descent;
+  settings.landmark_search = arguments.landmark_search;
   settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);
@@ -70,6 +74,11 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     auto pattern = read_image(arguments.pattern, source.format());
     if (!pattern) return fail(pattern.error());
     settings.first_pattern = std::move(*pattern);
+  }
+  if (!arguments.landmarks.empty()) {
+    auto track = read_landmarks(arguments.landmarks, source.format().width, source.format().height);
+    if (!track) return fail(about_file(arguments.landmarks, track.error()));
+    settings.landmarks = std::make_shared<const LandmarkTrack>(std::move(*track));
   }
   if (const auto pictures = source.frame_count_estimate(); pictures && *pictures > 0) {
     const Rational& rate = source.format().frame_rate;
@@ -86,12 +95,14 @@ void print_warnings(const EncodeArguments& arguments, const SourcePart& source, 
 }
 
 Result<void> check_files(const EncodeArguments& a) {
+  if (!a.landmarks.empty() && a.input.starts_with("camera:"))
+    return fail(ErrorCode::kInvalidArgument, "--landmarks: pictures of a camera have no numbers");
   if (auto named = check_stream_name(a.output); !named) return named;
   if (!a.pattern.empty() && a.patterns != 1)
     return fail(ErrorCode::kInvalidArgument,
                 "--pattern needs --patterns 1: with several, patterns are made of the video's pictures");
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks},
-                          NamedFile{"--pattern", a.pattern}};
+                          NamedFile{"--landmarks", a.landmarks}, NamedFile{"--pattern", a.pattern}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}, NamedFile{"--overlay", a.overlay}};
   return check_distinct(inputs, outputs);
 }

@@ -27,8 +27,9 @@ std::vector<glm::dvec2> shut(const FeatureSnake& s) {
 
 }  // namespace
 
-FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first)
-    : neutral_(skinned(geometry, {})) {
+FeatureTracker::FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first,
+                               bool descends)
+    : descends_(descends), neutral_(skinned(geometry, {})) {
   for (const FeatureId id : kSnakeFeatures) {
     FeatureSnake s = FeatureSnake::make(id, geometry);
     const FeaturePatch seen = s.patch(first, pose);
@@ -103,7 +104,7 @@ void FeatureTracker::track(const WorkFrame& now, const Pose& pose, const MeshFlo
     const auto best = std::min_element(from.begin(), from.end(), [&](const auto& a, const auto& b) {
       return snake.energy(a) < snake.energy(b);
     });
-    const SnakeOutcome outcome = descend(snake, *best);
+    const SnakeOutcome outcome = descends_ ? descend(snake, *best) : SnakeOutcome{*best, 0, 0, 0};
     s.now = outcome.control;
     s.limit(s.now);
     s.iterations = outcome.iterations;

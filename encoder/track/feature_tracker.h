@@ -19,8 +19,9 @@ inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {
 class FeatureTracker {
  public:
   /// Learns what each feature looks like; its snake descends on the first picture and rests there.
-  /// @param first  with colour
-  FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first);
+  /// @param first     with colour
+  /// @param descends  in later pictures, too; else each snake stays at the best of its starts there
+  FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first, bool descends = true);
 
   /// @param now   with colour
   /// @param flow  of the mesh: moves the curves first, as does the pose
@@ -57,6 +58,7 @@ class FeatureTracker {
                                                             const MeshFlow& flow,
                                                             const std::vector<glm::dvec2>& rest) const;
 
+  bool descends_;
   std::vector<FeatureSnake> snakes_;
   std::array<glm::dvec3, kVertexCount> neutral_;  ///< head units
 };

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "encoder/landmarks/landmark_search.h"
-#include "encoder/model/pose.h"
-#include "encoder/model/skinning.h"
+#include "encoder/track/landmark_expression.h"
 
 namespace fbs {
 
@@ -26,16 +25,12 @@ class LandmarkFollow {
                                             const Offsets& before) const;
 
  private:
-  using HeadLandmarks = std::array<glm::dvec2, kLandmarkCount>;  ///< x and y in the head frame, eye distances
-
-  /// Where they are found, less where the head has them at rest.
-  [[nodiscard]] std::optional<HeadLandmarks> displacements(const cv::Mat& picture, const Pose& pose,
-                                                           const Offsets& before) const;
+  [[nodiscard]] std::optional<LandmarkPoints> search_landmarks(const cv::Mat& picture, const Pose& pose,
+                                                               const Offsets& before) const;
 
   const LandmarkSearch* search_;
   Geometry geometry_;
-  HeadVertices rest_;
-  HeadLandmarks bias_{};
+  LandmarkExpression expression_;
 };
 
 }  // namespace fbs

@@ -115,10 +115,10 @@ BENCHMARK(TrackPlan)->Unit(benchmark::kMillisecond);
 
 /// Total time per picture once the scene has started: analysis and its share of motion coding. The two
 /// seconds from which the surround is learned come before the clock starts.
-void EncoderPush(benchmark::State& state, bool snakes) {
+void EncoderPush(benchmark::State& state, bool expression) {
   AnalysisClip& clip = analysis_clip();
   EncoderSettings settings;
-  settings.snakes = snakes;
+  settings.expression = expression;
   auto encoder = Encoder::create(clip.format(), settings);
   if (!encoder) return state.SkipWithError(encoder.error().text.c_str());
   const auto& round = clip.round();
@@ -139,7 +139,7 @@ void EncoderPush(benchmark::State& state, bool snakes) {
   state.counters["least_confidence"] = least;  // low: the face was lost, and the time is that of a search
 }
 BENCHMARK_CAPTURE(EncoderPush, all, true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(EncoderPush, without_snakes, false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(EncoderPush, without_expression, false)->Unit(benchmark::kMicrosecond);
 
 /// Registers a pair of benchmarks for each kind of snake; right and left take the same time.
 const bool kRegistered = [] {

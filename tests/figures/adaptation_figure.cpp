@@ -11,10 +11,13 @@ namespace {
 constexpr int kPanelWidth = 300;  // pixels
 
 /// The generic head, positioned and scaled by the eyes.
-std::vector<glm::dvec2> scaled_head(const Pose& pose) {
+std::vector<glm::dvec3> scaled_head(const Pose& pose) {
   const PoseProjection projection(pose);
-  std::vector<glm::dvec2> out;
-  for (const HeadVertex& v : generic_head().vertices) out.push_back(projection(glm::dvec3(v.position)));
+  std::vector<glm::dvec3> out;
+  for (const HeadVertex& v : generic_head().vertices) {
+    const glm::dvec3 p(v.position);
+    out.emplace_back(projection(p), (projection.matrix * p).z);
+  }
   return out;
 }
 
@@ -45,7 +48,7 @@ Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& foll
   marked.dots(points, {255, 255, 255}, 3.2);
   marked.dots(points, kMark, 2.4);
   scaled.wire_frame(scaled_head(adapted->pose), kMesh);
-  adjusted.wire_frame(followed.analysis.front().vertices, kMesh);
+  adjusted.wire_frame(followed.head(followed.states.front()), kMesh);
   return sheet({{{canvas().image(), "(a) source"},
                  {marked.image(), "(b) reference points"},
                  {scaled.image(), "(c) scaled wire-frame"},

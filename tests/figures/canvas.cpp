@@ -4,17 +4,16 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <set>
-#include <utility>
 
 #include "cli/video/colour.h"
-#include "common/generic_head.h"
 #include "encoder/image/planes.h"
+#include "tests/figures/wire_frame.h"
 
 namespace fbs::figures {
 namespace {
 
-constexpr int kShift = 4;  // OpenCV draws with positions in 1/16 pixel
+constexpr double kMargin = 0.06;  // of part_with(), of its size
+constexpr int kShift = 4;         // OpenCV draws with positions in 1/16 pixel
 
 int even(double v) {
   return 2 * static_cast<int>(std::lround(v / 2));
@@ -31,6 +30,13 @@ void enlarge(const Plane& from, cv::Point2d corner, double zoom, Plane& to) {
 }
 
 }  // namespace
+
+cv::Rect2d part_with(std::span<const glm::dvec2> points) {
+  const auto [x0, x1] = std::ranges::minmax(points, {}, &glm::dvec2::x);
+  const auto [y0, y1] = std::ranges::minmax(points, {}, &glm::dvec2::y);
+  const glm::dvec2 size(x1.x - x0.x, y1.y - y0.y), margin = kMargin * size;
+  return {x0.x - margin.x, y0.y - margin.y, size.x + 2 * margin.x, size.y + 2 * margin.y};
+}
 
 Canvas::Canvas(const Picture& picture, const VideoFormat& format, const cv::Rect2d& part, int width_px)
     : corner_(part.tl()), zoom_(width_px / part.width) {
@@ -79,12 +85,9 @@ void Canvas::dots(std::span<const glm::dvec2> points, const cv::Scalar& colour, 
   }
 }
 
-void Canvas::wire_frame(std::span<const glm::dvec2> vertices, const cv::Scalar& colour) {
-  std::set<std::pair<std::int16_t, std::int16_t>> edges;
-  for (const HeadTriangle& t : generic_head().triangles)
-    for (std::size_t i = 0; i < 3; ++i) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
-  for (const auto& [a, b] : edges)
-    cv::line(image_, fixed(vertices[a]), fixed(vertices[b]), colour, 1, cv::LINE_AA, kShift);
+void Canvas::wire_frame(std::span<const glm::dvec3> vertices, const cv::Scalar& colour) {
+  for (const auto& [from, to] : visible_edges(vertices))
+    cv::line(image_, fixed(from), fixed(to), colour, 1, cv::LINE_AA, kShift);
 }
 
 }  // namespace fbs::figures

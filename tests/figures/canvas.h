@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
@@ -18,6 +19,9 @@ inline const cv::Scalar kOuterLips(40, 220, 255), kInnerLips(60, 140, 255), kBro
   return {0, 0, static_cast<double>(format.width), static_cast<double>(format.height)};
 }
 
+/// The smallest rectangle with these points and some margin.
+[[nodiscard]] cv::Rect2d part_with(std::span<const glm::dvec2> points);
+
 /// Positions are pixels of the picture; the first pixel's centre is (0.5, 0.5).
 class Canvas {
  public:
@@ -30,9 +34,9 @@ class Canvas {
 
   void curve(std::span<const glm::dvec2> points, bool closed, const cv::Scalar& colour, int width_px = 2);
   void dots(std::span<const glm::dvec2> points, const cv::Scalar& colour, double radius_px);
-  /// Each edge of the generic head's triangles once.
+  /// The edges of the generic head's triangles that can be seen: visible_edges().
   /// @param vertices  kVertexCount of them
-  void wire_frame(std::span<const glm::dvec2> vertices, const cv::Scalar& colour);
+  void wire_frame(std::span<const glm::dvec3> vertices, const cv::Scalar& colour);
 
   [[nodiscard]] const cv::Mat3b& image() const { return image_; }
 

@@ -1,7 +1,9 @@
 // The paper's figures, drawn by this codec. Figure 2 needs no footage, the others one each.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "common/result.h"
 #include "tests/figures/footage.h"
@@ -25,16 +27,45 @@ struct SnakeFigure {
 /// Also Figure 1: the painted mouth, in which only the teeth change.
 [[nodiscard]] SnakeFigure painted_snake_figure();
 
-/// Figure 2: the generic wire-frame, front and side view; hidden lines show.
+/// Figure 2: the generic wire-frame, front and side view.
 [[nodiscard]] cv::Mat3b wire_frame_figure();
 
 /// Figure 3: (a) source, (b) reference points, (c) scaled wire-frame, (d) adapted wire-frame.
 [[nodiscard]] Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& followed);
 
-/// Figure 5: the mouth opens. Above the sources with their snakes, below the decoded pictures.
-[[nodiscard]] Result<cv::Mat3b> mouth_figure(const Footage& footage, const Followed& followed);
+/// Figure 4: the head turned and deformed as from a keyboard, wire-frames above patterned heads.
+/// @param paper  as Paths::paper
+[[nodiscard]] Result<cv::Mat3b> animation_figure(const Footage& footage, const Followed& paper);
+
+/// A footage by the paper's own path, and as the encoder does by default.
+struct Paths {
+  Followed paper, fitted;
+};
+
+/// The pictures of Figure 5.
+inline constexpr int kMouthPictures = 4;
+[[nodiscard]] std::vector<int> mouth_pictures(const Footage& footage, const Paths& paths);
+
+/// Figure 5: the mouth opens. Sources with their snakes, below them the synthesised pictures of both paths.
+[[nodiscard]] Result<cv::Mat3b> mouth_figure(const Footage& footage, const Paths& paths);
 
 /// Figure 6: the brows rise, and a blink.
-[[nodiscard]] Result<cv::Mat3b> brow_figure(const Footage& footage, const Followed& followed);
+[[nodiscard]] Result<cv::Mat3b> brow_figure(const Footage& footage, const Paths& paths);
+
+/// Somebody whose wire-frame and pattern take over the motion of another.
+struct OtherFace {
+  VideoFormat format;
+  Scene scene;
+  State rest;  ///< of its first picture
+};
+
+/// Figure 7: pictures of Figure 5 turned, their deformations on another wire-frame and pattern, and another
+/// pattern on the same wire-frame.
+struct SynthesisFigure {
+  cv::Mat3b image;
+  std::array<double, 2> own, other;  ///< between the inner lips at Fig. 5 (a) and (e), eye distances
+};
+[[nodiscard]] Result<SynthesisFigure> synthesis_figure(const Footage& footage, const Paths& paths,
+                                                       const OtherFace& other);
 
 }  // namespace fbs::figures

@@ -33,14 +33,15 @@ Landmarks landmarks_of(const PictureAnalysis& analysis) {
 
 }  // namespace
 
-Footage talker_footage() {
+Footage talker_footage(const std::string& name, std::uint32_t seed) {
   talker::Settings s;
   s.width = s.height = 288;
   s.frame_count = 120;
+  s.seed = seed;
   s.eye_distance = 0.19F;
   s.motion = talker::Motion::kDefault;
   const talker::Talker talker(s);
-  Footage out{"talker", {}, {}, {}};
+  Footage out{name, {}, {}, {}};
   out.format.width = s.width;
   out.format.height = s.height;
   out.format.frame_rate = s.frame_rate;
@@ -69,8 +70,15 @@ Result<Footage> clip_footage(const std::string& path) {
   return out;
 }
 
-Result<Followed> follow(const Footage& footage) {
-  auto encoder = Encoder::create(footage.format, {});
+EncoderSettings paper_settings() {
+  EncoderSettings settings;
+  settings.patterns = 1;
+  settings.track_only = true;
+  return settings;
+}
+
+Result<Followed> follow(const Footage& footage, const EncoderSettings& settings) {
+  auto encoder = Encoder::create(footage.format, settings);
   if (!encoder) return fail(encoder.error());
   Followed out;
   for (const Picture& p : footage.pictures) {
@@ -89,8 +97,8 @@ Result<Followed> follow(const Footage& footage) {
     const auto status = decoder.next();
     if (!status) return fail(status.error());
     if (*status != DecodeStatus::kPicture) break;
-    out.geometry = decoder.scene().geometry->geometry();
-    out.poses.push_back(pose_of(decoder.state()));
+    out.scene = decoder.scene();
+    out.states.push_back(decoder.state());
   }
   return out;
 }

@@ -10,22 +10,6 @@ namespace {
 
 constexpr int kPanelWidth = 240;  // pixels
 
-/// The common part of the face in all chosen pictures, so that its motion is visible against the panel
-/// borders.
-cv::Rect2d face_part(const Followed& followed, const std::vector<int>& numbers, const cv::Rect2d& whole) {
-  glm::dvec2 low(1e9), high(-1e9);
-  for (const int i : numbers) {
-    for (const glm::dvec2 p : followed.analysis[i].vertices) {
-      low = glm::dvec2(std::min(low.x, p.x), std::min(low.y, p.y));
-      high = glm::dvec2(std::max(high.x, p.x), std::max(high.y, p.y));
-    }
-  }
-  const glm::dvec2 margin = 0.06 * (high - low);
-  const cv::Rect2d part(low.x - margin.x, low.y - margin.y, high.x - low.x + 2 * margin.x,
-                        high.y - low.y + 2 * margin.y);
-  return part & whole;
-}
-
 void draw_snakes(Canvas& canvas, const PictureAnalysis& analysis) {
   for (std::size_t s = 0; s < kSnakeFeatures.size(); ++s) {
     const FeatureId id = kSnakeFeatures[s];
@@ -38,29 +22,38 @@ void draw_snakes(Canvas& canvas, const PictureAnalysis& analysis) {
   }
 }
 
-/// Sources with snakes in the upper row, decoded pictures in the lower.
-/// @param captions  of the upper row, one for each number
-Result<cv::Mat3b> pairs(const Footage& footage, const Followed& followed, const std::vector<int>& numbers,
-                        const std::vector<std::string>& captions) {
+/// Sources with snakes in the first row, below them the pictures of the paper's own path and, last, those of
+/// the encoder's default.
+/// @param captions  of the first row, one for each number
+Result<cv::Mat3b> rows(const Footage& footage, const Paths& paths, const std::vector<int>& numbers,
+                       const std::vector<std::string>& captions) {
   std::vector<int> ascending = numbers;
   std::sort(ascending.begin(), ascending.end());
   ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
-  const auto decoded = decode(followed.stream, ascending);
-  if (!decoded) return fail(decoded.error());
+  const auto paper = decode(paths.paper.stream, ascending), fitted = decode(paths.fitted.stream, ascending);
+  if (!paper) return fail(paper.error());
+  if (!fitted) return fail(fitted.error());
 
-  const cv::Rect2d part = face_part(followed, numbers, whole_picture(footage.format));
-  std::vector<Panel> above, below;
+  std::vector<glm::dvec2> faces;
+  for (const int i : numbers) {
+    const auto& face = paths.fitted.analysis[static_cast<std::size_t>(i)].vertices;
+    faces.insert(faces.end(), face.begin(), face.end());
+  }
+  const cv::Rect2d part = part_with(faces) & whole_picture(footage.format);
+  std::vector<Panel> sources, tracked, fits;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto i = static_cast<std::size_t>(numbers[k]);
-    const auto at = std::find(ascending.begin(), ascending.end(), numbers[k]) - ascending.begin();
+    const auto at = static_cast<std::size_t>(std::ranges::find(ascending, numbers[k]) - ascending.begin());
     Canvas source(footage.pictures[i], footage.format, part, kPanelWidth);
-    draw_snakes(source, followed.analysis[i]);
-    const Canvas synthesised((*decoded)[at], footage.format, part, kPanelWidth);
+    draw_snakes(source, paths.paper.analysis[i]);
     const int column = static_cast<int>(k);
-    above.push_back({source.image(), letter(2 * column) + captions[k]});
-    below.push_back({synthesised.image(), letter(2 * column + 1) + "synthesised"});
+    sources.push_back({source.image(), letter(2 * column) + captions[k]});
+    tracked.push_back({Canvas((*paper)[at], footage.format, part, kPanelWidth).image(),
+                       letter(2 * column + 1) + "by its contours alone"});
+    fits.push_back(
+        {Canvas((*fitted)[at], footage.format, part, kPanelWidth).image(), "fitted, patterns chosen"});
   }
-  return sheet({above, below});
+  return sheet({sources, tracked, fits});
 }
 
 std::string numbered(const char* what, int picture) {
@@ -69,19 +62,23 @@ std::string numbered(const char* what, int picture) {
 
 }  // namespace
 
-Result<cv::Mat3b> mouth_figure(const Footage& footage, const Followed& followed) {
-  const auto numbers = rising(measure(footage, followed, &FaceMotion::mouth_height), 4);
-  std::vector<std::string> captions;
-  for (const int i : numbers) captions.push_back(numbered("source", i));
-  return pairs(footage, followed, numbers, captions);
+std::vector<int> mouth_pictures(const Footage& footage, const Paths& paths) {
+  return rising(measure(footage, paths.fitted, &FaceMotion::mouth_height), kMouthPictures);
 }
 
-Result<cv::Mat3b> brow_figure(const Footage& footage, const Followed& followed) {
-  auto numbers = rising(measure(footage, followed, &FaceMotion::brow_raise), 3);
-  numbers.push_back(lowest(measure(footage, followed, &FaceMotion::eye_open)));
+Result<cv::Mat3b> mouth_figure(const Footage& footage, const Paths& paths) {
+  const auto numbers = mouth_pictures(footage, paths);
+  std::vector<std::string> captions;
+  for (const int i : numbers) captions.push_back(numbered("source", i));
+  return rows(footage, paths, numbers, captions);
+}
+
+Result<cv::Mat3b> brow_figure(const Footage& footage, const Paths& paths) {
+  auto numbers = rising(measure(footage, paths.fitted, &FaceMotion::brow_raise), 3);
+  numbers.push_back(lowest(measure(footage, paths.fitted, &FaceMotion::eye_open)));
   std::vector<std::string> captions = {numbered("brows at rest", numbers[0]), numbered("rising", numbers[1]),
                                        numbered("raised", numbers[2]), numbered("lids lowest", numbers[3])};
-  return pairs(footage, followed, numbers, captions);
+  return rows(footage, paths, numbers, captions);
 }
 
 }  // namespace fbs::figures

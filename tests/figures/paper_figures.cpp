@@ -1,6 +1,7 @@
-// paper_figures OUT_FOLDER [CLIPS_FOLDER]: writes Figures 1, 2, 3, 5 and 6 of the paper as PNG, from the
-// talker and from each video of a folder. See README.md.
+// paper_figures OUT_FOLDER [CLIPS_FOLDER]: writes Figures 1 to 7 of the paper as PNG, from the talker and
+// from each video of a folder. See README.md.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -15,6 +16,8 @@ namespace fbs::figures {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint32_t kTalkerSeed = 1, kNeighbourSeed = 4;  // two people of samples/
 
 /// Exceptions end here.
 template <class T>
@@ -32,15 +35,28 @@ void print(const std::string& name, const TeethHeights& h) {
   std::printf("teeth %s without %.3f with %.3f true %.3f\n", name.c_str(), h.without, h.with, h.truth);
 }
 
-void draw_figures(const Footage& footage, const fs::path& out) {
-  const Followed followed = must(follow(footage));
+OtherFace face_of(const Footage& footage, const Followed& paper) {
+  return {footage.format, paper.scene, paper.states.front()};
+}
+
+/// @param other  that takes over the motion
+/// @return the footage's face, to take over that of another
+OtherFace draw_figures(const Footage& footage, const OtherFace& other, const fs::path& out) {
+  const Paths paths{must(follow(footage, paper_settings())), must(follow(footage, {}))};
+  const Followed& followed = paths.fitted;
   const auto file = [&](const char* figure) { return out / (footage.name + "_" + figure + ".png"); };
   const SnakeFigure snakes = snake_figure(footage, followed);
   write(file("figure1"), snakes.image);
   print(footage.name, snakes.teeth);
   write(file("figure3"), must(adaptation_figure(footage, followed)));
-  write(file("figure5"), must(mouth_figure(footage, followed)));
-  write(file("figure6"), must(brow_figure(footage, followed)));
+  write(file("figure4"), must(animation_figure(footage, paths.paper)));
+  write(file("figure5"), must(mouth_figure(footage, paths)));
+  write(file("figure6"), must(brow_figure(footage, paths)));
+  const SynthesisFigure synthesis = must(synthesis_figure(footage, paths, other));
+  write(file("figure7"), synthesis.image);
+  std::printf("lips %s own %.3f %.3f other %.3f %.3f\n", footage.name.c_str(), synthesis.own[0],
+              synthesis.own[1], synthesis.other[0], synthesis.other[1]);
+  return face_of(footage, paths.paper);
 }
 
 std::vector<fs::path> videos(const fs::path& folder) {
@@ -52,12 +68,12 @@ std::vector<fs::path> videos(const fs::path& folder) {
   return out;
 }
 
-/// A clip that fails does not affect the others.
-int draw_clips(const fs::path& folder, const fs::path& out) {
+/// A clip that fails does not affect the others. The motion of each is also that of the face before it.
+int draw_clips(const fs::path& folder, OtherFace other, const fs::path& out) {
   int failed = 0;
   for (const fs::path& video : videos(folder)) {
     try {
-      draw_figures(must(clip_footage(video.string())), out);
+      other = draw_figures(must(clip_footage(video.string())), other, out);
     } catch (const std::exception& e) {
       std::fprintf(stderr, "paper_figures: %s: %s\n", video.c_str(), e.what());
       ++failed;
@@ -82,8 +98,10 @@ int main(int argc, char** argv) {
     const SnakeFigure painted = painted_snake_figure();
     write(out / "painted_figure1.png", painted.image);
     print("painted", painted.teeth);
-    draw_figures(talker_footage(), out);
-    return argc == 3 && draw_clips(argv[2], out) > 0 ? 1 : 0;
+    const Footage neighbour = talker_footage("neighbour", kNeighbourSeed);
+    const OtherFace other = face_of(neighbour, must(follow(neighbour, paper_settings())));
+    const OtherFace talker = draw_figures(talker_footage("talker", kTalkerSeed), other, out);
+    return argc == 3 && draw_clips(argv[2], talker, out) > 0 ? 1 : 0;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "paper_figures: %s\n", e.what());
     return 1;

@@ -83,9 +83,9 @@ RepulsionRun run_at_papers_rate(const Footage& footage, const Followed& followed
   const Rational rate = footage.format.frame_rate;
   const auto step = static_cast<std::size_t>(
       std::max(1L, std::lround(static_cast<double>(rate.num) / rate.den / kPapersRate)));
-  Race race(followed.geometry, followed.poses.front(), footage.pictures.front());
+  Race race(followed.geometry(), followed.pose(0), footage.pictures.front());
   for (std::size_t i = step; i < footage.pictures.size(); i += step)
-    race.track(static_cast<int>(i), footage.pictures[i], followed.poses[i]);
+    race.track(static_cast<int>(i), footage.pictures[i], followed.pose(i));
   return std::move(race).run();
 }
 

@@ -21,7 +21,7 @@ Panel brow_panel(const Footage& footage, const Followed& followed, int picture) 
   std::vector<glm::dvec2> both = brow;
   both.insert(both.end(), lid.begin(), lid.end());
   Canvas canvas(footage.pictures[i], footage.format,
-                part_around(both, kPartWidth * followed.poses[i].eye_distance_px()), kPanelWidth);
+                part_around(both, kPartWidth * followed.pose(i).eye_distance_px()), kPanelWidth);
   canvas.curve(brow, false, kBrows);
   canvas.curve(lid, false, kLids);
   return {canvas.image(), "(c) brow and upper lid, picture " + std::to_string(picture)};
@@ -31,7 +31,7 @@ Panel mouth_panel(const Footage& footage, const Followed& followed, int picture,
   const auto i = static_cast<std::size_t>(picture);
   const auto& outer = snake_of(followed.analysis[i], FeatureId::kMouthOuter);
   Canvas canvas(footage.pictures[i], footage.format,
-                part_around(outer, kPartWidth * followed.poses[i].eye_distance_px()), kPanelWidth);
+                part_around(outer, kPartWidth * followed.pose(i).eye_distance_px()), kPanelWidth);
   canvas.curve(outer, true, kOuterLips);
   canvas.curve(snake_of(followed.analysis[i], FeatureId::kMouthInner), true, kInnerLips);
   return {canvas.image(), caption + ", picture " + std::to_string(picture)};
@@ -61,7 +61,7 @@ SnakeFigure snake_figure(const Footage& footage, const Followed& followed) {
   const auto i = static_cast<std::size_t>(run.pictures[at]);
   auto both = run.outline_without[at];  // so that both panels show the same part
   both.insert(both.end(), run.outline_with[at].begin(), run.outline_with[at].end());
-  const cv::Rect2d part = part_around(both, kPartWidth * followed.poses[i].eye_distance_px());
+  const cv::Rect2d part = part_around(both, kPartWidth * followed.pose(i).eye_distance_px());
   const auto truth = true_heights(footage, run);
   const std::string where = " repulsion, picture " + std::to_string(i);
   return {sheet({snakes,

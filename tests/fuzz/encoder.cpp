@@ -62,9 +62,11 @@ EncoderSettings read_settings(Choices& choices) {
   s.effort = choices.below(2);
   s.face = choices.of({0, 0, 0, 1, 1000000});
   s.allow_no_face = !choices.flag();
-  s.snakes = !choices.flag();
-  s.refine = !choices.flag();
-  s.landmarks = !choices.flag();
+  s.expression = !choices.flag();
+  s.contours = !choices.flag();
+  s.descent = !choices.flag();
+  s.track_only = choices.flag() && s.expression && s.contours;
+  s.landmark_search = !choices.flag();
   s.surround = !choices.flag();
   s.key_interval = choices.of({0.0, 0.0, 0.1, 1e-9, 1e9});
   s.threads = choices.of({1, 2, 0, 1000000});

@@ -1,11 +1,12 @@
-"""The paper's figures can be drawn, and the one with teeth shows the effect of repulsion."""
+"""The paper's figures can be drawn: the one with teeth shows the effect of repulsion, and another face opens its mouth as
+the one that is followed does."""
 import re
 import struct
 import subprocess
 
 from harness import BUILD, MAX_SECONDS, ProgramTest
 
-TALKERS = ("talker_figure1.png", "talker_figure3.png", "talker_figure5.png", "talker_figure6.png")
+TALKERS = tuple(f"talker_figure{number}.png" for number in (1, 3, 4, 5, 6, 7))
 FIGURES = ("figure2.png", "painted_figure1.png", *TALKERS)
 
 
@@ -34,3 +35,8 @@ class Figures(ProgramTest):
         self.assertLess(without, 0.7 * with_repulsion, "teeth no longer collapse the contour: show another case")
         _, with_repulsion, true = heights["talker"]
         self.assertAlmostEqual(with_repulsion, true, delta=0.1 * true)
+
+        own_shut, own_open, other_shut, other_open = map(float, re.search(
+            r"^lips talker own (\S+) (\S+) other (\S+) (\S+)$", done.stdout, re.MULTILINE).groups())
+        self.assertGreater(own_open - own_shut, 0.05, "the contours alone open the mouth")
+        self.assertAlmostEqual(other_open - other_shut, own_open - own_shut, delta=0.25 * (own_open - own_shut))

@@ -9,7 +9,7 @@ class Snakes(ProgramTest):
         talker(self.folder / "talk.y4m", "--size", "176x144", "--frames", "60", "--motion", "talk",
                "--truth", self.folder / "talk.csv")
         self.succeed("encode", "talk.y4m", "with.fbs", "--patterns", "1")
-        self.succeed("encode", "talk.y4m", "without.fbs", "--patterns", "1", "--no-snakes")
+        self.succeed("encode", "talk.y4m", "without.fbs", "--patterns", "1", "--no-expression")
         source, with_snakes, without = read_y4m(self.folder / "talk.y4m"), self.decoded("with.fbs"), self.decoded("without.fbs")
         mouth = self.mouth()
         self.assertNotEqual(with_snakes.pictures, without.pictures)

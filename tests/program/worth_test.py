@@ -13,7 +13,7 @@ class Worth(ProgramTest):
 
     def test_refinement(self):
         # With one pattern: more of them make up for a state that is off, at a rate.
-        without = self.psnr(CLOSE_Y4M, "--patterns", "1", "--no-refine")
+        without = self.psnr(CLOSE_Y4M, "--patterns", "1", "--track-only")
         self.assertLess(without["psnr_face"], self.psnr(CLOSE_Y4M, "--patterns", "1")["psnr_face"] - 1.5)
 
     def test_surround_that_moves(self):

@@ -407,9 +407,9 @@ TEST(Encoder, GroupsHoldAsManyPicturesAsAsked) {
   }
 }
 
-TEST(Encoder, SnakesCanBeLeftOut) {
+TEST(Encoder, TheExpressionCanBeLeftOut) {
   EncoderSettings settings;
-  settings.snakes = false;
+  settings.expression = false;
   const Coded c = coded(shortly(), settings);
   EXPECT_EQ(c.pictures.size(), shortly().size());
 }

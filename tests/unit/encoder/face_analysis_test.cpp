@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/ibug.h"
@@ -32,6 +33,14 @@ class Session {
 
   FaceAnalysis::Observation observe(const Picture& picture) { return analysis_->observe(picture); }
   FaceAnalysis::Observation observe(int frame) { return observe(clip_[frame]); }
+  /// With the true landmarks, by another tracker.
+  FaceAnalysis::Observation observe_with_landmarks(int frame) {
+    const Shape shape = clip_.shape(frame);
+    LandmarkPoints points;
+    std::copy(shape.begin(), shape.end(), points.begin());
+    analysis_->give_landmarks(points);
+    return observe(frame);
+  }
   [[nodiscard]] const PictureAnalysis& report() const { return analysis_->report(); }
   [[nodiscard]] const State& seen() const { return seen_; }
   [[nodiscard]] const Geometry& geometry() const { return head_.geometry; }
@@ -103,6 +112,41 @@ TEST(FaceAnalysis, AMouthThatOpensAtOnceIsFollowed) {
   const double change = seen(0) - seen(widest);
   const double truth = opening(session.clip().shape(0)) - opening(session.clip().shape(widest));
   EXPECT_NEAR(change / truth, 1, 0.35);
+}
+
+// The paper's own path: nothing that only a comparison of pictures shows.
+TEST(FaceAnalysis, TrackingAloneMovesMouthAndBrowsAndFitsNothing) {
+  EncoderSettings settings;
+  settings.track_only = true;
+  Session session(settings);
+  glm::ivec2 lips(0);
+  for (int t = 0; t < kFrames; ++t) {
+    const State state = session.observe(t).state;
+    EXPECT_EQ(state.light, State{}.light);
+    EXPECT_EQ(state.interior, State{}.interior);
+    for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
+      EXPECT_EQ(state.control[feature(id).first_control], glm::ivec2(0));
+    for (int c = 0; c < 10; ++c) lips += glm::abs(state.control[static_cast<std::size_t>(c)]);
+  }
+  EXPECT_GT(lips.x + lips.y, 0);
+}
+
+TEST(FaceAnalysis, GivenLandmarksAreAStartOncePicturesHaveShownWhatTheyAreOffBy) {
+  Session session({});
+  (void)session.observe(0);
+  EXPECT_FALSE(session.report().had_landmarks);
+  (void)session.observe_with_landmarks(1);
+  EXPECT_FALSE(session.report().had_landmarks) << "the first ones";
+  int best = 0;
+  for (int t = 2; t < kFrames; ++t) {
+    (void)session.observe_with_landmarks(t);
+    EXPECT_TRUE(session.report().had_landmarks) << t;
+    best += session.report().from_landmarks ? 1 : 0;
+  }
+  EXPECT_GT(best, 0) << "true landmarks are never the best start";
+  (void)session.observe(kFrames - 1);
+  EXPECT_FALSE(session.report().had_landmarks) << "they are of one picture";
+  EXPECT_FALSE(session.report().from_landmarks);
 }
 
 TEST(FaceAnalysis, HoldsThePoseAndRelaxesTheExpressionWhileTheFaceIsLost) {
