@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "encoder/landmarks/shape.h"
@@ -156,7 +155,7 @@ Result<LandmarkTrack> parse_landmarks(std::string_view text, int width, int heig
     if (!columns) {
       auto found = columns_of(line);
       if (!found) return fail(found.error());
-      columns = std::move(*found);
+      columns = *found;
       continue;
     }
     if (trimmed(line).empty()) continue;

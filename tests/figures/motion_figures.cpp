@@ -69,6 +69,7 @@ std::vector<int> mouth_pictures(const Footage& footage, const Paths& paths) {
 Result<cv::Mat3b> mouth_figure(const Footage& footage, const Paths& paths) {
   const auto numbers = mouth_pictures(footage, paths);
   std::vector<std::string> captions;
+  captions.reserve(numbers.size());
   for (const int i : numbers) captions.push_back(numbered("source", i));
   return rows(footage, paths, numbers, captions);
 }

@@ -111,12 +111,12 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
 }
 
 double BSnake::external(const Vectors& control, Vectors* gradient) const {
-  const bool ridge = !image_.ridge.empty(), changes = weights_.change != 0;
-  if (weights_.contrast == 0 && !changes) return 0;
+  if (weights_.contrast == 0) return 0;
+  const bool ridge = !image_.ridge.empty();
   const Four scale = all_four(image_.px_per_unit);
   const Four origin_x = all_four(image_.origin.x), origin_y = all_four(image_.origin.y);
-  const Four contrast_weight = all_four(weights_.contrast), change_weight = all_four(weights_.change);
-  Four contrast = cv::v_setzero_f32(), change = cv::v_setzero_f32();
+  const Four contrast_weight = all_four(weights_.contrast);
+  Four contrast = cv::v_setzero_f32();
   for (const PointQuad& q : curve_.quads()) {
     std::array<Four, 4> x, y;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -129,19 +129,12 @@ double BSnake::external(const Vectors& control, Vectors* gradient) const {
     const Contrast h =
         ridge ? ridge_at(at, image_) : contour_at(at, image_, combine(q.d1, x), combine(q.d1, y));
     contrast += h.at.value * weight;
-    Four by_x = contrast_weight * h.at.by_x, by_y = contrast_weight * h.at.by_y;
-    if (changes) {
-      const MapLookup c = at.in(image_.change);
-      change += c.value * weight;
-      by_x += change_weight * c.by_x;
-      by_y += change_weight * c.by_y;
-    }
     if (gradient == nullptr) continue;
-    subtract(q, {by_x * (scale * weight), by_y * (scale * weight)},
+    const Four place_weight = contrast_weight * scale * weight;
+    subtract(q, {h.at.by_x * place_weight, h.at.by_y * place_weight},
              {h.by_vs_x * (contrast_weight * weight), h.by_vs_y * (contrast_weight * weight)}, *gradient);
   }
-  return -weights_.contrast * static_cast<double>(cv::v_reduce_sum(contrast)) -
-         weights_.change * static_cast<double>(cv::v_reduce_sum(change));
+  return -weights_.contrast * static_cast<double>(cv::v_reduce_sum(contrast));
 }
 
 double BSnake::evaluate(const Vectors& control, Vectors* gradient) const {

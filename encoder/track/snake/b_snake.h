@@ -21,7 +21,7 @@ struct SnakeWeights {
   double shape = 0;
   double repulsion = 0;  ///< between facing points; the paper gives no formula, see FacingPair
   double contrast = 0;   ///< rho, eq. 7
-  double change = 0;     ///< gamma, eq. 8
+  double change = 0;     ///< gamma, eq. 8, as a share of rho; FeatureSnake adds it to the maps
 };
 
 /// What the snake sees: a picture patch in the head's own frame, as maps of forces' potentials, all of one
@@ -29,9 +29,6 @@ struct SnakeWeights {
 struct SnakeImage {
   cv::Mat1f contrast_x, contrast_y;  ///< gradient of the feature map; H is its part along the curve's normal
   cv::Mat1f ridge;          ///< instead: H itself, for a curve that runs along the middle of a dark band
-  cv::Mat1f change;         ///< |I_t|: eq. 8 is signed, but a contour that moves brightens one side and
-                            ///< darkens the other, so that the sign says nothing about where it went;
-                            ///< may be empty when its weight is zero
   glm::dvec2 origin{0, 0};  ///< snake units of the centre of pixel (0, 0)
   double px_per_unit = 1;
 };

@@ -1,6 +1,7 @@
 #include "encoder/track/snake/feature_snake.h"
 
 #include <cmath>
+#include <utility>
 
 #include "encoder/track/snake/feature_masks.h"
 #include "encoder/track/snake/snake_filters.h"
@@ -62,6 +63,10 @@ SnakeImage FeatureSnake::observe(const FeaturePatch& patch) {
   // Half of the difference, so that a lid's edge keeps the contrast of other features.
   if (skin) cv::addWeighted(values, 0.5, (*skin)(patch), -0.5, 0, values);
   smooth(values, values, kind_of(id).blur);
+  if (weights.change != 0) {
+    const cv::Mat1f before = std::exchange(seen, values.clone());
+    if (!before.empty()) cv::addWeighted(values, 1 + weights.change, before, -weights.change, 0, values);
+  }
   SnakeImage image;
   image.origin = {plane.region.x, plane.region.y};
   image.px_per_unit = kPatchPxPerUnit;
@@ -72,13 +77,6 @@ SnakeImage FeatureSnake::observe(const FeaturePatch& patch) {
   } else {
     // Outer contours have the feature inside them, inner lips outside.
     slopes(values, id == FeatureId::kMouthInner ? -1 : 1, image.contrast_x, image.contrast_y);
-  }
-  if (weights.change != 0) {
-    if (seen.empty())
-      image.change = cv::Mat1f::zeros(values.size());
-    else
-      cv::absdiff(values, seen, image.change);
-    seen = values;
   }
   return image;
 }

@@ -42,6 +42,11 @@ struct FeatureSnake {
   void limit(std::vector<glm::dvec2>& control) const;
 
   /// What the energies need of a picture. Remembers it for the next one's I_t.
+  ///
+  /// Eq. 8 takes I_t where the curve is. Which sign it has there depends on the side of the contour and on
+  /// the person; that of its contrast across the curve does not: H(I_t) is positive where the contour has
+  /// come and negative where it was. So E_v is that of H(I_t), and as H is linear, rho H(I) + gamma H(I_t) is
+  /// H of the map plus its change.
   SnakeImage observe(const FeaturePatch& patch);
 
   /// Where the curve passes a vertex of the feature, snake units.

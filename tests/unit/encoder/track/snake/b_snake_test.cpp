@@ -31,9 +31,9 @@ double energy_of(ToySnake b, const SnakeWeights& weights, const Control& control
   return b.snake().energy(control);
 }
 
-constexpr std::array<double SnakeWeights::*, 7> kTerms = {
-    &SnakeWeights::tension,   &SnakeWeights::rigidity, &SnakeWeights::temporal, &SnakeWeights::shape,
-    &SnakeWeights::repulsion, &SnakeWeights::contrast, &SnakeWeights::change};
+constexpr std::array<double SnakeWeights::*, 6> kTerms = {&SnakeWeights::tension,   &SnakeWeights::rigidity,
+                                                          &SnakeWeights::temporal,  &SnakeWeights::shape,
+                                                          &SnakeWeights::repulsion, &SnakeWeights::contrast};
 
 /// A snake on which every term has something to say.
 struct EveryTerm : ToySnake {
@@ -41,7 +41,6 @@ struct EveryTerm : ToySnake {
 
   EveryTerm() {
     image = contrast_of([](glm::dvec2 p) { return soft_step(length(p) - 12); });
-    image.change = painted([](glm::dvec2 p) { return 0.3 + 0.01 * p.x; });
     before = circle(11, {-1, 0});
     for (int h = 3; h <= kPoints / 2 - 3; ++h) facing.push_back({h, kPoints - h, {0, 1}, 20});
   }
@@ -120,16 +119,15 @@ TEST(BSnake, GradientOfEachIsTheSlopeOfItsEnergy) {
 TEST(BSnake, GradientOfARidgeIsTheSlopeOfItsEnergy) {
   ToyLine b;
   b.image.ridge = painted([](glm::dvec2 p) { return std::exp(-(p.y - 2) * (p.y - 2) / 8); });
-  b.weights = {.contrast = 1, .change = 0.2};
-  b.image.change = painted([](glm::dvec2 p) { return 0.3 + 0.01 * p.x * p.y; });
+  b.weights.contrast = 1;
   expect_slope_of_energy(b, moved(line(9), {-3.1, 0.4}), 1e-3);
 }
 
 // Outside, the border's samples are repeated: nothing slopes there.
 TEST(BSnake, MapsAreFlatOutside) {
   ToyLine b;
-  b.image.change = painted([](glm::dvec2 p) { return 20 + 0.5 * p.x + 0.25 * p.y; });
-  b.weights.change = 1;
+  b.image.ridge = painted([](glm::dvec2 p) { return 20 + 0.5 * p.x + 0.25 * p.y; });
+  b.weights.contrast = 1;
   for (const glm::dvec2 g : b.snake().gradient(moved(line(6), {100, 0}))) {
     EXPECT_EQ(g.x, 0);
     EXPECT_LT(g.y, 0);
@@ -178,13 +176,6 @@ TEST(BSnake, ContrastOfEq7IsTheFallAlongTheNormalWhateverTheSpeed) {
   Control back = line(12);
   std::reverse(back.begin(), back.end());
   EXPECT_NEAR(energy_of(b, {.contrast = 0.5}, back), 0.5 * ToyLine::kWhole, 1e-6) << "inside out";
-}
-
-TEST(BSnake, ChangeOfEq8IsItsMeanOverTheCurve) {
-  ToyLine b;
-  b.image.change = painted([](glm::dvec2 p) { return 1 + 0.5 * p.y; });
-  EXPECT_NEAR(energy_of(b, {.change = 0.5}, line(6)), -0.5 * ToyLine::kWhole, 1e-6);
-  EXPECT_NEAR(energy_of(b, {.change = 0.5}, moved(line(6), {0, 2})), -0.5 * 2 * ToyLine::kWhole, 1e-6);
 }
 
 TEST(BSnake, RepulsionIsTheSquareOfWhatTheGapLacksAlongItsDirection) {

@@ -37,25 +37,37 @@ double most(const cv::Mat1f& m) {
   return std::max(-low, high);
 }
 
-TEST(FeatureSnake, SeesNoChangeInTheFirstPictureNorInAPictureThatRepeats) {
-  Mouth m;
-  EXPECT_EQ(most(m.snake.observe(m.first).change), 0);
-  EXPECT_EQ(most(m.snake.observe(m.first).change), 0);
+double most_apart(const cv::Mat1f& a, const cv::Mat1f& b) {
+  return most(cv::Mat1f(a - b));
 }
 
-// Eq. 8's I_t without its sign: there and back again changes as much.
-TEST(FeatureSnake, ChangeHasNoSign) {
-  Mouth m;
+TEST(FeatureSnake, SeesNoChangeInTheFirstPictureNorInAPictureThatRepeats) {
+  Mouth m, still;
+  still.snake.weights.change = 0;
+  const SnakeImage plain = still.snake.observe(m.first);
+  for (int i = 0; i < 2; ++i) {
+    const SnakeImage seen = m.snake.observe(m.first);
+    EXPECT_LT(most_apart(seen.contrast_x, plain.contrast_x), 1e-5) << i;
+    EXPECT_LT(most_apart(seen.contrast_y, plain.contrast_y), 1e-5) << i;
+  }
+}
+
+// Eq. 8: the contrast of I_t is added with its sign, so that an edge that has come counts more, and one that
+// has gone repels.
+TEST(FeatureSnake, ChangeAddsTheContrastOfWhatHasChanged) {
+  Mouth m, still;
+  still.snake.weights.change = 0;
   FeaturePatch darker = m.first;
   darker[0] = m.first[0].clone();
   darker[0](cv::Rect(4, 4, 20, 12)) -= cv::Scalar(40);
+  const cv::Mat1f before = still.snake.observe(m.first).contrast_y,
+                  now = still.snake.observe(darker).contrast_y;
+  ASSERT_GT(most_apart(now, before), 0.02);
+  const double gamma = m.snake.weights.change;
+  ASSERT_GT(gamma, 0);
   (void)m.snake.observe(m.first);
-  const cv::Mat1f there = m.snake.observe(darker).change, back = m.snake.observe(m.first).change;
-  EXPECT_GT(most(there), 0.05);
-  EXPECT_LT(most(there - back), 1e-5);
-  double least = 0;
-  cv::minMaxLoc(there, &least);
-  EXPECT_GE(least, 0);
+  EXPECT_LT(most_apart(m.snake.observe(darker).contrast_y, now + gamma * (now - before)), 1e-4) << "there";
+  EXPECT_LT(most_apart(m.snake.observe(m.first).contrast_y, before + gamma * (before - now)), 1e-4) << "back";
 }
 
 TEST(FeatureSnake, ImageIsThePatchInSnakeUnits) {

@@ -77,13 +77,6 @@ TEST(SnakeDescent, RidgeAttractsACurveToTheMiddleOfABand) {
   for (const glm::dvec2 p : b.outline_after({{-9, -1}, {-3, -1}, {3, -1}, {9, -1}})) EXPECT_NEAR(p.y, 2, 0.3);
 }
 
-TEST(SnakeDescent, ChangeOfTheContrastAttracts) {
-  ToySnake b;
-  b.image.change = painted([](glm::dvec2 p) { return std::exp(-(length(p) - 12) * (length(p) - 12) / 6); });
-  b.weights.change = 1;
-  for (const glm::dvec2 p : b.outline_after(circle(12))) EXPECT_NEAR(length(p), 12, 0.6);
-}
-
 // Paper, Fig. 1. Dark lips (feature 1) in which an opening shows bright teeth (-1: farther from the lips'
 // colour than skin is). The upper contour's prediction has failed and lies on the teeth, from where the lower
 // lip's inner border is in reach: it falls from lip to teeth just as a lip's outer border falls from lip to
@@ -222,8 +215,8 @@ TEST(SnakeDescent, RepulsionOfItsEndsKeepsABrowsLength) {
 /// A potential that falls evenly to the right: every step of every control point goes there.
 struct Slope : ToyLine {
   explicit Slope(double steepness) {
-    image.change = painted([](glm::dvec2 p) { return 20 + 0.5 * p.x; });
-    weights.change = steepness;
+    image.ridge = painted([](glm::dvec2 p) { return 20 + 0.5 * p.x; });
+    weights.contrast = steepness;
   }
   [[nodiscard]] SnakeOutcome fall() const { return minimise(line(6)); }
   static double moved(const SnakeOutcome& out) { return out.control[0].x; }
@@ -257,8 +250,8 @@ TEST(SnakeDescent, TheFlatterTheEnergyTheSoonerADescentStops) {
 // ends.
 TEST(SnakeDescent, ADescentThatOvershootsGivesBackTheBestItMet) {
   ToyLine b;
-  b.weights.change = 1;
-  b.image.change = painted([](glm::dvec2 p) { return std::abs(p.y) < 0.25 ? 1.0 : 0.0; });
+  b.weights.contrast = 1;
+  b.image.ridge = painted([](glm::dvec2 p) { return std::abs(p.y) < 0.25 ? 1.0 : 0.0; });
   const Control beside = moved(line(6), {0, -0.2});
   const SnakeOutcome out = b.minimise(beside);
   EXPECT_GT(out.iterations, 1) << "it went somewhere";

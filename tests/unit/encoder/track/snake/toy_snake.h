@@ -51,7 +51,7 @@ inline cv::Mat1f painted(const std::function<double(glm::dvec2)>& paint) {
 /// A picture without anything in it.
 inline SnakeImage blank() {
   SnakeImage image;
-  image.contrast_x = image.contrast_y = image.change = painted([](glm::dvec2) { return 0.0; });
+  image.contrast_x = image.contrast_y = painted([](glm::dvec2) { return 0.0; });
   image.origin = glm::dvec2(-kHalf);
   image.px_per_unit = kPxPerUnit;
   return image;
