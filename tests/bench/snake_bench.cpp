@@ -11,7 +11,7 @@ namespace {
 void SnakeMinimise(benchmark::State& state) {
   constexpr int kSize = 120;
   SnakeImage image;
-  image.contrast_x = image.contrast_y = image.change = cv::Mat1f::zeros(kSize, kSize);
+  image.contrast_x = image.contrast_y = cv::Mat1f::zeros(kSize, kSize);
   image.origin = {-40, -40};
   image.px_per_unit = 1.5;
   for (int y = 0; y < kSize; ++y) {
@@ -24,7 +24,7 @@ void SnakeMinimise(benchmark::State& state) {
   }
   const SnakeCurve curve = SnakeCurve::closed(10, 40);
   const SnakeWeights weights{
-      .tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .contrast = 1, .change = 0.05};
+      .tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .contrast = 1};
   std::vector<glm::dvec2> start;
   for (int i = 0; i < 10; ++i) {
     const double a = 2 * std::numbers::pi * i / 10;
