@@ -18,7 +18,7 @@ constexpr const char* kExamples =
     "  fbs encode talk.mkv talk.fbs --bitrate 5        aim for a total of 5 kbit/s\n"
     "  fbs encode talk.mkv talk.fbs --patterns 1       send one picture, then only motion\n"
     "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
-    "  fbs encode talk.mkv talk.fbs --landmarks open_face.csv  also start from another tracker's landmarks\n"
+    "  fbs encode talk.mkv talk.fbs --landmarks face.csv  also start from another tracker's landmarks\n"
     "  fbs encode camera:0 talk.fbs                    encode live, until Ctrl-C\n"
     "  fbs encode shots/frame_%05d.png talk.fbs --rate 30";
 

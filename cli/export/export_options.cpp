@@ -12,7 +12,7 @@ constexpr const char* kExamples =
     "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
     "  fbs export talk.fbs head.gltf --draco           the same as text, its mesh compressed\n"
     "  fbs export talk.fbs frames/head_%05d.obj        a mesh for each picture\n"
-    "  fbs export talk.fbs talk.csv                    pose, landmarks, gaze and expression of each picture\n"
+    "  fbs export talk.fbs talk.csv                    pose, landmarks, gaze, expression of each picture\n"
     "  fbs export talk.fbs - --format json | jq .frames[0].face.pose";
 
 }  // namespace
