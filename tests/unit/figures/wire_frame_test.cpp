@@ -35,6 +35,7 @@ double length_of_all_edges(const std::vector<glm::dvec3>& head) {
   for (const HeadTriangle& t : generic_head().triangles)
     for (std::size_t i = 0; i < 3; ++i) edges.insert(std::minmax(t[i], t[(i + 1) % 3]));
   std::vector<LineSegment> lines;
+  lines.reserve(edges.size());
   for (const auto& [a, b] : edges) lines.push_back({glm::dvec2(head[a]), glm::dvec2(head[b])});
   return length(lines);
 }
