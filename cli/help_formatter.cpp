@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
+#include <string_view>
 
 #include "cli/verb.h"
 
@@ -25,13 +25,16 @@ std::size_t columns() {
 
 std::string value_of(const CLI::Option& option) {
   if (option.get_type_size() == 0) return "";
-  static const std::regex range(R"(in \[(\S+) - (\S+)\])");
   const std::string type = option.get_type_name();
-  std::smatch found;
-  if (std::regex_search(type, found, range)) {
-    const bool named = type.find(':') != std::string::npos && !type.starts_with("INT:") &&
-                       !type.starts_with("UINT:") && !type.starts_with("FLOAT");
-    return named ? type.substr(0, type.find(':')) : found[1].str() + ".." + found[2].str();
+  constexpr std::string_view kRange = " in [", kTo = " - ";
+  if (const std::size_t range = type.find(kRange); range != std::string::npos) {
+    const std::string first = type.substr(0, type.find(':'));
+    if (first != "INT" && first != "UINT" && !first.starts_with("FLOAT")) return first;
+    std::string limits = type.substr(range + kRange.size());
+    limits.erase(limits.find(']'));
+    if (const std::size_t to = limits.find(kTo); to != std::string::npos)
+      limits.replace(to, kTo.size(), "..");
+    return limits;
   }
   const std::string name = type.substr(0, type.find(':'));
   return name == "TEXT" ? "FILE" : name;
