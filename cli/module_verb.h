@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/module.h"
+#include "cli/outcome.h"
 #include "common/result.h"
 
 namespace fbs::cli {
@@ -15,6 +16,12 @@ Result<Value> run_in_module(const char* module, const char* symbol, const Argume
   Result<Value> result;
   (*function)(arguments, result);
   return result;
+}
+
+/// A verb that does so, for new_verb() (verb.h).
+inline auto in_module(const char* module, const char* symbol) {
+  return
+      [module, symbol](const auto& arguments) { return run_in_module<Outcome>(module, symbol, arguments); };
 }
 
 }  // namespace fbs::cli

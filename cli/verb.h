@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 
 #include "cli/outcome.h"
 #include "common/result.h"
@@ -23,6 +24,24 @@ void add_export(CLI::App& app, Run& run);
 void add_track(CLI::App& app, Run& run);
 void add_retarget(CLI::App& app, Run& run);
 void add_completions(CLI::App& app, Run& run);
+
+/// A verb that is being added, and the arguments that its options fill.
+template <class Arguments>
+struct NewVerb {
+  CLI::App* app;
+  Arguments& arguments;  ///< live as long as the app
+};
+
+/// @param carry_out  called with the arguments when the command line has the verb
+template <class Arguments, class CarryOut>
+NewVerb<Arguments> new_verb(CLI::App& app, Run& run, const char* name, const char* about,
+                            CarryOut carry_out) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const verb = app.add_subcommand(name, about);
+  verb->callback(
+      [&run, arguments, carry_out] { run = [arguments, carry_out] { return carry_out(*arguments); }; });
+  return {verb, *arguments};
+}
 
 /// Options in this group are for measurements, and --help leaves them out.
 inline constexpr const char* kHiddenGroup = "for measurements";

@@ -1,5 +1,4 @@
 // The options of `fbs decode`.
-#include <memory>
 
 #include "cli/decode/decode_arguments.h"
 #include "cli/verb.h"
@@ -19,9 +18,7 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_decode(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<DecodeArguments>();
-  DecodeArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("decode", "Decode a stream");
+  const auto [verb, a] = new_verb<DecodeArguments>(app, run, "decode", "Decode a stream", run_decode);
   verb->add_option("INPUT", a.input, "Stream to decode, or - for standard input")->required();
   verb->add_option("OUTPUT", a.output,
                    ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard");
@@ -43,7 +40,6 @@ void add_decode(CLI::App& app, Run& run) {
       "is missing; 4: more");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] { run = [arguments] { return run_decode(*arguments); }; });
 }
 
 }  // namespace fbs::cli

@@ -1,6 +1,5 @@
 // The options of `fbs encode`.
 #include <cstdint>
-#include <memory>
 
 #include "cli/encode/encode_arguments.h"
 #include "cli/module_verb.h"
@@ -74,9 +73,8 @@ void add_experiments(CLI::App& verb, EncodeArguments& a) {
 }  // namespace
 
 void add_encode(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<EncodeArguments>();
-  EncodeArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("encode", "Encode a video");
+  const auto [verb, a] = new_verb<EncodeArguments>(app, run, "encode", "Encode a video",
+                                                   in_module(kEncoderModule, kEncodeSymbol));
   verb->add_option("INPUT", a.input,
                    "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
       ->required();
@@ -122,9 +120,6 @@ void add_encode(CLI::App& app, Run& run) {
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
   add_experiments(*verb, a);
   verb->footer(kExamples);
-  verb->callback([&run, arguments] {
-    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kEncodeSymbol, *arguments); };
-  });
 }
 
 }  // namespace fbs::cli

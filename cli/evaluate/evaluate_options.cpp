@@ -1,5 +1,4 @@
 // The options of `fbs evaluate`.
-#include <memory>
 
 #include "cli/encode/encode_arguments.h"
 #include "cli/evaluate/evaluate_arguments.h"
@@ -23,9 +22,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_evaluate(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<EvaluateArguments>();
-  EvaluateArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("evaluate", "Measure rate and distortion against the source");
+  const auto [verb, a] =
+      new_verb<EvaluateArguments>(app, run, "evaluate", "Measure rate and distortion against the source",
+                                  in_module(kEncoderModule, kEvaluateSymbol));
   verb->add_option("SOURCE", a.source, "Source video, or a folder of videos")->required();
   verb->add_option("STREAM", a.streams, "Streams to measure; if none is given, the source is encoded first");
   verb->add_option("--quality", a.qualities, "One or more qualities to encode with [20 35 50 65 80]")
@@ -45,9 +44,6 @@ void add_evaluate(CLI::App& app, Run& run) {
   verb->add_flag("--json", a.json, "Print JSON");
   verb->add_flag("--quiet", a.quiet, "Print no progress");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] {
-    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kEvaluateSymbol, *arguments); };
-  });
 }
 
 }  // namespace fbs::cli

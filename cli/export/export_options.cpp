@@ -1,5 +1,4 @@
 // The options of `fbs export`.
-#include <memory>
 
 #include "cli/export/export_arguments.h"
 #include "cli/verb.h"
@@ -18,9 +17,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_export(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<ExportArguments>();
-  ExportArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("export", "Write the head as a model, or its motion as a table");
+  const auto [verb, a] = new_verb<ExportArguments>(
+      app, run, "export", "Write the head as a model, or its motion as a table", run_export);
   verb->add_option("INPUT", a.input, "Stream to export, or - for standard input")->required();
   verb->add_option(
           "OUTPUT", a.output,
@@ -31,7 +29,6 @@ void add_export(CLI::App& app, Run& run) {
       ->check(CLI::IsMember({"csv", "json"}));
   verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] { run = [arguments] { return run_export(*arguments); }; });
 }
 
 }  // namespace fbs::cli

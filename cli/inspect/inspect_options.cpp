@@ -1,5 +1,4 @@
 // The options of `fbs inspect`.
-#include <memory>
 
 #include "cli/inspect/inspect_arguments.h"
 #include "cli/verb.h"
@@ -16,16 +15,14 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_inspect(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<InspectArguments>();
-  InspectArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("inspect", "Show what a stream contains and the size of each part");
+  const auto [verb, a] = new_verb<InspectArguments>(
+      app, run, "inspect", "Show what a stream contains and the size of each part", run_inspect);
   verb->add_option("INPUT", a.input, "Stream to inspect, or - for standard input")->required();
   verb->add_flag("--packets", a.packets,
                  "List every packet, also of a damaged stream: place, type, time of the first picture that "
                  "it concerns, bytes, and what is wrong; exit code 3: something is");
   verb->add_flag("--json", a.json, "Print JSON");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] { run = [arguments] { return run_inspect(*arguments); }; });
 }
 
 }  // namespace fbs::cli

@@ -1,5 +1,4 @@
 // The options of `fbs play`.
-#include <memory>
 
 #include "cli/module_verb.h"
 #include "cli/play/key_map.h"
@@ -20,9 +19,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_play(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<PlayArguments>();
-  PlayArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("play", "Play a stream in a window; keys move the face");
+  const auto [verb, a] =
+      new_verb<PlayArguments>(app, run, "play", "Play a stream in a window; keys move the face",
+                              in_module(kPlayerModule, kPlaySymbol));
   verb->add_option("INPUT", a.input, "Stream to play, or - for standard input")->required();
   add_from(*verb, a.from);
   verb->add_flag("--loop", a.loop, "Begin again at the end");
@@ -33,9 +32,6 @@ void add_play(CLI::App& app, Run& run) {
       "Save what is seen, at the size of the picture and at the speed of the stream: .mp4, .mkv, "
       ".y4m, frame_%05d.png; while paused, a picture for each change");
   verb->footer("Keys and mouse:\n" + key_help() + "\n\n" + kExamples);
-  verb->callback([&run, arguments] {
-    run = [arguments] { return run_in_module<Outcome>(kPlayerModule, kPlaySymbol, *arguments); };
-  });
 }
 
 }  // namespace fbs::cli

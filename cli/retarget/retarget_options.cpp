@@ -1,5 +1,4 @@
 // The options of `fbs retarget`.
-#include <memory>
 
 #include "cli/encode/encode_arguments.h"
 #include "cli/module_verb.h"
@@ -17,9 +16,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_retarget(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<RetargetArguments>();
-  RetargetArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("retarget", "Give a face the motion of another");
+  const auto [verb, a] = new_verb<RetargetArguments>(
+      app, run, "retarget", "Give a face the motion of another", in_module(kEncoderModule, kRetargetSymbol));
   verb->add_option("--motion", a.motion, "Stream whose pose and expression are used; - for standard input")
       ->required()
       ->type_name("STREAM");
@@ -31,9 +29,6 @@ void add_retarget(CLI::App& app, Run& run) {
       ->check(CLI::Range(0, 100));
   verb->add_flag("--quiet", a.quiet, "Print no summary");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] {
-    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kRetargetSymbol, *arguments); };
-  });
 }
 
 }  // namespace fbs::cli

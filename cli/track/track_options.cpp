@@ -1,5 +1,4 @@
 // The options of `fbs track`.
-#include <memory>
 
 #include "cli/encode/encode_arguments.h"
 #include "cli/module_verb.h"
@@ -21,9 +20,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_track(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<TrackArguments>();
-  TrackArguments& a = *arguments;
-  CLI::App* verb = app.add_subcommand("track", "Follow a face, and write its motion as a table");
+  const auto [verb, a] =
+      new_verb<TrackArguments>(app, run, "track", "Follow a face, and write its motion as a table",
+                               in_module(kEncoderModule, kTrackSymbol));
   verb->add_option("INPUT", a.input,
                    "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
       ->required();
@@ -47,9 +46,6 @@ void add_track(CLI::App& app, Run& run) {
       ->check(number_within(0.01, 1000));
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->footer(kExamples);
-  verb->callback([&run, arguments] {
-    run = [arguments] { return run_in_module<Outcome>(kEncoderModule, kTrackSymbol, *arguments); };
-  });
 }
 
 }  // namespace fbs::cli
