@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bitstream/pattern/pattern_packet.h"
+
 namespace fbs {
 
 std::int32_t pattern_store(const VideoFormat& format) {
@@ -53,7 +55,7 @@ std::size_t packet_end(std::size_t begin, std::size_t arrived, std::span<const s
   std::size_t end = begin, sum = 0;
   do {
     sum += bytes[end++];
-  } while (end < arrived && end - begin < kMaxPatterns && sum + bytes[end] <= kMaxTogether);
+  } while (end < arrived && end - begin < kMaxPatterns && sum + bytes[end] <= kMaxPatternsTogether);
   return end;
 }
 

@@ -54,9 +54,6 @@ struct PlannedPacket {
   std::size_t count;  ///< patterns; otherwise 1
 };
 
-/// Patterns together in a packet have no more bytes: readers search for packets of up to 2^20 behind damage.
-inline constexpr std::size_t kMaxTogether = std::size_t{1} << 19;
-
 /// The packets of a segment in stream order: before each pattern the motion that gives its state, before each
 /// blend all that it is drawn from. Patterns that no blend separates share a packet, but for the scene's
 /// first.

@@ -10,6 +10,10 @@
 
 namespace fbs {
 
+/// Patterns together in a packet should have no more bytes: readers search for packets of up to 2^20 behind
+/// damage.
+inline constexpr std::size_t kMaxPatternsTogether = std::size_t{1} << 19;
+
 /// Writes the pattern packets of one scene, in stream order. A value: a copy continues independently.
 class PatternPacketWriter {
  public:

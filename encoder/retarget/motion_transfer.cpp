@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <span>
 
+#include "encoder/model/fit.h"
 #include "encoder/model/skinning.h"
 
 namespace fbs {
@@ -58,12 +59,6 @@ LipGaps gaps_of(const Geometry& geometry, const Offsets& offsets) {
   return out;
 }
 
-Offsets offsets_of(const State& state) {
-  Offsets out;
-  std::ranges::transform(state.control, out.begin(), [](glm::ivec2 c) { return glm::dvec2(c); });
-  return out;
-}
-
 /// Moves the control points of the inner lips down, and the outer lips with them: both curves run round the
 /// mouth from its right corner.
 /// @param down  of each control point of the inner lips, head units
@@ -112,7 +107,7 @@ void add_to_gaps(const LipGaps& change, Offsets& offsets) {
 LipGaps shut_gaps(const MotionRecord& motion) {
   std::array<std::vector<double>, 3> seen;
   for (const MotionRecord::Entry& picture : motion.pictures) {
-    const LipGaps gaps = gaps_of(motion.geometries[picture.geometry], offsets_of(picture.state));
+    const LipGaps gaps = gaps_of(motion.geometries[picture.geometry], fit_of(picture.state).offsets);
     for (std::size_t i = 0; i < gaps.size(); ++i) seen[i].push_back(gaps[i]);
   }
   LipGaps out{};
@@ -140,7 +135,7 @@ StateNumbers numbers_of(const State& state) {
   to = std::ranges::copy(state.interior, to).out;
   to = std::ranges::copy(state.body, to).out;
   to = std::ranges::copy(state.ground, to).out;
-  std::ranges::copy(to_coefficients(offsets_of(state)), to);
+  std::ranges::copy(to_coefficients(fit_of(state).offsets), to);
   return out;
 }
 
@@ -160,7 +155,7 @@ MotionTransfer::MotionTransfer(const MotionRecord& motion, const FaceStream& fac
 }
 
 Offsets MotionTransfer::scaled(const State& state, std::size_t geometry) const {
-  Offsets out = offsets_of(state);
+  Offsets out = fit_of(state).offsets;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     const Feature& feature = generic_head().features[f];
     for (int c = 0; c < feature.control_count; ++c) out[feature.first_control + c] *= scales_[geometry][f];
@@ -169,7 +164,7 @@ Offsets MotionTransfer::scaled(const State& state, std::size_t geometry) const {
 }
 
 void MotionTransfer::match_gaps(const MotionRecord::Entry& picture, Offsets& offsets) const {
-  const LipGaps moves = gaps_of(motion_.geometries[picture.geometry], offsets_of(picture.state));
+  const LipGaps moves = gaps_of(motion_.geometries[picture.geometry], fit_of(picture.state).offsets);
   const LipGaps now = gaps_of(face_.geometry, offsets);
   LipGaps change{};
   for (std::size_t i = 0; i < change.size(); ++i)

@@ -21,7 +21,6 @@ namespace {
 constexpr std::int32_t kGroupPictures = kMaxGroupPictures;
 /// Coarser steps of the expression would part lips that touch.
 constexpr std::int32_t kMaxControlStep = 16;
-constexpr std::size_t kMaxTogether = std::size_t{1} << 19;  ///< bytes of patterns in a packet
 
 /// The largest step up to `wanted` of which `step` is a multiple, so that what was coded in it is kept.
 std::int32_t finer_step(std::int32_t step, std::int32_t wanted) {
@@ -133,7 +132,7 @@ class SceneWriter {
     if (auto written = write_group(seen, {}); !written) return written;
     for (std::size_t begin = 0, end = 0; begin < patterns.size(); begin = end) {
       std::size_t bytes = patterns[end++].av1.size();
-      while (end < patterns.size() && (bytes += patterns[end].av1.size()) <= kMaxTogether) ++end;
+      while (end < patterns.size() && (bytes += patterns[end].av1.size()) <= kMaxPatternsTogether) ++end;
       const auto payload =
           pattern_packets_.encode(std::span(patterns).subspan(begin, end - begin), setup_, pictures_);
       if (!payload) return fail(payload.error());

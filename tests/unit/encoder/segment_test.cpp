@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "bitstream/pattern/pattern_packet.h"
+
 namespace fbs {
 namespace {
 
@@ -174,7 +176,7 @@ TEST(InStreamOrder, ALaterSegmentStartsWithMotion) {
 
 // Readers search behind damage for packets of at most 2^20 bytes.
 TEST(InStreamOrder, LargePatternsDoNotShareAPacket) {
-  const Numbers shown = {0, 9, 5, 7}, bytes = {20, kMaxTogether - 10, 10, 1};
+  const Numbers shown = {0, 9, 5, 7}, bytes = {20, kMaxPatternsTogether - 10, 10, 1};
   const Segment segment = segment_of({10}, 100);
   const Numbers arrived = arrivals(segment, shown, false);
   const auto packets = in_stream_order(segment, shown, arrived, bytes);
