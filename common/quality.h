@@ -1,4 +1,4 @@
-// Similarity of two pictures: PSNR and SSIM.
+// Similarity of two pictures: PSNR.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,5 @@ struct SquaredError {
 
 /// Where `mask` (of the same size) is not zero.
 [[nodiscard]] SquaredError squared_error(const Plane& a, const Plane& b, const Plane& mask);
-
-/// Mean structural similarity, Wang et al. 2004: 11 x 11 Gaussian of sigma 1.5, borders reflected; -1..1.
-[[nodiscard]] double ssim(const Plane& a, const Plane& b);
 
 }  // namespace fbs

@@ -6,7 +6,7 @@
 
 #include "cli/evaluate/clip_report.h"
 #include "cli/evaluate/evaluate_arguments.h"
-#include "cli/evaluate/peer_codec.h"
+#include "cli/evaluate/peers/peer_codec.h"
 #include "cli/evaluate/run_folder.h"
 #include "cli/video/stop_signal.h"
 #include "common/result.h"

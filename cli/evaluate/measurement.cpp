@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/evaluate/vmaf.h"
+#include "cli/evaluate/quality/vmaf.h"
 #include "cli/progress.h"
 
 namespace fbs::cli {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cli/encode/source_part.h"
-#include "cli/evaluate/face_regions.h"
+#include "cli/evaluate/quality/face_regions.h"
+#include "cli/evaluate/quality/shown_pictures.h"
 #include "cli/evaluate/rd_point.h"
-#include "cli/evaluate/shown_pictures.h"
 #include "cli/video/stop_signal.h"
 #include "common/result.h"
 

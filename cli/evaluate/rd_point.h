@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/evaluate/picture_quality.h"
+#include "cli/evaluate/quality/picture_quality.h"
 #include "common/result.h"
 #include "decoder/stream_decoder.h"
 #include "encoder/encoder.h"

@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
+#include "cli/evaluate/quality/shown_pictures.h"
 #include "cli/evaluate/report/base64.h"
 #include "cli/evaluate/run_folder.h"
-#include "cli/evaluate/shown_pictures.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 

@@ -1,8 +1,8 @@
-#include "cli/evaluate/peer_codec.h"
+#include "cli/evaluate/peers/peer_codec.h"
 
 #include <algorithm>
 
-#include "cli/evaluate/child_process.h"
+#include "cli/evaluate/peers/child_process.h"
 
 namespace fbs::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/evaluate/peer_encoding.h"
+#include "cli/evaluate/peers/peer_encoding.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/evaluate/peer_codec.h"
+#include "cli/evaluate/peers/peer_codec.h"
 #include "cli/video/stop_signal.h"
 #include "common/result.h"
 

@@ -1,4 +1,4 @@
-#include "cli/evaluate/vmaf.h"
+#include "cli/evaluate/quality/vmaf.h"
 
 #include <algorithm>
 #include <fstream>

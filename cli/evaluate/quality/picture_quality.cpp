@@ -1,8 +1,8 @@
-#include "cli/evaluate/picture_quality.h"
+#include "cli/evaluate/quality/picture_quality.h"
 
 #include <algorithm>
 
-#include "cli/evaluate/structural_similarity.h"
+#include "cli/evaluate/quality/structural_similarity.h"
 
 namespace fbs::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/evaluate/face_regions.h"
+#include "cli/evaluate/quality/face_regions.h"
 
 #include <algorithm>
 

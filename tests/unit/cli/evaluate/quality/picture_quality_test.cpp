@@ -1,4 +1,4 @@
-#include "cli/evaluate/picture_quality.h"
+#include "cli/evaluate/quality/picture_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cli/evaluate/child_process.h"
+#include "cli/evaluate/peers/child_process.h"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,4 +1,4 @@
-#include "cli/evaluate/peer_encoding.h"
+#include "cli/evaluate/peers/peer_encoding.h"
 
 #include <array>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/encode/source_part.h"
-#include "cli/evaluate/child_process.h"
+#include "cli/evaluate/peers/child_process.h"
 #include "cli/progress.h"
 
 namespace fbs::cli {

@@ -1,8 +1,8 @@
-#include "cli/evaluate/shown_pictures.h"
+#include "cli/evaluate/quality/shown_pictures.h"
 
 #include <utility>
 
-#include "cli/evaluate/child_process.h"
+#include "cli/evaluate/peers/child_process.h"
 #include "cli/stream/stream_file.h"
 
 namespace fbs::cli {

@@ -1,4 +1,4 @@
-#include "cli/evaluate/structural_similarity.h"
+#include "cli/evaluate/quality/structural_similarity.h"
 
 #include <algorithm>
 #include <array>

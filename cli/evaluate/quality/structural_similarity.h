@@ -10,7 +10,8 @@ struct StructuralSimilarity {
   double ms_ssim = 0;  ///< 0..1
 };
 
-/// SSIM: Wang, Bovik, Sheikh and Simoncelli, *Image Quality Assessment*, 2004, as common/quality.h has it.
+/// SSIM: Wang, Bovik, Sheikh and Simoncelli, *Image Quality Assessment*, 2004: an
+/// 11 x 11 Gaussian of sigma 1.5, borders reflected.
 /// MS-SSIM: Wang, Simoncelli and Bovik, *Multiscale Structural Similarity for Image Quality Assessment*,
 /// 2003, with their five weights; a scale is the mean of 2 x 2 samples of the one before. Differs: borders
 /// are reflected, and scales at which a side would be shorter than the 11 samples of the window are left out,

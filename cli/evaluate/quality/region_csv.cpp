@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "cli/evaluate/face_regions.h"
+#include "cli/evaluate/quality/face_regions.h"
 
 namespace fbs::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/evaluate/child_process.h"
+#include "cli/evaluate/peers/child_process.h"
 #include "common/picture.h"
 #include "common/result.h"
 

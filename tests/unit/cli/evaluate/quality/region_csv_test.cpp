@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/evaluate/face_regions.h"
+#include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/run_folder.h"
 
 namespace fbs::cli {
