@@ -10,12 +10,12 @@
 #include "cli/encode/encode_arguments.h"
 #include "cli/encode/encode_session.h"
 #include "cli/encode/source_part.h"
+#include "cli/encode/until_stopped.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
 #include "cli/output_check.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
-#include "cli/video/stop_signal.h"
 #include "cli/video/video_modules.h"
 
 namespace fbs::cli {
@@ -109,12 +109,10 @@ Result<void> check_files(const EncodeArguments& a) {
 
 Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop) {
   if (auto checked = check_files(arguments); !checked) return fail(checked.error());
-  SourceOptions options;
-  options.stop = &stop;
-  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(arguments.sequence_rate * 1000)), 1000};
-  auto opened = open_video_source(arguments.input, options);
+  auto opened = open_source_part(arguments.input, {arguments.frames, arguments.duration},
+                                 arguments.sequence_rate, stop);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {arguments.frames, arguments.duration}, &stop);
+  SourcePart& source = *opened;
   const auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
   auto file = AtomicFile::create(arguments.output);
@@ -145,23 +143,12 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }
 
-/// Encodes until the end or a signal.
-Result<Outcome> encode_until_stopped(const EncodeArguments& arguments) {
-  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
-  auto encoded = encode(arguments, stop);
-  if (!stop.raised()) return encoded;
-  if (!encoded)
-    std::fprintf(stderr, "fbs: stopped by %s; nothing written: %s\n", stop.name(),
-                 encoded.error().text.c_str());
-  else if (!arguments.quiet)
-    std::fprintf(stderr, "fbs: stopped by %s\n", stop.name());
-  return outcome_of_stop(stop.number());
-}
-
 }  // namespace
 }  // namespace fbs::cli
 
 FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
                                       fbs::Result<fbs::cli::Outcome>& result) {
-  result = fbs::cli::encode_until_stopped(arguments);
+  result =
+      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kStopNotice, "nothing written",
+                              [&](const fbs::StopSignal& stop) { return fbs::cli::encode(arguments, stop); });
 }

@@ -61,6 +61,16 @@ Error about_input(Error error, const std::string& name) {
   return error;
 }
 
+Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits, double sequence_rate,
+                                    const StopSignal& stop) {
+  SourceOptions options;
+  options.stop = &stop;
+  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(sequence_rate * 1000)), 1000};
+  auto opened = open_video_source(name, options);
+  if (!opened) return fail(opened.error());
+  return SourcePart(std::move(*opened), limits, &stop);
+}
+
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
                           const char* done) {
   if (source.failure())

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/video/stop_signal.h"
 #include "cli/video/video_source.h"
@@ -55,6 +56,11 @@ class SourcePart final : public VideoSource {
 
 /// An error about a source: names it unless it names its file already.
 [[nodiscard]] Error about_input(Error error, const std::string& name);
+
+/// Opens `name` (open_video_source()) up to its limits.
+/// @param sequence_rate  pictures per second of image sequences
+[[nodiscard]] Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
+                                                  double sequence_rate, const StopSignal& stop);
 
 /// Says on standard error that a source is not whole.
 /// @param pictures  that were read

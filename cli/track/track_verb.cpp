@@ -1,9 +1,9 @@
 // fbs track: what the encoder's analysis sees in a video, as a table.
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "cli/encode/source_part.h"
+#include "cli/encode/until_stopped.h"
 #include "cli/export/table_output.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
@@ -11,7 +11,6 @@
 #include "cli/progress.h"
 #include "cli/stream/stream_file.h"
 #include "cli/track/track_arguments.h"
-#include "cli/video/stop_signal.h"
 #include "encoder/encoder.h"
 
 namespace fbs::cli {
@@ -100,12 +99,9 @@ Result<TableFormat> check(const TrackArguments& a) {
 Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
   const auto format = check(a);
   if (!format) return fail(format.error());
-  SourceOptions options;
-  options.stop = &stop;
-  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(a.sequence_rate * 1000)), 1000};
-  auto opened = open_video_source(a.input, options);
+  auto opened = open_source_part(a.input, {a.frames, a.duration}, a.sequence_rate, stop);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {a.frames, a.duration}, &stop);
+  SourcePart& source = *opened;
   const auto settings = settings_of(a);
   if (!settings) return fail(settings.error());
   auto encoder = Encoder::create(source.format(), *settings);
@@ -120,23 +116,12 @@ Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
   return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }
 
-/// Tracks until the end or a signal.
-Result<Outcome> track_until_stopped(const TrackArguments& arguments) {
-  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
-  auto tracked = track(arguments, stop);
-  if (!stop.raised()) return tracked;
-  if (!tracked)
-    std::fprintf(stderr, "fbs: stopped by %s; no table written: %s\n", stop.name(),
-                 tracked.error().text.c_str());
-  else if (!arguments.quiet)
-    std::fprintf(stderr, "fbs: stopped by %s\n", stop.name());
-  return outcome_of_stop(stop.number());
-}
-
 }  // namespace
 }  // namespace fbs::cli
 
 FBS_MODULE_EXPORT void fbs_run_track(const fbs::cli::TrackArguments& arguments,
                                      fbs::Result<fbs::cli::Outcome>& result) {
-  result = fbs::cli::track_until_stopped(arguments);
+  result =
+      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kStopNotice, "no table written",
+                              [&](const fbs::StopSignal& stop) { return fbs::cli::track(arguments, stop); });
 }
