@@ -28,7 +28,7 @@ std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   constexpr std::string_view kRange = " in [", kTo = " - ";
   if (const std::size_t range = type.find(kRange); range != std::string::npos) {
-    const std::string first = type.substr(0, type.find(':'));
+    std::string first = type.substr(0, type.find(':'));
     if (first != "INT" && first != "UINT" && !first.starts_with("FLOAT")) return first;
     std::string limits = type.substr(range + kRange.size());
     limits.erase(limits.find(']'));
