@@ -26,17 +26,16 @@ std::size_t columns() {
 std::string value_of(const CLI::Option& option) {
   if (option.get_type_size() == 0) return "";
   const std::string type = option.get_type_name();
+  std::string name = type.substr(0, type.find(':'));
   constexpr std::string_view kRange = " in [", kTo = " - ";
   if (const std::size_t range = type.find(kRange); range != std::string::npos) {
-    std::string first = type.substr(0, type.find(':'));
-    if (first != "INT" && first != "UINT" && !first.starts_with("FLOAT")) return first;
+    if (name != "INT" && name != "UINT" && !name.starts_with("FLOAT")) return name;
     std::string limits = type.substr(range + kRange.size());
     limits.erase(limits.find(']'));
     if (const std::size_t to = limits.find(kTo); to != std::string::npos)
       limits.replace(to, kTo.size(), "..");
     return limits;
   }
-  const std::string name = type.substr(0, type.find(':'));
   return name == "TEXT" ? "FILE" : name;
 }
 
