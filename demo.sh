@@ -49,7 +49,7 @@ while is "$av1_kbps < $fbs_kbps && $crf > 7"; do encode_av1 $divisor $((crf -= 8
 fbs_pictures() { $fbs decode out/fbs.fbs - --quiet; }
 av1_pictures() { ffmpeg -v error -nostdin -i out/av1.mkv -vf "scale=$width:$height" -f yuv4mpegpipe - 2>/dev/null; }
 face=$(awk -F, -v w="$width" -v h="$height" 'NR == 1 { l = w; t = h; next }
-  { for (i = 42; i < NF; i += 2) if ($i != "nan") {
+  { for (i = 42; i <= 142; i += 2) if ($i != "nan") {
       if ($i < l) l = $i; if ($i > r) r = $i; if ($(i+1) < t) t = $(i+1); if ($(i+1) > b) b = $(i+1) } }
   END { l = l < 0 ? 0 : int(l); t = t < 0 ? 0 : int(t); r = r > w ? w : int(r); b = b > h ? h : int(b)
         print "crop=" r - l ":" b - t ":" l ":" t ":exact=1" }' out/fbs.csv)
