@@ -51,6 +51,11 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   return lines;
 }
 
+HelpFormatter::HelpFormatter() {
+  column_width(kNameColumns);
+  label("SUBCOMMAND", "VERB");
+}
+
 std::string HelpFormatter::make_group(std::string group, bool is_positional,
                                       std::vector<const CLI::Option*> options) const {
   return group == kHiddenGroup ? "" : Formatter::make_group(std::move(group), is_positional, options);
@@ -62,6 +67,7 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
   if (!is_positional && !value_of(*option).empty()) name += " " + value_of(*option);
   if (option->get_expected_max() > 1) name += " ...";
   std::string text = option->get_description();
+  if (option->get_required() && !is_positional) text += " (required)";
   if (!option->get_default_str().empty()) text += " (default: " + option->get_default_str() + ")";
   const auto lines = wrapped(text, columns() - kNameColumns);
   std::string out = name;

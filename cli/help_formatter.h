@@ -10,6 +10,7 @@ namespace fbs::cli {
 /// CLI11's own way writes "INT:INT in [0 - 100]=50 Excludes: --bitrate" and does not break lines.
 class HelpFormatter : public CLI::Formatter {
  public:
+  HelpFormatter();
   /// Leaves out the hidden options. CLI11's own way, an empty group, would also leave their names out of
   /// errors.
   [[nodiscard]] std::string make_group(std::string group, bool is_positional,

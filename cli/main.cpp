@@ -14,7 +14,8 @@ namespace {
 constexpr int kFailed = 2;
 
 constexpr const char* kAbout =
-    "fbs, a video codec for talking heads. It sends a picture of the person once, then only the motion.\n";
+    "fbs, a video codec for talking heads. It sends a few pictures of the person, and between them only the "
+    "motion.\n";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -38,6 +39,17 @@ constexpr const char* kExamples =
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
     "--keep-going\n"
     "has lost pictures; 3 when inspect --packets has found damage; 130 or 143 when stopped.";
+
+/// What is wrong with the command line. Only the verb knows its options, and where to read about them.
+std::string text_of(const CLI::ParseError& wrong, const CLI::App& app, int argc, char** argv) {
+  const std::string see_all = "; see fbs --help";
+  if (argc < 2) return "no verb" + see_all;
+  const std::string first = argv[1];
+  if (first.starts_with('-')) return "no option " + first + " before the verb" + see_all;
+  const auto verbs = app.get_subcommands();
+  if (verbs.empty()) return "no verb " + first + see_all;
+  return std::string(wrong.what()) + "; see fbs " + verbs.front()->get_name() + " --help";
+}
 
 /// @return `code`, or kFailed when what was printed does not arrive
 int end_output(int code) {
@@ -68,7 +80,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return end_output(app.exit(asked));
   } catch (const CLI::ParseError& wrong) {
-    std::fprintf(stderr, "fbs: %s; see fbs --help\n", wrong.what());
+    std::fprintf(stderr, "fbs: %s\n", text_of(wrong, app, argc, argv).c_str());
     return kFailed;
   }
   const auto result = run();

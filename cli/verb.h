@@ -37,7 +37,7 @@ template <class Arguments, class CarryOut>
 NewVerb<Arguments> new_verb(CLI::App& app, Run& run, const char* name, const char* about,
                             CarryOut carry_out) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const verb = app.add_subcommand(name, about);
+  CLI::App* const verb = app.add_subcommand(name, about)->group("Verbs");
   verb->callback(
       [&run, arguments, carry_out] { run = [arguments, carry_out] { return carry_out(*arguments); }; });
   return {verb, *arguments};

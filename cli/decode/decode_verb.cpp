@@ -63,6 +63,9 @@ Result<void> check_files(const DecodeArguments& a) {
   if (a.output == "-" && a.md5)
     return fail(ErrorCode::kInvalidArgument, "--md5: standard output has the pictures already");
   if (auto named = check_picture_name(a.output); !named) return named;
+  if (a.vfr && !is_y4m_output(a.output))
+    return fail(ErrorCode::kInvalidArgument,
+                "--vfr needs a Y4M as OUTPUT: others have each picture once anyway");
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}};
   return check_distinct(inputs, outputs);

@@ -10,22 +10,22 @@ namespace fbs::cli {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
-  double bitrate = 0;        ///< target of the total, kbit/s; 0: none, quality decides
-  int patterns = 0;          ///< of a scene; 0: chosen by the encoder
-  std::optional<bool> live;  ///< whether it is; nothing: a camera is
-  double delay = 0.2;        ///< s, of a live source
-  int threads = 0;           ///< of a live source; 0: as many as there are cores
-  double buffer = 2;         ///< s, of a live source with a bitrate
-  double key_interval = 0;   ///< seconds; 0: where it costs little
+  double bitrate = 0;            ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;              ///< of a scene; 0: chosen by the encoder
+  std::optional<bool> live;      ///< whether it is; nothing: a camera is
+  std::optional<double> delay;   ///< s, of a live source
+  std::optional<int> threads;    ///< of a live source; nothing: as many as there are cores
+  std::optional<double> buffer;  ///< s, of a live source with a bitrate
+  double key_interval = 0;       ///< seconds; 0: where it costs little
   int face = 0;
   std::string pattern;    ///< image file: the first pattern; empty: the first picture
   std::string marks;      ///< file; empty: automatic
   std::string landmarks;  ///< file; empty: none
   bool track_only = false;
-  std::string overlay;                 ///< video of the source with mesh and snakes drawn on it; empty: none
-  std::optional<std::int64_t> frames;  ///< encode at most so many pictures
-  std::optional<double> duration;      ///< encode at most so many seconds of the source
-  double sequence_rate = 25;
+  std::string overlay;                  ///< video of the source with mesh and snakes drawn on it; empty: none
+  std::optional<std::int64_t> frames;   ///< encode at most so many pictures
+  std::optional<double> duration;       ///< encode at most so many seconds of the source
+  std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
   bool allow_no_face = false;
   // For measurements; not shown by --help.
   double motion_bitrate = 0;   ///< target of the motion alone, kbit/s; 0: none

@@ -35,14 +35,13 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
   verb.add_flag("--live,!--no-live", a.live,
                 "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
                 "file is better encoded without");
-  verb.add_option("--delay", a.delay, "With --live: seconds of pictures that are encoded together")
-      ->capture_default_str()
+  verb.add_option("--delay", a.delay,
+                  "With --live: seconds of pictures that are encoded together (default: 0.2)")
       ->check(number_within(0.01, 5));
   verb.add_option(
           "--buffer", a.buffer,
           "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
-          "that rate")
-      ->capture_default_str()
+          "that rate (default: 2)")
       ->check(number_within(0.1, 60));
   verb.add_option(
           "--threads", a.threads,
@@ -112,8 +111,7 @@ void add_encode(CLI::App& app, Run& run) {
                    "Encode the first SECONDS only; with --frames, whichever ends first")
       ->check(number_within(0.001, kMaxSeconds))
       ->type_name("SECONDS");
-  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
-      ->capture_default_str()
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
   verb->add_flag("--allow-no-face", a.allow_no_face,
                  "Encode a video without a face, too, instead of failing");

@@ -44,14 +44,32 @@ Result<Picture> read_image(const std::string& name, const VideoFormat& format) {
   return picture;
 }
 
+bool is_live(const EncodeArguments& arguments) {
+  return arguments.live.value_or(arguments.input.starts_with("camera:"));
+}
+
+/// Refuses options that would do nothing.
+Result<void> check_live(const EncodeArguments& a) {
+  const auto refuse = [](const std::string& text) { return fail(ErrorCode::kInvalidArgument, text); };
+  if (!is_live(a)) {
+    const char* option = a.delay ? "--delay" : a.buffer ? "--buffer" : a.threads ? "--threads" : nullptr;
+    if (option != nullptr) return refuse(std::string(option) + " needs --live");
+  }
+  if (a.buffer && a.bitrate <= 0) return refuse("--buffer needs --bitrate, the rate of the channel");
+  return {};
+}
+
 Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
   EncoderSettings settings;
   settings.quality = arguments.quality;
   settings.patterns = arguments.patterns;
   settings.key_interval = arguments.key_interval;
-  if (arguments.live.value_or(arguments.input.starts_with("camera:")))
-    settings.live.emplace(LiveSettings{arguments.delay, arguments.buffer});
-  settings.threads = arguments.threads;
+  if (is_live(arguments)) {
+    LiveSettings& live = settings.live.emplace();
+    live.delay = arguments.delay.value_or(live.delay);
+    live.buffer = arguments.buffer.value_or(live.buffer);
+  }
+  settings.threads = arguments.threads.value_or(settings.threads);
   settings.effort = arguments.effort;
   settings.reduced_patterns = arguments.reduced_patterns;
   settings.pattern_quantiser = arguments.pattern_quantiser;
@@ -87,6 +105,11 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   return settings;
 }
 
+Error with_advice(Error error) {
+  if (error.code == ErrorCode::kNoFace) error.text += "; --allow-no-face encodes it all the same";
+  return error;
+}
+
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded");
   if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
@@ -97,6 +120,7 @@ void print_warnings(const EncodeArguments& arguments, const SourcePart& source, 
 Result<void> check_files(const EncodeArguments& a) {
   if (!a.landmarks.empty() && a.input.starts_with("camera:"))
     return fail(ErrorCode::kInvalidArgument, "--landmarks: pictures of a camera have no numbers");
+  if (auto live = check_live(a); !live) return live;
   if (auto named = check_stream_name(a.output); !named) return named;
   if (!a.pattern.empty() && a.patterns != 1)
     return fail(ErrorCode::kInvalidArgument,
@@ -134,7 +158,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
         return file->write(bytes).and_then([&] { return file->flush(); });
       },
       see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
-  if (!encoded) return fail(about_input(encoded.error(), arguments.input));
+  if (!encoded) return fail(with_advice(about_input(encoded.error(), arguments.input)));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());
   if (auto committed = file->commit(); !committed) return fail(committed.error());

@@ -61,11 +61,14 @@ Error about_input(Error error, const std::string& name) {
   return error;
 }
 
-Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits, double sequence_rate,
-                                    const StopSignal& stop) {
+Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
+                                    std::optional<double> sequence_rate, const StopSignal& stop) {
+  if (sequence_rate && !is_image_sequence(name))
+    return fail(ErrorCode::kInvalidArgument, "--rate is for images: " + name + " has its own");
   SourceOptions options;
   options.stop = &stop;
-  options.sequence_rate = {static_cast<std::uint32_t>(std::lround(sequence_rate * 1000)), 1000};
+  if (sequence_rate)
+    options.sequence_rate = {static_cast<std::uint32_t>(std::lround(*sequence_rate * 1000)), 1000};
   auto opened = open_video_source(name, options);
   if (!opened) return fail(opened.error());
   return SourcePart(std::move(*opened), limits, &stop);

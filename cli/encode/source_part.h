@@ -58,9 +58,11 @@ class SourcePart final : public VideoSource {
 [[nodiscard]] Error about_input(Error error, const std::string& name);
 
 /// Opens `name` (open_video_source()) up to its limits.
-/// @param sequence_rate  pictures per second of image sequences
+/// @param sequence_rate  pictures per second of image sequences, 25 if none is given; refused for other
+/// sources
 [[nodiscard]] Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
-                                                  double sequence_rate, const StopSignal& stop);
+                                                  std::optional<double> sequence_rate,
+                                                  const StopSignal& stop);
 
 /// Says on standard error that a source is not whole.
 /// @param pictures  that were read

@@ -55,7 +55,7 @@ Result<void> check_arguments(const EvaluateArguments& a, const std::vector<std::
     return refuse(a.source + ": a camera does not show the same twice; record it first");
   if (!clips.empty())
     if (auto checked = check_folder(a); !checked) return checked;
-  if (clips.empty() && a.jobs)
+  if (clips.empty() && a.jobs && fs::exists(a.source))
     return refuse("--jobs is for a folder of videos, which " + a.source + " is not");
   if (!a.streams.empty())
     if (auto checked = check_streams(a); !checked) return checked;

@@ -27,7 +27,7 @@ void add_evaluate(CLI::App& app, Run& run) {
                                   in_module(kEncoderModule, kEvaluateSymbol));
   verb->add_option("SOURCE", a.source, "Source video, or a folder of videos")->required();
   verb->add_option("STREAM", a.streams, "Streams to measure; if none is given, the source is encoded first");
-  verb->add_option("--quality", a.qualities, "One or more qualities to encode with [20 35 50 65 80]")
+  verb->add_option("--quality", a.qualities, "One or more qualities to encode with (default: 20 35 50 65 80)")
       ->check(CLI::Range(0, 100))
       ->expected(1, 16);
   verb->add_flag("--live", a.live, "Encode as live pictures are");
@@ -37,9 +37,10 @@ void add_evaluate(CLI::App& app, Run& run) {
       ->type_name("CSV");
   verb->add_option("--html", a.html, "Write a report with curves and pictures")->type_name("FILE");
   verb->add_option("--csv", a.csv, "Write the values of each picture")->type_name("FILE");
-  verb->add_option("--keep", a.keep, "Folder for what is finished [NAME.fbs-run beside --html NAME.html]")
+  verb->add_option("--keep", a.keep,
+                   "Folder for what is finished (default: NAME.fbs-run beside --html NAME.html)")
       ->type_name("DIR");
-  verb->add_option("--jobs", a.jobs, "Videos of a folder to evaluate at the same time")
+  verb->add_option("--jobs", a.jobs, "Videos of a folder to evaluate at the same time (default: 1)")
       ->check(CLI::Range(1, 64));
   verb->add_flag("--json", a.json, "Print JSON");
   verb->add_flag("--quiet", a.quiet, "Print no progress");

@@ -12,7 +12,7 @@ constexpr const char* kExamples =
     "  fbs export talk.fbs head.gltf --draco           the same as text, its mesh compressed\n"
     "  fbs export talk.fbs frames/head_%05d.obj        a mesh for each picture\n"
     "  fbs export talk.fbs talk.csv                    pose, landmarks, gaze, expression of each picture\n"
-    "  fbs export talk.fbs - --format json | jq .frames[0].face.pose";
+    "  fbs export talk.fbs - --format json | jq '.frames[0].face.pose'";
 
 }  // namespace
 
@@ -26,7 +26,8 @@ void add_export(CLI::App& app, Run& run) {
           "standard output")
       ->required();
   verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
-      ->check(CLI::IsMember({"csv", "json"}));
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->type_name("csv|json");
   verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
   verb->footer(kExamples);
 }

@@ -25,7 +25,8 @@ void add_retarget(CLI::App& app, Run& run) {
       ->required()
       ->type_name("STREAM|PICTURE");
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
-  verb->add_option("--quality", a.quality, "Of the picture, from 0 to 100 (default: 70)")
+  verb->add_option("--quality", a.quality,
+                   "Where --face is a picture: of its pattern, from 0 to 100 (default: 70)")
       ->check(CLI::Range(0, 100));
   verb->add_flag("--quiet", a.quiet, "Print no summary");
   verb->footer(kExamples);

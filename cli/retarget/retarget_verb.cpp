@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <vector>
 
-#include "bitstream/packet.h"
 #include "cli/encode/encode_session.h"
 #include "cli/encode/source_part.h"
 #include "cli/module.h"
@@ -13,6 +12,7 @@
 #include "cli/retarget/retarget_arguments.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
+#include "cli/video/video_source.h"
 #include "encoder/retarget/retarget.h"
 
 namespace fbs::cli {
@@ -24,15 +24,6 @@ Result<Bytes> read_stream(const std::string& name) {
   auto file = StreamFile::open(name);
   if (!file) return fail(file.error());
   return file->read_all();
-}
-
-Result<bool> is_stream(const std::string& name) {
-  std::FILE* file = std::fopen(name.c_str(), "rb");
-  if (file == nullptr) return fail(ErrorCode::kIo, "cannot open " + name);
-  std::array<std::uint8_t, kSignature.size()> start{};
-  const std::size_t read = std::fread(start.data(), 1, start.size(), file);
-  std::fclose(file);
-  return read == start.size() && start == kSignature;
 }
 
 /// A stream of the picture alone.
@@ -54,12 +45,11 @@ Result<Bytes> encode_picture(const RetargetArguments& arguments) {
 }
 
 Result<FaceStream> read_face(const RetargetArguments& arguments) {
-  const auto stream = is_stream(arguments.face);
-  if (!stream) return fail(stream.error());
-  if (*stream && arguments.quality)
+  const bool is_stream = is_stream_file(arguments.face);
+  if (is_stream && arguments.quality)
     return fail(ErrorCode::kInvalidArgument,
                 "--quality is for a picture: " + arguments.face + " is a stream, whose patterns are copied");
-  const auto bytes = *stream ? read_stream(arguments.face) : encode_picture(arguments);
+  const auto bytes = is_stream ? read_stream(arguments.face) : encode_picture(arguments);
   if (!bytes) return fail(bytes.error());
   auto face = read_face_stream(*bytes);
   if (!face) return fail(about_file(arguments.face, face.error()));
@@ -90,8 +80,9 @@ Result<Outcome> retarget_files(const RetargetArguments& arguments) {
   if (auto written = out->write(*stream); !written) return fail(written.error());
   if (auto committed = out->commit(); !committed) return fail(committed.error());
   if (!arguments.quiet)
-    std::fprintf(stderr, "%s: %zu pictures, %zu bytes, %zu patterns\n", arguments.output.c_str(),
-                 motion->pictures.size(), stream->size(), face->later.size() + 1);
+    std::fprintf(stderr, "%s: %zu pictures, %zu bytes, %zu pattern%s\n", arguments.output.c_str(),
+                 motion->pictures.size(), stream->size(), face->later.size() + 1,
+                 face->later.empty() ? "" : "s");
   return Outcome::kComplete;
 }
 

@@ -11,10 +11,10 @@ struct TrackArguments {
   std::string input, output;
   std::string format;  ///< of the table: "csv", "json"; empty: by the name of the output
   int face = 0;
-  std::string marks;                   ///< file; empty: automatic
-  std::optional<std::int64_t> frames;  ///< track at most so many pictures
-  std::optional<double> duration;      ///< track at most so many seconds of the source
-  double sequence_rate = 25;
+  std::string marks;                    ///< file; empty: automatic
+  std::optional<std::int64_t> frames;   ///< track at most so many pictures
+  std::optional<double> duration;       ///< track at most so many seconds of the source
+  std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
   bool quiet = false;
 };
 

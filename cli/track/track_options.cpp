@@ -28,7 +28,8 @@ void add_track(CLI::App& app, Run& run) {
       ->required();
   verb->add_option("OUTPUT", a.output, "Table to write (.csv, .json), or - for standard output")->required();
   verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
-      ->check(CLI::IsMember({"csv", "json"}));
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->type_name("csv|json");
   verb->add_option("--marks", a.marks,
                    "JSON file with the positions of facial points in the first picture, as for encode");
   verb->add_option("--face", a.face, "Face to track; 0 is the largest")
@@ -41,8 +42,7 @@ void add_track(CLI::App& app, Run& run) {
                    "Track the first SECONDS only; with --frames, whichever ends first")
       ->check(number_within(0.001, kMaxSeconds))
       ->type_name("SECONDS");
-  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences")
-      ->capture_default_str()
+  verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->footer(kExamples);

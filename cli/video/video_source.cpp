@@ -1,8 +1,12 @@
 #include "cli/video/video_source.h"
 
+#include <array>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
+#include "bitstream/packet.h"
 #include "cli/module.h"
 #include "cli/video/images/number_pattern.h"
 #include "cli/video/video_modules.h"
@@ -12,16 +16,6 @@ namespace fbs {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_image_sequence(const std::string& input) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(input, ignored);
-  if (fs::is_directory(status)) return true;
-  if (fs::exists(status)) return false;
-  if (input.find("://") != std::string::npos) return false;
-  const std::string name = fs::path(input).filename().string();
-  return name.find_first_of("*?") != std::string::npos || parse_number_pattern(name).has_value();
-}
 
 Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const std::string& input,
                                                     const SourceOptions& options) {
@@ -34,11 +28,33 @@ Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const st
 
 }  // namespace
 
+bool is_image_sequence(const std::string& input) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(input, ignored);
+  if (fs::is_directory(status)) return true;
+  if (fs::exists(status)) return false;
+  if (input.find("://") != std::string::npos) return false;
+  const std::string name = fs::path(input).filename().string();
+  return name.find_first_of("*?") != std::string::npos || parse_number_pattern(name).has_value();
+}
+
+bool is_stream_file(const std::string& name) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(name, ignored)) return false;  // what is read from a pipe is gone
+  std::ifstream file(name, std::ios::binary);
+  std::array<char, kSignature.size()> start{};
+  return file.read(start.data(), start.size()) &&
+         std::memcmp(start.data(), kSignature.data(), start.size()) == 0;
+}
+
 Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
                                                        const SourceOptions& options) {
   if (input == "-" || input.ends_with(".y4m")) return open_y4m_source(input);
   if (input.starts_with("camera:")) return open_by_module(kCameraModule, input, options);
   if (is_image_sequence(input)) return open_by_module(kImageModule, input, options);
+  if (is_stream_file(input))
+    return fail(ErrorCode::kUnsupported,
+                "cannot read " + input + ": it is an fbs stream, not a video; fbs decode makes one of it");
   return open_by_module(kAvModule, input, options);
 }
 

@@ -56,6 +56,12 @@ struct SourceOptions {
       nullptr;  ///< must outlive the source; a read that waits ends with an error when it comes
 };
 
+/// Whether `input` names a numbered sequence, several images or a folder of them.
+bool is_image_sequence(const std::string& input);
+
+/// Whether this is a file that begins as a stream does. False of pipes, of which nothing is read.
+bool is_stream_file(const std::string& name);
+
 /// Opens `input`:
 ///   `-`                       Y4M on standard input
 ///   `name.y4m`                Y4M

@@ -28,11 +28,13 @@ TABLE = {
     "encode_folder_named_y4m":  ({"folder.y4m/readme": b"hello"}, "encode folder.y4m out.fbs", ["folder.y4m"]),
     "encode_text":              ({"text.mkv": b"not a video\n" * 100}, "encode text.mkv out.fbs", ["text.mkv", "not a video"]),
     "encode_text_named_y4m":    ({"text.y4m": b"not a video\n" * 100}, "encode text.y4m out.fbs", ["text.y4m", "not a Y4M"]),
+    "encode_stream":            ({}, "encode TALK.fbs out.fbs", ["TALK.fbs", "an fbs stream", "fbs decode"]),
+    "track_stream":             ({}, "track TALK.fbs out.csv", ["TALK.fbs", "an fbs stream"]),
     "encode_empty_file":        ({"empty.mkv": b""}, "encode empty.mkv out.fbs", ["empty.mkv"]),
     "encode_empty_y4m":         ({"empty.y4m": b""}, "encode empty.y4m out.fbs", ["empty.y4m", "empty"]),
     "encode_empty_standard_input": ({}, "encode - out.fbs", ["standard input"]),
     "encode_no_picture":        ({"none.y4m": flat_y4m(128, 96, 0)}, "encode none.y4m out.fbs", ["none.y4m", "no picture"]),
-    "encode_flat_pictures":     ({"flat.y4m": flat_y4m(128, 96, 5)}, "encode flat.y4m out.fbs", ["flat.y4m", NO_FACE]),
+    "encode_flat_pictures":     ({"flat.y4m": flat_y4m(128, 96, 5)}, "encode flat.y4m out.fbs", ["flat.y4m", NO_FACE, "--allow-no-face"]),
     "encode_gradient":          ({"ramp.y4m": flat_y4m(128, 96, 5, lambda x, y: x + y)}, "encode ramp.y4m out.fbs",
                                  ["ramp.y4m", NO_FACE]),
     "encode_small_pictures":    ({"small.y4m": flat_y4m(62, 62, 3)}, "encode small.y4m out.fbs", ["small.y4m", "62x62", "64"]),
@@ -82,6 +84,8 @@ TABLE = {
     "evaluate_flat_pictures":   ({"flat.y4m": flat_y4m(128, 96, 5)}, "evaluate flat.y4m", ["flat.y4m", NO_FACE]),
     "evaluate_other_length":    ({"short.y4m": flat_y4m(176, 144, 5)}, "evaluate short.y4m TALK.fbs", ["TALK.fbs", "short.y4m", "more"]),
     "evaluate_other_size":      ({"other.y4m": flat_y4m(128, 96, 120)}, "evaluate other.y4m TALK.fbs", ["TALK.fbs", "size"]),
+    "evaluate_missing_folder":  ({}, "evaluate absent --jobs 2", ["absent", NO_FILE]),
+    "retarget_missing_face":    ({}, "retarget --motion TALK.fbs --face absent.jpg out.fbs", ["absent.jpg", NO_FILE]),
     "play_missing_file":        ({}, "play absent.fbs", ["absent.fbs", NO_FILE]),
     # OUTPUT of decode and export
     "decode_into_missing_folder": ({}, "decode TALK.fbs absent/out.y4m", ["absent/out.y4m", NO_FILE]),
@@ -102,7 +106,9 @@ TABLE = {
     "decode_mkv_onto_full_disk": ({"out.mkv": "/dev/full"}, "decode TALK.fbs out.mkv", ["out.mkv", "No space left"]),
     # the command line
     "no_verb":                  ({}, "", ["--help"]),
-    "unknown_verb":             ({}, "transmogrify", ["--help"]),
+    "unknown_verb":             ({}, "transmogrify TALK.y4m", ["no verb transmogrify", "--help"]),
+    "option_before_the_verb":   ({}, "--quality 5 encode TALK.y4m out.fbs", ["--quality before the verb"]),
+    "verb_without_names":       ({}, "retarget out.fbs", ["--motion", "see fbs retarget --help"]),
     "unknown_option":           ({}, "encode TALK.y4m out.fbs --colour", ["--colour"]),
     "encode_without_output":    ({}, "encode TALK.y4m", ["OUTPUT"]),
     "too_many_names":           ({}, "inspect TALK.fbs TALK.fbs TALK.fbs", ["--help"]),
@@ -123,6 +129,13 @@ TABLE = {
     "duration_with_a_unit":     ({}, "encode TALK.y4m out.fbs --duration 2min", ["--duration", "2min"]),
     "bitrate_not_a_number":     ({}, "encode TALK.y4m out.fbs --bitrate nan", ["--bitrate", "nan"]),
     "rate_zero":                ({}, "encode TALK.y4m out.fbs --rate 0", ["--rate"]),
+    # options that would do nothing
+    "delay_without_live":       ({}, "encode TALK.y4m out.fbs --delay 1", ["--delay", "--live"]),
+    "threads_without_live":     ({}, "encode TALK.y4m out.fbs --threads 2", ["--threads", "--live"]),
+    "buffer_without_bitrate":   ({}, "encode TALK.y4m out.fbs --live --buffer 1", ["--buffer", "--bitrate"]),
+    "rate_of_a_video":          ({}, "encode TALK.y4m out.fbs --rate 10", ["--rate", "images", "TALK.y4m"]),
+    "track_rate_of_a_video":    ({}, "track TALK.y4m out.csv --rate 10", ["--rate", "images", "TALK.y4m"]),
+    "vfr_of_what_has_times":    ({}, "decode TALK.fbs out.mp4 --vfr", ["--vfr", "Y4M"]),
     "evaluate_quality_too_high": ({}, "evaluate TALK.y4m --quality 20 200", ["--quality", "200"]),
 }
 

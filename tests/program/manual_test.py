@@ -12,7 +12,7 @@ SHELLS = ("bash", "zsh", "fish")
 
 class Manual(ProgramTest):
     def verbs(self):
-        listed = self.succeed("--help").decode().partition("Subcommands:")[2]
+        listed = self.succeed("--help").decode().partition("Verbs:")[2]
         found = re.findall(r"(?m)^  ([a-z]+)  ", listed.partition("Examples:")[0])
         self.assertGreater(len(found), 6)
         return found
