@@ -14,8 +14,7 @@ namespace {
 constexpr int kFailed = 2;
 
 constexpr const char* kAbout =
-    "fbs, a video codec for talking heads. It sends a few pictures of the person, and between them only the "
-    "motion.\n";
+    "fbs, a video codec for talking heads: a few pictures of the person, and between them only motion.\n";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -36,9 +35,8 @@ constexpr const char* kExamples =
     "  fbs retarget --motion a.fbs --face b.fbs c.fbs  b's face with a's motion\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
-    "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode "
-    "--keep-going\n"
-    "has lost pictures; 3 when inspect --packets has found damage; 130 or 143 when stopped.";
+    "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode\n"
+    "--keep-going has lost pictures; 3 when inspect --packets has found damage; 130 or 143 when stopped.";
 
 /// What is wrong with the command line. Only the verb knows its options, and where to read about them.
 std::string text_of(const CLI::ParseError& wrong, const CLI::App& app, int argc, char** argv) {

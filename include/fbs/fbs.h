@@ -5,7 +5,7 @@
  *     for (;;) {
  *       fbs_status status = fbs_decoder_next(decoder, NULL);
  *       if (status == FBS_OK) {
- *         fbs_picture picture;
+ *         fbs_const_picture picture;
  *         fbs_decoder_get_picture(decoder, &picture);
  *         show(&picture);
  *       } else if (status == FBS_NEED_DATA) {

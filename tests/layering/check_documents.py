@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Documents name files that exist, and code that does: links, paths, file names, and in docs/paper.md the names in
+"""Documents name files that exist, and code that does: links with their #anchors, pictures, paths, file names, and in docs/paper.md the names in
 `code` spans too. Run from anywhere; prints what is wrong, with its line."""
 
 import glob
@@ -15,7 +15,8 @@ SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg|gltf"
 # Named in documents, but not ours to have.
 ELSEWHERE = {"measure.py"}
 
-LINK = re.compile(r"\]\(([^)#]+)[^)]*\)")
+LINK = re.compile(r"\]\(([^)#]*)#?([^)]*)\)")
+PICTURE = re.compile(r'(?:src|srcset)="([^"]+)"')
 PATH = re.compile(rf"(?<![\w./-])(?:{FOLDERS})/[\w./*-]*(?:\{{[\w,]+\}})?[\w./*-]*")
 FILE = re.compile(rf"(?<![\w./*%-])\w[\w-]*\.(?:{SUFFIXES})\b")
 CODE = re.compile(r"`([^`]+)`")
@@ -44,12 +45,24 @@ def exists(path):
     return any(glob.glob(str(ROOT / (path + suffix))) for suffix in ("", ".h", ".cpp"))
 
 
+def anchors(document):
+    """Of the headings, as GitHub makes them."""
+    text = re.sub(r"```.*?```", "", document.read_text(), flags=re.S)
+    headings = [LINK.sub("]", heading) for heading in re.findall(r"(?m)^#+ +(.*?) *$", text)]
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 def faults(document, file_names, symbols):
     for number, line in enumerate(document.read_text().splitlines(), 1):
         where = f"{document.relative_to(ROOT)}:{number}"
-        for target in LINK.findall(line):
-            if "://" not in target and not (document.parent / target).exists():
+        for target, anchor in LINK.findall(line) + [(picture, "") for picture in PICTURE.findall(line)]:
+            linked = document.parent / target if target else document
+            if "://" in target:
+                continue
+            if not linked.exists():
                 yield f"{where}: no file {target}"
+            elif anchor and anchor not in anchors(linked):
+                yield f"{where}: no heading {target}#{anchor}"
         without_links = LINK.sub("]", line)
         for path in PATH.findall(without_links):
             for one in braces(path):

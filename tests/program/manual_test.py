@@ -28,6 +28,7 @@ class Manual(ProgramTest):
         return set(done.stdout.split())
 
     def test_every_verb_has_examples_and_lines_that_fit(self):
+        self.assertLessEqual(max(map(len, self.succeed("--help").decode().splitlines())), COLUMNS)
         for verb in self.verbs():
             with self.subTest(verb=verb):
                 text = self.succeed(verb, "--help").decode()
@@ -61,5 +62,6 @@ class Manual(ProgramTest):
             with self.subTest(verb=verb):
                 page = (BUILD / f"docs/fbs-{verb}.1").read_text().replace("\\-", "-")
                 self.assertIn("EXAMPLES", page)
+                self.assertNotIn("??", page, "a letter that help2man does not know")
                 for option in self.options(verb):
                     self.assertIn(option, page)
