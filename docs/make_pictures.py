@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the generated parts of docs/: talker.png, head.svg and the list of vertices in marks.md.
+"""Makes the generated parts of docs/: talker.jpg, the pictures of how-it-works.md, head.svg and the list of vertices in
+marks.md.
 
-    docs/make_pictures.py [BUILD]       BUILD contains the programs fbs and talker; default build/release
+    docs/make_pictures.py [BUILD]       BUILD contains fbs, talker and step_pictures; default build/release
 
-Needs ffmpeg with drawtext and the font DejaVu Sans. The talker is rendered by samples/talker.
+All show the talker of samples/. Needs ffmpeg with drawtext and the font DejaVu Sans.
 """
 
 import base64
@@ -15,19 +16,42 @@ import subprocess
 import sys
 import tempfile
 
+from diagrams import byte_bar, pipeline
+
 DOCS = pathlib.Path(__file__).resolve().parent
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 SIZE, PICTURES, SHOWN = 480, 300, 145
+STEPS = {  # panels of step_pictures, with what is written above each
+    "adaptation": ["first picture", "68 landmarks found", "generic head, adapted"],
+    "contours": ["mouth shut", "open", "eyes shut"],
+    "patterns": ["first pattern, as sent", "its head, laid flat", "a later pattern", "its head, laid flat"],
+    "decoded": ["source", "mesh, as sent", "decoded", "difference, 4 times"],
+}
 FEATURES = ["outer lips", "inner lips", "right brow", "left brow", "right upper lid", "left upper lid",
             "right lower lid", "left lower lid", "right pupil", "left pupil"]
 
 
-def talker_picture(build, target):
-    """Source, mesh and decoded picture SHOWN side by side, labelled with the bitrate."""
+def run(*args):
+    return subprocess.run(list(map(str, args)), check=True, capture_output=True, text=True).stdout
+
+
+def strip(panels, target, before=""):
+    """Puts (file, text) beside each other, each text above its panel.
+    @param before  filters that come first, with a comma at the end"""
+    chains = [f"[{i}:v]{before}setsar=1,pad=iw:ih+34:0:34:white,drawtext=fontfile={FONT}:"
+              f"text='{text.replace(':', chr(92) + ':')}':fontsize=17:x=8:y=23-max_glyph_a[v{i}]"
+              for i, (_, text) in enumerate(panels)]
+    graph = ";".join(chains) + ";" + "".join(f"[v{i}]" for i in range(len(panels)))
+    inputs = [word for file, _ in panels for word in ("-i", file)]
+    run("ffmpeg", "-v", "error", "-y", *inputs, "-filter_complex", f"{graph}hstack={len(panels)},format=yuvj444p",
+        "-frames:v", "1", "-q:v", "3", "-bitexact", target)
+
+
+def talker_pictures(build, target, bar):
+    """Source, mesh and decoded picture SHOWN side by side, labelled with the bitrate; and what the stream's bytes are."""
     with tempfile.TemporaryDirectory() as folder:
-        at = lambda name: str(pathlib.Path(folder) / name)
-        run = lambda *args: subprocess.run(args, check=True, capture_output=True, text=True).stdout
-        run(f"{build}/talker", at("a.y4m"), "--size", f"{SIZE}x{SIZE}", "--frames", str(PICTURES))
+        at = lambda name: pathlib.Path(folder) / name
+        run(f"{build}/talker", at("a.y4m"), "--size", f"{SIZE}x{SIZE}", "--frames", PICTURES)
         run(f"{build}/fbs", "encode", at("a.y4m"), at("a.fbs"), "--overlay", at("b.y4m"), "--quiet")
         run(f"{build}/fbs", "decode", at("a.fbs"), at("c.y4m"), "--quiet")
         seen = json.loads(run(f"{build}/fbs", "inspect", at("a.fbs"), "--json"))
@@ -35,12 +59,17 @@ def talker_picture(build, target):
         bits = seen["bytes"]["motion"] * 8 / seen["frames"]
         labels = [f"source, picture {SHOWN} of {PICTURES}", "mesh and snakes",
                   f"decoded: total {total:.1f} kbit/s, {bits:.0f} bits of motion per picture"]
-        chains = [f"[{i}:v]select=eq(n\\,{SHOWN}),scale={SIZE}:{SIZE},setsar=1,pad=iw:ih+34:0:34:white,"
-                  f"drawtext=fontfile={FONT}:text='{text.replace(':', chr(92) + ':')}':fontsize=17:x=8:y=9[v{i}]"
-                  for i, text in enumerate(labels)]
-        graph = ";".join(chains) + ";[v0][v1][v2]hstack=3"
-        run("ffmpeg", "-v", "error", "-y", "-i", at("a.y4m"), "-i", at("b.y4m"), "-i", at("c.y4m"),
-            "-filter_complex", graph, "-frames:v", "1", str(target))
+        strip([(at(f"{name}.y4m"), label) for name, label in zip("abc", labels)], target,
+              f"select=eq(n\\,{SHOWN}),scale={SIZE}:{SIZE},")
+        bar.write_text(byte_bar(seen))
+
+
+def step_pictures(build, folder):
+    """What each step of how-it-works.md makes of a talker."""
+    with tempfile.TemporaryDirectory() as panels:
+        run(f"{build}/step_pictures", panels)
+        for name, texts in STEPS.items():
+            strip([(f"{panels}/{name}_{i + 1}.png", text) for i, text in enumerate(texts)], folder / f"{name}.jpg")
 
 
 def head():
@@ -88,6 +117,9 @@ def vertex_list(target):
 
 
 if __name__ == "__main__":
+    programs = sys.argv[1] if len(sys.argv) > 1 else DOCS.parent / "build/release"
     head_drawing(DOCS / "head.svg")
     vertex_list(DOCS / "marks.md")
-    talker_picture(sys.argv[1] if len(sys.argv) > 1 else DOCS.parent / "build/release", DOCS / "talker.png")
+    (DOCS / "pictures/pipeline.svg").write_text(pipeline())
+    step_pictures(programs, DOCS / "pictures")
+    talker_pictures(programs, DOCS / "talker.jpg", DOCS / "pictures/bytes.svg")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Documents name files that exist, and code that does: links with their #anchors, pictures, paths, file names, and in docs/paper.md the names in
-`code` spans too. Run from anywhere; prints what is wrong, with its line."""
+"""Documents name files that exist, and code that does: links with their #anchors, pictures, paths, file names, and in
+docs/paper.md the names in `code` spans too. Run from anywhere; prints what is wrong, with its line."""
 
 import glob
 import pathlib
@@ -8,7 +8,8 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "samples/README.md", "tests/*/README.md"]
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "docs/pictures/*.svg",
+             "samples/README.md", "tests/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
 FOLDERS = "bitstream|cli|common|decoder|docs|encoder|include|library|samples|scripts|tests"
 SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg|gltf"

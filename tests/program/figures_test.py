@@ -1,5 +1,5 @@
 """The paper's figures can be drawn: the one with teeth shows the effect of repulsion, and another face opens its mouth as
-the one that is followed does."""
+the one that is followed does. So can the pictures of docs/how-it-works.md."""
 import re
 import struct
 import subprocess
@@ -8,6 +8,7 @@ from harness import BUILD, MAX_SECONDS, ProgramTest
 
 TALKERS = tuple(f"talker_figure{number}.png" for number in (1, 3, 4, 5, 6, 7))
 FIGURES = ("figure2.png", "painted_figure1.png", *TALKERS)
+STEPS = {"adaptation": 3, "contours": 3, "patterns": 4, "decoded": 4}  # panels of step_pictures
 
 
 def png_size(data):
@@ -16,6 +17,17 @@ def png_size(data):
 
 
 class Figures(ProgramTest):
+    def test_step_pictures(self):
+        done = subprocess.run([BUILD / "step_pictures", self.folder / "out"], capture_output=True, text=True,
+                              timeout=MAX_SECONDS)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        files = self.files()
+        self.assertEqual(set(files), {f"out/{name}_{i + 1}.png" for name, count in STEPS.items() for i in range(count)})
+        for name in STEPS:  # they stand beside each other
+            heights = {png_size(data)[1] for file, data in files.items() if file.startswith(f"out/{name}_")}
+            self.assertEqual(len(heights), 1, name)
+        self.assertEqual(len(set(files.values())), len(files), "no panel shows the same as another")
+
     def test_paper_figures(self):
         done = subprocess.run([BUILD / "paper_figures", self.folder / "out"], capture_output=True, text=True,
                               timeout=MAX_SECONDS)
