@@ -125,9 +125,9 @@ struct Encoder::Impl {
     if (faces.empty()) return std::nullopt;
     if (faces.size() > number) return marks_of(faces[number]);
     if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
-    return fail(ErrorCode::kInvalidArgument, "no face " + std::to_string(number) + ": picture " +
-                                                 std::to_string(report.pictures) + " shows " +
-                                                 std::to_string(faces.size()) + ", numbered from 0");
+    return fail(ErrorCode::kInvalidArgument,
+                "no face " + std::to_string(number) + ": picture " + std::to_string(report.pictures) +
+                    " shows " + std::to_string(faces.size()) + ", and the largest is face 0");
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
