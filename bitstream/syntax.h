@@ -4,15 +4,17 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "bitstream/coded_state.h"
+#include "common/generic_head.h"
 #include "common/picture.h"
 #include "common/state.h"
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 6;
+inline constexpr int kFormatVersion = 7;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;
@@ -69,6 +71,7 @@ enum class PacketType : std::uint8_t {
   kMotion = 5,    ///< the states of a group of pictures
   kEnd = 6,       ///< number of pictures of the stream
   kBlend = 7,     ///< how consecutive pictures are blended from patterns
+  kWireFrame = 8  ///< the wire-frame of the geometry that follows, in the place of the generic head
 };
 
 /// A colour in the video's own range and matrix.
@@ -98,9 +101,11 @@ struct Setup {
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 
-/// The adapted head: position of each vertex of the generic head for this face, expressionless. Head units.
+/// The adapted head: position of each vertex of the wire-frame for this face, expressionless. Head units.
 struct Geometry {
-  std::array<glm::ivec3, kVertexCount> positions{};  ///< each coordinate within +-4 * kUnitsPerEyeDistance
+  std::vector<glm::ivec3> positions = std::vector<glm::ivec3>(kVertexCount);  ///< within +-kMaxCoordinate
+  std::shared_ptr<const WireFrame> own_frame;                                 ///< null: the generic head
+  [[nodiscard]] const WireFrame& wire_frame() const { return own_frame ? *own_frame : generic_head(); }
   friend bool operator==(const Geometry&, const Geometry&) = default;
 };
 

@@ -792,8 +792,9 @@ constexpr std::array<ExpressionPart, kExpressionPartCount> kExpression{{
     {"gaze", 34, 2, kRows4},
 }};
 
-constexpr GenericHead kHead{kVertices, kTriangles,    kOutline, kFeatures,
-                            kSkinningBegin, kSkinning, kLandmarkVertex, kExpression};
+constinit const GenericHead kHead{{kVertices, kTriangles, kOutline, kFeatures, kSkinningBegin, kSkinning,
+                         kLandmarkVertex, kHeadAtlas},
+                        kExpression};
 
 }  // namespace
 

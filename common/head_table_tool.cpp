@@ -185,8 +185,10 @@ bool write_table(std::ostream& out, const Model& model) {
   write_features(out, extras.Get("features"));
   write_skinning(out, vertices);
   write_expression(out, extras.Get("expression"));
-  out << "constexpr GenericHead kHead{kVertices, kTriangles,    kOutline, kFeatures,\n"
-         "                            kSkinningBegin, kSkinning, kLandmarkVertex, kExpression};\n\n"
+  out << "constinit const GenericHead kHead{{kVertices, kTriangles, kOutline, kFeatures, kSkinningBegin, "
+         "kSkinning,\n"
+         "                         kLandmarkVertex, kHeadAtlas},\n"
+         "                        kExpression};\n\n"
          "}  // namespace\n\n"
          "const GenericHead& generic_head() { return kHead; }\n\n"
          "}  // namespace fbs\n";

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bitstream/syntax.h"
-#include "decoder/head/head_mesh.h"
 #include "decoder/raster/rasteriser.h"
 
 namespace fbs {
@@ -28,7 +27,7 @@ Contrasts inverse(Contrasts contrast) {
 }
 
 /// Shares of the face: two constant textures blended over the head and the ring round it.
-Plane draw_shares(int width, int height, PlaneScale scale, const TextureMesh& texture) {
+Plane draw_shares(int width, int height, PlaneScale scale, const HeadMesh& head, const TextureMesh& texture) {
   Plane out(width, height), unused = out;
   const Plane face(1, 1, kShareOne), surround(1, 1, 0);
   const std::array<ConstPlaneView, 2> face_planes{face, face}, surround_planes{surround, surround};
@@ -38,11 +37,11 @@ Plane draw_shares(int width, int height, PlaneScale scale, const TextureMesh& te
   sources[0].planes = std::span(face_planes).first(count);
   sources[1].planes = std::span(surround_planes).first(count);
   const RasterTarget target{scale, std::span(target_planes).first(count), {0, 0, width, height}};
-  for (const HeadTriangle& triangle : head_mesh().triangles) {
+  for (const HeadTriangle& triangle : head.triangles) {
     ScreenTriangle t;
     for (std::size_t i = 0; i < t.size(); ++i) {
       t[i] = {texture.head[triangle[i]], 0};
-      sources[0].weight[i] = triangle[i] < static_cast<int>(kVertexCount) ? kWeightOne : 0;
+      sources[0].weight[i] = triangle[i] < head.head_count ? kWeightOne : 0;
     }
     draw_triangle(t, sources, target);
   }
@@ -70,10 +69,10 @@ void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contras
 
 }  // namespace
 
-ContrastMap::ContrastMap(const Setup& setup, const TextureMesh& texture)
-    : luma_(draw_shares(setup.format.width, setup.format.height, PlaneScale::kLuma, texture)),
+ContrastMap::ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture)
+    : luma_(draw_shares(setup.format.width, setup.format.height, PlaneScale::kLuma, head, texture)),
       chroma_(draw_shares((setup.format.width + 1) / 2, (setup.format.height + 1) / 2, PlaneScale::kChroma,
-                          texture)),
+                          head, texture)),
       surround_(setup.contrast),
       face_chroma_(setup.chroma_contrast) {}
 

@@ -7,6 +7,7 @@
 #include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
+#include "decoder/head/head_mesh.h"
 
 namespace fbs {
 
@@ -21,7 +22,7 @@ class ContrastMap {
   /// @param setup    its picture size and contrasts
   /// @param texture  of the pattern: the face's contrast inside its outline, the surround's from the ring
   ///                 outwards, linear between
-  ContrastMap(const Setup& setup, const TextureMesh& texture);
+  ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture);
 
   /// From a pattern as it is coded to what it shows.
   void expand(Picture& picture) const;

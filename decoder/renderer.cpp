@@ -32,12 +32,12 @@ SampleArea whole(const PlaneView& plane) {
 bool fits(const Pattern& pattern, const SceneGeometry& geometry) {
   const TextureMesh& texture = pattern.texture;
   const std::size_t points =
-      geometry.surround().point_count() + (geometry.is_plane() ? head_mesh().vertex_count : 0);
-  if (texture.head.size() != head_mesh().vertex_count || texture.areas.size() != texture.head.size() ||
-      texture.surround.size() != points || !pattern.padded)
+      geometry.surround().point_count() + (geometry.is_plane() ? geometry.head_mesh().vertex_count : 0);
+  if (texture.head.size() != geometry.head_mesh().vertex_count ||
+      texture.areas.size() != texture.head.size() || texture.surround.size() != points || !pattern.padded)
     return false;
   if (geometry.is_plane()) return true;
-  const AtlasLayout& layout = atlas_layout(geometry.rest_scale());
+  const AtlasLayout& layout = geometry.atlas_layout();
   return pattern.atlas.width() == layout.width && pattern.atlas.height() == layout.height;
 }
 
@@ -132,8 +132,9 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const NodeGrid grid(size.width(), size.height());
   find_nodes(scene, grid, drawing);
   const bool has_head = scene.geometry && !scene.geometry->is_plane();
-  const HeadWeights weights = has_head ? head_weights(drawing.blend) : HeadWeights{};
-  const AtlasLayout* const layout = has_head ? &atlas_layout(scene.geometry->rest_scale()) : nullptr;
+  const HeadWeights weights =
+      has_head ? head_weights(drawing.blend, scene.geometry->geometry().wire_frame()) : HeadWeights{};
+  const AtlasLayout* const layout = has_head ? &scene.geometry->atlas_layout() : nullptr;
   if (has_head) atlas_.begin(weights, *layout);
   const int atlas_rows = has_head ? layout->cover.grid().block_rows : 0;
   // Rows of the atlas and of the surround, and then the head over it.
@@ -147,7 +148,7 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
       scratch.surround.draw_row(surround, rows.first + k - atlas_rows);
   });
   if (!has_head) return;
-  const HeadTexture texture{*layout, atlas_.planes(), weights};
+  const HeadTexture texture{*scene.geometry, *layout, atlas_.planes(), weights};
   workers_->run(chroma.empty() ? 1 : 2, [&](int k, int) {
     HeadPainter(drawing, texture, k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma,
                 k == 0 ? luma_depth_ : chroma_depth_)

@@ -11,8 +11,8 @@ void Pattern::set_geometry(const SceneGeometry& geometry) {
   if (picture.y.samples.empty()) return;  // an encoder may know the state before the picture
   if (!padded) padded.emplace(fbs::padded(picture));
   if (!geometry.is_plane())
-    draw_atlas(atlas_layout(geometry.rest_scale()), {picture.y, picture.u, picture.v}, texture.head,
-               texture.light, atlas);
+    draw_atlas(geometry.atlas_layout(), {picture.y, picture.u, picture.v}, texture.head, texture.light,
+               atlas);
 }
 
 Pattern make_pattern(Picture picture, const State& seen, const std::optional<SceneGeometry>& geometry) {
@@ -24,7 +24,7 @@ Pattern make_pattern(Picture picture, const State& seen, const std::optional<Sce
 Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional<SceneGeometry>& geometry,
                            const Setup& setup) {
   if (geometry && ContrastMap::is_needed(setup))
-    ContrastMap(setup, geometry->texture_mesh(seen)).expand(coded);
+    ContrastMap(setup, geometry->head_mesh(), geometry->texture_mesh(seen)).expand(coded);
   return make_pattern(std::move(coded), seen, geometry);
 }
 

@@ -7,6 +7,7 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/wire_frame_payload.h"
 
 namespace fbs {
 namespace {
@@ -17,8 +18,13 @@ class Indexer {
   void take(const Packet& packet) {
     if (packet.type == PacketType::kSetup) begin(packet);
     if (packet.type == PacketType::kEnd) close(packet.offset);
-    if (packet.type == PacketType::kGeometry && open_) {
-      const auto geometry = decode_geometry(packet.payload);
+    if (packet.type == PacketType::kWireFrame && open_) {
+      const auto frame = decode_wire_frame(packet.payload);
+      lost_ = lost_ || !frame;
+      wire_frame_ = frame.value_or(nullptr);
+    }
+    if (packet.type == PacketType::kGeometry && open_ && !lost_) {
+      const auto geometry = decode_geometry(packet.payload, wire_frame_);
       scenes_.back().face = geometry && !is_flat(*geometry);
     }
   }
@@ -39,6 +45,8 @@ class Indexer {
       return;
     scenes_.push_back({setup->before, packet.offset, 0, false});
     open_ = true;
+    lost_ = false;
+    wire_frame_.reset();
   }
 
   void close(std::uint64_t offset) {
@@ -48,6 +56,8 @@ class Indexer {
 
   std::vector<SceneEntry> scenes_;
   bool open_ = false;  // the last scene goes on
+  bool lost_ = false;  // what is left of it
+  std::shared_ptr<const WireFrame> wire_frame_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "bitstream/payload/wire_frame_payload.h"
 #include "bitstream/track.h"
 
 namespace fbs {
@@ -106,6 +107,7 @@ void StreamDecoder::count(const Packet& packet) {
   bytes_.other += packet.offset - bytes_.total;
   bytes_.total = packet.offset + packet.size;
   switch (packet.type) {
+    case PacketType::kWireFrame:
     case PacketType::kGeometry:
     case PacketType::kSurround:
       bytes_.geometry += packet.size;
@@ -132,6 +134,7 @@ Result<void> StreamDecoder::take(const Packet& packet) {
       return take_setup(packet);
     case PacketType::kEnd:
       return take_end(packet);
+    case PacketType::kWireFrame:
     case PacketType::kGeometry:
     case PacketType::kSurround:
     case PacketType::kPattern:
@@ -205,6 +208,7 @@ void StreamDecoder::begin_scene() {
   timeline_ = {};
   lost_ = false;
   bit_counter_.reset();
+  wire_frame_.reset();
   geometry_.reset();
   surround_ = still_surround();
   has_setup_ = true;
@@ -214,9 +218,15 @@ Result<void> StreamDecoder::take_of_scene(const Packet& packet) {
   if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
   switch (packet.type) {
     case PacketType::kGeometry: {
-      auto geometry = decode_geometry(packet.payload);
+      auto geometry = decode_geometry(packet.payload, wire_frame_);
       if (!geometry) return at(packet, geometry.error());
       if (scene_.patterns.empty()) geometry_ = *geometry;
+      return {};
+    }
+    case PacketType::kWireFrame: {
+      auto frame = decode_wire_frame(packet.payload);
+      if (!frame) return at(packet, frame.error());
+      wire_frame_ = std::move(*frame);
       return {};
     }
     case PacketType::kSurround:

@@ -177,6 +177,7 @@ class StreamDecoder {
   Scene scene_;                          ///< of the last setup packet
   std::size_t slots_ = 0;                ///< that its patterns fill, with those that have yet to come into it
   bool has_setup_ = false;
+  std::shared_ptr<const WireFrame> wire_frame_;  // of the scene; null: the generic head
   std::optional<Geometry> geometry_;
   SurroundMap surround_ = still_surround();
   State rest_;  ///< in which the scene's first pattern was seen

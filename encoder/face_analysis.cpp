@@ -57,7 +57,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);
   }
-  seen.vertices = project_vertices(geometry_.positions, seen.state);
+  seen.vertices = project_vertices(geometry_, seen.state);
   write_report(seen);
   return seen;
 }

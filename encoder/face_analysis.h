@@ -33,10 +33,10 @@ class FaceAnalysis {
   FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder, const AnalysisStart& start);
 
   struct Observation {
-    State state;                                      ///< as fitted, in whole units
-    bool face = true;                                 ///< whether it is followed; else its state is a guess
-    PictureCost cost;                                 ///< of other states
-    std::array<glm::ivec3, kVertexCount> vertices{};  ///< project_vertices() of the state
+    State state;                       ///< as fitted, in whole units
+    bool face = true;                  ///< whether it is followed; else its state is a guess
+    PictureCost cost;                  ///< of other states
+    std::vector<glm::ivec3> vertices;  ///< project_vertices() of the state
   };
   /// The next picture; the scene's first one first.
   [[nodiscard]] Observation observe(const Picture& picture);

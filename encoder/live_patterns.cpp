@@ -195,7 +195,8 @@ Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t ti
   if (!picture) return fail(picture.error());
   const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[time];
   if (ContrastMap::is_needed(scene.setup))
-    ContrastMap(scene.setup, scene.geometry->texture_mesh(seen)).reduce(*picture);
+    ContrastMap(scene.setup, scene.geometry->head_mesh(), scene.geometry->texture_mesh(seen))
+        .reduce(*picture);
   auto frames = av1_->encode(settings_.reduced ? downscaled(*picture) : *picture);
   if (!frames) return fail(frames.error());
   if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");

@@ -242,7 +242,8 @@ Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceS
   std::vector<Picture> pictures = draft.pictures;
   if (ContrastMap::is_needed(scene.setup))
     for (std::size_t k = 0; k < pictures.size(); ++k)
-      ContrastMap(scene.setup, scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
+      ContrastMap(scene.setup, scene.geometry->head_mesh(),
+                  scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
           .reduce(pictures[k]);
   auto coded = code_pattern_sequence(format_, pictures, coding);
   if (!coded) return fail(coded.error());

@@ -8,7 +8,7 @@ namespace fbs {
 namespace {
 
 std::int32_t mouth_gap_of(const State& state, const SceneGeometry& geometry) {
-  return mouth_gap(deform(geometry.geometry().positions, state));
+  return mouth_gap(geometry.geometry(), state);
 }
 
 }  // namespace

@@ -206,12 +206,18 @@ fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* o
   });
 }
 
-fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out) {
+fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out, size_t* count) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return decoder->error.set_argument(kNull);
-  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
-    write_vertices(face, state, std::span<fbs_vertex, kVertexCount>(out, kVertexCount));
+  if (out == nullptr || count == nullptr) return decoder->error.set_argument(kNull);
+  const std::size_t room = *count;
+  *count = 0;
+  const fbs_status status = decoder->with_face([&](const SceneGeometry& face, const State& state) {
+    *count = face.geometry().positions.size();
+    if (*count <= room) write_vertices(face, state, {out, *count});
   });
+  if (status == FBS_OK && *count > room)
+    return decoder->error.set_argument("there is no room for the vertices");
+  return status;
 }
 
 const char* fbs_decoder_error(const fbs_decoder* decoder) {

@@ -1,7 +1,7 @@
 #include "library/face_data.h"
 
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "decoder/head/head_projection.h"
 
@@ -13,17 +13,17 @@ constexpr float kPixelsPerUnit = 1.0F / (1 << kScreenOneLog2);
 constexpr float kEyeDistancesPerUnit = 1.0F / kUnitsPerEyeDistance;
 constexpr double kOctavesPerUnit = 1.0 / 4096;
 
-using Vertices = std::array<glm::ivec3, kVertexCount>;
+using Vertices = std::vector<glm::ivec3>;
 
 /// Areas of the triangles at each vertex, those turned to the viewer and those turned away. Their
 /// parallelograms, 1/64 pixel squared: only the ratio matters.
 struct VertexAreas {
-  std::array<double, kVertexCount> seen{}, hidden{};
+  std::vector<double> seen, hidden;
 };
 
-VertexAreas areas_of(const Vertices& vertices) {
-  VertexAreas out;
-  for (const HeadTriangle& t : generic_head().triangles) {
+VertexAreas areas_of(const WireFrame& head, const Vertices& vertices) {
+  VertexAreas out{std::vector<double>(vertices.size()), std::vector<double>(vertices.size())};
+  for (const HeadTriangle& t : head.triangles) {
     const glm::ivec3 a = vertices[t[1]] - vertices[t[0]], b = vertices[t[2]] - vertices[t[0]];
     const std::int64_t area = std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
     auto& side = area > 0 ? out.seen : out.hidden;
@@ -50,9 +50,9 @@ fbs_face_state face_state(const State& state) {
   return out;
 }
 
-void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex, kVertexCount> out) {
+void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex> out) {
   const Vertices vertices = face.project_vertices(state);
-  for (std::size_t v = 0; v < vertices.size(); ++v)
+  for (std::size_t v = 0; v < out.size(); ++v)
     out[v] = {static_cast<float>(vertices[v].x) * kPixelsPerUnit,
               static_cast<float>(vertices[v].y) * kPixelsPerUnit,
               static_cast<float>(vertices[v].z) * kEyeDistancesPerUnit};
@@ -60,10 +60,11 @@ void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs
 
 void write_landmarks(const SceneGeometry& face, const State& state,
                      std::span<fbs_landmark, kLandmarkCount> out) {
+  const WireFrame& head = face.geometry().wire_frame();
   const Vertices vertices = face.project_vertices(state);
-  const VertexAreas areas = areas_of(vertices);
+  const VertexAreas areas = areas_of(head, vertices);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const std::size_t v = vertex_of_landmark(k);
+    const std::size_t v = head.vertex_of_landmark(k);
     const double all = areas.seen[v] + areas.hidden[v];
     out[k] = {static_cast<float>(vertices[v].x) * kPixelsPerUnit,
               static_cast<float>(vertices[v].y) * kPixelsPerUnit,

@@ -11,7 +11,8 @@ namespace fbs {
 
 [[nodiscard]] fbs_face_state face_state(const State& state);
 
-void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex, kVertexCount> out);
+/// @param out  as many as the wire-frame has
+void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex> out);
 
 /// Confidence is 0 where the point has no triangle of any area, too.
 void write_landmarks(const SceneGeometry& face, const State& state,

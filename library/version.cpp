@@ -9,7 +9,7 @@
 // The header's numbers are ours.
 static_assert(FBS_MIN_SIDE == fbs::kMinPictureSize && FBS_MAX_SIDE == fbs::kMaxPictureSize);
 static_assert(FBS_TICKS_PER_SECOND == fbs::kTicksPerSecond);
-static_assert(FBS_LANDMARKS == fbs::kLandmarkCount && FBS_VERTICES == fbs::kVertexCount);
+static_assert(FBS_LANDMARKS == fbs::kLandmarkCount && FBS_MAX_VERTICES == fbs::kMaxWireFrameVertices);
 static_assert(FBS_CONTROL_POINTS == fbs::kControlCount);
 static_assert(FBS_MATRIX_BT601 == static_cast<int>(fbs::ColourMatrix::kBt601));
 static_assert(FBS_MATRIX_BT709 == static_cast<int>(fbs::ColourMatrix::kBt709));

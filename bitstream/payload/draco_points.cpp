@@ -14,24 +14,29 @@
 namespace fbs {
 namespace {
 
-// The start of every Draco stream of a head, bitstream version 2.3. SPEC 4.2 lists the fields.
-// clang-format off
-constexpr std::array<std::uint8_t, 22> kDracoStart = {
-    'D', 'R', 'A', 'C', 'O', 2, 3, 0, 0, 0, 0,  // version, point cloud, sequential, no flags
-    kVertexCount, 0, 0, 0,                      // points, 32 bits, low byte first
-    1, 1, 4, 5, 3, 0, 0,                        // one decoder, one attribute: generic, int32, 3 components, id 0
-};
-// clang-format on
+/// The start of the Draco stream of a head, bitstream version 2.3. SPEC 4.2 lists the fields.
+/// @param points  less than 65536
+std::array<std::uint8_t, 22> draco_start(std::size_t points) {
+  const auto low = static_cast<std::uint8_t>(points), high = static_cast<std::uint8_t>(points >> 8);
+  // clang-format off
+  return {
+      'D', 'R', 'A', 'C', 'O', 2, 3, 0, 0, 0, 0,  // version, point cloud, sequential, no flags
+      low, high, 0, 0,                            // points, 32 bits, low byte first
+      1, 1, 4, 5, 3, 0, 0,                        // one decoder, one attribute: generic, int32, 3 components, id 0
+  };
+  // clang-format on
+}
 
 Result<std::vector<std::uint8_t>> encode_with(const HeadPoints& points,
                                               draco::PredictionSchemeMethod prediction) {
   draco::PointCloud cloud;
-  cloud.set_num_points(kVertexCount);
+  const auto count = static_cast<std::uint32_t>(points.size());
+  cloud.set_num_points(count);
   draco::GeometryAttribute layout;
   layout.Init(draco::GeometryAttribute::GENERIC, nullptr, 3, draco::DT_INT32, false, 3 * sizeof(std::int32_t),
               0);
-  const int attribute = cloud.AddAttribute(layout, true, kVertexCount);
-  for (std::uint32_t i = 0; i < kVertexCount; ++i) {
+  const int attribute = cloud.AddAttribute(layout, true, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
     const std::array<std::int32_t, 3> value = {points[i].x, points[i].y, points[i].z};
     cloud.attribute(attribute)->SetAttributeValue(draco::AttributeValueIndex(i), value.data());
   }
@@ -48,16 +53,16 @@ Result<std::vector<std::uint8_t>> encode_with(const HeadPoints& points,
   return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }
 
-Result<HeadPoints> read_points(const draco::PointCloud& cloud) {
-  if (cloud.num_points() != kVertexCount || cloud.num_attributes() != 1) {
-    return fail(ErrorCode::kInvalidStream, "geometry does not have 105 points");
+Result<HeadPoints> read_points(const draco::PointCloud& cloud, std::size_t count) {
+  if (cloud.num_points() != count || cloud.num_attributes() != 1) {
+    return fail(ErrorCode::kInvalidStream, "geometry has another number of points than its wire-frame");
   }
   const draco::PointAttribute& attribute = *cloud.attribute(0);
   if (attribute.num_components() != 3 || attribute.data_type() != draco::DT_INT32) {
     return fail(ErrorCode::kInvalidStream, "geometry is not made of integer points");
   }
-  HeadPoints points;
-  for (std::uint32_t i = 0; i < kVertexCount; ++i) {
+  HeadPoints points(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
     const draco::AttributeValueIndex index = attribute.mapped_index(draco::PointIndex(i));
     std::array<std::int32_t, 3> value{};
     if (index.value() >= attribute.size() || !attribute.ConvertValue<std::int32_t>(index, 3, value.data())) {
@@ -76,28 +81,29 @@ Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points) try {
   if (!shortest) return shortest;
   if (!difference) return difference;
   if (difference->size() < shortest->size()) shortest.swap(difference);
-  if (shortest->size() < kDracoStart.size() ||
-      !std::equal(kDracoStart.begin(), kDracoStart.end(), shortest->begin())) {
+  const auto start = draco_start(points.size());
+  if (shortest->size() < start.size() || !std::equal(start.begin(), start.end(), shortest->begin())) {
     return fail(ErrorCode::kInternal, "Draco writes another bitstream version");
   }
-  shortest->erase(shortest->begin(), shortest->begin() + kDracoStart.size());
+  shortest->erase(shortest->begin(), shortest->begin() + start.size());
   return shortest;
 } catch (const std::exception&) {
   return fail(ErrorCode::kInternal, "Draco threw an exception");
 }
 
-Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes) try {
+Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes, std::size_t count) try {
   // Draco copies numbers as they are in memory; with the high byte first it would ask for gigabytes.
   if constexpr (std::endian::native != std::endian::little)
     return fail(ErrorCode::kUnsupported, "Draco reads no head on a processor with the high byte first");
-  std::vector<char> stream(kDracoStart.begin(), kDracoStart.end());
+  const auto start = draco_start(count);
+  std::vector<char> stream(start.begin(), start.end());
   stream.insert(stream.end(), bytes.begin(), bytes.end());
   draco::DecoderBuffer buffer;
   buffer.Init(stream.data(), stream.size());
   draco::Decoder decoder;
   auto cloud = decoder.DecodePointCloudFromBuffer(&buffer);
   if (!cloud.ok()) return fail(ErrorCode::kInvalidStream, "Draco cannot decode the geometry");
-  return read_points(*cloud.value());
+  return read_points(*cloud.value(), count);
 } catch (const std::exception&) {
   return fail(ErrorCode::kInvalidStream, "Draco threw an exception");
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "bitstream/byte_io.h"
 #include "bitstream/payload/draco_points.h"
@@ -20,7 +21,8 @@ enum class Prediction : std::uint8_t { kNone = 0, kNeighbours = 1, kMirror = 2 }
 constexpr std::array kPredictions = {Prediction::kNone, Prediction::kNeighbours, Prediction::kMirror};
 
 /// Which scaled head the residuals belong to.
-struct Frame {
+struct ScaledHead {
+  const WireFrame& head;
   std::array<std::int32_t, 3> scale{};  // per axis, 1/4096
   std::int32_t step = 1;                // head units
 };
@@ -28,8 +30,8 @@ struct Frame {
 using Scaled = std::array<std::int64_t, 3>;
 
 // SPEC 4.2: position times scale, rounded half up.
-Scaled scaled_vertex(const Frame& frame, std::size_t vertex) {
-  const glm::ivec3 p = generic_head().vertices[vertex].position;
+Scaled scaled_vertex(const ScaledHead& frame, std::size_t vertex) {
+  const glm::ivec3 p = frame.head.vertices[vertex].position;
   const auto scaled = [](std::int64_t value, std::int64_t scale) {
     return (value * scale + (1 << (kScaleShift - 1))) >> kScaleShift;
   };
@@ -39,8 +41,8 @@ Scaled scaled_vertex(const Frame& frame, std::size_t vertex) {
 /// For each vertex its neighbours of smaller index, by the edges of the mesh.
 class EarlierNeighbours {
  public:
-  EarlierNeighbours() {
-    for (const HeadTriangle& t : generic_head().triangles) {
+  explicit EarlierNeighbours(const WireFrame& head) : lists_(head.vertices.size()) {
+    for (const HeadTriangle& t : head.triangles) {
       for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
     }
   }
@@ -52,13 +54,13 @@ class EarlierNeighbours {
     const std::int16_t earlier = std::min(a, b);
     if (std::find(list.begin(), list.end(), earlier) == list.end()) list.push_back(earlier);
   }
-  std::array<std::vector<std::int16_t>, kVertexCount> lists_;
+  std::vector<std::vector<std::int16_t>> lists_;
 };
 
-glm::ivec3 predicted(const HeadPoints& residuals, std::size_t vertex, Prediction prediction,
-                     const EarlierNeighbours& neighbours) {
+glm::ivec3 predicted(const WireFrame& head, const HeadPoints& residuals, std::size_t vertex,
+                     Prediction prediction, const EarlierNeighbours& neighbours) {
   if (prediction == Prediction::kMirror) {
-    const std::size_t mirror = generic_head().vertices[vertex].mirror;
+    const std::size_t mirror = head.vertices[vertex].mirror;
     if (mirror >= vertex) return {0, 0, 0};
     const glm::ivec3 r = residuals[mirror];
     return {-r.x, r.y, r.z};
@@ -70,17 +72,17 @@ glm::ivec3 predicted(const HeadPoints& residuals, std::size_t vertex, Prediction
   return sum / static_cast<std::int32_t>(earlier.size());  // truncated
 }
 
-// Least squares of each axis; one where the generic head has no extent.
+// Least squares of each axis; one where the wire-frame has no extent.
 std::int32_t fitted_scale(const Geometry& geometry, int axis) {
-  std::int64_t with_generic = 0;
-  std::int64_t generic_squared = 0;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    const std::int64_t generic = generic_head().vertices[v].position[axis];
-    with_generic += generic * geometry.positions[v][axis];
-    generic_squared += generic * generic;
+  std::int64_t product = 0;
+  std::int64_t squared = 0;
+  for (std::size_t v = 0; v < geometry.positions.size(); ++v) {
+    const std::int64_t unscaled = geometry.wire_frame().vertices[v].position[axis];
+    product += unscaled * geometry.positions[v][axis];
+    squared += unscaled * unscaled;
   }
-  if (generic_squared == 0) return 1 << kScaleShift;
-  const std::int64_t scale = ((with_generic << kScaleShift) + generic_squared / 2) / generic_squared;
+  if (squared == 0) return 1 << kScaleShift;
+  const std::int64_t scale = ((product << kScaleShift) + squared / 2) / squared;
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(scale, 1, kMaxScale));
 }
 
@@ -95,17 +97,17 @@ std::int32_t quantised(std::int64_t to, std::int64_t from, std::int64_t step) {
   return static_cast<std::int32_t>(steps);
 }
 
-std::optional<Geometry> reconstruct(const Frame& frame, const HeadPoints& residuals) {
-  Geometry geometry;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
+std::optional<std::vector<glm::ivec3>> reconstruct(const ScaledHead& frame, const HeadPoints& residuals) {
+  std::vector<glm::ivec3> positions(residuals.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
     const Scaled scaled = scaled_vertex(frame, v);
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t value = scaled[axis] + std::int64_t{residuals[v][axis]} * frame.step;
       if (std::abs(value) > kMaxCoordinate) return std::nullopt;
-      geometry.positions[v][axis] = static_cast<std::int32_t>(value);
+      positions[v][axis] = static_cast<std::int32_t>(value);
     }
   }
-  return geometry;
+  return positions;
 }
 
 bool in_range(const Geometry& geometry) {
@@ -115,12 +117,12 @@ bool in_range(const Geometry& geometry) {
   });
 }
 
-Result<std::vector<std::uint8_t>> write_payload(const Frame& frame, const HeadPoints& residuals,
+Result<std::vector<std::uint8_t>> write_payload(const ScaledHead& frame, const HeadPoints& residuals,
                                                 Prediction prediction) {
-  const EarlierNeighbours neighbours;
-  HeadPoints coded;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    coded[v] = residuals[v] - predicted(residuals, v, prediction, neighbours);
+  const EarlierNeighbours neighbours(frame.head);
+  HeadPoints coded(residuals.size());
+  for (std::size_t v = 0; v < coded.size(); ++v) {
+    coded[v] = residuals[v] - predicted(frame.head, residuals, v, prediction, neighbours);
   }
   const auto points = encode_points(coded);
   if (!points) return fail(points.error());
@@ -134,11 +136,12 @@ Result<std::vector<std::uint8_t>> write_payload(const Frame& frame, const HeadPo
 }
 
 // SPEC 4.2: residuals in the order of the vertices, each from those before it.
-std::optional<HeadPoints> undo_prediction(const HeadPoints& coded, Prediction prediction) {
-  const EarlierNeighbours neighbours;
-  HeadPoints residuals;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    const glm::ivec3 from = predicted(residuals, v, prediction, neighbours);
+std::optional<HeadPoints> undo_prediction(const WireFrame& head, const HeadPoints& coded,
+                                          Prediction prediction) {
+  const EarlierNeighbours neighbours(head);
+  HeadPoints residuals(coded.size());
+  for (std::size_t v = 0; v < residuals.size(); ++v) {
+    const glm::ivec3 from = predicted(head, residuals, v, prediction, neighbours);
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t value = std::int64_t{from[axis]} + coded[v][axis];
       if (std::abs(value) > kMaxResidual) return std::nullopt;
@@ -159,21 +162,26 @@ bool is_flat(const Geometry& geometry) {
 Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t step) {
   if (step < 1 || step > kMaxGeometryStep)
     return fail(ErrorCode::kInvalidArgument, "geometry step is out of range");
+  const WireFrame& head = geometry.wire_frame();
+  if (geometry.positions.size() != head.vertices.size())
+    return fail(ErrorCode::kInvalidArgument, "geometry has another number of vertices than its wire-frame");
   if (!in_range(geometry)) return fail(ErrorCode::kInvalidArgument, "a vertex is out of range");
 
-  const Frame frame{{fitted_scale(geometry, 0), fitted_scale(geometry, 1), fitted_scale(geometry, 2)}, step};
-  HeadPoints residuals;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
+  const ScaledHead frame{
+      head, {fitted_scale(geometry, 0), fitted_scale(geometry, 1), fitted_scale(geometry, 2)}, step};
+  HeadPoints residuals(head.vertices.size());
+  for (std::size_t v = 0; v < residuals.size(); ++v) {
     const Scaled scaled = scaled_vertex(frame, v);
     for (int axis = 0; axis < 3; ++axis) {
       residuals[v][axis] = quantised(geometry.positions[v][axis], scaled[axis], step);
     }
   }
-  const auto decoded = reconstruct(frame, residuals);
+  auto decoded = reconstruct(frame, residuals);
   if (!decoded) return fail(ErrorCode::kInternal, "a quantised vertex is out of range");
 
-  CodedGeometry best{{}, *decoded};
+  CodedGeometry best{{}, {std::move(*decoded), geometry.own_frame}};
   for (const Prediction prediction : kPredictions) {
+    if (prediction == Prediction::kMirror && geometry.own_frame) continue;
     auto payload = write_payload(frame, residuals, prediction);
     if (!payload) return fail(payload.error());
     if (best.payload.empty() || payload->size() < best.payload.size()) best.payload = std::move(*payload);
@@ -181,7 +189,8 @@ Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t ste
   return best;
 }
 
-Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload) {
+Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload,
+                                 std::shared_ptr<const WireFrame> own_frame) {
   if (payload.size() > kMaxGeometryPayload) return fail(ErrorCode::kTooLarge, "geometry packet is too large");
 
   // SPEC 4.2
@@ -196,17 +205,19 @@ Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload) {
       step > kMaxGeometryStep || prediction >= kPredictions.size()) {
     return fail(ErrorCode::kInvalidStream, "geometry packet has a damaged header");
   }
-  const auto coded = decode_points(reader.rest());
+  const WireFrame& head = own_frame ? *own_frame : generic_head();
+  const auto coded = decode_points(reader.rest(), head.vertices.size());
   if (!coded) return fail(coded.error());
 
-  const auto residuals = undo_prediction(*coded, Prediction{prediction});
+  const auto residuals = undo_prediction(head, *coded, Prediction{prediction});
   if (!residuals) return fail(ErrorCode::kInvalidStream, "a vertex is out of range");
-  const Frame frame{{static_cast<std::int32_t>(scale[0]), static_cast<std::int32_t>(scale[1]),
-                     static_cast<std::int32_t>(scale[2])},
-                    static_cast<std::int32_t>(step)};
-  const auto geometry = reconstruct(frame, *residuals);
-  if (!geometry) return fail(ErrorCode::kInvalidStream, "a vertex is out of range");
-  return *geometry;
+  const ScaledHead frame{head,
+                         {static_cast<std::int32_t>(scale[0]), static_cast<std::int32_t>(scale[1]),
+                          static_cast<std::int32_t>(scale[2])},
+                         static_cast<std::int32_t>(step)};
+  auto positions = reconstruct(frame, *residuals);
+  if (!positions) return fail(ErrorCode::kInvalidStream, "a vertex is out of range");
+  return Geometry{std::move(*positions), std::move(own_frame)};
 }
 
 }  // namespace fbs

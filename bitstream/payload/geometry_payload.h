@@ -1,7 +1,8 @@
-// The geometry packet: the adapted head as residuals to the scaled generic head, coded by Draco. SPEC 4.2.
+// The geometry packet: the adapted head as residuals to the scaled wire-frame, coded by Draco. SPEC 4.2.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,9 @@
 
 namespace fbs {
 
-inline constexpr std::size_t kMaxGeometryPayload = 8192;                  ///< bytes
-inline constexpr std::int32_t kMaxCoordinate = 4 * kUnitsPerEyeDistance;  ///< of a vertex, head units
-inline constexpr std::int32_t kDefaultGeometryStep = 16;                  ///< 1/256 eye distance
-inline constexpr std::int32_t kMaxGeometryStep = kUnitsPerEyeDistance;    ///< head units
+inline constexpr std::size_t kMaxGeometryPayload = 8192;                ///< bytes
+inline constexpr std::int32_t kDefaultGeometryStep = 16;                ///< 1/256 eye distance
+inline constexpr std::int32_t kMaxGeometryStep = kUnitsPerEyeDistance;  ///< head units
 
 /// The payload, and the head that a decoder reconstructs from it.
 struct CodedGeometry {
@@ -21,21 +21,24 @@ struct CodedGeometry {
   Geometry decoded;  ///< each coordinate within step / 2 of the source
 };
 
-/// Scales the generic head to fit by least squares for each axis, quantises the residuals, and codes them
+/// Scales the wire-frame to fit by least squares for each axis, quantises the residuals, and codes them
 /// with the prediction that gives the shortest payload.
 /// @param step  size of a residual step, head units, 1..kMaxGeometryStep
-/// @return kInvalidArgument  a coordinate beyond kMaxCoordinate, or step out of range
+/// @return kInvalidArgument  another number of positions than of vertices, a coordinate beyond
+/// kMaxCoordinate, or step out of range
 [[nodiscard]] Result<CodedGeometry> encode_geometry(const Geometry& geometry,
                                                     std::int32_t step = kDefaultGeometryStep);
 
 /// Whether a head has no depth: then it is no face but a plane that moves the picture.
 [[nodiscard]] bool is_flat(const Geometry& geometry);
 
+/// @param own_frame  that of the scene; null: the generic head. A payload for a wire-frame with another
+/// number of
+///                   vertices may be decoded all the same
 /// @return kTooLarge       more than kMaxGeometryPayload bytes
 ///         kTruncated      the payload ends inside its header
-///         kInvalidStream  Draco cannot decode the bytes, the number of points is not 105, or a coordinate
-///         lies
-///                         beyond kMaxCoordinate
-[[nodiscard]] Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload);
+///         kInvalidStream  Draco cannot decode the bytes, or a coordinate lies beyond kMaxCoordinate
+[[nodiscard]] Result<Geometry> decode_geometry(std::span<const std::uint8_t> payload,
+                                               std::shared_ptr<const WireFrame> own_frame = nullptr);
 
 }  // namespace fbs

@@ -30,9 +30,9 @@ struct FarTriangle {
 };
 
 /// Those that face the viewer, the farthest first.
-std::vector<FarTriangle> seen_triangles(const ScreenVertices& vertices, int zoom) {
+std::vector<FarTriangle> seen_triangles(const WireFrame& head, const ScreenVertices& vertices, int zoom) {
   std::vector<FarTriangle> out;
-  for (const HeadTriangle& t : generic_head().triangles) {
+  for (const HeadTriangle& t : head.triangles) {
     const glm::ivec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
     const std::int64_t area = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
     if (area <= 0) continue;
@@ -65,18 +65,20 @@ std::vector<cv::Point> smooth(const std::vector<cv::Point>& points, bool closed)
   return out;
 }
 
-void draw_curve(cv::Mat& image, const ScreenVertices& vertices, int zoom, Marks marks, bool closed) {
+void draw_curve(cv::Mat& image, const WireFrame& head, const ScreenVertices& vertices, int zoom, Marks marks,
+                bool closed) {
   std::vector<cv::Point> points;
-  for (const std::uint8_t mark : marks) points.push_back(fixed(vertices[vertex_of_landmark(mark)], zoom));
+  for (const std::uint8_t mark : marks)
+    points.push_back(fixed(vertices[head.vertex_of_landmark(mark)], zoom));
   cv::polylines(image, smooth(points, closed), closed, kSnakeColour, image.cols >= kWide ? 2 : 1, cv::LINE_AA,
                 kShift);
 }
 
 }  // namespace
 
-void draw_wire_frame(cv::Mat& image, const ScreenVertices& vertices, int zoom) {
+void draw_wire_frame(cv::Mat& image, const WireFrame& head, const ScreenVertices& vertices, int zoom) {
   cv::Mat lines(image.size(), CV_8UC1, cv::Scalar(0));
-  for (const FarTriangle& t : seen_triangles(vertices, zoom)) {
+  for (const FarTriangle& t : seen_triangles(head, vertices, zoom)) {
     // What is nearer wipes out what lies behind it.
     cv::fillConvexPoly(lines, t.corners.data(), 3, cv::Scalar(0), cv::LINE_8, kShift);
     for (std::size_t i = 0; i < 3; ++i)
@@ -90,13 +92,13 @@ void draw_wire_frame(cv::Mat& image, const ScreenVertices& vertices, int zoom) {
   });
 }
 
-void draw_contours(cv::Mat& image, const ScreenVertices& vertices, int zoom) {
-  draw_curve(image, vertices, zoom, {48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59}, true);
-  draw_curve(image, vertices, zoom, {60, 61, 62, 63, 64, 65, 66, 67}, true);
-  draw_curve(image, vertices, zoom, {17, 18, 19, 20, 21}, false);
-  draw_curve(image, vertices, zoom, {22, 23, 24, 25, 26}, false);
-  draw_curve(image, vertices, zoom, {36, 37, 38, 39, 40, 41}, true);
-  draw_curve(image, vertices, zoom, {42, 43, 44, 45, 46, 47}, true);
+void draw_contours(cv::Mat& image, const WireFrame& head, const ScreenVertices& vertices, int zoom) {
+  draw_curve(image, head, vertices, zoom, {48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59}, true);
+  draw_curve(image, head, vertices, zoom, {60, 61, 62, 63, 64, 65, 66, 67}, true);
+  draw_curve(image, head, vertices, zoom, {17, 18, 19, 20, 21}, false);
+  draw_curve(image, head, vertices, zoom, {22, 23, 24, 25, 26}, false);
+  draw_curve(image, head, vertices, zoom, {36, 37, 38, 39, 40, 41}, true);
+  draw_curve(image, head, vertices, zoom, {42, 43, 44, 45, 46, 47}, true);
 }
 
 }  // namespace fbs::cli

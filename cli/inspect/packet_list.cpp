@@ -13,13 +13,14 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "bitstream/payload/wire_frame_payload.h"
 #include "decoder/stream_clock.h"
 
 namespace fbs::cli {
 namespace {
 
-constexpr auto kNames = std::to_array<const char*>(
-    {"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend"});  // by PacketType
+constexpr auto kNames = std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion",
+                                                    "end", "blend", "wire-frame"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);
@@ -75,9 +76,16 @@ class SceneReader {
   /// @param clock  is shown the pictures that the packet releases
   Result<void> take(const Packet& packet, StreamClock& clock, PacketEntry& entry) {
     switch (packet.type) {
+      case PacketType::kWireFrame: {
+        entry.time = times_.of(released_);
+        auto read = decode_wire_frame(packet.payload);
+        if (!read) return fail(read.error());
+        wire_frame_ = std::move(*read);
+        return {};
+      }
       case PacketType::kGeometry: {
         entry.time = times_.of(released_);
-        const auto read = decode_geometry(packet.payload);
+        const auto read = decode_geometry(packet.payload, wire_frame_);
         return read ? Result<void>{} : fail(read.error());
       }
       case PacketType::kSurround: {
@@ -151,6 +159,7 @@ class SceneReader {
   std::int32_t released_ = 0;  // pictures
   std::int32_t stored_ = 0;    // slots that are not empty
   PatternPacketReader patterns_;
+  std::shared_ptr<const WireFrame> wire_frame_;
   std::optional<MotionDecoder> motion_;
   std::optional<BlendDecoder> blend_;
 };

@@ -28,9 +28,10 @@ void Stage::choose_next(const StreamDecoder& decoder, int step) {
 void Stage::draw_lines(cv::Mat& image, const StreamDecoder& decoder, int zoom) const {
   const SceneGeometry* const face = face_of(decoder.scene());
   if (face == nullptr || !(overlays.wire || overlays.snakes)) return;
+  const WireFrame& head = face->geometry().wire_frame();
   const ScreenVertices vertices = face->project_vertices(state_);
-  if (overlays.wire) draw_wire_frame(image, vertices, zoom);
-  if (overlays.snakes) draw_contours(image, vertices, zoom);
+  if (overlays.wire) draw_wire_frame(image, head, vertices, zoom);
+  if (overlays.snakes) draw_contours(image, head, vertices, zoom);
 }
 
 Result<cv::Mat> Stage::screen_image(const StreamDecoder& decoder) const {

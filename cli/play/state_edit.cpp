@@ -47,7 +47,7 @@ void move(State& state, FeatureId id, std::span<const Share> shares, std::int32_
 
 void move_mouth(State& state, const Geometry& head, std::int32_t wanted) {
   // The gap of the state itself is left as it is, however wide.
-  const std::int32_t gap = mouth_gap(deform(head.positions, state));
+  const std::int32_t gap = mouth_gap(head, state);
   const std::int32_t highest = std::max(0, kLimits[static_cast<std::size_t>(EditPart::kMouth)].high - gap);
   const std::int32_t lowest = -std::max(0, gap);
   const std::int32_t offset = std::clamp(wanted, lowest, highest);
@@ -56,9 +56,9 @@ void move_mouth(State& state, const Geometry& head, std::int32_t wanted) {
 }
 
 /// Of the weights of the controls at a vertex.
-std::int32_t weight_sum(std::size_t vertex) {
+std::int32_t weight_sum(const WireFrame& head, std::size_t vertex) {
   std::int32_t sum = 0;
-  for (const SkinningWeight& s : skinning_of(vertex)) sum += s.weight;
+  for (const SkinningWeight& s : head.skinning_of(vertex)) sum += s.weight;
   return std::max(sum, 1);
 }
 
@@ -72,13 +72,13 @@ constexpr std::array kEyes = {Eye{FeatureId::kUpperLidRight, FeatureId::kLowerLi
 /// @param share  of kSkinningOne
 void shut(State& state, const Eye& eye, const Geometry& head, std::int32_t share) {
   constexpr std::int64_t kUpperPart = 85;  // percent of the way, which the upper lid goes
-  const auto vertices = deform(head.positions, state);
-  const auto y = [&](std::uint8_t mark) { return vertices[vertex_of_landmark(mark)].y; };
+  const auto vertices = deform(head, state);
+  const auto y = [&](std::uint8_t mark) { return vertices[head.wire_frame().vertex_of_landmark(mark)].y; };
   // Both controls of a lid move alike, by the smaller gap, so that the lids meet there and do not cross.
   const std::int64_t gap = std::max(0, std::min(y(eye.lower_marks[0]) - y(eye.upper_marks[0]),
                                                 y(eye.lower_marks[1]) - y(eye.upper_marks[1])));
   const auto move_lid = [&](FeatureId id, std::uint8_t mark, std::int64_t percent) {
-    const std::int64_t weight = weight_sum(vertex_of_landmark(mark));
+    const std::int64_t weight = weight_sum(head.wire_frame(), head.wire_frame().vertex_of_landmark(mark));
     const auto offset = static_cast<std::int32_t>(gap * share * percent / 100 / weight);
     const Feature& lid = feature(id);
     for (std::size_t c = 0; c < lid.control_count; ++c) state.control[lid.first_control + c].y += offset;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "common/generic_head.h"
 #include "decoder/scene_face.h"
 
 namespace fbs::cli {
@@ -13,7 +12,7 @@ FaceOutline face_outline(const StreamDecoder& decoder) {
   const SceneGeometry* face = face_of(decoder.scene());
   if (face == nullptr) return out;
   const auto vertices = face->project_vertices(decoder.state());
-  for (const std::uint16_t v : generic_head().outline) {
+  for (const std::uint16_t v : face->geometry().wire_frame().outline) {
     const glm::ivec3 p = vertices[v];
     out.push_back({p.x >> kScreenOneLog2, p.y >> kScreenOneLog2});
   }

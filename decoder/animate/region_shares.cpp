@@ -21,11 +21,13 @@ Region region_of(std::size_t control) {
   return Region::kFace;
 }
 
-std::array<RegionShares, kVertexCount> make_vertex_shares() {
-  std::array<RegionShares, kVertexCount> out{};
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
+}  // namespace
+
+std::vector<RegionShares> vertex_shares(const WireFrame& head) {
+  std::vector<RegionShares> out(head.vertices.size());
+  for (std::size_t v = 0; v < out.size(); ++v) {
     std::array<int, kRegionCount> weight{};
-    for (const SkinningWeight& s : skinning_of(v))
+    for (const SkinningWeight& s : head.skinning_of(v))
       weight[static_cast<std::size_t>(region_of(s.control))] += s.weight;
     int left = kShareOne;
     for (const Region region : {Region::kMouth, Region::kRightEye, Region::kLeftEye}) {
@@ -37,13 +39,6 @@ std::array<RegionShares, kVertexCount> make_vertex_shares() {
     out[v][static_cast<std::size_t>(Region::kFace)] = static_cast<std::uint8_t>(left);
   }
   return out;
-}
-
-}  // namespace
-
-const std::array<RegionShares, kVertexCount>& vertex_shares() {
-  static const std::array<RegionShares, kVertexCount> shares = make_vertex_shares();
-  return shares;
 }
 
 RegionShares surround_shares(std::int32_t head, std::int32_t body) {

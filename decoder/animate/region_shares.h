@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "common/generic_head.h"
 #include "common/state.h"
@@ -18,7 +18,7 @@ using RegionShares = std::array<std::uint8_t, kRegionCount>;
 
 /// Of the vertices of the head. A vertex belongs to mouth or eyes as far as their control points move it; the
 /// rest is face.
-[[nodiscard]] const std::array<RegionShares, kVertexCount>& vertex_shares();
+[[nodiscard]] std::vector<RegionShares> vertex_shares(const WireFrame& head);
 
 /// Of a point of the surround, by its weights in the map's layers.
 /// @param head, body  0..kFollowOne

@@ -5,7 +5,6 @@
 
 #include "bitstream/payload/geometry_payload.h"
 #include "decoder/head/head_deformation.h"
-#include "decoder/head/head_mesh.h"
 #include "decoder/head/mouth_interior.h"
 
 namespace fbs {
@@ -21,9 +20,9 @@ constexpr std::int32_t kRingExtensionOne = 256;
 constexpr std::int32_t kRingDepth = kUnitsPerEyeDistance / 2;
 
 /// ScreenMesh::areas. The ring folds wherever the head moves over it, which hides nothing: it does not count.
-std::vector<std::int64_t> vertex_areas(const std::vector<glm::ivec3>& screen) {
+std::vector<std::int64_t> vertex_areas(const WireFrame& head, const std::vector<glm::ivec3>& screen) {
   std::vector<std::int64_t> out(screen.size());
-  for (const HeadTriangle& t : generic_head().triangles) {
+  for (const HeadTriangle& t : head.triangles) {
     const std::int64_t ax = screen[t[1]].x - screen[t[0]].x, ay = screen[t[1]].y - screen[t[0]].y,
                        bx = screen[t[2]].x - screen[t[0]].x, by = screen[t[2]].y - screen[t[0]].y;
     const std::int64_t area = ax * by - ay * bx;
@@ -42,14 +41,18 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
       surround_triangles_(surround_.triangles()) {
   const HeadProjection projection(head_pose(rest));
   rest_scale_ = projection.scale;
-  for (const std::uint16_t v : generic_head().outline) {
+  const WireFrame& head = geometry_.wire_frame();
+  if (geometry_.own_frame) own_mesh_ = std::make_shared<const HeadMesh>(head);
+  if (geometry_.own_frame && !is_plane_)
+    own_layout_ = std::make_shared<const AtlasLayout>(head, atlas_eye_distance(rest_scale_));
+  for (const std::uint16_t v : head.outline) {
     glm::ivec3 p = geometry_.positions[v];
     p.x += p.x * kRingExtension / kRingExtensionOne;
     p.y += p.y * kRingExtension / kRingExtensionOne;
     const glm::ivec3 at = projection(p);
     ring_.push_back(surround_.place({at.x, at.y}));
   }
-  head_shares_.assign(vertex_shares().begin(), vertex_shares().end());
+  head_shares_ = vertex_shares(head);
   for (const Surround::Place& place : ring_) head_shares_.push_back(surround_.shares_at(place));
   if (is_plane_) {
     const auto first = static_cast<std::int32_t>(surround_.point_count());
@@ -60,7 +63,7 @@ SceneGeometry::SceneGeometry(const Setup& setup, const Geometry& geometry, Surro
 
 void SceneGeometry::project_ring(const HeadProjection& projection, ScreenMesh& mesh) const {
   for (std::size_t i = 0; i < ring_.size(); ++i) {
-    glm::ivec3 p = geometry_.positions[generic_head().outline[i]];
+    glm::ivec3 p = geometry_.positions[geometry_.wire_frame().outline[i]];
     p.z += kRingDepth;
     mesh.head.emplace_back(surround_.carried(ring_[i], mesh.surround), projection(p).z);
   }
@@ -70,15 +73,15 @@ ScreenMesh SceneGeometry::screen_mesh(const State& state) const {
   const HeadProjection projection(head_pose(state));
   ScreenMesh mesh;
   surround_.project(state, mesh.surround);
-  const auto vertices = deform(geometry_.positions, state);
+  const auto vertices = deform(geometry_, state);
   mesh.head.reserve(head_mesh().vertex_count);
   for (const glm::ivec3& v : vertices) mesh.head.push_back(projection(v));
   project_ring(projection, mesh);
   if (is_plane_)
     for (const glm::ivec3& v : mesh.head) mesh.surround.emplace_back(v.x, v.y);
-  mesh.areas = vertex_areas(mesh.head);
-  mesh.light = vertex_lights(geometry_.positions, state.light);
-  mesh.mouth_gap = mouth_gap(vertices);
+  mesh.areas = vertex_areas(geometry_.wire_frame(), mesh.head);
+  mesh.light = vertex_lights(geometry_.positions, ring_.size(), state.light);
+  mesh.mouth_gap = mouth_gap(geometry_.wire_frame(), vertices);
   mesh.interior = state.interior;
   return mesh;
 }
@@ -95,8 +98,8 @@ TextureMesh SceneGeometry::texture_mesh(const State& seen) const {
   return texture;
 }
 
-std::array<glm::ivec3, kVertexCount> SceneGeometry::project_vertices(const State& state) const {
-  return fbs::project_vertices(geometry_.positions, state);
+std::vector<glm::ivec3> SceneGeometry::project_vertices(const State& state) const {
+  return fbs::project_vertices(geometry_, state);
 }
 
 }  // namespace fbs

@@ -1,14 +1,16 @@
 // State to screen: adapted head and surround of a scene in any state. SPEC 8 and 10.1. Integers only.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "bitstream/syntax.h"
 #include "common/state.h"
 #include "decoder/animate/screen_mesh.h"
 #include "decoder/animate/surround.h"
+#include "decoder/atlas/atlas_layout.h"
+#include "decoder/head/head_mesh.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -25,11 +27,18 @@ class SceneGeometry {
   /// Where a pattern seen in `seen`, any state of the scene, holds what is drawn.
   [[nodiscard]] TextureMesh texture_mesh(const State& seen) const;
 
-  /// Screen positions of the 105 vertices alone (1/64 pixel; z in head units).
-  [[nodiscard]] std::array<glm::ivec3, kVertexCount> project_vertices(const State& state) const;
+  /// Screen positions of the vertices of the wire-frame alone (1/64 pixel; z in head units).
+  [[nodiscard]] std::vector<glm::ivec3> project_vertices(const State& state) const;
 
   /// Shares of the regions at each vertex of head_mesh().
   [[nodiscard]] const std::vector<RegionShares>& head_shares() const { return head_shares_; }
+
+  [[nodiscard]] const HeadMesh& head_mesh() const { return own_mesh_ ? *own_mesh_ : generic_head_mesh(); }
+
+  /// Of a head that is no plane.
+  [[nodiscard]] const AtlasLayout& atlas_layout() const {
+    return own_layout_ ? *own_layout_ : generic_atlas_layout(rest_scale_);
+  }
 
   /// Whether the head is flat: a plane that moves the picture, not a face. Nothing of it is drawn; its
   /// vertices are points of the surround, behind the grid's.
@@ -55,6 +64,8 @@ class SceneGeometry {
   bool is_plane_;
   std::vector<MeshTriangle> surround_triangles_;
   std::int64_t rest_scale_;
+  std::shared_ptr<const HeadMesh> own_mesh_;       ///< null: that of the generic head
+  std::shared_ptr<const AtlasLayout> own_layout_;  ///< the same
 };
 
 }  // namespace fbs

@@ -14,7 +14,7 @@ namespace fbs {
 
 /// Everything of a scene on the screen in the state to be drawn.
 struct ScreenMesh {
-  std::vector<glm::ivec3> head;  ///< head_mesh().vertex_count; x, y: 1/64 pixel, z: head units, depth
+  std::vector<glm::ivec3> head;  ///< HeadMesh::vertex_count; x, y: 1/64 pixel, z: head units, depth
   /// Points of SceneGeometry::surround_triangles(), 1/64 pixel: the grid's, Surround::project(), and the
   /// head's if it is a plane.
   std::vector<glm::ivec2> surround;
@@ -28,7 +28,7 @@ struct ScreenMesh {
 
 /// The same mesh in a pattern, which was seen in a state of its own. Positions are 1/64 pixel of the pattern.
 struct TextureMesh {
-  std::vector<glm::ivec2> head;      ///< head_mesh().vertex_count
+  std::vector<glm::ivec2> head;      ///< HeadMesh::vertex_count
   std::vector<glm::ivec2> surround;  ///< as ScreenMesh::surround
   std::vector<VertexLight> light;    ///< that the pattern already has; empty: none
   std::int32_t mouth_gap = 0;        ///< head units

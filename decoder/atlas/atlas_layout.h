@@ -2,41 +2,44 @@
 // closed: where textures of all patterns can be blended. SPEC 10.12. Integers only.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "common/wire_frame.h"
 #include "decoder/field/node_cover.h"
 #include "decoder/field/node_grid.h"
 
 namespace fbs {
 
-/// The vertices of head_mesh().
-inline constexpr std::size_t kAtlasTableSize = 129;
-/// Where they lie, 1/4096 eye distance. Made by author_head_atlas.py.
-extern const std::array<glm::ivec2, kAtlasTableSize> kAtlasTable;
-
 /// The atlas at one size.
 struct AtlasLayout {
   int width, height;  ///< luma samples; whole blocks
-  /// Where the vertices of head_mesh() lie, and then the skirt: one more for each of the ring, beyond it, so
+  /// Where the vertices of the HeadMesh lie, and then the skirt: one more for each of the ring, beyond it, so
   /// that what the ring shows can be read up to its edge. 1/64 luma sample.
   std::vector<glm::ivec2> points;
-  /// Corners of the triangles: head_mesh(), then the skirt's. Clockwise.
+  /// Corners of the triangles: the HeadMesh's, then the skirt's. Clockwise.
   std::vector<MeshTriangle> triangles;
-  NodeCover cover;                 ///< of all nodes; those outside have the place of the nearest point
-  std::vector<glm::ivec2> blocks;  ///< column and row of those of which the head shows something
+  NodeCover cover;                     ///< of all nodes; those outside have the place of the nearest point
+  std::vector<glm::ivec2> blocks;      ///< column and row of those of which the head shows something
+  std::size_t head_count;              ///< vertices of the wire-frame
+  std::vector<std::uint16_t> outline;  ///< of the wire-frame
 
-  explicit AtlasLayout(int eye_distance);
+  /// @param eye_distance  samples
+  AtlasLayout(const WireFrame& head, int eye_distance);
+
+  /// Adds the points of the skirt to those of the vertices of the HeadMesh, in the atlas or in a pattern.
+  void add_skirt(std::vector<glm::ivec2>& at) const;
 };
 
-/// The atlas for a head of this size, which lives as long as the program.
+/// Eye distance of the atlas for a head of this size, samples.
 /// @param scale  samples of the picture per eye distance in the rest state, Q16
-[[nodiscard]] const AtlasLayout& atlas_layout(std::int64_t scale);
+[[nodiscard]] int atlas_eye_distance(std::int64_t scale);
 
-/// Adds the points of the skirt to those of the vertices of head_mesh(), in the atlas or in a pattern.
-void add_skirt(std::vector<glm::ivec2>& points);
+/// That of the generic head, which lives as long as the program.
+/// @param scale  as above
+[[nodiscard]] const AtlasLayout& generic_atlas_layout(std::int64_t scale);
 
 /// The point of the skirt beyond one of the ring.
 /// @param outline, ring  the vertex of the outline and the one of the ring that belongs to it

@@ -10,7 +10,7 @@ void draw_atlas(const AtlasLayout& layout, const std::array<ConstPlaneView, 3>& 
   if (out.width() != layout.width || out.height() != layout.height)
     out = HeadAtlas(layout.width, layout.height);
   std::vector<glm::ivec2> seen(positions.begin(), positions.end());
-  add_skirt(seen);
+  layout.add_skirt(seen);
   const std::array<PlaneView, 1> luma{out.y};
   const std::array<PlaneView, 2> chroma{out.u, out.v};
   const std::span<const ConstPlaneView> all(planes);

@@ -17,7 +17,7 @@ using HeadAtlas = Picture;
 
 /// Draws what a pattern shows into an atlas, without its light.
 /// @param planes     Y, U, V of the pattern
-/// @param positions  of the vertices of head_mesh() in it, 1/64 luma sample
+/// @param positions  of the vertices of the HeadMesh in it, 1/64 luma sample
 /// @param light      that falls on them there; empty: none
 void draw_atlas(const AtlasLayout& layout, const std::array<ConstPlaneView, 3>& planes,
                 std::span<const glm::ivec2> positions, const std::vector<VertexLight>& light, HeadAtlas& out);

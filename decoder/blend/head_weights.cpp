@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "decoder/blend/share_out.h"
-#include "decoder/head/head_mesh.h"
 
 namespace fbs {
 namespace {
@@ -23,31 +22,33 @@ void add_row(std::span<const std::int64_t> weights, std::int64_t sum, std::vecto
 }
 
 /// Sums of the weights of some sources over the vertices of the head, without the ring.
-std::vector<std::int64_t> totals(const PointWeights& head, const std::vector<std::size_t>& sources) {
+std::vector<std::int64_t> totals(const PointWeights& head, std::size_t head_count,
+                                 const std::vector<std::size_t>& sources) {
   std::vector<std::int64_t> out(sources.size());
-  for (std::size_t v = 0; v < kVertexCount; ++v)
+  for (std::size_t v = 0; v < head_count; ++v)
     for (std::size_t k = 0; k < sources.size(); ++k) out[k] += head.at(v)[sources[k]];
   return out;
 }
 
 }  // namespace
 
-HeadWeights head_weights(const MeshBlend& blend) {
+HeadWeights head_weights(const MeshBlend& blend, const WireFrame& head) {
+  const std::size_t head_count = head.vertices.size();
   HeadWeights out;
   for (std::size_t s = 0; s < blend.sources.size(); ++s)
     if (shows(blend.head, s)) (blend.sources[s].still ? out.still : out.warped).push_back(s);
   out.atlas.sources = out.warped.size();
   out.screen.sources = 1 + out.still.size();
-  const std::vector<std::int64_t> all = totals(blend.head, out.warped);
+  const std::vector<std::int64_t> all = totals(blend.head, head_count, out.warped);
   std::vector<std::int64_t> weights(out.warped.size());
-  for (std::size_t v = 0; v < head_mesh().vertex_count; ++v) {
+  for (std::size_t v = 0; v < head_count + head.outline.size(); ++v) {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] = blend.head.at(v)[out.warped[k]];
     out.screen.weights.push_back(static_cast<std::int32_t>(sum));
     for (const std::size_t s : out.still) out.screen.weights.push_back(blend.head.at(v)[s]);
     if (weights.empty()) continue;
-    if (sum == 0 && v >= kVertexCount) {  // as at the outline, so that the ring fades to what is still
-      const auto same = out.atlas.at(generic_head().outline[v - kVertexCount]);
+    if (sum == 0 && v >= head_count) {  // as at the outline, so that the ring fades to what is still
+      const auto same = out.atlas.at(head.outline[v - head_count]);
       weights.assign(same.begin(), same.end());
       sum = kMeshWeightOne;
     } else if (sum == 0) {

@@ -12,10 +12,11 @@ namespace fbs {
 
 struct HeadWeights {
   std::vector<std::size_t> warped, still;  ///< numbers of the sources that show at some vertex
-  PointWeights atlas;   ///< of `warped`, at the vertices of head_mesh(); each row sums to kMeshWeightOne
+  PointWeights atlas;   ///< of `warped`, at the vertices of the HeadMesh; each row sums to kMeshWeightOne
   PointWeights screen;  ///< of the atlas, and then of `still`
 };
 
-[[nodiscard]] HeadWeights head_weights(const MeshBlend& blend);
+/// @param head  the wire-frame
+[[nodiscard]] HeadWeights head_weights(const MeshBlend& blend, const WireFrame& head);
 
 }  // namespace fbs

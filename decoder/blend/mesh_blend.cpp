@@ -39,9 +39,8 @@ constexpr std::int32_t kVisibleOne = 256;
 /// @param seen   area at a vertex in a pattern
 /// @param drawn  area at it in the picture
 std::int32_t visibility(std::int64_t seen, std::int64_t drawn) {
-  if (drawn == 0) return kVisibleOne;
-  return static_cast<std::int32_t>(
-      std::min<std::int64_t>(kEnoughArea * kVisibleOne * seen / drawn, kVisibleOne));
+  if (drawn == 0 || kEnoughArea * seen >= drawn) return kVisibleOne;
+  return static_cast<std::int32_t>(kEnoughArea * kVisibleOne * seen / drawn);
 }
 
 /// Takes weight from sources that hardly show the point, unless none does.
@@ -79,7 +78,7 @@ MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
   MeshBlend out = blend_regions(blend);
   out.head = point_weights(out.regions, geometry.head_shares());
   std::vector<std::int32_t> visible(out.sources.size());
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
+  for (std::size_t v = 0; v < geometry.head_mesh().head_count; ++v) {
     for (std::size_t s = 0; s < visible.size(); ++s)
       visible[s] = out.sources[s].still
                        ? kVisibleOne

@@ -8,19 +8,11 @@
 
 #include "decoder/animate/scene_geometry.h"
 #include "decoder/blend/picture_blend.h"
+#include "decoder/field/point_weights.h"
 
 namespace fbs {
 
-inline constexpr int kMeshWeightOne = kShareOne * kBlendOne;
-
-/// Weights of `sources` at points of the mesh, a row for each point; each row sums to kMeshWeightOne.
-struct PointWeights {
-  std::size_t sources = 0;
-  std::vector<std::int32_t> weights;
-  [[nodiscard]] std::span<const std::int32_t> at(std::size_t point) const {
-    return std::span(weights).subspan(point * sources, sources);
-  }
-};
+static_assert(kMeshWeightOne == kShareOne * kBlendOne);
 
 /// Weights of the sources in each region, in 1/kBlendOne.
 using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
@@ -29,7 +21,7 @@ using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
 struct MeshBlend {
   std::vector<BlendSource> sources;  ///< all that some region uses; at most kRegionCount * kMaxRegionSources
   RegionWeights regions;
-  PointWeights head;  ///< vertices of head_mesh(); empty in a scene without a face
+  PointWeights head;  ///< vertices of the HeadMesh; empty in a scene without a face
 };
 
 /// Without weights of the head.

@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "common/state.h"
+#include "decoder/field/point_weights.h"
 
 namespace fbs {
-
-inline constexpr int kBlendOneLog2 = 8;
-inline constexpr int kBlendOne = 1 << kBlendOneLog2;  ///< weights of a region sum to this
 
 /// A texture: a pattern, warped from its seen state to the picture's or shown as it is.
 struct BlendSource {

@@ -4,15 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/generic_head.h"
-
 namespace fbs {
 namespace {
 
 /// At each point of the skirt the weights are those of the ring's.
-PointWeights with_skirt(const PointWeights& head) {
+PointWeights with_skirt(const PointWeights& head, std::size_t head_count) {
   PointWeights out = head;
-  const auto ring = static_cast<std::ptrdiff_t>(kVertexCount * head.sources);
+  const auto ring = static_cast<std::ptrdiff_t>(head_count * head.sources);
   out.weights.insert(out.weights.end(), head.weights.begin() + ring, head.weights.end());
   return out;
 }
@@ -36,7 +34,7 @@ void AtlasBlend::begin(const HeadWeights& weights, const AtlasLayout& layout) {
   if (weights.warped.empty()) return;
   if (blended_.width() != layout.width || blended_.height() != layout.height)
     blended_ = HeadAtlas(layout.width, layout.height);
-  nodes_.set(layout.cover, with_skirt(weights.atlas), {});
+  nodes_.set(layout.cover, with_skirt(weights.atlas, layout.head_count), {});
 }
 
 void AtlasBlend::draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch) {

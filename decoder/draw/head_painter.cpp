@@ -59,7 +59,7 @@ HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, Pla
 
 void HeadPainter::draw() {
   if (target_.area.empty()) return;
-  for (const HeadTriangle& triangle : head_mesh().triangles) draw(triangle);
+  for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {
@@ -86,8 +86,9 @@ void HeadPainter::draw(const HeadTriangle& triangle) {
                at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].gain; })};
       finish.light = &light;
     }
-    if (opacity_ != 0 && std::all_of(triangle.begin(), triangle.end(), is_inner_lip)) {
-      interior.ramp = at_corners(triangle, mouth_ramp);
+    const WireFrame& head = texture_.geometry.geometry().wire_frame();
+    if (opacity_ != 0 && is_mouth(head, triangle)) {
+      interior.ramp = at_corners(triangle, [&](std::size_t v) { return mouth_ramp(head, v); });
       finish.interior = &interior;
     }
   }

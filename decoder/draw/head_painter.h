@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "decoder/animate/scene_geometry.h"
 #include "decoder/atlas/atlas_layout.h"
 #include "decoder/blend/head_weights.h"
 #include "decoder/draw/drawing.h"
-#include "decoder/head/head_mesh.h"
 #include "decoder/raster/rasteriser.h"
 #include "decoder/raster/row_runs.h"
 
@@ -16,6 +16,7 @@ namespace fbs {
 
 /// What the triangles of the head are drawn from.
 struct HeadTexture {
+  const SceneGeometry& geometry;
   const AtlasLayout& layout;
   std::array<ConstPlaneView, 3> atlas;  ///< AtlasBlend::planes()
   const HeadWeights& weights;

@@ -33,17 +33,17 @@ double product(const std::vector<std::vector<double>>& metric, const std::vector
 }
 
 /// What the vertices on the features say of two control points: the product of their displacements.
-std::vector<std::vector<double>> vertex_metric(std::size_t first, std::size_t count) {
+std::vector<std::vector<double>> vertex_metric(const WireFrame& head, std::size_t first, std::size_t count) {
   std::vector<std::vector<double>> metric(count, std::vector<double>(count));
   for (std::size_t i = 0; i < count; ++i) metric[i][i] = kControlMetric;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     const auto id = static_cast<FeatureId>(f);
     const double weight = id == FeatureId::kMouthInner ? kInnerLipMetric : 1;
-    for (const FeatureVertex& v : feature(id).vertices)
+    for (const FeatureVertex& v : head.feature(id).vertices)
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
-          metric[i][j] +=
-              weight * skinning_weight(v.vertex, first + i) * skinning_weight(v.vertex, first + j);
+          metric[i][j] += weight * skinning_weight(head, v.vertex, first + i) *
+                          skinning_weight(head, v.vertex, first + j);
   }
   return metric;
 }
@@ -92,12 +92,12 @@ double detail_scale(const std::vector<double>& direction) {
 
 }  // namespace
 
-ExpressionTargets::Part ExpressionTargets::make_part(const ExpressionPart& expression,
+ExpressionTargets::Part ExpressionTargets::make_part(const WireFrame& head, const ExpressionPart& expression,
                                                      std::span<const ControlOffsets> movements) {
   Part part;
   part.first = expression.first_control;
   const std::size_t n = 2U * expression.control_count;
-  part.metric = vertex_metric(part.first, expression.control_count);
+  part.metric = vertex_metric(head, part.first, expression.control_count);
   for (const ControlOffsets& movement : movements) {
     std::vector<double> v = numbers_of(movement, part.first, expression.control_count);
     part.triangle.push_back(orthogonalise(part.metric, part.orthonormal, v));
@@ -122,7 +122,7 @@ ExpressionTargets::ExpressionTargets(const Geometry& head) {
   std::vector<ExpressionTarget> details;
   for (std::size_t p = 0; p < kExpressionPartCount; ++p) {
     const ExpressionPart& expression = generic_head().expression[p];
-    parts_[p] = make_part(expression, movements[p]);
+    parts_[p] = make_part(head.wire_frame(), expression, movements[p]);
     for (const NamedShape& shape : named_shapes()[p]) {
       ExpressionTarget target{std::string(shape.name), false, {}};
       for (std::size_t m = 0; m < movements[p].size(); ++m)
@@ -173,9 +173,9 @@ std::vector<double> ExpressionTargets::weights(const State& state) const {
   return named;
 }
 
-glm::dvec2 displacement(const ExpressionTarget& target, std::size_t vertex) {
+glm::dvec2 displacement(const ExpressionTarget& target, const WireFrame& head, std::size_t vertex) {
   glm::dvec2 sum{};
-  for (const SkinningWeight& s : skinning_of(vertex))
+  for (const SkinningWeight& s : head.skinning_of(vertex))
     sum += s.weight / static_cast<double>(kSkinningOne) * target.offsets[s.control];
   return sum;
 }

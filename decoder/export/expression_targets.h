@@ -59,7 +59,8 @@ class ExpressionTargets {
   };
   /// What the part's movements amount to, and then its details.
   [[nodiscard]] static std::vector<double> coefficients(const Part& part, const State& state);
-  static Part make_part(const ExpressionPart& expression, std::span<const ControlOffsets> movements);
+  static Part make_part(const WireFrame& head, const ExpressionPart& expression,
+                        std::span<const ControlOffsets> movements);
 
   std::vector<ExpressionTarget> targets_;
   std::size_t named_count_ = 0;
@@ -67,6 +68,7 @@ class ExpressionTargets {
 };
 
 /// How far the shape moves a vertex at a weight of one, head units; z is zero.
-[[nodiscard]] glm::dvec2 displacement(const ExpressionTarget& target, std::size_t vertex);
+[[nodiscard]] glm::dvec2 displacement(const ExpressionTarget& target, const WireFrame& head,
+                                      std::size_t vertex);
 
 }  // namespace fbs

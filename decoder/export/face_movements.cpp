@@ -73,17 +73,18 @@ std::vector<ControlOffsets> brow_movements() {
 
 double mean_y(const Geometry& head, FeatureId id) {
   double sum = 0;
-  for (const FeatureVertex& v : feature(id).vertices) sum += head.positions[v.vertex].y;
-  return sum / static_cast<double>(feature(id).vertices.size());
+  const std::span<const FeatureVertex> vertices = head.wire_frame().feature(id).vertices;
+  for (const FeatureVertex& v : vertices) sum += head.positions[v.vertex].y;
+  return sum / static_cast<double>(vertices.size());
 }
 
 /// Both control points of a lid move by what brings its vertices `reach` down.
-ControlOffsets lid_movement(FeatureId lid, double reach) {
-  const Feature& f = feature(lid);
+ControlOffsets lid_movement(const WireFrame& head, FeatureId lid, double reach) {
+  const Feature& f = head.feature(lid);
   double response = 0;
   for (const FeatureVertex& v : f.vertices)
     for (std::size_t c = 0; c < f.control_count; ++c)
-      response += skinning_weight(v.vertex, f.first_control + c);
+      response += skinning_weight(head, v.vertex, f.first_control + c);
   response /= static_cast<double>(f.vertices.size());
   return moved({0, reach / response}, {{lid, 0, 1}, {lid, 1, 1}});
 }
@@ -204,8 +205,8 @@ std::vector<NamedShape> gaze_shapes() {
 
 }  // namespace
 
-double skinning_weight(std::size_t vertex, std::size_t control) {
-  for (const SkinningWeight& s : skinning_of(vertex))
+double skinning_weight(const WireFrame& head, std::size_t vertex, std::size_t control) {
+  for (const SkinningWeight& s : head.skinning_of(vertex))
     if (s.control == control) return s.weight / static_cast<double>(kSkinningOne);
   return 0;
 }
@@ -215,9 +216,10 @@ std::array<std::vector<ControlOffsets>, kExpressionPartCount> face_movements(con
   const double left = eye_opening(head, FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft);
   return {mouth_movements(),
           brow_movements(),
-          {lid_movement(FeatureId::kUpperLidRight, right), lid_movement(FeatureId::kUpperLidLeft, left)},
-          {lid_movement(FeatureId::kLowerLidRight, -right / 2),
-           lid_movement(FeatureId::kLowerLidLeft, -left / 2)},
+          {lid_movement(head.wire_frame(), FeatureId::kUpperLidRight, right),
+           lid_movement(head.wire_frame(), FeatureId::kUpperLidLeft, left)},
+          {lid_movement(head.wire_frame(), FeatureId::kLowerLidRight, -right / 2),
+           lid_movement(head.wire_frame(), FeatureId::kLowerLidLeft, -left / 2)},
           gaze_movements()};
 }
 

@@ -38,7 +38,7 @@ enum GazeMovement : std::uint8_t { kPupilRightX, kPupilRightY, kPupilLeftX, kPup
 inline constexpr double kEyeballRadius = 12.0 / 63 * kUnitsPerEyeDistance;
 
 /// Weight of a vertex in the movement of one control point.
-[[nodiscard]] double skinning_weight(std::size_t vertex, std::size_t control);
+[[nodiscard]] double skinning_weight(const WireFrame& head, std::size_t vertex, std::size_t control);
 
 /// Shapes of a weight of one, made of the movements, and the weights that go with amounts of the movements.
 struct NamedShape {

@@ -148,9 +148,9 @@ FaceNumbers FaceMeasure::operator()(const Geometry& head, const State& state) {
   constexpr double kPixel = 1 << kScreenOneLog2;
   out.translation_px = {pose.shift_x / kPixel, pose.shift_y / kPixel};
   out.scale = std::exp2(pose.log_scale / 4096.0);
-  const auto vertices = project_vertices(head.positions, state);
+  const auto vertices = project_vertices(head, state);
   for (std::size_t k = 0; k < out.landmarks.size(); ++k) {
-    const glm::ivec3 p = vertices[vertex_of_landmark(k)];
+    const glm::ivec3 p = vertices[head.wire_frame().vertex_of_landmark(k)];
     out.landmarks[k] = {p.x / kPixel, p.y / kPixel};
   }
   const glm::dvec2 pupils = glm::dvec2(state.control[feature(FeatureId::kPupilRight).first_control] +

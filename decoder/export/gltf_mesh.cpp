@@ -131,7 +131,8 @@ tinygltf::Primitive mouth_primitive(GltfBuffer& buffer, const RecordedHead& head
   std::vector<glm::vec3> positions, colours;
   for (const std::uint16_t v : vertices) {
     positions.emplace_back(all[v]);
-    const auto place = static_cast<std::size_t>(2 * mouth_ramp(v) / kMouthRampEnd);
+    const auto place =
+        static_cast<std::size_t>(2 * mouth_ramp(head.geometry.wire_frame(), v) / kMouthRampEnd);
     const Srgb& srgb = look.mouth[place];
     const glm::vec3 colour(linear(srgb[0]), linear(srgb[1]), linear(srgb[2]));
     colours.push_back(colour);

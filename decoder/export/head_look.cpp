@@ -15,7 +15,7 @@ constexpr int kMargin = 2;  ///< samples; bilinear filters look one farther
 
 TextureArea texture_area(const RecordedHead& head) {
   glm::ivec2 low{INT32_MAX}, high{INT32_MIN};
-  for (const glm::ivec3& p : project_vertices(head.geometry.positions, head.seen)) {
+  for (const glm::ivec3& p : project_vertices(head.geometry, head.seen)) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
@@ -32,18 +32,17 @@ TextureArea texture_area(const RecordedHead& head) {
 std::vector<glm::dvec2> texture_coordinates(const RecordedHead& head, const TextureArea& area) {
   std::vector<glm::dvec2> out;
   constexpr double kPixel = 1 << kScreenOneLog2;
-  for (const glm::ivec3& p : project_vertices(head.geometry.positions, head.seen))
+  for (const glm::ivec3& p : project_vertices(head.geometry, head.seen))
     out.emplace_back((p.x / kPixel - area.left) / area.width, (p.y / kPixel - area.top) / area.height);
   return out;
 }
 
 std::array<YuvColour, kInteriorCount> mouth_colours(const RecordedHead& head) {
-  const std::int32_t gap_seen = mouth_gap(deform(head.geometry.positions, head.seen));
+  const std::int32_t gap_seen = mouth_gap(head.geometry, head.seen);
   std::array<std::int64_t, kInteriorCount> sum{};
   std::int64_t weight = 0;
   for (const RecordedState& s : head.states) {
-    const std::int32_t opacity =
-        interior_opacity(mouth_gap(deform(head.geometry.positions, s.state)), gap_seen);
+    const std::int32_t opacity = interior_opacity(mouth_gap(head.geometry, s.state), gap_seen);
     weight += opacity;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::int64_t{opacity} * s.state.interior[i];
   }
@@ -57,15 +56,15 @@ std::array<YuvColour, kInteriorCount> mouth_colours(const RecordedHead& head) {
 }
 
 bool pattern_shows_mouth(const RecordedHead& head) {
-  return mouth_gap(deform(head.geometry.positions, head.seen)) >= kInteriorOpaque;
+  return mouth_gap(head.geometry, head.seen) >= kInteriorOpaque;
 }
 
 HeadTriangles head_triangles(const RecordedHead& head) {
   HeadTriangles out;
   const bool separate = !pattern_shows_mouth(head);
-  for (const HeadTriangle& t : generic_head().triangles) {
-    const bool interior = is_inner_lip(t[0]) && is_inner_lip(t[1]) && is_inner_lip(t[2]);
-    auto& corners = separate && interior ? out.mouth : out.face;
+  const WireFrame& frame = head.geometry.wire_frame();
+  for (const HeadTriangle& t : frame.triangles) {
+    auto& corners = separate && is_mouth(frame, t) ? out.mouth : out.face;
     corners.insert(corners.end(), {t[0], t[2], t[1]});
   }
   return out;

@@ -19,9 +19,9 @@ double radians(std::int32_t turn_2_16) {
   return turn_2_16 * (2 * std::numbers::pi / 65536);
 }
 
-std::array<std::size_t, 2> pupil_vertices() {
-  return {feature(FeatureId::kPupilRight).vertices.front().vertex,
-          feature(FeatureId::kPupilLeft).vertices.front().vertex};
+std::array<std::size_t, 2> pupil_vertices(const WireFrame& head) {
+  return {head.feature(FeatureId::kPupilRight).vertices.front().vertex,
+          head.feature(FeatureId::kPupilLeft).vertices.front().vertex};
 }
 
 double size_of(const MorphTarget& target) {
@@ -67,24 +67,25 @@ std::vector<glm::vec3> vertex_normals(const std::vector<glm::dvec3>& vertices,
 HeadMorphs::HeadMorphs(const Geometry& geometry) : geometry_(geometry), expression_(geometry) {
   for (const ExpressionTarget& shape : expression_.targets()) {
     MorphTarget target{shape.name, {}};
-    for (std::size_t v = 0; v < kVertexCount; ++v)
-      target.displacements.push_back(kUnit * to_model_axes(glm::dvec3(displacement(shape, v), 0)));
+    for (std::size_t v = 0; v < geometry.positions.size(); ++v)
+      target.displacements.push_back(
+          kUnit * to_model_axes(glm::dvec3(displacement(shape, geometry.wire_frame(), v), 0)));
     targets_.push_back(std::move(target));
   }
   constexpr std::array kNames{"pupilRightDown", "pupilLeftDown"};
   for (std::size_t side = 0; side < kNames.size(); ++side) {
-    MorphTarget target{kNames[side], std::vector<glm::dvec3>(kVertexCount)};
-    target.displacements[pupil_vertices()[side]] = to_model_axes({0, kPupilStep, 0});
+    MorphTarget target{kNames[side], std::vector<glm::dvec3>(geometry.positions.size())};
+    target.displacements[pupil_vertices(geometry.wire_frame())[side]] = to_model_axes({0, kPupilStep, 0});
     targets_.push_back(std::move(target));
   }
 }
 
 std::vector<double> HeadMorphs::weights(const State& state) const {
   std::vector<double> out = expression_.weights(state);
-  const auto deformed = deform(geometry_.positions, state);
-  for (const std::size_t v : pupil_vertices()) {
+  const auto deformed = deform(geometry_, state);
+  for (const std::size_t v : pupil_vertices(geometry_.wire_frame())) {
     double linear = geometry_.positions[v].y;
-    for (const SkinningWeight& s : skinning_of(v))
+    for (const SkinningWeight& s : geometry_.wire_frame().skinning_of(v))
       linear += s.weight * state.control[s.control].y / static_cast<double>(kSkinningOne);
     const double more = deformed[v].y - linear;
     out.push_back(std::abs(more) <= 1 ? 0 : more * kUnit / kPupilStep);

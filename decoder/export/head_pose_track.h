@@ -36,7 +36,7 @@ struct ModelPose {
 /// A shape of a model: what it adds to the vertices at a weight of one, eye distances, model axes.
 struct MorphTarget {
   std::string name;
-  std::vector<glm::dvec3> displacements;  ///< of each of the kVertexCount vertices
+  std::vector<glm::dvec3> displacements;  ///< of each vertex
 };
 
 /// The expression of a head as morph targets and their weights. To those of ExpressionTargets it adds what

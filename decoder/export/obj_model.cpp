@@ -42,7 +42,7 @@ std::string obj_of(const RecordedHead& head, const State& state, double scale_of
   const ModelPose pose = model_pose(state);
   const HeadTriangles triangles = head_triangles(head);
   std::vector<glm::dvec3> vertices;
-  for (const glm::dvec3& v : model_vertices({deform(head.geometry.positions, state)}))
+  for (const glm::dvec3& v : model_vertices({deform(head.geometry, state), head.geometry.own_frame}))
     vertices.push_back(frame.metres(pose.translation + pose.scale * (pose.rotation * v)));
   std::string out =
       "# fbs export: metres, y up, z towards the viewer\nmtllib " + std::string(library) + "\no head\n";

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "decoder/blend/mesh_blend.h"
 #include "decoder/field/node_cover.h"
+#include "decoder/field/point_weights.h"
 #include "decoder/field/source_rows.h"
 
 namespace fbs {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "decoder/head/fixed_math.h"
-#include "decoder/head/head_mesh.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -20,12 +19,12 @@ VertexLight light_at(glm::ivec3 point, const std::array<std::int32_t, kLightCoun
           light[kLightGain]};
 }
 
-std::vector<VertexLight> vertex_lights(const std::array<glm::ivec3, kVertexCount>& positions,
+std::vector<VertexLight> vertex_lights(std::span<const glm::ivec3> positions, std::size_t ring,
                                        const std::array<std::int32_t, kLightCount>& light) {
   std::vector<VertexLight> out;
   if (std::all_of(light.begin(), light.end(), [](std::int32_t v) { return v == 0; })) return out;
-  out.resize(head_mesh().vertex_count);
-  for (std::size_t v = 0; v < kVertexCount; ++v) out[v] = light_at(positions[v], light);
+  out.resize(positions.size() + ring);
+  for (std::size_t v = 0; v < positions.size(); ++v) out[v] = light_at(positions[v], light);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "common/generic_head.h"
@@ -21,8 +22,9 @@ struct VertexLight {
 /// At a point of the adapted head before control points displace it, head units.
 [[nodiscard]] VertexLight light_at(glm::ivec3 point, const std::array<std::int32_t, kLightCount>& light);
 
-/// At each vertex of head_mesh(); empty when there is no light. Zero on the ring: light ends there.
-[[nodiscard]] std::vector<VertexLight> vertex_lights(const std::array<glm::ivec3, kVertexCount>& positions,
+/// At each vertex of a HeadMesh; empty when there is no light. Zero on the ring: light ends there.
+/// @param ring  number of its vertices
+[[nodiscard]] std::vector<VertexLight> vertex_lights(std::span<const glm::ivec3> positions, std::size_t ring,
                                                      const std::array<std::int32_t, kLightCount>& light);
 
 }  // namespace fbs

@@ -1,29 +1,25 @@
 #include "decoder/head/head_mesh.h"
 
-namespace fbs {
-namespace {
+#include "common/generic_head.h"
 
-HeadMesh make_head_mesh() {
-  const GenericHead& head = generic_head();
-  HeadMesh mesh;
-  mesh.triangles.assign(head.triangles.begin(), head.triangles.end());
+namespace fbs {
+
+HeadMesh::HeadMesh(const WireFrame& head)
+    : triangles(head.triangles.begin(), head.triangles.end()), head_count(head.vertices.size()) {
   const std::size_t n = head.outline.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
     const std::uint16_t a = head.outline[i], b = head.outline[j];
-    const auto ring_a = static_cast<std::uint16_t>(kVertexCount + i);
-    const auto ring_b = static_cast<std::uint16_t>(kVertexCount + j);
-    mesh.triangles.push_back({a, ring_a, ring_b});
-    mesh.triangles.push_back({a, ring_b, b});
+    const auto ring_a = static_cast<std::uint16_t>(head_count + i);
+    const auto ring_b = static_cast<std::uint16_t>(head_count + j);
+    triangles.push_back({a, ring_a, ring_b});
+    triangles.push_back({a, ring_b, b});
   }
-  mesh.vertex_count = kVertexCount + n;
-  return mesh;
+  vertex_count = head_count + n;
 }
 
-}  // namespace
-
-const HeadMesh& head_mesh() {
-  static const HeadMesh mesh = make_head_mesh();
+const HeadMesh& generic_head_mesh() {
+  static const HeadMesh mesh(generic_head());
   return mesh;
 }
 

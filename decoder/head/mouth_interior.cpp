@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "decoder/head/head_deformation.h"
+
 namespace fbs {
 namespace {
 
 // Landmarks of the inner lips: from the right corner over the upper lip to the left corner, then the lower
 // lip.
-constexpr int kFirstInnerLip = 60, kUpperMiddle = 62, kLeftCorner = 64, kLowerMiddle = 66;
+constexpr std::size_t kRightCorner = 60, kUpperMiddle = 62, kLeftCorner = 64, kLowerMiddle = 66;
 
 /// Lips that part by this much more than in the pattern show nothing of it between them, head units. A
 /// sixteenth of the eye distance; set by eye on the ten clips.
@@ -28,19 +30,33 @@ InteriorColours rounded(const std::array<std::int32_t, kInteriorCount>& levels) 
 
 }  // namespace
 
-bool is_inner_lip(std::size_t vertex) {
-  return vertex < kVertexCount && generic_head().vertices[vertex].landmark >= kFirstInnerLip;
+bool is_inner_lip(const WireFrame& head, std::size_t vertex) {
+  return vertex < head.vertices.size() &&
+         head.vertices[vertex].feature == static_cast<int>(FeatureId::kMouthInner);
 }
 
-std::int32_t mouth_ramp(std::size_t inner_lip_vertex) {
-  const int landmark = generic_head().vertices[inner_lip_vertex].landmark;
-  if (landmark == kFirstInnerLip || landmark == kLeftCorner) return kMouthRampEnd / 2;
-  return landmark < kLeftCorner ? 0 : kMouthRampEnd;
+bool is_mouth(const WireFrame& head, const HeadTriangle& corners) {
+  return std::all_of(corners.begin(), corners.end(), [&](std::size_t v) { return is_inner_lip(head, v); });
 }
 
-std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices) {
-  const auto y_of = [&](std::size_t landmark) { return vertices[vertex_of_landmark(landmark)].y; };
+std::int32_t mouth_ramp(const WireFrame& head, std::size_t inner_lip_vertex) {
+  std::int32_t ramp = 0;
+  for (const FeatureVertex& v : head.feature(FeatureId::kMouthInner).vertices) {
+    const bool is_corner =
+        v.vertex == head.vertex_of_landmark(kRightCorner) || v.vertex == head.vertex_of_landmark(kLeftCorner);
+    if (v.vertex == inner_lip_vertex) return is_corner ? kMouthRampEnd / 2 : ramp;
+    if (is_corner) ramp = v.vertex == head.vertex_of_landmark(kRightCorner) ? 0 : kMouthRampEnd;
+  }
+  return ramp;
+}
+
+std::int32_t mouth_gap(const WireFrame& head, std::span<const glm::ivec3> vertices) {
+  const auto y_of = [&](std::size_t landmark) { return vertices[head.vertex_of_landmark(landmark)].y; };
   return y_of(kLowerMiddle) - y_of(kUpperMiddle);
+}
+
+std::int32_t mouth_gap(const Geometry& neutral, const State& state) {
+  return mouth_gap(neutral.wire_frame(), deform(neutral, state));
 }
 
 std::int32_t interior_opacity(std::int32_t gap, std::int32_t gap_seen) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "bitstream/syntax.h"
 #include "common/generic_head.h"
@@ -14,14 +15,22 @@ namespace fbs {
 inline constexpr std::int32_t kInteriorOpaque = 256;  ///< opacity: nothing of the pattern shows through
 inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0 upper lip, this lower lip
 
-/// Whether the vertex lies on the inner lips. A triangle of three such vertices is mouth interior.
-[[nodiscard]] bool is_inner_lip(std::size_t vertex);
+/// Whether the vertex lies on the inner lips; one of the ring does not. A triangle of three such vertices is
+/// mouth interior.
+[[nodiscard]] bool is_inner_lip(const WireFrame& head, std::size_t vertex);
 
 /// 0 at the upper inner lip, half of kMouthRampEnd at the corners, kMouthRampEnd at the lower inner lip.
-[[nodiscard]] std::int32_t mouth_ramp(std::size_t inner_lip_vertex);
+[[nodiscard]] std::int32_t mouth_ramp(const WireFrame& head, std::size_t inner_lip_vertex);
+
+/// Whether a triangle is mouth interior.
+/// @param corners  vertices of a HeadMesh
+[[nodiscard]] bool is_mouth(const WireFrame& head, const HeadTriangle& corners);
 
 /// Between the middles of the inner lips of a head as deform() returns it, head units.
-[[nodiscard]] std::int32_t mouth_gap(const std::array<glm::ivec3, kVertexCount>& vertices);
+[[nodiscard]] std::int32_t mouth_gap(const WireFrame& head, std::span<const glm::ivec3> vertices);
+
+/// The same of an adapted head in a state.
+[[nodiscard]] std::int32_t mouth_gap(const Geometry& neutral, const State& state);
 
 /// Opacity of the interior over what the pattern shows between the lips: 0..kInteriorOpaque, reached once the
 /// lips have parted by a sixteenth of the eye distance more than in the pattern.

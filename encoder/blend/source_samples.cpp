@@ -38,12 +38,12 @@ void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const Surface
 
 void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t,
                   SourceRun& out) {
-  if (!std::all_of(t.corners.begin(), t.corners.end(), is_inner_lip)) return;
+  if (!is_mouth(generic_head(), t.corners)) return;
   const std::int32_t opacity = interior_opacity(picture.mesh.mouth_gap, texture.mouth_gap);
   if (opacity == 0) return;
   const auto colours = interior_colours(picture.mouth, picture.mesh.interior);
   std::int32_t ramp = 0;
-  for (const std::uint16_t v : t.corners) ramp += mouth_ramp(v);
+  for (const std::uint16_t v : t.corners) ramp += mouth_ramp(generic_head(), v);
   const float at =
       2.0F * static_cast<float>(ramp) / (3.0F * kMouthRampEnd);  // 0 upper lip, 1 half way, 2 lower
   const auto upper = static_cast<std::size_t>(at < 1 ? 0 : 1);

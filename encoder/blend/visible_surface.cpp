@@ -17,7 +17,7 @@ std::vector<SurfaceTriangle> all_triangles(const SceneGeometry& geometry) {
   const auto point = [](std::int32_t k) { return static_cast<std::uint16_t>(k); };
   for (const MeshTriangle& t : geometry.surround().triangles())
     out.push_back({{point(t[0]), point(t[1]), point(t[2])}, false});
-  for (const HeadTriangle& t : head_mesh().triangles) out.push_back({t, true});
+  for (const HeadTriangle& t : generic_head_mesh().triangles) out.push_back({t, true});
   return out;
 }
 

@@ -23,7 +23,7 @@ float unlit(float luma, const Fit& seen, const std::array<double, kLightCount>& 
 
 PatternSamples::PatternSamples(const SamplePoints& points, const Geometry& geometry,
                                const SeenPattern& pattern)
-    : mouth_gap_(fbs::mouth_gap(deform(geometry.positions, pattern.seen))),
+    : mouth_gap_(fbs::mouth_gap(geometry, pattern.seen)),
       interior_opacity_(pattern.interior_opacity),
       index_(pattern.index) {
   const Fit seen = fit_of(pattern.seen);

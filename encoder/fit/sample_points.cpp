@@ -10,11 +10,11 @@ namespace fbs {
 namespace {
 
 float mouth_ramp_of(const SurfacePoint& p) {
-  if (!std::all_of(p.corner.begin(), p.corner.end(), is_inner_lip)) return -1;
+  if (!is_mouth(generic_head(), p.corner)) return -1;
   constexpr float kRampOne = 256;  // of the decoder's mouth_ramp()
   float ramp = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    ramp += p.barycentric[i] * static_cast<float>(mouth_ramp(p.corner[i])) / kRampOne;
+    ramp += p.barycentric[i] * static_cast<float>(mouth_ramp(generic_head(), p.corner[i])) / kRampOne;
   return ramp;
 }
 

@@ -17,7 +17,7 @@ std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices, const P
     const glm::dvec2 a = corner(0), e = corner(1) - a, f = corner(2) - a;
     const double area = std::abs(e.x * f.y - e.y * f.x) / 2;
     // n x n cells of the triangle, a point in the middle of each
-    const int min_rows = std::all_of(t.begin(), t.end(), is_inner_lip) ? mouth_rows : 1;
+    const int min_rows = is_mouth(generic_head(), t) ? mouth_rows : 1;
     const int n = std::max(min_rows, static_cast<int>(std::lround(std::sqrt(2 * area) / spacing_px)));
     for (int i = 0; i < n; ++i) {
       for (int j = 0; i + j < n; ++j) {

@@ -15,7 +15,7 @@ constexpr std::int32_t kRoom = 112;  // from grey, for the others; pictures to c
 
 }  // namespace
 
-void FaceChroma::add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices) {
+void FaceChroma::add(const Picture& picture, std::span<const glm::ivec3> vertices) {
   const auto [left, right] = std::ranges::minmax(vertices, {}, [](const glm::ivec3& p) { return p.x; });
   const auto [top, bottom] = std::ranges::minmax(vertices, {}, [](const glm::ivec3& p) { return p.y; });
   constexpr int kChromaOneLog2 = kScreenOneLog2 + 1;

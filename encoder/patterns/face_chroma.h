@@ -19,7 +19,7 @@ class FaceChroma {
  public:
   /// Adds the box round the head.
   /// @param vertices  screen positions of the head's vertices, 1/64 pixel
-  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices);
+  void add(const Picture& picture, std::span<const glm::ivec3> vertices);
 
   /// Setup::chroma_contrast: what is wanted, or the most with which hardly a sample leaves 0..255;
   /// kContrastOne when nothing has been added.

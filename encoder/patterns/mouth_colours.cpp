@@ -12,7 +12,7 @@ constexpr double kOpen = 0.10;            // eye distances by which the outer li
 constexpr std::int64_t kMinPictures = 3;  // fewer may be a tongue or a shadow
 constexpr int kSteps = 24;                // along the midline
 
-glm::dvec2 seen_at(const std::array<glm::ivec3, kVertexCount>& vertices, std::size_t landmark) {
+glm::dvec2 seen_at(std::span<const glm::ivec3> vertices, std::size_t landmark) {
   const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
   return glm::dvec2(p.x, p.y) / kStateUnitsPerPixel;
 }
@@ -33,12 +33,12 @@ void MouthColours::Sum::set_chroma(YuvColour& colour) const {
   colour.v = static_cast<std::uint8_t>((v + count / 2) / count);
 }
 
-std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices) {
+std::int32_t mouth_height(std::span<const glm::ivec3> vertices) {
   const glm::dvec2 d = kStateUnitsPerPixel * (seen_at(vertices, 57) - seen_at(vertices, 51));
   return static_cast<std::int32_t>(std::hypot(d.x, d.y));
 }
 
-void MouthColours::add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices) {
+void MouthColours::add(const Picture& picture, std::span<const glm::ivec3> vertices) {
   if (mouth_height(vertices) - rest_height_ < kOpen * eye_distance_px_ * kStateUnitsPerPixel) return;
   const glm::dvec2 top = seen_at(vertices, 51), bottom = seen_at(vertices, 57);
   glm::dvec2 darkest = top;

@@ -23,7 +23,7 @@ class MouthColours {
   /// half way from there to the upper inner lip, where teeth are. Inner lips are tracked less reliably, so
   /// the outer ones decide whether the mouth is open.
   /// @param vertices  screen positions of the head's vertices, 1/64 pixel
-  void add(const Picture& picture, const std::array<glm::ivec3, kVertexCount>& vertices);
+  void add(const Picture& picture, std::span<const glm::ivec3> vertices);
 
   /// Sets the chroma of either lip's colour once enough has been seen of it.
   void set_chroma(MouthInterior& mouth) const;
@@ -40,6 +40,6 @@ class MouthColours {
 };
 
 /// Distance between the outer lips' middles, 1/64 pixel.
-[[nodiscard]] std::int32_t mouth_height(const std::array<glm::ivec3, kVertexCount>& vertices);
+[[nodiscard]] std::int32_t mouth_height(std::span<const glm::ivec3> vertices);
 
 }  // namespace fbs

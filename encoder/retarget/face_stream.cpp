@@ -11,6 +11,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/wire_frame_payload.h"
 #include "bitstream/track.h"
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/mouth_interior.h"
@@ -26,7 +27,7 @@ Error at(const Packet& packet, const Error& error) {
 class InteriorMean {
  public:
   void add(const Geometry& geometry, const State& state) {
-    const double gap = std::max(0, mouth_gap(deform(geometry.positions, state)));
+    const double gap = std::max(0, mouth_gap(geometry, state));
     for (std::size_t i = 0; i < kInteriorCount; ++i) sum_[i] += gap * state.interior[i];
     weight_ += gap;
   }
@@ -52,6 +53,8 @@ class Reading {
       return begin(packet);
     }
     switch (packet.type) {
+      case PacketType::kWireFrame:
+        return take_wire_frame(packet);
       case PacketType::kGeometry:
         return take_geometry(packet);
       case PacketType::kSurround:
@@ -82,9 +85,18 @@ class Reading {
     return true;
   }
 
+  Result<bool> take_wire_frame(const Packet& packet) {
+    if (motion_) return true;  // has no effect
+    auto frame = decode_wire_frame(packet.payload);
+    if (!frame) return fail(at(packet, frame.error()));
+    wire_frame_ = std::move(*frame);
+    face_.wire_frame_payload.assign(packet.payload.begin(), packet.payload.end());
+    return true;
+  }
+
   Result<bool> take_geometry(const Packet& packet) {
     if (motion_) return true;  // has no effect
-    const auto geometry = decode_geometry(packet.payload);
+    const auto geometry = decode_geometry(packet.payload, wire_frame_);
     if (!geometry) return fail(at(packet, geometry.error()));
     if (is_flat(*geometry)) return true;
     face_.geometry = *geometry;
@@ -124,6 +136,7 @@ class Reading {
   [[nodiscard]] std::int32_t pictures() const { return static_cast<std::int32_t>(states_.size()); }
 
   FaceStream face_;
+  std::shared_ptr<const WireFrame> wire_frame_;
   PatternPacketReader packets_;
   std::optional<MotionDecoder> motion_;
   std::vector<State> states_;  ///< of each picture of the scene

@@ -18,6 +18,7 @@ struct FaceStream {
   };
   Setup setup;
   Geometry geometry;
+  std::vector<std::uint8_t> wire_frame_payload;  ///< empty: the generic head
   std::vector<std::uint8_t> geometry_payload;
   std::vector<std::uint8_t> surround_payload;  ///< the last one of the scene; empty: none
   PatternSyntax first;

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "encoder/model/fit.h"
-#include "encoder/model/skinning.h"
 
 namespace fbs {
 namespace {
@@ -19,10 +18,15 @@ constexpr double kMinScale = 0.5, kMaxScale = 2;
 constexpr double kShutShare = 0.05;
 constexpr double kMaxShutGap = 0.06 * kUnitsPerEyeDistance;
 constexpr double kShutMargin = 0.015 * kUnitsPerEyeDistance;
-constexpr std::array<std::array<int, 2>, 3> kLipPairs{{{61, 67}, {62, 66}, {63, 65}}};  // upper, lower
+constexpr std::array<std::array<std::size_t, 2>, 3> kLipPairs{
+    {{61, 67}, {62, 66}, {63, 65}}};  // upper, lower
+
+/// Between the inner lips, at the pairs of landmarks, head units.
+using LipGaps = std::array<double, 3>;
 
 glm::dvec2 point(const Geometry& geometry, int landmark) {
-  return glm::dvec2(geometry.positions[vertex_of_landmark(static_cast<std::size_t>(landmark))]);
+  return glm::dvec2(
+      geometry.positions[geometry.wire_frame().vertex_of_landmark(static_cast<std::size_t>(landmark))]);
 }
 
 glm::dvec2 middle(const Geometry& geometry, int first, int last) {
@@ -50,13 +54,28 @@ double ratio(double shown, double moves) {
   return shown > 0 && moves > 0 ? std::clamp(shown / moves, kMinScale, kMaxScale) : 1.0;
 }
 
+/// How far down offsets of control points move the vertex of a landmark, head units.
+double moved_down(const WireFrame& head, std::size_t landmark, const Offsets& offsets) {
+  double sum = 0;
+  for (const SkinningWeight& s : head.skinning_of(head.vertex_of_landmark(landmark)))
+    sum += s.weight * offsets[s.control].y;
+  return sum / kSkinningOne;
+}
+
 LipGaps gaps_of(const Geometry& geometry, const Offsets& offsets) {
-  const HeadVertices vertices = skinned(geometry, offsets);
   LipGaps out{};
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = vertices[vertex_of_landmark(static_cast<std::size_t>(kLipPairs[i][1]))].y -
-             vertices[vertex_of_landmark(static_cast<std::size_t>(kLipPairs[i][0]))].y;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto [upper, lower] = kLipPairs[i];
+    const auto y = [&, &head = geometry.wire_frame()](std::size_t landmark) {
+      return geometry.positions[head.vertex_of_landmark(landmark)].y + moved_down(head, landmark, offsets);
+    };
+    out[i] = y(lower) - y(upper);
+  }
   return out;
+}
+
+double mean_of(const LipGaps& gaps) {
+  return (gaps[0] + gaps[1] + gaps[2]) / 3;
 }
 
 /// Moves the control points of the inner lips down, and the outer lips with them: both curves run round the
@@ -77,52 +96,45 @@ constexpr int kLipControls = 8;  ///< of the inner lips
 using GapSlopes = std::array<glm::dvec3, kLipControls>;
 
 /// What each argument of move_lips() adds to the gaps.
-const GapSlopes& gap_slopes() {
-  static const GapSlopes slopes = [] {
-    GapSlopes out;
-    for (std::size_t c = 0; c < out.size(); ++c) {
-      std::array<double, kLipControls> down{};
-      down[c] = 1;
-      Offsets offsets{};
-      move_lips(down, offsets);
-      const LipGaps gaps = gaps_of(Geometry{}, offsets);
-      out[c] = {gaps[0], gaps[1], gaps[2]};
-    }
-    return out;
-  }();
-  return slopes;
-}
-
-/// Moves the lips as little as changes the gaps so.
-void add_to_gaps(const LipGaps& change, Offsets& offsets) {
-  glm::dmat3 squares(0.0);
-  for (const glm::dvec3& slope : gap_slopes()) squares += glm::outerProduct(slope, slope);
-  const glm::dvec3 pull = glm::inverse(squares) * glm::dvec3(change[0], change[1], change[2]);
-  std::array<double, kLipControls> down{};
-  std::ranges::transform(gap_slopes(), down.begin(), [&](glm::dvec3 slope) { return glm::dot(slope, pull); });
-  move_lips(down, offsets);
-}
-
-/// The largest gaps of a mouth that is taken to be shut.
-LipGaps shut_gaps(const MotionRecord& motion) {
-  std::array<std::vector<double>, 3> seen;
-  for (const MotionRecord::Entry& picture : motion.pictures) {
-    const LipGaps gaps = gaps_of(motion.geometries[picture.geometry], fit_of(picture.state).offsets);
-    for (std::size_t i = 0; i < gaps.size(); ++i) seen[i].push_back(gaps[i]);
-  }
-  LipGaps out{};
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto place =
-        seen[i].begin() + static_cast<std::ptrdiff_t>(kShutShare * static_cast<double>(seen[i].size()));
-    std::nth_element(seen[i].begin(), place, seen[i].end());
-    out[i] = std::clamp(*place, 0.0, kMaxShutGap) + kShutMargin;
+GapSlopes gap_slopes(const WireFrame& head) {
+  GapSlopes out;
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    std::array<double, kLipControls> down{};
+    down[c] = 1;
+    Offsets offsets{};
+    move_lips(down, offsets);
+    for (int i = 0; i < 3; ++i)
+      out[c][i] = moved_down(head, kLipPairs[i][1], offsets) - moved_down(head, kLipPairs[i][0], offsets);
   }
   return out;
 }
 
-/// How far lips are really apart: not at all up to `shut`, as seen from twice that on.
-double opening(double gap, double shut) {
-  return gap < 2 * shut ? std::max(0.0, 2 * (gap - shut)) : gap;
+/// Moves the lips as little as changes the gaps so.
+void add_to_gaps(const WireFrame& head, const LipGaps& change, Offsets& offsets) {
+  const GapSlopes slopes = gap_slopes(head);
+  glm::dmat3 squares(0.0);
+  for (const glm::dvec3& slope : slopes) squares += glm::outerProduct(slope, slope);
+  const glm::dvec3 pull = glm::inverse(squares) * glm::dvec3(change[0], change[1], change[2]);
+  std::array<double, kLipControls> down{};
+  std::ranges::transform(slopes, down.begin(), [&](glm::dvec3 slope) { return glm::dot(slope, pull); });
+  move_lips(down, offsets);
+}
+
+/// The largest mean gap of a mouth that is taken to be shut.
+double shut_gap(const MotionRecord& motion) {
+  std::vector<double> seen;
+  for (const MotionRecord::Entry& picture : motion.pictures)
+    seen.push_back(mean_of(gaps_of(motion.geometries[picture.geometry], fit_of(picture.state).offsets)));
+  if (seen.empty()) return kShutMargin;
+  const auto place =
+      seen.begin() + static_cast<std::ptrdiff_t>(kShutShare * static_cast<double>(seen.size()));
+  std::nth_element(seen.begin(), place, seen.end());
+  return std::clamp(*place, 0.0, kMaxShutGap) + kShutMargin;
+}
+
+/// The share of the gaps that is real: none up to a mean of `shut`, all from twice that on.
+double real_share(double mean, double shut) {
+  return mean <= shut ? 0 : std::min(2 * (mean - shut) / mean, 1.0);
 }
 
 }  // namespace
@@ -142,7 +154,7 @@ StateNumbers numbers_of(const State& state) {
 MotionTransfer::MotionTransfer(const MotionRecord& motion, const FaceStream& face)
     : motion_(motion),
       face_(face),
-      shut_(shut_gaps(motion)),
+      shut_(shut_gap(motion)),
       ratio_(std::exp2((face.rest.pose[kLogScale] - motion.rest.pose[kLogScale]) / 4096.0)) {
   const auto shown = sizes_of(face.geometry);
   for (const Geometry& geometry : motion.geometries) {
@@ -166,10 +178,10 @@ Offsets MotionTransfer::scaled(const State& state, std::size_t geometry) const {
 void MotionTransfer::match_gaps(const MotionRecord::Entry& picture, Offsets& offsets) const {
   const LipGaps moves = gaps_of(motion_.geometries[picture.geometry], fit_of(picture.state).offsets);
   const LipGaps now = gaps_of(face_.geometry, offsets);
+  const double share = lip_scales_[picture.geometry] * real_share(mean_of(moves), shut_);
   LipGaps change{};
-  for (std::size_t i = 0; i < change.size(); ++i)
-    change[i] = lip_scales_[picture.geometry] * opening(moves[i], shut_[i]) - now[i];
-  add_to_gaps(change, offsets);
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = share * std::max(moves[i], 0.0) - now[i];
+  add_to_gaps(face_.geometry.wire_frame(), change, offsets);
 }
 
 StateNumbers MotionTransfer::operator()(const MotionRecord::Entry& picture) const {

@@ -17,9 +17,6 @@ using StateNumbers = std::array<double, kParameterCount>;
 
 [[nodiscard]] StateNumbers numbers_of(const State& state);
 
-/// Between the inner lips, at the pairs of landmarks 61 and 67, 62 and 66, 63 and 65, head units.
-using LipGaps = std::array<double, 3>;
-
 /// Maps states of the face that moves to states of the face that is shown.
 ///
 /// Pose is what differs from the first picture: angles as they are, translation in eye distances, less that
@@ -42,8 +39,8 @@ class MotionTransfer {
   const FaceStream& face_;
   std::vector<std::array<glm::dvec2, kFeatureCount>> scales_;  ///< of offsets, by geometry of the motion
   std::vector<double> lip_scales_;                             ///< of gaps, by geometry of the motion
-  LipGaps shut_{};                                             ///< up to which the motion's mouth is shut
-  double ratio_;                                               ///< of the eye distances in the first pictures
+  double shut_;   ///< mean gap up to which the motion's mouth is shut
+  double ratio_;  ///< of the eye distances in the first pictures
 };
 
 }  // namespace fbs

@@ -82,6 +82,7 @@ class SceneWriter {
     const auto pattern = pattern_packets_.encode({&first_, 1}, setup_, 0);
     if (!pattern) return fail(pattern.error());
     add(PacketType::kSetup, *setup);
+    if (!face_.wire_frame_payload.empty()) add(PacketType::kWireFrame, face_.wire_frame_payload);
     add(PacketType::kGeometry, face_.geometry_payload);
     if (!face_.surround_payload.empty()) add(PacketType::kSurround, face_.surround_payload);
     add(PacketType::kPattern, *pattern);

@@ -46,7 +46,7 @@ std::vector<glm::dvec2> CellCost::without_margin(const std::vector<glm::ivec2>& 
   return out;
 }
 
-cv::Mat CellCost::covered_by_head(const std::array<glm::ivec3, kVertexCount>& vertices, cv::Size size) const {
+cv::Mat CellCost::covered_by_head(std::span<const glm::ivec3> vertices, cv::Size size) const {
   const int per_sample = kScreenPerPixel * observations_.factor();
   std::vector<cv::Point> outline;
   for (const std::uint16_t v : generic_head().outline)

@@ -44,8 +44,7 @@ class CellCost {
 
   [[nodiscard]] Later later_picture(const Setup& setup, const Geometry& geometry,
                                     const SurroundObservations::Observation& observation) const;
-  [[nodiscard]] cv::Mat covered_by_head(const std::array<glm::ivec3, kVertexCount>& vertices,
-                                        cv::Size size) const;
+  [[nodiscard]] cv::Mat covered_by_head(std::span<const glm::ivec3> vertices, cv::Size size) const;
   [[nodiscard]] std::vector<glm::dvec2> without_margin(const std::vector<glm::ivec2>& screen) const;
   [[nodiscard]] static glm::dvec2 displacement(const Later& later, std::size_t point, const MapLabel& label);
   [[nodiscard]] double in_picture(const Later& later, const Cell& cell,

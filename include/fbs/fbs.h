@@ -137,8 +137,8 @@ typedef struct fbs_landmark {
 /** Points of a face, as iBUG (300-W) numbers them from 0. */
 #define FBS_LANDMARKS 68
 
-/** Vertices of the wire-frame. */
-#define FBS_VERTICES 105
+/** Most vertices that a wire-frame has. The generic head has 105; a stream may bring another. */
+#define FBS_MAX_VERTICES 1024
 
 /** Control points of the snakes, as bitstream/SPEC.md section 5.1 orders them: outer mouth 0..9, inner mouth
  * 10..17, right brow 18..21, left brow 22..25, upper lids 26..27 and 28..29, lower lids 30..31 and 32..33,
@@ -172,8 +172,8 @@ typedef struct fbs_decoder fbs_decoder;
 typedef struct fbs_decoder_settings {
   size_t struct_size;
   /** Streams with more pixels in a picture are refused with FBS_ERROR_TOO_LARGE before memory is taken.
-   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes for each pixel, and 1 MB, for each
-   * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
+   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes for each pixel, and 1 MB, for
+   * each of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
   uint64_t max_pixels;
   /** Threads that draw each picture, 1..FBS_MAX_THREADS, with that of the caller; pictures are the same. They
    * work during calls of this decoder only. Default: 1. */
@@ -237,8 +237,10 @@ FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format
 FBS_API fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out);
 /** @param out  FBS_LANDMARKS points */
 FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out);
-/** @param out  FBS_VERTICES vertices */
-FBS_API fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out);
+/** @param out    the vertices of the scene's wire-frame
+ * @param count  before: how many there is room for; after: how many there are, 0 without a face. If there is
+ *               too little room, nothing is written and the answer is FBS_ERROR_ARGUMENT */
+FBS_API fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out, size_t* count);
 
 /** What went wrong in the last call that returned an error for this decoder, in one line; "" before the
  * first. Never null; valid until the next call for this decoder. */

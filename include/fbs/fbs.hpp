@@ -18,6 +18,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace fbs {
 inline namespace api {
@@ -75,9 +76,14 @@ class Decoder {
     return ask<std::array<fbs_landmark, FBS_LANDMARKS>>(
         [](const fbs_decoder* d, auto* out) { return fbs_decoder_get_landmarks(d, out->data()); });
   }
-  std::optional<std::array<fbs_vertex, FBS_VERTICES>> vertices() const {
-    return ask<std::array<fbs_vertex, FBS_VERTICES>>(
-        [](const fbs_decoder* d, auto* out) { return fbs_decoder_get_vertices(d, out->data()); });
+  std::optional<std::vector<fbs_vertex>> vertices() const {
+    return ask<std::vector<fbs_vertex>>([](const fbs_decoder* d, auto* out) {
+      std::size_t count = FBS_MAX_VERTICES;
+      out->resize(count);
+      const fbs_status status = fbs_decoder_get_vertices(d, out->data(), &count);
+      out->resize(count);
+      return status;
+    });
   }
 
   /// For calls of C. Null after a move.

@@ -80,7 +80,7 @@ void HeadTriangles(benchmark::State& state) {
   const RasterTarget onto{PlaneScale::kLuma, {&to, 1}, {0, 0, kWidth, kHeight}, &depth};
   for (auto _ : state) {
     depth.reset(kWidth, kHeight, onto.area);
-    for (const auto& triangle : head_mesh().triangles) {
+    for (const auto& triangle : generic_head_mesh().triangles) {
       ScreenTriangle t;
       TextureSource source{{&from, 1}, {}, {}};
       for (std::size_t i = 0; i < 3; ++i) {

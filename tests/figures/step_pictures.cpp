@@ -94,7 +94,7 @@ Panels contours(const Subject& of) {
 
 /// The head of a pattern, laid flat.
 cv::Mat3b atlas_panel(const Subject& of, const Pattern& pattern, int height_px) {
-  const AtlasLayout& layout = atlas_layout(of.followed.scene.geometry->rest_scale());
+  const AtlasLayout& layout = of.followed.scene.geometry->atlas_layout();
   const double width = pattern.atlas.width(), height = pattern.atlas.height();
   const double part_width = height * kPanelWidth / height_px;
   const cv::Rect2d part((width - part_width) / 2, 0, part_width, height);

@@ -147,11 +147,12 @@ class Session {
     require(known == FBS_OK || known == FBS_NEED_DATA, "the format is not told");
     fbs_face_state state;
     std::array<fbs_landmark, FBS_LANDMARKS> landmarks;
-    std::array<fbs_vertex, FBS_VERTICES> vertices;
+    std::array<fbs_vertex, FBS_MAX_VERTICES> vertices;
+    std::size_t count = vertices.size();
     const fbs_status told = fbs_decoder_get_state(get(), &state);
     require(told != FBS_ERROR_INTERNAL, "internal error");
     require(fbs_decoder_get_landmarks(get(), landmarks.data()) == told, "a state without landmarks");
-    require(fbs_decoder_get_vertices(get(), vertices.data()) == told, "a state without vertices");
+    require(fbs_decoder_get_vertices(get(), vertices.data(), &count) == told, "a state without vertices");
     const fbs_picture wrong{format.width + 1, format.height, {}, {}};
     require(fbs_decoder_draw(get(), &wrong) == FBS_ERROR_ARGUMENT, "a picture without memory is drawn");
     require(fbs_decoder_feed(get(), nullptr, 1) == FBS_ERROR_ARGUMENT, "no bytes are taken");

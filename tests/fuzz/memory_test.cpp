@@ -15,6 +15,7 @@
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
+#include "bitstream/payload/wire_frame_payload.h"
 #include "decoder/stream_decoder.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/stream_mutator.h"
@@ -186,6 +187,25 @@ TEST(Memory, SearchPastDamageForgetsWhatItHasSeen) {
     reader.feed(piece);
   }
   EXPECT_LT(meter.peak(), kMiB / 2);
+}
+
+TEST(Memory, WireFramesAreBounded) {
+  Random random(1);
+  std::size_t peak = 0;
+  for (const char* name : {"wire_frame.fbs", "random_wire_frame.fbs"}) {
+    const auto payloads = payloads_of(vector_named(name), PacketType::kWireFrame);
+    ASSERT_EQ(payloads.size(), 1u);
+    for (int i = 0; i < 1000; ++i) {
+      Bytes changed = payloads.front();
+      mutate_bytes(changed, random);
+      if (i % 4 == 0) changed.resize(kMaxWireFramePayload, static_cast<std::uint8_t>(random()));
+      const Meter meter;
+      (void)decode_wire_frame(changed);
+      peak = std::max(peak, meter.peak());
+    }
+  }
+  EXPECT_GT(peak, kMiB / 32) << "the tables of wire_frame.fbs";
+  EXPECT_LT(peak, kMiB);
 }
 
 TEST(Memory, DracoIsBounded) {

@@ -29,6 +29,7 @@ LIMITS = {
     "pattern_decoder": (4096, 10, 2048),
     "scene_index": (8192, 10, 1024),
     "stream_decoder": (8192, 60, 2048),
+    "wire_frame_payload": (8192, 10, 1024),
 }
 OTHER_LIMITS = (2048, 10, 1024)
 MOST_FINDINGS = 5  # of a target: then it needs a human being, not more time

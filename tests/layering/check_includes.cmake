@@ -7,7 +7,7 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
-  decoder/vectors decoder/head decoder/animate decoder/raster decoder/blend decoder/field decoder/atlas decoder/draw decoder
+  decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/draw decoder
   decoder/export
   encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder

@@ -2,28 +2,14 @@
 
 import numpy as np
 
-from .head import (HEAD, LEFT_LOWER_LID, LEFT_PUPIL, LEFT_UPPER_LID, RIGHT_LOWER_LID, RIGHT_PUPIL,
-                   RIGHT_UPPER_LID, VERTICES)
 from .integers import clamp, cos, exp2, nearest, quotient, sin
 from .limits import MAX_LIGHT, MAX_SCREEN
+from .wire_frame import (LEFT_LOWER_LID, LEFT_PUPIL, LEFT_UPPER_LID, RIGHT_LOWER_LID, RIGHT_PUPIL,
+                         RIGHT_UPPER_LID)
 
 _EYES = ((RIGHT_PUPIL, RIGHT_UPPER_LID, RIGHT_LOWER_LID), (LEFT_PUPIL, LEFT_UPPER_LID, LEFT_LOWER_LID))
-_UPPER_LIP, _LOWER_LIP = HEAD.landmark.index(62), HEAD.landmark.index(66)
+_UPPER_LIP, _LOWER_LIP = 62, 66  # landmarks
 _LIGHT_MIDDLE_Y = 2048  # head units
-_CONTROLS = sum(feature.controls for feature in HEAD.features)
-
-
-def _skinning_matrix():
-    """Weight of each control point (columns) for each vertex (rows)."""
-    matrix = np.zeros((VERTICES, _CONTROLS), np.int64)
-    for v, pairs in enumerate(HEAD.skinning):
-        for control, weight in pairs:
-            matrix[v, control] = weight
-    return matrix
-
-
-SKINNING = _skinning_matrix()
-INNER_LIP_VERTICES = [v for v in range(VERTICES) if 60 <= HEAD.landmark[v] <= 67]
 
 
 class HeadPose:
@@ -52,14 +38,14 @@ class HeadPose:
         return np.stack([x, y, t[:, 2]], axis=1)
 
 
-def move_vertices(adapted, state):
+def move_vertices(frame, adapted, state):
     """The vertices of the adapted head, moved by control points and lids; head units (SPEC 8.5, 8.6)."""
     vertices = adapted.copy()
-    vertices[:, :2] += nearest(SKINNING @ np.array(state.controls), 12)
+    vertices[:, :2] += nearest(frame.skinning_matrix @ np.array(state.controls), 12)
     for pupil, upper_lid, lower_lid in _EYES:
-        upper = int(max(vertices[HEAD.features[upper_lid].vertices, 1]))
-        lower = int(min(vertices[HEAD.features[lower_lid].vertices, 1]))
-        v = HEAD.features[pupil].vertices[0]
+        upper = int(max(vertices[frame.features[upper_lid].vertices, 1]))
+        lower = int(min(vertices[frame.features[lower_lid].vertices, 1]))
+        v = frame.features[pupil].vertices[0]
         vertices[v, 1] = _between_lids(int(vertices[v, 1]), upper, lower)
     return vertices
 
@@ -71,9 +57,10 @@ def _between_lids(y, upper, lower):
     return upper + quotient(lower - upper, 2)
 
 
-def lip_gap(vertices):
+def lip_gap(frame, vertices):
     """Opening between the inner lips, head units (SPEC 10.10)."""
-    return int(vertices[_LOWER_LIP, 1] - vertices[_UPPER_LIP, 1])
+    upper, lower = (int(vertices[frame.landmark_vertices[k], 1]) for k in (_UPPER_LIP, _LOWER_LIP))
+    return lower - upper
 
 
 def light_at_vertices(adapted, state):
@@ -82,4 +69,4 @@ def light_at_vertices(adapted, state):
     x, m = adapted[:, 0], adapted[:, 1] - _LIGHT_MIDDLE_Y
     slopes = nearest(slope_x * x + slope_y * adapted[:, 1], 12)
     squares = nearest(xx * x * x + yy * m * m + xy * x * m, 24)
-    return clamp(offset + slopes + squares, -MAX_LIGHT, MAX_LIGHT), np.full(VERTICES, gain)
+    return clamp(offset + slopes + squares, -MAX_LIGHT, MAX_LIGHT), np.full(len(adapted), gain)

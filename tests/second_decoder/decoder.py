@@ -4,11 +4,11 @@ from .byte_reader import ByteReader
 from .errors import StreamError, invalid, too_large, truncated, unsupported
 from .integers import clamp
 from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
-from .packets import BLEND, END, GEOMETRY, MOTION, PATTERN, SETUP, SURROUND, Damage, packets
+from .packets import BLEND, END, GEOMETRY, MOTION, PATTERN, SETUP, SURROUND, WIRE_FRAME, Damage, packets
 from .scene import Scene
 from .setup import read_setup
 
-_SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND)
+_SCENE_PACKETS = (WIRE_FRAME, GEOMETRY, SURROUND, PATTERN, MOTION, BLEND)
 
 
 class Decoder:

@@ -3,17 +3,13 @@
 import numpy as np
 
 from .atlas import atlas_weights
-from .head import HEAD, VERTICES
 from .integers import clamp
-from .mesh import MOUTH, MOUTH_INTERIOR
 from .nodes import Nodes, rounded_weights
 from .patches import NODE_ONE, blended, displacements, warped
 from .raster import NO_TRIANGLE, Fragments, Triangles, planes
 from .samples import MAX_AMOUNT, WEIGHT_ONE, Blend, light, mouth_interior, restore_contrast, sample_texture
 from .weights import ground_weights, point_weights
-
-_RAMP = {60: 128, 61: 0, 62: 0, 63: 0, 64: 128, 65: 256, 66: 256, 67: 256}  # of the mouth colours, by landmark
-_HEAD_RAMP = np.array([_RAMP.get(landmark, 0) for landmark in HEAD.landmark] + [0] * len(HEAD.outline))
+from .wire_frame import MOUTH
 
 
 def draw_without_geometry(setup, sources):
@@ -71,7 +67,7 @@ class _PictureDrawing:
         texture = None
         if warped_ones:
             texture = self._mesh.atlas.blend([self._sources[k].pattern.atlas for k in warped_ones],
-                                             atlas_weights(self._weights[warped_ones, head]))
+                                             atlas_weights(self._mesh.frame, self._weights[warped_ones, head]))
         weights = [self._weights[warped_ones].sum(axis=0)]
         weights += [weight for weight, source in zip(self._weights, self._sources) if source.still]
         for k, plane in enumerate(self._planes):
@@ -109,9 +105,9 @@ class _PictureDrawing:
             samples = light(samples, fragments.quantities(offset), fragments.quantities(gain))
         colours = self._setup.upper_lip[plane], self._setup.lower_lip[plane]
         offsets = self._state.mouth_interior if plane == 0 else (0, 0, 0)
-        mixed = mouth_interior(samples, fragments.quantities(_HEAD_RAMP[corners]), self._mouth_amount(), colours,
-                               offsets)
-        return np.where(MOUTH_INTERIOR[fragments.triangle], mixed, samples)
+        ramp = fragments.quantities(self._mesh.frame.mouth_ramp[corners])
+        mixed = mouth_interior(samples, ramp, self._mouth_amount(), colours, offsets)
+        return np.where(self._mesh.frame.mouth_interior[fragments.triangle], mixed, samples)
 
     def _mouth_amount(self):
         """How much of the mouth colours shows (SPEC 10.10)."""
@@ -129,7 +125,7 @@ def face_shares(mesh, seen, plane):
     shown = np.full((plane.height, plane.width), NO_TRIANGLE)
     triangles.draw(shown, plane)
     fragments = Fragments(triangles, shown, plane)
-    weight = np.where(corners < mesh.grid_points + VERTICES, WEIGHT_ONE, 0)
+    weight = np.where(corners < mesh.grid_points + mesh.frame.vertices, WEIGHT_ONE, 0)
     blend = Blend(len(fragments.triangle))
     blend.add(np.arange(len(fragments.triangle)), 255, fragments.quantities(weight), is_last=False)
     shares = np.zeros(shown.shape, np.int64)

@@ -5,7 +5,6 @@ import numpy as np
 from .byte_reader import ByteReader
 from .draco import read_points
 from .errors import invalid, too_large
-from .head import HEAD, VERTICES
 from .integers import nearest, quotient
 from .limits import MAX_COORDINATE, MAX_GEOMETRY_PAYLOAD
 
@@ -15,8 +14,8 @@ MAX_RESIDUAL = 2**20  # steps
 NONE, NEIGHBOURS, MIRROR = range(3)
 
 
-def read_geometry(payload):
-    """Positions x, y, z of the 105 vertices, head units."""
+def read_geometry(payload, frame):
+    """Positions x, y, z of the vertices of a wire-frame, head units."""
     if len(payload) > MAX_GEOMETRY_PAYLOAD:
         raise too_large("a geometry packet is too long")
     reader = ByteReader(payload)
@@ -25,10 +24,10 @@ def read_geometry(payload):
     prediction = reader.u8()
     if prediction > MIRROR:
         raise invalid("an unknown prediction of the geometry")
-    residuals = _residuals(read_points(reader.rest(), VERTICES), prediction)
+    residuals = _residuals(frame, read_points(reader.rest(), frame.vertices), prediction)
     if np.any(np.abs(residuals) > MAX_RESIDUAL):
         raise invalid("a residual of the geometry is too large")
-    positions = nearest(np.array(HEAD.positions) * scale, 12) + residuals * step
+    positions = nearest(np.array(frame.positions) * scale, 12) + residuals * step
     if np.any(np.abs(positions) > MAX_COORDINATE):
         raise invalid("a coordinate of the geometry is too large")
     return positions
@@ -41,16 +40,16 @@ def _varint_up_to(reader, high):
     return value
 
 
-def _residuals(points, prediction):
+def _residuals(frame, points, prediction):
     """Residuals of the vertices, in steps, from the coded points."""
-    neighbours = [set() for _ in range(VERTICES)]
-    for triangle in HEAD.triangles:
+    neighbours = [set() for _ in range(frame.vertices)]
+    for triangle in frame.triangles:
         for v in triangle:
             neighbours[v].update(u for u in triangle if u < v)
     residuals = np.array(points)
-    for v in range(VERTICES):
+    for v in range(frame.vertices):
         if prediction == NEIGHBOURS and neighbours[v]:
             residuals[v] += quotient(sum(residuals[u] for u in neighbours[v]), len(neighbours[v]))
-        if prediction == MIRROR and HEAD.mirror[v] < v:
-            residuals[v] += residuals[HEAD.mirror[v]] * (-1, 1, 1)
+        if prediction == MIRROR and frame.mirror[v] < v:
+            residuals[v] += residuals[frame.mirror[v]] * (-1, 1, 1)
     return residuals

@@ -1,30 +1,18 @@
-"""The generic head (SPEC 9.2), read from common/generic_head.gltf."""
+"""The generic head (SPEC 9.2, 10.12), read from common/generic_head.gltf and common/generic_head_atlas.cpp."""
 
 import base64
 import json
 import pathlib
+import re
 import struct
 from dataclasses import dataclass
 
 from .integers import checksum
+from .wire_frame import LANDMARKS, Feature, WireFrame
 
-FILE = pathlib.Path(__file__).parents[2] / "common" / "generic_head.gltf"
+FOLDER = pathlib.Path(__file__).parents[2] / "common"
 CHECKSUM = 0x504F0440DE562CE4
-VERTICES = 105
-
-(OUTER_LIPS, INNER_LIPS, RIGHT_BROW, LEFT_BROW, RIGHT_UPPER_LID, LEFT_UPPER_LID, RIGHT_LOWER_LID, LEFT_LOWER_LID,
- RIGHT_PUPIL, LEFT_PUPIL) = range(10)
-
-
-@dataclass
-class Feature:
-    closed: bool
-    first_control: int
-    controls: int
-    vertices: list
-
-    def control_range(self):
-        return range(self.first_control, self.first_control + self.controls)
+ATLAS_CHECKSUM = 0x7EF7D415AFF39EB7
 
 
 @dataclass
@@ -35,20 +23,14 @@ class ExpressionPart:
 
 
 @dataclass
-class GenericHead:
-    positions: list  # x, y, z of each vertex, head units
-    triangles: list  # three vertices each
-    outline: list
-    mirror: list
+class GenericHead(WireFrame):
     landmark: list  # iBUG-68 number of each vertex, or -1
     feature: list  # FeatureId of each vertex, or -1
-    skinning: list  # of each vertex: (control point, weight) pairs, 4096 is a weight of one
-    features: list
     expression: list
 
     def integers(self):
         """All values in the order of the checksum."""
-        yield VERTICES
+        yield self.vertices
         for position, *numbers in zip(self.positions, self.mirror, self.landmark, self.feature):
             yield from position
             yield from numbers
@@ -82,25 +64,36 @@ def _accessor(gltf, index, code):
     return struct.unpack_from(f"<{count}{code}", data, offset)
 
 
+def _atlas():
+    text = (FOLDER / "generic_head_atlas.cpp").read_text()
+    table = [(int(u), int(v)) for u, v in re.findall(r"\{(\d+), (\d+)\}", text)]
+    assert checksum(n for pair in table for n in pair) == ATLAS_CHECKSUM
+    return table
+
+
 def load():
-    gltf = json.loads(FILE.read_text())
+    gltf = json.loads((FOLDER / "generic_head.gltf").read_text())
     mesh = gltf["meshes"][0]
     primitive, extras = mesh["primitives"][0], mesh["extras"]
     xyz = [int(4096 * x) for x in _accessor(gltf, primitive["attributes"]["POSITION"], "f")]
     corners = _accessor(gltf, primitive["indices"], "H")
     vertices = extras["vertices"]
+    landmark = [v["landmark"] for v in vertices]
     head = GenericHead(
         positions=[(xyz[i], -xyz[i + 1], -xyz[i + 2]) for i in range(0, len(xyz), 3)],
         triangles=[(corners[i], corners[i + 2], corners[i + 1]) for i in range(0, len(corners), 3)],
         outline=extras["outline"],
         mirror=[v["mirror"] for v in vertices],
-        landmark=[v["landmark"] for v in vertices],
+        landmark=landmark,
+        landmark_vertices=[landmark.index(k) for k in range(LANDMARKS)],
         feature=[v["feature"] for v in vertices],
         skinning=[v["skinning"] for v in vertices],
         features=[Feature(f["closed"], f["first_control"], f["control_count"], [v for v, _ in f["vertices_s12"]])
                   for f in extras["features"]],
+        atlas=_atlas(),
         expression=[ExpressionPart(e["first_control"], e["control_count"], e["rows"]) for e in extras["expression"]])
     assert checksum(head.integers()) == CHECKSUM
+    assert len(head.atlas) == head.vertices + head.ring
     return head
 
 

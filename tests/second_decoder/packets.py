@@ -7,7 +7,7 @@ from .errors import StreamError, invalid, too_large, truncated
 from .limits import MAX_PAYLOAD
 
 SIGNATURE = b"\x89fbs"
-SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND = range(1, 8)
+SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME = range(1, 9)
 MAX_RESUME_PAYLOAD = 127  # bytes of a setup or end packet at which a reader goes on after damage
 
 

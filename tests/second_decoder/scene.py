@@ -10,16 +10,18 @@ from .blend import REGIONS, BlendDecoder
 from .draw import draw, draw_without_geometry, with_full_contrast
 from .errors import invalid, too_large
 from .geometry import read_geometry
+from .head import HEAD
 from .limits import KEPT_PICTURES, MAX_PICTURE_NUMBER, MAX_WAITING_PICTURES
 from .mesh import Mesh, Placement
 from .motion import MotionDecoder
-from .packets import BLEND, GEOMETRY, MOTION, PATTERN, SURROUND
+from .packets import BLEND, GEOMETRY, MOTION, PATTERN, SURROUND, WIRE_FRAME
 from .pattern import PatternDecoder
 from .raster import planes
 from .samples import enlarge
 from .state import Layout, State
 from .surround import Surround, read_surround
 from .weights import PictureWeights
+from .wire_frame_packet import read_wire_frame
 
 
 @dataclass
@@ -37,6 +39,8 @@ class Scene:
     def __init__(self, setup):
         self.setup = setup
         self._layout = Layout(setup)
+        self._next_frame = HEAD  # of the geometry packets to come
+        self._frame = None  # of the geometry
         self._adapted = None  # vertices of the adapted head
         self._surround = Surround.without_packet()
         self._mesh = None
@@ -48,18 +52,22 @@ class Scene:
         self._patterns = PatternDecoder(setup, self._layout)
         self._motion = None
         self._blend = BlendDecoder()
-        self._takers = {GEOMETRY: self._take_geometry, SURROUND: self._take_surround, PATTERN: self._take_pattern,
-                        MOTION: self._take_motion, BLEND: self._take_blend}
+        self._takers = {WIRE_FRAME: self._take_wire_frame, GEOMETRY: self._take_geometry,
+                        SURROUND: self._take_surround, PATTERN: self._take_pattern, MOTION: self._take_motion,
+                        BLEND: self._take_blend}
 
     def take(self, packet):
         """Yields the pictures that a packet releases: planes Y, U, V, and duration in 1/90000 s."""
         taker = self._takers.get(packet.type)
         yield from (taker(packet.payload) if taker else None) or ()
 
+    def _take_wire_frame(self, payload):
+        self._next_frame = read_wire_frame(payload)
+
     def _take_geometry(self, payload):
-        adapted = read_geometry(payload)
+        adapted = read_geometry(payload, self._next_frame)
         if self._rest is None:
-            self._adapted = adapted
+            self._frame, self._adapted = self._next_frame, adapted
 
     def _take_surround(self, payload):
         self._surround = read_surround(payload)
@@ -67,8 +75,8 @@ class Scene:
             self._build_mesh()
 
     def _build_mesh(self):
-        self._mesh = Mesh(self.setup, self._surround, self._adapted, self._rest)
-        self._mesh.atlas = Atlas(self._mesh.rest_scale)
+        self._mesh = Mesh(self.setup, self._surround, self._frame, self._adapted, self._rest)
+        self._mesh.atlas = Atlas(self._frame, self._mesh.rest_scale)
         for pattern in self._store.values():
             self._place(pattern)
 

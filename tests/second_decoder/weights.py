@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .head import HEAD, INNER_LIPS, LEFT_BROW, OUTER_LIPS, RIGHT_BROW, VERTICES
-from .integers import clamp, complete, exp2, log2, quotient
-from .mesh import BODY, FACE, GROUND, HAIR, HEAD_TRIANGLES, LEFT_EYE, MOUTH, REGION_FEATURES, RIGHT_EYE
+from .head import HEAD
+from .integers import complete, exp2, log2, quotient
 from .raster import signed_areas
+from .wire_frame import (BODY, FACE, GROUND, HAIR, INNER_LIPS, LEFT_BROW, LEFT_EYE, MOUTH, OUTER_LIPS, REGION_FEATURES,
+                         RIGHT_BROW, RIGHT_EYE)
 
 ONE = 4096  # sum of the weights of all sources at a point of the mesh
 REGION_ONE = 256  # and in a region
@@ -163,17 +164,17 @@ def ground_weights(sources):
 def point_weights(mesh, sources, now):
     """Weights of the sources (rows) at the points of the mesh (columns), 1/4096; `now` is the picture's placement."""
     weights = np.array([mesh.shares @ np.array(source.regions) for source in sources])
-    head = slice(mesh.grid_points, mesh.grid_points + VERTICES)
+    head = slice(mesh.grid_points, mesh.grid_points + mesh.frame.vertices)
     weights[:, head] = _visible_weights(weights[:, head], _visibility(mesh, sources, now))
     return weights
 
 
 def _vertex_areas(mesh, placement):
     """Area of the front sides of the triangles around each vertex, in squares of 1/64 sample, times two."""
-    triangles = HEAD_TRIANGLES[:len(HEAD.triangles)]
+    triangles = np.array(mesh.frame.triangles)
     corners = triangles + mesh.grid_points
     areas = np.maximum(signed_areas(placement.x[corners], placement.y[corners]), 0)
-    sums = np.zeros(VERTICES, np.int64)
+    sums = np.zeros(mesh.frame.vertices, np.int64)
     np.add.at(sums, triangles, areas[:, None])
     return sums
 
@@ -181,11 +182,12 @@ def _vertex_areas(mesh, placement):
 def _visibility(mesh, sources, now):
     """How well each source (rows) shows each vertex of the head (columns), 1/256."""
     area = _vertex_areas(mesh, now)
-    visibility = np.full((len(sources), VERTICES), 256)
+    visibility = np.full((len(sources), mesh.frame.vertices), 256)
     for row, source in zip(visibility, sources):
         if not source.still:
             seen = _vertex_areas(mesh, source.pattern.placement)
-            row[area > 0] = clamp(512 * seen[area > 0] // area[area > 0], 0, 256)
+            less = 2 * seen < area
+            row[less] = 512 * seen[less] // area[less]
     return visibility
 
 

@@ -265,6 +265,10 @@ std::vector<Piece> with_later_surrounds(std::vector<Piece> pieces) {
 
 }  // namespace
 
+std::vector<Piece> hand_made_blends() {
+  return blends();
+}
+
 void add_blends(Folder& folder) {
   const auto own = patterns(), made = blends();
   require_hidden_frames(own);

@@ -5,6 +5,9 @@
 
 namespace fbs {
 
+/// Of a store of three slots, with every mode in every region: blends.fbs.
+std::vector<Piece> hand_made_blends();
+
 void add_blends(Folder& folder);
 
 /// @param talk  a scene of one pattern

@@ -10,6 +10,7 @@
 #include "tests/vectors/limits_vectors.h"
 #include "tests/vectors/scene_vectors.h"
 #include "tests/vectors/vector_tools.h"
+#include "tests/vectors/wire_frame_vectors.h"
 
 namespace fbs {
 namespace {
@@ -37,7 +38,7 @@ void add_good(Folder& folder, const Bytes& talk) {
                                                               {1, 0, 0, 9, 9});  // 1: patterns, 0: contrasts
   pieces[place_of(pieces, PacketType::kEnd)].payload.push_back(7);
   pieces.insert(pieces.begin() + 2, {static_cast<PacketType>(99), Bytes(40, 0x5A)});
-  pieces.insert(pieces.begin(), {static_cast<PacketType>(8), {}});
+  pieces.insert(pieces.begin(), {static_cast<PacketType>(98), {}});
   folder.add("later_writer.fbs", joined(pieces), 20);
   folder.add("removed_unknown.fbs", joined_without(pieces, 3), 0, "kInvalidStream");
 }
@@ -117,9 +118,11 @@ int main(int argc, char** argv) {
   fbs::add_scenes(folder);
   fbs::add_limits(folder);
   fbs::add_blends(folder);
+  fbs::add_wire_frames(folder, talk);
   fbs::add_broken(folder, talk);
   fbs::add_removed(folder, talk);
   fbs::add_broken_scenes(folder);
   fbs::add_broken_blends(folder, talk);
+  fbs::add_broken_wire_frames(folder, talk);
   return 0;
 }

@@ -44,7 +44,7 @@ glm::ivec2 middle(const TextureMesh& mesh) {
 TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
   const TextureMesh mesh = texture();
   Picture p = two_levels(28, 228);
-  ContrastMap(setup(128), mesh).reduce(p);
+  ContrastMap(setup(128), generic_head_mesh(), mesh).reduce(p);
   const glm::ivec2 in = middle(mesh);
   EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
   EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
@@ -56,7 +56,7 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
 TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
   const TextureMesh mesh = texture();
   for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {
-    const ContrastMap map(setup(surround), mesh);
+    const ContrastMap map(setup(surround), generic_head_mesh(), mesh);
     for (int level = 0; level < 256; level += 5) {
       const Picture original =
           two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(255 - level));
@@ -73,7 +73,7 @@ TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
   const TextureMesh mesh = texture();
   auto raised = setup(192);
   raised.chroma_contrast = 384;
-  const ContrastMap map(raised, mesh);
+  const ContrastMap map(raised, generic_head_mesh(), mesh);
   Picture p = two_levels(168, 168);
   map.reduce(p);
   const glm::ivec2 in = middle(mesh);
@@ -89,7 +89,7 @@ TEST(ContrastMap, ExpandsEachLevelByTheRule) {
   const TextureMesh mesh = texture();
   auto raised = setup(200);
   raised.chroma_contrast = 384;
-  const ContrastMap map(raised, mesh);
+  const ContrastMap map(raised, generic_head_mesh(), mesh);
   const glm::ivec2 in = middle(mesh);
   for (int level = 0; level < 256; ++level) {
     const auto expanded = [&](int contrast) {
@@ -107,7 +107,7 @@ TEST(ContrastMap, ExpandsEachLevelByTheRule) {
 
 TEST(ContrastMap, LargestDeviationsStayInRange) {
   Picture p = two_levels(0, 255);
-  ContrastMap(setup(kMinContrast), texture()).expand(p);
+  ContrastMap(setup(kMinContrast), generic_head_mesh(), texture()).expand(p);
   EXPECT_EQ(p.y.row(1)[0], 0);
   EXPECT_EQ(p.y.row(1)[1], 255);
 }
@@ -115,7 +115,7 @@ TEST(ContrastMap, LargestDeviationsStayInRange) {
 TEST(ContrastMap, GoesOverFromFaceToSurroundAcrossTheRing) {
   const TextureMesh mesh = texture();
   Picture p = two_levels(228, 228);
-  ContrastMap(setup(kMinContrast), mesh).reduce(p);
+  ContrastMap(setup(kMinContrast), generic_head_mesh(), mesh).reduce(p);
   int between = 0;
   for (const std::uint8_t v : p.y.samples) between += v > 185 && v < 221;
   EXPECT_GT(between, 50);
@@ -127,7 +127,7 @@ TEST(ContrastMap, TakesAnySize) {
     Picture p(w, h);
     for (auto& v : p.y.samples) v = 200;
     const Picture before = p;
-    const ContrastMap map(setup(200, w, h), texture());
+    const ContrastMap map(setup(200, w, h), generic_head_mesh(), texture());
     map.reduce(p);
     EXPECT_NE(p.y.samples, before.y.samples);
     map.expand(p);

@@ -31,7 +31,7 @@ inline int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
 inline Plane head_area(const Scene& scene, const State& state) {
   const ScreenMesh mesh = scene.geometry->screen_mesh(state);
   Plane out(scene.setup.format.width, scene.setup.format.height, 0);
-  for (const auto& t : head_mesh().triangles) {
+  for (const auto& t : generic_head_mesh().triangles) {
     std::vector<glm::ivec2> corners;
     for (const std::uint16_t v : t) corners.emplace_back(mesh.head[v]);
     const auto range = [](auto limits, int samples) {

@@ -321,7 +321,7 @@ TEST(Renderer, ShowsTheNearestTriangle) {
       double nearest = 1e18, grey = 0;
       int layers = 0;
       bool on_edge = false;
-      for (const auto& t : head_mesh().triangles) {
+      for (const auto& t : generic_head_mesh().triangles) {
         const auto corner = [&](const auto& mesh, std::size_t i) { return mesh.head[t[i]]; };
         const glm::dvec2 a(corner(now, 0)), b(corner(now, 1)), c(corner(now, 2));
         const auto cross = [](glm::dvec2 u, glm::dvec2 v) { return u.x * v.y - u.y * v.x; };

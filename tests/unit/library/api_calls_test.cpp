@@ -16,7 +16,8 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   fbs_format format;
   fbs_face_state state;
   fbs_landmark landmarks[FBS_LANDMARKS];
-  fbs_vertex vertices[FBS_VERTICES];
+  fbs_vertex vertices[FBS_MAX_VERTICES];
+  size_t count = FBS_MAX_VERTICES;
   const std::uint8_t byte = 0;
   fbs_decoder* none = nullptr;
   fbs_decoder_default_settings(nullptr, sizeof(fbs_decoder_settings));
@@ -30,7 +31,7 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   EXPECT_EQ(fbs_decoder_get_format(none, &format), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_state(none, &state), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_landmarks(none, landmarks), FBS_ERROR_ARGUMENT);
-  EXPECT_EQ(fbs_decoder_get_vertices(none, vertices), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_vertices(none, vertices, &count), FBS_ERROR_ARGUMENT);
   EXPECT_STREQ(fbs_decoder_error(none), "");
   EXPECT_EQ(fbs_decoder_error_offset(none), 0u);
   fbs_decoder_close(nullptr);
@@ -45,7 +46,7 @@ TEST(ApiCalls, NullPointersAreAnswered) {
     EXPECT_EQ(fbs_decoder_get_format(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_state(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_landmarks(d, nullptr), FBS_ERROR_ARGUMENT);
-    EXPECT_EQ(fbs_decoder_get_vertices(d, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_vertices(d, nullptr, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_STRNE(fbs_decoder_error(d), "");
   }
 }
@@ -167,10 +168,11 @@ class RandomCalls {
   void ask() {
     fbs_face_state state;
     fbs_landmark landmarks[FBS_LANDMARKS];
-    fbs_vertex vertices[FBS_VERTICES];
+    fbs_vertex vertices[FBS_MAX_VERTICES];
+    size_t count = FBS_MAX_VERTICES;
     const fbs_status status = fbs_decoder_get_state(get(), &state);
     EXPECT_EQ(fbs_decoder_get_landmarks(get(), landmarks), status);
-    EXPECT_EQ(fbs_decoder_get_vertices(get(), vertices), status);
+    EXPECT_EQ(fbs_decoder_get_vertices(get(), vertices, &count), status);
     EXPECT_EQ(status == FBS_ERROR_ARGUMENT, !has_picture_);
     if (status != FBS_OK) {
       EXPECT_TRUE(status == FBS_ERROR_ARGUMENT || status == FBS_ERROR_NO_FACE);

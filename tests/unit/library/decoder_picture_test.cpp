@@ -109,11 +109,12 @@ TEST(DecoderPicture, StaysWhileOthersAreAskedFor) {
   fbs_format format;
   fbs_face_state state;
   fbs_landmark landmarks[FBS_LANDMARKS];
-  fbs_vertex vertices[FBS_VERTICES];
+  fbs_vertex vertices[FBS_MAX_VERTICES];
+  size_t count = FBS_MAX_VERTICES;
   ASSERT_EQ(fbs_decoder_get_format(decoder.get(), &format), FBS_OK);
   ASSERT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_OK);
   ASSERT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks), FBS_OK);
-  ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices), FBS_OK);
+  ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices, &count), FBS_OK);
   ASSERT_EQ(fbs_decoder_get_picture(decoder.get(), &again), FBS_OK);
   EXPECT_EQ(again.data[0], first.data[0]);
   EXPECT_EQ(samples_of(first), samples);

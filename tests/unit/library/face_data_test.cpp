@@ -1,11 +1,14 @@
 #include "library/face_data.h"
 
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "common/ibug.h"
 #include "decoder/scene_face.h"
 #include "decoder/stream_decoder.h"
 #include "tests/unit/library/api_decoder.h"
+#include "tests/unit/split_head.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -77,9 +80,10 @@ TEST(FaceData, IsThatOfTheShownPicture) {
     ASSERT_EQ(*plain.next(), DecodeStatus::kPicture);
     const auto expected = face_of(plain.scene())->project_vertices(plain.state());
     fbs_landmark landmarks[FBS_LANDMARKS];
-    fbs_vertex vertices[FBS_VERTICES];
+    fbs_vertex vertices[FBS_MAX_VERTICES];
+    size_t count = FBS_MAX_VERTICES;
     ASSERT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks), FBS_OK);
-    ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices), FBS_OK);
+    ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices, &count), FBS_OK);
     for (std::size_t k = 0; k < kLandmarkCount; ++k) {
       const std::size_t v = vertex_of_landmark(k);
       EXPECT_EQ(landmarks[k].x, static_cast<float>(expected[v].x) / 64);
@@ -90,14 +94,47 @@ TEST(FaceData, IsThatOfTheShownPicture) {
   EXPECT_EQ(pictures, 24);
 }
 
+TEST(FaceData, HasTheVerticesOfTheScenesOwnWireFrame) {
+  const ApiDecoder decoder = at_first_picture("two_heads.fbs");
+  StreamDecoder plain;
+  plain.feed(vector_bytes("two_heads.fbs"));
+  plain.close();
+  std::set<std::size_t> counts;
+  do {
+    ASSERT_EQ(*plain.next(), DecodeStatus::kPicture);
+    const auto expected = face_of(plain.scene())->project_vertices(plain.state());
+    std::vector<fbs_vertex> vertices(FBS_MAX_VERTICES);
+    size_t count = vertices.size();
+    ASSERT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices.data(), &count), FBS_OK);
+    ASSERT_EQ(count, expected.size());
+    EXPECT_EQ(vertices[count - 1].x, static_cast<float>(expected[count - 1].x) / 64);
+    counts.insert(count);
+  } while (fbs_decoder_next(decoder.get(), nullptr) == FBS_OK);
+  EXPECT_EQ(counts, (std::set<std::size_t>{kVertexCount, split_head()->vertices.size()}));
+}
+
+TEST(FaceData, WritesNoVerticesWithoutRoomForAll) {
+  const ApiDecoder decoder = at_first_picture("one.fbs");
+  std::vector<fbs_vertex> vertices(kVertexCount, {-1, -2, -3});
+  size_t count = kVertexCount - 1;
+  EXPECT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices.data(), &count), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(fbs_decoder_error(decoder.get()), "there is no room for the vertices");
+  EXPECT_EQ(count, std::size_t{kVertexCount});
+  for (const fbs_vertex& v : vertices) EXPECT_EQ(v.x, -1);
+  EXPECT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices.data(), &count), FBS_OK);
+  EXPECT_NE(vertices.back().x, -1);
+}
+
 TEST(FaceData, SomeScenesHaveNone) {
   const ApiDecoder decoder = at_first_picture("nobody.fbs");
   fbs_face_state state;
   fbs_landmark landmarks[FBS_LANDMARKS];
-  fbs_vertex vertices[FBS_VERTICES];
+  fbs_vertex vertices[FBS_MAX_VERTICES];
+  size_t count = FBS_MAX_VERTICES;
   EXPECT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_ERROR_NO_FACE);
   EXPECT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks), FBS_ERROR_NO_FACE);
-  EXPECT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_vertices(decoder.get(), vertices, &count), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(count, 0U);
   EXPECT_STREQ(fbs_decoder_error(decoder.get()), "the scene has no face");
 }
 

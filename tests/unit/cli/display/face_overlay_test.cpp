@@ -31,7 +31,7 @@ int drawn_pixels(const cv::Mat& image) {
 
 cv::Mat wire_frame(const ScreenVertices& vertices) {
   cv::Mat image = black();
-  draw_wire_frame(image, vertices, 1);
+  draw_wire_frame(image, generic_head(), vertices, 1);
   return image;
 }
 
@@ -57,7 +57,7 @@ TEST(FaceOverlay, EdgesBehindTheFaceAreNot) {
 
 TEST(FaceOverlay, ZoomedDrawingIsTheSameEnlarged) {
   cv::Mat large(2 * kSide, 2 * kSide, CV_8UC3, cv::Scalar());
-  draw_wire_frame(large, head(0), 2);
+  draw_wire_frame(large, generic_head(), head(0), 2);
   const auto box = [](const cv::Mat& image) {
     cv::Mat grey;
     cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
@@ -71,7 +71,7 @@ TEST(FaceOverlay, ZoomedDrawingIsTheSameEnlarged) {
 TEST(FaceOverlay, ContoursPassThroughTheirMarks) {
   const ScreenVertices front = head(0);
   cv::Mat image = black();
-  draw_contours(image, front, 1);
+  draw_contours(image, generic_head(), front, 1);
   for (const std::size_t mark : {48, 51, 54, 57, 62, 66, 17, 19, 24, 26, 36, 38, 41, 45, 47}) {
     const glm::ivec3 p = front[vertex_of_landmark(mark)];
     const cv::Rect near((p.x >> 6) - 2, (p.y >> 6) - 2, 5, 5);

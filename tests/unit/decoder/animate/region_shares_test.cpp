@@ -19,17 +19,19 @@ std::uint8_t share(const RegionShares& shares, Region region) {
 }
 
 TEST(VertexShares, SumToOne) {
-  for (const RegionShares& shares : vertex_shares()) EXPECT_EQ(sum_of(shares), kShareOne);
+  for (const RegionShares& shares : vertex_shares(generic_head())) EXPECT_EQ(sum_of(shares), kShareOne);
 }
 
 TEST(VertexShares, AreOfTheHeadsRegions) {
-  for (const RegionShares& shares : vertex_shares())
+  for (const RegionShares& shares : vertex_shares(generic_head()))
     for (const Region region : {Region::kHair, Region::kBody, Region::kGround})
       EXPECT_EQ(share(shares, region), 0);
 }
 
 TEST(VertexShares, FeaturesBelongToTheirRegion) {
-  const auto of_landmark = [](std::size_t landmark) { return vertex_shares()[vertex_of_landmark(landmark)]; };
+  const auto of_landmark = [](std::size_t landmark) {
+    return vertex_shares(generic_head())[vertex_of_landmark(landmark)];
+  };
   for (const std::size_t lip : {51, 57, 62, 66})
     EXPECT_EQ(share(of_landmark(lip), Region::kMouth), kShareOne) << lip;
   for (const std::size_t lid : {37, 38, 40, 41})

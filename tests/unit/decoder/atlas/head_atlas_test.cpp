@@ -32,12 +32,12 @@ HeadAtlas atlas_of(const AtlasLayout& layout, const Picture& picture, const Text
 // At the middle of each triangle of the head, luma is that of the triangle's middle in the picture.
 TEST(HeadAtlas, ShowsWhatThePatternShowsOfEachTriangle) {
   const Scene scene = toy_scene(ramp(160, 128));
-  const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
+  const AtlasLayout& layout = generic_atlas_layout(scene.geometry->rest_scale());
   const TextureMesh& mesh = scene.patterns[0].texture;
   const HeadAtlas atlas = atlas_of(layout, scene.patterns[0].picture, mesh);
   ASSERT_EQ(atlas.width(), layout.width);
   ASSERT_EQ(atlas.height(), layout.height);
-  for (const HeadTriangle& t : head_mesh().triangles) {
+  for (const HeadTriangle& t : generic_head_mesh().triangles) {
     const glm::dvec2 at(layout.points[t[0]] + layout.points[t[1]] + layout.points[t[2]]);
     const glm::dvec2 from(mesh.head[t[0]] + mesh.head[t[1]] + mesh.head[t[2]]);
     const auto x = static_cast<int>(at.x / 192), y = static_cast<int>(at.y / 192);
@@ -56,7 +56,7 @@ TEST(HeadAtlas, HasNoLightOfItsPattern) {
   const Scene scene = toy_scene(Picture(160, 128));
   Picture grey(160, 128);
   grey.y = Plane(160, 128, 130);
-  const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
+  const AtlasLayout& layout = generic_atlas_layout(scene.geometry->rest_scale());
   const HeadAtlas atlas = atlas_of(layout, grey, scene.geometry->texture_mesh(seen));
   const auto luma_at = [&](std::size_t vertex) {
     const glm::ivec2 p = layout.points[vertex];
@@ -70,7 +70,7 @@ TEST(HeadAtlas, HasNoLightOfItsPattern) {
 TEST(HeadAtlas, DependsOnItsArgumentsAlone) {
   const Scene scene = toy_scene(ramp(160, 128));
   const TextureMesh& mesh = scene.patterns[0].texture;
-  const AtlasLayout& layout = atlas_layout(scene.geometry->rest_scale());
+  const AtlasLayout& layout = generic_atlas_layout(scene.geometry->rest_scale());
   const HeadAtlas first = atlas_of(layout, scene.patterns[0].picture, mesh);
   HeadAtlas used(layout.width, layout.height);
   const Picture other = noise_picture(160, 128, 1);

@@ -14,7 +14,7 @@ namespace {
 using Row = std::vector<std::int32_t>;
 
 std::size_t vertices() {
-  return head_mesh().vertex_count;
+  return generic_head_mesh().vertex_count;
 }
 
 /// Sources, of which `still` tells; every vertex has the same weights.
@@ -39,7 +39,7 @@ Row row(const PointWeights& weights, std::size_t point) {
 }
 
 TEST(HeadWeights, WarpedSourcesShareTheAtlasAndStillOnesTheRest) {
-  const HeadWeights out = head_weights(even_blend({false, true, false}, {1024, 1024, 2048}));
+  const HeadWeights out = head_weights(even_blend({false, true, false}, {1024, 1024, 2048}), generic_head());
   EXPECT_EQ(out.warped, (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(out.still, (std::vector<std::size_t>{1}));
   for (std::size_t v = 0; v < vertices(); ++v) {
@@ -49,7 +49,8 @@ TEST(HeadWeights, WarpedSourcesShareTheAtlasAndStillOnesTheRest) {
 }
 
 TEST(HeadWeights, SourcesThatShowNowhereAreLeftOut) {
-  const HeadWeights out = head_weights(even_blend({false, false, true}, {0, kMeshWeightOne, 0}));
+  const HeadWeights out =
+      head_weights(even_blend({false, false, true}, {0, kMeshWeightOne, 0}), generic_head());
   EXPECT_EQ(out.warped, (std::vector<std::size_t>{1}));
   EXPECT_TRUE(out.still.empty());
   EXPECT_EQ(row(out.atlas, 7), Row{kMeshWeightOne});
@@ -57,7 +58,7 @@ TEST(HeadWeights, SourcesThatShowNowhereAreLeftOut) {
 }
 
 TEST(HeadWeights, StillSourcesAloneNeedNoAtlas) {
-  const HeadWeights out = head_weights(even_blend({true, true}, {4095, 1}));
+  const HeadWeights out = head_weights(even_blend({true, true}, {4095, 1}), generic_head());
   EXPECT_TRUE(out.warped.empty());
   EXPECT_TRUE(out.atlas.weights.empty());
   EXPECT_EQ(row(out.screen, 0), (Row{0, 4095, 1}));
@@ -70,7 +71,7 @@ TEST(HeadWeights, WhereNoWarpedSourceShowsTheAtlasHasWhatIsNear) {
   set_row(blend, outline, {4096, 0, 0});
   set_row(blend, ring, {0, 0, 4096});
   set_row(blend, 60, {0, 0, 4096});
-  const HeadWeights out = head_weights(blend);
+  const HeadWeights out = head_weights(blend, generic_head());
   EXPECT_EQ(row(out.atlas, ring), (Row{4096, 0})) << "as at the outline";
   EXPECT_EQ(row(out.screen, ring), (Row{0, 4096}));
   // The sums over the head: 1000 and 3000 at 103 vertices, and 4096 of the first at one.
@@ -81,7 +82,7 @@ TEST(HeadWeights, WhereNoWarpedSourceShowsTheAtlasHasWhatIsNear) {
 TEST(HeadWeights, OneThatOnlyTheRingShowsIsTheAtlas) {
   MeshBlend blend = even_blend({true, false}, {4096, 0});
   set_row(blend, kVertexCount + 9, {4000, 96});
-  const HeadWeights out = head_weights(blend);
+  const HeadWeights out = head_weights(blend, generic_head());
   EXPECT_EQ(out.warped, std::vector<std::size_t>{1});
   for (std::size_t v = 0; v < vertices(); ++v) EXPECT_EQ(row(out.atlas, v), Row{kMeshWeightOne}) << v;
 }
@@ -101,7 +102,7 @@ TEST(HeadWeights, RowsSumToOneWhateverTheBlend) {
       weights.back() = left;
       set_row(blend, v, weights);
     }
-    const HeadWeights out = head_weights(blend);
+    const HeadWeights out = head_weights(blend, generic_head());
     for (std::size_t v = 0; v < vertices(); ++v) {
       const Row screen = row(out.screen, v);
       ASSERT_EQ(std::accumulate(screen.begin(), screen.end(), 0), kMeshWeightOne);

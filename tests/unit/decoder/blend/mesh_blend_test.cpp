@@ -114,6 +114,10 @@ TEST(MeshBlend, VerticesAreTakenFromPatternsThatShowThem) {
   EXPECT_EQ(weight(), kMeshWeightOne / 4) << "and more is no better";
   first = second = 0;
   EXPECT_EQ(weight(), kMeshWeightOne / 4) << "none shows it: as if all did";
+  // Of 2048 triangles that are as large as they can be on the screen.
+  c.mesh.areas[cheek] = first = std::int64_t{1} << 55;
+  second = std::int64_t{1} << 53;  // 64 against 96
+  EXPECT_NEAR(weight(), kMeshWeightOne * 2 / 5, kRounding) << "large";
 }
 
 // A cheek that is turned away is best taken from a picture in which it was turned away as far.

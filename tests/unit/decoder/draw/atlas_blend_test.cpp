@@ -12,7 +12,7 @@ namespace {
 
 /// Two atlases, each even in all planes, and a picture to draw.
 struct Blending {
-  const AtlasLayout& layout = atlas_layout(64 << 16);
+  const AtlasLayout& layout = generic_atlas_layout(64 << 16);
   std::array<HeadAtlas, 2> atlas{HeadAtlas(layout.width, layout.height),
                                  HeadAtlas(layout.width, layout.height)};
   ScreenMesh mesh;
@@ -30,11 +30,11 @@ struct Blending {
     }
     blend.sources = {{0, false}, {1, false}};
     blend.head.sources = 2;
-    for (std::size_t v = 0; v < head_mesh().vertex_count; ++v) set(v, kMeshWeightOne, 0);
+    for (std::size_t v = 0; v < generic_head_mesh().vertex_count; ++v) set(v, kMeshWeightOne, 0);
   }
 
   void set(std::size_t vertex, std::int32_t first, std::int32_t second) {
-    blend.head.weights.resize(2 * head_mesh().vertex_count);
+    blend.head.weights.resize(2 * generic_head_mesh().vertex_count);
     blend.head.weights[2 * vertex] = first;
     blend.head.weights[2 * vertex + 1] = second;
   }
@@ -47,7 +47,7 @@ struct Blending {
                           {target.y, target.u, target.v},
                           {0, 0, 64, 64},
                           chroma};
-    const HeadWeights weights = head_weights(blend);
+    const HeadWeights weights = head_weights(blend, generic_head());
     std::vector<BlendedSource> scratch;
     to.begin(weights, layout);
     to.draw_rows(drawing, 0, layout.cover.grid().block_rows, scratch);
@@ -73,7 +73,7 @@ TEST(AtlasBlend, OneSourceIsCopied) {
 
 TEST(AtlasBlend, EvenWeightsGiveTheMeanInAllPlanes) {
   Blending b(60, 100);
-  for (std::size_t v = 0; v < head_mesh().vertex_count; ++v) b.set(v, 1024, 3072);
+  for (std::size_t v = 0; v < generic_head_mesh().vertex_count; ++v) b.set(v, 1024, 3072);
   AtlasBlend to;
   const auto planes = b.drawn(to);
   const glm::ivec2 nose = b.place(30);

@@ -19,7 +19,7 @@ TEST(HeadLook, TextureHoldsTheWholeFace) {
   const TextureArea area = texture_area(head);
   EXPECT_LT(area.width * area.height, 160 * 128 / 2);
   const auto coordinates = texture_coordinates(head, area);
-  const auto vertices = project_vertices(head.geometry.positions, head.seen);
+  const auto vertices = project_vertices(head.geometry, head.seen);
   for (std::size_t v = 0; v < coordinates.size(); ++v) {
     EXPECT_GT(coordinates[v].x * area.width, 1);
     EXPECT_LT(coordinates[v].x * area.width, area.width - 1);

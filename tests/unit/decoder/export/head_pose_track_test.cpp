@@ -31,7 +31,7 @@ TEST(HeadMorphs, AndPoseGiveTheVerticesOfTheDecoder) {
     state.pose[kRoll] = -700 * static_cast<int>(seed);
     state.pose[kLogScale] += 300 * static_cast<int>(seed);
     const auto points = model_points(head, state);
-    const auto expected = project_vertices(head.positions, state);
+    const auto expected = project_vertices(head, state);
     for (std::size_t v = 0; v < kVertexCount; ++v) {
       EXPECT_NEAR(points[v].x, expected[v].x / 64.0, 0.05) << "vertex " << v << ", seed " << seed;
       EXPECT_NEAR(-points[v].y, expected[v].y / 64.0, 0.05) << "vertex " << v << ", seed " << seed;
@@ -49,8 +49,7 @@ TEST(HeadMorphs, KeepThePupilBetweenLidsThatClose) {
   EXPECT_EQ(morphs.targets()[weights.size() - 1].name, "pupilLeftDown");
   EXPECT_NE(weights[weights.size() - 1], 0);
   const std::size_t pupil = feature(FeatureId::kPupilLeft).vertices.front().vertex;
-  EXPECT_NEAR(-model_points(head, state)[pupil].y, project_vertices(head.positions, state)[pupil].y / 64.0,
-              0.05);
+  EXPECT_NEAR(-model_points(head, state)[pupil].y, project_vertices(head, state)[pupil].y / 64.0, 0.05);
 }
 
 TEST(HeadMorphs, LeaveOpenEyesAlone) {

@@ -44,7 +44,7 @@ TEST(ObjModel, HasTheVerticesOfThePictureInMetres) {
   EXPECT_EQ(lines.texture, 105U);
   EXPECT_EQ(lines.normals, 105U);
   EXPECT_EQ(lines.faces, generic_head().triangles.size());
-  const auto expected = project_vertices(toy_geometry().positions, state);
+  const auto expected = project_vertices(toy_geometry(), state);
   const double pixel = 0.063 / 32;
   for (std::size_t v = 0; v < lines.vertices.size(); ++v) {
     EXPECT_NEAR(lines.vertices[v][0] / pixel + 80, expected[v].x / 64.0, 0.05);

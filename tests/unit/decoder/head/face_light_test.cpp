@@ -12,14 +12,14 @@ namespace {
 
 /// What the light of `state` adds at each vertex of the toy head.
 std::vector<VertexLight> light_of(const State& state) {
-  return vertex_lights(toy_geometry().positions, state.light);
+  return vertex_lights(toy_geometry().positions, kRingCount, state.light);
 }
 
 TEST(FaceLight, IsThatOfTheNeutralVertexAndEndsAtTheRing) {
   State state = toy_state();
   state.light = {160, -48, 200, -300};
   const auto light = light_of(state);
-  ASSERT_EQ(light.size(), head_mesh().vertex_count);
+  ASSERT_EQ(light.size(), generic_head_mesh().vertex_count);
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     const glm::dvec3 p = glm::dvec3(toy_geometry().positions[v]) / 4096.0;
     EXPECT_NEAR(light[v].offset, 160 + 200 * p.x - 300 * p.y, 0.501) << v;

@@ -10,8 +10,8 @@ namespace fbs {
 namespace {
 
 TEST(Deform, NeutralStateLeavesTheHeadAlone) {
-  const auto neutral = toy_geometry().positions;
-  EXPECT_EQ(deform(neutral, State{}), neutral);
+  const Geometry neutral = toy_geometry();
+  EXPECT_EQ(deform(neutral, State{}), neutral.positions);
 }
 
 TEST(Deform, AddsEachControlPointByItsWeight) {
@@ -20,7 +20,7 @@ TEST(Deform, AddsEachControlPointByItsWeight) {
   State state;
   for (glm::ivec2& c : state.control)
     c = {static_cast<int>(random() % 1501) - 750, static_cast<int>(random() % 1501) - 750};
-  const auto moved = deform(neutral, state);
+  const auto moved = deform(toy_geometry(), state);
   const GenericHead& head = generic_head();
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     if (head.vertices[v].feature >= static_cast<int>(FeatureId::kPupilRight))
@@ -42,7 +42,7 @@ TEST(Deform, KeepsPupilsBetweenTheLids) {
   for (int i = 0; i < 500; ++i) {
     State state;
     for (glm::ivec2& c : state.control) c = {0, static_cast<int>(random() % 2001) - 1000};
-    const auto vertices = deform(toy_geometry().positions, state);
+    const auto vertices = deform(toy_geometry(), state);
     const auto y_of = [&](FeatureId id) {
       std::vector<int> y;
       for (const FeatureVertex& v : feature(id).vertices) y.push_back(vertices[v.vertex].y);

@@ -10,7 +10,7 @@ namespace fbs {
 namespace {
 
 TEST(HeadMesh, FacesTheViewerFromTheFront) {
-  const HeadMesh& mesh = head_mesh();
+  const HeadMesh& mesh = generic_head_mesh();
   EXPECT_EQ(mesh.vertex_count, kVertexCount + generic_head().outline.size());
   const SceneGeometry geometry(toy_setup(), toy_geometry(), even_surround(2, 2, 0), toy_state());
   const ScreenMesh screen = geometry.screen_mesh(toy_state());

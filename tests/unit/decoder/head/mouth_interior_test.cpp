@@ -19,17 +19,19 @@ TEST(MouthInterior, OpacityGrowsAsTheLipsPart) {
 TEST(MouthInterior, GapIsThatOfTheInnerLips) {
   State open;
   const Feature& inner = feature(FeatureId::kMouthInner);
-  const auto neutral = toy_geometry().positions;
-  for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(v.vertex));
+  const Geometry neutral = toy_geometry();
+  for (const FeatureVertex& v : inner.vertices) EXPECT_TRUE(is_inner_lip(generic_head(), v.vertex));
   for (int i = 0; i < inner.control_count; ++i)
     open.control[inner.first_control + i].y = i >= inner.control_count / 2 ? 800 : 0;
-  EXPECT_GT(mouth_gap(deform(neutral, open)), mouth_gap(neutral) + 400);
-  for (std::size_t v = kVertexCount; v < head_mesh().vertex_count; ++v)
-    EXPECT_FALSE(is_inner_lip(v)) << "a ring vertex";
+  EXPECT_GT(mouth_gap(neutral, open), mouth_gap(neutral, {}) + 400);
+  for (std::size_t v = kVertexCount; v < generic_head_mesh().vertex_count; ++v)
+    EXPECT_FALSE(is_inner_lip(generic_head(), v)) << "a ring vertex";
 }
 
 TEST(MouthInterior, RampGoesFromTheUpperToTheLowerInnerLip) {
-  const auto at = [](std::size_t landmark) { return mouth_ramp(vertex_of_landmark(landmark)); };
+  const auto at = [](std::size_t landmark) {
+    return mouth_ramp(generic_head(), vertex_of_landmark(landmark));
+  };
   for (const std::size_t upper : {61U, 62U, 63U}) EXPECT_EQ(at(upper), 0);
   for (const std::size_t corner : {60U, 64U}) EXPECT_EQ(at(corner), kMouthRampEnd / 2);
   for (const std::size_t lower : {65U, 66U, 67U}) EXPECT_EQ(at(lower), kMouthRampEnd);

@@ -15,7 +15,7 @@ namespace fbs {
 class OwnerMap {
  public:
   explicit OwnerMap(const ScreenMesh& mesh) : owner_(kSize, -1), depth_(kSize, 1e30) {
-    const auto& triangles = head_mesh().triangles;
+    const auto& triangles = generic_head_mesh().triangles;
     for (std::size_t t = 0; t < triangles.size(); ++t) draw(mesh, triangles[t], static_cast<int>(t));
   }
 
@@ -41,8 +41,8 @@ class OwnerMap {
   static bool adjoins(std::size_t a, int owner) {
     const auto b = static_cast<std::size_t>(owner);
     if (b >= generic_head().triangles.size()) return false;  // of the ring
-    const HeadTriangle &s = head_mesh().triangles[a], &t = head_mesh().triangles[b];
-    const auto inside = [](const HeadTriangle& h) { return std::all_of(h.begin(), h.end(), is_inner_lip); };
+    const HeadTriangle &s = generic_head_mesh().triangles[a], &t = generic_head_mesh().triangles[b];
+    const auto inside = [](const HeadTriangle& h) { return is_mouth(generic_head(), h); };
     return inside(s) == inside(t) && std::any_of(s.begin(), s.end(), [&](std::uint16_t v) {
              return std::find(t.begin(), t.end(), v) != t.end();
            });

@@ -48,7 +48,7 @@ TEST(Surface, ClosedMouthHasItsRows) {
     ++counts[p.triangle];
   for (const auto& [triangle, count] : counts) {
     const HeadTriangle& t = generic_head().triangles[triangle];
-    const bool mouth = std::all_of(t.begin(), t.end(), is_inner_lip);
+    const bool mouth = is_mouth(generic_head(), t);
     EXPECT_EQ(count, mouth ? 5 * (5 + 1) / 2 : 1) << triangle;
   }
 }

@@ -4,8 +4,8 @@ triangle hides another and all of them have room, also those that are closed or 
 
 Run by hand after a change of the head; the output is committed. --preview OUT.png needs numpy and OpenCV.
 
-    decoder/atlas/author_head_atlas.py                       writes atlas_layout_table.cpp beside it
-    decoder/atlas/author_head_atlas.py --preview atlas.png   draws it instead
+    common/author_head_atlas.py                       writes generic_head_atlas.cpp beside it
+    common/author_head_atlas.py --preview atlas.png   draws it instead
 """
 
 import argparse
@@ -64,12 +64,12 @@ def ring_of(points, outline):
     return out
 
 
-TABLE = """// The table of atlas_layout.h, by author_head_atlas.py: not to be edited.
-#include "decoder/atlas/atlas_layout.h"
+TABLE = """// The atlas of the generic head, by author_head_atlas.py: not to be edited.
+#include "common/generic_head.h"
 
 namespace fbs {
 
-const std::array<glm::ivec2, kAtlasTableSize> kAtlasTable = {{
+const std::array<glm::ivec2, kVertexCount + kRingCount> kHeadAtlas = {{
 %s}};
 
 }  // namespace fbs
@@ -106,7 +106,7 @@ def main():
     parser.add_argument("--preview")
     here = pathlib.Path(__file__).resolve().parent
     arguments = parser.parse_args()
-    positions, triangles, outline = read_head(here.parents[1] / "common/generic_head.gltf")
+    positions, triangles, outline = read_head(here / "generic_head.gltf")
     points = [laid_out(p) for p in positions]
     points += ring_of(points, outline)
     n, first = len(outline), len(positions)
@@ -121,7 +121,7 @@ def main():
     if arguments.preview:
         preview(arguments.preview, table, triangles, size)
     else:
-        write(here / "atlas_layout_table.cpp", table)
+        write(here / "generic_head_atlas.cpp", table)
 
 
 def preview(path, table, triangles, size):

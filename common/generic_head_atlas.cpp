@@ -1,9 +1,9 @@
-// The table of atlas_layout.h, by author_head_atlas.py: not to be edited.
-#include "decoder/atlas/atlas_layout.h"
+// The atlas of the generic head, by author_head_atlas.py: not to be edited.
+#include "common/generic_head.h"
 
 namespace fbs {
 
-const std::array<glm::ivec2, kAtlasTableSize> kAtlasTable = {{
+const std::array<glm::ivec2, kVertexCount + kRingCount> kHeadAtlas = {{
     {1465, 6799},   {1526, 8069},   {1695, 9134},   {1983, 10199},  {2479, 11305},  {3583, 13721},
     {4648, 14418},  {6113, 15196},  {7683, 15565},  {9253, 15196},  {10718, 14418}, {11783, 13721},
     {12887, 11305}, {13383, 10199}, {13671, 9134},  {13839, 8069},  {13900, 6799},  {3648, 5317},
