@@ -8,3 +8,8 @@ FBS_MODULE_EXPORT void fbs_write_gltf(const fbs::HeadRecording& recording,
                                       fbs::Result<std::vector<std::uint8_t>>& model) {
   model = fbs::write_gltf(recording, looks, options);
 }
+
+FBS_MODULE_EXPORT void fbs_read_wire_frame(const std::string& name,
+                                           fbs::Result<std::shared_ptr<const fbs::WireFrame>>& frame) {
+  frame = fbs::read_wire_frame_gltf(name);
+}

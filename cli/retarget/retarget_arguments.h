@@ -10,6 +10,7 @@ struct RetargetArguments {
   std::string motion;          ///< stream
   std::string face;            ///< stream, or a picture
   std::string output;          ///< stream
+  std::string wire_frame;      ///< glTF; empty: that of the face
   std::optional<int> quality;  ///< of the picture, 0..100; nothing: kPictureQuality
   bool quiet = false;
 };

@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  fbs retarget --motion anna.fbs --face bert.fbs out.fbs       Bert does what Anna does\n"
-    "  fbs retarget --motion anna.fbs --face photo.jpg out.fbs      so does a photograph";
+    "  fbs retarget --motion anna.fbs --face photo.jpg out.fbs      so does a photograph\n"
+    "  fbs retarget --motion anna.fbs --face anna.fbs --wire-frame fine.gltf out.fbs";
 
 }  // namespace
 
@@ -24,6 +25,8 @@ void add_retarget(CLI::App& app, Run& run) {
   verb->add_option("--face", a.face, "Whose face: a stream, or a picture of somebody")
       ->required()
       ->type_name("STREAM|PICTURE");
+  verb->add_option("--wire-frame", a.wire_frame, "Draw the face on this wire-frame (.gltf, .glb)")
+      ->type_name("MODEL");
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
   verb->add_option("--quality", a.quality,
                    "Where --face is a picture: of its pattern, from 0 to 100 (default: 70)")

@@ -6,6 +6,7 @@
 
 #include "cli/encode/encode_session.h"
 #include "cli/encode/source_part.h"
+#include "cli/export/model_module.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
 #include "cli/output_check.h"
@@ -14,6 +15,7 @@
 #include "cli/video/atomic_file.h"
 #include "cli/video/video_source.h"
 #include "encoder/retarget/retarget.h"
+#include "encoder/retarget/wire_frame_fit.h"
 
 namespace fbs::cli {
 namespace {
@@ -44,6 +46,14 @@ Result<Bytes> encode_picture(const RetargetArguments& arguments) {
   return stream;
 }
 
+Result<std::shared_ptr<const WireFrame>> read_wire_frame(const std::string& name) {
+  const auto read = load_module_function<ReadWireFrameFunction>(kModelModule, kReadWireFrameSymbol);
+  if (!read) return fail(read.error());
+  Result<std::shared_ptr<const WireFrame>> frame;
+  (*read)(name, frame);
+  return frame;
+}
+
 Result<FaceStream> read_face(const RetargetArguments& arguments) {
   const bool is_stream = is_stream_file(arguments.face);
   if (is_stream && arguments.quality)
@@ -53,12 +63,16 @@ Result<FaceStream> read_face(const RetargetArguments& arguments) {
   if (!bytes) return fail(bytes.error());
   auto face = read_face_stream(*bytes);
   if (!face) return fail(about_file(arguments.face, face.error()));
-  return face;
+  if (arguments.wire_frame.empty()) return face;
+  auto frame = read_wire_frame(arguments.wire_frame);
+  if (!frame) return fail(about_file(arguments.wire_frame, frame.error()));
+  return on_wire_frame(std::move(*face), std::move(*frame));
 }
 
 Result<void> check_files(const RetargetArguments& a) {
   if (auto named = check_stream_name(a.output); !named) return named;
-  const std::array inputs{NamedFile{"--motion", a.motion}, NamedFile{"--face", a.face}};
+  std::vector<NamedFile> inputs{{"--motion", a.motion}, {"--face", a.face}};
+  if (!a.wire_frame.empty()) inputs.push_back({"--wire-frame", a.wire_frame});
   const std::array outputs{NamedFile{"OUTPUT", a.output}};
   return check_distinct(inputs, outputs);
 }

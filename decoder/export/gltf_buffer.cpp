@@ -76,20 +76,24 @@ int GltfBuffer::add_indices(std::span<const std::uint16_t> corners) {
 int GltfBuffer::add_displacements(std::span<const glm::vec3> values) {
   const auto moves = [](const glm::vec3& v) { return v != glm::vec3(0); };
   const auto moved = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), moves));
-  constexpr std::size_t kSparseSize = sizeof(glm::vec3) + 1;
-  if (moved * kSparseSize >= values.size() * sizeof(glm::vec3)) return add_vectors(values, true);
+  const std::size_t index_size = values.size() > 256 ? 2 : 1;
+  if (moved * (sizeof(glm::vec3) + index_size) >= values.size() * sizeof(glm::vec3))
+    return add_vectors(values, true);
   const int accessor = add_accessor(-1, values.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
   set_bounds(accessor, values);
   if (moved == 0) return accessor;
   auto& sparse = model_.accessors.back().sparse;
   sparse.isSparse = true;
   sparse.count = static_cast<int>(moved);
+  sparse_indices_.resize((sparse_indices_.size() + index_size - 1) / index_size * index_size);
   sparse.indices.byteOffset = static_cast<int>(sparse_indices_.size());
-  sparse.indices.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+  sparse.indices.componentType =
+      index_size == 1 ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE : TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
   sparse.values.byteOffset = static_cast<int>(sparse_values_.size() * sizeof(glm::vec3));
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!moves(values[i])) continue;
-    sparse_indices_.push_back(static_cast<std::uint8_t>(i));
+    for (std::size_t byte = 0; byte < index_size; ++byte)  // little-endian
+      sparse_indices_.push_back(static_cast<std::uint8_t>(i >> (8 * byte)));
     sparse_values_.push_back(values[i]);
   }
   sparse_.push_back(accessor);

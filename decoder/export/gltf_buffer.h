@@ -28,7 +28,7 @@ class GltfBuffer {
   /// The same without bytes: an extension holds them.
   int add_absent(std::size_t count, int component_type, int type);
 
-  /// Displacements of at most 256 vertices, stored sparsely where that takes fewer bytes; all zero: without
+  /// Displacements of at most 65535 vertices, stored sparsely where that takes fewer bytes; all zero: without
   /// any.
   int add_displacements(std::span<const glm::vec3> values);
   /// Minimum and maximum of each coordinate.

@@ -18,7 +18,7 @@ constexpr double kUnits = kUnitsPerEyeDistance;
 
 /// The generic head seen from the front, eye distances.
 FrontPoints generic_points() {
-  FrontPoints out;
+  FrontPoints out(kVertexCount);
   for (std::size_t v = 0; v < kVertexCount; ++v) out[v] = glm::dvec2(generic_vertex(v));
   return out;
 }
@@ -41,7 +41,7 @@ bool is_position(glm::dvec2 mark) {
 /// Marks in the face's frame, eye distances.
 FrontMarks levelled(const Marks& marks, const Pose& pose, double eye_distance) {
   const double c = std::cos(pose.roll) / eye_distance, s = std::sin(pose.roll) / eye_distance;
-  FrontMarks out;
+  FrontMarks out(kVertexCount);
   for (std::size_t v = 0; v < kVertexCount; ++v) {
     if (!marks.vertex[v]) continue;
     const glm::dvec2 d = *marks.vertex[v] - pose.shift;
@@ -132,9 +132,9 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   take_out_yaw(yaw.tangent, depth_scale, eye_distance, out.pose, target);
 
   const glm::dvec2 scale(axis_scale(generic, target, 0), axis_scale(generic, target, 1));
-  FrontPoints scaled;
+  FrontPoints scaled(kVertexCount);
   for (std::size_t v = 0; v < kVertexCount; ++v) scaled[v] = generic[v] * scale;
-  const ElasticFit fit = fit_elastically(scaled, target);
+  const ElasticFit fit = fit_elastically(generic_head(), scaled, target);
   out.iterations = fit.iterations;
   out.geometry = geometry_of(fit.points, depth_scale);
   return out;

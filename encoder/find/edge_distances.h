@@ -1,12 +1,14 @@
-// Distances along the edges of the generic head's mesh.
+// Distances along the edges of a wire-frame.
 #pragma once
 
 #include <vector>
 
+#include "common/wire_frame.h"
+
 namespace fbs {
 
-/// Shortest path along the mesh's edges between each pair of vertices, in eye distances, on the generic head.
-/// Method: Floyd-Warshall. [a * kVertexCount + b]
-[[nodiscard]] const std::vector<float>& edge_distances();
+/// Shortest path along the edges between each pair of the frame's n vertices as they lie in it, in eye
+/// distances; infinite where none leads. Method: Floyd-Warshall. [a * n + b]
+[[nodiscard]] std::vector<float> edge_distances(const WireFrame& frame);
 
 }  // namespace fbs

@@ -17,23 +17,30 @@ double area(const FrontPoints& p, const HeadTriangle& t) {
   return a.x * b.y - a.y * b.x;
 }
 
-bool folds(const FrontPoints& now, const FrontPoints& scaled) {
-  for (const HeadTriangle& t : generic_head().triangles)
-    if (area(now, t) < kMinArea * area(scaled, t)) return true;
-  return false;
+bool folds(const WireFrame& frame, const FrontPoints& now, const FrontPoints& scaled) {
+  return std::ranges::any_of(
+      frame.triangles, [&](const HeadTriangle& t) { return area(now, t) < kMinArea * area(scaled, t); });
+}
+
+double length(double v) {
+  return std::abs(v);
+}
+double length(glm::dvec2 v) {
+  return std::hypot(v.x, v.y);
 }
 
 /// One elastic iteration: every vertex moves by the mean of the forces, each weighted with the Gaussian of
 /// its edge distance; far from all marks the motion fades out.
-FrontPoints pull(const FrontPoints& now, const FrontMarks& target, double sigma) {
-  const std::vector<float>& distance = edge_distances();
-  FrontPoints moved = now;
-  for (std::size_t v = 0; v < kVertexCount; ++v) {
-    glm::dvec2 sum(0);
+template <class T>
+std::vector<T> pull(const std::vector<T>& now, const std::vector<std::optional<T>>& target,
+                    const std::vector<float>& distances, double sigma) {
+  std::vector<T> moved = now;
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    T sum(0);
     double weight = 0;
-    for (std::size_t m = 0; m < kVertexCount; ++m) {
+    for (std::size_t m = 0; m < now.size(); ++m) {
       if (!target[m]) continue;
-      const double d = distance[v * kVertexCount + m] / sigma;
+      const double d = distances[v * now.size() + m] / sigma;
       const double g = std::exp(-0.5 * d * d);
       sum += g * (*target[m] - now[m]);
       weight += g;
@@ -43,38 +50,59 @@ FrontPoints pull(const FrontPoints& now, const FrontMarks& target, double sigma)
   return moved;
 }
 
-double largest_force(const FrontPoints& now, const FrontMarks& target) {
+template <class T>
+double largest_force(const std::vector<T>& now, const std::vector<std::optional<T>>& target) {
   double largest = 0;
-  for (std::size_t v = 0; v < kVertexCount; ++v)
-    if (target[v]) largest = std::max(largest, std::hypot(target[v]->x - now[v].x, target[v]->y - now[v].y));
+  for (std::size_t v = 0; v < now.size(); ++v)
+    if (target[v]) largest = std::max(largest, length(*target[v] - now[v]));
   return largest;
 }
 
 /// As far from `now` towards `moved` as no triangle folds; nothing when even a little folds one.
-std::optional<FrontPoints> without_folds(const FrontPoints& now, const FrontPoints& moved,
-                                         const FrontPoints& scaled) {
+std::optional<FrontPoints> without_folds(const WireFrame& frame, const FrontPoints& now,
+                                         const FrontPoints& moved, const FrontPoints& scaled) {
   double reach = 1;
   FrontPoints next = moved;
-  while (folds(next, scaled) && reach > kMinReach) {
+  while (folds(frame, next, scaled) && reach > kMinReach) {
     reach /= 2;
-    for (std::size_t v = 0; v < kVertexCount; ++v) next[v] = now[v] + reach * (moved[v] - now[v]);
+    for (std::size_t v = 0; v < now.size(); ++v) next[v] = now[v] + reach * (moved[v] - now[v]);
   }
-  if (folds(next, scaled)) return std::nullopt;
+  if (folds(frame, next, scaled)) return std::nullopt;
   return next;
+}
+
+/// Iterates until the marks are reached, or until `accepted` refuses an iteration: marks that contradict the
+/// mesh leave what was reached.
+/// @param accepted  (now, moved) -> optional of what is taken of `moved`
+/// @return iterations
+template <class T, class Accept>
+int iterate(const WireFrame& frame, const std::vector<std::optional<T>>& target, std::vector<T>& points,
+            Accept&& accepted) {
+  const std::vector<float> distances = edge_distances(frame);
+  double sigma = kFirstElasticSigma;
+  int iterations = 0;
+  for (; iterations < kMaxElasticIterations && largest_force(points, target) > kAtRest; ++iterations) {
+    std::optional<std::vector<T>> next = accepted(points, pull(points, target, distances, sigma));
+    if (!next) break;
+    points = std::move(*next);
+    sigma = std::max(kLastElasticSigma, sigma * kElasticDecay);
+  }
+  return iterations;
 }
 
 }  // namespace
 
-ElasticFit fit_elastically(const FrontPoints& scaled, const FrontMarks& target) {
+ElasticFit fit_elastically(const WireFrame& frame, const FrontPoints& scaled, const FrontMarks& target) {
   ElasticFit out{scaled, 0};
-  double sigma = kFirstElasticSigma;
-  for (; out.iterations < kMaxElasticIterations && largest_force(out.points, target) > kAtRest;
-       ++out.iterations) {
-    const auto next = without_folds(out.points, pull(out.points, target, sigma), scaled);
-    if (!next) break;  // marks that contradict the mesh: what was reached stays
-    out.points = *next;
-    sigma = std::max(kLastElasticSigma, sigma * kElasticDecay);
-  }
+  out.iterations = iterate(frame, target, out.points, [&](const FrontPoints& now, const FrontPoints& moved) {
+    return without_folds(frame, now, moved, scaled);
+  });
+  return out;
+}
+
+Depths fit_elastically(const WireFrame& frame, const Depths& scaled, const DepthMarks& target) {
+  Depths out = scaled;
+  iterate(frame, target, out, [](const Depths&, Depths moved) { return std::optional(std::move(moved)); });
   return out;
 }
 

@@ -1,17 +1,21 @@
-// The elastic process that brings the scaled head to its marks. Paper section 2.1, Fig. 3 (d).
+// The elastic process that brings a scaled wire-frame to its marks. Paper section 2.1, Fig. 3 (d).
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <vector>
 
-#include "common/generic_head.h"
+#include "common/wire_frame.h"
 
 namespace fbs {
 
 /// Of each vertex, seen from the front, eye distances.
-using FrontPoints = std::array<glm::dvec2, kVertexCount>;
-using FrontMarks = std::array<std::optional<glm::dvec2>, kVertexCount>;
+using FrontPoints = std::vector<glm::dvec2>;
+using FrontMarks = std::vector<std::optional<glm::dvec2>>;
+
+/// Of each vertex, away from the viewer, eye distances.
+using Depths = std::vector<double>;
+using DepthMarks = std::vector<std::optional<double>>;
 
 struct ElasticFit {
   FrontPoints points;
@@ -21,6 +25,10 @@ struct ElasticFit {
 /// Marks attract their vertices, and each force spreads over the mesh with a Gaussian of the edge distance
 /// that narrows from iteration to iteration (Burr 1981, Reinders et al. 1992, as the paper cites them). An
 /// iteration that would turn a triangle over is shortened until it does not.
-[[nodiscard]] ElasticFit fit_elastically(const FrontPoints& scaled, const FrontMarks& target);
+[[nodiscard]] ElasticFit fit_elastically(const WireFrame& frame, const FrontPoints& scaled,
+                                         const FrontMarks& target);
+
+/// The same for depth, which turns no triangle over.
+[[nodiscard]] Depths fit_elastically(const WireFrame& frame, const Depths& scaled, const DepthMarks& target);
 
 }  // namespace fbs

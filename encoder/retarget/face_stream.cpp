@@ -11,6 +11,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
 #include "bitstream/track.h"
 #include "decoder/head/head_deformation.h"
@@ -58,8 +59,7 @@ class Reading {
       case PacketType::kGeometry:
         return take_geometry(packet);
       case PacketType::kSurround:
-        face_.surround_payload.assign(packet.payload.begin(), packet.payload.end());
-        return true;
+        return take_surround(packet);
       case PacketType::kPattern:
         return take_patterns(packet);
       case PacketType::kMotion:
@@ -101,6 +101,13 @@ class Reading {
     if (is_flat(*geometry)) return true;
     face_.geometry = *geometry;
     face_.geometry_payload.assign(packet.payload.begin(), packet.payload.end());
+    return true;
+  }
+
+  Result<bool> take_surround(const Packet& packet) {
+    auto map = decode_surround(packet.payload);
+    if (!map) return fail(at(packet, map.error()));
+    face_.surround = std::move(*map);
     return true;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct FaceStream {
   Geometry geometry;
   std::vector<std::uint8_t> wire_frame_payload;  ///< empty: the generic head
   std::vector<std::uint8_t> geometry_payload;
-  std::vector<std::uint8_t> surround_payload;  ///< the last one of the scene; empty: none
+  std::optional<SurroundMap> surround;  ///< the last one of the scene
   PatternSyntax first;
   State rest;                       ///< in which the first pattern was seen
   std::vector<LaterPattern> later;  ///< in coding order, in slots 1, 2, ...; at most kMaxPatterns - 1

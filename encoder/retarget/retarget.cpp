@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "bitstream/blend/blend_coder.h"
@@ -11,8 +12,10 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
 #include "encoder/retarget/fitted_tracks.h"
+#include "encoder/retarget/head_surround.h"
 #include "encoder/retarget/motion_transfer.h"
 
 namespace fbs {
@@ -81,10 +84,16 @@ class SceneWriter {
     if (!setup) return fail(setup.error());
     const auto pattern = pattern_packets_.encode({&first_, 1}, setup_, 0);
     if (!pattern) return fail(pattern.error());
+    std::optional<std::vector<std::uint8_t>> surround;
+    if (face_.surround) {
+      auto map = encode_surround(with_hair(*face_.surround, setup_.format, face_.rest));
+      if (!map) return fail(map.error());
+      surround = std::move(*map);
+    }
     add(PacketType::kSetup, *setup);
     if (!face_.wire_frame_payload.empty()) add(PacketType::kWireFrame, face_.wire_frame_payload);
     add(PacketType::kGeometry, face_.geometry_payload);
-    if (!face_.surround_payload.empty()) add(PacketType::kSurround, face_.surround_payload);
+    if (surround) add(PacketType::kSurround, *surround);
     add(PacketType::kPattern, *pattern);
     return {};
   }

@@ -47,8 +47,8 @@ Result<cv::Mat3b> adaptation_figure(const Footage& footage, const Followed& foll
     if (p) points.push_back(*p);
   marked.dots(points, {255, 255, 255}, 3.2);
   marked.dots(points, kMark, 2.4);
-  scaled.wire_frame(scaled_head(adapted->pose), kMesh);
-  adjusted.wire_frame(followed.head(followed.states.front()), kMesh);
+  scaled.wire_frame(generic_head(), scaled_head(adapted->pose), kMesh);
+  adjusted.wire_frame(generic_head(), followed.head(followed.states.front()), kMesh);
   return sheet({{{canvas().image(), "(a) source"},
                  {marked.image(), "(b) reference points"},
                  {scaled.image(), "(c) scaled wire-frame"},

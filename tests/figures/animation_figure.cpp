@@ -38,7 +38,7 @@ Result<cv::Mat3b> animation_figure(const Footage& footage, const Followed& paper
   Renderer renderer;
   for (std::size_t k = 0; k < states.size(); ++k) {
     Canvas wires(part, kPanelWidth, kPaper);
-    wires.wire_frame(paper.head(states[k].state), kLine);
+    wires.wire_frame(generic_head(), paper.head(states[k].state), kLine);
     Picture picture;
     if (auto drawn = renderer.render(paper.scene, states[k].state, picture); !drawn)
       return fail(drawn.error());

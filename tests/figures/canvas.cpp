@@ -85,8 +85,9 @@ void Canvas::dots(std::span<const glm::dvec2> points, const cv::Scalar& colour, 
   }
 }
 
-void Canvas::wire_frame(std::span<const glm::dvec3> vertices, const cv::Scalar& colour) {
-  for (const auto& [from, to] : visible_edges(vertices))
+void Canvas::wire_frame(const WireFrame& frame, std::span<const glm::dvec3> vertices,
+                        const cv::Scalar& colour) {
+  for (const auto& [from, to] : visible_edges(frame, vertices))
     cv::line(image_, fixed(from), fixed(to), colour, 1, cv::LINE_AA, kShift);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/picture.h"
+#include "common/wire_frame.h"
 
 namespace fbs::figures {
 
@@ -34,9 +35,8 @@ class Canvas {
 
   void curve(std::span<const glm::dvec2> points, bool closed, const cv::Scalar& colour, int width_px = 2);
   void dots(std::span<const glm::dvec2> points, const cv::Scalar& colour, double radius_px);
-  /// The edges of the generic head's triangles that can be seen: visible_edges().
-  /// @param vertices  kVertexCount of them
-  void wire_frame(std::span<const glm::dvec3> vertices, const cv::Scalar& colour);
+  /// The edges of triangles that can be seen: visible_edges().
+  void wire_frame(const WireFrame& frame, std::span<const glm::dvec3> vertices, const cv::Scalar& colour);
 
   [[nodiscard]] const cv::Mat3b& image() const { return image_; }
 

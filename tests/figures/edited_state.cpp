@@ -5,15 +5,13 @@
 
 #include "common/ibug.h"
 #include "encoder/model/expression_prior.h"
-#include "encoder/model/fit.h"
 #include "encoder/model/skinning.h"
 
 namespace fbs::figures {
 namespace {
 
-/// A number that is linear in the offsets of lips and brows, by its weight for each of them (2 * control
-/// point
-/// + axis), such as the height of the mouth.
+/// A number that is linear in the offsets of lips and brows, such as the height of the mouth, by its weight
+/// for each of them (2 * control point + axis).
 using Functional = cv::Mat1d;
 
 Functional nothing() {
@@ -40,21 +38,6 @@ void add_height(std::size_t landmark, double times, Functional& a) {
       a(2 * skinning.control + 1) += times * skinning.weight / kSkinningOne;
 }
 
-/// Between two landmarks of an adapted head, head units.
-double extent(const Geometry& geometry, std::size_t a, std::size_t b) {
-  const glm::dvec3 d(geometry.positions[vertex_of_landmark(a)] - geometry.positions[vertex_of_landmark(b)]);
-  return std::hypot(d.x, d.y);
-}
-
-/// Of the feature that a control point belongs to.
-double size_of_feature(const Geometry& geometry, std::size_t control) {
-  if (control < feature(FeatureId::kBrowRight).first_control)
-    return extent(geometry, ibug::kMouthRight, ibug::kMouthLeft);
-  if (control < feature(FeatureId::kUpperLidRight).first_control)
-    return extent(geometry, ibug::kBrowsFirst, ibug::kBrowLeft - 1);
-  return extent(geometry, ibug::kRightEyeOuter, ibug::kRightEyeInner);
-}
-
 }  // namespace
 
 State turned(State state, double yaw_deg, double pitch_deg) {
@@ -79,26 +62,6 @@ State with_mouth_open(State state, double height) {
   add_height(ibug::kLowerLipInner, 1, gap);
   add_height(ibug::kUpperLipInner, -1, gap);
   return moved_along(state, gap, height);
-}
-
-State transferred(const State& state, const Actor& from, const Actor& to) {
-  State out = to.rest;
-  for (std::size_t i = 0; i < kPoseCount; ++i) out.pose[i] += state.pose[i] - from.rest.pose[i];
-  const double size = std::exp2((to.rest.pose[kLogScale] - from.rest.pose[kLogScale]) / 4096.0);
-  for (const PoseIndex i : {kShiftX, kShiftY})
-    out.pose[i] =
-        to.rest.pose[i] + static_cast<std::int32_t>(std::lround((state.pose[i] - from.rest.pose[i]) * size));
-  for (std::size_t c = 0; c < kControlCount; ++c) {
-    const double larger = size_of_feature(to.geometry, c) / size_of_feature(from.geometry, c);
-    for (int axis = 0; axis < 2; ++axis)
-      out.control[c][axis] = static_cast<std::int32_t>(std::lround(state.control[c][axis] * larger));
-  }
-  return out;
-}
-
-double mouth_gap(const State& state, const Actor& actor) {
-  return static_cast<double>(fbs::mouth_gap(skinned(actor.geometry, fit_of(state).offsets))) /
-         kUnitsPerEyeDistance;
 }
 
 }  // namespace fbs::figures

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <span>
 #include <vector>
 
 #include "common/result.h"
@@ -52,20 +54,14 @@ inline constexpr int kMouthPictures = 4;
 /// Figure 6: the brows rise, and a blink.
 [[nodiscard]] Result<cv::Mat3b> brow_figure(const Footage& footage, const Paths& paths);
 
-/// Somebody whose wire-frame and pattern take over the motion of another.
-struct OtherFace {
-  VideoFormat format;
-  Scene scene;
-  State rest;  ///< of its first picture
-};
-
 /// Figure 7: pictures of Figure 5 turned, their deformations on another wire-frame and pattern, and another
 /// pattern on the same wire-frame.
+/// @param other  stream of somebody whose pattern takes over the motion, on a wire-frame of its own
 struct SynthesisFigure {
   cv::Mat3b image;
   std::array<double, 2> own, other;  ///< between the inner lips at Fig. 5 (a) and (e), eye distances
 };
 [[nodiscard]] Result<SynthesisFigure> synthesis_figure(const Footage& footage, const Paths& paths,
-                                                       const OtherFace& other);
+                                                       std::span<const std::uint8_t> other);
 
 }  // namespace fbs::figures

@@ -35,13 +35,11 @@ void print(const std::string& name, const TeethHeights& h) {
   std::printf("teeth %s without %.3f with %.3f true %.3f\n", name.c_str(), h.without, h.with, h.truth);
 }
 
-OtherFace face_of(const Footage& footage, const Followed& paper) {
-  return {footage.format, paper.scene, paper.states.front()};
-}
+using Stream = std::vector<std::uint8_t>;
 
-/// @param other  that takes over the motion
-/// @return the footage's face, to take over that of another
-OtherFace draw_figures(const Footage& footage, const OtherFace& other, const fs::path& out) {
+/// @param other  whose face takes over the motion
+/// @return the footage's own, to take over that of another
+Stream draw_figures(const Footage& footage, const Stream& other, const fs::path& out) {
   const Paths paths{must(follow(footage, paper_settings())), must(follow(footage, {}))};
   const Followed& followed = paths.fitted;
   const auto file = [&](const char* figure) { return out / (footage.name + "_" + figure + ".png"); };
@@ -56,7 +54,7 @@ OtherFace draw_figures(const Footage& footage, const OtherFace& other, const fs:
   write(file("figure7"), synthesis.image);
   std::printf("lips %s own %.3f %.3f other %.3f %.3f\n", footage.name.c_str(), synthesis.own[0],
               synthesis.own[1], synthesis.other[0], synthesis.other[1]);
-  return face_of(footage, paths.paper);
+  return paths.paper.stream;
 }
 
 std::vector<fs::path> videos(const fs::path& folder) {
@@ -69,7 +67,7 @@ std::vector<fs::path> videos(const fs::path& folder) {
 }
 
 /// A clip that fails does not affect the others. The motion of each is also that of the face before it.
-int draw_clips(const fs::path& folder, OtherFace other, const fs::path& out) {
+int draw_clips(const fs::path& folder, Stream other, const fs::path& out) {
   int failed = 0;
   for (const fs::path& video : videos(folder)) {
     try {
@@ -99,8 +97,8 @@ int main(int argc, char** argv) {
     write(out / "painted_figure1.png", painted.image);
     print("painted", painted.teeth);
     const Footage neighbour = talker_footage("neighbour", kNeighbourSeed);
-    const OtherFace other = face_of(neighbour, must(follow(neighbour, paper_settings())));
-    const OtherFace talker = draw_figures(talker_footage("talker", kTalkerSeed), other, out);
+    const Stream other = must(follow(neighbour, paper_settings())).stream;
+    const Stream talker = draw_figures(talker_footage("talker", kTalkerSeed), other, out);
     return argc == 3 && draw_clips(argv[2], talker, out) > 0 ? 1 : 0;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "paper_figures: %s\n", e.what());

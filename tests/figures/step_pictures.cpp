@@ -68,7 +68,7 @@ Panels adaptation(const Subject& of) {
   Canvas found = of.canvas(picture, part), adapted = of.canvas(picture, part);
   found.dots(points, {255, 255, 255}, 3.2);
   found.dots(points, kMark, 2.4);
-  adapted.wire_frame(of.followed.head(of.followed.states.front()), kMesh);
+  adapted.wire_frame(generic_head(), of.followed.head(of.followed.states.front()), kMesh);
   return {of.canvas(picture, part).image(), found.image(), adapted.image()};
 }
 
@@ -141,7 +141,7 @@ Panels decoded(const Subject& of) {
   const Picture& source = of.footage.pictures[i];
   const Picture drawn = must(decode(of.followed.stream, {picture})).front();
   Canvas mesh = of.canvas(drawn, part);
-  mesh.wire_frame(of.followed.head(of.followed.states[i]), kMesh);
+  mesh.wire_frame(generic_head(), of.followed.head(of.followed.states[i]), kMesh);
   Picture difference = drawn;
   for (int y = 0; y < source.height(); ++y)
     for (int x = 0; x < source.width(); ++x) {

@@ -40,10 +40,10 @@ double height_of(std::span<const glm::dvec3> vertices) {
 
 }  // namespace
 
-std::vector<LineSegment> visible_edges(std::span<const glm::dvec3> vertices) {
+std::vector<LineSegment> visible_edges(const WireFrame& frame, std::span<const glm::dvec3> vertices) {
   std::vector<ScreenTriangle> facing;
   std::map<std::pair<std::uint16_t, std::uint16_t>, bool> edges;  // whether a triangle of it faces the viewer
-  for (const HeadTriangle& t : generic_head().triangles) {
+  for (const HeadTriangle& t : frame.triangles) {
     const ScreenTriangle triangle{{vertices[t[0]], vertices[t[1]], vertices[t[2]]}};
     const bool faces = triangle.area() > 0;
     if (faces) facing.push_back(triangle);
@@ -67,9 +67,9 @@ std::vector<LineSegment> visible_edges(std::span<const glm::dvec3> vertices) {
   return out;
 }
 
-std::vector<glm::dvec2> visible_vertices(std::span<const glm::dvec3> vertices) {
+std::vector<glm::dvec2> visible_vertices(const WireFrame& frame, std::span<const glm::dvec3> vertices) {
   constexpr double kSame = 1e-9;
-  const std::vector<LineSegment> edges = visible_edges(vertices);
+  const std::vector<LineSegment> edges = visible_edges(frame, vertices);
   std::vector<glm::dvec2> out;
   for (const glm::dvec3& v : vertices) {
     const auto ends_here = [&](const glm::dvec2& p) { return std::hypot(p.x - v.x, p.y - v.y) < kSame; };

@@ -7,20 +7,23 @@
 #include <span>
 #include <vector>
 
-#include "common/generic_head.h"
 #include "common/state.h"
+#include "common/wire_frame.h"
 
 namespace fbs {
 
 using LineSegment = std::array<glm::dvec2, 2>;
 
-/// The parts of the generic head's edges that no triangle hides. An edge is drawn where one of its triangles
+/// The parts of a wire-frame's edges that no triangle hides. An edge is drawn where one of its triangles
 /// faces the viewer.
-/// @param vertices  kVertexCount; x and y in the picture, y down, z away from the viewer, all in one unit
-[[nodiscard]] std::vector<LineSegment> visible_edges(std::span<const glm::dvec3> vertices);
+/// @param vertices  those of the frame; x and y in the picture, y down, z away from the viewer, all in one
+/// unit
+[[nodiscard]] std::vector<LineSegment> visible_edges(const WireFrame& frame,
+                                                     std::span<const glm::dvec3> vertices);
 
 /// The vertices at which such an edge begins or ends.
-[[nodiscard]] std::vector<glm::dvec2> visible_vertices(std::span<const glm::dvec3> vertices);
+[[nodiscard]] std::vector<glm::dvec2> visible_vertices(const WireFrame& frame,
+                                                       std::span<const glm::dvec3> vertices);
 
 /// Vertices of a head as the decoder projects them, all in pixels.
 /// @param vertices  SceneGeometry::project_vertices() of `state`

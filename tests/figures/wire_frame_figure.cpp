@@ -24,8 +24,8 @@ Panel head_view(bool from_side, std::string caption) {
   const auto [y0, y1] = std::ranges::minmax(points, {}, &glm::dvec2::y);
   const cv::Rect2d part(x0.x - kMargin, y0.y - kMargin, x1.x - x0.x + 2 * kMargin, y1.y - y0.y + 2 * kMargin);
   Canvas canvas(part, static_cast<int>(part.width * kPxPerEyeDistance), kPaper);
-  canvas.wire_frame(head, kLine);
-  canvas.dots(visible_vertices(head), kVertex, 2.2);
+  canvas.wire_frame(generic_head(), head, kLine);
+  canvas.dots(visible_vertices(generic_head(), head), kVertex, 2.2);
   return {canvas.image(), std::move(caption)};
 }
 

@@ -12,7 +12,7 @@ DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "
              "samples/README.md", "tests/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
 FOLDERS = "bitstream|cli|common|decoder|docs|encoder|include|library|samples|scripts|tests"
-SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg|gltf"
+SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg"
 # Named in documents, but not ours to have.
 ELSEWHERE = {"measure.py"}
 

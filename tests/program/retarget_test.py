@@ -5,9 +5,10 @@ import os
 import pathlib
 import statistics
 import subprocess
+import sys
 
-from harness import (FBS, KEYED_FBS, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, flat_y4m, packets,
-                     talker)
+from harness import (FBS, KEYED_FBS, SOURCE, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, flat_y4m,
+                     packets, talker)
 
 TOUCHING = 0.01        # eye distances
 INNER_LIPS = ((61, 67), (62, 66), (63, 65))
@@ -107,6 +108,47 @@ class Retarget(ProgramTest):
         small = os.path.getsize(self.folder / "out.fbs")
         self.retarget(KEYED_FBS, "photo_1.png")
         self.assertGreater(os.path.getsize(self.folder / "out.fbs"), small)
+
+    def finer(self):
+        return subprocess.run([sys.executable, SOURCE / "samples/finer_head.py", self.folder / "fine.gltf"], check=True,
+                              capture_output=True, text=True).stdout
+
+    def test_another_wire_frame(self):
+        self.assertIn("392 vertices", self.finer())
+        plain = self.retarget(TALK_FBS, TALK_FBS)
+        before = self.decoded("out.fbs")
+        fine = self.retarget(TALK_FBS, TALK_FBS, "--wire-frame", "fine.gltf")
+        after = self.decoded("out.fbs")
+        self.assertIn("wire-frame", self.succeed("inspect", "out.fbs", "--packets").decode())
+        # The same face, but rounder between the vertices of the generic head.
+        self.assertGreater(after.luma_psnr(before), 35)
+        self.assertNotEqual(after.pictures, before.pictures)
+        for k in range(68):
+            worst = max(math.dist((a[f"x{k}"], a[f"y{k}"]), (b[f"x{k}"], b[f"y{k}"])) / a["scale"]
+                        for a, b in zip(plain.rows, fine.rows, strict=True))
+            self.assertLess(worst, 0.05, k)
+        self.succeed("export", "out.fbs", "face_%d.obj")
+        model = next(self.folder.glob("face_*.obj")).read_text()
+        self.assertEqual(sum(line.startswith("v ") for line in model.splitlines()), 392)
+
+    def test_a_face_keeps_its_own_wire_frame(self):
+        self.finer()
+        self.succeed("retarget", "--motion", TALK_FBS, "--face", TALK_FBS, "--wire-frame", "fine.gltf", "fine.fbs")
+        own = self.head("fine.fbs")
+        again = self.retarget("fine.fbs", "fine.fbs")
+        self.assertGreater(correlation(own.distance(62, 66), again.distance(62, 66)), 0.97)
+        self.assertIn("wire-frame", self.succeed("inspect", "out.fbs", "--packets").decode())
+
+    def test_bad_wire_frames(self):
+        self.write("text.gltf", b"not glTF")
+        self.write("empty.glb", b"")
+        for name, says in (("missing.gltf", ("missing.gltf",)), ("text.gltf", ("text.gltf", "not glTF")),
+                           ("empty.glb", ("empty.glb",)),
+                           (SOURCE / "common/generic_head.gltf", ("generic_head.gltf", "extras.features"))):
+            with self.subTest(name=name):
+                self.fail_cleanly("retarget", "--motion", TALK_FBS, "--face", TALK_FBS, "--wire-frame", name, "out.fbs",
+                                  says=says)
+                self.assertFalse((self.folder / "out.fbs").exists())
 
     def test_motion_from_standard_input(self):
         self.succeed("retarget", "--motion", "-", "--face", TALK_FBS, "out.fbs", stdin=TALK_ONE_FBS.read_bytes())

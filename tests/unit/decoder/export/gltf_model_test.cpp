@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "decoder/export/head_pose_track.h"
 #include "decoder/export/tinygltf.h"
 #include "tests/unit/decoder/export/recorded_talk.h"
+#include "tests/unit/split_head.h"
 
 namespace fbs {
 namespace {
@@ -96,6 +98,31 @@ TEST(GltfModel, StoresMostTargetsSparsely) {
   for (const auto& target : model.meshes[0].primitives[0].targets)
     sparse += accessor(model, target.at("POSITION")).sparse.isSparse ? 1 : 0;
   EXPECT_GT(sparse, model.meshes[0].primitives[0].targets.size() / 2);
+}
+
+TEST(GltfModel, NamesVerticesBeyondAByte) {
+  HeadRecording recording;
+  Scene scene = toy_scene(noise_picture(160, 128, 1));
+  scene.set_geometry({scene.setup, split(toy_geometry()), even_surround(10, 8, 0), toy_state()});
+  record(recording, scene, 2);
+  const tinygltf::Model model = exported(recording);
+  const auto& targets = model.meshes[0].primitives[0].targets;
+  std::size_t beyond = 0;
+  for (const auto& target : targets) {
+    const auto& sparse = accessor(model, target.at("POSITION")).sparse;
+    if (!sparse.isSparse) continue;
+    ASSERT_EQ(sparse.indices.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    const auto& view = model.bufferViews[static_cast<std::size_t>(sparse.indices.bufferView)];
+    std::vector<std::uint16_t> indices(static_cast<std::size_t>(sparse.count));
+    std::memcpy(
+        indices.data(),
+        model.buffers[0].data.data() + view.byteOffset + static_cast<std::size_t>(sparse.indices.byteOffset),
+        indices.size() * sizeof indices[0]);
+    EXPECT_TRUE(std::ranges::is_sorted(indices, std::ranges::less_equal()));
+    EXPECT_LT(indices.back(), split_head()->vertices.size());
+    beyond += indices.back() > 255 ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 0U);
 }
 
 TEST(GltfModel, LeavesOutKeyframesOfSteadyMotion) {
