@@ -71,7 +71,9 @@ enum class PacketType : std::uint8_t {
   kMotion = 5,    ///< the states of a group of pictures
   kEnd = 6,       ///< number of pictures of the stream
   kBlend = 7,     ///< how consecutive pictures are blended from patterns
-  kWireFrame = 8  ///< the wire-frame of the geometry that follows, in the place of the generic head
+  kWireFrame = 8,   ///< the wire-frame of the geometry that follows, in the place of the generic head
+  kSoundSetup = 9,  ///< what a decoder of the sound must know
+  kSound = 10       ///< sound of the pictures that follow
 };
 
 /// A colour in the video's own range and matrix.

@@ -10,7 +10,7 @@
 
 #include "cli/display/picture_sources.h"
 #include "cli/inspect/inspect_arguments.h"
-#include "cli/inspect/packet_list.h"
+#include "cli/stream/packet_list.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
 #include "cli/stream/stream_file.h"
