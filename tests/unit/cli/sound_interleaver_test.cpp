@@ -72,9 +72,9 @@ Seen decoded(const Bytes& stream, bool has_sound) {
     if (!status || *status != DecodeStatus::kPicture) break;
     out.states.push_back(decoder.state());
     out.time = decoder.position().time + decoder.duration();
-    if (has_sound)
-      EXPECT_GE(heard * kTicksPerSecond, static_cast<std::int64_t>(out.time) * kSoundClock)
-          << out.states.size();
+    if (has_sound) {
+      EXPECT_GE(heard * kTicksPerSecond, static_cast<std::int64_t>(out.time) * kSoundClock);
+    }
   }
   EXPECT_EQ(decoder.bytes().total, stream.size());
   return out;
