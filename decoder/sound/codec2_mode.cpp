@@ -10,13 +10,13 @@ namespace {
 
 // clang-format off
 constexpr std::array<Codec2Mode, 6> kModes = {{
-    // bit/s          id        samples bytes delay
-    {3200, CODEC2_MODE_3200, 160, 8, 0},
-    {2400, CODEC2_MODE_2400, 160, 6, 0},
-    {1600, CODEC2_MODE_1600, 320, 8, 0},
-    {1400, CODEC2_MODE_1400, 320, 7, 0},
-    {1300, CODEC2_MODE_1300, 320, 7, 0},
-    {1200, CODEC2_MODE_1200, 320, 6, 0},
+    // bit/s          id        samples bytes
+    {3200, CODEC2_MODE_3200, 160, 8},
+    {2400, CODEC2_MODE_2400, 160, 6},
+    {1600, CODEC2_MODE_1600, 320, 8},
+    {1400, CODEC2_MODE_1400, 320, 7},
+    {1300, CODEC2_MODE_1300, 320, 7},
+    {1200, CODEC2_MODE_1200, 320, 6},
 }};
 // clang-format on
 

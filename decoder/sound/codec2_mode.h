@@ -7,7 +7,10 @@
 
 namespace fbs {
 
-inline constexpr int kCodec2Rate = 8000;                           ///< samples a second
+inline constexpr int kCodec2Rate = 8000;  ///< samples a second
+/// Samples by which what is decoded comes late, in every mode, so that its loudness follows the source's.
+/// Measured: tests/program/measure_sound.py.
+inline constexpr std::int32_t kCodec2Delay = 160;
 inline constexpr std::int32_t kCodec2Ticks = 48000 / kCodec2Rate;  ///< of kSoundClock, of a sample
 
 struct Codec2Mode {
@@ -15,10 +18,6 @@ struct Codec2Mode {
   int id = 0;                     ///< CODEC2_MODE_...
   std::size_t frame_samples = 0;  ///< 160 or 320
   std::size_t frame_bytes = 0;    ///< 6 to 8
-  /// Samples by which what is decoded comes late, so that its loudness follows the source's: the encoder's
-  /// window and the decoder's interpolation between frames. Measured:
-  /// tests/unit/encoder/sound/sound_delay_test.cpp.
-  std::int32_t delay = 0;
 
   /// 1/kSoundClock s of a frame.
   [[nodiscard]] std::int32_t duration() const {

@@ -31,11 +31,12 @@ class Codec2Coder final : public SoundEncoder {
   std::size_t frame_bytes_;
 };
 
-/// The mode of the highest rate up to `bitrate`; null when there is none.
+/// The mode of the highest rate up to `bitrate`; null when there is none. Not 1300, whose frames are as long
+/// as those of 1400 and understood no better.
 const Codec2Mode* mode_of_rate(int bitrate) {
   const auto modes = codec2_modes();
   const auto found = std::find_if(modes.begin(), modes.end(),
-                                  [&](const Codec2Mode& mode) { return mode.bitrate <= bitrate; });
+                                  [&](const Codec2Mode& mode) { return mode.sent_bitrate() <= bitrate; });
   return found == modes.end() ? nullptr : &*found;
 }
 
@@ -49,7 +50,8 @@ Result<std::unique_ptr<SoundEncoder>> create_codec2_coder(const SoundSettings& s
                 "Codec 2 takes at least " + std::to_string(codec2_modes().back().bitrate) + " bit/s");
   Handle handle(codec2_create(mode->id));
   if (!handle) return fail(ErrorCode::kUnsupported, "this libcodec2 lacks the mode of the rate");
-  const SoundSetup setup{SoundCodec::kCodec2, 1, mode->bitrate, mode->duration(), mode->delay * kCodec2Ticks};
+  const SoundSetup setup{SoundCodec::kCodec2, 1, mode->bitrate, mode->duration(),
+                         kCodec2Delay * kCodec2Ticks};
   return std::make_unique<Codec2Coder>(std::move(handle), setup, *mode);
 }
 
