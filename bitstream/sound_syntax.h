@@ -7,6 +7,8 @@
 namespace fbs {
 
 inline constexpr std::int32_t kSoundClock = 48000;  ///< ticks of a second, in which sound is timed
+inline constexpr std::int32_t kMaxSoundSkip = kSoundClock;
+inline constexpr std::int64_t kMaxSoundFrames = std::int64_t{1} << 32;  ///< of a stream: 124 days of the shortest
 
 enum class SoundCodec : std::uint8_t {
   kOpus = 1,    ///< RFC 6716; 48 kHz

@@ -93,7 +93,7 @@ Result<std::optional<SoundSetup>> decode_sound_setup(std::span<const std::uint8_
 }
 
 Result<std::vector<std::uint8_t>> encode_sound(const SoundGroup& group, const SoundSetup& setup) {
-  const bool right = is_valid(setup) && group.first >= 0 && group.first <= kMaxSoundFrameNumber &&
+  const bool right = is_valid(setup) && group.first >= 0 && group.first < kMaxSoundFrames &&
                      !group.frames.empty() && group.frames.size() <= most_frames(setup) &&
                      std::ranges::all_of(group.frames, [&](const auto& f) { return is_frame(f, setup); });
   if (!right) return fail(ErrorCode::kInvalidArgument, "no such frames of sound can be sent");
@@ -111,7 +111,7 @@ Result<SoundGroup> decode_sound(std::span<const std::uint8_t> payload, const Sou
   ByteReader reader(payload);
   const std::uint64_t first = reader.varint();
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "sound packet ends early");
-  if (reader.malformed() || first > static_cast<std::uint64_t>(kMaxSoundFrameNumber))
+  if (reader.malformed() || first >= static_cast<std::uint64_t>(kMaxSoundFrames))
     return fail(ErrorCode::kInvalidStream, "the number of a frame of sound is out of range");
   SoundGroup group{static_cast<std::int64_t>(first), {}};
   while (group.frames.empty() || reader.remaining() > 0) {

@@ -14,8 +14,6 @@ namespace fbs {
 
 inline constexpr std::size_t kMaxSoundFrame =
     1500;  ///< bytes; Opus' own limit is 1275 for each of its streams
-inline constexpr std::int64_t kMaxSoundFrameNumber = std::int64_t{1} << 40;
-inline constexpr std::int32_t kMaxSoundSkip = kSoundClock;  ///< 1 s
 /// The frames of a packet begin within so much time, 1/kSoundClock s.
 inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
 

@@ -8,14 +8,15 @@ set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
   decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/draw decoder
-  decoder/export
-  encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
+  decoder/export decoder/sound
+  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
+          "decoder/export decoder/sound"
           "encoder/landmarks encoder/model" "encoder/track/head encoder/track/snake" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
@@ -24,6 +25,8 @@ set(foreign
   "opencv2/videoio@cli/video"
   "opencv2/highgui@none"
   "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
+  "opus(/|\\.h)@decoder/sound|encoder/sound"
+  "codec2(/|\\.h)@decoder/sound|encoder/sound"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
   "hwy/@decoder/vectors|decoder/field|decoder/raster"
