@@ -66,6 +66,8 @@ class AvSource final : public VideoSource {
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
+  /// Of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
+  [[nodiscard]] std::int64_t first_picture_time() const;
 
  private:
   Result<void> open_decoder(const SourceOptions& options);
@@ -217,6 +219,13 @@ void AvSource::note_failure(int code, bool cut) {
                    name_ + ": " + (damaged ? "cut off or damaged" : av_reason(code))};
 }
 
+std::int64_t AvSource::first_picture_time() const {
+  if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
+    return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, AV_TIME_BASE_Q);
+  }
+  return container_->start_time == AV_NOPTS_VALUE ? 0 : container_->start_time;
+}
+
 std::int64_t AvSource::next_pts() {
   std::int64_t pts = last_pts_ + regular_pts(1, format_.frame_rate);
   if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
@@ -265,6 +274,14 @@ Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, co
   auto source = std::make_unique<AvSource>(input);
   if (auto opened = source->open(options); !opened) return fail(opened.error());
   return source;
+}
+
+Result<std::int64_t> first_picture_time(const std::string& input, const StopSignal* stop) {
+  SourceOptions options;
+  options.stop = stop;
+  AvSource source(input);
+  if (auto opened = source.open(options); !opened) return fail(opened.error());
+  return source.first_picture_time();
 }
 
 }  // namespace fbs

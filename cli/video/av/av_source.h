@@ -13,4 +13,9 @@ namespace fbs {
 /// ms) get the exact time back when the rounded one lies within one of their units of the regular grid.
 Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, const SourceOptions& options);
 
+/// Time of the first picture that open_av_source returns of `input`, on the container's own clock,
+/// 1/AV_TIME_BASE s. Errors as there.
+/// @param stop  interrupts reading; may be null
+Result<std::int64_t> first_picture_time(const std::string& input, const StopSignal* stop);
+
 }  // namespace fbs
