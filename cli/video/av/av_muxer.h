@@ -29,6 +29,7 @@ class AvMuxer {
   /// Writes the end of the container and gives the file its name.
   Result<void> finish();
 
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] bool replaced_leftover() const { return file_.replaced_leftover(); }
 
   [[nodiscard]] tl::unexpected<Error> error(const std::string& reason) const;
