@@ -38,10 +38,21 @@ Result<void> check(const SoundSourceOptions& options) {
 
 }  // namespace
 
+Error missing_track(const std::string& input, int track, std::ptrdiff_t count) {
+  std::string has = "no sound";
+  if (count == 1) has = "one, number 0";
+  if (count > 1) has = std::to_string(count) + ", from 0 to " + std::to_string(count - 1);
+  return {ErrorCode::kInvalidArgument,
+          input + ": no sound track " + std::to_string(track) + ": it has " + has};
+}
+
 Result<std::unique_ptr<SoundSource>> open_sound_source(const std::string& input,
                                                        const SoundSourceOptions& options) {
   if (auto checked = check(options); !checked) return fail(checked.error());
-  if (!may_have_sound(input)) return nullptr;
+  if (!may_have_sound(input)) {
+    if (options.track) return fail(missing_track(input, *options.track, 0));
+    return nullptr;
+  }
   const auto open = load_module_function<OpenSoundSourceFunction>(kAvModule, kOpenSoundSourceSymbol);
   if (!open) return fail(open.error().code, "cannot read " + input + ": " + open.error().text);
   Result<std::unique_ptr<SoundSource>> source;

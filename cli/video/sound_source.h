@@ -1,6 +1,7 @@
 // The sound of a file of pictures and sound, in step with what VideoSource returns of the same file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -49,5 +50,9 @@ class SoundSource {
 ///         kUnsupported when there is no decoder for it
 Result<std::unique_ptr<SoundSource>> open_sound_source(const std::string& input,
                                                        const SoundSourceOptions& options = {});
+
+/// The error of open_sound_source for a track that is not there.
+/// @param count  of the sound tracks
+Error missing_track(const std::string& input, int track, std::ptrdiff_t count);
 
 }  // namespace fbs

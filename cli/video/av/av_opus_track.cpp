@@ -8,20 +8,12 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <string_view>
 
 namespace fbs {
 namespace {
 
 constexpr AVRational kSoundTick{1, kSoundClock};
 constexpr int kSeekPreroll = 80 * kSoundClock / 1000;  // RFC 7845 4.6
-
-/// Matroska times are later by CodecDelay, which players subtract. Up to 5.1, ffmpeg writes the element and
-/// forgets to add it.
-std::int64_t forgotten_delay(const SoundSetup& setup, const AVOutputFormat& container) {
-  const bool forgets = avformat_version() < AV_VERSION_INT(59, 31, 100);
-  return forgets && std::string_view(container.name) == "matroska" ? setup.skip : 0;
-}
 
 using OpusHead = std::array<std::uint8_t, 19>;
 
@@ -69,10 +61,10 @@ Result<AvOpusTrack> AvOpusTrack::add(const SoundSetup& setup, AvMuxer& muxer) {
   track.packet_.reset(av_packet_alloc());
   track.stream_ = muxer.add_stream();
   track.duration_ = setup.duration;
-  track.delay_ = forgotten_delay(setup, muxer.container());
   if (!track.packet_ || track.stream_ == nullptr || !describe(setup, *track.stream_->codecpar)) {
     return muxer.error("out of memory");
   }
+  track.delay_ = muxer.forgotten_delay(*track.stream_->codecpar);
   track.stream_->time_base = kSoundTick;
   return track;
 }

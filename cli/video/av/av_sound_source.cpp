@@ -23,7 +23,6 @@ class AvSoundSource final : public SoundSource {
   /// @return index of the stream; nullopt when there is no sound
   Result<std::optional<int>> choose_track(std::optional<int> track) const;
   Result<void> open_decoder(int index);
-  Result<void> find_start(const SoundSourceOptions& options);
   /// Decodes the next frame into frame_. @return false at the end
   Result<bool> decode();
   /// Sends the next packet, or the end, to the decoder.
@@ -72,7 +71,9 @@ Result<bool> AvSoundSource::open(const SoundSourceOptions& options) {
     if (static_cast<int>(i) != **index) container_->streams[i]->discard = AVDISCARD_ALL;
   }
   if (auto opened = open_decoder(**index); !opened) return fail(opened.error());
-  if (auto found = find_start(options); !found) return fail(found.error());
+  const auto start = first_picture_time(*container_, name_, options.stop);
+  if (!start) return fail(start.error());
+  start_ = *start;
   return true;
 }
 
@@ -83,10 +84,7 @@ Result<std::optional<int>> AvSoundSource::choose_track(std::optional<int> track)
     if (is_sound) tracks.push_back(static_cast<int>(i));
   }
   if (track && (*track < 0 || *track >= std::ssize(tracks))) {
-    const std::string count = tracks.empty() ? "no" : "only " + std::to_string(tracks.size());
-    return error(ErrorCode::kInvalidArgument, "no sound track " + std::to_string(*track) + ": it has " +
-                                                  count + (tracks.size() == 1 ? " track" : " tracks") +
-                                                  " of sound, counted from 0");
+    return fail(missing_track(name_, *track, std::ssize(tracks)));
   }
   if (tracks.empty()) return std::nullopt;
   if (track) return tracks[static_cast<std::size_t>(*track)];
@@ -109,20 +107,6 @@ Result<void> AvSoundSource::open_decoder(int index) {
   decoder_->pkt_timebase = stream_->time_base;  // lets the decoder leave out the encoder's delay
   if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
   if (code < 0) return error(ErrorCode::kUnsupported, "cannot decode its sound: " + av_reason(code));
-  return {};
-}
-
-Result<void> AvSoundSource::find_start(const SoundSourceOptions& options) {
-  const int video = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const bool pictures =
-      video >= 0 && (container_->streams[video]->disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
-  if (!pictures) {
-    start_ = container_->start_time != AV_NOPTS_VALUE ? container_->start_time : 0;
-    return {};
-  }
-  const auto start = first_picture_time(name_, options.stop);
-  if (!start) return fail(start.error());
-  start_ = *start;
   return {};
 }
 
