@@ -1,0 +1,47 @@
+#include "cli/encode/sound_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace fbs::cli {
+namespace {
+
+/// kbit/s of a codec.
+struct Rates {
+  double least, usual, most;  ///< `usual` is the most that is chosen
+};
+constexpr Rates kOpus{6, 16, 64}, kCodec2{1.2, 3.2, 3.2};
+constexpr double kShareOfTotal = 0.3;  ///< of --bitrate, for the sound
+
+constexpr int kLiveFrame = 20, kFileFrame = 60;   // ms
+constexpr double kPacketBits = 8 * 8, kSizeBits = 8;  // of a packet's header, and of the size of a frame of Opus
+
+double chosen_rate(const EncodeArguments& a, const Rates& rates) {
+  const double wanted =
+      a.bitrate > 0 ? kShareOfTotal * a.bitrate : rates.least + (rates.usual - rates.least) * a.quality / 100;
+  return std::clamp(wanted, rates.least, rates.usual);
+}
+
+}  // namespace
+
+Result<SoundSettings> sound_settings(const EncodeArguments& a, bool live) {
+  SoundSettings settings;
+  settings.codec = a.sound.value_or("opus") == "codec2" ? SoundCodec::kCodec2 : SoundCodec::kOpus;
+  const Rates& rates = settings.codec == SoundCodec::kOpus ? kOpus : kCodec2;
+  const double rate = a.sound_bitrate.value_or(chosen_rate(a, rates));
+  if (rate < rates.least || rate > rates.most)
+    return fail(ErrorCode::kInvalidArgument, settings.codec == SoundCodec::kOpus
+                                                 ? "--sound-bitrate of opus is from 6 to 64 kbit/s"
+                                                 : "--sound-bitrate of codec2 is from 1.2 to 3.2 kbit/s");
+  settings.bitrate = static_cast<int>(std::lround(1000 * rate));
+  settings.frame_ms = live ? kLiveFrame : kFileFrame;
+  return settings;
+}
+
+double sound_kbps(const SoundSettings& settings) {
+  const double frames = settings.codec == SoundCodec::kOpus ? 1000.0 / settings.frame_ms : 0;  // with a size
+  return (settings.bitrate + frames * kSizeBits + kPacketBits) / 1000;
+}
+
+}  // namespace fbs::cli

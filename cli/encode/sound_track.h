@@ -1,0 +1,42 @@
+// The sound of a source, coded as the pictures need it.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/video/sound_source.h"
+#include "cli/video/stop_signal.h"
+#include "encoder/sound/sound_encoder.h"
+
+namespace fbs::cli {
+
+class SoundTrack {
+ public:
+  /// @param track  number among the sound tracks of the file; none: the main one
+  /// @return null when the source has no sound; errors of open_sound_source() and SoundEncoder
+  static Result<std::unique_ptr<SoundTrack>> open(const std::string& input, const SoundSettings& settings,
+                                                  std::optional<int> track, const StopSignal& stop);
+
+  [[nodiscard]] const SoundSetup& setup() const { return encoder_->setup(); }
+  /// As SoundFeed asks for. Reads no farther than it must.
+  Result<std::vector<SoundGroup>> before(std::int64_t time);
+
+ private:
+  SoundTrack(std::unique_ptr<SoundSource> source, std::unique_ptr<SoundEncoder> encoder)
+      : source_(std::move(source)), encoder_(std::move(encoder)) {}
+
+  /// Codes what the source has next. @return false at its end
+  Result<bool> read_more();
+
+  std::unique_ptr<SoundSource> source_;
+  std::unique_ptr<SoundEncoder> encoder_;
+  std::deque<std::vector<std::uint8_t>> frames_;  ///< that have not been asked for
+  std::int64_t first_ = 0;                        ///< number of the first of them
+  bool ended_ = false;
+};
+
+}  // namespace fbs::cli
