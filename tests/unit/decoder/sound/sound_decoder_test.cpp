@@ -169,5 +169,29 @@ TEST(SoundDecoder, TakesAnyBytes) {
   }
 }
 
+TEST(SoundDecoder, AVoiceComesBackAfterAnyBytes) {
+  std::mt19937 random(4);
+  for (const SoundSettings& settings :
+       {SoundSettings{SoundCodec::kOpus, 1, 12000, 20}, SoundSettings{SoundCodec::kCodec2, 1, 3200, 20},
+        SoundSettings{SoundCodec::kCodec2, 1, 2400, 20}, SoundSettings{SoundCodec::kCodec2, 1, 1600, 20},
+        SoundSettings{SoundCodec::kCodec2, 1, 1200, 20}}) {
+    const CodedSound sound = test::code(settings, test::voice(test::rate_of(settings), 2));
+    const Samples whole = decoded(*decoder_of(sound.setup), sound.frames);
+    const auto decoder = decoder_of(sound.setup);
+    Samples out;
+    for (int i = 0; i < 300; ++i) {
+      std::vector<std::uint8_t> frame(sound.frames[1].size());
+      for (std::uint8_t& byte : frame) byte = static_cast<std::uint8_t>(random());
+      if (settings.codec == SoundCodec::kOpus) frame[0] = sound.frames[1][0];  // the mode
+      static_cast<void>(decoder->decode(frame, out));
+    }
+    const Samples after = decoded(*decoder, sound.frames);
+    const std::size_t second = whole.size() / 2;  // levels settle within the first
+    const double loud = test::energy(std::span(whole).last(second));
+    EXPECT_NEAR(10 * std::log10(test::energy(std::span(after).last(second)) / loud), 0, 1)
+        << static_cast<int>(settings.codec) << " " << settings.bitrate;
+  }
+}
+
 }  // namespace
 }  // namespace fbs

@@ -171,6 +171,7 @@ TEST(SoundReader, AnotherCodecTakesOverWhereTheFirstEnds) {
   std::vector<SoundPiece> pieces;
   std::int64_t end = 0;
   change_codec(25, end, pieces);  // some are of times that have been given
+  ASSERT_FALSE(pieces.empty());
   EXPECT_GE(pieces.front().time, end);
   EXPECT_LT(pieces.front().time, end + 6);
 }
@@ -179,8 +180,8 @@ TEST(SoundReader, BeforeAnotherCodecIsSilence) {
   std::vector<SoundPiece> pieces;
   std::int64_t end = 0;
   change_codec(35, end, pieces);
-  EXPECT_EQ(pieces.front().time, end);
   ASSERT_GT(pieces.size(), 20U);
+  EXPECT_EQ(pieces.front().time, end);
   const std::size_t silent = pieces.size() - 20;
   EXPECT_EQ(pieces[silent].time, 35 * 960 - codec2().setup.skip);
   for (std::size_t i = 0; i < silent; ++i) EXPECT_EQ(test::energy(pieces[i].samples), 0);
