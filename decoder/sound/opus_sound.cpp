@@ -21,7 +21,7 @@ class OpusSound final : public SoundDecoder {
 
   Result<void> decode(std::span<const std::uint8_t> frame, std::vector<std::int16_t>& out) override {
     if (!frame.empty()) {
-      const auto right = check(frame);
+      auto right = check(frame);
       if (!right) return right;
     }
     const std::size_t before = out.size();

@@ -83,7 +83,7 @@ Result<bool> SoundReader::fill(std::int64_t end, SoundPiece& piece) {
 Result<void> SoundReader::decode_frame(std::vector<std::int16_t>& out) {
   std::vector<std::uint8_t>& frame = group_.frames[index_];
   if (frame.empty()) return conceal(out);
-  const auto decoded = decoder_->decode(frame, out);
+  auto decoded = decoder_->decode(frame, out);
   if (!decoded) {
     frame.clear();  // lost
     return decoded;
@@ -100,7 +100,7 @@ Result<void> SoundReader::conceal(std::vector<std::int16_t>& out) {
     out.resize(decoder_->frame_samples() * static_cast<std::size_t>(decoder_->channels()));
     return {};
   }
-  const auto decoded = decoder_->decode({}, out);
+  auto decoded = decoder_->decode({}, out);
   if (decoded && concealed_ >= kConcealedSound) fade_out(out, decoder_->channels());  // silence follows
   return decoded;
 }

@@ -38,7 +38,7 @@ Result<void> SoundEncoder::add(std::span<const std::int16_t> samples, Frames& fr
     waiting_.insert(waiting_.end(), samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count));
     samples = samples.subspan(count);
     if (waiting_.size() < frame) break;
-    const auto encoded = encode_waiting(frames);
+    auto encoded = encode_waiting(frames);
     if (!encoded) return encoded;
   }
   return {};
@@ -47,7 +47,7 @@ Result<void> SoundEncoder::add(std::span<const std::int16_t> samples, Frames& fr
 Result<void> SoundEncoder::finish(Frames& frames) {
   if (!added_) return {};
   const std::vector<std::int16_t> silence(samples_of(setup_.skip));
-  const auto delayed = add(silence, frames);
+  auto delayed = add(silence, frames);
   if (!delayed || waiting_.empty()) return delayed;
   waiting_.resize(samples_of(setup_.duration));
   return encode_waiting(frames);

@@ -1,5 +1,5 @@
-// Bytes to sound: setups and groups of frames as a reader of sound takes them. First a setup: codec,
-// channels, mode (number in a list, or of itself), duration in 2.5 ms, skip of two bytes. Then steps, each a
+// Bytes to sound: setups and groups of frames as a reader of sound takes them. First a setup: codec, channels
+// and one, mode (number in a list, or of itself), duration in 2.5 ms, skip of two bytes. Then steps, each a
 // byte: 0xFF a setup again; 0xFE a reset; 0xFD a jump by two bytes; else so many bytes of a frame, 0 a lost
 // one, 0xFC two bytes of length.
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr int kMaxSteps = 64, kMaxPieces = 4000;  // of an input; a gap may be e
 fbs::SoundSetup read_setup(fbs::ByteReader& reader) {
   fbs::SoundSetup setup;
   setup.codec = static_cast<fbs::SoundCodec>(reader.u8());
-  setup.channels = static_cast<std::int8_t>(reader.u8());
+  setup.channels = reader.u8() - 1;
   const std::uint8_t mode = reader.u8();
   setup.mode = mode < kModes.size() ? kModes[mode] : mode;
   setup.duration = reader.u8() * kStep;
@@ -30,7 +30,7 @@ fbs::SoundSetup read_setup(fbs::ByteReader& reader) {
 
 void write_setup(const fbs::SoundSetup& setup, fbs::ByteWriter& writer) {
   writer.u8(static_cast<std::uint8_t>(setup.codec));
-  writer.u8(static_cast<std::uint8_t>(setup.channels));
+  writer.u8(static_cast<std::uint8_t>(setup.channels + 1));
   writer.u8(static_cast<std::uint8_t>(std::find(kModes.begin(), kModes.end(), setup.mode) - kModes.begin()));
   writer.u8(static_cast<std::uint8_t>(setup.duration / kStep));
   writer.u16(static_cast<std::uint16_t>(setup.skip));
@@ -109,10 +109,10 @@ class Listener {
 std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes&) {
   static bool given = false;  // the same for all streams
   if (std::exchange(given, true)) return {};
-  constexpr SoundCodec opus = SoundCodec::kOpus, codec2 = SoundCodec::kCodec2;
-  return {seed_of({opus, 1, 6000, 60}),   seed_of({opus, 1, 12000, 20}),  seed_of({opus, 2, 32000, 10}),
-          seed_of({opus, 2, 64000, 40}),  seed_of({codec2, 1, 3200, 20}), seed_of({codec2, 1, 2400, 20}),
-          seed_of({codec2, 1, 1600, 20}), seed_of({codec2, 1, 1400, 20}), seed_of({codec2, 1, 1200, 20})};
+  constexpr SoundCodec kOpus = SoundCodec::kOpus, kCodec2 = SoundCodec::kCodec2;
+  return {seed_of({kOpus, 1, 6000, 60}),   seed_of({kOpus, 1, 12000, 20}),  seed_of({kOpus, 2, 32000, 10}),
+          seed_of({kOpus, 2, 64000, 40}),  seed_of({kCodec2, 1, 3200, 20}), seed_of({kCodec2, 1, 2400, 20}),
+          seed_of({kCodec2, 1, 1600, 20}), seed_of({kCodec2, 1, 1400, 20}), seed_of({kCodec2, 1, 1200, 20})};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

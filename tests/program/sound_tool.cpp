@@ -25,7 +25,7 @@ template <class T>
 T taken(fbs::Result<T> result) {
   if (result) return std::move(*result);
   std::fprintf(stderr, "sound_tool: %s\n", result.error().text.c_str());
-  std::exit(2);
+  std::_Exit(2);
 }
 
 void taken(fbs::Result<void> result) {

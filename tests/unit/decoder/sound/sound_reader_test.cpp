@@ -67,8 +67,11 @@ TEST(SoundReader, ASkipOfMoreThanAFrameIsDropped) {
 }
 
 TEST(SoundReader, AGapIsFilledToItsLength) {
-  for (const CodedSound& sound : {opus(), codec2()}) {
-    const int rate = sound.setup.codec == SoundCodec::kOpus ? 48000 : 8000;
+  for (const SoundCodec codec : {SoundCodec::kOpus, SoundCodec::kCodec2}) {
+    const SoundSettings settings{codec, 1, 16000, 20};
+    const int rate = test::rate_of(settings);
+    const auto frame = static_cast<std::size_t>(rate / 50);
+    const CodedSound sound = test::code(settings, test::vowel(rate, 1));
     SoundReader reader = reader_of(sound);
     ASSERT_TRUE(reader.add(group_of(sound, 0, 20)));
     const Samples before = test::read_rest(reader);
@@ -76,12 +79,13 @@ TEST(SoundReader, AGapIsFilledToItsLength) {
     std::int64_t begin = 0;
     const Samples gap = test::read_rest(reader, &begin);
     EXPECT_EQ(begin, 20 * 960 - sound.setup.skip);
-    ASSERT_EQ(gap.size(), static_cast<std::size_t>(rate) / 50 * 21);
-    EXPECT_GT(test::energy(std::span(gap).first(static_cast<std::size_t>(rate) / 50)), 0);
+    ASSERT_EQ(gap.size(), 21 * frame);
+    EXPECT_GT(test::energy(std::span(gap).first(frame)), test::energy(std::span(before).last(frame)) / 4);
     // 100 ms are concealed: then silence, to which the concealment leads without a step.
-    const auto concealed = static_cast<std::size_t>(rate) / 10;
-    EXPECT_EQ(test::energy(std::span(gap).subspan(concealed, static_cast<std::size_t>(rate) / 50 * 15)), 0);
-    EXPECT_LE(std::abs(gap[concealed - 1]), 200);
+    EXPECT_EQ(test::energy(std::span(gap).subspan(5 * frame, 15 * frame)), 0);
+    EXPECT_GT(test::energy(std::span(gap).subspan(4 * frame, frame)), 0);
+    EXPECT_LT(test::energy(std::span(gap).subspan(5 * frame - frame / 8, frame / 8)),
+              test::energy(std::span(gap).subspan(4 * frame, frame / 2)) / 20);
   }
 }
 
@@ -106,7 +110,7 @@ TEST(SoundReader, FramesThatCameBeforeAreLeftOut) {
   Samples read = test::read_rest(reader);
   ASSERT_TRUE(reader.add(group_of(sound, 2, 5)));
   EXPECT_TRUE(test::read_rest(reader).empty());
-  ASSERT_TRUE(reader.add(group_of(sound, 5, 15)));
+  ASSERT_TRUE(reader.add(group_of(sound, 9, 11)));
   const Samples more = test::read_rest(reader);
   read.insert(read.end(), more.begin(), more.end());
   EXPECT_TRUE(std::equal(read.begin(), read.end(), whole.begin()));
@@ -147,23 +151,40 @@ TEST(SoundReader, TheSameSetupAgainChangesNothing) {
   EXPECT_TRUE(std::equal(read.begin(), read.end(), whole.begin()));
 }
 
-TEST(SoundReader, AnotherCodecTakesOverAtItsTime) {
-  const CodedSound first = opus(60), second = codec2();
-  SoundReader reader = reader_of(first);
-  ASSERT_TRUE(reader.add(group_of(first, 0, 10)));
-  const auto end = static_cast<std::int64_t>(test::read_rest(reader).size());
-  ASSERT_TRUE(reader.set(second.setup));
-  ASSERT_TRUE(reader.add(group_of(second, 25, 20)));  // some of these are of times that have been given
+/// Begins with 600 ms in frames of 10 ms; then some of Codec 2, from number `first`.
+void change_codec(std::ptrdiff_t first, std::int64_t& end, std::vector<SoundPiece>& pieces) {
+  const CodedSound before = opus(10), after = codec2();
+  SoundReader reader = reader_of(before);
+  ASSERT_TRUE(reader.add(group_of(before, 0, 60)));
+  end = std::ssize(test::read_rest(reader));
+  ASSERT_TRUE(reader.set(after.setup));
+  ASSERT_TRUE(reader.add(group_of(after, first, 20)));
   SoundPiece piece;
-  std::int64_t begin = -1, samples = 0;
-  for (auto more = reader.next(piece); more && *more; more = reader.next(piece)) {
-    EXPECT_EQ(piece.sample_rate, 8000);
-    if (begin < 0) begin = piece.time;
-    samples += std::ssize(piece.samples);
-  }
-  EXPECT_GE(begin, end);
-  EXPECT_LT(begin, end + 6);
-  EXPECT_EQ(begin + samples * 6, 45 * 960 - second.setup.skip);
+  for (auto more = reader.next(piece); more && *more; more = reader.next(piece)) pieces.push_back(piece);
+  ASSERT_FALSE(pieces.empty());
+  for (const SoundPiece& p : pieces) EXPECT_EQ(p.sample_rate, 8000);
+  EXPECT_EQ(pieces.back().time + std::ssize(pieces.back().samples) * 6,
+            (first + 20) * 960 - after.setup.skip);
+}
+
+TEST(SoundReader, AnotherCodecTakesOverWhereTheFirstEnds) {
+  std::vector<SoundPiece> pieces;
+  std::int64_t end = 0;
+  change_codec(25, end, pieces);  // some are of times that have been given
+  ASSERT_FALSE(pieces.empty());
+  EXPECT_GE(pieces.front().time, end);
+  EXPECT_LT(pieces.front().time, end + 6);
+}
+
+TEST(SoundReader, BeforeAnotherCodecIsSilence) {
+  std::vector<SoundPiece> pieces;
+  std::int64_t end = 0;
+  change_codec(35, end, pieces);
+  ASSERT_GT(pieces.size(), 20U);
+  EXPECT_EQ(pieces.front().time, end);
+  const std::size_t silent = pieces.size() - 20;
+  EXPECT_EQ(pieces[silent].time, 35 * 960 - codec2().setup.skip);
+  for (std::size_t i = 0; i < silent; ++i) EXPECT_EQ(test::energy(pieces[i].samples), 0);
 }
 
 TEST(SoundReader, AWrongFrameIsToldOnceAndConcealed) {

@@ -80,6 +80,18 @@ inline Samples voice(int rate, double seconds, unsigned seed = 1) {
   return out;
 }
 
+/// One vowel that lasts.
+inline Samples vowel(int rate, double seconds) {
+  VocalTract tract(rate);
+  tract.shape({730, 1090, 2440});
+  std::vector<double> wave;
+  for (int i = 0; i < static_cast<int>(seconds * rate); ++i)
+    wave.push_back(tract(i % (rate / 120) == 0 ? 1 : 0));
+  Samples out;
+  scale_to(wave, 12000, out);
+  return out;
+}
+
 /// Noise with the spectrum of a voice, louder and fainter four times a second, never silent.
 inline Samples speech_noise(int rate, double seconds) {
   std::mt19937 random(5);
