@@ -3,10 +3,14 @@
 #include <array>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "cli/decode/decode_arguments.h"
 #include "cli/decode/decoded_time.h"
+#include "cli/decode/sound_output.h"
 #include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/standard_output.h"
@@ -16,6 +20,7 @@
 #include "cli/video/stop_signal.h"
 #include "cli/video/timestamps.h"
 #include "cli/video/video_sink.h"
+#include "cli/video/wav_sink.h"
 #include "cli/video/y4m.h"
 #include "common/md5.h"
 
@@ -40,10 +45,16 @@ class Decoding {
   /// The next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> open_sink();
+  /// The sound up to a time of the stream, 1/90000 s.
+  Result<void> write_sound(std::uint64_t end);
   Result<void> write();
+  /// Of a .wav: the sound alone.
+  Result<void> write_wave();
+  Result<void> finish();
   void print_md5() const;
   void print_rate_change() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
+  [[nodiscard]] bool is_wave() const { return extension_of(arguments_.output) == ".wav"; }
 
   const DecodeArguments& arguments_;
   const StopSignal* stop_;
@@ -52,11 +63,24 @@ class Decoding {
   std::optional<StreamFile> file_;
   std::unique_ptr<VideoSink> sink_;             ///< opened with the first picture
   const ConstantRateSink* constant_ = nullptr;  ///< sink_, for outputs without timestamps
+  std::optional<SinkSound> sound_;              ///< of a sink that takes it
+  std::optional<DecodedSound> samples_;         ///< of a .wav
+  std::unique_ptr<WavSink> wave_;               ///< the same, opened with the first sound
   Picture picture_;
   DecodedTime time_;        ///< of the pictures written
   std::int64_t gaps_ = 0;   ///< of pictures that are missing and not held, 1/90000 s
   std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
 };
+
+/// 1/kSoundClock s of 1/90000 s.
+std::int64_t sound_time(std::int64_t time) {
+  return time * kSoundClock / kTicksPerSecond;
+}
+
+bool has_sound(const std::string& output) {
+  const std::string extension = extension_of(output);
+  return extension == ".mp4" || extension == ".mkv";
+}
 
 Result<void> check_files(const DecodeArguments& a) {
   if (a.output.empty() && !a.md5) return fail(ErrorCode::kInvalidArgument, "OUTPUT is required, or --md5");
@@ -66,6 +90,8 @@ Result<void> check_files(const DecodeArguments& a) {
   if (a.vfr && !is_y4m_output(a.output))
     return fail(ErrorCode::kInvalidArgument,
                 "--vfr needs a Y4M as OUTPUT: others have each picture once anyway");
+  if (a.no_sound && !has_sound(a.output))
+    return fail(ErrorCode::kInvalidArgument, "--no-sound is for .mp4 and .mkv: others have none");
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}};
   return check_distinct(inputs, outputs);
@@ -83,21 +109,23 @@ Result<Outcome> Decoding::run() {
   if (!file) return fail(file.error());
   file_.emplace(std::move(*file));
   decoder().use_threads(thread_count(arguments_.threads));
+  decoder().keep_sound();
   if (arguments_.from > 0)
     if (auto sought = file_->seek(ticks(arguments_.from)); !sought) return fail(sought.error());
   for (;;) {
     const auto found = next();
     if (!found) return fail(found.error());
     if (!*found) break;
-    if (auto written = write(); !written) return fail(written.error());
+    if (auto written = is_wave() ? write_wave() : write(); !written) return fail(written.error());
   }
-  if (!sink_) return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
+  if (is_wave() && !wave_) return fail(ErrorCode::kUnsupported, file_->name() + ": has no sound");
+  if (!is_wave() && !sink_) return fail(ErrorCode::kInvalidStream, file_->name() + ": contains no pictures");
   if (!arguments_.keep_going && !decoder().announced_pictures())
     return fail(ErrorCode::kTruncated, file_->name() + ": " + missing_end_text(decoder()));
   progress_.finish();
   if (arguments_.md5)  // while the output can still be taken back
     if (auto printed = flush_standard_output(); !printed) return fail(printed.error());
-  if (auto finished = sink_->finish(); !finished) return fail(finished.error());
+  if (auto finished = finish(); !finished) return fail(finished.error());
   print_rate_change();
   return arguments_.keep_going ? losses_.finish(*file_) : Outcome::kComplete;
 }
@@ -115,7 +143,17 @@ Result<void> Decoding::open_sink() {
   next_ = arguments_.from > 0 ? decoder().position().time : decoder().start().time;
   const std::int64_t sound_begin = arguments_.from > 0 ? static_cast<std::int64_t>(next_) : 0;
   const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
-  auto opened = open_video_sink(output, format, {arguments_.sound, sound_begin});
+  SinkOptions options{arguments_.sound, sound_begin};
+  std::vector<SoundPart> sound = decoder().take_sound();
+  if (arguments_.sound.empty() && !arguments_.no_sound && has_sound(output) && !sound.empty()) {
+    auto created = SinkSound::create(sound.front(), sound_time(sound_begin));
+    if (!created) return fail(created.error());
+    sound_.emplace(std::move(*created));
+    options.sound = sound_->setup();
+    for (SoundPart& part : sound)
+      if (auto added = sound_->add(std::move(part)); !added) return added;
+  }
+  auto opened = open_video_sink(output, format, options);
   if (!opened) return fail(opened.error());
   sink_ = std::move(*opened);
   if (sink_->replaced_leftover()) print_replaced_leftover(arguments_.output);
@@ -128,6 +166,36 @@ Result<void> Decoding::open_sink() {
   return {};
 }
 
+Result<void> Decoding::write_sound(std::uint64_t end) {
+  for (SoundPart& part : decoder().take_sound())
+    if (sound_)
+      if (auto added = sound_->add(std::move(part)); !added) return added;
+  return sound_ ? sound_->write(sound_time(static_cast<std::int64_t>(end)), *sink_) : Result<void>();
+}
+
+Result<void> Decoding::write_wave() {
+  const std::uint64_t begin = decoder().position().time;
+  if (!samples_) samples_.emplace(sound_time(arguments_.from > 0 ? static_cast<std::int64_t>(begin) : 0));
+  for (SoundPart& part : decoder().take_sound())
+    if (auto added = samples_->add(std::move(part)); !added) return added;
+  if (samples_->sample_rate() == 0) return {};
+  if (!wave_) {
+    auto created = WavSink::create(arguments_.output, samples_->sample_rate(), samples_->channels());
+    if (!created) return fail(created.error());
+    wave_ = std::move(*created);
+    if (wave_->replaced_leftover()) print_replaced_leftover(arguments_.output);
+  }
+  progress_.update(static_cast<std::int64_t>(decoder().pictures()));
+  return wave_->write(samples_->take(sound_time(static_cast<std::int64_t>(begin + decoder().duration()))));
+}
+
+Result<void> Decoding::finish() {
+  if (wave_) return wave_->finish();
+  if (sound_)
+    if (auto finished = sound_->finish(*sink_); !finished) return finished;
+  return sink_->finish();
+}
+
 Result<void> Decoding::write() {
   if (!sink_)
     if (auto opened = open_sink(); !opened) return opened;
@@ -136,6 +204,7 @@ Result<void> Decoding::write() {
   const std::uint64_t now = decoder().position().time;
   gaps_ += static_cast<std::int64_t>(now - next_);
   if (auto written = sink_->write(picture_, gaps_ + time_.pts()); !written) return written;
+  if (auto sound = write_sound(now + decoder().duration()); !sound) return sound;
   if (arguments_.md5) print_md5();
   time_.advance(decoder().duration());
   next_ = now + decoder().duration();

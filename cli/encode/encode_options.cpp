@@ -60,9 +60,10 @@ void add_sound(CLI::App& verb, EncodeArguments& a) {
                   "Codec of the sound: opus, or codec2 for speech at the lowest rates (default: opus)")
       ->check(CLI::IsMember({"opus", "codec2"}))
       ->type_name("opus|codec2");
-  verb.add_option("--sound-bitrate", a.sound_bitrate,
-                  "Of the sound in kbit/s, part of --bitrate: 6 to 64 of opus, 1.2 to 3.2 of codec2 (default: "
-                  "chosen by the quality or bitrate)")
+  verb.add_option(
+          "--sound-bitrate", a.sound_bitrate,
+          "Of the sound in kbit/s, part of --bitrate: 6 to 64 of opus, 1.2 to 3.2 of codec2 (default: "
+          "chosen by the quality or bitrate)")
       ->check(number_within(1.2, 64));
   verb.add_option("--track", a.track, "Which sound of the source, from 0 (default: its main one)")
       ->check(CLI::Range(0, 1000));

@@ -153,8 +153,7 @@ class ClosedLoop {
 }  // namespace
 
 Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
-                              const SeePicture& see, Measured what, bool quiet,
-                              SoundInterleaver* sound) {
+                              const SeePicture& see, Measured what, bool quiet, SoundInterleaver* sound) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
   ClosedLoop loop(std::move(*encoder), sound, take, what);
@@ -167,7 +166,8 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
   std::int64_t done = 0, last_pts = -nominal;
   auto current = source.next();
   while (current && *current) {
-    std::uint32_t duration = source.has_constant_rate() || waits ? 0 : durations.of(last_pts, (*current)->pts);
+    std::uint32_t duration =
+        source.has_constant_rate() || waits ? 0 : durations.of(last_pts, (*current)->pts);
     std::optional<Result<std::optional<TimedPicture>>> next;
     if (waits) {
       next = source.next();

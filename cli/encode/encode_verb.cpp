@@ -132,15 +132,19 @@ Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, Encod
   auto track = SoundTrack::open(a.input, *wanted, a.track, stop);
   if (!track) return fail(track.error());
   if (!*track) {
-    const char* option = a.sound ? "--sound" : a.sound_bitrate ? "--sound-bitrate" : a.track ? "--track" : nullptr;
+    const char* option = a.sound           ? "--sound"
+                         : a.sound_bitrate ? "--sound-bitrate"
+                         : a.track         ? "--track"
+                                           : nullptr;
     if (option == nullptr) return Sound{};
     return fail(ErrorCode::kInvalidArgument, std::string(option) + ": " + a.input + " has no sound");
   }
   if (settings.bitrate > 0) {
     settings.bitrate -= sound_kbps(*wanted);
     if (settings.bitrate < kLeastBitrate)
-      return fail(ErrorCode::kInvalidArgument, "--bitrate leaves nothing to the pictures; --sound codec2 takes "
-                                               "less, --no-sound nothing");
+      return fail(ErrorCode::kInvalidArgument,
+                  "--bitrate leaves nothing to the pictures; --sound codec2 takes "
+                  "less, --no-sound nothing");
   }
   auto interleaver = std::make_unique<SoundInterleaver>(
       (*track)->setup(), [&track = **track](std::int64_t time) { return track.before(time); });
@@ -201,8 +205,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
       [&](std::span<const std::uint8_t> bytes) {
         return file->write(bytes).and_then([&] { return file->flush(); });
       },
-      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet,
-      sound->interleaver.get());
+      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet, sound->interleaver.get());
   if (!encoded) return fail(with_advice(about_input(encoded.error(), arguments.input)));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());

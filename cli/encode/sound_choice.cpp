@@ -14,8 +14,9 @@ struct Rates {
 constexpr Rates kOpus{6, 16, 64}, kCodec2{1.2, 3.2, 3.2};
 constexpr double kShareOfTotal = 0.3;  ///< of --bitrate, for the sound
 
-constexpr int kLiveFrame = 20, kFileFrame = 60;   // ms
-constexpr double kPacketBits = 8 * 8, kSizeBits = 8;  // of a packet's header, and of the size of a frame of Opus
+constexpr int kLiveFrame = 20, kFileFrame = 60;  // ms
+constexpr double kPacketBits = 8 * 8,
+                 kSizeBits = 8;  // of a packet's header, and of the size of a frame of Opus
 
 double chosen_rate(const EncodeArguments& a, const Rates& rates) {
   const double wanted =

@@ -45,7 +45,8 @@ Result<bool> SoundTrack::read_more() {
   SoundEncoder::Frames frames;
   const auto coded = ended_ ? encoder_->finish(frames) : encoder_->add(**samples, frames);
   if (!coded) return fail(coded.error());
-  frames_.insert(frames_.end(), std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()));
+  frames_.insert(frames_.end(), std::make_move_iterator(frames.begin()),
+                 std::make_move_iterator(frames.end()));
   return !ended_ || !frames.empty();
 }
 

@@ -3,6 +3,7 @@
 #include <opus/opus.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace fbs {
@@ -41,14 +42,17 @@ using Handle = std::unique_ptr<OpusEncoder, Deleter>;
 
 class OpusCoder final : public SoundEncoder {
  public:
-  OpusCoder(Handle handle, const SoundSetup& setup, int bitrate)
-      : SoundEncoder(setup, kSoundClock), handle_(std::move(handle)), unspent_(bitrate, setup.duration) {}
+  OpusCoder(Handle handle, const SoundSetup& setup, const SoundSettings& settings)
+      : SoundEncoder(setup, settings.sample_rate),
+        handle_(std::move(handle)),
+        unspent_(settings.bitrate, setup.duration) {}
 
  private:
   Result<std::vector<std::uint8_t>> encode(std::span<std::int16_t> samples) override {
     std::vector<std::uint8_t> out(kRoom);
-    const opus_int32 bytes = opus_encode(handle_.get(), samples.data(), setup().duration, out.data(),
-                                         static_cast<opus_int32>(out.size()));
+    const opus_int32 bytes =
+        opus_encode(handle_.get(), samples.data(), static_cast<int>(samples.size()) / setup().channels,
+                    out.data(), static_cast<opus_int32>(out.size()));
     if (bytes <= 0)
       return fail(ErrorCode::kInternal, std::string("libopus encodes no frame: ") + opus_strerror(bytes));
     out.resize(static_cast<std::size_t>(bytes));
@@ -69,6 +73,9 @@ Result<void> check(const SoundSettings& settings) {
   if (settings.bitrate < kMinOpusBitrate || settings.bitrate > kMaxOpusBitrate)
     return fail(ErrorCode::kInvalidArgument, "Opus takes " + std::to_string(kMinOpusBitrate) + " to " +
                                                  std::to_string(kMaxOpusBitrate) + " bit/s");
+  constexpr std::array kRates{8000, 12000, 16000, 24000, 48000};
+  if (std::ranges::find(kRates, settings.sample_rate) == kRates.end())
+    return fail(ErrorCode::kInvalidArgument, "Opus takes no samples at such a rate");
   switch (settings.frame_ms) {
     case 10:
     case 20:
@@ -94,13 +101,14 @@ Result<std::unique_ptr<SoundEncoder>> create_opus_coder(const SoundSettings& set
   const auto right = check(settings);
   if (!right) return fail(right.error());
   int error = OPUS_OK;
-  Handle handle(opus_encoder_create(kSoundClock, settings.channels, OPUS_APPLICATION_VOIP, &error));
-  opus_int32 delay = 0;  // samples at 48 kHz
+  Handle handle(opus_encoder_create(settings.sample_rate, settings.channels, OPUS_APPLICATION_VOIP, &error));
+  opus_int32 delay = 0;  // samples
   if (!handle || !configure(handle.get(), settings) ||
       opus_encoder_ctl(handle.get(), OPUS_GET_LOOKAHEAD(&delay)) != OPUS_OK)
     return fail(ErrorCode::kInternal, "libopus makes no encoder");
-  const SoundSetup setup{SoundCodec::kOpus, settings.channels, 0, settings.frame_ms * kTicksOfMs, delay};
-  return std::make_unique<OpusCoder>(std::move(handle), setup, settings.bitrate);
+  const SoundSetup setup{SoundCodec::kOpus, settings.channels, 0, settings.frame_ms * kTicksOfMs,
+                         delay * (kSoundClock / settings.sample_rate)};
+  return std::make_unique<OpusCoder>(std::move(handle), setup, settings);
 }
 
 }  // namespace fbs

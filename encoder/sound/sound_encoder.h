@@ -20,7 +20,9 @@ struct SoundSettings {
   /// 1200: the mode of the highest rate that is not above. Its frames' whole bytes count: mode 1300 takes as
   /// many as 1400, which is chosen instead.
   int bitrate = 12000;
-  int frame_ms = 60;  ///< of Opus: 10, 20, 40 or 60; long ones cost fewer bits, and as much delay
+  int sample_rate = kSoundClock;  ///< of what is added: of Opus 8000, 12000, 16000, 24000 or 48000; Codec 2:
+                                  ///< 8000 in any case
+  int frame_ms = 60;              ///< of Opus: 10, 20, 40 or 60; long ones cost fewer bits, and as much delay
 };
 
 /// Codes sound frame by frame.
@@ -38,7 +40,7 @@ class SoundEncoder {
 
   /// What a decoder must know. Its skip is the codec's delay: the first sample added is that of time 0.
   [[nodiscard]] const SoundSetup& setup() const { return setup_; }
-  /// Of the samples that are added: 48000 of Opus, 8000 of Codec 2.
+  /// Of the samples that are added.
   [[nodiscard]] int sample_rate() const { return sample_rate_; }
 
   /// Appends the frames that are complete.

@@ -1,0 +1,117 @@
+#include "cli/decode/sound_output.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fbs::cli {
+namespace {
+
+/// What a decoder of Opus has to hear before a place where it begins. RFC 7845, section 4.6.
+constexpr std::int64_t kPreroll = kSoundClock * 80 / 1000;
+constexpr int kTranscodedBitrate = 24000;  // bit/s: of what Codec 2 has left, nothing is lost
+
+std::int64_t time_of(const SoundSetup& setup, std::int64_t frame) {
+  return frame * setup.duration - setup.skip;
+}
+
+/// The setup for a decoder that begins at a later time, with the first frame it needs: its skip is what it
+/// hears only to get there.
+SoundSetup joined(const SoundPart& first, std::int64_t begin) {
+  SoundSetup setup = first.setup;
+  if (begin <= 0) return setup;
+  const std::int64_t covers = (begin + setup.skip) / setup.duration,
+                     ahead = std::max<std::int64_t>(begin + setup.skip - kPreroll, 0) / setup.duration,
+                     frame = std::max(first.group.first, std::min(covers, ahead));
+  setup.skip = static_cast<std::int32_t>(std::max<std::int64_t>(begin - time_of(first.setup, frame), 0));
+  return setup;
+}
+
+}  // namespace
+
+Result<void> DecodedSound::add(SoundPart part) {
+  if (auto set = reader_.set(part.setup); !set) return set;
+  if (auto added = reader_.add(std::move(part.group)); !added) return added;
+  SoundPiece piece;
+  for (;;) {
+    const auto more = reader_.next(piece);
+    if (more && !*more) return {};
+    if (more) append(piece);  // else the frame is concealed by the next call
+  }
+}
+
+void DecodedSound::append(const SoundPiece& piece) {
+  if (sample_rate_ == 0) {
+    sample_rate_ = piece.sample_rate;
+    channels_ = piece.channels;
+  }
+  if (piece.sample_rate != sample_rate_ || piece.channels != channels_) return;  // no file can change
+  const std::int64_t given = taken_ + static_cast<std::int64_t>(samples_.size()) / channels_,
+                     first = place_of(piece.time),
+                     end = first + static_cast<std::int64_t>(piece.samples.size()) / channels_;
+  if (end <= given) return;
+  if (first > given)
+    samples_.insert(samples_.end(), static_cast<std::size_t>((first - given) * channels_), 0);
+  const std::int64_t skipped = std::max<std::int64_t>(given - first, 0);
+  samples_.insert(samples_.end(), piece.samples.begin() + skipped * channels_, piece.samples.end());
+}
+
+std::vector<std::int16_t> DecodedSound::take(std::int64_t end) {
+  const auto count = static_cast<std::size_t>(std::max<std::int64_t>(place_of(end) - taken_, 0) * channels_);
+  std::vector<std::int16_t> out(count);
+  const auto known = static_cast<std::ptrdiff_t>(std::min(count, samples_.size()));
+  std::copy_n(samples_.begin(), known, out.begin());
+  samples_.erase(samples_.begin(), samples_.begin() + known);
+  taken_ += static_cast<std::int64_t>(count) / channels_;
+  return out;
+}
+
+Result<SinkSound> SinkSound::create(const SoundPart& first, std::int64_t begin) {
+  if (first.setup.codec == SoundCodec::kOpus) return SinkSound(joined(first, begin), begin);
+  auto decoder = SoundDecoder::create(first.setup);
+  if (!decoder) return fail(decoder.error());
+  SoundSettings settings;
+  settings.bitrate = kTranscodedBitrate;
+  settings.sample_rate = (*decoder)->sample_rate();
+  auto encoder = SoundEncoder::create(settings);
+  if (!encoder) return fail(encoder.error());
+  SinkSound out((*encoder)->setup(), begin);
+  out.transcoder_.emplace(Transcoder{DecodedSound(begin), std::move(*encoder)});
+  return out;
+}
+
+Result<void> SinkSound::add(SoundPart part) {
+  if (transcoder_) return transcoder_->decoded.add(std::move(part));
+  std::int64_t frame = part.group.first;
+  for (std::vector<std::uint8_t>& bytes : part.group.frames) {
+    const std::int64_t time = time_of(part.setup, frame++) - begin_;
+    if (time >= -setup_.skip) waiting_.emplace_back(time, std::move(bytes));
+  }
+  return {};
+}
+
+Result<void> SinkSound::write(std::int64_t end, VideoSink& sink) {
+  if (transcoder_ && transcoder_->decoded.sample_rate() != 0) {
+    SoundEncoder::Frames frames;
+    if (auto coded = transcoder_->encoder->add(transcoder_->decoded.take(end), frames); !coded) return coded;
+    wait(frames);
+  }
+  for (; !waiting_.empty() && waiting_.front().first < end - begin_; waiting_.pop_front())
+    if (auto written = sink.write_sound(waiting_.front().second, waiting_.front().first); !written)
+      return written;
+  return {};
+}
+
+Result<void> SinkSound::finish(VideoSink& sink) {
+  if (!transcoder_) return {};
+  SoundEncoder::Frames frames;
+  if (auto coded = transcoder_->encoder->finish(frames); !coded) return coded;
+  wait(frames);
+  transcoder_.reset();
+  return write(std::numeric_limits<std::int64_t>::max(), sink);
+}
+
+void SinkSound::wait(const SoundEncoder::Frames& frames) {
+  for (const auto& frame : frames) waiting_.emplace_back(time_of(setup_, transcoder_->frames++), frame);
+}
+
+}  // namespace fbs::cli
