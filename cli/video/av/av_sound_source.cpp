@@ -196,7 +196,7 @@ void AvSoundSource::cut(std::vector<std::int16_t>& samples) {
 
 std::optional<std::int64_t> AvSoundSource::begin_of_frame() const {
   if (frame_->best_effort_timestamp == AV_NOPTS_VALUE) return std::nullopt;
-  return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, AV_TIME_BASE_Q) - start_;
+  return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTimeBase) - start_;
 }
 
 }  // namespace
