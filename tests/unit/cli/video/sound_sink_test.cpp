@@ -127,6 +127,24 @@ TEST_F(SoundSinkFiles, PacketsAreNotEncodedAgain) {
   }
 }
 
+TEST_F(SoundSinkFiles, ContainersSayWhatPlayersLeaveOut) {
+  const auto contains = [&](const char* name, const std::string& bytes) {
+    std::ifstream file(path(name), std::ios::binary);
+    const std::string content{std::istreambuf_iterator<char>(file), {}};
+    return content.find(bytes) != std::string::npos;
+  };
+  using namespace std::string_literals;
+  for (const char* name : {"a.mp4", "a.mkv"})
+    ASSERT_NO_FATAL_FAILURE(write(name, {25, 1}, regular_times({25, 1})));
+  // CodecDelay of 6500000 ns, SeekPreRoll of 80 ms, and OpusHead.
+  EXPECT_TRUE(contains("a.mkv", "\x56\xAA\x83\x63\x2E\xA0"s));
+  EXPECT_TRUE(contains("a.mkv", "\x56\xBB\x84\x04\xC4\xB4\x00"s));
+  EXPECT_TRUE(contains("a.mkv", "OpusHead\1\1\x38\1\x80\xBB\0\0\0\0\0"s));
+  // OpusSpecificBox, and an edit that begins at sample 312.
+  EXPECT_TRUE(contains("a.mp4", "dOps\0\1\1\x38\0\0\xBB\x80\0\0\0"s));
+  EXPECT_TRUE(contains("a.mp4", "\0\0\1\x38\0\1\0\0"s));
+}
+
 TEST_F(SoundSinkFiles, LostFramesMoveNothing) {
   for (int i = 60; i < 110; ++i) packets_[static_cast<std::size_t>(i)].clear();  // 1.2 s to 2.2 s
   for (const char* name : {"a.mp4", "a.mkv"}) {
