@@ -18,8 +18,8 @@ class SoundSourceFiles : public SoundFiles {
     ASSERT_NO_FATAL_FAILURE(ffmpeg(kPictures + std::string("-i tone.wav ") + settings));
   }
 
-  void expect_error(const std::string& input, const SoundSourceOptions& options, ErrorCode code,
-                    const std::string& text) const {
+  static void expect_error(const std::string& input, const SoundSourceOptions& options, ErrorCode code,
+                           const std::string& text) {
     const auto source = open_sound_source(input, options);
     ASSERT_FALSE(source) << input;
     EXPECT_EQ(source.error().code, code);

@@ -37,7 +37,7 @@ inline std::vector<double> burst_onsets(std::span<const std::int16_t> samples, i
   double quiet_since = -1;
   for (std::size_t i = 0; i < samples.size(); i += channels) {
     if (std::abs(samples[i]) < kLoud) continue;
-    const double time = static_cast<double>(i / channels) / sample_rate;
+    const double time = static_cast<double>(i) / static_cast<double>(channels) / sample_rate;
     if (time - quiet_since > 0.05) onsets.push_back(time);
     quiet_since = time;
   }
