@@ -89,7 +89,8 @@ Result<std::optional<int>> AvSoundSource::choose_track(std::optional<int> track)
   if (tracks.empty()) return std::nullopt;
   if (track) return tracks[static_cast<std::size_t>(*track)];
   const int video = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const int best = av_find_best_stream(container_.get(), AVMEDIA_TYPE_AUDIO, -1, video, nullptr, 0);
+  const AVCodec* decoder = nullptr;  // asked for, so that tracks without one come last
+  const int best = av_find_best_stream(container_.get(), AVMEDIA_TYPE_AUDIO, -1, video, &decoder, 0);
   return best >= 0 ? best : tracks.front();
 }
 
