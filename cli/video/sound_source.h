@@ -16,12 +16,12 @@ namespace fbs {
 class StopSignal;
 
 struct SoundSourceOptions {
-  int sample_rate = 48000;           ///< Hz, of the samples returned: 8000..192000
-  int channels = 1;                  ///< of the samples returned: 1 or 2
-  std::optional<int> track;          ///< number among the sound tracks, from 0; none: the main one
-  const StopSignal* stop = nullptr;  ///< must outlive the source; a read that waits ends with an error
-  std::int64_t end = std::numeric_limits<std::int64_t>::max();  ///< 1/90000 s from the first picture: where
-                                                                ///< the sound is cut
+  int sample_rate = 48000;                  ///< Hz, of the samples returned: 8000..192000
+  int channels = 1;                         ///< of the samples returned: 1 or 2
+  std::optional<int> track = std::nullopt;  ///< number among the sound tracks, from 0; none: the main one
+  const StopSignal* stop = nullptr;         ///< must outlive the source; a read that waits ends with an error
+  /// 1/90000 s from the first picture: where the sound is cut.
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
 };
 
 /// Sound resampled and mixed to what the options ask for. Sample n is n / sample_rate s after the first

@@ -41,11 +41,12 @@ class VideoSink {
 };
 
 struct SinkOptions {
-  std::string sound_source;  ///< .mp4 and .mkv: file whose sound is copied into the output; none when empty
-  std::int64_t sound_begin =
-      0;  ///< 1/90000 s: sound before this time is left out, and what follows is earlier
-  std::optional<SoundSetup> sound =
-      std::nullopt;  ///< .mp4 and .mkv: Opus that write_sound brings; not with sound_source
+  /// .mp4 and .mkv: file whose sound is copied into the output; none when empty.
+  std::string sound_source = {};
+  /// 1/90000 s: sound before this time is left out, and what follows is earlier.
+  std::int64_t sound_begin = 0;
+  /// .mp4 and .mkv: Opus that write_sound brings; not together with sound_source.
+  std::optional<SoundSetup> sound = std::nullopt;
 };
 
 /// Opens `output`:

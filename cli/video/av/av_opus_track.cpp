@@ -19,13 +19,13 @@ using OpusHead = std::array<std::uint8_t, 19>;
 
 /// RFC 7845 5.1, with mapping family 0.
 OpusHead opus_head(const SoundSetup& setup) {
-  const auto byte = [](std::int32_t value, int index) {
+  const auto byte = [](std::int32_t value, std::size_t index) {
     return static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (8 * index));
   };
   OpusHead head{'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
   head[9] = static_cast<std::uint8_t>(setup.channels);
-  for (int i = 0; i < 2; ++i) head[static_cast<std::size_t>(10 + i)] = byte(setup.skip, i);
-  for (int i = 0; i < 4; ++i) head[static_cast<std::size_t>(12 + i)] = byte(kSoundClock, i);
+  for (std::size_t i = 0; i < 2; ++i) head[10 + i] = byte(setup.skip, i);
+  for (std::size_t i = 0; i < 4; ++i) head[12 + i] = byte(kSoundClock, i);
   return head;
 }
 

@@ -31,7 +31,7 @@ Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvM
   const std::int64_t origin = first_picture_time(*sound.container_, source, nullptr).value_or(start);
   sound.begins_later_ = begin > 0 || origin - start > kLongestPriming;
   const AVRational base = sound.from_->time_base;
-  sound.shift_ = av_rescale_q(begin, kTick, base) + av_rescale_q(origin, AV_TIME_BASE_Q, base);
+  sound.shift_ = av_rescale_q(begin, kTick, base) + av_rescale_q(origin, kTimeBase, base);
 
   const AVCodecID codec = sound.from_->codecpar->codec_id;
   if (avformat_query_codec(&muxer.container(), codec, FF_COMPLIANCE_NORMAL) == 0) {

@@ -89,7 +89,8 @@ Result<std::optional<int>> AvSoundSource::choose_track(std::optional<int> track)
   if (tracks.empty()) return std::nullopt;
   if (track) return tracks[static_cast<std::size_t>(*track)];
   const int video = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const int best = av_find_best_stream(container_.get(), AVMEDIA_TYPE_AUDIO, -1, video, nullptr, 0);
+  const AVCodec* decoder = nullptr;  // asked for, so that tracks without one come last
+  const int best = av_find_best_stream(container_.get(), AVMEDIA_TYPE_AUDIO, -1, video, &decoder, 0);
   return best >= 0 ? best : tracks.front();
 }
 
@@ -196,7 +197,7 @@ void AvSoundSource::cut(std::vector<std::int16_t>& samples) {
 
 std::optional<std::int64_t> AvSoundSource::begin_of_frame() const {
   if (frame_->best_effort_timestamp == AV_NOPTS_VALUE) return std::nullopt;
-  return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, AV_TIME_BASE_Q) - start_;
+  return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTimeBase) - start_;
 }
 
 }  // namespace

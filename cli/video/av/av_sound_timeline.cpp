@@ -108,8 +108,8 @@ void AvSoundTimeline::add(const AVFrame& frame, int skipped, std::vector<std::in
   const int channels = frame.ch_layout.nb_channels;
   const std::ptrdiff_t step =
       static_cast<std::ptrdiff_t>(av_get_bytes_per_sample(format)) * (planar ? 1 : channels);
-  std::vector<const std::uint8_t*> planes;
-  for (int i = 0; i < (planar ? channels : 1); ++i) planes.push_back(frame.extended_data[i] + skipped * step);
+  std::vector<const std::uint8_t*> planes(frame.extended_data, frame.extended_data + (planar ? channels : 1));
+  for (const std::uint8_t*& plane : planes) plane += skipped * step;
   if (skipped < frame.nb_samples) convert(planes.data(), frame.nb_samples - skipped, out);
   if (skipped < frame.nb_samples) exact_ = false;
 }

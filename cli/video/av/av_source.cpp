@@ -226,7 +226,7 @@ void AvSource::note_failure(int code, bool cut) {
 
 std::int64_t AvSource::first_picture_time() const {
   if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
-    return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, AV_TIME_BASE_Q);
+    return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTimeBase);
   }
   return start_time(*container_);
 }
