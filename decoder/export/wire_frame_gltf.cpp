@@ -57,9 +57,10 @@ class Elements {
     const tinygltf::Buffer* const buffer = view != nullptr ? item(model.buffers, view->buffer) : nullptr;
     if (buffer == nullptr) return std::nullopt;
     const int stride = a->ByteStride(*view);
-    const auto size = static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a->componentType)) *
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+    const auto component = static_cast<std::uint32_t>(a->componentType),
+               elements = static_cast<std::uint32_t>(type);
+    const auto size = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(component)) *
+                      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(elements));
     const std::size_t start = view->byteOffset + a->byteOffset;
     if (stride <= 0 || a->count == 0 || a->count > kMost || start > buffer->data.size() ||
         (a->count - 1) * static_cast<std::size_t>(stride) + size > buffer->data.size() - start)
@@ -129,6 +130,12 @@ Result<void> read_mesh(const Model& model, const tinygltf::Primitive& primitive,
   return {};
 }
 
+/// Null where there is no such member.
+const Value& member(const Value& object, const char* key) {
+  static const Value nothing;
+  return object.IsObject() ? object.Get(key) : nothing;
+}
+
 /// Reads whole numbers out of extras, and remembers whether all were there and in range.
 class Extras {
  public:
@@ -159,14 +166,9 @@ class Extras {
   }
 
   const std::vector<Value>& array(const Value& value) {
-    static const std::vector<Value> kNone;
+    static const std::vector<Value> nothing;
     good_ = good_ && value.IsArray();
-    return value.IsArray() ? value.Get<Value::Array>() : kNone;
-  }
-
-  const Value& member(const Value& object, const char* key) {
-    static const Value kNone;
-    return object.IsObject() ? object.Get(key) : kNone;
+    return value.IsArray() ? value.Get<Value::Array>() : nothing;
   }
 
   /// Whether all that was read since the last question was there.
@@ -178,15 +180,15 @@ class Extras {
 
 Result<void> read_vertices(Extras& extras, const Value& mesh, WireFrameTables& out) {
   std::size_t index = 0, landmarks = 0;
-  for (const Value& vertex : extras.array(extras.member(mesh, "vertices"))) {
-    if (const Value& landmark = extras.member(vertex, "landmark"); landmark.IsNumber()) {
+  for (const Value& vertex : extras.array(member(mesh, "vertices"))) {
+    if (const Value& landmark = member(vertex, "landmark"); landmark.IsNumber()) {
       const auto k = extras.number<std::int16_t>(landmark);
       if (k >= kLandmarkCount) return refused("has a landmark that is not one of 0 to 67");
       if (k >= 0) out.landmark_vertex[static_cast<std::size_t>(k)] = static_cast<std::uint16_t>(index);
       landmarks += k >= 0 ? 1 : 0;
     }
     std::vector<SkinningWeight>& weights = out.skinning.emplace_back();
-    if (const Value& skinning = extras.member(vertex, "skinning"); skinning.IsArray())
+    if (const Value& skinning = member(vertex, "skinning"); skinning.IsArray())
       extras.pairs<std::uint16_t, std::int16_t>(skinning, [&](std::uint16_t control, std::int16_t weight) {
         weights.push_back({control, weight});
       });
@@ -200,15 +202,15 @@ Result<void> read_vertices(Extras& extras, const Value& mesh, WireFrameTables& o
 }
 
 Result<void> read_features(Extras& extras, const Value& mesh, WireFrameTables& out) {
-  for (const Value& feature : extras.array(extras.member(mesh, "features"))) {
-    const Value& name = extras.member(feature, "name");
+  for (const Value& feature : extras.array(member(mesh, "features"))) {
+    const Value& name = member(feature, "name");
     const auto& known = generic_head().features;
     const auto found = std::ranges::find_if(known, [&](const Feature& f) {
       return name.IsString() && f.name == std::string_view(name.Get<std::string>());
     });
     if (found == known.end()) return refused("has a feature with an unknown name");
     out.features[static_cast<std::size_t>(found - known.begin())] =
-        extras.numbers<std::uint16_t>(extras.member(feature, "vertices"));
+        extras.numbers<std::uint16_t>(member(feature, "vertices"));
   }
   if (!extras.good()) return refused("needs extras.features: name and vertices of each");
   return {};
@@ -218,9 +220,9 @@ Result<void> read_extras(const Value& mesh, WireFrameTables& out) {
   Extras extras;
   if (auto read = read_vertices(extras, mesh, out); !read) return read;
   if (auto read = read_features(extras, mesh, out); !read) return read;
-  out.outline = extras.numbers<std::uint16_t>(extras.member(mesh, "outline"));
+  out.outline = extras.numbers<std::uint16_t>(member(mesh, "outline"));
   if (!extras.good()) return refused("needs extras.outline: vertices of the border");
-  extras.pairs<std::int32_t, std::int32_t>(extras.member(mesh, "atlas"),
+  extras.pairs<std::int32_t, std::int32_t>(member(mesh, "atlas"),
                                            [&](int x, int y) { out.atlas.emplace_back(x, y); });
   if (!extras.good()) return refused("needs extras.atlas: a place for each vertex, and for the ring");
   return {};

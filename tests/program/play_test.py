@@ -273,7 +273,7 @@ class OnScreen(Play):
 
     def test_large_portrait_fits_the_screen_and_fills_it(self):
         self.needs_import()
-        if not PORTRAIT.exists():
+        if not PORTRAIT.exists() or PORTRAIT.stat().st_mtime < FBS.stat().st_mtime:
             talker(self.folder / "portrait.y4m", "--size", "720x1280", "--frames", "3")
             self.succeed("encode", "portrait.y4m", "portrait.fbs", "--quiet", "--patterns", "1")
             shutil.copy(self.folder / "portrait.fbs", PORTRAIT)
