@@ -134,6 +134,7 @@ void print(const std::string& name, const Summary& s) {
     if (bytes >= 0.5)
       std::printf("    %-14s %9.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
                   s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
+  if (b.sound > 0) line("sound", b.sound);
   line("other", b.other);
   line("total", b.total);
   std::printf("  scenes: %zu%s\n", s.scenes.size(), s.ended ? "" : "; no end packet: cut, or not ended yet");
