@@ -145,8 +145,8 @@ Result<void> Decoding::open_sink() {
   const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
   SinkOptions options{arguments_.sound, sound_begin};
   std::vector<SoundPart> sound = decoder().take_sound();
-  if (arguments_.sound.empty() && !arguments_.no_sound && has_sound(output) && !sound.empty()) {
-    auto created = SinkSound::create(sound.front(), sound_time(sound_begin));
+  if (arguments_.sound.empty() && !arguments_.no_sound && has_sound(output) && decoder().sound_setup()) {
+    auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(sound_begin));
     if (!created) return fail(created.error());
     sound_.emplace(std::move(*created));
     options.sound = sound_->setup();

@@ -16,13 +16,13 @@ std::int64_t time_of(const SoundSetup& setup, std::int64_t frame) {
 
 /// The setup for a decoder that begins at a later time, with the first frame it needs: its skip is what it
 /// hears only to get there.
-SoundSetup joined(const SoundPart& first, std::int64_t begin) {
-  SoundSetup setup = first.setup;
+SoundSetup joined(SoundSetup setup, std::span<const SoundPart> known, std::int64_t begin) {
   if (begin <= 0) return setup;
   const std::int64_t covers = (begin + setup.skip) / setup.duration,
                      ahead = std::max<std::int64_t>(begin + setup.skip - kPreroll, 0) / setup.duration,
-                     frame = std::max(first.group.first, std::min(covers, ahead));
-  setup.skip = static_cast<std::int32_t>(std::max<std::int64_t>(begin - time_of(first.setup, frame), 0));
+                     first = known.empty() ? covers + 1 : known.front().group.first,
+                     time = time_of(setup, std::max(first, std::min(covers, ahead)));
+  setup.skip = static_cast<std::int32_t>(std::max<std::int64_t>(begin - time, 0));
   return setup;
 }
 
@@ -65,9 +65,10 @@ std::vector<std::int16_t> DecodedSound::take(std::int64_t end) {
   return out;
 }
 
-Result<SinkSound> SinkSound::create(const SoundPart& first, std::int64_t begin) {
-  if (first.setup.codec == SoundCodec::kOpus) return SinkSound(joined(first, begin), begin);
-  auto decoder = SoundDecoder::create(first.setup);
+Result<SinkSound> SinkSound::create(const SoundSetup& setup, std::span<const SoundPart> known,
+                                    std::int64_t begin) {
+  if (setup.codec == SoundCodec::kOpus) return SinkSound(joined(setup, known, begin), begin);
+  auto decoder = SoundDecoder::create(setup);
   if (!decoder) return fail(decoder.error());
   SoundSettings settings;
   settings.bitrate = kTranscodedBitrate;

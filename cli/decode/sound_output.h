@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,9 +50,10 @@ class DecodedSound {
 /// Sound into a sink of video: Opus as it is; Codec 2, which containers do not know, becomes Opus.
 class SinkSound {
  public:
-  /// @param first  the first part
+  /// @param known  parts that have come already
   /// @param begin  time 0 of the sink
-  static Result<SinkSound> create(const SoundPart& first, std::int64_t begin);
+  static Result<SinkSound> create(const SoundSetup& setup, std::span<const SoundPart> known,
+                                  std::int64_t begin);
 
   /// For SinkOptions.
   [[nodiscard]] const SoundSetup& setup() const { return setup_; }

@@ -140,7 +140,10 @@ Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, Encod
     return fail(ErrorCode::kInvalidArgument, std::string(option) + ": " + a.input + " has no sound");
   }
   if (settings.bitrate > 0) {
-    settings.bitrate -= sound_kbps(*wanted);
+    // A voice has pauses, in which Opus takes next to nothing. What a live one will take is not known.
+    const Result<double> taken = settings.live ? sound_kbps(*wanted) : (*track)->code_all();
+    if (!taken) return fail(taken.error());
+    settings.bitrate -= *taken;
     if (settings.bitrate < kLeastBitrate)
       return fail(ErrorCode::kInvalidArgument,
                   "--bitrate leaves nothing to the pictures; --sound codec2 takes "

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace fbs::cli {
+namespace {
+
+constexpr double kPacketBytes = 8;  // of its header and its first frame's number, once a second or oftener
+
+}  // namespace
 
 Result<std::unique_ptr<SoundTrack>> SoundTrack::open(const std::string& input, const SoundSettings& settings,
                                                      std::optional<int> track, const StopSignal& stop) {
@@ -18,6 +23,18 @@ Result<std::unique_ptr<SoundTrack>> SoundTrack::open(const std::string& input, c
   if (!source) return fail(source.error());
   if (!*source) return nullptr;
   return std::unique_ptr<SoundTrack>(new SoundTrack(std::move(*source), std::move(*encoder)));
+}
+
+Result<double> SoundTrack::code_all() {
+  for (;;) {
+    const auto more = read_more();
+    if (!more) return fail(more.error());
+    if (!*more) break;
+  }
+  std::uint64_t bytes = 0;
+  for (const auto& frame : frames_) bytes += frame.size() + (setup().codec == SoundCodec::kOpus ? 1 : 0);
+  const double seconds = static_cast<double>(frames_.size()) * setup().duration / kSoundClock;
+  return seconds > 0 ? 8e-3 * (static_cast<double>(bytes) / seconds + kPacketBytes) : 0;
 }
 
 Result<std::vector<SoundGroup>> SoundTrack::before(std::int64_t time) {

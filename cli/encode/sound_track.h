@@ -22,6 +22,8 @@ class SoundTrack {
                                                   std::optional<int> track, const StopSignal& stop);
 
   [[nodiscard]] const SoundSetup& setup() const { return encoder_->setup(); }
+  /// Codes all of the source at once. @return kbit/s that it takes of the stream
+  Result<double> code_all();
   /// As SoundFeed asks for. Reads no farther than it must.
   Result<std::vector<SoundGroup>> before(std::int64_t time);
 
