@@ -23,9 +23,9 @@ static gboolean plugin_init(GstPlugin* plugin) {
   done |= GST_ELEMENT_REGISTER(fbsenc, plugin);
 #endif
   done |= GST_ELEMENT_REGISTER(fbsdec, plugin);
-  //  done |= GST_ELEMENT_REGISTER(fbsparse, plugin);
-  //  done |= GST_ELEMENT_REGISTER(rtpfbspay, plugin);
-  //  done |= GST_ELEMENT_REGISTER(rtpfbsdepay, plugin);
+  done |= GST_ELEMENT_REGISTER(fbsparse, plugin);
+  done |= GST_ELEMENT_REGISTER(rtpfbspay, plugin);
+  done |= GST_ELEMENT_REGISTER(rtpfbsdepay, plugin);
   return done;
 }
 
