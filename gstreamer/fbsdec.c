@@ -94,6 +94,7 @@ static GstFlowReturn feed(GstFbsDec* self, GstBuffer* group) {
   if (self->decoder == NULL) return GST_FLOW_FLUSHING;
   if (self->finished || jumps) join(self);
   if (!gst_buffer_map(group, &map, GST_MAP_READ)) return GST_FLOW_ERROR;
+  self->has_input = TRUE;
   const fbs_status status = fbs_decoder_feed(self->decoder, map.data, map.size);
   gst_buffer_unmap(group, &map);
   if (status != FBS_OK) {
@@ -120,6 +121,8 @@ static gboolean gst_fbs_dec_sink_event(GstVideoDecoder* decoder, GstEvent* event
     self->group = GST_CLOCK_TIME_NONE;
     fbs_decoder_finish(self->decoder);
     show(self);
+    if (self->has_input && self->format.width == 0)
+      GST_ELEMENT_ERROR(self, STREAM, DECODE, (NULL), ("no picture could be decoded"));
   }
   return GST_VIDEO_DECODER_CLASS(gst_fbs_dec_parent_class)->sink_event(decoder, event);
 }
@@ -220,6 +223,7 @@ static gboolean gst_fbs_dec_start(GstVideoDecoder* decoder) {
     return FALSE;
   }
   self->format = (fbs_format){0};
+  self->has_input = FALSE;
   join(self);
   return TRUE;
 }

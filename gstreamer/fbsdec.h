@@ -15,6 +15,7 @@ struct _GstFbsDec {
   gint threads; /**< property */
 
   fbs_decoder* decoder; /**< null: not started */
+  gboolean has_input;
   gboolean finished;
   fbs_format format;       /**< of the output; width 0: unknown */
   GstClockTimeDiff offset; /**< timestamp of a picture less its time in the stream */

@@ -110,6 +110,7 @@ static void take_setup(GstFbsParse* self, const GstFbsPacket* packet) {
   if (current == NULL || !gst_caps_is_equal(caps, current)) gst_pad_set_caps(pad, caps);
   if (current != NULL) gst_caps_unref(current);
   gst_caps_unref(caps);
+  self->has_scene = self->key = TRUE;
 }
 
 /* @return whether pictures are shown once the packet has arrived */
@@ -158,11 +159,8 @@ typedef enum { PACKET_GOES_ON, PACKET_ENDS_GROUP, PACKET_IS_OF_NEXT_GROUP } Pack
 static PacketPlace place_packet(GstFbsParse* self, const GstFbsPacket* packet, const guint8* begin) {
   const gboolean is_setup = packet->type == GST_FBS_SETUP, is_end = packet->type == GST_FBS_END;
   const gboolean has_packets = self->scanned > GST_FBS_SIGNATURE_SIZE;
-  if ((is_setup || is_end) && has_packets) return PACKET_IS_OF_NEXT_GROUP;
-  if (is_setup) {
-    take_setup(self, packet);
-    self->key = TRUE;
-  }
+  if ((is_setup || is_end) && has_packets && self->has_scene) return PACKET_IS_OF_NEXT_GROUP;
+  if (is_setup) take_setup(self, packet);
   self->synced = TRUE;
   self->scanned += packet->size;
   return take_packet(self, begin, packet->size) || is_end ? PACKET_ENDS_GROUP : PACKET_GOES_ON;
@@ -207,7 +205,10 @@ static GstFlowReturn gst_fbs_parse_handle_frame(GstBaseParse* parse, GstBasePars
   gst_buffer_unmap(frame->buffer, &map);
   if (!whole) return GST_FLOW_OK;
   gst_base_parse_set_min_frame_size(parse, SMALLEST_PACKET);
-  return send_group(self, frame);
+  if (self->has_scene) return send_group(self, frame);
+  *skip = (gint)self->scanned; /* shows nothing */
+  begin_group(self);
+  return GST_FLOW_OK;
 }
 
 /* ---- life ---- */
@@ -227,7 +228,7 @@ static gboolean gst_fbs_parse_sink_event(GstBaseParse* parse, GstEvent* event) {
 static gboolean gst_fbs_parse_start(GstBaseParse* parse) {
   GstFbsParse* const self = GST_FBS_PARSE(parse);
   if (fbs_decoder_open(&self->clock, NULL) != FBS_OK) return FALSE;
-  self->has_index = self->timed = self->jumps = FALSE;
+  self->has_index = self->timed = self->jumps = self->has_scene = FALSE;
   self->end = 0;
   lose_sync(self);
   gst_base_parse_set_min_frame_size(parse, SMALLEST_PACKET);

@@ -22,6 +22,7 @@ struct _GstFbsParse {
   guint16 chain;      /**< check of the last packet */
   gsize scanned;      /**< bytes of the next buffer that have been looked at: whole packets */
   guint64 offset;     /**< of the next buffer in the file, bytes */
+  gboolean has_scene; /**< a setup packet has come */
   gboolean key;       /**< it begins with a setup packet */
   GstClockTime pts;   /**< of its first picture; or none */
   GstClockTime end;   /**< of the last picture so far */

@@ -107,3 +107,11 @@ gboolean gst_fbs_setup_parse(const guint8* payload, gsize size, GstFbsSetup* out
   out->patterns = (guint8)ignored;
   return TRUE;
 }
+
+gboolean gst_fbs_find_setup(const guint8* data, gsize size, GstFbsSetup* out) {
+  GstFbsPacket packet;
+  for (gsize at = 0; gst_fbs_packet_scan(data + at, size - at, &packet, NULL) == GST_FBS_SCAN_PACKET;
+       at += packet.size)
+    if (packet.type == GST_FBS_SETUP) return gst_fbs_setup_parse(packet.payload, packet.payload_size, out);
+  return FALSE;
+}

@@ -68,6 +68,9 @@ typedef struct {
  *          this version has there */
 gboolean gst_fbs_setup_parse(const guint8* payload, gsize size, GstFbsSetup* out);
 
+/** The first setup packet among whole packets. FALSE: there is none. */
+gboolean gst_fbs_find_setup(const guint8* data, gsize size, GstFbsSetup* out);
+
 /** Reads an unsigned number and moves *at behind it. FALSE: it is malformed, or the bytes end in it. */
 gboolean gst_fbs_read_varint(const guint8* data, gsize size, gsize* at, guint64* value);
 void gst_fbs_write_varint(GByteArray* out, guint64 value);

@@ -84,11 +84,8 @@ static void lose(GstRtpFbsDepay* self) {
 /* ---- groups ---- */
 
 static void set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
-  GstFbsPacket packet;
   GstFbsSetup setup;
-  if (gst_fbs_packet_scan(data, size, &packet, NULL) != GST_FBS_SCAN_PACKET ||
-      !gst_fbs_setup_parse(packet.payload, packet.payload_size, &setup))
-    return;
+  if (!gst_fbs_find_setup(data, size, &setup)) return;
   GstPad* const pad = GST_RTP_BASE_DEPAYLOAD_SRCPAD(self);
   GstCaps* const caps = gst_fbs_caps_of_setup(&setup);
   GstCaps* const current = gst_pad_get_current_caps(pad);

@@ -61,7 +61,7 @@ static GstFlowReturn gst_rtp_fbs_pay_handle_buffer(GstRTPBasePayload* pay, GstBu
   guint8 begin[GST_FBS_SIGNATURE_SIZE + 1] = {0};
   const gsize looked_at = gst_buffer_extract(group, 0, begin, sizeof begin);
   const gsize signature = gst_fbs_signature_at(begin, looked_at), size = gst_buffer_get_size(group);
-  const guint8 key = begin[signature] == GST_FBS_SETUP ? GST_FBS_RTP_KEY : 0;
+  const guint8 key = GST_BUFFER_FLAG_IS_SET(group, GST_BUFFER_FLAG_DELTA_UNIT) ? 0 : GST_FBS_RTP_KEY;
   const guint room = gst_rtp_buffer_calc_payload_len(GST_RTP_BASE_PAYLOAD_MTU(pay), 0, 0);
   const gsize most = MAX(room, GST_FBS_RTP_HEADER + 1) - GST_FBS_RTP_HEADER;
   GstBufferList* const list = gst_buffer_list_new();
