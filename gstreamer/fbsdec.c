@@ -58,13 +58,16 @@ static GstFlowReturn announce(GstFbsDec* self, const fbs_picture_info* info) {
   return self->decode_picture(GST_VIDEO_DECODER_SINK_PAD(self), GST_OBJECT(self), buffer);
 }
 
+/* Goes on, unless the property max-errors says otherwise. */
 static GstFlowReturn tell_of_damage(GstFbsDec* self, fbs_status status) {
   GstFlowReturn flow = GST_FLOW_OK;
-  GST_VIDEO_DECODER_ERROR(self, 1, STREAM, DECODE, (NULL),
-                          ("%s: %s", fbs_status_text(status), fbs_decoder_error(self->decoder)), flow);
+  const char* const text = fbs_decoder_error(self->decoder);
+  GST_VIDEO_DECODER_ERROR(self, 1, STREAM, DECODE, (NULL), ("%s: %s", fbs_status_text(status), text), flow);
+  if (flow != GST_FLOW_OK) return flow;
+  GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("%s: %s", fbs_status_text(status), text));
   gst_pad_push_event(GST_VIDEO_DECODER_SINK_PAD(self),
                      gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 0));
-  return flow;
+  return GST_FLOW_OK;
 }
 
 /* Shows all pictures that have arrived. */
