@@ -23,6 +23,9 @@ struct _GstFbsEnc {
   GstClockTime end;     /**< of the last picture pushed */
 };
 
+/** Properties are read and written in `settings`. */
+void gst_fbs_enc_install_properties(GObjectClass* type);
+
 G_END_DECLS
 
 #endif
