@@ -29,13 +29,12 @@ static gboolean shift_payload(const GstFbsRejoin* rejoin, const GstFbsPacket* pa
 static void append_packet(GstFbsRejoin* rejoin, guint8 type, const GByteArray* payload, GByteArray* out) {
   const guint begin = out->len;
   const gboolean restarts = type == GST_FBS_SETUP || type == GST_FBS_END;
-  guint8 check[2];
   g_byte_array_append(out, &type, 1);
   gst_fbs_write_varint(out, payload->len);
   g_byte_array_append(out, payload->data, payload->len);
   rejoin->chain =
       gst_fbs_crc16(restarts ? GST_FBS_FIRST_CHECK : rejoin->chain, out->data + begin, out->len - begin);
-  GST_WRITE_UINT16_BE(check, rejoin->chain);
+  const guint8 check[] = {(guint8)(rejoin->chain >> 8), (guint8)rejoin->chain};
   g_byte_array_append(out, check, sizeof check);
 }
 

@@ -83,21 +83,34 @@ static void lose(GstRtpFbsDepay* self) {
 
 /* ---- groups ---- */
 
-static void set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
+/* @return FALSE: these bytes begin no scene */
+static gboolean set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
   GstFbsSetup setup;
-  if (!gst_fbs_find_setup(data, size, &setup)) return;
+  if (!gst_fbs_find_setup(data, size, &setup)) return FALSE;
   GstPad* const pad = GST_RTP_BASE_DEPAYLOAD_SRCPAD(self);
   GstCaps* const caps = gst_fbs_caps_of_setup(&setup);
   GstCaps* const current = gst_pad_get_current_caps(pad);
   if (current == NULL || !gst_caps_is_equal(caps, current)) gst_pad_set_caps(pad, caps);
   if (current != NULL) gst_caps_unref(current);
   gst_caps_unref(caps);
+  return TRUE;
 }
 
+/* Of a group that begins a scene. */
+static gboolean take_format(GstRtpFbsDepay* self) {
+  const gsize size = gst_adapter_available(self->group);
+  const gboolean taken = set_caps(self, gst_adapter_map(self->group, size), size);
+  gst_adapter_unmap(self->group);
+  return taken;
+}
+
+/* @return null: it is none */
 static GstBuffer* whole_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
-  if (self->key) set_caps(self, gst_adapter_map(self->group, size), size);
-  if (self->key) gst_adapter_unmap(self->group);
+  if (self->key && !take_format(self)) {
+    lose(self);
+    return NULL;
+  }
   GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(self->group, size));
   self->in_group = FALSE;
   if (!self->begun) {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 
 #include "tests/gstreamer/stream.h"
 
@@ -74,6 +76,26 @@ TEST(FbsParse, PassesOverDamageToTheNextScene) {
   EXPECT_TRUE(GST_BUFFER_IS_DISCONT(parsed[2].get()));
   EXPECT_EQ(GST_BUFFER_PTS(parsed[2].get()), GST_SECOND);
   EXPECT_EQ(messages.count(GST_MESSAGE_WARNING), 1);
+}
+
+TEST(FbsParse, DamageAnywhereCostsItsSceneAlone) {
+  const std::vector<Buffer> groups = encoded(kPictures, {30});
+  const Bytes stream = joined(groups);
+  const auto second_scene = [](const std::vector<Buffer>& parsed) {
+    Bytes out;
+    for (const Buffer& group : parsed)
+      if (GST_BUFFER_PTS(group.get()) >= GST_SECOND)
+        std::ranges::copy(bytes_of(group.get()), std::back_inserter(out));
+    return out;
+  };
+  const Bytes expected = second_scene(groups);
+  for (std::size_t at = 0; at < stream.size() - expected.size(); at += 13) {
+    Bytes damaged = stream;
+    damaged[at] ^= static_cast<std::uint8_t>(1U << at % 8);
+    const Harness harness = byte_parser();
+    push_in_pieces(harness.get(), damaged, 100);
+    EXPECT_EQ(second_scene(finish(harness.get())), expected) << at;
+  }
 }
 
 /// A file that is removed again.

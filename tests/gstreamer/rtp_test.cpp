@@ -1,6 +1,9 @@
 #include <gst/rtp/gstrtpbuffer.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "gstreamer/packet.h"
 #include "tests/gstreamer/stream.h"
 
 namespace fbs::gstreamer {
@@ -103,6 +106,26 @@ TEST(RtpFbs, PayloadsOfNothingAreNoHarm) {
   for (const guint size : {0U, 1U, 2U}) {
     Buffer packet(gst_rtp_buffer_new_allocate(size, 0, 0));
     push(harness.get(), std::move(packet));
+  }
+  EXPECT_TRUE(finish(harness.get()).empty());
+}
+
+TEST(RtpFbs, RandomPayloadsAreNoHarm) {
+  std::minstd_rand random(3);
+  const Harness harness = depayloader("rtpfbsdepay ! fbsdec");
+  for (guint16 number = 0; number < 2000; ++number) {
+    const auto size = static_cast<guint>(random() % 40);
+    Buffer packet(gst_rtp_buffer_new_allocate(size, 0, 0));
+    GstRTPBuffer rtp = GST_RTP_BUFFER_INIT;
+    gst_rtp_buffer_map(packet.get(), GST_MAP_WRITE, &rtp);
+    gst_rtp_buffer_set_seq(&rtp, static_cast<guint16>(number + number / 50));  // some are lost
+    gst_rtp_buffer_set_payload_type(&rtp, 96);
+    gst_rtp_buffer_set_marker(&rtp, random() % 3 == 0);
+    auto* const payload = static_cast<guint8*>(gst_rtp_buffer_get_payload(&rtp));
+    for (guint k = 0; k < size; ++k) payload[k] = static_cast<guint8>(random() >> 8);
+    if (size > 1) payload[1] = GST_FBS_SETUP;
+    gst_rtp_buffer_unmap(&rtp);
+    gst_harness_push(harness.get(), packet.release());
   }
   EXPECT_TRUE(finish(harness.get()).empty());
 }

@@ -16,6 +16,8 @@ def missing():
     """What the tests need and is not there, or None."""
     if not PLUGIN.exists():
         return "the plugin for GStreamer was not built"
+    if b"libasan.so" in PLUGIN.read_bytes():
+        return "GStreamer's tools load no plugin that is built with sanitizers"
     for tool in ("gst-launch-1.0", "gst-inspect-1.0", "gst-typefind-1.0"):
         if not shutil.which(tool):
             return f"no {tool}"
