@@ -138,18 +138,16 @@ static GstFlowReturn send_group(GstFbsParse* self, GstBaseParseFrame* frame) {
     GST_BUFFER_PTS(buffer) = GST_CLOCK_TIME_IS_VALID(self->pts) ? self->pts : self->end;
   GST_BUFFER_DURATION(buffer) = GST_CLOCK_TIME_IS_VALID(self->pts) ? self->end - self->pts : 0;
   if (!self->key) GST_BUFFER_FLAG_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT);
-  if (self->jumps) GST_BUFFER_FLAG_SET(buffer, GST_BUFFER_FLAG_DISCONT);
-  self->jumps = FALSE;
   begin_group(self);
   return gst_base_parse_finish_frame(GST_BASE_PARSE(self), frame, (gint)size);
 }
 
-/* Passes over damage, from `at` on: SPEC 3.2. What of the group was before it is of no use. */
+/* Passes over damage, from `at` on: SPEC 3.2. What of the group was before it is of no use. The base class
+ * marks the next buffer as discontinuous. */
 static void pass_damage(GstFbsParse* self, const guint8* data, gsize size, gsize at, gint* skip) {
   if (self->synced)
     GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("a damaged packet: the rest of its scene is lost"));
   lose_sync(self);
-  self->jumps = TRUE;
   *skip = (gint)(at + 1 + gst_fbs_find_restart(data + at + 1, size - at - 1));
 }
 
@@ -228,7 +226,7 @@ static gboolean gst_fbs_parse_sink_event(GstBaseParse* parse, GstEvent* event) {
 static gboolean gst_fbs_parse_start(GstBaseParse* parse) {
   GstFbsParse* const self = GST_FBS_PARSE(parse);
   if (fbs_decoder_open(&self->clock, NULL) != FBS_OK) return FALSE;
-  self->has_index = self->timed = self->jumps = self->has_scene = FALSE;
+  self->has_index = self->timed = self->has_scene = FALSE;
   self->end = 0;
   lose_sync(self);
   gst_base_parse_set_min_frame_size(parse, SMALLEST_PACKET);

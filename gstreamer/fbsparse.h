@@ -18,7 +18,6 @@ struct _GstFbsParse {
   gboolean has_index; /**< the file has been looked through, or cannot be */
   gboolean timed;     /**< upstream has timestamps */
   gboolean synced;    /**< what comes next follows what has been parsed */
-  gboolean jumps;     /**< the next buffer does not follow the one before */
   guint16 chain;      /**< check of the last packet */
   gsize scanned;      /**< bytes of the next buffer that have been looked at: whole packets */
   guint64 offset;     /**< of the next buffer in the file, bytes */

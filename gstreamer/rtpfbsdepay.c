@@ -30,7 +30,6 @@ typedef struct {
   gboolean key;           /* it begins a scene */
   gboolean waiting;       /* for a scene: what comes before is of no use */
   gboolean begun;         /* the signature has been sent */
-  gboolean jumps;         /* the next buffer does not follow the one before */
   GstClockTime requested; /* when a scene was asked for the last time; or none */
 } GstRtpFbsDepay;
 
@@ -78,7 +77,6 @@ static void lose(GstRtpFbsDepay* self) {
   if (!self->waiting) GST_INFO_OBJECT(self, "a packet is lost, and with it the rest of its scene");
   drop_group(self);
   self->waiting = TRUE;
-  self->jumps = TRUE;
 }
 
 /* ---- groups ---- */
@@ -122,8 +120,6 @@ static GstBuffer* whole_group(GstRtpFbsDepay* self) {
     GST_BUFFER_FLAG_UNSET(out, GST_BUFFER_FLAG_DELTA_UNIT);
   else
     GST_BUFFER_FLAG_SET(out, GST_BUFFER_FLAG_DELTA_UNIT);
-  if (self->jumps) GST_BUFFER_FLAG_SET(out, GST_BUFFER_FLAG_DISCONT);
-  self->jumps = FALSE;
   return out;
 }
 
@@ -178,7 +174,7 @@ static GstStateChangeReturn gst_rtp_fbs_depay_change_state(GstElement* element, 
   GstRtpFbsDepay* const self = GST_RTP_FBS_DEPAY(element);
   if (change == GST_STATE_CHANGE_READY_TO_PAUSED) {
     join(self);
-    self->begun = self->jumps = FALSE;
+    self->begun = FALSE;
   }
   return GST_ELEMENT_CLASS(gst_rtp_fbs_depay_parent_class)->change_state(element, change);
 }

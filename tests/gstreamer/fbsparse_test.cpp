@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "tests/gstreamer/stream.h"
 
@@ -130,6 +131,17 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
+  /// Of the first buffer that the parser sends from now on.
+  void watch_parser() {
+    first_ = GST_CLOCK_TIME_NONE;
+    GstElement* const parser = gst_bin_get_by_name(GST_BIN(pipeline_), "parser");
+    GstPad* const pad = gst_element_get_static_pad(parser, "src");
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, note_first, this, nullptr);
+    gst_object_unref(pad);
+    gst_object_unref(parser);
+  }
+  [[nodiscard]] GstClockTime first_time() const { return first_; }
+
   void seek(GstClockTime time, GstSeekFlags flags) {
     EXPECT_TRUE(gst_element_seek_simple(pipeline_, GST_FORMAT_TIME,
                                         static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | flags),
@@ -160,8 +172,29 @@ class Player {
     EXPECT_EQ(gst_element_get_state(pipeline_, nullptr, nullptr, 60 * GST_SECOND), GST_STATE_CHANGE_SUCCESS);
   }
 
+  static GstPadProbeReturn note_first(GstPad* /*pad*/, GstPadProbeInfo* info, gpointer player) {
+    static_cast<Player*>(player)->first_ = GST_BUFFER_PTS(GST_PAD_PROBE_INFO_BUFFER(info));
+    return GST_PAD_PROBE_REMOVE;
+  }
+
   GstElement* pipeline_;
+  GstClockTime first_ = GST_CLOCK_TIME_NONE;
 };
+
+TEST(FbsParse, DecodingBeginsWithTheSceneThatIsSoughtIn) {
+  constexpr GstClockTime kSlower = 50;  // scenes of more than half a minute
+  const auto time_of = [](GstClockTime number) { return kSlower * number * GST_SECOND / kRate; };
+  const StreamFile file(joined(encoded(kPictures, {20, 40}, kSlower)));
+  for (const GstSeekFlags flags : {GST_SEEK_FLAG_NONE, GST_SEEK_FLAG_ACCURATE, GST_SEEK_FLAG_KEY_UNIT})
+    for (const auto& [number, scene] : {std::pair(58U, 40U), std::pair(38U, 20U), std::pair(5U, 0U),
+                                        std::pair(18U, 0U), std::pair(41U, 40U)}) {
+      Player player(file, "fbsparse name=parser ! fbsdec");
+      player.watch_parser();
+      player.seek(time_of(number) + kFrame, flags);
+      EXPECT_NEAR(static_cast<double>(player.first_time()), static_cast<double>(time_of(scene)), 1e5)
+          << number << " flags " << flags;
+    }
+}
 
 TEST(FbsParse, SeeksToThePictureThatIsAskedFor) {
   const Bytes stream = joined(encoded(kPictures, {20, 40}));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "samples/talker/talker_render.h"
 
@@ -78,13 +79,16 @@ std::vector<Buffer> finish(GstHarness* harness) {
   return pull(harness);
 }
 
-std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes) {
+std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes, int slower) {
   const Harness harness = encoder_harness("fbsenc threads=1 effort=0");
   for (int k = 0; k < pictures; ++k) {
     if (std::ranges::find(scenes, k) != scenes.end())
       gst_harness_push_upstream_event(
           harness.get(), gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 0));
-    push(harness.get(), talker_buffer(k));
+    Buffer picture = talker_buffer(k);
+    GST_BUFFER_PTS(picture.get()) *= static_cast<guint64>(slower);
+    GST_BUFFER_DURATION(picture.get()) *= static_cast<guint64>(slower);
+    push(harness.get(), std::move(picture));
   }
   return finish(harness.get());
 }

@@ -42,7 +42,8 @@ std::vector<Buffer> pull(GstHarness* harness);
 std::vector<Buffer> finish(GstHarness* harness);
 
 /// Groups of a stream of so many pictures, with a scene on request at each of `scenes`. Made by fbsenc.
-std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes = {});
+/// @param slower  so many times as long as the talker's
+std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes = {}, int slower = 1);
 
 Bytes bytes_of(GstBuffer* buffer);
 Bytes joined(const std::vector<Buffer>& buffers);
