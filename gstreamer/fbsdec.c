@@ -90,13 +90,18 @@ static void join(GstFbsDec* self) {
   self->group = GST_CLOCK_TIME_NONE;
 }
 
-static GstFlowReturn feed(GstFbsDec* self, GstBuffer* group) {
-  GstMapInfo map;
+/* Whether a group has nothing to do with what came before: after a seek or a loss, or of another stream. */
+static gboolean begins_anew(const GstFbsDec* self, GstBuffer* group, const GstMapInfo* map) {
   const gboolean jumps =
       GST_BUFFER_IS_DISCONT(group) && !GST_BUFFER_FLAG_IS_SET(group, GST_BUFFER_FLAG_DELTA_UNIT);
+  return self->finished || jumps || gst_fbs_signature_at(map->data, map->size) > 0;
+}
+
+static GstFlowReturn feed(GstFbsDec* self, GstBuffer* group) {
+  GstMapInfo map;
   if (self->decoder == NULL) return GST_FLOW_FLUSHING;
-  if (self->finished || jumps) join(self);
   if (!gst_buffer_map(group, &map, GST_MAP_READ)) return GST_FLOW_ERROR;
+  if (begins_anew(self, group, &map)) join(self);
   self->has_input = TRUE;
   const fbs_status status = fbs_decoder_feed(self->decoder, map.data, map.size);
   gst_buffer_unmap(group, &map);
@@ -241,11 +246,14 @@ static gboolean gst_fbs_dec_flush(GstVideoDecoder* decoder) {
   return TRUE;
 }
 
-/* Other caps may be another stream, which the setup packet will tell. */
+/* Pictures of another size are those of another stream. */
 static gboolean gst_fbs_dec_set_format(GstVideoDecoder* decoder, GstVideoCodecState* state) {
-  (void)state;
-  (void)decoder;
-  return TRUE;
+  GstFbsDec* const self = GST_FBS_DEC(decoder);
+  const GstVideoInfo* const info = &state->info;
+  const gboolean differs = GST_VIDEO_INFO_WIDTH(info) != (gint)self->format.width ||
+                           GST_VIDEO_INFO_HEIGHT(info) != (gint)self->format.height;
+  if (self->format.width > 0 && GST_VIDEO_INFO_WIDTH(info) > 0 && differs) join(self);
+  return TRUE; /* the setup packet says the rest */
 }
 
 static void gst_fbs_dec_set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {

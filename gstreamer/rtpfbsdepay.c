@@ -29,6 +29,8 @@ typedef struct {
   gboolean in_group;      /* its start has come, and all since */
   gboolean key;           /* it begins a scene */
   gboolean waiting;       /* for a scene: what comes before is of no use */
+  guint64 number;         /* of the first picture of the last scene */
+  gboolean restarted;     /* the group's scene is of a stream that has begun again */
   gboolean begun;         /* the signature has been sent */
   GstClockTime requested; /* when a scene was asked for the last time; or none */
 } GstRtpFbsDepay;
@@ -85,6 +87,8 @@ static void lose(GstRtpFbsDepay* self) {
 static gboolean set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
   GstFbsSetup setup;
   if (!gst_fbs_find_setup(data, size, &setup)) return FALSE;
+  self->restarted = setup.pictures_before < self->number || (setup.pictures_before == 0 && self->begun);
+  self->number = setup.pictures_before;
   GstPad* const pad = GST_RTP_BASE_DEPAYLOAD_SRCPAD(self);
   GstCaps* const caps = gst_fbs_caps_of_setup(&setup);
   GstCaps* const current = gst_pad_get_current_caps(pad);
@@ -120,6 +124,8 @@ static GstBuffer* whole_group(GstRtpFbsDepay* self) {
     GST_BUFFER_FLAG_UNSET(out, GST_BUFFER_FLAG_DELTA_UNIT);
   else
     GST_BUFFER_FLAG_SET(out, GST_BUFFER_FLAG_DELTA_UNIT);
+  if (self->restarted) GST_BUFFER_FLAG_SET(out, GST_BUFFER_FLAG_DISCONT);
+  self->restarted = FALSE;
   return out;
 }
 
@@ -174,7 +180,8 @@ static GstStateChangeReturn gst_rtp_fbs_depay_change_state(GstElement* element, 
   GstRtpFbsDepay* const self = GST_RTP_FBS_DEPAY(element);
   if (change == GST_STATE_CHANGE_READY_TO_PAUSED) {
     join(self);
-    self->begun = FALSE;
+    self->begun = self->restarted = FALSE;
+    self->number = 0;
   }
   return GST_ELEMENT_CLASS(gst_rtp_fbs_depay_parent_class)->change_state(element, change);
 }

@@ -1,6 +1,9 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <tuple>
+
 #include "tests/gstreamer/stream.h"
 
 namespace fbs::gstreamer {
@@ -103,6 +106,41 @@ TEST(FbsDec, AFlushForgetsTheScene) {
   gst_harness_push_event(harness.get(), gst_event_new_segment(&segment));
   for (const Buffer& group : groups) push(harness.get(), copy_of(group));
   EXPECT_EQ(finish(harness.get()).size(), kPictures);
+}
+
+/// Grey, of any size.
+Buffer grey(int width, int height, int number) {
+  const auto w = static_cast<gsize>(width), h = static_cast<gsize>(height);
+  Buffer buffer(gst_buffer_new_allocate(nullptr, w * h * 3 / 2, nullptr));
+  gst_buffer_memset(buffer.get(), 0, 100, w * h * 3 / 2);
+  GST_BUFFER_PTS(buffer.get()) = gst_util_uint64_scale(static_cast<guint64>(number), GST_SECOND, kRate);
+  GST_BUFFER_DURATION(buffer.get()) = kFrame;
+  return buffer;
+}
+
+TEST(FbsDec, AnotherSizeOrRateIsAnotherStream) {
+  for (const char* line :
+       {"fbsenc threads=1 ! fbsdec", "fbsenc threads=1 ! rtpfbspay ! rtpfbsdepay ! fbsdec"}) {
+    const Harness harness = encoder_harness(line);
+    Messages messages(harness.get());
+    int number = 0;
+    for (const auto& [width, height, rate] :
+         {std::tuple(80, 64, "30/1"), {96, 80, "30/1"}, {96, 80, "15/1"}}) {
+      std::string caps = picture_caps(width, height);
+      caps.replace(caps.find("30/1"), 4, rate);
+      gst_harness_set_src_caps_str(harness.get(), caps.c_str());
+      for (int k = 0; k < 10; ++k) push(harness.get(), grey(width, height, number++));
+    }
+    const std::vector<Buffer> pictures = finish(harness.get());
+    ASSERT_EQ(pictures.size(), 30U) << line;
+    EXPECT_EQ(gst_buffer_get_size(pictures[9].get()), 80U * 64 * 3 / 2);
+    EXPECT_EQ(gst_buffer_get_size(pictures[10].get()), 96U * 80 * 3 / 2);
+    for (std::size_t k = 0; k < 30; ++k)
+      EXPECT_NEAR(static_cast<double>(GST_BUFFER_PTS(pictures[k].get())),
+                  static_cast<double>(k) * GST_SECOND / kRate, 0.04 * GST_SECOND)
+          << k;
+    EXPECT_EQ(messages.count(GST_MESSAGE_WARNING), 0) << line;
+  }
 }
 
 TEST(FbsDec, AStreamWithoutPicturesIsAnError) {

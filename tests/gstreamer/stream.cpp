@@ -54,10 +54,13 @@ Buffer talker_buffer(int number) {
   return buffer;
 }
 
+std::string picture_caps(int width, int height) {
+  return "video/x-raw, format=I420, width=" + std::to_string(width) + ", height=" + std::to_string(height) +
+         ", framerate=" + std::to_string(kRate) + "/1";
+}
+
 Harness encoder_harness(const std::string& line) {
-  const std::string side = std::to_string(kSide);
-  return harness_of(line, "video/x-raw, format=I420, width=" + side + ", height=" + side +
-                              ", framerate=" + std::to_string(kRate) + "/1");
+  return harness_of(line, picture_caps(kSide, kSide));
 }
 
 Harness group_harness(const std::string& line) {

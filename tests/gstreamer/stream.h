@@ -32,6 +32,8 @@ Buffer talker_buffer(int number);
 
 /// `line` as of gst-launch, with one element or a bin. Pictures of the talker are its input.
 Harness encoder_harness(const std::string& line);
+/// The caps of its input.
+std::string picture_caps(int width, int height);
 /// The same for groups.
 Harness group_harness(const std::string& line);
 
