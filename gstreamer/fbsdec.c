@@ -246,16 +246,6 @@ static gboolean gst_fbs_dec_flush(GstVideoDecoder* decoder) {
   return TRUE;
 }
 
-/* Pictures of another size are those of another stream. */
-static gboolean gst_fbs_dec_set_format(GstVideoDecoder* decoder, GstVideoCodecState* state) {
-  GstFbsDec* const self = GST_FBS_DEC(decoder);
-  const GstVideoInfo* const info = &state->info;
-  const gboolean differs = GST_VIDEO_INFO_WIDTH(info) != (gint)self->format.width ||
-                           GST_VIDEO_INFO_HEIGHT(info) != (gint)self->format.height;
-  if (self->format.width > 0 && GST_VIDEO_INFO_WIDTH(info) > 0 && differs) join(self);
-  return TRUE; /* the setup packet says the rest */
-}
-
 static void gst_fbs_dec_set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   if (id == PROP_THREADS)
     GST_FBS_DEC(object)->threads = g_value_get_int(value);
@@ -291,7 +281,6 @@ static void gst_fbs_dec_class_init(GstFbsDecClass* type) {
   decoder->start = gst_fbs_dec_start;
   decoder->stop = gst_fbs_dec_stop;
   decoder->flush = gst_fbs_dec_flush;
-  decoder->set_format = gst_fbs_dec_set_format;
   decoder->handle_frame = gst_fbs_dec_handle_frame;
   decoder->sink_event = gst_fbs_dec_sink_event;
 }
