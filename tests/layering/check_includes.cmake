@@ -36,7 +36,8 @@ set(foreign
   "libav|libsw@cli/video/av"
   "CLI/@cli"
   "SDL@cli"
-  "tiny_gltf@decoder/export")
+  "tiny_gltf@decoder/export"
+  "gst/@gstreamer")
 set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table out of glTF; in no library
 # Interfaces that modules implement: they stand in cli/video, which is above them.
 set(module_interface "cli/(module|verbs|progress)\\.h|cli/video/[a-z0-9_]+\\.h")
@@ -96,6 +97,18 @@ foreach(source ${sources})
           break()
         endif()
       endforeach()
+    endif()
+  endforeach()
+endforeach()
+# The plugin is a user of the libraries like any other: of ours it includes include/fbs alone.
+file(GLOB plugin RELATIVE ${ROOT} ${ROOT}/gstreamer/*.h ${ROOT}/gstreamer/*.c)
+foreach(source ${plugin})
+  math(EXPR checked "${checked} + 1")
+  file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(include ${includes})
+    if(include MATCHES "\"[^\"]*/" OR NOT include MATCHES "\"|<(fbs|gst)/|<string\\.h>")
+      message("${source}: ${include} is not for the plugin")
+      math(EXPR faults "${faults} + 1")
     endif()
   endforeach()
 endforeach()
