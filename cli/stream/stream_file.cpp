@@ -5,18 +5,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <system_error>
 
+#include "cli/matroska/matroska_module.h"
+#include "cli/module.h"
 #include "decoder/scene_index.h"
 
 namespace fbs::cli {
 namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
+constexpr std::array<std::uint8_t, 4> kEbmlHead{0x1A, 0x45, 0xDF,
+                                                0xA3};  // ID of the first element of Matroska
 
 /// @param length  of the stream, 1/90000 s
 Error past_the_end(const std::string& name, std::uint64_t length) {
@@ -40,7 +45,26 @@ Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* s
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
-  return StreamFile(name, std::move(file), stop);
+  StreamFile stream(name, std::move(file), stop);
+  if (S_ISREG(status.st_mode))
+    if (auto extracted = stream.extract(); !extracted) return fail(extracted.error());
+  return stream;
+}
+
+Result<void> StreamFile::extract() {
+  std::array<std::uint8_t, kEbmlHead.size()> head{};
+  const ssize_t n = ::pread(file_.number(), head.data(), head.size(), 0);
+  if (n != static_cast<ssize_t>(head.size()) || head != kEbmlHead) return {};
+  const auto bytes = read_all();
+  if (!bytes) return fail(bytes.error());
+  const auto convert = load_module_function<StreamOfMatroska>(kMatroskaModule, kStreamOfMatroskaSymbol);
+  if (!convert) return fail(convert.error());
+  Result<MatroskaStream> stream;
+  (*convert)(*bytes, stream);
+  if (!stream) return fail(stream.error().code, name_ + ": " + stream.error().text);
+  extracted_ = std::move(stream->bytes);
+  left_out_ = std::move(stream->left_out);
+  return {};
 }
 
 Result<DecodeStatus> StreamFile::next() {
@@ -67,6 +91,12 @@ Result<DecodeStatus> StreamFile::next() {
 }
 
 Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
+  if (extracted_) {
+    const std::size_t n = std::min(buffer.size(), extracted_->size() - extracted_read_);
+    std::copy_n(extracted_->begin() + static_cast<std::ptrdiff_t>(extracted_read_), n, buffer.begin());
+    extracted_read_ += n;
+    return n;
+  }
   for (;;) {
     if (!wait()) return fail(ErrorCode::kIo, name_ + ": stopped");
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());
