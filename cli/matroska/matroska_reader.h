@@ -19,7 +19,7 @@ struct ReadMatroska {
 /// Takes the first video track of codec ID V_FBS, and the first of A_OPUS. Files of other writers are read as
 /// well: with lacing, with other units of time, and without cues.
 /// @return kUnsupported    no V_FBS track, or one that is encrypted or compressed
-///         kTruncated      an element is longer than the file, or what it is in
+///         kTruncated      an element is longer than the file
 ///         kInvalidStream  damaged
 Result<ReadMatroska> read_matroska(std::span<const std::uint8_t> file);
 

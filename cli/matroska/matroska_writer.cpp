@@ -99,6 +99,11 @@ std::vector<std::uint8_t> opus_head(const MatroskaSound& sound) {
           0x80, 0xBB, 0,   0,   0,   0,   0};  // 48000 Hz, no gain, mapping family 0
 }
 
+/// ns
+std::int64_t delay_of(const MatroskaSound& sound) {
+  return (kSecond * sound.skip + kSoundClock / 2) / kSoundClock;
+}
+
 class Writer {
  public:
   Writer(const MatroskaContent& content, const std::string& application)
@@ -137,7 +142,10 @@ class Writer {
     auto& info = GetChild<KaxInfo>(segment_);
     set<KaxTimecodeScale>(info, kMatroskaTick);
     std::int64_t end = 0;
-    for (const Placed& p : in_order(content_)) end = std::max(end, p.block->time + p.block->duration);
+    for (const Placed& p : in_order(content_)) {
+      const std::int64_t delay = p.track == kSoundTrack ? delay_of(*content_.sound) : 0;
+      end = std::max(end, p.block->time + p.block->duration - delay);
+    }
     GetChild<KaxDuration>(info).SetValue(static_cast<double>(end) / kMatroskaTick);
     GetChild<KaxMuxingApp>(info).SetValueUTF8("libebml " + libebml::EbmlCodeVersion + ", libmatroska " +
                                               KaxCodeVersion);
@@ -179,7 +187,7 @@ class Writer {
   void add_sound_track(KaxTracks& tracks, const MatroskaSound& s) {
     sound_ = &add_track(tracks, kSoundTrack, kTypeAudio, "A_OPUS", opus_head(s));
     set<KaxTrackDefaultDuration>(*sound_, kSecond / 1000 * s.duration / (kSoundClock / 1000));
-    set<KaxCodecDelay>(*sound_, (kSecond * s.skip + kSoundClock / 2) / kSoundClock);
+    set<KaxCodecDelay>(*sound_, delay_of(s));
     set<KaxSeekPreRoll>(*sound_, kSeekPreRoll);
     auto& samples = GetChild<KaxTrackAudio>(*sound_);
     GetChild<KaxAudioSamplingFreq>(samples).SetValue(kSoundClock);

@@ -14,14 +14,13 @@
 
 #include "cli/matroska/matroska_module.h"
 #include "cli/module.h"
+#include "cli/video/video_source.h"
 #include "decoder/scene_index.h"
 
 namespace fbs::cli {
 namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
-constexpr std::array<std::uint8_t, 4> kEbmlHead{0x1A, 0x45, 0xDF,
-                                                0xA3};  // ID of the first element of Matroska
 
 /// @param length  of the stream, 1/90000 s
 Error past_the_end(const std::string& name, std::uint64_t length) {
@@ -55,6 +54,8 @@ Result<void> StreamFile::extract() {
   std::array<std::uint8_t, kEbmlHead.size()> head{};
   const ssize_t n = ::pread(file_.number(), head.data(), head.size(), 0);
   if (n != static_cast<ssize_t>(head.size()) || head != kEbmlHead) return {};
+  if (!is_stream_file(name_))
+    return fail(ErrorCode::kUnsupported, name_ + ": is a Matroska file without fbs video (V_FBS)");
   const auto bytes = read_all();
   if (!bytes) return fail(bytes.error());
   const auto convert = load_module_function<StreamOfMatroska>(kMatroskaModule, kStreamOfMatroskaSymbol);
