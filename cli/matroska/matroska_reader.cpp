@@ -6,13 +6,13 @@
 #include <webm/webm_parser.h>
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "bitstream/sound_syntax.h"
+#include "cli/matroska/opus_packet.h"
 
 namespace fbs::cli {
 namespace {
@@ -22,24 +22,6 @@ using webm::Status;
 constexpr std::string_view kOpusHead = "OpusHead";
 constexpr std::size_t kOpusHeadBytes = 19;
 constexpr int kStop = 1;  // what the callback returns instead of one of libwebm's codes
-
-/// Duration of an Opus packet, 1/kSoundClock s; 0 if it has none. RFC 6716, section 3.1.
-std::int32_t opus_duration(std::span<const std::uint8_t> packet) {
-  if (packet.empty()) return 0;
-  const int config = packet[0] >> 3;
-  constexpr std::array<std::int32_t, 4> kSilk{480, 960, 1920, 2880}, kCelt{120, 240, 480, 960};
-  const std::int32_t frame = config < 12   ? kSilk[config & 3]
-                             : config < 16 ? kSilk[config & 1]
-                                           : kCelt[config & 3];
-  switch (packet[0] & 3) {
-    case 0:
-      return frame;
-    case 3:
-      return packet.size() > 1 ? frame * (packet[1] & 63) : 0;
-    default:
-      return 2 * frame;
-  }
-}
 
 /// Collects the blocks of two tracks.
 class Collector final : public webm::Callback {

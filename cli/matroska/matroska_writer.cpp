@@ -154,8 +154,8 @@ class Writer {
     seek_head_.IndexThis(info, segment_);
   }
 
-  KaxTrackEntry& add_track(KaxTracks& tracks, std::uint64_t number, std::uint64_t type, const char* codec,
-                           const std::vector<std::uint8_t>& setup) {
+  static KaxTrackEntry& add_track(KaxTracks& tracks, std::uint64_t number, std::uint64_t type,
+                                  const char* codec, const std::vector<std::uint8_t>& setup) {
     auto& track = AddNewChild<KaxTrackEntry>(tracks);
     track.SetGlobalTimecodeScale(kMatroskaTick);
     set<KaxTrackNumber>(track, number);
@@ -224,8 +224,10 @@ class Writer {
   }
 
   /// The frame of a block; its bytes are not copied.
-  static libmatroska::DataBuffer* frame_of(const MatroskaBlock& block) {
-    auto* bytes = const_cast<std::uint8_t*>(block.bytes.data());  // libmatroska only reads them
+  static DataBuffer* frame_of(const MatroskaBlock& block) {
+    // libmatroska only reads them.
+    auto* bytes =
+        const_cast<std::uint8_t*>(block.bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     return new DataBuffer(bytes, static_cast<uint32>(block.bytes.size()));
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
 #include "cli/matroska/block_division.h"
+#include "cli/matroska/opus_packet.h"
 #include "cli/stream/sound_interleaver.h"
 
 namespace fbs::cli {
@@ -31,6 +33,9 @@ std::int64_t ns_of_sound(std::int64_t time) {
 std::int64_t sound_of_ns(std::int64_t ns) {
   return (ns * 6 + (ns < 0 ? -62'500 : 62'500)) / 125'000;
 }
+
+/// One packet in so many may be of another length: damaged, and lost.
+constexpr std::size_t kMostOthers = 10;
 
 bool is_sound(PacketType type) {
   return type == PacketType::kSoundSetup || type == PacketType::kSound;
@@ -167,6 +172,10 @@ Result<NumberedSound> numbered(const MatroskaSound& sound, std::int64_t shift) {
   if (!is_valid(out.setup))
     return fail(ErrorCode::kUnsupported, "its sound is not of a kind that streams have");
   const std::int64_t duration = sound.duration;
+  const auto fits = [&](const MatroskaBlock& b) { return opus_duration(b.bytes) == duration; };
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(sound.blocks, std::not_fn(fits)));
+  if (others > sound.blocks.size() / kMostOthers)
+    return fail(ErrorCode::kUnsupported, "its Opus packets differ in length, as those of a stream cannot");
   std::int64_t off_grid = 0;
   for (const MatroskaBlock& block : sound.blocks) {
     const std::int64_t time = sound_of_ns(block.time + shift);
@@ -177,7 +186,7 @@ Result<NumberedSound> numbered(const MatroskaSound& sound, std::int64_t shift) {
     const std::int64_t number = (time + off_grid + duration / 2) / duration;
     if (time < -kTolerance || number >= kMaxSoundFrames) continue;
     const std::int64_t next = out.frames.empty() ? number : out.frames.back().number + 1;
-    if (number < next || block.bytes.size() > kMaxSoundFrame) continue;  // no two sounds at a time
+    if (number < next || block.bytes.size() > kMaxSoundFrame || !fits(block)) continue;  // lost
     if ((number - next) * duration < kMaxSoundGroup)
       for (std::int64_t missing = next; missing < number; ++missing) out.frames.push_back({missing, {}});
     out.frames.push_back({number, block.bytes});

@@ -156,6 +156,20 @@ TEST(StreamMapping, SoundOffTheGridOfItsFramesMovesIt) {
   EXPECT_EQ(sound.front().group.first * setup.duration - setup.skip, 7 * kSoundClock / 1000 - kVoice.skip);
 }
 
+TEST(StreamMapping, PacketsOfAnotherLengthAreLost) {
+  const auto content = content_of(voiced(vector_file("talk.fbs")));
+  ASSERT_GT(content.sound->blocks.size(), 20U);
+  constexpr std::uint8_t kTenMilliseconds = 0;
+  MatroskaContent one = content, all = content;
+  one.sound->blocks[3].bytes[0] = kTenMilliseconds;
+  EXPECT_EQ(back(one), voiced(vector_file("talk.fbs"), kVoice, 0, [](std::int64_t n) { return n == 3; }));
+  for (std::size_t n = 1; n < all.sound->blocks.size(); n += 2)
+    all.sound->blocks[n].bytes[0] = kTenMilliseconds;
+  const auto refused = of_matroska(all);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
+}
+
 TEST(StreamMapping, SoundInsideIsNotDoubled) {
   const Bytes stream = voiced(vector_file("talk.fbs"));
   MatroskaContent content = content_of(stream);
