@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "bitstream/sound_syntax.h"
-#include "cli/matroska/opus_packet.h"
+#include "decoder/sound/opus_packet.h"
 
 namespace fbs::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
 #include "cli/matroska/block_division.h"
-#include "cli/matroska/opus_packet.h"
 #include "cli/stream/sound_interleaver.h"
+#include "decoder/sound/opus_packet.h"
 
 namespace fbs::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/matroska/opus_packet.h"
+#include "decoder/sound/opus_packet.h"
 
 #include <opus/opus.h>
 
@@ -6,7 +6,7 @@
 
 #include "bitstream/sound_syntax.h"
 
-namespace fbs::cli {
+namespace fbs {
 
 std::int32_t opus_duration(std::span<const std::uint8_t> packet) {
   if (packet.empty()) return 0;
@@ -14,4 +14,4 @@ std::int32_t opus_duration(std::span<const std::uint8_t> packet) {
       opus_packet_get_nb_samples(packet.data(), static_cast<opus_int32>(packet.size()), kSoundClock), 0);
 }
 
-}  // namespace fbs::cli
+}  // namespace fbs
