@@ -107,7 +107,7 @@ class Remux(ProgramTest):
         self.assertAlmostEqual(end, seconds, delta=0.0002)
         steps = {round(float(b["pts_time"]) - float(a["pts_time"]), 4) for a, b in zip(sound, sound[1:])}
         self.assertEqual(len(steps), 1)
-        self.assertEqual(shown["streams"][0]["codec_tag_string"], "[0][0][0][0]")
+        self.assertAlmostEqual(float(sound[0]["pts_time"]), -0.0065, delta=0.0001, msg="libopus begins so much ahead")
         self.assertEqual([shown["streams"][0][side] for side in ("width", "height")], [176, 144])
 
     def test_cues_lead_to_key_blocks(self):

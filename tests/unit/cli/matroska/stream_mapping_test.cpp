@@ -78,6 +78,26 @@ TEST(StreamMapping, EachSceneBeginsAKeyBlock) {
   EXPECT_GE(std::ranges::count_if(blocks, [](const StreamBlock& b) { return b.key; }), 2);
 }
 
+TEST(StreamMapping, WhatFollowsTheLastPicturesStaysInTheirBlock) {
+  const Bytes plain = vector_file("two_heads.fbs");
+  PacketReader reader;
+  reader.feed(plain);
+  PacketWriter writer;
+  Bytes stream;
+  write_signature(stream);
+  for (auto read = reader.next(); read->status == ReadStatus::kPacket; read = reader.next()) {
+    if (read->packet.type == PacketType::kSetup && stream.size() > kSignature.size())
+      writer.write(stream, static_cast<PacketType>(99), Bytes{1, 2, 3});
+    writer.write(stream, read->packet.type, read->packet.payload);
+  }
+  const auto blocks = divide_stream(stream)->blocks, before = divide_stream(plain)->blocks;
+  ASSERT_EQ(blocks.size(), before.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    EXPECT_EQ(blocks[i].key, before[i].key) << i;
+    EXPECT_EQ(blocks[i].time, before[i].time) << i;
+  }
+}
+
 TEST(StreamMapping, SaysTheRateOnlyWhereItIsConstant) {
   EXPECT_EQ(content_of(vector_file("talk.fbs")).video.picture_duration, 33'333'333);
   EXPECT_EQ(content_of(vector_file("durations.fbs")).video.picture_duration, 0);
