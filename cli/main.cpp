@@ -33,6 +33,7 @@ constexpr const char* kExamples =
     "  fbs export talk.fbs talk.csv                    pose, landmarks and expression per picture\n"
     "  fbs track talk.mkv talk.csv                     the same of a video, without a stream\n"
     "  fbs retarget --motion a.fbs --face b.fbs c.fbs  b's face with a's motion\n"
+    "  fbs remux talk.fbs talk.mkv                     into a Matroska file, and back, without loss\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode\n"
@@ -72,6 +73,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_export(app, run);
   fbs::cli::add_track(app, run);
   fbs::cli::add_retarget(app, run);
+  fbs::cli::add_remux(app, run);
   fbs::cli::add_completions(app, run);
   try {
     app.parse(argc, argv);

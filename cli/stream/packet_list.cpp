@@ -281,6 +281,10 @@ std::uint64_t PacketLister::released() const {
   return impl_->clock_.now().time;
 }
 
+std::uint64_t PacketLister::released_pictures() const {
+  return impl_->clock_.now().pictures;
+}
+
 std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {
   PacketReader reader;
   reader.feed(stream);

@@ -40,6 +40,8 @@ class PacketLister {
   void lose();
   /// End of the pictures that may be shown once all that was read has come, 1/90000 s.
   [[nodiscard]] std::uint64_t released() const;
+  /// Number of these pictures, those before the stream was joined included.
+  [[nodiscard]] std::uint64_t released_pictures() const;
 
  private:
   struct Impl;

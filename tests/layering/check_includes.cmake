@@ -34,6 +34,7 @@ set(foreign
   "nlohmann@encoder/find|cli"
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
+  "(matroska|ebml|webm)/@cli"
   "CLI/@cli"
   "SDL@cli"
   "tiny_gltf@decoder/export"
