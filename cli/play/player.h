@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class Player {
   /// Takes the sound of what has been read.
   void read_sound();
   [[nodiscard]] SoundSpan sound_of_picture() const;
+  /// Where tests ask for it: number and time of the picture that has been shown, and what is heard then.
+  void log_times();
   void take_sound_key(const KeyPress& press);
   /// Wants the picture of that time.
   void go_to(std::uint64_t time);
@@ -95,6 +98,7 @@ class Player {
   std::size_t parts_read_ = 0;          ///< bytes of the stream
   std::optional<SoundPlayback> sound_;  ///< if there is any, and it is wanted
   std::optional<SoundDevice> device_;   ///< of sound_
+  std::ofstream times_;                 ///< log_times()
   Stage stage_;
   std::optional<SourceTrack> source_;
   std::optional<Recording> recording_;

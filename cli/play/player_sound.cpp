@@ -1,6 +1,7 @@
 // The sound of the player, and how pictures keep to it.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "cli/play/player.h"
@@ -30,6 +31,8 @@ Result<void> Player::open_sound() {
 
 void Player::open_device() {
   if (!sound_) return;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): no thread changes the environment
+  if (const char* const name = std::getenv("FBS_PLAY_TIMES")) times_.open(name);
   auto device = SoundDevice::open(sound_->queue());
   if (device)
     device_.emplace(std::move(*device));
@@ -73,6 +76,13 @@ SoundSpan Player::sound_of_picture() const {
   if (!playback_.is_running()) return {};
   const Rational rate = decoder().format().frame_rate;
   return {sound_time(begin, rate), sound_time({begin.pictures + 1, begin.time + decoder().duration()}, rate)};
+}
+
+void Player::log_times() {
+  if (!times_.is_open() || !device_ || !sound_->started()) return;
+  const StreamPosition& shown = decoder().position();
+  times_ << shown.pictures << ' ' << sound_time(shown, decoder().format().frame_rate) << ' '
+         << sound_->heard(Playback::Clock::now()) << std::endl;
 }
 
 void Player::take_sound_key(const KeyPress& press) {

@@ -50,7 +50,10 @@ Result<void> Player::show() {
   shown_ = true;
   const auto shown = image();
   if (!shown) return fail(shown.error());
-  return window_->show(*shown, content_of(*shown), panels(), shows_info_ ? progress() : -1);
+  if (auto seen = window_->show(*shown, content_of(*shown), panels(), shows_info_ ? progress() : -1); !seen)
+    return seen;
+  log_times();
+  return {};
 }
 
 Result<cv::Mat> Player::image() {
