@@ -58,6 +58,7 @@ void Player::update_sound() {
   const StreamPosition& begin = decoder().position();
   const StreamPosition end{begin.pictures + 1, begin.time + decoder().duration()};
   const bool starts = !sound_->started();
+  if (starts && !(drawn_ && shown_)) return;  // not before its picture is seen
   if (starts) sound_->start(sound_time(begin, rate));
   // Sound comes before its pictures; of a file that has been read, all that there is.
   const std::int64_t come = parts_.all().empty() ? 0 : end_of(parts_.all().back());
