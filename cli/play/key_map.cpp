@@ -13,8 +13,7 @@ constexpr std::array kSeekForthKeys = {Key{"Up", 5}, Key{"PageUp", 5}};
 constexpr std::array kSeekBackKeys = {Key{"Down", -5}, Key{"PageDown", -5}};
 constexpr std::array kRestartKeys = {Key{"r"}, Key{"Home"}};
 constexpr std::array kLoopKeys = {Key{"l"}};
-constexpr std::array kVolumeKeys = {Key{"-", -1},      Key{"+", 1},         Key{"=", 1},
-                                    Key{"Shift+=", 1}, Key{"Keypad -", -1}, Key{"Keypad +", 1}};
+constexpr std::array kVolumeKeys = {Key{"-", -1}, Key{"+", 1}, Key{"=", 1}, Key{"Shift+=", 1}};
 constexpr std::array kMuteKeys = {Key{"v"}};
 constexpr std::array kFullScreenKeys = {Key{"f"}, Key{"F11"}};
 constexpr std::array kInfoKeys = {Key{"i"}};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/play/key_map.h"
+#include "cli/play/pipe_peek.h"
 #include "cli/play/play_arguments.h"
 #include "cli/play/playback.h"
 #include "cli/play/recording.h"
@@ -96,6 +97,7 @@ class Player {
   Playback playback_;
   SoundParts parts_;
   std::size_t parts_read_ = 0;          ///< bytes of the stream
+  std::optional<PipePeek> peek_;        ///< if it is no file
   std::optional<SoundPlayback> sound_;  ///< if there is any, and it is wanted
   std::optional<SoundDevice> device_;   ///< of sound_
   std::ofstream times_;                 ///< log_times()

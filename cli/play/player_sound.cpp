@@ -9,13 +9,7 @@
 #include "decoder/sound/sound_decoder.h"
 
 namespace fbs::cli {
-namespace {
-
-/// Of a pipe no more is read than pictures need, and the sound of the next ones comes with them: so these are
-/// asked for a little early, or the sound would stop wherever a group ends. Too little to be seen on lips.
-constexpr std::uint64_t kPipeLead = kTicksPerSecond * 40 / 1000;
-
-}  // namespace
+namespace {}  // namespace
 
 Result<void> Player::open_sound() {
   read_sound();
@@ -42,8 +36,16 @@ void Player::open_device() {
 
 void Player::read_sound() {
   const auto kept = file_->kept();
-  parts_.add(kept.subspan(parts_read_));
-  parts_read_ = kept.size();
+  if (kept.size() > parts_read_) parts_.add(kept.subspan(parts_read_));
+  parts_read_ = std::max(parts_read_, kept.size());
+  if (!peek_ || length_) return;
+  // Of a pipe no more is read than pictures need. The sound of the next ones must not wait for them, or it
+  // would stop wherever a group ends.
+  const std::vector<std::uint8_t> coming = peek_->bytes();
+  const std::size_t known = parts_read_ - kept.size();
+  if (coming.size() <= known) return;
+  parts_.add(std::span(coming).subspan(known));
+  parts_read_ += coming.size() - known;
 }
 
 void Player::stop_sound() {
@@ -59,6 +61,7 @@ void Player::update_sound() {
   const StreamPosition end{begin.pictures + 1, begin.time + decoder().duration()};
   const bool starts = !sound_->started();
   if (starts && !(drawn_ && shown_)) return;  // not before its picture is seen
+  read_sound();
   if (starts) sound_->start(sound_time(begin, rate));
   // Sound comes before its pictures; of a file that has been read, all that there is.
   const std::int64_t come = parts_.all().empty() ? 0 : end_of(parts_.all().back());
@@ -68,8 +71,7 @@ void Player::update_sound() {
   const auto now = Playback::Clock::now();
   const std::int64_t since = sound_->heard(now) - sound_time(begin, rate);
   const std::int64_t time = static_cast<std::int64_t>(begin.time) + since * kTicksPerSecond / kSoundClock;
-  playback_.follow(static_cast<std::uint64_t>(std::max<std::int64_t>(time, 0)) + (length_ ? 0 : kPipeLead),
-                   now);
+  playback_.follow(static_cast<std::uint64_t>(std::max<std::int64_t>(time, 0)), now);
 }
 
 SoundSpan Player::sound_of_picture() const {
