@@ -3,46 +3,20 @@ logs number and time of each picture, and what is heard when it is shown. Places
 is slow moves nothing. Skipped without Xvfb and xdotool."""
 import array
 import os
-import random
 import shutil
 import statistics
 import subprocess
 import time
 import unittest
-import wave
 
-from harness import FBS, MATERIAL, TALK_Y4M, ffmpeg
+from harness import MATERIAL, ffmpeg, packets
 from play_test import Play, wait_for
+from speech import RATE, STEP, make_speech
 
-RATE = 48000
 SPEECH_FBS = MATERIAL / "speech.fbs"
 SHORT_FBS = MATERIAL / "short_speech.fbs"
+SOUND = 10      # packet type
 PICTURES = 120  # of the talker, 30 a second
-STEP = 48       # samples of a step of an envelope: 1 ms
-
-
-def bursts(seconds, seed=7):
-    """Tones of random pitch, length and loudness, with pauses: no two places are alike."""
-    chance, samples = random.Random(seed), array.array("h")
-    while len(samples) < seconds * RATE:
-        period, loud = chance.randrange(40, 160), chance.randrange(3000, 12000)
-        for k in range(chance.randrange(30, 140) * STEP):
-            samples.append(loud if k % period < period // 2 else -loud)
-        samples.extend([0] * (chance.randrange(10, 60) * STEP))
-    return samples[:int(seconds * RATE)]
-
-
-def make_speech(stream, seconds, folder):
-    if stream.exists() and stream.stat().st_mtime > FBS.stat().st_mtime:
-        return
-    with wave.open(str(folder / "speech.wav"), "wb") as out:
-        out.setparams((1, 2, RATE, 0, "NONE", ""))
-        out.writeframes(bursts(seconds).tobytes())
-    ffmpeg("-i", TALK_Y4M, "-i", folder / "speech.wav", "-c:v", "libx264", "-crf", "10", "-c:a", "pcm_s16le",
-           folder / "speech.mkv")
-    subprocess.run([FBS, "encode", folder / "speech.mkv", folder / "speech.fbs", "--quiet", "--patterns", "1",
-                    "--sound-bitrate", "32"], check=True)
-    shutil.copy(folder / "speech.fbs", stream)
 
 
 def envelope(samples):
@@ -243,6 +217,24 @@ class PlaySound(Play):
         for begin, end in ((a, b), (c, d)):
             part = heard[begin:min(end, begin + RATE // 2)]
             self.assertGreaterEqual(self.place_in(sound, part), 0)
+
+    def test_damage_loses_no_time(self):
+        data = bytearray(SPEECH_FBS.read_bytes())
+        sounds = [(begin, end) for kind, begin, end in packets(data) if kind == SOUND]
+        begin, end = sounds[len(sounds) // 2]
+        data[(begin + end) // 2] ^= 255
+        self.write("broken.fbs", data)
+        # The pictures behind the damage are held, the sound is silent as long, and the end comes when it would.
+        player = self.open("broken.fbs")
+        self.wait_for_picture(PICTURES - 1)
+        self.quit(player)
+        rows = self.times()
+        self.assert_in_step(rows)
+        heard, sound = self.heard(), self.decoded_sound()
+        self.assertEqual(len(self.runs(heard)), 1)
+        first = self.runs(heard)[0]
+        self.assertGreater(first[1] - first[0], 0.5 * RATE)
+        self.assertLess(first[1] - first[0], len(sound) - 0.5 * RATE)
 
     def test_without_a_device_the_pictures_play_on(self):
         self.screen.environment |= {"SDL_DISKAUDIOFILE": str(self.folder / "absent" / "heard.raw")}
