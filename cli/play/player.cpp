@@ -76,7 +76,10 @@ Result<void> Player::open_stream() {
   if (whole || first_time() > 0)
     if (auto sought = file_->seek(first_time()); !sought) return sought;
   if (whole) length_ = stream_length(file_->kept());
-  if (!whole && !arguments_.no_sound) peek_.emplace(arguments_.input);
+  if (!whole && !arguments_.no_sound) {
+    peek_.emplace(arguments_.input);
+    parts_.follow_pictures();
+  }
   prepare_decoder();
   const auto found = losses_.next(*file_);
   if (!found) return fail(found.error());

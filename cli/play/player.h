@@ -53,6 +53,8 @@ class Player {
   void update_sound();
   /// What follows is another time, or waits: nothing of what has been decoded is to be heard.
   void stop_sound();
+  /// Up to here what has not come will not come: sound comes before its pictures. 1/kSoundClock s.
+  [[nodiscard]] std::int64_t sound_come() const;
   /// Takes the sound of what has been read.
   void read_sound();
   [[nodiscard]] SoundSpan sound_of_picture() const;

@@ -9,7 +9,15 @@
 #include "decoder/sound/sound_decoder.h"
 
 namespace fbs::cli {
-namespace {}  // namespace
+namespace {
+
+StreamPosition position_behind(const StreamDecoder& decoder) {
+  StreamPosition position = decoder.position();
+  position.add(decoder.duration());
+  return position;
+}
+
+}  // namespace
 
 Result<void> Player::open_sound() {
   read_sound();
@@ -54,18 +62,25 @@ void Player::stop_sound() {
   sound_->stop();
 }
 
+std::int64_t Player::sound_come() const {
+  if (length_) return std::numeric_limits<std::int64_t>::max();  // all has been read
+  const Rational rate = decoder().format().frame_rate;
+  const std::uint64_t released = parts_.released();
+  // Pictures that are held for lost ones are shown though nothing has released them.
+  std::int64_t come = sound_time(position_behind(decoder()), rate);
+  come = std::max(come, sound_time({released / nominal_duration(rate), released}, rate));
+  return parts_.all().empty() ? come : std::max(come, end_of(parts_.all().back()));
+}
+
 void Player::update_sound() {
   if (!device_ || quits_ || wanted_ || !playback_.is_running() || decoder().pictures() == 0) return;
   const Rational rate = decoder().format().frame_rate;
   const StreamPosition& begin = decoder().position();
-  const StreamPosition end{begin.pictures + 1, begin.time + decoder().duration()};
   const bool starts = !sound_->started();
   if (starts && !(drawn_ && shown_)) return;  // not before its picture is seen
   read_sound();
   if (starts) sound_->start(sound_time(begin, rate));
-  // Sound comes before its pictures; of a file that has been read, all that there is.
-  const std::int64_t come = parts_.all().empty() ? 0 : end_of(parts_.all().back());
-  sound_->fill(length_ ? std::numeric_limits<std::int64_t>::max() : std::max(come, sound_time(end, rate)));
+  sound_->fill(sound_come());
   if (starts) device_->run(true);
 
   const auto now = Playback::Clock::now();
@@ -75,10 +90,9 @@ void Player::update_sound() {
 }
 
 SoundSpan Player::sound_of_picture() const {
-  const StreamPosition& begin = decoder().position();
   if (!playback_.is_running()) return {};
   const Rational rate = decoder().format().frame_rate;
-  return {sound_time(begin, rate), sound_time({begin.pictures + 1, begin.time + decoder().duration()}, rate)};
+  return {sound_time(decoder().position(), rate), sound_time(position_behind(decoder()), rate)};
 }
 
 void Player::log_times() {

@@ -13,10 +13,12 @@ void SoundParts::add(std::span<const std::uint8_t> bytes) {
     if (!read) {
       if (damaged_ || read.error().code == ErrorCode::kNotFbs) return;
       damaged_ = lost_ = true;
+      if (lister_) lister_->lose();
       continue;
     }
     if (read->status != ReadStatus::kPacket) return;
     damaged_ = false;
+    if (lister_) lister_->take(read->packet);
     take(read->packet);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "bitstream/packet.h"
 #include "bitstream/sound_syntax.h"
+#include "cli/stream/packet_list.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {
@@ -20,6 +21,12 @@ class SoundParts {
   /// @param bytes  the next ones of the stream, in pieces of any size
   void add(std::span<const std::uint8_t> bytes);
 
+  /// Reads motion too from now on, for released(). Off by default, since it takes longer than all the rest.
+  void follow_pictures() { lister_.emplace(); }
+  /// End of the pictures that may be shown once all that was added has come, 1/90000 s: their sound has come.
+  /// 0 without follow_pictures().
+  [[nodiscard]] std::uint64_t released() const { return lister_ ? lister_->released() : 0; }
+
   /// In the order of the stream. Times need not rise where a stream is damaged.
   [[nodiscard]] const std::vector<SoundPart>& all() const { return parts_; }
 
@@ -27,6 +34,7 @@ class SoundParts {
   void take(const Packet& packet);
 
   PacketReader reader_;
+  std::optional<PacketLister> lister_;
   bool damaged_ = false;             ///< the reader has to search
   bool lost_ = true;                 ///< a packet since the last setup packet
   std::optional<SoundSetup> setup_;  ///< of the scene

@@ -68,5 +68,26 @@ TEST(SoundPartsOfStream, AreTheSameAfterDamageAnywhere) {
   EXPECT_GT(lost, 10U);
 }
 
+TEST(SoundPartsOfStream, PicturesAreReleasedWithTheirSound) {
+  const Bytes stream = stream_with_sound();
+  SoundParts parts, plain;
+  parts.follow_pictures();
+  std::uint64_t released = 0;
+  for (const std::uint8_t byte : stream) {
+    parts.add({&byte, 1});
+    if (parts.released() == released) continue;
+    released = parts.released();
+    ASSERT_FALSE(parts.all().empty());
+    EXPECT_GE(end_of(parts.all().back()) * 90000, static_cast<std::int64_t>(released) * kSoundClock);
+  }
+  StreamDecoder decoder;
+  decoder.feed(stream);
+  decoder.close();
+  while (decoder.next().value() == DecodeStatus::kPicture) continue;
+  EXPECT_EQ(released, decoder.position().time + decoder.duration());
+  plain.add(stream);
+  EXPECT_EQ(plain.released(), 0U);
+}
+
 }  // namespace
 }  // namespace fbs::cli
