@@ -20,9 +20,9 @@ struct SoundSettings {
   /// 1200: the mode of the highest rate that is not above. Its frames' whole bytes count: mode 1300 takes as
   /// many as 1400, which is chosen instead.
   int bitrate = 12000;
+  int frame_ms = 60;              ///< of Opus: 10, 20, 40 or 60; long ones cost fewer bits, and as much delay
   int sample_rate = kSoundClock;  ///< of what is added: of Opus 8000, 12000, 16000, 24000 or 48000; Codec 2:
                                   ///< 8000 in any case
-  int frame_ms = 60;              ///< of Opus: 10, 20, 40 or 60; long ones cost fewer bits, and as much delay
 };
 
 /// Codes sound frame by frame.
