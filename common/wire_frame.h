@@ -93,6 +93,11 @@ struct WireFrame {
   /// @param ibug  0..67
   [[nodiscard]] std::size_t vertex_of_landmark(std::size_t ibug) const { return landmark_vertex[ibug]; }
   [[nodiscard]] const Feature& feature(FeatureId id) const { return features[static_cast<std::size_t>(id)]; }
+  /// Right and left.
+  [[nodiscard]] std::array<std::size_t, 2> pupil_vertices() const {
+    return {feature(FeatureId::kPupilRight).vertices.front().vertex,
+            feature(FeatureId::kPupilLeft).vertices.front().vertex};
+  }
 };
 
 inline constexpr std::size_t kMinWireFrameVertices = kLandmarkCount + 2;  ///< landmarks and pupils

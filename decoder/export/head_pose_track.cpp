@@ -19,11 +19,6 @@ double radians(std::int32_t turn_2_16) {
   return turn_2_16 * (2 * std::numbers::pi / 65536);
 }
 
-std::array<std::size_t, 2> pupil_vertices(const WireFrame& head) {
-  return {head.feature(FeatureId::kPupilRight).vertices.front().vertex,
-          head.feature(FeatureId::kPupilLeft).vertices.front().vertex};
-}
-
 double size_of(const MorphTarget& target) {
   double largest = 0;
   for (const glm::dvec3& d : target.displacements)
@@ -75,7 +70,7 @@ HeadMorphs::HeadMorphs(const Geometry& geometry) : geometry_(geometry), expressi
   constexpr std::array kNames{"pupilRightDown", "pupilLeftDown"};
   for (std::size_t side = 0; side < kNames.size(); ++side) {
     MorphTarget target{kNames[side], std::vector<glm::dvec3>(geometry.positions.size())};
-    target.displacements[pupil_vertices(geometry.wire_frame())[side]] = to_model_axes({0, kPupilStep, 0});
+    target.displacements[geometry.wire_frame().pupil_vertices()[side]] = to_model_axes({0, kPupilStep, 0});
     targets_.push_back(std::move(target));
   }
 }
@@ -83,7 +78,7 @@ HeadMorphs::HeadMorphs(const Geometry& geometry) : geometry_(geometry), expressi
 std::vector<double> HeadMorphs::weights(const State& state) const {
   std::vector<double> out = expression_.weights(state);
   const auto deformed = deform(geometry_, state);
-  for (const std::size_t v : pupil_vertices(geometry_.wire_frame())) {
+  for (const std::size_t v : geometry_.wire_frame().pupil_vertices()) {
     double linear = geometry_.positions[v].y;
     for (const SkinningWeight& s : geometry_.wire_frame().skinning_of(v))
       linear += s.weight * state.control[s.control].y / static_cast<double>(kSkinningOne);

@@ -148,7 +148,6 @@ class Extras {
     return fits ? static_cast<T>(read) : T{};
   }
 
-  /// A list of pairs, as vectors of two or as structures.
   template <class First, class Second, class Take>
   void pairs(const Value& list, Take&& take) {
     for (const Value& pair : array(list)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encoder/find/edge_distances.h"
 #include "encoder/find/elastic_fit.h"
 #include "encoder/find/find_tuning.h"
 #include "encoder/find/landmarks.h"
@@ -134,7 +135,8 @@ Result<AdaptedHead> adapt_head(const Marks& marks) {
   const glm::dvec2 scale(axis_scale(generic, target, 0), axis_scale(generic, target, 1));
   FrontPoints scaled(kVertexCount);
   for (std::size_t v = 0; v < kVertexCount; ++v) scaled[v] = generic[v] * scale;
-  const ElasticFit fit = fit_elastically(generic_head(), scaled, target);
+  static const std::vector<float> distances = edge_distances(generic_head());
+  const ElasticFit fit = fit_elastically(generic_head(), distances, scaled, target);
   out.iterations = fit.iterations;
   out.geometry = geometry_of(fit.points, depth_scale);
   return out;

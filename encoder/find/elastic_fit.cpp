@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "encoder/find/edge_distances.h"
 #include "encoder/find/find_tuning.h"
 
 namespace fbs {
@@ -33,7 +32,7 @@ double length(glm::dvec2 v) {
 /// its edge distance; far from all marks the motion fades out.
 template <class T>
 std::vector<T> pull(const std::vector<T>& now, const std::vector<std::optional<T>>& target,
-                    const std::vector<float>& distances, double sigma) {
+                    std::span<const float> distances, double sigma) {
   std::vector<T> moved = now;
   for (std::size_t v = 0; v < now.size(); ++v) {
     T sum(0);
@@ -76,9 +75,8 @@ std::optional<FrontPoints> without_folds(const WireFrame& frame, const FrontPoin
 /// @param accepted  (now, moved) -> optional of what is taken of `moved`
 /// @return iterations
 template <class T, class Accept>
-int iterate(const WireFrame& frame, const std::vector<std::optional<T>>& target, std::vector<T>& points,
-            Accept&& accepted) {
-  const std::vector<float> distances = edge_distances(frame);
+int iterate(std::span<const float> distances, const std::vector<std::optional<T>>& target,
+            std::vector<T>& points, Accept&& accepted) {
   double sigma = kFirstElasticSigma;
   int iterations = 0;
   for (; iterations < kMaxElasticIterations && largest_force(points, target) > kAtRest; ++iterations) {
@@ -92,17 +90,20 @@ int iterate(const WireFrame& frame, const std::vector<std::optional<T>>& target,
 
 }  // namespace
 
-ElasticFit fit_elastically(const WireFrame& frame, const FrontPoints& scaled, const FrontMarks& target) {
+ElasticFit fit_elastically(const WireFrame& frame, std::span<const float> distances,
+                           const FrontPoints& scaled, const FrontMarks& target) {
   ElasticFit out{scaled, 0};
-  out.iterations = iterate(frame, target, out.points, [&](const FrontPoints& now, const FrontPoints& moved) {
-    return without_folds(frame, now, moved, scaled);
-  });
+  out.iterations =
+      iterate(distances, target, out.points, [&](const FrontPoints& now, const FrontPoints& moved) {
+        return without_folds(frame, now, moved, scaled);
+      });
   return out;
 }
 
-Depths fit_elastically(const WireFrame& frame, const Depths& scaled, const DepthMarks& target) {
+Depths fit_elastically(std::span<const float> distances, const Depths& scaled, const DepthMarks& target) {
   Depths out = scaled;
-  iterate(frame, target, out, [](const Depths&, Depths moved) { return std::optional(std::move(moved)); });
+  iterate(distances, target, out,
+          [](const Depths&, Depths moved) { return std::optional(std::move(moved)); });
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/wire_frame.h"
@@ -25,10 +26,12 @@ struct ElasticFit {
 /// Marks attract their vertices, and each force spreads over the mesh with a Gaussian of the edge distance
 /// that narrows from iteration to iteration (Burr 1981, Reinders et al. 1992, as the paper cites them). An
 /// iteration that would turn a triangle over is shortened until it does not.
-[[nodiscard]] ElasticFit fit_elastically(const WireFrame& frame, const FrontPoints& scaled,
-                                         const FrontMarks& target);
+/// @param distances  edge_distances() of the frame
+[[nodiscard]] ElasticFit fit_elastically(const WireFrame& frame, std::span<const float> distances,
+                                         const FrontPoints& scaled, const FrontMarks& target);
 
 /// The same for depth, which turns no triangle over.
-[[nodiscard]] Depths fit_elastically(const WireFrame& frame, const Depths& scaled, const DepthMarks& target);
+[[nodiscard]] Depths fit_elastically(std::span<const float> distances, const Depths& scaled,
+                                     const DepthMarks& target);
 
 }  // namespace fbs

@@ -1,7 +1,6 @@
 #include "encoder/retarget/wire_frame_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
+#include "encoder/find/edge_distances.h"
 #include "encoder/find/elastic_fit.h"
 
 namespace fbs {
@@ -34,11 +34,6 @@ Positions positions_of(const Geometry& geometry) {
   return out;
 }
 
-std::array<std::size_t, 2> pupils(const WireFrame& frame) {
-  return {frame.feature(FeatureId::kPupilRight).vertices[0].vertex,
-          frame.feature(FeatureId::kPupilLeft).vertices[0].vertex};
-}
-
 std::optional<std::size_t> nearest(const Positions& to, glm::dvec3 place) {
   std::optional<std::size_t> out;
   double least = kSamePlace * kSamePlace;
@@ -60,7 +55,8 @@ Partners partners(const WireFrame& frame, const WireFrame& face) {
   for (const glm::dvec3& place : at) out.push_back(nearest(on_face, place));
   for (std::size_t k = 0; k < kLandmarkCount; ++k)
     out[frame.vertex_of_landmark(k)] = face.vertex_of_landmark(k);
-  for (std::size_t side = 0; side < 2; ++side) out[pupils(frame)[side]] = pupils(face)[side];
+  for (std::size_t side = 0; side < 2; ++side)
+    out[frame.pupil_vertices()[side]] = face.pupil_vertices()[side];
   return out;
 }
 
@@ -91,8 +87,9 @@ void deform(const WireFrame& frame, Positions& points, const Positions& face, co
     front_marks[v] = glm::dvec2(face[*partner[v]]);
     depth_marks[v] = face[*partner[v]].z;
   }
-  front = fit_elastically(frame, front, front_marks).points;
-  depths = fit_elastically(frame, depths, depth_marks);
+  const std::vector<float> distances = edge_distances(frame);
+  front = fit_elastically(frame, distances, front, front_marks).points;
+  depths = fit_elastically(distances, depths, depth_marks);
   for (std::size_t v = 0; v < count; ++v) points[v] = {front[v].x, front[v].y, depths[v]};
 }
 

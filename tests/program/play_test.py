@@ -110,9 +110,13 @@ class Play(ProgramTest):
                          [decoded.index(decoded[k]) for k in numbers])
 
     def geometry(self):
-        text = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
-        values = dict(line.split("=") for line in text.split())
-        return tuple(int(values[name]) for name in ("X", "Y", "WIDTH", "HEIGHT"))
+        def asked():
+            # On a busy machine xdotool sometimes answers without them.
+            text = self.screen.xdotool("getwindowgeometry", "--shell", self.window)
+            values = dict(line.split("=", 1) for line in text.split() if "=" in line)
+            return all(name in values for name in wanted) and tuple(int(values[name]) for name in wanted)
+        wanted = ("X", "Y", "WIDTH", "HEIGHT")
+        return wait_for(asked, "geometry")
 
     def needs_import(self):
         if not shutil.which("import"):
