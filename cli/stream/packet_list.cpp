@@ -184,10 +184,6 @@ class SceneReader {
   std::optional<BlendDecoder> blend_;
 };
 
-bool is_sound(PacketType type) {
-  return type == PacketType::kSoundSetup || type == PacketType::kSound;
-}
-
 }  // namespace
 
 struct PacketLister::Impl {
