@@ -10,9 +10,9 @@
 
 #include "cli/display/picture_sources.h"
 #include "cli/inspect/inspect_arguments.h"
-#include "cli/stream/packet_list.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
+#include "cli/stream/packet_list.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene_face.h"
 #include "decoder/scene_index.h"
