@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
     "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
+    "  fbs decode talk.fbs talk.wav                    the sound alone\n"
     "  fbs decode talk.fbs --md5                       compare decoders picture by picture\n"
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"

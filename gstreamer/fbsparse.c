@@ -148,7 +148,8 @@ static void pass_damage(GstFbsParse* self, const guint8* data, gsize size, gsize
   if (self->synced)
     GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("a damaged packet: the rest of its scene is lost"));
   lose_sync(self);
-  *skip = (gint)(at + 1 + gst_fbs_find_restart(data + at + 1, size - at - 1));
+  const gsize next = MIN(at + 1, size);
+  *skip = (gint)(next + gst_fbs_find_restart(data + next, size - next));
 }
 
 typedef enum { PACKET_GOES_ON, PACKET_ENDS_GROUP, PACKET_IS_OF_NEXT_GROUP } PacketPlace;

@@ -8,14 +8,19 @@
 #include <vector>
 
 #include "bitstream/sound_syntax.h"
+#include "bitstream/syntax.h"
 #include "common/result.h"
 
 namespace fbs {
 
-inline constexpr std::size_t kMaxSoundFrame =
-    1500;  ///< bytes; Opus' own limit is 1275 for each of its streams
+/// Bytes; Opus' own limit is 1275 for each of its streams.
+inline constexpr std::size_t kMaxSoundFrame = 1500;
 /// The frames of a packet begin within so much time, 1/kSoundClock s.
 inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
+
+[[nodiscard]] constexpr bool is_sound(PacketType type) {
+  return type == PacketType::kSoundSetup || type == PacketType::kSound;
+}
 
 /// Bytes of a frame of Codec 2; of its mode.
 /// @return 0 for a mode that there is not
@@ -33,8 +38,8 @@ inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
 [[nodiscard]] Result<std::optional<SoundSetup>> decode_sound_setup(std::span<const std::uint8_t> payload);
 
 /// @return kInvalidArgument  no frame, frames over more than kMaxSoundGroup, a number or a frame out of
-/// range,
-///                           or a frame of Codec 2 that is not of its length
+/// range, or a
+///                           frame of Codec 2 that is not of its length
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_sound(const SoundGroup& group,
                                                              const SoundSetup& setup);
 

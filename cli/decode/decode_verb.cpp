@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bitstream/sound_time.h"
 #include "cli/decode/decode_arguments.h"
 #include "cli/decode/decoded_time.h"
 #include "cli/decode/sound_output.h"
@@ -28,6 +29,10 @@ namespace fbs::cli {
 namespace {
 
 const std::string kNoOutput = "null:";
+
+bool is_wave_name(const std::string& output) {
+  return extension_of(output) == ".wav";
+}
 
 /// Decodes one stream into one output.
 class Decoding {
@@ -54,7 +59,13 @@ class Decoding {
   void print_md5() const;
   void print_rate_change() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
-  [[nodiscard]] bool is_wave() const { return extension_of(arguments_.output) == ".wav"; }
+  [[nodiscard]] bool is_wave() const { return is_wave_name(arguments_.output); }
+  /// Time 0 of the output in the stream: that of the picture decoded first, or where pictures before it are
+  /// lost, of the first of them, so that sound keeps its place. 1/90000 s.
+  [[nodiscard]] std::uint64_t begin() const {
+    const StreamDecoder& decoder = file_->decoder();
+    return arguments_.from > 0 ? decoder.position().time : decoder.start().time;
+  }
 
   const DecodeArguments& arguments_;
   const StopSignal* stop_;
@@ -72,16 +83,6 @@ class Decoding {
   std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
 };
 
-/// 1/kSoundClock s of 1/90000 s.
-std::int64_t sound_time(std::int64_t time) {
-  return time * kSoundClock / kTicksPerSecond;
-}
-
-bool has_sound(const std::string& output) {
-  const std::string extension = extension_of(output);
-  return extension == ".mp4" || extension == ".mkv";
-}
-
 Result<void> check_files(const DecodeArguments& a) {
   if (a.output.empty() && !a.md5) return fail(ErrorCode::kInvalidArgument, "OUTPUT is required, or --md5");
   if (a.output == "-" && a.md5)
@@ -90,8 +91,11 @@ Result<void> check_files(const DecodeArguments& a) {
   if (a.vfr && !is_y4m_output(a.output))
     return fail(ErrorCode::kInvalidArgument,
                 "--vfr needs a Y4M as OUTPUT: others have each picture once anyway");
-  if (a.no_sound && !has_sound(a.output))
-    return fail(ErrorCode::kInvalidArgument, "--no-sound is for .mp4 and .mkv: others have none");
+  if (a.no_sound && !has_sound_track(a.output))
+    return fail(ErrorCode::kInvalidArgument, "--no-sound is for .mp4 and .mkv");
+  if (is_wave_name(a.output) && (a.md5 || !a.sound.empty()))
+    return fail(ErrorCode::kInvalidArgument, std::string(a.md5 ? "--md5" : "--sound") +
+                                                 ": a .wav has the stream's own sound and no pictures");
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--sound", a.sound}};
   const std::array outputs{NamedFile{"OUTPUT", a.output}};
   return check_distinct(inputs, outputs);
@@ -139,13 +143,13 @@ Result<bool> Decoding::next() {
 
 Result<void> Decoding::open_sink() {
   const VideoFormat& format = decoder().format();
-  // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
-  next_ = arguments_.from > 0 ? decoder().position().time : decoder().start().time;
-  const std::int64_t sound_begin = arguments_.from > 0 ? static_cast<std::int64_t>(next_) : 0;
+  next_ = begin();
+  const auto sound_begin = static_cast<std::int64_t>(next_);
   const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
   SinkOptions options{arguments_.sound, sound_begin};
   std::vector<SoundPart> sound = decoder().take_sound();
-  if (arguments_.sound.empty() && !arguments_.no_sound && has_sound(output) && decoder().sound_setup()) {
+  if (arguments_.sound.empty() && !arguments_.no_sound && has_sound_track(output) &&
+      decoder().sound_setup()) {
     auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(sound_begin));
     if (!created) return fail(created.error());
     sound_.emplace(std::move(*created));
@@ -174,8 +178,7 @@ Result<void> Decoding::write_sound(std::uint64_t end) {
 }
 
 Result<void> Decoding::write_wave() {
-  const std::uint64_t begin = decoder().position().time;
-  if (!samples_) samples_.emplace(sound_time(arguments_.from > 0 ? static_cast<std::int64_t>(begin) : 0));
+  if (!samples_) samples_.emplace(sound_time(static_cast<std::int64_t>(begin())));
   for (SoundPart& part : decoder().take_sound())
     if (auto added = samples_->add(std::move(part)); !added) return added;
   if (samples_->sample_rate() == 0) return {};
@@ -186,7 +189,8 @@ Result<void> Decoding::write_wave() {
     if (wave_->replaced_leftover()) print_replaced_leftover(arguments_.output);
   }
   progress_.update(static_cast<std::int64_t>(decoder().pictures()));
-  return wave_->write(samples_->take(sound_time(static_cast<std::int64_t>(begin + decoder().duration()))));
+  const std::uint64_t end = decoder().position().time + decoder().duration();
+  return wave_->write(samples_->take(sound_time(static_cast<std::int64_t>(end))));
 }
 
 Result<void> Decoding::finish() {

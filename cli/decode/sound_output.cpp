@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "bitstream/sound_time.h"
+
 namespace fbs::cli {
 namespace {
 
-/// What a decoder of Opus has to hear before a place where it begins. RFC 7845, section 4.6.
-constexpr std::int64_t kPreroll = kSoundClock * 80 / 1000;
 constexpr int kTranscodedBitrate = 24000;  // bit/s: of what Codec 2 has left, nothing is lost
 
 std::int64_t time_of(const SoundSetup& setup, std::int64_t frame) {
@@ -19,7 +19,7 @@ std::int64_t time_of(const SoundSetup& setup, std::int64_t frame) {
 SoundSetup joined(SoundSetup setup, std::span<const SoundPart> known, std::int64_t begin) {
   if (begin <= 0) return setup;
   const std::int64_t covers = (begin + setup.skip) / setup.duration,
-                     ahead = std::max<std::int64_t>(begin + setup.skip - kPreroll, 0) / setup.duration,
+                     ahead = std::max<std::int64_t>(begin + setup.skip - kSoundPreroll, 0) / setup.duration,
                      first = known.empty() ? covers + 1 : known.front().group.first,
                      time = time_of(setup, std::max(first, std::min(covers, ahead)));
   setup.skip = static_cast<std::int32_t>(std::max<std::int64_t>(begin - time, 0));

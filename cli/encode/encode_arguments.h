@@ -17,7 +17,7 @@ struct EncodeArguments {
   std::optional<int> threads;           ///< of a live source; nothing: as many as there are cores
   std::optional<double> buffer;         ///< s, of a live source with a bitrate
   double key_interval = 0;              ///< seconds; 0: where it costs little
-  std::optional<std::string> sound;     ///< "opus" or "codec2"; nothing: opus, if the source has sound
+  std::optional<std::string> sound;     ///< "opus" or "codec2"; nothing: by the bitrates
   std::optional<double> sound_bitrate;  ///< kbit/s; nothing: chosen by that of the pictures
   std::optional<int> track;             ///< of the source's sound, from 0; nothing: the main one
   bool no_sound = false;

@@ -56,8 +56,10 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
 }
 
 void add_sound(CLI::App& verb, EncodeArguments& a) {
-  verb.add_option("--sound", a.sound,
-                  "Codec of the sound: opus, or codec2 for speech at the lowest rates (default: opus)")
+  verb.add_option(
+          "--sound", a.sound,
+          "Codec of the sound: opus, or codec2 for speech at the lowest rates (default: opus, or codec2 if "
+          "--bitrate is below 10 or --sound-bitrate below 6)")
       ->check(CLI::IsMember({"opus", "codec2"}))
       ->type_name("opus|codec2");
   verb.add_option(

@@ -1,4 +1,5 @@
 // fbs encode: video to stream.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +29,7 @@ constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal 
 constexpr double kLeastBitrate = 0.5;   // kbit/s of the pictures, beside sound
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
-std::string fmt_rate(const char* name, double kbps) {
+std::string rate_text(const char* name, double kbps) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%s%.2f", name, kbps);
   return text.data();
@@ -37,7 +38,7 @@ std::string fmt_rate(const char* name, double kbps) {
 void print_summary(const std::string& output, const Encoded& encoded) {
   const Measure& m = encoded.measure;
   std::string sound;
-  if (m.bytes.sound > 0) sound = fmt_rate(", sound ", m.rate(m.bytes.sound));
+  if (m.bytes.sound > 0) sound = rate_text(", sound ", m.rate(m.bytes.sound));
   std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f%s)", output.c_str(),
                static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total),
                m.kbps(), m.rate(m.bytes.motion), sound.c_str());
@@ -123,13 +124,20 @@ struct Sound {
   std::unique_ptr<SoundInterleaver> interleaver;
 };
 
+/// No sound is needed from here on, 1/90000 s: with --duration a second behind it, for the last picture.
+std::optional<std::int64_t> end_of_sound(const EncodeArguments& a) {
+  if (!a.duration) return std::nullopt;
+  constexpr double kMost = 1e9;  // s; above it the time would not fit into 64 bits
+  return std::llround((std::min(*a.duration, kMost) + 1) * kTicksPerSecond);
+}
+
 /// @param settings  of the pictures: what the sound takes is subtracted from their bitrate
 /// @return empty when there is none
 Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, EncoderSettings& settings) {
   if (a.no_sound) return Sound{};
   const auto wanted = sound_settings(a, settings.live.has_value());
   if (!wanted) return fail(wanted.error());
-  auto track = SoundTrack::open(a.input, *wanted, a.track, stop);
+  auto track = SoundTrack::open(a.input, *wanted, a.track, end_of_sound(a), stop);
   if (!track) return fail(track.error());
   if (!*track) {
     const char* option = a.sound           ? "--sound"
@@ -146,8 +154,7 @@ Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, Encod
     settings.bitrate -= *taken;
     if (settings.bitrate < kLeastBitrate)
       return fail(ErrorCode::kInvalidArgument,
-                  "--bitrate leaves nothing to the pictures; --sound codec2 takes "
-                  "less, --no-sound nothing");
+                  "--bitrate leaves nothing to the pictures; --sound codec2 takes less, --no-sound nothing");
   }
   auto interleaver = std::make_unique<SoundInterleaver>(
       (*track)->setup(), [&track = **track](std::int64_t time) { return track.before(time); });

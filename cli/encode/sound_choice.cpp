@@ -13,10 +13,19 @@ struct Rates {
 };
 constexpr Rates kOpus{6, 16, 64}, kCodec2{1.2, 3.2, 3.2};
 constexpr double kShareOfTotal = 0.3;  ///< of --bitrate, for the sound
+/// Of --bitrate, kbit/s. With less, Opus would leave the pictures below what they need: 4 kbit/s.
+constexpr double kLeastTotalOfOpus = 10;
 
 constexpr int kLiveFrame = 20, kFileFrame = 60;  // ms
 constexpr double kPacketBits = 8 * 8,
                  kSizeBits = 8;  // of a packet's header, and of the size of a frame of Opus
+
+SoundCodec chosen_codec(const EncodeArguments& a) {
+  if (a.sound) return *a.sound == "codec2" ? SoundCodec::kCodec2 : SoundCodec::kOpus;
+  const bool low =
+      a.sound_bitrate ? *a.sound_bitrate < kOpus.least : a.bitrate > 0 && a.bitrate < kLeastTotalOfOpus;
+  return low ? SoundCodec::kCodec2 : SoundCodec::kOpus;
+}
 
 double chosen_rate(const EncodeArguments& a, const Rates& rates) {
   const double wanted =
@@ -28,7 +37,7 @@ double chosen_rate(const EncodeArguments& a, const Rates& rates) {
 
 Result<SoundSettings> sound_settings(const EncodeArguments& a, bool live) {
   SoundSettings settings;
-  settings.codec = a.sound.value_or("opus") == "codec2" ? SoundCodec::kCodec2 : SoundCodec::kOpus;
+  settings.codec = chosen_codec(a);
   const Rates& rates = settings.codec == SoundCodec::kOpus ? kOpus : kCodec2;
   const double rate = a.sound_bitrate.value_or(chosen_rate(a, rates));
   if (rate < rates.least || rate > rates.most)

@@ -6,27 +6,31 @@
 namespace fbs::cli {
 namespace {
 
-constexpr double kPacketBytes = 8;  // of its header and its first frame's number, once a second or oftener
+constexpr double kPacketBytes = 8;  // of its header and its first frame's number, once a second or more often
 
 }  // namespace
 
 Result<std::unique_ptr<SoundTrack>> SoundTrack::open(const std::string& input, const SoundSettings& settings,
-                                                     std::optional<int> track, const StopSignal& stop) {
+                                                     std::optional<int> track,
+                                                     std::optional<std::int64_t> end,
+                                                     const StopSignal& stop) {
   auto encoder = SoundEncoder::create(settings);
   if (!encoder) return fail(encoder.error());
   SoundSourceOptions options;
   options.sample_rate = (*encoder)->sample_rate();
   options.channels = settings.channels;
   options.track = track;
-  options.stop = &stop;
+  if (end) options.end = *end;
+  // Not interrupted by the signal: the pictures that have been read are still encoded, with their sound.
   auto source = open_sound_source(input, options);
   if (!source) return fail(source.error());
   if (!*source) return nullptr;
-  return std::unique_ptr<SoundTrack>(new SoundTrack(std::move(*source), std::move(*encoder)));
+  return std::unique_ptr<SoundTrack>(new SoundTrack(std::move(*source), std::move(*encoder), stop));
 }
 
 Result<double> SoundTrack::code_all() {
   for (;;) {
+    if (stop_.raised()) return fail(ErrorCode::kIo, "stopped");
     const auto more = read_more();
     if (!more) return fail(more.error());
     if (!*more) break;

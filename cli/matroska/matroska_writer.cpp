@@ -25,7 +25,8 @@
 #include <iterator>
 #include <span>
 
-#include "bitstream/sound_syntax.h"
+#include "bitstream/sound_time.h"
+#include "cli/video/opus_head.h"
 
 namespace fbs::cli {
 namespace {
@@ -38,8 +39,7 @@ constexpr std::uint64_t kVideoTrack = 1, kSoundTrack = 2;
 constexpr std::uint64_t kTypeVideo = 1, kTypeAudio = 2;
 constexpr std::int64_t kClusterTicks = 30'000;
 constexpr std::uint64_t kSeekHeadSpace = 100;
-constexpr std::int64_t kSecond = 1'000'000'000;     // ns
-constexpr std::uint64_t kSeekPreRoll = 80'000'000;  // ns; RFC 7845, section 4.6
+constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr int kSegmentSizeBytes = 8;
 
 /// What libmatroska writes to.
@@ -90,13 +90,6 @@ std::vector<Placed> in_order(const MatroskaContent& content) {
     for (const MatroskaBlock& b : content.sound->blocks) sound.push_back({ticks_of(b.time), kSoundTrack, &b});
   std::ranges::merge(video, sound, std::back_inserter(all), {}, &Placed::tick, &Placed::tick);
   return all;
-}
-
-std::vector<std::uint8_t> opus_head(const MatroskaSound& sound) {
-  const auto low = [](int v) { return static_cast<std::uint8_t>(v & 255); };
-  const auto high = [](int v) { return static_cast<std::uint8_t>(v >> 8 & 255); };
-  return {'O',  'p',  'u', 's', 'H', 'e', 'a', 'd', 1, low(sound.channels), low(sound.skip), high(sound.skip),
-          0x80, 0xBB, 0,   0,   0,   0,   0};  // 48000 Hz, no gain, mapping family 0
 }
 
 /// ns
@@ -155,7 +148,7 @@ class Writer {
   }
 
   static KaxTrackEntry& add_track(KaxTracks& tracks, std::uint64_t number, std::uint64_t type,
-                                  const char* codec, const std::vector<std::uint8_t>& setup) {
+                                  const char* codec, std::span<const std::uint8_t> setup) {
     auto& track = AddNewChild<KaxTrackEntry>(tracks);
     track.SetGlobalTimecodeScale(kMatroskaTick);
     set<KaxTrackNumber>(track, number);
@@ -185,10 +178,10 @@ class Writer {
   }
 
   void add_sound_track(KaxTracks& tracks, const MatroskaSound& s) {
-    sound_ = &add_track(tracks, kSoundTrack, kTypeAudio, "A_OPUS", opus_head(s));
+    sound_ = &add_track(tracks, kSoundTrack, kTypeAudio, "A_OPUS", opus_head(s.channels, s.skip));
     set<KaxTrackDefaultDuration>(*sound_, kSecond / 1000 * s.duration / (kSoundClock / 1000));
     set<KaxCodecDelay>(*sound_, delay_of(s));
-    set<KaxSeekPreRoll>(*sound_, kSeekPreRoll);
+    set<KaxSeekPreRoll>(*sound_, kSecond / 1000 * kSoundPreroll / (kSoundClock / 1000));
     auto& samples = GetChild<KaxTrackAudio>(*sound_);
     GetChild<KaxAudioSamplingFreq>(samples).SetValue(kSoundClock);
     set<KaxAudioChannels>(samples, s.channels);

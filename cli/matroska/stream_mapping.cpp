@@ -37,10 +37,6 @@ std::int64_t sound_of_ns(std::int64_t ns) {
 /// One packet in so many may be of another length: damaged, and lost.
 constexpr std::size_t kMostOthers = 10;
 
-bool is_sound(PacketType type) {
-  return type == PacketType::kSoundSetup || type == PacketType::kSound;
-}
-
 struct Frame {
   std::int64_t number;
   Bytes bytes;

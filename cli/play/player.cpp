@@ -100,7 +100,7 @@ void Player::prepare_decoder() {
 Result<void> Player::begin_recording() {
   if (arguments_.record.empty()) return {};
   std::optional<RecordedSound> sound;
-  if (sound_ && Recording::has_sound(arguments_.record)) {
+  if (sound_ && has_sound_track(arguments_.record)) {
     auto created = RecordedSound::create(parts_, sound_->queue().sample_rate(), sound_->queue().channels());
     if (!created) return fail(created.error());
     sound.emplace(std::move(*created));

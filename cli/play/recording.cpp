@@ -18,11 +18,6 @@ Result<Recording> Recording::open(const std::string& name, const VideoFormat& fo
   return Recording(std::move(*sink), format.frame_rate, std::move(sound));
 }
 
-bool Recording::has_sound(const std::string& name) {
-  const std::string extension = extension_of(name);
-  return extension == ".mp4" || extension == ".mkv";
-}
-
 Result<void> Recording::write(const Picture& picture, std::uint32_t duration, const SoundSpan& sound) {
   if (auto written = sink_->write(picture, time_.pts()); !written) return written;
   time_.advance(duration);

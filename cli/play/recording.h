@@ -19,8 +19,6 @@ class Recording {
   /// @param sound  none: it has none, or `name` is of a format without sound
   static Result<Recording> open(const std::string& name, const VideoFormat& format,
                                 std::optional<RecordedSound> sound);
-  /// Whether the format has sound.
-  [[nodiscard]] static bool has_sound(const std::string& name);
 
   /// @param duration  1/90000 s
   Result<void> write(const Picture& picture, std::uint32_t duration, const SoundSpan& sound);

@@ -2,18 +2,28 @@
 
 #include <algorithm>
 
+#include "bitstream/sound_time.h"
 #include "cli/video/timestamps.h"
 #include "common/picture.h"
 
 namespace fbs::cli {
 
+namespace {
+
+/// What so many pictures last, less the sum of their nominal durations, which are rounded. 1/90000 s.
+/// @param count  0..kMaxStreamPictures: the product with a duration would not fit into 64 bits
+std::int64_t rounding(std::int64_t count, Rational rate) {
+  const std::int64_t nominal = nominal_duration(rate), period = rate.num, rest = count % period;
+  const std::int64_t of_period = kTicksPerSecond * rate.den - period * nominal;
+  return count / period * of_period + regular_pts(rest, rate) - rest * nominal;
+}
+
+}  // namespace
+
 std::int64_t sound_time(const StreamPosition& position, Rational rate) {
   auto ticks = static_cast<std::int64_t>(position.time);
-  if (plausible_rate(rate)) {
-    const auto count = static_cast<std::int64_t>(position.pictures);
-    ticks += regular_pts(count, rate) - count * nominal_duration(rate);
-  }
-  return std::max<std::int64_t>(ticks, 0) * kSoundClock / kTicksPerSecond;
+  if (plausible_rate(rate)) ticks += rounding(static_cast<std::int64_t>(position.pictures), rate);
+  return fbs::sound_time(std::max<std::int64_t>(ticks, 0));
 }
 
 void Volume::change(int steps) {

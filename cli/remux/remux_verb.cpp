@@ -33,7 +33,7 @@ Result<void> check_files(const RemuxArguments& a) {
 void print_notes(const RemuxArguments& a, const StreamFile& file, const Bytes& stream,
                  const MatroskaFile* made) {
   const auto say = [&](const std::string& name, const std::string& text) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), text.c_str());
+    std::fprintf(stderr, "fbs: %s: %s\n", name.c_str(), text.c_str());
   };
   for (const std::string& codec : file.left_out()) say(file.name(), "a track of " + codec + " is left out");
   for (const PacketEntry& entry : list_packets(stream))

@@ -184,13 +184,10 @@ class SceneReader {
   std::optional<BlendDecoder> blend_;
 };
 
-bool is_sound(PacketType type) {
-  return type == PacketType::kSoundSetup || type == PacketType::kSound;
-}
-
 }  // namespace
 
-struct PacketLister::Impl {
+class PacketLister::Impl {
+ public:
   PacketEntry take(const Packet& packet) {
     PacketEntry entry;
     entry.offset = packet.offset;
@@ -209,6 +206,9 @@ struct PacketLister::Impl {
     lost_ = true;
   }
 
+  [[nodiscard]] const StreamPosition& released() const { return clock_.now(); }
+
+ private:
   Result<void> read(const Packet& packet, PacketEntry& entry) {
     switch (packet.type) {
       case PacketType::kSetup:
@@ -278,11 +278,11 @@ void PacketLister::lose() {
 }
 
 std::uint64_t PacketLister::released() const {
-  return impl_->clock_.now().time;
+  return impl_->released().time;
 }
 
 std::uint64_t PacketLister::released_pictures() const {
-  return impl_->clock_.now().pictures;
+  return impl_->released().pictures;
 }
 
 std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {

@@ -44,7 +44,7 @@ class PacketLister {
   [[nodiscard]] std::uint64_t released_pictures() const;
 
  private:
-  struct Impl;
+  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

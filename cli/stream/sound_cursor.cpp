@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "bitstream/sound_time.h"
+
 namespace fbs::cli {
-namespace {
-
-/// What a decoder has to hear before a place where it begins. RFC 7845, section 4.6: 80 ms; Codec 2 needs
-/// less.
-constexpr std::int64_t kPreroll = kSoundClock * 80 / 1000;
-
-}  // namespace
 
 void SoundCursor::seek(std::int64_t time) {
   sound_ = DecodedSound(time);
@@ -17,7 +12,7 @@ void SoundCursor::seek(std::int64_t time) {
   taken_ = 0;
   const auto& all = parts_.all();
   const auto first =
-      std::ranges::find_if(all, [&](const SoundPart& part) { return end_of(part) > time - kPreroll; });
+      std::ranges::find_if(all, [&](const SoundPart& part) { return end_of(part) > time - kSoundPreroll; });
   next_ = static_cast<std::size_t>(first - all.begin());
 }
 

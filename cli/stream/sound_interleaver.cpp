@@ -4,14 +4,11 @@
 #include <utility>
 
 #include "bitstream/payload/sound_payload.h"
+#include "bitstream/sound_time.h"
 #include "bitstream/syntax.h"
 
 namespace fbs::cli {
 namespace {
-
-std::int64_t sound_time(std::uint64_t ticks) {
-  return static_cast<std::int64_t>(ticks * kSoundClock / kTicksPerSecond);
-}
 
 /// The frames of a group that one packet holds.
 SoundGroup part_of(const SoundGroup& group, std::size_t begin, std::size_t most) {
@@ -35,13 +32,13 @@ Result<std::vector<std::uint8_t>> SoundInterleaver::add(std::span<const std::uin
 }
 
 Result<void> SoundInterleaver::take(const Packet& packet, std::vector<std::uint8_t>& out) {
-  if (packet.type == PacketType::kSoundSetup || packet.type == PacketType::kSound)
-    return fail(ErrorCode::kInvalidArgument, "the stream has sound already");
+  if (is_sound(packet.type)) return fail(ErrorCode::kInvalidArgument, "the stream has sound already");
   const std::uint64_t before = lister_.released();
   lister_.take(packet);
   const bool ends = packet.type == PacketType::kEnd;
   if (lister_.released() > before || ends)
-    if (auto added = add_sound(sound_time(lister_.released()), out); !added) return added;
+    if (auto added = add_sound(sound_time(static_cast<std::int64_t>(lister_.released())), out); !added)
+      return added;
   writer_.write(out, packet.type, packet.payload);
   if (packet.type != PacketType::kSetup) return {};
   const auto setup = encode_sound_setup(setup_);

@@ -37,7 +37,13 @@ StreamFile::Descriptor::~Descriptor() {
 }
 
 Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* stop) {
-  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO), stop);
+  if (name == "-") {
+    StreamFile stream("standard input", Descriptor(STDIN_FILENO), stop);
+    if (stream.is_matroska_input())
+      return fail(ErrorCode::kUnsupported,
+                  "standard input: a Matroska file is read by its name, not from standard input");
+    return stream;
+  }
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0)
     return fail(ErrorCode::kIo, name + ": cannot open: " + std::generic_category().message(errno));
@@ -51,9 +57,7 @@ Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* s
 }
 
 Result<void> StreamFile::extract() {
-  std::array<std::uint8_t, kEbmlHead.size()> head{};
-  const ssize_t n = ::pread(file_.number(), head.data(), head.size(), 0);
-  if (n != static_cast<ssize_t>(head.size()) || head != kEbmlHead) return {};
+  if (!is_matroska_input()) return {};
   if (!is_stream_file(name_))
     return fail(ErrorCode::kUnsupported, name_ + ": is a Matroska file without fbs video (V_FBS)");
   const auto bytes = read_all();
@@ -66,6 +70,12 @@ Result<void> StreamFile::extract() {
   extracted_ = std::move(stream->bytes);
   left_out_ = std::move(stream->left_out);
   return {};
+}
+
+bool StreamFile::is_matroska_input() const {
+  std::array<std::uint8_t, kEbmlHead.size()> head{};
+  return ::pread(file_.number(), head.data(), head.size(), 0) == static_cast<ssize_t>(head.size()) &&
+         head == kEbmlHead;
 }
 
 Result<DecodeStatus> StreamFile::next() {

@@ -60,6 +60,8 @@ class StreamFile {
   [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
+  /// Whether it begins as Matroska does. False of pipes, of which nothing is read.
+  [[nodiscard]] bool is_matroska_input() const;
   /// Takes the stream out of a regular file that begins as Matroska does; others are left as they are.
   Result<void> extract();
   /// @return number of bytes; 0 at the end

@@ -1,5 +1,7 @@
 #include "cli/video/video_sink.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "cli/module.h"
@@ -31,12 +33,19 @@ Result<void> VideoSink::write_sound(std::span<const std::uint8_t> /*frame*/, std
   return fail(ErrorCode::kUnsupported, "the output has no sound");
 }
 
+bool has_sound_track(const std::string& output) {
+  std::string extension = std::filesystem::path(output).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mp4" || extension == ".mkv";
+}
+
 Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
                                                    const SinkOptions& options) {
   if (!options.sound_source.empty() && options.sound) {
     return fail(ErrorCode::kInvalidArgument, "cannot write " + output + ": it takes one sound, not two");
   }
-  if (output.ends_with(".mp4") || output.ends_with(".mkv")) {
+  if (has_sound_track(output)) {
     return open_by_module(kAvModule, output, format, options);
   }
   if (!options.sound_source.empty() || options.sound) {

@@ -49,6 +49,9 @@ struct SinkOptions {
   std::optional<SoundSetup> sound = std::nullopt;
 };
 
+/// Whether the output may have sound: .mp4 and .mkv, in letters of any size.
+[[nodiscard]] bool has_sound_track(const std::string& output);
+
 /// Opens `output`:
 ///   `null:`             discards the pictures
 ///   `-`, `name.y4m`     Y4M, on standard output or in a file

@@ -63,6 +63,12 @@ TEST(FbsParse, KeepsTheTimesOfUpstream) {
     EXPECT_EQ(GST_BUFFER_PTS(parsed[k].get()), GST_BUFFER_PTS(groups[k].get()) + GST_SECOND);
 }
 
+TEST(FbsParse, OfASignatureAloneNothingIsLeft) {
+  const Harness harness = byte_parser();
+  push_in_pieces(harness.get(), {0x89, 'f', 'b', 's'}, 4);
+  EXPECT_TRUE(finish(harness.get()).empty());
+}
+
 TEST(FbsParse, PassesOverDamageToTheNextScene) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   Bytes stream = joined(groups);

@@ -52,7 +52,7 @@ class Remux(ProgramTest):
         stream = self.stream("talk.fbs", self.voiced_source(), "--sound", "codec2")
         self.assertEqual(self.tracks(self.there_and_back(stream)), [("video", "V_FBS")])
         done = self.fbs("remux", stream, "made.mkv")
-        self.assertRegex(done.stderr.decode(), r"\Amade.mkv: the sound stays within[^\n]*\n\Z")
+        self.assertRegex(done.stderr.decode(), r"\Afbs: made.mkv: the sound stays within[^\n]*\n\Z")
 
     def test_a_varying_rate(self):
         ffmpeg("-i", TALK_Y4M, "-vf", "setpts='(N+floor(N/3))/25/TB'", "-fps_mode", "vfr", "-c:v", "ffv1",
@@ -156,7 +156,7 @@ class Remux(ProgramTest):
         ffmpeg("-f", "lavfi", "-i", "sine=duration=1", "-c:a", "flac", self.folder / "tone.mka")
         run("mkvmerge", "-q", "-o", self.folder / "both.mkv", made, self.folder / "tone.mka")
         done = self.fbs("remux", "both.mkv", "out.fbs")
-        self.assertEqual((done.returncode, done.stderr.decode()), (0, "both.mkv: a track of A_FLAC is left out\n"))
+        self.assertEqual((done.returncode, done.stderr.decode()), (0, "fbs: both.mkv: a track of A_FLAC is left out\n"))
         self.assertEqual((self.folder / "out.fbs").read_bytes(), TALK_FBS.read_bytes())
 
     def test_a_sound_from_elsewhere(self):

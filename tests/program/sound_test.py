@@ -149,6 +149,23 @@ class Sound(ProgramTest):
             heard = read_wave(self.folder / name) if name.endswith("wav") else self.heard(name)
             self.assertLess(abs(lag((rate, reference[2 * rate:]), heard, 0, 2)), STEP)
 
+    def test_joined_in_the_middle(self):
+        """A stream that lacks its first scenes begins at once, with the sound of the pictures that it has."""
+        self.source()
+        self.succeed("encode", "talk.mkv", "talk.fbs", "--quiet", "--key-interval", "1")
+        stream = (self.folder / "talk.fbs").read_bytes()
+        setups = [begin for kind, begin, _ in packets(stream) if kind == 1]
+        self.write("joined.fbs", stream[:4] + stream[setups[1]:])
+        seconds = json.loads(self.succeed("inspect", "joined.fbs", "--json"))["seconds"]
+        self.assertLess(seconds, self.SECONDS - 0.5)
+        rate, reference = self.reference()
+        reference = reference[-int(seconds * rate):]
+        for name in ("joined.wav", "joined.mkv"):
+            self.succeed("decode", "joined.fbs", name, "--quiet")
+            heard = read_wave(self.folder / name) if name.endswith("wav") else self.heard(name)
+            self.assertAlmostEqual(len(heard[1]) / heard[0], seconds, delta=0.1)
+            self.assertLess(abs(lag((rate, reference), heard, 0.1, seconds - 0.5)), STEP, name)
+
     def test_sound_that_begins_later_or_earlier(self):
         rate, reference = self.reference() if (self.folder / "voice.wav").exists() else (48000, voice(self.SECONDS, 48000))
         for delay in (0.5, -0.5):
@@ -172,7 +189,7 @@ class Sound(ProgramTest):
 
     def test_the_bitrate_is_the_total(self):
         self.source()
-        for options, rate in (((), 12), (("--sound", "codec2"), 5)):
+        for options, rate in (((), 12), ((), 5), (("--sound", "codec2"), 15)):
             self.succeed("encode", "talk.mkv", "talk.fbs", "--bitrate", rate, "--quiet", *options)
             total = self.bytes_of("talk.fbs")["total"] * 8 / self.SECONDS / 1000
             self.assertTrue(0.9 * rate < total < 1.1 * rate, (rate, total))
@@ -205,10 +222,14 @@ class Sound(ProgramTest):
         for arguments, says in (
                 (("encode", TALK_Y4M, "out.fbs", "--sound", "opus"), ("--sound", "no sound")),
                 (("encode", TALK_Y4M, "out.fbs", "--track", "0"), ("no sound",)),
-                (("encode", "talk.mkv", "out.fbs", "--sound-bitrate", "3"), ("opus", "6 to 64")),
+                (("encode", "talk.mkv", "out.fbs", "--sound", "opus", "--sound-bitrate", "3"), ("opus", "6 to 64")),
+                (("encode", "talk.mkv", "out.fbs", "--sound-bitrate", "5"), ("codec2", "3.2")),
                 (("encode", "talk.mkv", "out.fbs", "--sound", "codec2", "--sound-bitrate", "12"), ("codec2", "3.2")),
                 (("encode", "talk.mkv", "out.fbs", "--no-sound", "--sound", "opus"), ("--no-sound",)),
-                (("encode", "talk.mkv", "out.fbs", "--bitrate", "3"), ("--bitrate", "--no-sound")),
+                (("encode", "talk.mkv", "out.fbs", "--bitrate", "1"), ("--bitrate", "--no-sound")),
+                (("encode", "talk.mkv", "out.fbs", "--bitrate", "5", "--sound", "opus"), ("--bitrate", "codec2")),
+                (("decode", "talk.fbs", "out.wav", "--md5"), ("--md5", ".wav")),
+                (("decode", "talk.fbs", "out.wav", "--sound", "talk.mkv"), ("--sound", ".wav")),
                 (("decode", TALK_FBS, "out.wav"), ("no sound",)),
                 (("decode", "talk.fbs", "out.y4m", "--no-sound"), ("--no-sound",)),
                 (("decode", "talk.fbs", "out.mp4", "--no-sound", "--sound", "talk.mkv"), ("--no-sound",))):

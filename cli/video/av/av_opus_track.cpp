@@ -6,37 +6,24 @@ extern "C" {
 }
 
 #include <algorithm>
-#include <array>
 #include <limits>
+
+#include "bitstream/sound_time.h"
+#include "cli/video/opus_head.h"
 
 namespace fbs {
 namespace {
 
 constexpr AVRational kSoundTick{1, kSoundClock};
-constexpr int kSeekPreroll = 80 * kSoundClock / 1000;  // RFC 7845 4.6
-
-using OpusHead = std::array<std::uint8_t, 19>;
-
-/// RFC 7845 5.1, with mapping family 0.
-OpusHead opus_head(const SoundSetup& setup) {
-  const auto byte = [](std::int32_t value, std::size_t index) {
-    return static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> (8 * index));
-  };
-  OpusHead head{'O', 'p', 'u', 's', 'H', 'e', 'a', 'd', 1};
-  head[9] = static_cast<std::uint8_t>(setup.channels);
-  for (std::size_t i = 0; i < 2; ++i) head[10 + i] = byte(setup.skip, i);
-  for (std::size_t i = 0; i < 4; ++i) head[12 + i] = byte(kSoundClock, i);
-  return head;
-}
 
 bool describe(const SoundSetup& setup, AVCodecParameters& parameters) {
-  const OpusHead head = opus_head(setup);
+  const OpusHead head = opus_head(setup.channels, setup.skip);
   parameters.codec_type = AVMEDIA_TYPE_AUDIO;
   parameters.codec_id = AV_CODEC_ID_OPUS;
   parameters.sample_rate = kSoundClock;
   parameters.frame_size = setup.duration;
   parameters.initial_padding = setup.skip;
-  parameters.seek_preroll = kSeekPreroll;
+  parameters.seek_preroll = kSoundPreroll;
   av_channel_layout_default(&parameters.ch_layout, setup.channels);
   parameters.extradata = static_cast<std::uint8_t*>(
       av_mallocz(head.size() + static_cast<std::size_t>(AV_INPUT_BUFFER_PADDING_SIZE)));

@@ -89,7 +89,7 @@ class AvSink final : public VideoSink {
 };
 
 Result<void> AvSink::open(const std::string& output, const SinkOptions& options) {
-  auto muxer = AvMuxer::create(output, output.ends_with(".mp4") ? "mp4" : "matroska");
+  auto muxer = AvMuxer::create(output, av_match_ext(output.c_str(), "mp4") != 0 ? "mp4" : "matroska");
   if (!muxer) return fail(muxer.error());
   muxer_ = std::move(*muxer);
   stream_ = muxer_->add_stream();
