@@ -3,7 +3,7 @@
  *
  *   options     what is told on the command line
  *   pipeline    the elements, and how rtpbin holds them together
- *   repair      retransmission and forward error correction
+ *   retransmission  retransmission of lost packets
  *   network     loses and delays what is sent
  *   receiver    when what arrives is seen and heard
  *   statistics  a line a second */

@@ -26,8 +26,9 @@ static gboolean loses(Network* network) {
   return g_rand_double(network->chance) < network->loss;
 }
 
-static SentKind kind_of(GstBuffer* packet) {
+static SentKind kind_of(GstPad* pad, GstBuffer* packet) {
   guint8 type = 0;
+  if (g_strcmp0(GST_OBJECT_NAME(GST_OBJECT_PARENT(pad)), "network4") == 0) return SENT_REPAIR;
   gst_buffer_extract(packet, 1, &type, 1);
   if (type >= 192 && type <= 223) return SENT_RTCP; /* RFC 5761 */
   switch (type & 127) {
@@ -43,9 +44,8 @@ static SentKind kind_of(GstBuffer* packet) {
 static GstPadProbeReturn on_packet(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   Network* const network = user;
   GstBuffer* const packet = gst_pad_probe_info_get_buffer(info);
-  (void)pad;
   g_mutex_lock(&network->lock);
-  network->bytes[kind_of(packet)] += gst_buffer_get_size(packet) + IP_AND_UDP;
+  network->bytes[kind_of(pad, packet)] += gst_buffer_get_size(packet) + IP_AND_UDP;
   ++network->packets;
   const gboolean lost = loses(network);
   network->lost += lost;
@@ -58,10 +58,11 @@ void network_init(Network* network, const CallOptions* options, GstElement* pipe
   g_mutex_init(&network->lock);
   network->chance = g_rand_new_with_seed((guint32)options->seed);
   network->changed = g_get_monotonic_time();
-  for (guint k = 0; k < 4; ++k) {
+  for (guint k = 0; k < 5; ++k) {
     char name[16];
     g_snprintf(name, sizeof name, "network%u", k);
     GstElement* const netsim = gst_bin_get_by_name(GST_BIN(pipeline), name);
+    if (netsim == NULL) continue;
     GstPad* const pad = gst_element_get_static_pad(netsim, "src"); /* lists have been taken apart there */
     gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, on_packet, network, NULL);
     gst_object_unref(pad);

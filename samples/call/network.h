@@ -20,7 +20,8 @@ typedef struct {
   guint64 packets, lost;
 } Network;
 
-/** Watches the elements netsim of the pipeline, "network0" to "network3". */
+/** Watches the elements netsim of the pipeline, "network0" to "network4", the last one of which has copies.
+ */
 void network_init(Network* network, const CallOptions* options, GstElement* pipeline);
 void network_clear(Network* network);
 

@@ -8,7 +8,7 @@
 typedef enum {
   REPAIR_NONE, /**< a scene is asked for */
   REPAIR_RTX,  /**< they are asked for once more: RFC 4588 */
-  REPAIR_FEC,  /**< each group is followed by a packet of its parity: RFC 5109 */
+  REPAIR_COPY, /**< all of the pictures' are sent once more, a little later */
 } Repair;
 
 typedef struct {

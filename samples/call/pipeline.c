@@ -2,7 +2,9 @@
 
 #include <stdio.h>
 
-#include "repair.h"
+#include "retransmission.h"
+
+#define COPY_DELAY 120 /* ms */
 
 /* The text of the pipeline, as gst-launch-1.0 would take it. Pictures leave `clocksync` when they would leave
  * a camera, sound when the 20 ms of a packet have been recorded. */
@@ -10,7 +12,8 @@
 static char* sending(const CallOptions* o) {
   return g_strdup_printf(
       "filesrc name=picture_file ! decodebin ! videoconvert ! video/x-raw,format=I420 ! queue ! clocksync "
-      " ! queue leaky=downstream max-size-buffers=2 ! fbsenc name=encoder bitrate=%d delay=%f ! rtpfbspay name=picture_out pt=%d "
+      " ! queue leaky=downstream max-size-buffers=2 ! fbsenc name=encoder bitrate=%d delay=%f ! rtpfbspay "
+      "name=picture_out pt=%d "
       "filesrc name=sound_file ! decodebin ! audioconvert ! audioresample ! "
       "audio/x-raw,rate=48000,channels=1 "
       " ! audiobuffersplit output-buffer-duration=1/50 ! queue ! clocksync ts-offset=20000000 "
@@ -30,23 +33,47 @@ static char* receiving(const CallOptions* o) {
               : "");
 }
 
+static const char* const caps[SESSIONS] = {
+    "application/"
+    "x-rtp,media=video,clock-rate=90000,encoding-name=FBS,payload=96,rtcp-fb-nack-pli=(boolean)true",
+    "application/x-rtp,media=audio,clock-rate=48000,encoding-name=OPUS,payload=97"};
+
+static char* way_out(const CallOptions* o, guint number, gint port) {
+  return g_strdup_printf(
+      "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false "
+      " ! udpsink host=%s port=%d sync=false async=false ",
+      number, o->min_delay, o->max_delay, o->peer, port);
+}
+
 /* A session has two ports: of RTP and of RTCP. */
 static char* network(const CallOptions* o, guint session) {
   const gint port = o->port + 2 * (gint)session, peer_port = o->peer_port + 2 * (gint)session;
-  GString* const out = g_string_new(NULL);
-  for (gint rtcp = 0; rtcp < 2; ++rtcp)
-    g_string_append_printf(
-        out,
-        "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false "
-        " ! udpsink host=%s port=%d sync=false async=false "
-        "udpsrc name=socket%u port=%d caps=application/x-%s ",
-        2 * session + (guint)rtcp, o->min_delay, o->max_delay, o->peer, peer_port + rtcp,
-        2 * session + (guint)rtcp, port + rtcp, rtcp ? "rtcp" : "rtp");
-  return g_string_free(out, FALSE);
+  char* const rtp = way_out(o, 2 * session, peer_port);
+  char* const rtcp = way_out(o, 2 * session + 1, peer_port + 1);
+  char* const out = g_strdup_printf(
+      "tee name=send%u ! %s identity name=report%u ! %s "
+      "udpsrc name=receive%u port=%d caps=%s udpsrc name=reports%u port=%d caps=application/x-rtcp ",
+      session, rtp, session, rtcp, session, port, caps[session], session, port + 1);
+  g_free(rtp);
+  g_free(rtcp);
+  return out;
+}
+
+/* The same packets once more, so much later that a burst of losses takes one of the two. The jitter buffer
+ * drops the second one by its number; RFC 7198 gives copies a source of their own, for the sake of
+ * statistics. */
+static char* copies(const CallOptions* o) {
+  if (o->repair != REPAIR_COPY) return g_strdup("");
+  char* const rtp = way_out(o, 4, o->peer_port);
+  char* const out = g_strdup_printf("send0. ! netsim delay-probability=1 min-delay=%d max-delay=%d ! %s",
+                                    COPY_DELAY, COPY_DELAY, rtp);
+  g_free(rtp);
+  return out;
 }
 
 static GstElement* elements_of(const CallOptions* o) {
-  char* parts[] = {sending(o), receiving(o), network(o, SESSION_PICTURES), network(o, SESSION_VOICE), NULL};
+  char* parts[] = {sending(o), receiving(o), network(o, SESSION_PICTURES), network(o, SESSION_VOICE),
+                   copies(o),  NULL};
   char* const text = g_strjoinv(NULL, parts);
   GError* error = NULL;
   GstElement* const out = gst_parse_launch_full(text, NULL, GST_PARSE_FLAG_FATAL_ERRORS, &error);
@@ -62,18 +89,9 @@ static GstElement* elements_of(const CallOptions* o) {
 static GstCaps* caps_of(GstElement* rtp, guint session, guint payload, gpointer user) {
   (void)rtp;
   (void)user;
-  switch (payload) {
-    case PAYLOAD_PICTURES:
-      return gst_caps_from_string(
-          "application/x-rtp,media=video,clock-rate=90000,encoding-name=FBS,rtcp-fb-nack-pli=(boolean)true");
-    case PAYLOAD_VOICE:
-      return gst_caps_from_string("application/x-rtp,media=audio,clock-rate=48000,encoding-name=OPUS");
-    case PAYLOAD_FEC:
-      return gst_caps_from_string("application/x-rtp,media=video,clock-rate=90000,encoding-name=ULPFEC");
-    default:
-      return gst_caps_new_simple("application/x-rtp", "encoding-name", G_TYPE_STRING, "RTX", "clock-rate",
-                                 G_TYPE_INT, session == SESSION_VOICE ? 48000 : 90000, NULL);
-  }
+  if (payload == PAYLOAD_PICTURES || payload == PAYLOAD_VOICE) return gst_caps_from_string(caps[session]);
+  return gst_caps_new_simple("application/x-rtp", "clock-rate", G_TYPE_INT,
+                             session == SESSION_VOICE ? 48000 : 90000, NULL);
 }
 
 /* A stream of the peer begins; if it has called again, it takes the place of the one before. */
@@ -83,7 +101,7 @@ static void on_stream(GstElement* rtp, GstPad* pad, gpointer pipeline) {
   const gboolean received = sscanf(name, "recv_rtp_src_%u_%u_%u", &session, &source, &payload) == 3;
   g_free(name);
   (void)rtp;
-  if (!received || (payload != PAYLOAD_PICTURES && payload != PAYLOAD_VOICE)) return;
+  if (!received) return;
   GstElement* const depay =
       gst_bin_get_by_name(pipeline, session == SESSION_PICTURES ? "picture_in" : "voice_in");
   GstPad* const sink = gst_element_get_static_pad(depay, "sink");
@@ -111,7 +129,7 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
                "add-reference-timestamp-meta", TRUE, NULL);
   g_signal_connect(rtp, "request-pt-map", G_CALLBACK(caps_of), NULL);
   g_signal_connect(rtp, "pad-added", G_CALLBACK(on_stream), pipeline);
-  repair_connect(options->repair, rtp);
+  if (options->repair == REPAIR_RTX) retransmission_connect(rtp);
   gst_bin_add(GST_BIN(pipeline), rtp);
   return rtp;
 }
@@ -120,10 +138,10 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
 static gboolean link_sessions(GstElement* pipeline) {
   static const char* const links[][4] = {
       {"picture_out", "src", "rtp", "send_rtp_sink_0"}, {"voice_out", "src", "rtp", "send_rtp_sink_1"},
-      {"rtp", "send_rtp_src_0", "network0", "sink"},    {"rtp", "send_rtcp_src_0", "network1", "sink"},
-      {"rtp", "send_rtp_src_1", "network2", "sink"},    {"rtp", "send_rtcp_src_1", "network3", "sink"},
-      {"socket0", "src", "rtp", "recv_rtp_sink_0"},     {"socket1", "src", "rtp", "recv_rtcp_sink_0"},
-      {"socket2", "src", "rtp", "recv_rtp_sink_1"},     {"socket3", "src", "rtp", "recv_rtcp_sink_1"}};
+      {"rtp", "send_rtp_src_0", "send0", "sink"},       {"rtp", "send_rtcp_src_0", "report0", "sink"},
+      {"rtp", "send_rtp_src_1", "send1", "sink"},       {"rtp", "send_rtcp_src_1", "report1", "sink"},
+      {"receive0", "src", "rtp", "recv_rtp_sink_0"},    {"reports0", "src", "rtp", "recv_rtcp_sink_0"},
+      {"receive1", "src", "rtp", "recv_rtp_sink_1"},    {"reports1", "src", "rtp", "recv_rtcp_sink_1"}};
   gboolean linked = TRUE;
   for (guint k = 0; k < G_N_ELEMENTS(links); ++k) {
     GstElement* const from = gst_bin_get_by_name(GST_BIN(pipeline), links[k][0]);

@@ -1,0 +1,10 @@
+/* Retransmission: RFC 4588. */
+#ifndef FBS_CALL_RETRANSMISSION_H
+#define FBS_CALL_RETRANSMISSION_H
+
+#include <gst/gst.h>
+
+/** Of both sessions of rtpbin, before it has any pads. */
+void retransmission_connect(GstElement* rtp);
+
+#endif
