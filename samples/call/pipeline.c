@@ -38,22 +38,23 @@ static const char* const caps[SESSIONS] = {
     "x-rtp,media=video,clock-rate=90000,encoding-name=FBS,payload=96,rtcp-fb-nack-pli=(boolean)true",
     "application/x-rtp,media=audio,clock-rate=48000,encoding-name=OPUS,payload=97"};
 
-static char* way_out(const CallOptions* o, guint number, gint port) {
+static char* netsim(const CallOptions* o, guint number) {
   return g_strdup_printf(
-      "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false "
-      " ! udpsink host=%s port=%d sync=false async=false ",
-      number, o->min_delay, o->max_delay, o->peer, port);
+      "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false", number,
+      o->min_delay, o->max_delay);
 }
 
 /* A session has two ports: of RTP and of RTCP. */
 static char* network(const CallOptions* o, guint session) {
   const gint port = o->port + 2 * (gint)session, peer_port = o->peer_port + 2 * (gint)session;
-  char* const rtp = way_out(o, 2 * session, peer_port);
-  char* const rtcp = way_out(o, 2 * session + 1, peer_port + 1);
+  char* const rtp = netsim(o, 2 * session);
+  char* const rtcp = netsim(o, 2 * session + 1);
   char* const out = g_strdup_printf(
-      "tee name=send%u ! %s identity name=report%u ! %s "
+      "tee name=send%u ! %s ! funnel name=out%u ! udpsink host=%s port=%d sync=false async=false "
+      "identity name=report%u ! %s ! udpsink host=%s port=%d sync=false async=false "
       "udpsrc name=receive%u port=%d caps=%s udpsrc name=reports%u port=%d caps=application/x-rtcp ",
-      session, rtp, session, rtcp, session, port, caps[session], session, port + 1);
+      session, rtp, session, o->peer, peer_port, session, rtcp, o->peer, peer_port + 1, session, port,
+      caps[session], session, port + 1);
   g_free(rtp);
   g_free(rtcp);
   return out;
@@ -61,12 +62,13 @@ static char* network(const CallOptions* o, guint session) {
 
 /* The same packets once more, so much later that a burst of losses takes one of the two. The jitter buffer
  * drops the second one by its number; RFC 7198 gives copies a source of their own, for the sake of
- * statistics. */
+ * statistics. They leave from the same port: rtpbin takes another one for a collision of sources. */
 static char* copies(const CallOptions* o) {
   if (o->repair != REPAIR_COPY) return g_strdup("");
-  char* const rtp = way_out(o, 4, o->peer_port);
-  char* const out = g_strdup_printf("send0. ! netsim delay-probability=1 min-delay=%d max-delay=%d ! %s",
-                                    COPY_DELAY, COPY_DELAY, rtp);
+  char* const rtp = netsim(o, 4);
+  char* const out =
+      g_strdup_printf("send0. ! netsim delay-probability=1 min-delay=%d max-delay=%d ! %s ! out0. ",
+                      COPY_DELAY, COPY_DELAY, rtp);
   g_free(rtp);
   return out;
 }
