@@ -162,6 +162,21 @@ static GstBuffer* gst_rtp_fbs_depay_process(GstRTPBaseDepayload* depay, GstRTPBu
   return gst_rtp_buffer_get_marker(rtp) ? whole_group(self) : NULL;
 }
 
+/* The jitter buffer (do-lost) says so when the packet should have been there, a group before the next one
+ * comes. */
+static gboolean gst_rtp_fbs_depay_packet_lost(GstRTPBaseDepayload* depay, GstEvent* event) {
+  GstRtpFbsDepay* const self = GST_RTP_FBS_DEPAY(depay);
+  const GstStructure* const lost = gst_event_get_structure(event);
+  guint64 now = GST_CLOCK_TIME_NONE;
+  gboolean may_be_parity = FALSE;
+  gst_structure_get_boolean(lost, "might-have-been-fec", &may_be_parity);
+  gst_structure_get_uint64(lost, "timestamp", &now);
+  if (may_be_parity) return TRUE;
+  lose(self);
+  ask_for_scene(self, now);
+  return TRUE; /* no gap: the picture is held */
+}
+
 static gboolean gst_rtp_fbs_depay_set_caps(GstRTPBaseDepayload* depay, GstCaps* caps) {
   gint rate = FBS_TICKS_PER_SECOND;
   gst_structure_get_int(gst_caps_get_structure(caps, 0), "clock-rate", &rate);
@@ -227,6 +242,7 @@ static void gst_rtp_fbs_depay_class_init(GstRtpFbsDepayClass* type) {
   element->change_state = gst_rtp_fbs_depay_change_state;
   depay->set_caps = gst_rtp_fbs_depay_set_caps;
   depay->process_rtp_packet = gst_rtp_fbs_depay_process;
+  depay->packet_lost = gst_rtp_fbs_depay_packet_lost;
   depay->handle_event = gst_rtp_fbs_depay_handle_event;
 }
 

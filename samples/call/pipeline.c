@@ -4,7 +4,9 @@
 
 #include "retransmission.h"
 
-#define COPY_DELAY 120 /* ms */
+#define COPY_DELAY 120           /* ms */
+#define SESSION_BANDWIDTH 400000 /* bit/s */
+#define REPORT_INTERVAL (1 * GST_SECOND)
 
 /* The text of the pipeline, as gst-launch-1.0 would take it. Pictures leave `clocksync` when they would leave
  * a camera, sound when the 20 ms of a packet have been recorded. */
@@ -136,6 +138,20 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
   return rtp;
 }
 
+/* What is asked for has to go out at once. RTCP may have a twentieth of this, far more than reports need:
+ * regular ones keep to REPORT_INTERVAL. */
+static void hurry_feedback(GstElement* pipeline) {
+  GstElement* const rtp = gst_bin_get_by_name(GST_BIN(pipeline), "rtp");
+  for (guint k = 0; k < SESSIONS; ++k) {
+    GObject* session = NULL;
+    g_signal_emit_by_name(rtp, "get-internal-session", k, &session);
+    g_object_set(session, "bandwidth", (gdouble)SESSION_BANDWIDTH, "rtcp-min-interval",
+                 (guint64)REPORT_INTERVAL, "rtcp-reduced-size", TRUE, NULL);
+    g_object_unref(session);
+  }
+  gst_object_unref(rtp);
+}
+
 /* Requests pads of rtpbin, for sending before those that appear then. */
 static gboolean link_sessions(GstElement* pipeline) {
   static const char* const links[][4] = {
@@ -162,11 +178,14 @@ static void set_location(GstElement* pipeline, const char* name, const char* fil
 }
 
 GstElement* pipeline_new(const CallOptions* options) {
-  GstElement* pipeline = elements_of(options);
+  GstElement* const pipeline = elements_of(options);
   if (pipeline == NULL) return NULL;
   set_location(pipeline, "picture_file", options->pictures);
   set_location(pipeline, "sound_file", options->sound);
-  if (sessions_of(options, pipeline) == NULL || !link_sessions(pipeline))
-    g_clear_pointer(&pipeline, gst_object_unref);
+  if (sessions_of(options, pipeline) == NULL || !link_sessions(pipeline)) {
+    gst_object_unref(pipeline);
+    return NULL;
+  }
+  hurry_feedback(pipeline);
   return pipeline;
 }

@@ -36,7 +36,7 @@ static void count(Stream* stream, GstClockTime now, GstClockTime duration) {
   if (GST_CLOCK_TIME_IS_VALID(stream->last)) {
     const GstClockTime since = now - stream->last;
     const GstClockTime usual = GST_CLOCK_TIME_IS_VALID(duration) ? duration : 40 * GST_MSECOND;
-    if (since > MAX(3 * usual, usual + LONGER)) {
+    if (stream == &stream->receiver->pictures && since > MAX(3 * usual, usual + LONGER)) {
       ++stream->freezes;
       stream->frozen += since;
     }
@@ -80,7 +80,7 @@ static GstPadProbeReturn on_sent(GstPad* pad, GstPadProbeInfo* info, gpointer us
   g_mutex_lock(&stream->receiver->lock);
   fprintf(stream->receiver->times, "sent %s,%" G_GUINT64_FORMAT ",%" G_GUINT64_FORMAT ",%zu\n",
           stream == &stream->receiver->pictures ? "picture" : "voice", (guint64)g_get_monotonic_time() * 1000,
-          gst_element_get_base_time(element) + GST_BUFFER_PTS(buffer), gst_buffer_get_size(buffer));
+          (guint64)gst_element_get_base_time(element), gst_buffer_get_size(buffer));
   g_mutex_unlock(&stream->receiver->lock);
   gst_object_unref(element);
   return GST_PAD_PROBE_REMOVE;
@@ -98,6 +98,24 @@ static GstPadProbeReturn on_request(GstPad* pad, GstPadProbeInfo* info, gpointer
 
 /* ---- life ---- */
 
+/* Of the voice; the decoder makes something up, or finds it in the packet behind. */
+static GstPadProbeReturn on_lost(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  Stream* const stream = user;
+  const GstStructure* const lost = gst_event_get_structure(gst_pad_probe_info_get_event(info));
+  guint64 begin = 0, duration = 0;
+  (void)pad;
+  if (lost == NULL || !gst_structure_has_name(lost, "GstRTPPacketLost") ||
+      !gst_structure_get_uint64(lost, "timestamp", &begin) ||
+      !gst_structure_get_uint64(lost, "duration", &duration))
+    return GST_PAD_PROBE_OK;
+  g_mutex_lock(&stream->receiver->lock);
+  if (stream->freezes == 0 || begin > stream->lost_until + 5 * GST_MSECOND) ++stream->freezes;
+  stream->lost_until = begin + duration;
+  stream->frozen += duration;
+  g_mutex_unlock(&stream->receiver->lock);
+  return GST_PAD_PROBE_OK;
+}
+
 static void watch(GstElement* pipeline, const char* from, const char* to, Stream* stream) {
   GstElement* const depay = gst_bin_get_by_name(GST_BIN(pipeline), from);
   GstElement* const sink = gst_bin_get_by_name(GST_BIN(pipeline), to);
@@ -105,6 +123,8 @@ static void watch(GstElement* pipeline, const char* from, const char* to, Stream
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, on_packet, stream, NULL);
   if (stream == &stream->receiver->pictures)
     gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, on_request, stream->receiver, NULL);
+  else
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, on_lost, stream, NULL);
   g_signal_connect(sink, "handoff", G_CALLBACK(on_shown), stream);
   gst_object_unref(pad);
   gst_object_unref(sink);

@@ -19,9 +19,10 @@ typedef struct {
   GstClockTime first; /**< when the first one was shown, monotonic; or none */
   GstClockTime last;
   GstClockTimeDiff delay; /**< of the last one, ns; 0: not known */
-  guint64 freezes;        /**< times that nothing came for 150 ms more than a picture lasts */
+  guint64 freezes;        /**< pictures: times that none came for 150 ms more than one lasts; voice: losses */
   GstClockTime frozen;    /**< how long these were in all */
-  FILE* record;           /**< samples; or null */
+  GstClockTime lost_until; /**< voice: the timestamp at which the last loss ends */
+  FILE* record;            /**< samples; or null */
 } Stream;
 
 typedef struct Receiver {

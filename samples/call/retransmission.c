@@ -2,6 +2,8 @@
 
 #include "pipeline.h"
 
+#define USUAL_JITTER 60 /* ms */
+
 static void expose(GstElement* bin, GstElement* element, const char* pad_name, guint session) {
   char* const name = g_strdup_printf("%s_%u", pad_name, session);
   GstPad* const pad = gst_element_get_static_pad(element, pad_name);
@@ -37,8 +39,19 @@ static GstElement* on_aux_receiver(GstElement* rtp, guint session, gpointer user
   return retransmission("rtprtxreceive", session);
 }
 
+/* Packets that are only late are not asked for. */
+static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session, guint source,
+                             gpointer user) {
+  (void)rtp;
+  (void)session;
+  (void)source;
+  (void)user;
+  g_object_set(buffer, "rtx-min-delay", USUAL_JITTER, NULL);
+}
+
 void retransmission_connect(GstElement* rtp) {
   g_object_set(rtp, "do-retransmission", TRUE, NULL);
   g_signal_connect(rtp, "request-aux-sender", G_CALLBACK(on_aux_sender), NULL);
   g_signal_connect(rtp, "request-aux-receiver", G_CALLBACK(on_aux_receiver), NULL);
+  g_signal_connect(rtp, "new-jitterbuffer", G_CALLBACK(on_jitter_buffer), NULL);
 }

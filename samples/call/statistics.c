@@ -23,15 +23,6 @@ static void add_jitter_buffers(Statistics* s, Counts* out) {
   g_mutex_unlock(&s->lock);
 }
 
-static void add_concealed(Statistics* s, Counts* out) {
-  GstElement* const decoder = gst_bin_get_by_name(GST_BIN(s->pipeline), "voice_decoder");
-  GstStructure* stats = NULL;
-  g_object_get(decoder, "stats", &stats, NULL);
-  out->concealed = field(stats, "plc-num-samples");
-  gst_structure_free(stats);
-  gst_object_unref(decoder);
-}
-
 static Counts counts_of(Statistics* s) {
   Counts out = {0};
   g_mutex_lock(&s->network->lock);
@@ -43,10 +34,11 @@ static Counts counts_of(Statistics* s) {
   out.shown = s->receiver->pictures.shown;
   out.freezes = s->receiver->pictures.freezes;
   out.frozen = s->receiver->pictures.frozen;
+  out.breaks = s->receiver->voice.freezes;
+  out.broken = s->receiver->voice.frozen;
   out.requests = s->receiver->requests;
   g_mutex_unlock(&s->receiver->lock);
   add_jitter_buffers(s, &out);
-  add_concealed(s, &out);
   return out;
 }
 
@@ -68,18 +60,17 @@ static void print_counts(const Counts* now, const Counts* before, double seconds
   printf(" %5" G_GUINT64_FORMAT " %6" G_GUINT64_FORMAT " %8" G_GUINT64_FORMAT " %7" G_GUINT64_FORMAT " %6.2f",
          now->requests - before->requests, now->scenes - before->scenes, now->shown - before->shown,
          now->freezes - before->freezes, (double)(now->frozen - before->frozen) / GST_SECOND);
-  printf(" %9.2f", (double)(now->concealed - before->concealed) / 48000);
+  printf(" %6" G_GUINT64_FORMAT " %6.2f", now->breaks - before->breaks,
+         (double)(now->broken - before->broken) / GST_SECOND);
 }
 
 static void print_head(void) {
   puts(
-      "                  sent, kbit/s             lost         packets        scenes       pictures        "
-      "voice   "
-      "  delay, ms");
+      "                 sent, kbit/s         lost      packets         scenes         pictures         voice "
+      "     delay, ms");
   puts(
-      "   s  faces  voice repair   rtcp    all     %  missing repaired  asked  given    shown  frozen      s "
-      "concealed s"
-      "  face voice");
+      "   s  faces  voice repair   rtcp    all     % missing repaired asked  given    shown freezes      s "
+      "breaks      s    face voice");
 }
 
 static void print_delays(Statistics* s) {

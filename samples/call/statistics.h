@@ -12,9 +12,9 @@ typedef struct {
   guint64 sent[SENT_KINDS]; /**< bytes */
   guint64 packets, dropped;
   guint64 missing, repaired; /**< packets that the jitter buffers waited for in vain, or that came by RTX */
-  guint64 shown, freezes, requests, scenes;
-  GstClockTime frozen;
-  guint64 concealed; /**< samples of sound */
+  guint64 shown, requests, scenes;
+  guint64 freezes, breaks;     /**< of pictures and voice */
+  GstClockTime frozen, broken; /**< how long these were */
 } Counts;
 
 typedef struct {
