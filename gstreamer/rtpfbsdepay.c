@@ -17,7 +17,7 @@ GST_DEBUG_CATEGORY_STATIC(rtp_fbs_depay_debug);
 #define GST_CAT_DEFAULT rtp_fbs_depay_debug
 
 #define DEFAULT_REQUEST_KEYFRAME TRUE
-#define REQUEST_INTERVAL (500 * GST_MSECOND) /* of requests, while no scene comes */
+#define REQUEST_INTERVAL (500 * GST_MSECOND) /* of requests, while no scene comes that may be on its way */
 #define MAX_GROUP (64u << 20)                /* bytes; none that an encoder sends has a thousandth of that */
 
 typedef struct {
@@ -65,10 +65,21 @@ static void join(GstRtpFbsDepay* self) {
 
 /* ---- after a loss ---- */
 
+/* What has arrived waits so long in the jitter buffer before it comes here. */
+static GstClockTime time_in_jitter_buffer(GstRtpFbsDepay* self) {
+  GstQuery* const query = gst_query_new_latency();
+  GstClockTime out = 0;
+  if (gst_pad_peer_query(GST_RTP_BASE_DEPAYLOAD_SINKPAD(self), query))
+    gst_query_parse_latency(query, NULL, &out, NULL);
+  gst_query_unref(query);
+  return out;
+}
+
 static void ask_for_scene(GstRtpFbsDepay* self, GstClockTime now) {
-  const gboolean is_asked = GST_CLOCK_TIME_IS_VALID(self->requested) && GST_CLOCK_TIME_IS_VALID(now) &&
-                            now < self->requested + REQUEST_INTERVAL;
-  if (!self->request_keyframe || is_asked) return;
+  if (!self->request_keyframe) return;
+  if (GST_CLOCK_TIME_IS_VALID(self->requested) && GST_CLOCK_TIME_IS_VALID(now) &&
+      now < self->requested + REQUEST_INTERVAL + time_in_jitter_buffer(self))
+    return;
   GST_DEBUG_OBJECT(self, "asks for a scene");
   self->requested = now;
   gst_pad_push_event(GST_RTP_BASE_DEPAYLOAD_SINKPAD(self),

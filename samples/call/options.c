@@ -1,6 +1,8 @@
 #include "options.h"
 
+#include <glib/gstdio.h>
 #include <stdio.h>
+#include <unistd.h>
 
 static gboolean parse_repair(const char* name, Repair* out) {
   static const char* const names[] = {"none", "rtx", "copy"};
@@ -9,6 +11,12 @@ static gboolean parse_repair(const char* name, Repair* out) {
       *out = (Repair)k;
       return TRUE;
     }
+  return FALSE;
+}
+
+static gboolean readable(const char* file) {
+  if (g_access(file, R_OK) == 0) return TRUE;
+  fprintf(stderr, "call: cannot read %s\n", file);
   return FALSE;
 }
 
@@ -70,7 +78,7 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
   g_clear_error(&error);
   g_free(repair);
   g_option_context_free(context);
-  return fault == NULL;
+  return fault == NULL && readable(out->pictures) && readable(out->sound);
 }
 
 void call_options_clear(CallOptions* options) {

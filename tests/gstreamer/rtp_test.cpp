@@ -91,6 +91,26 @@ TEST(RtpFbs, AfterALossASceneIsAskedFor) {
   EXPECT_EQ(scene_requests(silent.get()), 0);
 }
 
+TEST(RtpFbs, ASceneIsAskedForAsSoonAsAPacketIsGivenUp) {
+  const std::vector<Buffer> groups = encoded(20);
+  std::vector<Buffer> packets = paid(groups, 1400);
+  for (const bool may_be_parity : {false, true}) {
+    const Harness harness = depayloader();
+    for (std::size_t k = 0; k < 2; ++k) push(harness.get(), copy_of(packets[k]));
+    gst_harness_push_event(
+        harness.get(),
+        gst_event_new_custom(
+            GST_EVENT_CUSTOM_DOWNSTREAM,
+            gst_structure_new("GstRTPPacketLost", "seqnum", G_TYPE_UINT, 2U, "timestamp", G_TYPE_UINT64,
+                              guint64{GST_SECOND}, "duration", G_TYPE_UINT64, guint64{GST_SECOND} / 5,
+                              "might-have-been-fec", G_TYPE_BOOLEAN, may_be_parity, nullptr)));
+    EXPECT_EQ(scene_requests(harness.get()), may_be_parity ? 0 : 1);
+    const std::size_t before = pull(harness.get()).size();
+    push(harness.get(), copy_of(packets[2]));  // of no use after a loss
+    EXPECT_EQ(pull(harness.get()).size(), may_be_parity ? 1U : 0U) << before;
+  }
+}
+
 TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   std::vector<Buffer> packets = paid(groups, 1400);
