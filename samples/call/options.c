@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 static gboolean parse_repair(const char* name, Repair* out) {
-  static const char* const names[] = {"none", "rtx", "copy"};
+  static const char* const names[] = {"none", "rtx", "copy", "both"};
   for (guint k = 0; k < G_N_ELEMENTS(names); ++k)
     if (g_strcmp0(name, names[k]) == 0) {
       *out = (Repair)k;
@@ -52,7 +52,8 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
       {"sound-bitrate", 0, 0, G_OPTION_ARG_INT, &out->sound_bitrate, "Voice, bit/s (12000)", "N"},
       {"delay", 0, 0, G_OPTION_ARG_DOUBLE, &out->delay, "Pictures are coded in groups of so long (0.2)", "S"},
       {"latency", 0, 0, G_OPTION_ARG_INT, &out->latency, "Of the jitter buffer (400)", "MS"},
-      {"repair", 0, 0, G_OPTION_ARG_STRING, &repair, "Of lost packets: none, rtx or copy (none)", "HOW"},
+      {"repair", 0, 0, G_OPTION_ARG_STRING, &repair, "Of lost packets: none, rtx, copy or both (none)",
+       "HOW"},
       {"loss", 0, 0, G_OPTION_ARG_DOUBLE, &out->loss, "Share of the packets sent that is lost (0)", "0..1"},
       {"burst", 0, 0, G_OPTION_ARG_DOUBLE, &out->burst, "Losses last so long on average (0: one packet)",
        "MS"},
@@ -70,7 +71,7 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
   if (!g_option_context_parse(context, argc, argv, &error))
     fault = error->message;
   else if (repair != NULL && !parse_repair(repair, &out->repair))
-    fault = "--repair is none, rtx or copy";
+    fault = "--repair is none, rtx, copy or both";
   else
     fault = fault_of(out);
   if (out->peer == NULL) out->peer = g_strdup("127.0.0.1");

@@ -4,11 +4,13 @@
 
 #include <glib.h>
 
-/** How packets that the network loses are made up for. */
+/** How packets that the network loses are made up for; what of the pictures is lost nevertheless costs a
+ * scene. */
 typedef enum {
-  REPAIR_NONE, /**< a scene is asked for */
-  REPAIR_RTX,  /**< they are asked for once more: RFC 4588 */
-  REPAIR_COPY, /**< all of the pictures' are sent once more, a little later */
+  REPAIR_NONE = 0,
+  REPAIR_RTX = 1,  /**< they are asked for once more: RFC 4588 */
+  REPAIR_COPY = 2, /**< all of the pictures' are sent once more, a little later */
+  REPAIR_BOTH = REPAIR_RTX | REPAIR_COPY,
 } Repair;
 
 typedef struct {

@@ -66,7 +66,7 @@ static char* network(const CallOptions* o, guint session) {
  * drops the second one by its number; RFC 7198 gives copies a source of their own, for the sake of
  * statistics. They leave from the same port: rtpbin takes another one for a collision of sources. */
 static char* copies(const CallOptions* o) {
-  if (o->repair != REPAIR_COPY) return g_strdup("");
+  if ((o->repair & REPAIR_COPY) == 0) return g_strdup("");
   char* const rtp = netsim(o, 4);
   char* const out =
       g_strdup_printf("send0. ! netsim delay-probability=1 min-delay=%d max-delay=%d ! %s ! out0. ",
@@ -133,7 +133,7 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
                "add-reference-timestamp-meta", TRUE, NULL);
   g_signal_connect(rtp, "request-pt-map", G_CALLBACK(caps_of), NULL);
   g_signal_connect(rtp, "pad-added", G_CALLBACK(on_stream), pipeline);
-  if (options->repair == REPAIR_RTX) retransmission_connect(rtp);
+  if ((options->repair & REPAIR_RTX) != 0) retransmission_connect(rtp, options);
   gst_bin_add(GST_BIN(pipeline), rtp);
   return rtp;
 }

@@ -6,6 +6,8 @@
 
 #include "options.h"
 
+#define COPY_DELAY 120 /* ms */
+
 enum { SESSION_PICTURES, SESSION_VOICE, SESSIONS };
 
 enum {

@@ -39,19 +39,19 @@ static GstElement* on_aux_receiver(GstElement* rtp, guint session, gpointer user
   return retransmission("rtprtxreceive", session);
 }
 
-/* Packets that are only late are not asked for. */
+/* Packets that are only late are not asked for, nor are those whose copies are on their way. */
 static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session, guint source,
                              gpointer user) {
+  const CallOptions* const options = user;
+  const gboolean copied = session == SESSION_PICTURES && (options->repair & REPAIR_COPY) != 0;
   (void)rtp;
-  (void)session;
   (void)source;
-  (void)user;
-  g_object_set(buffer, "rtx-min-delay", USUAL_JITTER, NULL);
+  g_object_set(buffer, "rtx-min-delay", USUAL_JITTER + (copied ? COPY_DELAY : 0), NULL);
 }
 
-void retransmission_connect(GstElement* rtp) {
+void retransmission_connect(GstElement* rtp, const CallOptions* options) {
   g_object_set(rtp, "do-retransmission", TRUE, NULL);
   g_signal_connect(rtp, "request-aux-sender", G_CALLBACK(on_aux_sender), NULL);
   g_signal_connect(rtp, "request-aux-receiver", G_CALLBACK(on_aux_receiver), NULL);
-  g_signal_connect(rtp, "new-jitterbuffer", G_CALLBACK(on_jitter_buffer), NULL);
+  g_signal_connect(rtp, "new-jitterbuffer", G_CALLBACK(on_jitter_buffer), (gpointer)options);
 }

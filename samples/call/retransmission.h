@@ -4,7 +4,9 @@
 
 #include <gst/gst.h>
 
+#include "options.h"
+
 /** Of both sessions of rtpbin, before it has any pads. */
-void retransmission_connect(GstElement* rtp);
+void retransmission_connect(GstElement* rtp, const CallOptions* options);
 
 #endif

@@ -66,11 +66,11 @@ class Call(ProgramTest):
             self.assertGreater(end.pictures[-1].at, end.voice[0].at + SECONDS / 2)
 
     def test_what_is_lost_is_sent_again(self):
-        for repair in ("rtx", "copy"):
+        for repair in ("both", "copy"):
             ends = self.talk("--loss", 0.1, "--repair", repair)
             for end in ends:
                 self.assertGreater(end.total["repair"], 0, repair)
-                self.assertEqual(end.total["repaired"] > 0, repair == "rtx")
+                self.assertEqual(end.total["repaired"] > 0, repair == "both")
 
     def test_nothing_is_left_when_it_ends(self):
         self.talk("--loss", 0.1, "--repair", "rtx", more={"GST_TRACERS": "leaks", "GST_DEBUG": "GST_TRACER:7"})

@@ -163,7 +163,7 @@ def main():
     parser.add_argument("--seconds", type=int, default=25)
     parser.add_argument("--loss", type=float, nargs="*", default=[0, 1, 5, 10, 20])
     parser.add_argument("--burst", type=float, default=100)
-    parser.add_argument("--repair", nargs="*", default=["none", "rtx", "copy"])
+    parser.add_argument("--repair", nargs="*", default=["none", "rtx", "copy", "both"])
     parser.add_argument("--latency", type=int, default=400)
     parser.add_argument("--join", type=int)
     parser.add_argument("--keep", type=pathlib.Path)
