@@ -1,5 +1,6 @@
 #include "pipeline.h"
 
+#include <gst/video/video.h>
 #include <stdio.h>
 
 #include "retransmission.h"
@@ -98,6 +99,18 @@ static GstCaps* caps_of(GstElement* rtp, guint session, guint payload, gpointer 
                              session == SESSION_VOICE ? 48000 : 90000, NULL);
 }
 
+/* Somebody has come, and does not have to ask. */
+static void on_source(GstElement* rtp, guint session, guint source, gpointer pipeline) {
+  (void)rtp;
+  (void)source;
+  if (session != SESSION_PICTURES) return;
+  GstElement* const encoder = gst_bin_get_by_name(pipeline, "encoder");
+  GstPad* const pad = gst_element_get_static_pad(encoder, "src");
+  gst_pad_send_event(pad, gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 0));
+  gst_object_unref(pad);
+  gst_object_unref(encoder);
+}
+
 /* A stream of the peer begins; if it has called again, it takes the place of the one before. */
 static void on_stream(GstElement* rtp, GstPad* pad, gpointer pipeline) {
   guint session = 0, source = 0, payload = 0;
@@ -132,6 +145,7 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
   g_object_set(rtp, "latency", options->latency, "do-lost", TRUE, "rtcp-sync-send-time", FALSE,
                "add-reference-timestamp-meta", TRUE, NULL);
   g_signal_connect(rtp, "request-pt-map", G_CALLBACK(caps_of), NULL);
+  g_signal_connect(rtp, "on-new-ssrc", G_CALLBACK(on_source), pipeline);
   g_signal_connect(rtp, "pad-added", G_CALLBACK(on_stream), pipeline);
   if ((options->repair & REPAIR_RTX) != 0) retransmission_connect(rtp, options);
   gst_bin_add(GST_BIN(pipeline), rtp);

@@ -111,6 +111,16 @@ TEST(RtpFbs, ASceneIsAskedForAsSoonAsAPacketIsGivenUp) {
   }
 }
 
+TEST(RtpFbs, ASceneThatMayWaitInTheJitterBufferIsNotAskedForAgain) {
+  const std::vector<Buffer> groups = encoded(kPictures);
+  const Harness close = depayloader(), behind = depayloader();
+  gst_harness_set_upstream_latency(behind.get(), GST_SECOND);
+  without(close.get(), groups, 3);
+  without(behind.get(), groups, 3);
+  EXPECT_GE(scene_requests(close.get()), 3);   // in 1.8 s, one each half second
+  EXPECT_LE(scene_requests(behind.get()), 2);  // each second and a half
+}
+
 TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   std::vector<Buffer> packets = paid(groups, 1400);
