@@ -5,8 +5,8 @@
 
 #include "retransmission.h"
 
-#define COPY_DELAY 120           /* ms */
 #define SESSION_BANDWIDTH 400000 /* bit/s */
+#define FIRST_SCENE (2 * GST_SECOND)
 #define REPORT_INTERVAL (1 * GST_SECOND)
 
 /* The text of the pipeline, as gst-launch-1.0 would take it. Pictures leave `clocksync` when they would leave
@@ -99,11 +99,12 @@ static GstCaps* caps_of(GstElement* rtp, guint session, guint payload, gpointer 
                              session == SESSION_VOICE ? 48000 : 90000, NULL);
 }
 
-/* Somebody has come, and does not have to ask. */
+/* Somebody has come, and does not have to ask. Not at the beginning of the call: a second scene so soon after
+ * the first one has little of the rate left. */
 static void on_source(GstElement* rtp, guint session, guint source, gpointer pipeline) {
   (void)rtp;
   (void)source;
-  if (session != SESSION_PICTURES) return;
+  if (session != SESSION_PICTURES || gst_element_get_current_running_time(pipeline) < FIRST_SCENE) return;
   GstElement* const encoder = gst_bin_get_by_name(pipeline, "encoder");
   GstPad* const pad = gst_element_get_static_pad(encoder, "src");
   gst_pad_send_event(pad, gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 0));
