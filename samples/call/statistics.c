@@ -1,5 +1,6 @@
 #include "statistics.h"
 
+#include <gst/video/video.h>
 #include <stdio.h>
 
 /* ---- counts ---- */
@@ -20,6 +21,7 @@ static void add_jitter_buffers(Statistics* s, Counts* out) {
     gst_structure_free(stats);
   }
   out->scenes = s->scenes;
+  out->heard = s->heard;
   g_mutex_unlock(&s->lock);
 }
 
@@ -44,38 +46,55 @@ static Counts counts_of(Statistics* s) {
 
 /* ---- lines ---- */
 
-/* In the same order as the columns. */
-static void print_counts(const Counts* now, const Counts* before, double seconds) {
-  guint64 bytes = 0;
+static void print_count(int width, guint64 now, guint64 before) {
+  printf(" %*" G_GUINT64_FORMAT, width, now - before);
+}
+
+static void print_seconds(GstClockTime now, GstClockTime before) {
+  printf(" %6.2f", (double)(now - before) / GST_SECOND);
+}
+
+static void print_sent(const Counts* now, const Counts* before, double seconds) {
+  guint64 all = 0;
   for (guint k = 0; k < SENT_KINDS; ++k) {
-    const guint64 sent = now->sent[k] - before->sent[k];
-    printf("%7.1f", (double)sent * 8 / 1000 / seconds);
-    bytes += sent;
+    const guint64 bytes = now->sent[k] - before->sent[k];
+    printf(" %6.1f", (double)bytes * 8 / 1000 / seconds);
+    all += bytes;
   }
-  const guint64 packets = now->packets - before->packets;
-  printf("%7.1f %5.1f", (double)bytes * 8 / 1000 / seconds,
-         packets > 0 ? 100.0 * (double)(now->dropped - before->dropped) / (double)packets : 0);
-  printf(" %7" G_GUINT64_FORMAT " %8" G_GUINT64_FORMAT, now->missing - before->missing,
-         now->repaired - before->repaired);
-  printf(" %5" G_GUINT64_FORMAT " %6" G_GUINT64_FORMAT " %8" G_GUINT64_FORMAT " %7" G_GUINT64_FORMAT " %6.2f",
-         now->requests - before->requests, now->scenes - before->scenes, now->shown - before->shown,
-         now->freezes - before->freezes, (double)(now->frozen - before->frozen) / GST_SECOND);
-  printf(" %6" G_GUINT64_FORMAT " %6.2f", now->breaks - before->breaks,
-         (double)(now->broken - before->broken) / GST_SECOND);
+  const guint64 packets = now->packets - before->packets, dropped = now->dropped - before->dropped;
+  printf(" %6.1f %5.1f", (double)all * 8 / 1000 / seconds,
+         packets > 0 ? 100.0 * (double)dropped / (double)packets : 0);
+}
+
+/* In the order of the columns. */
+static void print_counts(const Counts* now, const Counts* before, double seconds) {
+  print_sent(now, before, seconds);
+  print_count(7, now->missing, before->missing);
+  print_count(8, now->repaired, before->repaired);
+  print_count(6, now->requests, before->requests);
+  print_count(5, now->heard, before->heard);
+  print_count(5, now->scenes, before->scenes);
+  print_count(6, now->shown, before->shown);
+  print_count(7, now->freezes, before->freezes);
+  print_seconds(now->frozen, before->frozen);
+  print_count(6, now->breaks, before->breaks);
+  print_seconds(now->broken, before->broken);
 }
 
 static void print_head(void) {
   puts(
-      "                 sent, kbit/s         lost      packets         scenes         pictures         voice "
-      "     delay, ms");
+      "                 sent, kbit/s         lost      packets           scenes            pictures          "
+      " voice"
+      "   delay, ms");
   puts(
-      "   s  faces  voice repair   rtcp    all     % missing repaired asked  given    shown freezes      s "
-      "breaks      s    face voice");
+      "   s  faces  voice repair   rtcp    all     % missing repaired  asked heard given  shown freezes      "
+      "s"
+      " breaks      s  face voice");
 }
 
 static void print_delays(Statistics* s) {
   g_mutex_lock(&s->receiver->lock);
-  printf(" %7d %5d\n", (int)(s->receiver->pictures.delay / (GstClockTimeDiff)GST_MSECOND),
+  printf(" %5d %5d\n", (int)(s->receiver->pictures.delay / (GstClockTimeDiff)GST_MSECOND),
          (int)(s->receiver->voice.delay / (GstClockTimeDiff)GST_MSECOND));
   g_mutex_unlock(&s->receiver->lock);
   fflush(stdout);
@@ -111,6 +130,16 @@ static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session,
   g_mutex_unlock(&s->lock);
 }
 
+static GstPadProbeReturn on_heard(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  Statistics* const s = user;
+  (void)pad;
+  if (!gst_video_event_is_force_key_unit(gst_pad_probe_info_get_event(info))) return GST_PAD_PROBE_OK;
+  g_mutex_lock(&s->lock);
+  ++s->heard;
+  g_mutex_unlock(&s->lock);
+  return GST_PAD_PROBE_OK;
+}
+
 static GstPadProbeReturn on_group(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   Statistics* const s = user;
   (void)pad;
@@ -131,6 +160,7 @@ void statistics_init(Statistics* s, GstElement* pipeline, Network* network, Rece
   GstElement* const encoder = gst_bin_get_by_name(GST_BIN(pipeline), "encoder");
   GstPad* const pad = gst_element_get_static_pad(encoder, "src");
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, on_group, s, NULL);
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, on_heard, s, NULL);
   gst_object_unref(pad);
   gst_object_unref(encoder);
 }

@@ -12,7 +12,8 @@ typedef struct {
   guint64 sent[SENT_KINDS]; /**< bytes */
   guint64 packets, dropped;
   guint64 missing, repaired; /**< packets that the jitter buffers waited for in vain, or that came by RTX */
-  guint64 shown, requests, scenes;
+  guint64 shown;
+  guint64 requests, heard, scenes; /**< requests for a scene, those of the other end, and scenes sent */
   guint64 freezes, breaks;     /**< of pictures and voice */
   GstClockTime frozen, broken; /**< how long these were */
 } Counts;
@@ -23,7 +24,7 @@ typedef struct {
   Receiver* receiver;
   GMutex lock;
   GList* jitter_buffers; /**< owned elements */
-  guint64 scenes;        /**< sent */
+  guint64 scenes, heard; /**< of Counts */
   guint seconds;
   Counts before; /**< at the last line */
 } Statistics;

@@ -10,7 +10,7 @@ from harness import BUILD, MAX_SECONDS
 
 CALL, PLUGIN = BUILD / "call", BUILD / "gstreamer/libgstfbs.so"
 # In the order of the columns that call prints.
-COLUMNS = ("faces", "voice", "repair", "rtcp", "all", "lost", "missing", "repaired", "asked", "given", "shown", "freezes",
+COLUMNS = ("faces", "voice", "repair", "rtcp", "all", "lost", "missing", "repaired", "asked", "heard", "given", "shown", "freezes",
            "frozen", "breaks", "broken", "face_delay", "voice_delay")
 Shown = collections.namedtuple("Shown", "at recorded size")  # s of the monotonic clock; 0: not known; bytes
 

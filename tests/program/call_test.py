@@ -61,6 +61,7 @@ class Call(ProgramTest):
             self.assertGreater(end.total["lost"], 2)
         self.assertGreater(sum(end.total["missing"] for end in ends), 0)
         self.assertGreater(sum(end.total["asked"] for end in ends), 0)
+        self.assertGreater(sum(end.total["heard"] for end in ends), 0)
         self.assertGreater(sum(end.total["given"] for end in ends), len(ends))  # the first ones, and those asked for
         for end in ends:
             self.assertGreater(end.pictures[-1].at, end.voice[0].at + SECONDS / 2)
