@@ -1,38 +1,22 @@
 #include "encoder_stream.h"
 
 #include "caps.h"
+#include "packet.h"
 
 void gst_fbs_group_free(GstFbsGroup* group) {
   g_byte_array_unref(group->bytes);
   g_free(group);
 }
 
-static void close_encoder(GstFbsEncoderStream* stream) {
+void gst_fbs_encoder_stream_close(GstFbsEncoderStream* stream) {
   fbs_encoder_close(&stream->encoder);
   g_clear_pointer(&stream->group, gst_fbs_group_free);
-}
-
-void gst_fbs_encoder_stream_close(GstFbsEncoderStream* stream) {
-  close_encoder(stream);
   g_queue_clear_full(&stream->ready, (GDestroyNotify)gst_fbs_group_free);
-  stream->before = (GstFbsRejoin){0, 0, GST_FBS_FIRST_CHECK};
   stream->pictures = stream->time = 0;
-}
-
-guint64 gst_fbs_encoder_stream_pictures(const GstFbsEncoderStream* stream) {
-  return stream->before.pictures + stream->pictures;
-}
-
-guint64 gst_fbs_encoder_stream_time(const GstFbsEncoderStream* stream) {
-  return stream->before.time + stream->time;
 }
 
 fbs_status gst_fbs_encoder_stream_open(GstFbsEncoderStream* stream, const fbs_encoder_settings* settings) {
-  const GstFbsRejoin before = {gst_fbs_encoder_stream_pictures(stream), gst_fbs_encoder_stream_time(stream),
-                               GST_FBS_FIRST_CHECK};
-  close_encoder(stream);
-  stream->before = before;
-  stream->pictures = stream->time = 0;
+  gst_fbs_encoder_stream_close(stream);
   stream->nominal = (guint32)gst_util_uint64_scale_round(
       FBS_TICKS_PER_SECOND, settings->format.frame_rate_den, settings->format.frame_rate_num);
   return fbs_encoder_open(&stream->encoder, settings);
@@ -63,23 +47,22 @@ static void take_packet(GstFbsEncoderStream* stream, const fbs_packet* packet) {
     stream->patterns = setup.patterns;
     group->key = TRUE;
   }
-  gst_fbs_rejoin_append(&stream->before, packet->data, packet->size, group->bytes);
+  g_byte_array_append(group->bytes, packet->data, (guint)packet->size);
   group->end = view.type == GST_FBS_END;
   if (group->end || releases(stream, view.type)) {
-    group->number = stream->before.pictures + packet->number;
+    group->number = packet->number;
     g_queue_push_tail(&stream->ready, g_steal_pointer(&stream->group));
   }
 }
 
-static void pull(GstFbsEncoderStream* stream, gboolean with_end) {
+static void pull(GstFbsEncoderStream* stream) {
   fbs_packet packet;
-  while (fbs_encoder_pull(stream->encoder, &packet) == FBS_OK)
-    if (with_end || packet.data[0] != GST_FBS_END) take_packet(stream, &packet);
+  while (fbs_encoder_pull(stream->encoder, &packet) == FBS_OK) take_packet(stream, &packet);
 }
 
 fbs_status gst_fbs_encoder_stream_push(GstFbsEncoderStream* stream, const fbs_const_picture* picture,
                                        guint64 end) {
-  const guint64 now = gst_fbs_encoder_stream_time(stream);
+  const guint64 now = stream->time;
   const guint64 longest = 60 * (guint64)FBS_TICKS_PER_SECOND;
   const guint64 wanted = CLAMP(end, now + 1, now + longest) - now;
   const guint64 off = MAX(wanted, stream->nominal) - MIN(wanted, stream->nominal);
@@ -88,13 +71,13 @@ fbs_status gst_fbs_encoder_stream_push(GstFbsEncoderStream* stream, const fbs_co
   if (status != FBS_OK) return status;
   ++stream->pictures;
   stream->time += duration;
-  pull(stream, TRUE);
+  pull(stream);
   return FBS_OK;
 }
 
-fbs_status gst_fbs_encoder_stream_finish(GstFbsEncoderStream* stream, gboolean goes_on) {
+fbs_status gst_fbs_encoder_stream_finish(GstFbsEncoderStream* stream) {
   if (stream->encoder == NULL || stream->pictures == 0) return FBS_OK;
   const fbs_status status = fbs_encoder_finish(stream->encoder);
-  pull(stream, !goes_on);
+  pull(stream);
   return status;
 }

@@ -1,10 +1,9 @@
-/* An encoder whose stream goes on when the encoder is replaced, and comes out in groups. */
+/* An encoder whose stream comes out in groups. */
 #ifndef FBS_GSTREAMER_ENCODER_STREAM_H
 #define FBS_GSTREAMER_ENCODER_STREAM_H
 
 #include <fbs/encoder.h>
-
-#include "rejoin.h"
+#include <glib.h>
 
 G_BEGIN_DECLS
 
@@ -21,7 +20,6 @@ void gst_fbs_group_free(GstFbsGroup* group);
 /** All zero: closed. */
 typedef struct {
   fbs_encoder* encoder; /**< null: closed */
-  GstFbsRejoin before;  /**< the encoder's stream */
   guint64 pictures;     /**< pushed to the encoder */
   guint64 time;         /**< the sum of their durations, 1/90000 s */
   guint32 nominal;      /**< duration, 1/90000 s */
@@ -30,8 +28,7 @@ typedef struct {
   GQueue ready;         /**< GstFbsGroup */
 } GstFbsEncoderStream;
 
-/** Begins a stream, or with an open one goes on with another encoder: gst_fbs_encoder_stream_finish() has
- * been called then.
+/** Begins a stream.
  * @return as fbs_encoder_open(); the stream is closed unless that is FBS_OK */
 fbs_status gst_fbs_encoder_stream_open(GstFbsEncoderStream* stream, const fbs_encoder_settings* settings);
 
@@ -42,13 +39,8 @@ fbs_status gst_fbs_encoder_stream_push(GstFbsEncoderStream* stream, const fbs_co
                                        guint64 end);
 
 /** Codes all that has been pushed.
- * @param goes_on  without an end packet
  * @return as fbs_encoder_finish(); FBS_OK if nothing has been pushed */
-fbs_status gst_fbs_encoder_stream_finish(GstFbsEncoderStream* stream, gboolean goes_on);
-
-/** Pictures of the whole stream, and their time. */
-guint64 gst_fbs_encoder_stream_pictures(const GstFbsEncoderStream* stream);
-guint64 gst_fbs_encoder_stream_time(const GstFbsEncoderStream* stream);
+fbs_status gst_fbs_encoder_stream_finish(GstFbsEncoderStream* stream);
 
 void gst_fbs_encoder_stream_close(GstFbsEncoderStream* stream);
 

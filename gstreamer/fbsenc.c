@@ -62,7 +62,7 @@ static void release_frames(GstFbsEnc* self, guint64 before) {
  * pushed, or so many as a live encoder groups. */
 static guint64 number_behind(const GstFbsEnc* self, const GstFbsGroup* group) {
   const GstFbsGroup* const next = g_queue_peek_head(&((GstFbsEnc*)self)->stream.ready);
-  const guint64 pushed = gst_fbs_encoder_stream_pictures(&self->stream);
+  const guint64 pushed = self->stream.pictures;
   const double rate = (double)self->settings.format.frame_rate_num / self->settings.format.frame_rate_den;
   const double grouped = group->key ? 1 : self->settings.live_delay * rate + 0.5;
   if (next != NULL) return next->number;
@@ -137,22 +137,12 @@ static fbs_status open_encoder(GstFbsEnc* self) {
   return gst_fbs_encoder_stream_open(&self->stream, &settings);
 }
 
-static GstFlowReturn finish_encoder(GstFbsEnc* self, gboolean goes_on) {
-  const fbs_status status = gst_fbs_encoder_stream_finish(&self->stream, goes_on);
+static GstFlowReturn finish_encoder(GstFbsEnc* self) {
+  const fbs_status status = gst_fbs_encoder_stream_finish(&self->stream);
   const GstFlowReturn flow = send_ready(self);
   if (status != FBS_OK) return fail(self, status);
   release_frames(self, G_MAXUINT64);
   return flow;
-}
-
-/* The library begins scenes where it likes. A scene on request takes another encoder, whose stream is made
- * the continuation of the one before. */
-static GstFlowReturn begin_scene(GstFbsEnc* self) {
-  const GstFlowReturn flow = finish_encoder(self, TRUE);
-  if (flow != GST_FLOW_OK) return flow;
-  self->first_number = gst_fbs_encoder_stream_pictures(&self->stream);
-  const fbs_status status = open_encoder(self);
-  return status == FBS_OK ? GST_FLOW_OK : fail(self, status);
 }
 
 static GstFlowReturn push_picture(GstFbsEnc* self, GstVideoCodecFrame* frame) {
@@ -171,6 +161,15 @@ static GstFlowReturn push_picture(GstFbsEnc* self, GstVideoCodecFrame* frame) {
   return status == FBS_OK ? GST_FLOW_OK : fail(self, status);
 }
 
+/* The scene begins with this picture or one that comes up to `delay` later. The base class keeps the request,
+ * and answers it downstream with the first buffer that is a sync point. */
+static void request_scene(GstFbsEnc* self) {
+  if (!self->settings.live)
+    GST_INFO_OBJECT(self, "scenes come on request with `live` only");
+  else if (self->stream.pictures > 0)
+    fbs_encoder_request_scene(self->stream.encoder);
+}
+
 static GstClockTime duration_of(const GstFbsEnc* self, const GstVideoCodecFrame* frame) {
   if (GST_CLOCK_TIME_IS_VALID(frame->duration) && frame->duration > 0) return frame->duration;
   return gst_util_uint64_scale(GST_SECOND, self->settings.format.frame_rate_den,
@@ -183,19 +182,14 @@ static GstFlowReturn gst_fbs_enc_handle_frame(GstVideoEncoder* encoder, GstVideo
     GST_LOG_OBJECT(self, "late: picture %u is dropped", frame->system_frame_number);
     return gst_video_encoder_finish_frame(encoder, frame); /* without a buffer: tells of it, too */
   }
-  if (GST_VIDEO_CODEC_FRAME_IS_FORCE_KEYFRAME(frame) && self->stream.pictures > 0) {
-    const GstFlowReturn flow = begin_scene(self);
-    if (flow != GST_FLOW_OK) {
-      gst_video_codec_frame_unref(frame);
-      return flow;
-    }
-  } else if (self->stream.encoder == NULL) {
+  if (self->stream.encoder == NULL) {
     const fbs_status status = open_encoder(self);
     if (status != FBS_OK) {
       gst_video_codec_frame_unref(frame);
       return fail(self, status);
     }
   }
+  if (GST_VIDEO_CODEC_FRAME_IS_FORCE_KEYFRAME(frame)) request_scene(self);
   if (!GST_CLOCK_TIME_IS_VALID(self->origin)) self->origin = frame->pts;
   self->end = frame->pts + duration_of(self, frame);
   g_queue_push_tail(&self->frames, frame);
@@ -206,7 +200,7 @@ static GstFlowReturn gst_fbs_enc_handle_frame(GstVideoEncoder* encoder, GstVideo
 
 static GstFlowReturn gst_fbs_enc_finish(GstVideoEncoder* encoder) {
   GstFbsEnc* const self = GST_FBS_ENC(encoder);
-  const GstFlowReturn flow = finish_encoder(self, FALSE);
+  const GstFlowReturn flow = finish_encoder(self);
   close_stream(self);
   return flow;
 }

@@ -18,16 +18,6 @@ gboolean gst_fbs_read_varint(const guint8* data, gsize size, gsize* at, guint64*
   return FALSE;
 }
 
-void gst_fbs_write_varint(GByteArray* out, guint64 value) {
-  guint8 byte;
-  for (; value > 127; value >>= 7) {
-    byte = (guint8)(value | 128);
-    g_byte_array_append(out, &byte, 1);
-  }
-  byte = (guint8)value;
-  g_byte_array_append(out, &byte, 1);
-}
-
 guint16 gst_fbs_crc16(guint16 initial, const guint8* data, gsize size) {
   guint crc = initial;
   for (gsize k = 0; k < size; ++k) {
@@ -91,10 +81,8 @@ gboolean gst_fbs_setup_parse(const guint8* payload, gsize size, GstFbsSetup* out
   out->patterns = 1;
   if (!gst_fbs_read_varint(payload, size, &at, &out->version)) return FALSE;
   ++at; /* generic head */
-  out->before = at;
   for (gsize k = 0; k < G_N_ELEMENTS(position); ++k)
     if (!gst_fbs_read_varint(payload, size, &at, position[k])) return FALSE;
-  out->behind = at;
   for (gsize k = 0; k < G_N_ELEMENTS(format); ++k)
     if (!gst_fbs_read_varint(payload, size, &at, format[k])) return FALSE;
   ++at;                                 /* colour */

@@ -60,8 +60,7 @@ typedef struct {
   guint64 width, height;
   guint64 rate_num, rate_den;
   guint64 aspect_num, aspect_den; /**< 0/1: unknown */
-  guint8 patterns;      /**< slots; 1: motion packets release pictures, otherwise blend packets do */
-  gsize before, behind; /**< where pictures_before begins in the payload, and where time_before ends */
+  guint8 patterns; /**< slots; 1: motion packets release pictures, otherwise blend packets do */
 } GstFbsSetup;
 
 /** @return FALSE if the payload ends early; fields of a version that the library does not read are those that
@@ -73,7 +72,6 @@ gboolean gst_fbs_find_setup(const guint8* data, gsize size, GstFbsSetup* out);
 
 /** Reads an unsigned number and moves *at behind it. FALSE: it is malformed, or the bytes end in it. */
 gboolean gst_fbs_read_varint(const guint8* data, gsize size, gsize* at, guint64* value);
-void gst_fbs_write_varint(GByteArray* out, guint64 value);
 
 G_END_DECLS
 

@@ -17,7 +17,7 @@ GST_DEBUG_CATEGORY_STATIC(rtp_fbs_depay_debug);
 #define GST_CAT_DEFAULT rtp_fbs_depay_debug
 
 #define DEFAULT_REQUEST_KEYFRAME TRUE
-#define REQUEST_INTERVAL (500 * GST_MSECOND) /* of requests, while no scene comes */
+#define REQUEST_INTERVAL (500 * GST_MSECOND) /* of requests, while no scene comes that may be on its way */
 #define MAX_GROUP (64u << 20)                /* bytes; none that an encoder sends has a thousandth of that */
 
 typedef struct {
@@ -65,10 +65,21 @@ static void join(GstRtpFbsDepay* self) {
 
 /* ---- after a loss ---- */
 
+/* What has arrived waits so long in the jitter buffer before it comes here. */
+static GstClockTime time_in_jitter_buffer(GstRtpFbsDepay* self) {
+  GstQuery* const query = gst_query_new_latency();
+  GstClockTime out = 0;
+  if (gst_pad_peer_query(GST_RTP_BASE_DEPAYLOAD_SINKPAD(self), query))
+    gst_query_parse_latency(query, NULL, &out, NULL);
+  gst_query_unref(query);
+  return out;
+}
+
 static void ask_for_scene(GstRtpFbsDepay* self, GstClockTime now) {
-  const gboolean is_asked = GST_CLOCK_TIME_IS_VALID(self->requested) && GST_CLOCK_TIME_IS_VALID(now) &&
-                            now < self->requested + REQUEST_INTERVAL;
-  if (!self->request_keyframe || is_asked) return;
+  if (!self->request_keyframe) return;
+  if (GST_CLOCK_TIME_IS_VALID(self->requested) && GST_CLOCK_TIME_IS_VALID(now) &&
+      now < self->requested + REQUEST_INTERVAL + time_in_jitter_buffer(self))
+    return;
   GST_DEBUG_OBJECT(self, "asks for a scene");
   self->requested = now;
   gst_pad_push_event(GST_RTP_BASE_DEPAYLOAD_SINKPAD(self),
@@ -162,6 +173,21 @@ static GstBuffer* gst_rtp_fbs_depay_process(GstRTPBaseDepayload* depay, GstRTPBu
   return gst_rtp_buffer_get_marker(rtp) ? whole_group(self) : NULL;
 }
 
+/* The jitter buffer (do-lost) says so when the packet should have been there, a group before the next one
+ * comes. */
+static gboolean gst_rtp_fbs_depay_packet_lost(GstRTPBaseDepayload* depay, GstEvent* event) {
+  GstRtpFbsDepay* const self = GST_RTP_FBS_DEPAY(depay);
+  const GstStructure* const lost = gst_event_get_structure(event);
+  guint64 now = GST_CLOCK_TIME_NONE;
+  gboolean may_be_parity = FALSE;
+  gst_structure_get_boolean(lost, "might-have-been-fec", &may_be_parity);
+  gst_structure_get_uint64(lost, "timestamp", &now);
+  if (may_be_parity) return TRUE;
+  lose(self);
+  ask_for_scene(self, now);
+  return TRUE; /* no gap: the picture is held */
+}
+
 static gboolean gst_rtp_fbs_depay_set_caps(GstRTPBaseDepayload* depay, GstCaps* caps) {
   gint rate = FBS_TICKS_PER_SECOND;
   gst_structure_get_int(gst_caps_get_structure(caps, 0), "clock-rate", &rate);
@@ -227,6 +253,7 @@ static void gst_rtp_fbs_depay_class_init(GstRtpFbsDepayClass* type) {
   element->change_state = gst_rtp_fbs_depay_change_state;
   depay->set_caps = gst_rtp_fbs_depay_set_caps;
   depay->process_rtp_packet = gst_rtp_fbs_depay_process;
+  depay->packet_lost = gst_rtp_fbs_depay_packet_lost;
   depay->handle_event = gst_rtp_fbs_depay_handle_event;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/gstreamer/stream.h"
 
@@ -56,33 +57,59 @@ TEST(FbsEnc, ReportsTheDelayOfAGroupAndOnePicture) {
   EXPECT_NEAR(static_cast<double>(latency), 0.3 * GST_SECOND + kFrame, 1e3);
 }
 
-TEST(FbsEnc, AKeyUnitOnRequestIsASceneOfTheSameStream) {
-  const std::vector<Buffer> groups = encoded(kPictures, {20, 45});
-  EXPECT_EQ(keys(groups), 3);
-  const Decoded pictures = decoded(joined(groups));
-  EXPECT_EQ(pictures.errors, 0);
-  ASSERT_EQ(pictures.pictures.size(), kPictures);
-  for (std::size_t k = 0; k < kPictures; ++k) {
-    const fbs_picture_info& info = pictures.pictures[k].info;
-    EXPECT_EQ(info.number, k);
-    EXPECT_EQ(info.time, k * FBS_TICKS_PER_SECOND / kRate);
-    EXPECT_EQ(info.new_scene, k == 0 || k == 20 || k == 45) << k;
-    EXPECT_EQ(info.held, 0);
+TEST(FbsEnc, AKeyUnitOnRequestIsASceneOfTheSameStreamWithinTheDelay) {
+  for (const char* settings : {"", "patterns=1", "threads=2"}) {
+    const std::vector<Buffer> groups = encoded(kPictures, {20, 45}, 1, settings);
+    const std::vector<std::size_t> scenes = scenes_of(groups);
+    ASSERT_EQ(scenes.size(), 3U) << settings;
+    for (const auto& [scene, asked] : {std::pair(scenes[1], 20U), std::pair(scenes[2], 45U)}) {
+      EXPECT_GE(scene, asked) << settings;
+      EXPECT_LE(scene, asked + kGroup) << settings;
+    }
+    const Decoded pictures = decoded(joined(groups));
+    EXPECT_EQ(pictures.errors, 0);
+    ASSERT_EQ(pictures.pictures.size(), kPictures);
+    for (std::size_t k = 0; k < kPictures; ++k) {
+      const fbs_picture_info& info = pictures.pictures[k].info;
+      EXPECT_EQ(info.number, k);
+      EXPECT_EQ(info.time, k * FBS_TICKS_PER_SECOND / kRate);
+      EXPECT_EQ(info.new_scene, std::ranges::count(scenes, k)) << k;
+      EXPECT_EQ(info.held, 0);
+    }
   }
 }
 
-TEST(FbsEnc, AnswersARequestDownstream) {
+TEST(FbsEnc, ARequestBeforeTheFirstPictureOrWithoutLiveAddsNoScene) {
+  EXPECT_EQ(keys(encoded(20, {0})), 1);
+  const std::vector<Buffer> groups = encoded(20, {10}, 1, "live=false");
+  EXPECT_EQ(keys(groups), 1);
+  EXPECT_EQ(decoded(joined(groups)).errors, 0);
+}
+
+TEST(FbsEnc, AnswersARequestDownstreamBeforeTheSceneWithItsTimes) {
   const Harness harness = encoder_harness("fbsenc threads=1 effort=0");
-  push(harness.get(), talker_buffer(0));
+  for (int k = 0; k < 10; ++k) push(harness.get(), talker_buffer(k));
   gst_harness_push_upstream_event(harness.get(),
                                   gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 7));
-  push(harness.get(), talker_buffer(1));
+  for (int k = 10; k < 20; ++k) push(harness.get(), talker_buffer(k));
   int answers = 0;
+  GstClockTime stream_time = 0, running_time = 0;
+  guint count = 0;
   while (GstEvent* const event = gst_harness_try_pull_event(harness.get())) {
-    answers += gst_video_event_is_force_key_unit(event) ? 1 : 0;
+    if (gst_video_event_is_force_key_unit(event)) {
+      ++answers;
+      gst_video_event_parse_downstream_force_key_unit(event, nullptr, &stream_time, &running_time, nullptr,
+                                                      &count);
+    }
     gst_event_unref(event);
   }
+  const std::vector<Buffer> groups = finish(harness.get());
+  const auto scene = std::ranges::find_if(groups.begin() + 1, groups.end(), is_key);
+  ASSERT_NE(scene, groups.end());
   EXPECT_EQ(answers, 1);
+  EXPECT_EQ(count, 7U);
+  EXPECT_EQ(stream_time, GST_BUFFER_PTS(scene->get()));
+  EXPECT_EQ(running_time, GST_BUFFER_PTS(scene->get()));
 }
 
 TEST(FbsEnc, AFlushBeginsANewStream) {

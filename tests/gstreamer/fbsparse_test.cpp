@@ -81,17 +81,18 @@ TEST(FbsParse, PassesOverDamageToTheNextScene) {
   ASSERT_GT(parsed.size(), 3U);
   EXPECT_TRUE(is_key(parsed[2]));
   EXPECT_TRUE(GST_BUFFER_IS_DISCONT(parsed[2].get()));
-  EXPECT_EQ(GST_BUFFER_PTS(parsed[2].get()), GST_SECOND);
+  EXPECT_EQ(scenes_of(parsed).at(1), scenes_of(groups).at(1));
   EXPECT_EQ(messages.count(GST_MESSAGE_WARNING), 1);
 }
 
 TEST(FbsParse, DamageAnywhereCostsItsSceneAlone) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   const Bytes stream = joined(groups);
-  const auto second_scene = [](const std::vector<Buffer>& parsed) {
+  const GstClockTime begin = scenes_of(groups).at(1) * GST_SECOND / kRate;
+  const auto second_scene = [begin](const std::vector<Buffer>& parsed) {
     Bytes out;
     for (const Buffer& group : parsed)
-      if (GST_BUFFER_PTS(group.get()) >= GST_SECOND)
+      if (GST_BUFFER_PTS(group.get()) >= begin)
         std::ranges::copy(bytes_of(group.get()), std::back_inserter(out));
     return out;
   };
@@ -190,10 +191,14 @@ class Player {
 TEST(FbsParse, DecodingBeginsWithTheSceneThatIsSoughtIn) {
   constexpr GstClockTime kSlower = 50;  // scenes of more than half a minute
   const auto time_of = [](GstClockTime number) { return kSlower * number * GST_SECOND / kRate; };
-  const StreamFile file(joined(encoded(kPictures, {20, 40}, kSlower)));
+  const std::vector<Buffer> groups = encoded(kPictures, {20, 40}, kSlower);
+  const std::vector<std::size_t> scenes = scenes_of(groups, kSlower);
+  ASSERT_EQ(scenes.size(), 3U);
+  const StreamFile file(joined(groups));
   for (const GstSeekFlags flags : {GST_SEEK_FLAG_NONE, GST_SEEK_FLAG_ACCURATE, GST_SEEK_FLAG_KEY_UNIT})
-    for (const auto& [number, scene] : {std::pair(58U, 40U), std::pair(38U, 20U), std::pair(5U, 0U),
-                                        std::pair(18U, 0U), std::pair(41U, 40U)}) {
+    for (const auto& [number, scene] :
+         {std::pair(58UL, scenes[2]), std::pair(38UL, scenes[1]), std::pair(5UL, scenes[0]),
+          std::pair(18UL, scenes[0]), std::pair(scenes[2] + 1, scenes[2])}) {
       Player player(file, "fbsparse name=parser ! fbsdec");
       player.watch_parser();
       player.seek(time_of(number) + kFrame, flags);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string_view>
+#include <utility>
 
 #include "tests/gstreamer/stream.h"
 
@@ -14,16 +15,19 @@ TEST(FbsPacket, CheckIsThatOfTheFormat) {
   EXPECT_EQ(gst_fbs_crc16(0xFFFF, reinterpret_cast<const guint8*>(digits.data()), digits.size()), 0x29B1);
 }
 
-TEST(FbsPacket, VarintsComeBack) {
-  for (const guint64 value : {guint64{0}, guint64{127}, guint64{128}, guint64{300000}, ~guint64{0}}) {
-    GByteArray* const bytes = g_byte_array_new();
-    gst_fbs_write_varint(bytes, value);
+TEST(FbsPacket, VarintsHaveSevenBitsInAByteTheLowestFirst) {
+  const std::vector<std::pair<Bytes, guint64>> cases = {
+      {{0}, 0},
+      {{127}, 127},
+      {{0x80, 1}, 128},
+      {{0xE0, 0xA7, 0x12}, 300000},
+      {{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 1}, ~guint64{0}}};
+  for (const auto& [bytes, value] : cases) {
     gsize at = 0;
     guint64 read = 1;
-    EXPECT_TRUE(gst_fbs_read_varint(bytes->data, bytes->len, &at, &read));
+    EXPECT_TRUE(gst_fbs_read_varint(bytes.data(), bytes.size(), &at, &read));
     EXPECT_EQ(read, value);
-    EXPECT_EQ(at, bytes->len);
-    g_byte_array_unref(bytes);
+    EXPECT_EQ(at, bytes.size());
   }
 }
 

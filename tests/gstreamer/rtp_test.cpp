@@ -91,6 +91,36 @@ TEST(RtpFbs, AfterALossASceneIsAskedFor) {
   EXPECT_EQ(scene_requests(silent.get()), 0);
 }
 
+TEST(RtpFbs, ASceneIsAskedForAsSoonAsAPacketIsGivenUp) {
+  const std::vector<Buffer> groups = encoded(20);
+  std::vector<Buffer> packets = paid(groups, 1400);
+  for (const bool may_be_parity : {false, true}) {
+    const Harness harness = depayloader();
+    for (std::size_t k = 0; k < 2; ++k) push(harness.get(), copy_of(packets[k]));
+    gst_harness_push_event(
+        harness.get(),
+        gst_event_new_custom(
+            GST_EVENT_CUSTOM_DOWNSTREAM,
+            gst_structure_new("GstRTPPacketLost", "seqnum", G_TYPE_UINT, 2U, "timestamp", G_TYPE_UINT64,
+                              guint64{GST_SECOND}, "duration", G_TYPE_UINT64, guint64{GST_SECOND} / 5,
+                              "might-have-been-fec", G_TYPE_BOOLEAN, may_be_parity, nullptr)));
+    EXPECT_EQ(scene_requests(harness.get()), may_be_parity ? 0 : 1);
+    const std::size_t before = pull(harness.get()).size();
+    push(harness.get(), copy_of(packets[2]));  // of no use after a loss
+    EXPECT_EQ(pull(harness.get()).size(), may_be_parity ? 1U : 0U) << before;
+  }
+}
+
+TEST(RtpFbs, ASceneThatMayWaitInTheJitterBufferIsNotAskedForAgain) {
+  const std::vector<Buffer> groups = encoded(kPictures);
+  const Harness close = depayloader(), behind = depayloader();
+  gst_harness_set_upstream_latency(behind.get(), GST_SECOND);
+  without(close.get(), groups, 3);
+  without(behind.get(), groups, 3);
+  EXPECT_GE(scene_requests(close.get()), 3);   // in 1.8 s, one each half second
+  EXPECT_LE(scene_requests(behind.get()), 2);  // each second and a half
+}
+
 TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   std::vector<Buffer> packets = paid(groups, 1400);
@@ -98,7 +128,7 @@ TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
   for (std::size_t k = 1; k < packets.size(); ++k) push(harness.get(), std::move(packets[k]));
   const Decoded pictures = decoded(joined(finish(harness.get())));
   EXPECT_EQ(pictures.errors, 0);
-  EXPECT_EQ(pictures.pictures.size(), 30U);
+  EXPECT_EQ(pictures.pictures.size(), kPictures - scenes_of(groups).at(1));
 }
 
 TEST(RtpFbs, PayloadsOfNothingAreNoHarm) {

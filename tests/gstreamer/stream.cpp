@@ -82,8 +82,9 @@ std::vector<Buffer> finish(GstHarness* harness) {
   return pull(harness);
 }
 
-std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes, int slower) {
-  const Harness harness = encoder_harness("fbsenc threads=1 effort=0");
+std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes, int slower,
+                            const std::string& settings) {
+  const Harness harness = encoder_harness("fbsenc threads=1 effort=0 " + settings);
   for (int k = 0; k < pictures; ++k) {
     if (std::ranges::find(scenes, k) != scenes.end())
       gst_harness_push_upstream_event(
@@ -94,6 +95,15 @@ std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes, int sl
     push(harness.get(), std::move(picture));
   }
   return finish(harness.get());
+}
+
+std::vector<std::size_t> scenes_of(const std::vector<Buffer>& groups, int slower) {
+  std::vector<std::size_t> out;
+  for (const Buffer& group : groups)
+    if (is_key(group))
+      out.push_back(gst_util_uint64_scale_round(GST_BUFFER_PTS(group.get()), kRate,
+                                                static_cast<guint64>(slower) * GST_SECOND));
+  return out;
 }
 
 Bytes bytes_of(GstBuffer* buffer) {

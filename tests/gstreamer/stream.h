@@ -13,6 +13,8 @@
 namespace fbs::gstreamer {
 
 inline constexpr int kSide = 112, kRate = 30, kPictures = 60;
+/// Pictures of a live group, the delay of 0.2 s.
+inline constexpr int kGroup = 6;
 inline constexpr GstClockTime kFrame = GST_SECOND / kRate;
 
 struct CloseHarness {
@@ -43,9 +45,11 @@ std::vector<Buffer> pull(GstHarness* harness);
 /// The same after the end of the stream.
 std::vector<Buffer> finish(GstHarness* harness);
 
-/// Groups of a stream of so many pictures, with a scene on request at each of `scenes`. Made by fbsenc.
-/// @param slower  so many times as long as the talker's
-std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes = {}, int slower = 1);
+/// Groups of a stream of so many pictures, with a scene requested at each of `scenes`. Made by fbsenc.
+/// @param slower    so many times as long as the talker's
+/// @param settings  of fbsenc; the last ones count
+std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes = {}, int slower = 1,
+                            const std::string& settings = {});
 
 Bytes bytes_of(GstBuffer* buffer);
 Bytes joined(const std::vector<Buffer>& buffers);
@@ -53,6 +57,9 @@ Buffer copy_of(const Buffer& buffer);
 inline bool is_key(const Buffer& buffer) {
   return !GST_BUFFER_FLAG_IS_SET(buffer.get(), GST_BUFFER_FLAG_DELTA_UNIT);
 }
+
+/// Pictures with which scenes begin.
+std::vector<std::size_t> scenes_of(const std::vector<Buffer>& groups, int slower = 1);
 
 struct DecodedPicture {
   fbs_picture_info info;

@@ -1,10 +1,14 @@
 """The plugin for GStreamer in pipelines: what it reads and writes is what fbs reads and writes."""
 import os
+import re
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 
-from harness import (BUILD, KEYED_FBS, MAX_SECONDS, TALK_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, packets,
+import call
+from harness import (BUILD, KEYED_FBS, MAX_SECONDS, SOURCE, TALK_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, packets,
                      read_y4m)
 
 PLUGIN = BUILD / "gstreamer/libgstfbs.so"
@@ -104,6 +108,50 @@ class GStreamer(ProgramTest):
             self.launch("videotestsrc num-buffers=5 ! video/x-raw,width=32,height=32 ! fbsenc ! fakesink")
         with self.assertRaises(AssertionError):
             self.launch("videotestsrc num-buffers=5 ! video/x-raw,format=RGB ! fbsenc ! fakesink")
+
+    def documented(self):
+        """The lines of docs/gstreamer.md, with a file in place of camera and microphone, and no windows."""
+        text = (SOURCE / "docs/gstreamer.md").read_text()
+        blocks = [block for block in re.findall(r"(?:^    .*\n)+", text, re.MULTILINE) if "gst-launch-1.0" in block]
+        first, lines = call.free_ports(), [" ".join(line.strip().rstrip("\\") for line in block.splitlines()) for block in blocks]
+        for theirs, ours in (("v4l2src", f"filesrc location={TALK_Y4M} ! y4mdec ! clocksync"), ("HOST", "127.0.0.1"),
+                             ("autoaudiosrc", "audiotestsrc is-live=true"), ("autovideosink", "fakesink name=window sync=true"),
+                             ("autoaudiosink", "fakesink sync=true"), ("talk.mp4", str(TALK_Y4M))):
+            lines = [line.replace(theirs, ours) for line in lines]
+        return [re.sub(r"port=500(\d)", lambda port: f"port={first + int(port[1])}", line).split() for line in lines]
+
+    def start(self, words, output):
+        environment = {**os.environ, "GST_PLUGIN_PATH": str(PLUGIN.parent), "LC_ALL": "C",
+                       "GST_REGISTRY": str(self.folder / "registry.bin")}
+        with open(self.folder / output, "wb") as out:
+            return subprocess.Popen([words[0], "-v", *(word.replace('"', "") for word in words[1:])], cwd=self.folder,
+                                    env=environment, stdout=out, stderr=subprocess.STDOUT)
+
+    def test_lines_of_the_document_run(self):
+        play, camera, best, *ends = self.documented()
+        self.assertEqual(len(ends), 2)
+        self.write("talk.fbs", TALK_FBS.read_bytes())
+        self.tool(*play)
+        recorder = self.start(camera, "camera.txt")
+        time.sleep(3)
+        recorder.send_signal(signal.SIGINT)
+        self.assertEqual(recorder.wait(MAX_SECONDS), 0, (self.folder / "camera.txt").read_text())
+        self.assertGreater(len(self.decoded("me.fbs").pictures), 0)
+        self.tool(*best)
+        self.assertEqual(len(self.decoded("talk.fbs").pictures), 120)
+
+    def test_the_call_of_the_document_shows_pictures(self):
+        sender, receiver = (self.start(words, f"{name}.txt") for words, name in zip(self.documented()[3:], ("sends", "sees")))
+        end = time.monotonic() + 60
+        while time.monotonic() < end and "GstFakeSink:window.GstPad:sink: caps" not in (self.folder / "sees.txt").read_text():
+            time.sleep(0.2)
+        for process, name in ((sender, "sends.txt"), (receiver, "sees.txt")):
+            text = (self.folder / name).read_text()
+            self.assertIsNone(process.poll(), text)
+            self.assertNotIn("ERROR", text)
+            process.kill()
+            process.wait()
+        self.assertLess(time.monotonic(), end, "no picture")
 
     def test_elements_are_described(self):
         for element in ELEMENTS:
