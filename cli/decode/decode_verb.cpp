@@ -45,8 +45,15 @@ class Decoding {
   /// The next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> open_sink();
-  /// The sound up to a time of the stream, 1/90000 s.
-  Result<void> write_sound(std::uint64_t end);
+  /// Time in the stream of the output's beginning, 1/90000 s. Pictures that are lost there leave a gap, so
+  /// that sound keeps its place.
+  [[nodiscard]] std::uint64_t begin() {
+    return arguments_.from > 0 ? decoder().position().time : decoder().start().time;
+  }
+  /// Whether the silence before the current picture can be filled.
+  Result<void> check_silence();
+  /// The sound up to the end of the current picture.
+  Result<void> write_sound();
   Result<void> write();
   /// Of a .wav: the sound alone.
   Result<void> write_wave();
@@ -72,10 +79,15 @@ class Decoding {
   std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
 };
 
-/// 1/kSoundClock s of 1/90000 s.
-std::int64_t sound_time(std::int64_t time) {
-  return time * kSoundClock / kTicksPerSecond;
+/// 1/kSoundClock s of 1/90000 s, up to kMaxStreamTime.
+std::int64_t sound_time(std::uint64_t time) {
+  constexpr std::int64_t kPer = kTicksPerSecond / 6000, kTicks = kSoundClock / 6000;
+  return static_cast<std::int64_t>(time) * kTicks / kPer;
 }
+
+/// The longest time without pictures that is filled with silence, 1/90000 s: an hour. Damaged streams say
+/// anything.
+constexpr std::uint64_t kLongestSilence = std::uint64_t{3600} * kTicksPerSecond;
 
 bool has_sound(const std::string& output) {
   const std::string extension = extension_of(output);
@@ -139,14 +151,12 @@ Result<bool> Decoding::next() {
 
 Result<void> Decoding::open_sink() {
   const VideoFormat& format = decoder().format();
-  // Pictures that are lost at the beginning leave a gap, so that sound keeps its place.
-  next_ = arguments_.from > 0 ? decoder().position().time : decoder().start().time;
-  const std::int64_t sound_begin = arguments_.from > 0 ? static_cast<std::int64_t>(next_) : 0;
+  next_ = begin();
   const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
-  SinkOptions options{arguments_.sound, sound_begin};
+  SinkOptions options{arguments_.sound, static_cast<std::int64_t>(next_)};
   std::vector<SoundPart> sound = decoder().take_sound();
   if (arguments_.sound.empty() && !arguments_.no_sound && has_sound(output) && decoder().sound_setup()) {
-    auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(sound_begin));
+    auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(next_));
     if (!created) return fail(created.error());
     sound_.emplace(std::move(*created));
     options.sound = sound_->setup();
@@ -166,16 +176,31 @@ Result<void> Decoding::open_sink() {
   return {};
 }
 
-Result<void> Decoding::write_sound(std::uint64_t end) {
+Result<void> Decoding::check_silence() {
+  const std::uint64_t silence = decoder().position().time - next_;
+  if (silence <= kLongestSilence) return {};
+  return fail(ErrorCode::kTooLarge, file_->name() + ": " + std::to_string(silence / kTicksPerSecond / 3600) +
+                                        " hours are missing, too many to be filled with silence; --from "
+                                        "begins behind them");
+}
+
+Result<void> Decoding::write_sound() {
   for (SoundPart& part : decoder().take_sound())
     if (sound_)
       if (auto added = sound_->add(std::move(part)); !added) return added;
-  return sound_ ? sound_->write(sound_time(static_cast<std::int64_t>(end)), *sink_) : Result<void>();
+  if (!sound_) return {};
+  if (sound_->fills_gaps())
+    if (auto checked = check_silence(); !checked) return checked;
+  return sound_->write(sound_time(decoder().position().time + decoder().duration()), *sink_);
 }
 
 Result<void> Decoding::write_wave() {
-  const std::uint64_t begin = decoder().position().time;
-  if (!samples_) samples_.emplace(sound_time(arguments_.from > 0 ? static_cast<std::int64_t>(begin) : 0));
+  if (!samples_) {
+    next_ = begin();
+    samples_.emplace(sound_time(next_));
+  }
+  if (auto checked = check_silence(); !checked) return checked;
+  next_ = decoder().position().time + decoder().duration();
   for (SoundPart& part : decoder().take_sound())
     if (auto added = samples_->add(std::move(part)); !added) return added;
   if (samples_->sample_rate() == 0) return {};
@@ -186,7 +211,10 @@ Result<void> Decoding::write_wave() {
     if (wave_->replaced_leftover()) print_replaced_leftover(arguments_.output);
   }
   progress_.update(static_cast<std::int64_t>(decoder().pictures()));
-  return wave_->write(samples_->take(sound_time(static_cast<std::int64_t>(begin + decoder().duration()))));
+  for (auto samples = samples_->take(sound_time(next_)); !samples.empty();
+       samples = samples_->take(sound_time(next_)))
+    if (auto written = wave_->write(samples); !written) return written;
+  return {};
 }
 
 Result<void> Decoding::finish() {
@@ -204,7 +232,7 @@ Result<void> Decoding::write() {
   const std::uint64_t now = decoder().position().time;
   gaps_ += static_cast<std::int64_t>(now - next_);
   if (auto written = sink_->write(picture_, gaps_ + time_.pts()); !written) return written;
-  if (auto sound = write_sound(now + decoder().duration()); !sound) return sound;
+  if (auto sound = write_sound(); !sound) return sound;
   if (arguments_.md5) print_md5();
   time_.advance(decoder().duration());
   next_ = now + decoder().duration();
