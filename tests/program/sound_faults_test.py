@@ -9,7 +9,7 @@ from sound_test import SOUND, SOUND_SETUP, STEP, SpokenTalk, lag, read_wave
 
 SETUP, END = 1, 6
 SIGNATURE = b"\x89fbs"
-LAST_FRAME = 2 ** 32 - 1
+LATE_FRAME = 2 ** 32 - 100
 MOST_TIME = 2 ** 53  # 1/90000 s: thousands of years
 
 
@@ -88,7 +88,7 @@ class SoundFaults(SpokenTalk):
             parts = payloads(self.stream(codec))
             sounds = [k for k, (kind, _) in enumerate(parts) if kind == SOUND]
             kind, payload = parts[sounds[-1]]
-            parts[sounds[-1]] = kind, varint(LAST_FRAME) + read_varint(payload)[1]
+            parts[sounds[-1]] = kind, varint(LATE_FRAME) + read_varint(payload)[1]
             self.write("late.fbs", joined(parts))
             for name in ("out.wav", "out.mkv"):
                 self.succeed("decode", "late.fbs", name, "--quiet")

@@ -6,7 +6,7 @@ import random
 import struct
 import subprocess
 
-from harness import LITTLE_LOST, MUCH_LOST, TALK_FBS, TALK_Y4M, ProgramTest, ffmpeg, packets, talker
+from harness import LITTLE_LOST, MUCH_LOST, TALK_FBS, TALK_Y4M, ProgramTest, ffmpeg, ffprobe, packets, talker
 
 SOUND_SETUP, SOUND = 9, 10
 STEP = 0.02  # seconds: pictures and sound are in step
@@ -41,21 +41,30 @@ def read_wave(path):
     return struct.unpack_from("<I", data, 24)[0], array.array("h", data[at:at + (len(data) - at) // 2 * 2])
 
 
-def loudness(samples, rate, step=0.002):
-    size = int(rate * step)
-    return [sum(map(abs, samples[k:k + size])) for k in range(0, len(samples) - size + 1, size)]
+def level(samples, rate, step):
+    """dB below the loudest place, down to -40: each step, over ten steps. Rises and falls of a syllable count, not how loud a
+    codec makes it, which differs by codec and by pitch: lags by loudness itself are wrong by up to 25 ms for Codec 2."""
+    hop, size = int(rate * step), int(rate * step) * 10
+    padded = array.array("h", bytes(size)) + samples + array.array("h", bytes(size))
+    sums = [sum(x * x for x in padded[k:k + hop]) for k in range(0, len(padded) - hop + 1, hop)]
+    energy = [sum(sums[k:k + 10]) for k in range(len(sums) - 10)]
+    most = max(energy) + 1
+    return [max(10 * math.log10(value / most + 1e-9), -40) for value in energy]
 
 
 def lag(reference, heard, begin, end, most=0.1, step=0.002):
-    """Seconds by which what is heard between two times comes late: where the loudness of both agrees best."""
-    a = loudness(*reversed(reference), step)[int(begin / step):int(end / step)]
-    b = loudness(*reversed(heard), step)
+    """Seconds by which what is heard between two times comes late: where the levels of both agree best."""
+    a = level(*reversed(reference), step)[int(begin / step):int(end / step)]
+    b = level(*reversed(heard), step)
     mean = sum(a) / len(a)
     a = [value - mean for value in a]
     reach, first = int(most / step), int(begin / step)
 
     def agreement(shift):
-        return sum(x * b[first + k + shift] for k, x in enumerate(a) if 0 <= first + k + shift < len(b))
+        pairs = [(x, b[first + k + shift]) for k, x in enumerate(a) if 0 <= first + k + shift < len(b)]
+        mean = sum(y for _, y in pairs) / len(pairs)
+        spread = sum(x * x for x, _ in pairs) * sum((y - mean) ** 2 for _, y in pairs)
+        return sum(x * (y - mean) for x, y in pairs) / math.sqrt(spread + 1e-9)
     return step * max(range(-reach, reach + 1), key=agreement)
 
 
@@ -116,9 +125,8 @@ class Sound(SpokenTalk):
         heard = read_wave(self.folder / "talk.wav")
         self.assertEqual((heard[0], len(heard[1])), (8000, int(8000 * self.SECONDS)))
         self.succeed("decode", "talk.fbs", "out.mp4", "--quiet")
-        # The loudness of Codec 2 follows the voice's in steps of a frame, so parts do not tell.
         for sound in (heard, self.heard("out.mp4")):
-            self.assertLess(abs(lag(self.reference(), sound, 0, self.SECONDS)), STEP)
+            self.assert_in_step(sound)
 
     def test_pictures_are_the_same(self):
         self.source()
@@ -280,6 +288,9 @@ class LongTalk(ProgramTest):
         self.assertAlmostEqual(shown["seconds"], shown["frames"] * 1001 / 60000, delta=0.006)
         self.succeed("decode", "long.fbs", "long.wav", "--quiet")
         self.assertLess(abs(lag((rate, clicks), read_wave(self.folder / "long.wav"), seconds - 3, seconds - 1)), STEP)
+        self.succeed("decode", "long.fbs", "long.mp4", "--quiet")
+        times = [float(packet["pts_time"]) for packet in ffprobe(self.folder / "long.mp4", "packet=pts_time")["packets"]]
+        self.assertAlmostEqual(max(times) - min(times), (shown["frames"] - 1) * 1001 / 60000, delta=0.002)
 
 
 if __name__ == "__main__":
