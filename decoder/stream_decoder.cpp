@@ -26,6 +26,17 @@ tl::unexpected<Error> at(const Packet& packet, Error error) {
 
 }  // namespace
 
+std::size_t memory_of(const std::vector<std::uint8_t>& frame) {
+  constexpr std::size_t kOverhead = 64;  // of the vector and of what the allocator adds
+  return kOverhead + frame.size();
+}
+
+std::size_t memory_of(const SoundGroup& group) {
+  std::size_t sum = 0;
+  for (const auto& frame : group.frames) sum += memory_of(frame);
+  return sum;
+}
+
 StreamDecoder::StreamDecoder() {
   bytes_.other = bytes_.total = kSignature.size();
 }
@@ -267,7 +278,12 @@ Result<void> StreamDecoder::take_sound(const Packet& packet) {
   if (group->first < next_sound_)
     return fail(ErrorCode::kInvalidStream, "sound comes out of order", packet.offset);
   next_sound_ = group->first + static_cast<std::int64_t>(group->frames.size());
-  if (keeps_sound_) sound_parts_.push_back({*sound_, std::move(*group)});
+  if (!keeps_sound_) return {};
+  const std::size_t size = memory_of(*group);
+  if (sound_size_ + size > kMaxSoundAhead)
+    return fail(ErrorCode::kTooLarge, "too much sound comes before its pictures", packet.offset);
+  sound_size_ += size;
+  sound_parts_.push_back({*sound_, std::move(*group)});
   return {};
 }
 

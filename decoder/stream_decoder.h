@@ -40,6 +40,14 @@ struct SoundPart {
   SoundGroup group;
 };
 
+/// Most of the sound that waits for its pictures, memory_of(): an hour and a half of speech. Streams that
+/// have more of it before a picture are none of an encoder.
+inline constexpr std::size_t kMaxSoundAhead = std::size_t{1} << 24;
+
+/// About what a frame of sound takes, and a group; bytes.
+[[nodiscard]] std::size_t memory_of(const std::vector<std::uint8_t>& frame);
+[[nodiscard]] std::size_t memory_of(const SoundGroup& group);
+
 /// A pattern as it came.
 struct PatternRecord {
   int slot = 0;               ///< index into Scene::patterns, until another pattern comes for the slot
@@ -85,8 +93,12 @@ class StreamDecoder {
 
   /// Keeps the sound from now on, for take_sound(). Off by default.
   void keep_sound() { keeps_sound_ = true; }
-  /// Sound that has come since the last call. A part comes before the pictures that it belongs to.
-  [[nodiscard]] std::vector<SoundPart> take_sound() { return std::exchange(sound_parts_, {}); }
+  /// Sound that has come since the last call. A part comes before the pictures that it belongs to. Parts
+  /// beyond kMaxSoundAhead are lost, which next() reports as kTooLarge.
+  [[nodiscard]] std::vector<SoundPart> take_sound() {
+    sound_size_ = 0;
+    return std::exchange(sound_parts_, {});
+  }
   /// Of the scene: what its last sound setup packet says; nothing if there was none, or none that we know.
   [[nodiscard]] const std::optional<SoundSetup>& sound_setup() const { return sound_; }
 
@@ -225,6 +237,7 @@ class StreamDecoder {
   std::int64_t next_sound_ = 0;      ///< number of the first frame that has not come
   bool keeps_sound_ = false;
   std::vector<SoundPart> sound_parts_;
+  std::size_t sound_size_ = 0;  ///< memory_of() them
 
   std::uint64_t pictures_ = 0;
   bool records_patterns_ = false;

@@ -5,24 +5,18 @@
 #include <utility>
 
 #include "bitstream/byte_io.h"
+#include "bitstream/codec2_mode.h"
 
 namespace fbs {
 namespace {
 
-struct Codec2Mode {
-  std::int32_t rate;      // bit/s
-  std::int32_t duration;  // of a frame, 1/kSoundClock s
-  std::size_t bytes;      // of a frame
-};
-constexpr std::array<Codec2Mode, 6> kCodec2Modes{
-    {{3200, 960, 8}, {2400, 960, 6}, {1600, 1920, 8}, {1400, 1920, 7}, {1300, 1920, 7}, {1200, 1920, 6}}};
-
 /// Of Opus: 2.5, 5, 10, 20, 40, 60, 80, 100 and 120 ms.
 constexpr std::array<std::int32_t, 9> kOpusDurations{120, 240, 480, 960, 1920, 2880, 3840, 4800, 5760};
 
-const Codec2Mode* mode_of(std::int32_t rate) {
-  const auto* const found = std::ranges::find(kCodec2Modes, rate, &Codec2Mode::rate);
-  return found == kCodec2Modes.end() ? nullptr : found;
+/// Bytes of a frame of Codec 2; 0 of a mode that there is not.
+std::size_t codec2_frame_bytes(std::int32_t mode) {
+  const Codec2Mode* const known = find_codec2_mode(mode);
+  return known != nullptr ? known->frame_bytes : 0;
 }
 
 /// How many frames may begin within kMaxSoundGroup.
@@ -49,18 +43,14 @@ Result<std::vector<std::uint8_t>> next_frame(ByteReader& reader, const SoundSetu
 
 }  // namespace
 
-std::size_t codec2_frame_bytes(std::int32_t mode) {
-  const Codec2Mode* const known = mode_of(mode);
-  return known != nullptr ? known->bytes : 0;
-}
-
 bool is_valid(const SoundSetup& s) {
   if (s.skip < 0 || s.skip > kMaxSoundSkip) return false;
   if (s.codec == SoundCodec::kOpus)
     return s.mode == 0 && (s.channels == 1 || s.channels == 2) &&
            std::ranges::find(kOpusDurations, s.duration) != kOpusDurations.end();
-  const Codec2Mode* const mode = mode_of(s.mode);
-  return s.codec == SoundCodec::kCodec2 && s.channels == 1 && mode != nullptr && mode->duration == s.duration;
+  const Codec2Mode* const mode = find_codec2_mode(s.mode);
+  return s.codec == SoundCodec::kCodec2 && s.channels == 1 && mode != nullptr &&
+         mode->duration() == s.duration;
 }
 
 Result<std::vector<std::uint8_t>> encode_sound_setup(const SoundSetup& setup) {
@@ -87,7 +77,7 @@ Result<std::optional<SoundSetup>> decode_sound_setup(std::span<const std::uint8_
     return fail(ErrorCode::kInvalidStream, "the sound's setup is out of range");
   const SoundSetup setup{static_cast<SoundCodec>(codec), channels, static_cast<std::int32_t>(mode),
                          static_cast<std::int32_t>(duration), static_cast<std::int32_t>(skip)};
-  if (setup.codec == SoundCodec::kCodec2 && mode_of(setup.mode) == nullptr) return std::nullopt;
+  if (setup.codec == SoundCodec::kCodec2 && find_codec2_mode(setup.mode) == nullptr) return std::nullopt;
   if (!is_valid(setup)) return fail(ErrorCode::kInvalidStream, "the sound's setup is out of range");
   return setup;
 }

@@ -22,10 +22,6 @@ inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
   return type == PacketType::kSoundSetup || type == PacketType::kSound;
 }
 
-/// Bytes of a frame of Codec 2; of its mode.
-/// @return 0 for a mode that there is not
-[[nodiscard]] std::size_t codec2_frame_bytes(std::int32_t mode);
-
 /// Whether a decoder of this format may get it: what SoundSetup's comments and SPEC 4.9 say.
 [[nodiscard]] bool is_valid(const SoundSetup& setup);
 

@@ -50,8 +50,15 @@ class Decoding {
   /// The next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> open_sink();
-  /// The sound up to a time of the stream, 1/90000 s.
-  Result<void> write_sound(std::uint64_t end);
+  /// Time in the stream of the output's beginning, 1/90000 s. Pictures that are lost there leave a gap, so
+  /// that sound keeps its place.
+  [[nodiscard]] std::uint64_t begin() {
+    return arguments_.from > 0 ? decoder().position().time : decoder().start().time;
+  }
+  /// Whether the silence before the current picture can be filled.
+  Result<void> check_silence();
+  /// The sound up to the end of the current picture.
+  Result<void> write_sound();
   Result<void> write();
   /// Of a .wav: the sound alone.
   Result<void> write_wave();
@@ -82,6 +89,10 @@ class Decoding {
   std::int64_t gaps_ = 0;   ///< of pictures that are missing and not held, 1/90000 s
   std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
 };
+
+/// The longest time without pictures that is filled with silence, 1/90000 s: an hour. Damaged streams say
+/// anything.
+constexpr std::uint64_t kLongestSilence = std::uint64_t{3600} * kTicksPerSecond;
 
 Result<void> check_files(const DecodeArguments& a) {
   if (a.output.empty() && !a.md5) return fail(ErrorCode::kInvalidArgument, "OUTPUT is required, or --md5");
@@ -144,13 +155,12 @@ Result<bool> Decoding::next() {
 Result<void> Decoding::open_sink() {
   const VideoFormat& format = decoder().format();
   next_ = begin();
-  const auto sound_begin = static_cast<std::int64_t>(next_);
   const std::string& output = arguments_.output.empty() ? kNoOutput : arguments_.output;
-  SinkOptions options{arguments_.sound, sound_begin};
+  SinkOptions options{arguments_.sound, static_cast<std::int64_t>(next_)};
   std::vector<SoundPart> sound = decoder().take_sound();
   if (arguments_.sound.empty() && !arguments_.no_sound && has_sound_track(output) &&
       decoder().sound_setup()) {
-    auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(sound_begin));
+    auto created = SinkSound::create(*decoder().sound_setup(), sound, sound_time(options.sound_begin));
     if (!created) return fail(created.error());
     sound_.emplace(std::move(*created));
     options.sound = sound_->setup();
@@ -170,15 +180,32 @@ Result<void> Decoding::open_sink() {
   return {};
 }
 
-Result<void> Decoding::write_sound(std::uint64_t end) {
+Result<void> Decoding::check_silence() {
+  const std::uint64_t silence = decoder().position().time - next_;
+  if (silence <= kLongestSilence) return {};
+  return fail(ErrorCode::kTooLarge, file_->name() + ": " + std::to_string(silence / kTicksPerSecond / 3600) +
+                                        " hours are missing, too many to be filled with silence; --from "
+                                        "begins behind them");
+}
+
+Result<void> Decoding::write_sound() {
   for (SoundPart& part : decoder().take_sound())
     if (sound_)
       if (auto added = sound_->add(std::move(part)); !added) return added;
-  return sound_ ? sound_->write(sound_time(static_cast<std::int64_t>(end)), *sink_) : Result<void>();
+  if (!sound_) return {};
+  if (sound_->fills_gaps())
+    if (auto checked = check_silence(); !checked) return checked;
+  const std::uint64_t end = decoder().position().time + decoder().duration();
+  return sound_->write(sound_time(static_cast<std::int64_t>(end)), *sink_);
 }
 
 Result<void> Decoding::write_wave() {
-  if (!samples_) samples_.emplace(sound_time(static_cast<std::int64_t>(begin())));
+  if (!samples_) {
+    next_ = begin();
+    samples_.emplace(sound_time(static_cast<std::int64_t>(next_)));
+  }
+  if (auto checked = check_silence(); !checked) return checked;
+  next_ = decoder().position().time + decoder().duration();
   for (SoundPart& part : decoder().take_sound())
     if (auto added = samples_->add(std::move(part)); !added) return added;
   if (samples_->sample_rate() == 0) return {};
@@ -189,8 +216,10 @@ Result<void> Decoding::write_wave() {
     if (wave_->replaced_leftover()) print_replaced_leftover(arguments_.output);
   }
   progress_.update(static_cast<std::int64_t>(decoder().pictures()));
-  const std::uint64_t end = decoder().position().time + decoder().duration();
-  return wave_->write(samples_->take(sound_time(static_cast<std::int64_t>(end))));
+  const std::int64_t end = sound_time(static_cast<std::int64_t>(next_));
+  for (auto samples = samples_->take(end); !samples.empty(); samples = samples_->take(end))
+    if (auto written = wave_->write(samples); !written) return written;
+  return {};
 }
 
 Result<void> Decoding::finish() {
@@ -208,7 +237,7 @@ Result<void> Decoding::write() {
   const std::uint64_t now = decoder().position().time;
   gaps_ += static_cast<std::int64_t>(now - next_);
   if (auto written = sink_->write(picture_, gaps_ + time_.pts()); !written) return written;
-  if (auto sound = write_sound(now + decoder().duration()); !sound) return sound;
+  if (auto sound = write_sound(); !sound) return sound;
   if (arguments_.md5) print_md5();
   time_.advance(decoder().duration());
   next_ = now + decoder().duration();

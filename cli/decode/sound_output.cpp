@@ -45,23 +45,34 @@ Result<SinkSound> SinkSound::create(const SoundSetup& setup, std::span<const Sou
 
 Result<void> SinkSound::add(SoundPart part) {
   if (transcoder_) return transcoder_->decoded.add(std::move(part));
+  if (waiting_size_ + memory_of(part.group) > kMaxSoundAhead) return {};  // far ahead of its pictures
   std::int64_t frame = part.group.first;
   for (std::vector<std::uint8_t>& bytes : part.group.frames) {
     const std::int64_t time = time_of(part.setup, frame++) - begin_;
-    if (time >= -setup_.skip) waiting_.emplace_back(time, std::move(bytes));
+    if (time >= -setup_.skip) wait(time, std::move(bytes));
   }
   return {};
 }
 
 Result<void> SinkSound::write(std::int64_t end, VideoSink& sink) {
   if (transcoder_ && transcoder_->decoded.sample_rate() != 0) {
-    SoundEncoder::Frames frames;
-    if (auto coded = transcoder_->encoder->add(transcoder_->decoded.take(end), frames); !coded) return coded;
-    wait(frames);
+    DecodedSound& decoded = transcoder_->decoded;
+    for (auto samples = decoded.take(end); !samples.empty(); samples = decoded.take(end)) {
+      SoundEncoder::Frames frames;
+      if (auto coded = transcoder_->encoder->add(samples, frames); !coded) return coded;
+      wait(std::move(frames));
+      if (auto written = write_waiting(end, sink); !written) return written;
+    }
   }
-  for (; !waiting_.empty() && waiting_.front().first < end - begin_; waiting_.pop_front())
+  return write_waiting(end, sink);
+}
+
+Result<void> SinkSound::write_waiting(std::int64_t end, VideoSink& sink) {
+  for (; !waiting_.empty() && waiting_.front().first < end - begin_; waiting_.pop_front()) {
+    waiting_size_ -= memory_of(waiting_.front().second);
     if (auto written = sink.write_sound(waiting_.front().second, waiting_.front().first); !written)
       return written;
+  }
   return {};
 }
 
@@ -69,13 +80,17 @@ Result<void> SinkSound::finish(VideoSink& sink) {
   if (!transcoder_) return {};
   SoundEncoder::Frames frames;
   if (auto coded = transcoder_->encoder->finish(frames); !coded) return coded;
-  wait(frames);
-  transcoder_.reset();
-  return write(std::numeric_limits<std::int64_t>::max(), sink);
+  wait(std::move(frames));
+  return write_waiting(std::numeric_limits<std::int64_t>::max(), sink);
 }
 
-void SinkSound::wait(const SoundEncoder::Frames& frames) {
-  for (const auto& frame : frames) waiting_.emplace_back(time_of(setup_, transcoder_->frames++), frame);
+void SinkSound::wait(std::int64_t time, std::vector<std::uint8_t> frame) {
+  waiting_size_ += memory_of(frame);
+  waiting_.emplace_back(time, std::move(frame));
+}
+
+void SinkSound::wait(SoundEncoder::Frames frames) {
+  for (auto& frame : frames) wait(time_of(setup_, transcoder_->frames++), std::move(frame));
 }
 
 }  // namespace fbs::cli

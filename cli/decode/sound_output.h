@@ -30,6 +30,10 @@ class SinkSound {
   /// For SinkOptions.
   [[nodiscard]] const SoundSetup& setup() const { return setup_; }
 
+  /// Whether silence in the stream costs time and memory: of Opus, gaps are left as they are.
+  [[nodiscard]] bool fills_gaps() const { return transcoder_.has_value(); }
+
+  /// What is too far ahead of its pictures, kMaxSoundAhead, is left out.
   Result<void> add(SoundPart part);
   /// Writes what is heard before a time.
   Result<void> write(std::int64_t end, VideoSink& sink);
@@ -45,11 +49,14 @@ class SinkSound {
   using Frame = std::pair<std::int64_t, std::vector<std::uint8_t>>;  ///< time in the sink, bytes
 
   SinkSound(const SoundSetup& setup, std::int64_t begin) : setup_(setup), begin_(begin) {}
-  void wait(const SoundEncoder::Frames& frames);
+  void wait(std::int64_t time, std::vector<std::uint8_t> frame);
+  void wait(SoundEncoder::Frames frames);
+  Result<void> write_waiting(std::int64_t end, VideoSink& sink);
 
   SoundSetup setup_;
   std::int64_t begin_;
   std::deque<Frame> waiting_;
+  std::size_t waiting_size_ = 0;          ///< memory_of() them
   std::optional<Transcoder> transcoder_;  ///< of Codec 2
 };
 

@@ -3,24 +3,51 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/stream/sound_parts.h"
+
 namespace fbs::cli {
+namespace {
+
+/// A longer gap is not concealed: the decoder begins anew behind it.
+constexpr std::int64_t kLongGap = kSoundClock;
+
+}  // namespace
 
 Result<void> DecodedSound::add(SoundPart part) {
-  if (auto set = reader_.set(part.setup); !set) return set;
-  if (auto added = reader_.add(std::move(part.group)); !added) return added;
+  if (part.setup != last_setup_) {
+    const auto decoder = SoundDecoder::create(part.setup);
+    if (!decoder) return fail(decoder.error());
+    if (sample_rate_ == 0) {
+      sample_rate_ = (*decoder)->sample_rate();
+      channels_ = (*decoder)->channels();
+    }
+    last_setup_ = part.setup;
+  }
+  const std::size_t size = memory_of(part.group);
+  if (waiting_size_ + size > kMaxSoundAhead) return {};
+  waiting_size_ += size;
+  waiting_.push_back(std::move(part));
+  return {};
+}
+
+void DecodedSound::decode(std::int64_t end) {
   SoundPiece piece;
-  for (;;) {
-    const auto more = reader_.next(piece);
-    if (more && !*more) return {};
-    if (more) append(piece);  // else the frame is concealed by the next call
+  for (; !waiting_.empty() && begin_of(waiting_.front()) < end; waiting_.pop_front()) {
+    SoundPart& part = waiting_.front();
+    waiting_size_ -= memory_of(part.group);
+    if (begin_of(part) > read_ + kLongGap) reader_.reset();
+    read_ = end_of(part);
+    // add() has seen that there is a decoder; what is wrong with a frame is concealed.
+    if (!reader_.set(part.setup) || !reader_.add(std::move(part.group))) continue;
+    for (;;) {
+      const auto more = reader_.next(piece);
+      if (more && !*more) break;
+      if (more) append(piece);
+    }
   }
 }
 
 void DecodedSound::append(const SoundPiece& piece) {
-  if (sample_rate_ == 0) {
-    sample_rate_ = piece.sample_rate;
-    channels_ = piece.channels;
-  }
   if (piece.sample_rate != sample_rate_ || piece.channels != channels_) return;  // no file can change
   const std::int64_t given = taken_ + static_cast<std::int64_t>(samples_.size()) / channels_,
                      first = place_of(piece.time),
@@ -33,6 +60,8 @@ void DecodedSound::append(const SoundPiece& piece) {
 }
 
 std::vector<std::int16_t> DecodedSound::take(std::int64_t end) {
+  end = std::min(end, time_of(taken_) + kSoundClock);
+  decode(end);
   const auto count = static_cast<std::size_t>(std::max<std::int64_t>(place_of(end) - taken_, 0) * channels_);
   std::vector<std::int16_t> out(count);
   const auto known = static_cast<std::ptrdiff_t>(std::min(count, samples_.size()));

@@ -29,7 +29,9 @@ std::vector<std::int16_t> SoundCursor::take(std::int64_t end) {
   const auto count = static_cast<std::size_t>(wanted * channels_);
   taken_ += wanted;
   std::vector<std::int16_t> out;
-  if (sound_.sample_rate() == sample_rate_ && sound_.channels() == channels_) out = sound_.take(end);
+  if (sound_.sample_rate() == sample_rate_ && sound_.channels() == channels_)
+    for (auto samples = sound_.take(end); !samples.empty(); samples = sound_.take(end))
+      out.insert(out.end(), samples.begin(), samples.end());
   // Before the first part of all, silence has been given that the decoder does not know of.
   if (out.size() > count) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(count));
   out.resize(count);

@@ -1,25 +1,18 @@
 #include "decoder/sound/codec2_sound.h"
 
-#include <codec2/codec2.h>
-
 #include <algorithm>
 
-#include "decoder/sound/codec2_mode.h"
+#include "decoder/sound/codec2_handle.h"
 
 namespace fbs {
 namespace {
-
-struct Deleter {
-  void operator()(CODEC2* decoder) const { codec2_destroy(decoder); }
-};
-using Handle = std::unique_ptr<CODEC2, Deleter>;
 
 // What is lost is concealed by the last frame once more, fainter and fainter; silence after 100 ms.
 constexpr std::int32_t kFadeSamples = kCodec2Rate / 10;
 
 class Codec2Sound final : public SoundDecoder {
  public:
-  Codec2Sound(Handle handle, const Codec2Mode& mode) : handle_(std::move(handle)), mode_(mode) {}
+  Codec2Sound(Codec2Handle handle, const Codec2Mode& mode) : handle_(std::move(handle)), mode_(mode) {}
 
   [[nodiscard]] int sample_rate() const override { return kCodec2Rate; }
   [[nodiscard]] int channels() const override { return 1; }
@@ -42,7 +35,7 @@ class Codec2Sound final : public SoundDecoder {
 
   void reset() override {
     // It allocates a few kilobytes; when there are none, the old state goes on.
-    if (Handle fresh(codec2_create(mode_.id)); fresh) handle_ = std::move(fresh);
+    if (Codec2Handle fresh = create_codec2(mode_); fresh) handle_ = std::move(fresh);
     last_.clear();
     faded_ = 0;
   }
@@ -58,7 +51,7 @@ class Codec2Sound final : public SoundDecoder {
     }
   }
 
-  Handle handle_;
+  Codec2Handle handle_;
   Codec2Mode mode_;
   std::vector<std::uint8_t> last_;  // frame that was decoded; empty: none yet
   std::int32_t faded_ = 0;          // samples concealed since
@@ -73,7 +66,7 @@ Result<std::unique_ptr<SoundDecoder>> create_codec2_sound(const SoundSetup& setu
     return fail(ErrorCode::kUnsupported, "sound of Codec 2 with more channels than one");
   if (setup.duration != mode->duration())
     return fail(ErrorCode::kInvalidStream, "frames of Codec 2 of another duration than their mode's");
-  Handle handle(codec2_create(mode->id));
+  Codec2Handle handle = create_codec2(*mode);
   if (!handle) return fail(ErrorCode::kUnsupported, "this libcodec2 lacks the mode of the sound");
   return std::make_unique<Codec2Sound>(std::move(handle), *mode);
 }

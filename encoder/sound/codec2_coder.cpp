@@ -1,23 +1,21 @@
 #include "encoder/sound/codec2_coder.h"
 
-#include <codec2/codec2.h>
-
 #include <algorithm>
 #include <string>
 
-#include "decoder/sound/codec2_mode.h"
+#include "decoder/sound/codec2_handle.h"
 
 namespace fbs {
 namespace {
 
-struct Deleter {
-  void operator()(CODEC2* encoder) const { codec2_destroy(encoder); }
-};
-using Handle = std::unique_ptr<CODEC2, Deleter>;
+/// Samples by which what is decoded comes late, in every mode. libcodec2 analyses a window of 40 ms that ends
+/// with the samples of which it says something: its centre, which a decoder shows at their end, is 20 ms
+/// before.
+constexpr std::int32_t kDelay = 160;
 
 class Codec2Coder final : public SoundEncoder {
  public:
-  Codec2Coder(Handle handle, const SoundSetup& setup, const Codec2Mode& mode)
+  Codec2Coder(Codec2Handle handle, const SoundSetup& setup, const Codec2Mode& mode)
       : SoundEncoder(setup, kCodec2Rate), handle_(std::move(handle)), frame_bytes_(mode.frame_bytes) {}
 
  private:
@@ -27,7 +25,7 @@ class Codec2Coder final : public SoundEncoder {
     return out;
   }
 
-  Handle handle_;
+  Codec2Handle handle_;
   std::size_t frame_bytes_;
 };
 
@@ -48,10 +46,9 @@ Result<std::unique_ptr<SoundEncoder>> create_codec2_coder(const SoundSettings& s
   if (mode == nullptr)
     return fail(ErrorCode::kInvalidArgument,
                 "Codec 2 takes at least " + std::to_string(codec2_modes().back().bitrate) + " bit/s");
-  Handle handle(codec2_create(mode->id));
+  Codec2Handle handle = create_codec2(*mode);
   if (!handle) return fail(ErrorCode::kUnsupported, "this libcodec2 lacks the mode of the rate");
-  const SoundSetup setup{SoundCodec::kCodec2, 1, mode->bitrate, mode->duration(),
-                         kCodec2Delay * kCodec2Ticks};
+  const SoundSetup setup{SoundCodec::kCodec2, 1, mode->bitrate, mode->duration(), kDelay * kCodec2Ticks};
   return std::make_unique<Codec2Coder>(std::move(handle), setup, *mode);
 }
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "decoder/sound/codec2_mode.h"
+#include "bitstream/codec2_mode.h"
 #include "tests/unit/encoder/sound/round_trip.h"
 
 namespace fbs {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "decoder/sound/codec2_mode.h"
+#include "bitstream/codec2_mode.h"
 #include "tests/unit/encoder/sound/round_trip.h"
 
 namespace fbs {

@@ -1,30 +1,28 @@
-// The modes of Codec 2 that a stream may use.
+// The modes of Codec 2 that a stream may use. SPEC 4.9.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "bitstream/sound_syntax.h"
+
 namespace fbs {
 
-inline constexpr int kCodec2Rate = 8000;  ///< samples a second
-/// Samples by which what is decoded comes late, in every mode, so that its loudness follows the source's.
-/// Measured: tests/program/measure_sound.py.
-inline constexpr std::int32_t kCodec2Delay = 160;
-inline constexpr std::int32_t kCodec2Ticks = 48000 / kCodec2Rate;  ///< of kSoundClock, of a sample
+inline constexpr int kCodec2Rate = 8000;                                 ///< samples a second
+inline constexpr std::int32_t kCodec2Ticks = kSoundClock / kCodec2Rate;  ///< of kSoundClock, of a sample
 
 struct Codec2Mode {
   std::int32_t bitrate = 0;       ///< bit/s, its name: SoundSetup::mode
-  int id = 0;                     ///< CODEC2_MODE_...
   std::size_t frame_samples = 0;  ///< 160 or 320
   std::size_t frame_bytes = 0;    ///< 6 to 8
 
   /// 1/kSoundClock s of a frame.
-  [[nodiscard]] std::int32_t duration() const {
+  [[nodiscard]] constexpr std::int32_t duration() const {
     return static_cast<std::int32_t>(frame_samples) * kCodec2Ticks;
   }
   /// bit/s that its frames take, as they are whole bytes: 1400 of mode 1300, else `bitrate`.
-  [[nodiscard]] std::int32_t sent_bitrate() const {
+  [[nodiscard]] constexpr std::int32_t sent_bitrate() const {
     return static_cast<std::int32_t>(frame_bytes * 8 * kCodec2Rate / frame_samples);
   }
 };
