@@ -3,7 +3,7 @@
 #define FBS_GSTREAMER_ENCODER_STREAM_H
 
 #include <fbs/encoder.h>
-#include <glib.h>
+#include <gst/gst.h>
 
 G_BEGIN_DECLS
 

@@ -14,8 +14,8 @@ typedef struct {
   guint64 missing, repaired; /**< packets that the jitter buffers waited for in vain, or that came by RTX */
   guint64 shown;
   guint64 requests, heard, scenes; /**< requests for a scene, those of the other end, and scenes sent */
-  guint64 freezes, breaks;     /**< of pictures and voice */
-  GstClockTime frozen, broken; /**< how long these were */
+  guint64 freezes, breaks;         /**< of pictures and voice */
+  GstClockTime frozen, broken;     /**< how long these were */
 } Counts;
 
 typedef struct {
