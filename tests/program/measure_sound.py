@@ -9,7 +9,7 @@ reads. It is coded and decoded at rates of Opus and in the modes of Codec 2 that
 
     kbit/s   of the frames, pauses included; no headers of packets
     STOI     short-time objective intelligibility against the source (stoi.py): 1 is clean
-    delay    ms by which what is decoded comes late, by cross-correlation: of the samples for Opus, of the envelopes of 15
+    delay    ms by which what is decoded comes late, by cross-correlation: of the samples for Opus, of the levels of 15
              bands for Codec 2, which makes its own waveform; the spread is that between parts of 4 s each
 
 --pictures   writes a spectrogram of each there: 0 to 4 kHz from the bottom up, 80 dB from black to white, source first
@@ -91,9 +91,10 @@ def spectrum(samples, rate, hop_ms, window_ms, top):
 
 
 def envelopes(samples, rate):
-    """Level of 15 bands up to 3 kHz, each ms, over some periods of the voice."""
+    """Level of 15 bands up to 3 kHz in dB, down to 50 dB below the loudest, each ms, over some periods of the voice."""
     power = spectrum(samples, rate, 1, 40, 3000)
-    return numpy.sqrt(power.reshape(15, -1, power.shape[1]).mean(axis=1))
+    level = 10 * numpy.log10(power.reshape(15, -1, power.shape[1]).mean(axis=1) + 1e-12)
+    return numpy.maximum(level, level.max() - 50)
 
 
 def envelope_lag(source, decoded):

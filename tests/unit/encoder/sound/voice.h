@@ -85,6 +85,7 @@ inline Samples vowel(int rate, double seconds) {
   VocalTract tract(rate);
   tract.shape({730, 1090, 2440});
   std::vector<double> wave;
+  wave.reserve(static_cast<std::size_t>(seconds * rate));
   for (int i = 0; i < static_cast<int>(seconds * rate); ++i)
     wave.push_back(tract(i % (rate / 120) == 0 ? 1 : 0));
   Samples out;
@@ -98,6 +99,7 @@ inline Samples speech_noise(int rate, double seconds) {
   VocalTract tract(rate);
   tract.shape({500, 1500, 2500});
   std::vector<double> wave;
+  wave.reserve(static_cast<std::size_t>(seconds * rate));
   for (int i = 0; i < static_cast<int>(seconds * rate); ++i) {
     const double loudness = 0.6 + 0.4 * std::sin(2 * std::numbers::pi * 4 * i / rate);
     wave.push_back(tract(loudness * (static_cast<double>(random() % 2001) / 1000 - 1)));
@@ -112,6 +114,7 @@ inline Samples sweep(int rate, double seconds, double from, double to) {
   Samples out;
   double phase = 0;
   const int size = static_cast<int>(seconds * rate);
+  out.reserve(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i) {
     phase += (from + (to - from) * i / size) / rate;
     out.push_back(static_cast<std::int16_t>(std::lround(8000 * std::sin(2 * std::numbers::pi * phase))));
