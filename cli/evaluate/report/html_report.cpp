@@ -85,7 +85,8 @@ std::string byte_keys(const ClipReport& clip) {
   const bool sound = std::ranges::any_of(clip.points, [](const RdPoint& p) { return p.bytes.sound > 0; });
   std::string out;
   for (const std::string part : {"geometry", "patterns", "motion", "sound", "other"})
-    if (part != "sound" || sound) out += "<span><i class=\"key " + part + "\"></i>" + part + "</span>";
+    if (part != "sound" || sound)
+      out.append("<span><i class=\"key ").append(part).append("\"></i>").append(part).append("</span>");
   return out;
 }
 
