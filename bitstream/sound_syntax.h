@@ -8,7 +8,8 @@ namespace fbs {
 
 inline constexpr std::int32_t kSoundClock = 48000;  ///< ticks of a second, in which sound is timed
 inline constexpr std::int32_t kMaxSoundSkip = kSoundClock;
-inline constexpr std::int64_t kMaxSoundFrames = std::int64_t{1} << 32;  ///< of a stream: 124 days of the shortest
+inline constexpr std::int64_t kMaxSoundFrames = std::int64_t{1}
+                                                << 32;  ///< of a stream: 124 days of the shortest
 
 enum class SoundCodec : std::uint8_t {
   kOpus = 1,    ///< RFC 6716; 48 kHz
@@ -28,8 +29,9 @@ struct SoundSetup {
 
 /// Frames that follow one another.
 struct SoundGroup {
-  std::int64_t first = 0;                         ///< number of the first frame, from 0
-  std::vector<std::vector<std::uint8_t>> frames;  ///< each a packet of the codec; empty: lost, to be concealed
+  std::int64_t first = 0;  ///< number of the first frame, from 0
+  std::vector<std::vector<std::uint8_t>>
+      frames;  ///< each a packet of the codec; empty: lost, to be concealed
   friend bool operator==(const SoundGroup&, const SoundGroup&) = default;
 };
 

@@ -141,8 +141,8 @@ TEST(StreamMapping, SoundThatWouldChangeStaysInside) {
     return std::vector<SoundGroup>{{0, {Bytes(6)}}};
   });
   const Bytes ends_empty = voiced(plain, kVoice, 0, [](std::int64_t n) { return n >= 2; });
-  Bytes cut = voiced(plain);
-  cut.resize(cut.size() - 3);
+  const Bytes whole = voiced(plain);
+  const Bytes cut(whole.begin(), whole.end() - 3);
   for (const Bytes& stream : {*interleaver.add(plain), ends_empty, cut}) {
     const MatroskaContent content = content_of(stream);
     EXPECT_FALSE(content.sound);
