@@ -64,14 +64,16 @@ struct StreamPosition {
 inline constexpr int kFollowOne = 4;  ///< weight of a surround point that follows a motion entirely
 
 enum class PacketType : std::uint8_t {
-  kSetup = 1,     ///< begins a scene, where a viewer can join
-  kGeometry = 2,  ///< the adapted head; absent in a scene without a face
-  kSurround = 3,  ///< the motion that each point of the surround follows
-  kPattern = 4,   ///< one coded picture and its seen state
-  kMotion = 5,    ///< the states of a group of pictures
-  kEnd = 6,       ///< number of pictures of the stream
-  kBlend = 7,     ///< how consecutive pictures are blended from patterns
-  kWireFrame = 8  ///< the wire-frame of the geometry that follows, in the place of the generic head
+  kSetup = 1,       ///< begins a scene, where a viewer can join
+  kGeometry = 2,    ///< the adapted head; absent in a scene without a face
+  kSurround = 3,    ///< the motion that each point of the surround follows
+  kPattern = 4,     ///< one coded picture and its seen state
+  kMotion = 5,      ///< the states of a group of pictures
+  kEnd = 6,         ///< number of pictures of the stream
+  kBlend = 7,       ///< how consecutive pictures are blended from patterns
+  kWireFrame = 8,   ///< the wire-frame of the geometry that follows, in the place of the generic head
+  kSoundSetup = 9,  ///< what a decoder of the sound must know
+  kSound = 10       ///< sound of the pictures that follow
 };
 
 /// A colour in the video's own range and matrix.

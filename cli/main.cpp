@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png, - for a pipe\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
     "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
+    "  fbs decode talk.fbs talk.wav                    the sound alone\n"
     "  fbs decode talk.fbs --md5                       compare decoders picture by picture\n"
     "  fbs play talk.fbs                               play in a window\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        rate and distortion at three qualities\n"
@@ -33,6 +34,7 @@ constexpr const char* kExamples =
     "  fbs export talk.fbs talk.csv                    pose, landmarks and expression per picture\n"
     "  fbs track talk.mkv talk.csv                     the same of a video, without a stream\n"
     "  fbs retarget --motion a.fbs --face b.fbs c.fbs  b's face with a's motion\n"
+    "  fbs remux talk.fbs talk.mkv                     into a Matroska file, and back, without loss\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode\n"
@@ -72,6 +74,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_export(app, run);
   fbs::cli::add_track(app, run);
   fbs::cli::add_retarget(app, run);
+  fbs::cli::add_remux(app, run);
   fbs::cli::add_completions(app, run);
   try {
     app.parse(argc, argv);

@@ -39,13 +39,6 @@ bool same_file(const Place& a, const Place& b) {
   return !a.existing && !b.existing && !a.made.empty() && a.made == b.made;
 }
 
-std::string extension_of(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 /// Whether the name is that of a pipe or device, or of one of the program's open files.
 bool is_device(const std::string& name) {
   struct stat status {};
@@ -66,6 +59,13 @@ Result<void> check_pair(const NamedFile& written, const char* stream_of_written,
 }
 
 }  // namespace
+
+std::string extension_of(const std::string& name) {
+  std::string extension = fs::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 Result<void> check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -23,6 +23,9 @@ Result<void> check_distinct(std::span<const NamedFile> inputs, std::span<const N
 /// @return ErrorCode::kUnsupported for other names, with one that would do
 Result<void> check_stream_name(const std::string& output);
 
+/// ".mp4" of "talk.MP4"; empty when there is none.
+std::string extension_of(const std::string& name);
+
 /// @return ErrorCode::kUnsupported for a name that ends in `.fbs`: pictures are no stream
 Result<void> check_picture_name(const std::string& output);
 

@@ -8,6 +8,7 @@
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/sound_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
 #include "bitstream/track.h"
@@ -24,6 +25,17 @@ tl::unexpected<Error> at(const Packet& packet, Error error) {
 }
 
 }  // namespace
+
+std::size_t memory_of(const std::vector<std::uint8_t>& frame) {
+  constexpr std::size_t kOverhead = 64;  // of the vector and of what the allocator adds
+  return kOverhead + frame.size();
+}
+
+std::size_t memory_of(const SoundGroup& group) {
+  std::size_t sum = 0;
+  for (const auto& frame : group.frames) sum += memory_of(frame);
+  return sum;
+}
 
 StreamDecoder::StreamDecoder() {
   bytes_.other = bytes_.total = kSignature.size();
@@ -122,6 +134,10 @@ void StreamDecoder::count(const Packet& packet) {
       bytes_.motion += packet.size;
       bytes_.blend += packet.size;
       break;
+    case PacketType::kSoundSetup:
+    case PacketType::kSound:
+      bytes_.sound += packet.size;
+      break;
     default:
       bytes_.other += packet.size;
       break;
@@ -145,6 +161,10 @@ Result<void> StreamDecoder::take(const Packet& packet) {
       if (!taken) lose();
       return taken;
     }
+    case PacketType::kSoundSetup:
+      return lost_ ? Result<void>() : take_sound_setup(packet);
+    case PacketType::kSound:
+      return lost_ ? Result<void>() : take_sound(packet);
   }
   return {};  // SPEC 3.1: skipped
 }
@@ -209,6 +229,7 @@ void StreamDecoder::begin_scene() {
   lost_ = false;
   bit_counter_.reset();
   wire_frame_.reset();
+  sound_.reset();
   geometry_.reset();
   surround_ = still_surround();
   has_setup_ = true;
@@ -238,6 +259,32 @@ Result<void> StreamDecoder::take_of_scene(const Packet& packet) {
     default:
       return take_motion(packet);
   }
+}
+
+// SPEC 6.3: what is wrong with sound does no harm to pictures.
+Result<void> StreamDecoder::take_sound_setup(const Packet& packet) {
+  sound_.reset();
+  if (!has_setup_) return fail(ErrorCode::kInvalidStream, "a packet before the setup", packet.offset);
+  const auto setup = decode_sound_setup(packet.payload);
+  if (!setup) return at(packet, setup.error());
+  sound_ = *setup;
+  return {};
+}
+
+Result<void> StreamDecoder::take_sound(const Packet& packet) {
+  if (!sound_) return {};
+  auto group = decode_sound(packet.payload, *sound_);
+  if (!group) return at(packet, group.error());
+  if (group->first < next_sound_)
+    return fail(ErrorCode::kInvalidStream, "sound comes out of order", packet.offset);
+  next_sound_ = group->first + static_cast<std::int64_t>(group->frames.size());
+  if (!keeps_sound_) return {};
+  const std::size_t size = memory_of(*group);
+  if (sound_size_ + size > kMaxSoundAhead)
+    return fail(ErrorCode::kTooLarge, "too much sound comes before its pictures", packet.offset);
+  sound_size_ += size;
+  sound_parts_.push_back({*sound_, std::move(*group)});
+  return {};
 }
 
 Result<void> StreamDecoder::keep_picture() {

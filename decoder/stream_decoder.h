@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitstream/blend/blend_coder.h"
@@ -12,6 +13,7 @@
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
 #include "bitstream/pattern/pattern_packet.h"
+#include "bitstream/sound_syntax.h"
 #include "common/result.h"
 #include "decoder/pattern_decoder.h"
 #include "decoder/renderer.h"
@@ -28,8 +30,23 @@ struct ByteCount {
   std::uint64_t patterns = 0;
   std::uint64_t motion = 0;  ///< motion and blend packets
   std::uint64_t blend = 0;   ///< of `motion`, the blend packets
+  std::uint64_t sound = 0;   ///< sound packets and their setups
   std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
+
+/// Sound as it came.
+struct SoundPart {
+  SoundSetup setup;
+  SoundGroup group;
+};
+
+/// Most of the sound that waits for its pictures, memory_of(): an hour and a half of speech. Streams that
+/// have more of it before a picture are none of an encoder.
+inline constexpr std::size_t kMaxSoundAhead = std::size_t{1} << 24;
+
+/// About what a frame of sound takes, and a group; bytes.
+[[nodiscard]] std::size_t memory_of(const std::vector<std::uint8_t>& frame);
+[[nodiscard]] std::size_t memory_of(const SoundGroup& group);
 
 /// A pattern as it came.
 struct PatternRecord {
@@ -73,6 +90,17 @@ class StreamDecoder {
 
   /// Keeps a record of every pattern from now on. Off by default, since records are never dropped.
   void record_patterns() { records_patterns_ = true; }
+
+  /// Keeps the sound from now on, for take_sound(). Off by default.
+  void keep_sound() { keeps_sound_ = true; }
+  /// Sound that has come since the last call. A part comes before the pictures that it belongs to. Parts
+  /// beyond kMaxSoundAhead are lost, which next() reports as kTooLarge.
+  [[nodiscard]] std::vector<SoundPart> take_sound() {
+    sound_size_ = 0;
+    return std::exchange(sound_parts_, {});
+  }
+  /// Of the scene: what its last sound setup packet says; nothing if there was none, or none that we know.
+  [[nodiscard]] const std::optional<SoundSetup>& sound_setup() const { return sound_; }
 
   /// Refuses streams whose pictures have more pixels, before memory is taken for them. Unlimited by default.
   void limit_pixels(std::uint64_t max_pixels) { max_pixels_ = max_pixels; }
@@ -159,6 +187,8 @@ class StreamDecoder {
   Result<bool> take_pattern(const PatternSyntax& pattern);
   Result<void> take_motion(const Packet& packet);
   Result<void> take_blend(const Packet& packet);
+  Result<void> take_sound_setup(const Packet& packet);
+  Result<void> take_sound(const Packet& packet);
   void lose();
   void note_startup();
   void begin_geometry();
@@ -202,6 +232,12 @@ class StreamDecoder {
   StreamPosition position_;
   std::uint32_t duration_ = 0;
   bool held_ = false;
+
+  std::optional<SoundSetup> sound_;  ///< of the scene
+  std::int64_t next_sound_ = 0;      ///< number of the first frame that has not come
+  bool keeps_sound_ = false;
+  std::vector<SoundPart> sound_parts_;
+  std::size_t sound_size_ = 0;  ///< memory_of() them
 
   std::uint64_t pictures_ = 0;
   bool records_patterns_ = false;

@@ -237,6 +237,15 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   return {};
 }
 
+Result<void> Encoder::request_scene() {
+  Impl& i = *impl_;
+  if (!i.settings.live)
+    return fail(ErrorCode::kInvalidArgument, "scenes come on request in live encoding only");
+  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
+  if (i.scene) i.scene->request_scene();
+  return {};
+}
+
 Result<void> Encoder::finish() {
   Impl& i = *impl_;
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);

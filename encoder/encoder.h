@@ -42,6 +42,11 @@ class Encoder {
   /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
+  /// Asks for a place where a viewer can join: the present group is the last of its scene. Nothing happens
+  /// where a scene begins anyway.
+  /// @return kInvalidArgument if the encoding is not live, or has ended
+  Result<void> request_scene();
+
   /// Codes what is still held back and ends the stream.
   /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or the
   ///         stream has ended already

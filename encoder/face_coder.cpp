@@ -69,12 +69,13 @@ Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation se
     if (auto done = end_lookahead(); !done) return done;
   if (second_pass_ || !scene_ends(timing_.group_pictures)) return {};
   ended_ = true;
+  requested_ = false;
   return finish();
 }
 
 bool FaceCoder::scene_ends(std::size_t more) const {
   if (key_interval_ == 0) return second_pass_.has_value();
-  if (live_) return live_scene_ends(pictures_);
+  if (live_) return live_scene_ends(pictures_) || requested_;
   return durations_.empty() && static_cast<double>(pictures_ + more) > key_interval_;
 }
 
@@ -203,6 +204,7 @@ Result<void> FaceCoder::end_segment() {
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   packets_.count_from_here();
   ended_ = scene_ends(pictures);
+  requested_ = requested_ && !ended_;
   return {};
 }
 

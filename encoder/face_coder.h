@@ -40,6 +40,9 @@ class FaceCoder {
   void cut();
   Result<void> finish();
 
+  /// A live scene ends with its present group, unless it has ended already.
+  void request_scene() { requested_ = !ended_; }
+
   /// Whether the next picture begins another scene with the same person. Of a live scene known ahead:
   /// live_scene_ends().
   [[nodiscard]] bool scene_ended() const { return ended_; }
@@ -87,6 +90,7 @@ class FaceCoder {
   std::vector<PictureCost> costs_;        ///< of the group's pictures
   std::vector<std::uint32_t> durations_;  ///< of the same, 1/90000 s; 0: nominal
   std::uint64_t pictures_ = 0;            ///< of the scene
+  bool requested_ = false;                ///< the scene ends with its present group
   bool ended_ = false;                    ///< the next picture begins another scene
   StreamPosition position_;               ///< behind the last picture
 

@@ -90,6 +90,13 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       coder_(timing, settings, std::move(start)),
       ahead_(settings.live && coder_.has_several_patterns() && thread_count(settings) > 1) {}
 
+void FaceScene::request_scene() {
+  if (ahead_)
+    requested_ = pictures_ > 0;  // else the next picture begins one anyway
+  else
+    coder_.request_scene();
+}
+
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   if (!ahead_) {
     if (std::exchange(cut_, false)) coder_.cut();
@@ -124,11 +131,15 @@ Result<void> FaceScene::code(Seen seen) {
 
 Result<void> FaceScene::code_group() {
   const bool first = pictures_ == group_.size(), learns = !learned_ && pictures_ >= timing_.lookahead,
-             last = coder_.live_scene_ends(pictures_);
+             requested = requested_ && !first, last = requested || coder_.live_scene_ends(pictures_);
   coder_leads_ = first || learns || last;
   learned_ = (learned_ || learns) && !last;
-  if (last) pictures_ = 0;
-  return coding_.start([this, group = std::exchange(group_, {})]() mutable -> Result<void> {
+  if (last) {
+    pictures_ = 0;
+    requested_ = false;
+  }
+  return coding_.start([this, requested, group = std::exchange(group_, {})]() mutable -> Result<void> {
+    if (requested) coder_.request_scene();
     for (Seen& seen : group)
       if (auto done = code(std::move(seen)); !done) return done;
     return {};

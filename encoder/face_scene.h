@@ -30,6 +30,7 @@ class FaceScene : public SceneEncoder {
     analysis_.cut();
     cut_ = true;
   }
+  void request_scene() override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
   [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
   Result<void> finish() override;
@@ -69,6 +70,7 @@ class FaceScene : public SceneEncoder {
   bool ahead_;
   std::vector<Seen> group_;
   std::uint64_t pictures_ = 0;  ///< of the coder's scene, seen so far
+  bool requested_ = false;      ///< that scene is to end
   bool learned_ = false;        ///< the coder has had the pictures that the surround's map is fitted to
   bool coder_leads_ = false;    ///< what it decides about the last group changes how the next picture is seen
   Background coding_;           ///< uses the coder; last, so that it ends first

@@ -78,7 +78,7 @@ void PlanarScene::cut() {
 }
 
 void PlanarScene::begin_again() {
-  ended_ = false;
+  ended_ = requested_ = false;
   global_ = {};
   scene_.setup.before = position_;
   pictures_ = 0;
@@ -143,7 +143,7 @@ Result<void> PlanarScene::end_segment() {
   groups_.clear();
   if (!live_) moved_ = still_ = 0;
   ended_ = key_interval_ == 0 || static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_ ||
-           (live_ && !moving_ && moves());
+           (live_ && ((!moving_ && moves()) || requested_));
   return {};
 }
 

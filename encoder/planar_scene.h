@@ -25,6 +25,7 @@ class PlanarScene : public SceneEncoder {
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
+  void request_scene() override { requested_ = !ended_; }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return true; }
   Result<void> finish() override;
@@ -69,6 +70,7 @@ class PlanarScene : public SceneEncoder {
   std::vector<std::size_t> groups_;  ///< pictures of each group of the segment
   std::size_t in_group_ = 0;         ///< pictures of the group so far
   std::uint64_t pictures_ = 0;       ///< of the scene
+  bool requested_ = false;           ///< the scene ends with its present group
   bool ended_ = false;               ///< the next picture begins another scene
   StreamPosition position_;          ///< behind the last picture
   ScenePackets packets_;

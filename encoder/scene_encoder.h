@@ -28,6 +28,10 @@ class SceneEncoder {
   /// The picture pushed next begins another shot, which the scene is to carry.
   virtual void cut() = 0;
 
+  /// Of a live scene: ends it with its present group, so that the picture after begins another one. A scene
+  /// that shows one picture, without motion, does not.
+  virtual void request_scene() {}
+
   /// Whether the picture, which is pushed next, shows whom the scene follows. It then follows them again from
   /// there on.
   [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;

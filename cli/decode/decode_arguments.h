@@ -11,6 +11,7 @@ namespace fbs::cli {
 struct DecodeArguments {
   std::string input, output;
   std::string sound;        ///< file whose sound is copied into the output
+  bool no_sound = false;    ///< leave the stream's sound out
   double from = 0;          ///< seconds; where to begin
   bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
   bool keep_going = false;  ///< decode as much as possible of a damaged stream

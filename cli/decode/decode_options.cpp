@@ -12,6 +12,7 @@ constexpr const char* kExamples =
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
     "  fbs decode talk.fbs part.mkv --from 90          begin at 1:30\n"
     "  fbs decode talk.fbs talk.mp4 --sound talk.mkv   put the sound of the source beside the pictures\n"
+    "  fbs decode talk.fbs talk.wav                    the sound alone\n"
     "  fbs decode talk.fbs --md5                       compare decoders picture by picture\n"
     "  fbs decode broken.fbs rest.y4m --keep-going     save what is left of a damaged stream";
 
@@ -20,11 +21,15 @@ constexpr const char* kExamples =
 void add_decode(CLI::App& app, Run& run) {
   const auto [verb, a] = new_verb<DecodeArguments>(app, run, "decode", "Decode a stream", run_decode);
   verb->add_option("INPUT", a.input, "Stream to decode, or - for standard input")->required();
-  verb->add_option("OUTPUT", a.output,
-                   ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, or null: to discard");
+  verb->add_option(
+      "OUTPUT", a.output,
+      ".y4m, - (Y4M on standard output), .mp4, .mkv, frame_%05d.png, null: to discard, or .wav for the "
+      "sound alone");
   verb->add_flag("--md5", a.md5,
                  "Print the MD5 of the planes Y, U, V of each picture, a line each; OUTPUT may be left out");
-  verb->add_option("--sound", a.sound, "Copy the sound of this file into the output (.mp4, .mkv)");
+  verb->add_option("--sound", a.sound,
+                   "Copy the sound of this file into the output (.mp4, .mkv), instead of the stream's own");
+  verb->add_flag("--no-sound", a.no_sound, "Leave the sound out (.mp4, .mkv)")->excludes("--sound");
   verb->add_flag(
       "--vfr", a.vfr,
       "Y4M: write each picture once; without it pictures are repeated or dropped where the frame rate "

@@ -1,7 +1,9 @@
 // Times of decoded pictures, which the stream gives as durations.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include "bitstream/syntax.h"
 #include "cli/video/timestamps.h"
@@ -9,7 +11,9 @@
 namespace fbs::cli {
 
 /// Time of each picture from the durations before it. Those of the frame rate are counted, so that their
-/// rounding to 1/90000 s does not add up.
+/// rounding to 1/90000 s does not add up. An encoder makes it good from time to time, by one duration that is
+/// longer or shorter: this leads back to the time that has been counted, and counts as another of the frame
+/// rate.
 class DecodedTime {
  public:
   DecodedTime() = default;
@@ -19,17 +23,23 @@ class DecodedTime {
   [[nodiscard]] std::int64_t pts() const { return irregular_ + regular_pts(regular_, rate_); }
 
   void advance(std::uint32_t duration) {
-    if (duration == nominal_ && plausible_rate(rate_))
+    stream_ += duration;
+    const std::int64_t now = pts(), next = irregular_ + regular_pts(regular_ + 1, rate_);
+    const bool leads_back = std::abs(stream_ - next) <= kRounding;
+    if (plausible_rate(rate_) && (duration == nominal_ || leads_back))
       ++regular_;
     else
-      irregular_ += duration;
+      irregular_ += std::max(stream_ - now, std::int64_t{1});
   }
 
  private:
+  static constexpr std::int64_t kRounding = 2;  ///< of the times of two pictures in the source
+
   Rational rate_{25, 1};
   std::uint32_t nominal_ = 0;
+  std::int64_t stream_ = 0;     ///< sum of the durations
   std::int64_t regular_ = 0;    ///< pictures of nominal duration
-  std::int64_t irregular_ = 0;  ///< the durations of the others, 1/90000 s
+  std::int64_t irregular_ = 0;  ///< what the others add to them, 1/90000 s
 };
 
 }  // namespace fbs::cli

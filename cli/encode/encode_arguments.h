@@ -10,13 +10,17 @@ namespace fbs::cli {
 struct EncodeArguments {
   std::string input, output;
   int quality = 50;
-  double bitrate = 0;            ///< target of the total, kbit/s; 0: none, quality decides
-  int patterns = 0;              ///< of a scene; 0: chosen by the encoder
-  std::optional<bool> live;      ///< whether it is; nothing: a camera is
-  std::optional<double> delay;   ///< s, of a live source
-  std::optional<int> threads;    ///< of a live source; nothing: as many as there are cores
-  std::optional<double> buffer;  ///< s, of a live source with a bitrate
-  double key_interval = 0;       ///< seconds; 0: where it costs little
+  double bitrate = 0;                   ///< target of the total, kbit/s; 0: none, quality decides
+  int patterns = 0;                     ///< of a scene; 0: chosen by the encoder
+  std::optional<bool> live;             ///< whether it is; nothing: a camera is
+  std::optional<double> delay;          ///< s, of a live source
+  std::optional<int> threads;           ///< of a live source; nothing: as many as there are cores
+  std::optional<double> buffer;         ///< s, of a live source with a bitrate
+  double key_interval = 0;              ///< seconds; 0: where it costs little
+  std::optional<std::string> sound;     ///< "opus" or "codec2"; nothing: by the bitrates
+  std::optional<double> sound_bitrate;  ///< kbit/s; nothing: chosen by that of the pictures
+  std::optional<int> track;             ///< of the source's sound, from 0; nothing: the main one
+  bool no_sound = false;
   int face = 0;
   std::string pattern;    ///< image file: the first pattern; empty: the first picture
   std::string marks;      ///< file; empty: automatic

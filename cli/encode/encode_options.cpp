@@ -15,6 +15,7 @@ constexpr const char* kExamples =
     "  fbs encode talk.mkv talk.fbs                    print size, bitrate and PSNR when done\n"
     "  fbs encode talk.mkv talk.fbs --quality 70       higher quality, larger file\n"
     "  fbs encode talk.mkv talk.fbs --bitrate 5        aim for a total of 5 kbit/s\n"
+    "  fbs encode talk.mkv talk.fbs --sound codec2     a voice at 1 to 3 kbit/s; --no-sound: none\n"
     "  fbs encode talk.mkv talk.fbs --patterns 1       send one picture, then only motion\n"
     "  fbs encode talk.mkv talk.fbs --overlay see.mp4  also write a video of what was tracked\n"
     "  fbs encode talk.mkv talk.fbs --landmarks face.csv  also start from another tracker's landmarks\n"
@@ -54,6 +55,26 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
       ->check(CLI::Range(0.2, 3600.0));
 }
 
+void add_sound(CLI::App& verb, EncodeArguments& a) {
+  verb.add_option(
+          "--sound", a.sound,
+          "Codec of the sound: opus, or codec2 for speech at the lowest rates (default: opus, or codec2 if "
+          "--bitrate is below 10 or --sound-bitrate below 6)")
+      ->check(CLI::IsMember({"opus", "codec2"}))
+      ->type_name("opus|codec2");
+  verb.add_option(
+          "--sound-bitrate", a.sound_bitrate,
+          "Of the sound in kbit/s, part of --bitrate: 6 to 64 of opus, 1.2 to 3.2 of codec2 (default: "
+          "chosen by the quality or bitrate)")
+      ->check(number_within(1.2, 64));
+  verb.add_option("--track", a.track, "Which sound of the source, from 0 (default: its main one)")
+      ->check(CLI::Range(0, 1000));
+  verb.add_flag("--no-sound", a.no_sound, "Leave the sound out")
+      ->excludes("--sound")
+      ->excludes("--sound-bitrate")
+      ->excludes("--track");
+}
+
 void add_experiments(CLI::App& verb, EncodeArguments& a) {
   verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
@@ -79,6 +100,7 @@ void add_encode(CLI::App& app, Run& run) {
       ->required();
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
   add_encode_rate(*verb, a);
+  add_sound(*verb, a);
   verb->add_option("--effort", a.effort,
                    "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "
                    "1 % fewer bytes at equal quality")

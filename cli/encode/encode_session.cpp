@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -15,13 +16,33 @@ namespace {
 /// Of a gap between two pictures, 1/90000 s: one hour. A longer one is a clock that was set, and shortened.
 constexpr std::int64_t kMaxGap = 60 * std::int64_t{kMaxDuration};
 
-/// Duration as the encoder expects it: 0 where the pictures follow the frame rate to within two ticks. It may
-/// be more than kMaxDuration.
-std::uint32_t duration_of(std::int64_t pts, std::int64_t next_pts, std::uint32_t nominal) {
-  const std::int64_t d = std::min(next_pts - pts, kMaxGap), difference = d - nominal;
-  const bool regular = difference >= -2 && difference <= 2;
-  return regular || d <= 0 ? 0 : static_cast<std::uint32_t>(d);
-}
+/// Durations as the encoder expects them: 0 where the pictures follow the frame rate to within two ticks.
+/// These add up over a long video, in which the nominal duration is a rounded one, so that sound would run
+/// away: what has become more than kMaxRunaway is made good at once.
+class Durations {
+ public:
+  explicit Durations(std::uint32_t nominal) : nominal_(nominal) {}
+
+  /// It may be more than kMaxDuration.
+  std::uint32_t of(std::int64_t pts, std::int64_t next_pts) {
+    const std::int64_t d = std::min(next_pts - pts, kMaxGap), difference = d - nominal_;
+    if (d <= 0) return 0;
+    const std::int64_t ahead = ahead_ - difference;  // of the pictures, after one of nominal duration
+    const bool regular = std::abs(difference) <= 2 && std::abs(ahead) <= kMaxRunaway;
+    if (regular) {
+      ahead_ = ahead;
+      return 0;
+    }
+    const std::int64_t right = std::max<std::int64_t>(1, d - ahead_);
+    ahead_ += right - d;
+    return static_cast<std::uint32_t>(right);
+  }
+
+ private:
+  static constexpr std::int64_t kMaxRunaway = kTicksPerSecond / 200;  // 5 ms
+
+  std::int64_t nominal_, ahead_ = 0;  // 1/90000 s
+};
 
 /// Pictures from their encoding until they are decoded: a segment of them, on disk. First in, first out.
 class WaitingPictures {
@@ -46,8 +67,13 @@ class WaitingPictures {
 /// Decodes what is encoded as it comes, and measures it.
 class ClosedLoop {
  public:
-  ClosedLoop(Encoder encoder, const TakeBytes& take, Measured what)
-      : encoder_(std::move(encoder)), take_(take), compares_(what != Measured::kRate), meter_(decoder_) {}
+  /// @param sound  null: none
+  ClosedLoop(Encoder encoder, SoundInterleaver* sound, const TakeBytes& take, Measured what)
+      : encoder_(std::move(encoder)),
+        sound_(sound),
+        take_(take),
+        compares_(what != Measured::kRate),
+        meter_(decoder_) {}
 
   /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
   Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
@@ -83,8 +109,13 @@ class ClosedLoop {
   }
 
   Result<void> pass_on() {
-    const auto bytes = encoder_.take();
+    auto bytes = encoder_.take();
     if (bytes.empty()) return {};
+    if (sound_ != nullptr) {
+      auto added = sound_->add(bytes);
+      if (!added) return fail(added.error());
+      bytes = std::move(*added);
+    }
     if (auto taken = take_(bytes); !taken) return taken;
     decoder_.feed(bytes);
     for (;;) {
@@ -110,6 +141,7 @@ class ClosedLoop {
   }
 
   Encoder encoder_;
+  SoundInterleaver* sound_;
   const TakeBytes& take_;
   bool compares_;
   StreamDecoder decoder_;
@@ -121,24 +153,26 @@ class ClosedLoop {
 }  // namespace
 
 Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
-                              const SeePicture& see, Measured what, bool quiet) {
+                              const SeePicture& see, Measured what, bool quiet, SoundInterleaver* sound) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
-  ClosedLoop loop(std::move(*encoder), take, what);
+  ClosedLoop loop(std::move(*encoder), sound, take, what);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
   // How long a picture lasts is known with the next one, which nobody waits for where it can be helped: a
   // live picture is given what the one before lasted.
   const bool waits = !settings.live && !source.has_constant_rate();
+  Durations durations(nominal);
   std::int64_t done = 0, last_pts = -nominal;
   auto current = source.next();
   while (current && *current) {
-    std::uint32_t duration = source.has_constant_rate() ? 0 : duration_of(last_pts, (*current)->pts, nominal);
+    std::uint32_t duration =
+        source.has_constant_rate() || waits ? 0 : durations.of(last_pts, (*current)->pts);
     std::optional<Result<std::optional<TimedPicture>>> next;
     if (waits) {
       next = source.next();
       if (!*next) return fail(next->error());
-      duration = **next ? duration_of((*current)->pts, (**next)->pts, nominal) : 0;
+      duration = **next ? durations.of((*current)->pts, (**next)->pts) : 0;
     }
     last_pts = (*current)->pts;
     if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());

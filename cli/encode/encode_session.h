@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "cli/stream/sound_interleaver.h"
 #include "cli/stream/stream_meter.h"
 #include "cli/video/video_source.h"
 #include "encoder/encoder.h"
@@ -19,10 +20,11 @@ struct Encoded {
 };
 
 /// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and measures it.
-/// @param see  called with every picture after its analysis; may be empty
+/// @param see    called with every picture after its analysis; may be empty
+/// @param sound  puts it into the stream; null: the stream has none
 [[nodiscard]] Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings,
                                             const TakeBytes& take, const SeePicture& see, Measured what,
-                                            bool quiet);
+                                            bool quiet, SoundInterleaver* sound = nullptr);
 
 /// What a user should know of a video with cuts, or in which no face could be followed: a line, or nothing.
 /// "2 cuts; no face followed in 40 of 300 pictures".

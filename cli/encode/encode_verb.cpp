@@ -1,14 +1,18 @@
 // fbs encode: video to stream.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "cli/display/overlay.h"
 #include "cli/encode/encode_arguments.h"
 #include "cli/encode/encode_session.h"
+#include "cli/encode/sound_choice.h"
+#include "cli/encode/sound_track.h"
 #include "cli/encode/source_part.h"
 #include "cli/encode/until_stopped.h"
 #include "cli/module.h"
@@ -22,13 +26,22 @@ namespace fbs::cli {
 namespace {
 
 constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal ends at once";
+constexpr double kLeastBitrate = 0.5;   // kbit/s of the pictures, beside sound
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
+
+std::string rate_text(const char* name, double kbps) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%s%.2f", name, kbps);
+  return text.data();
+}
 
 void print_summary(const std::string& output, const Encoded& encoded) {
   const Measure& m = encoded.measure;
-  std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f)", output.c_str(),
+  std::string sound;
+  if (m.bytes.sound > 0) sound = rate_text(", sound ", m.rate(m.bytes.sound));
+  std::fprintf(stderr, "%s: %llu pictures, %llu bytes, total %.2f kbit/s (motion %.2f%s)", output.c_str(),
                static_cast<unsigned long long>(m.pictures), static_cast<unsigned long long>(m.bytes.total),
-               m.kbps(), m.rate(m.bytes.motion));
+               m.kbps(), m.rate(m.bytes.motion), sound.c_str());
   if (m.face.count > 0) std::fprintf(stderr, ", PSNR face %.2f dB", m.face.psnr());
   std::fprintf(stderr, "%s frame %.2f dB\n", m.face.count > 0 ? "," : ", PSNR", m.frame.psnr());
   if (const std::string notes = notes_of(encoded.report); !notes.empty())
@@ -105,6 +118,49 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
   return settings;
 }
 
+/// The sound of the source, on its way into the stream.
+struct Sound {
+  std::unique_ptr<SoundTrack> track;
+  std::unique_ptr<SoundInterleaver> interleaver;
+};
+
+/// No sound is needed from here on, 1/90000 s: with --duration a second behind it, for the last picture.
+std::optional<std::int64_t> end_of_sound(const EncodeArguments& a) {
+  if (!a.duration) return std::nullopt;
+  constexpr double kMost = 1e9;  // s; above it the time would not fit into 64 bits
+  return std::llround((std::min(*a.duration, kMost) + 1) * kTicksPerSecond);
+}
+
+/// @param settings  of the pictures: what the sound takes is subtracted from their bitrate
+/// @return empty when there is none
+Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, EncoderSettings& settings) {
+  if (a.no_sound) return Sound{};
+  const auto wanted = sound_settings(a, settings.live.has_value());
+  if (!wanted) return fail(wanted.error());
+  auto track = SoundTrack::open(a.input, *wanted, a.track, end_of_sound(a), stop);
+  if (!track) return fail(track.error());
+  if (!*track) {
+    const char* option = a.sound           ? "--sound"
+                         : a.sound_bitrate ? "--sound-bitrate"
+                         : a.track         ? "--track"
+                                           : nullptr;
+    if (option == nullptr) return Sound{};
+    return fail(ErrorCode::kInvalidArgument, std::string(option) + ": " + a.input + " has no sound");
+  }
+  if (settings.bitrate > 0) {
+    // A voice has pauses, in which Opus takes next to nothing. What a live one will take is not known.
+    const Result<double> taken = settings.live ? sound_kbps(*wanted) : (*track)->code_all();
+    if (!taken) return fail(taken.error());
+    settings.bitrate -= *taken;
+    if (settings.bitrate < kLeastBitrate)
+      return fail(ErrorCode::kInvalidArgument,
+                  "--bitrate leaves nothing to the pictures; --sound codec2 takes less, --no-sound nothing");
+  }
+  auto interleaver = std::make_unique<SoundInterleaver>(
+      (*track)->setup(), [&track = **track](std::int64_t time) { return track.before(time); });
+  return Sound{std::move(*track), std::move(interleaver)};
+}
+
 Error with_advice(Error error) {
   if (error.code == ErrorCode::kNoFace) error.text += "; --allow-no-face encodes it all the same";
   return error;
@@ -137,8 +193,10 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
                                  arguments.sequence_rate, stop);
   if (!opened) return fail(opened.error());
   SourcePart& source = *opened;
-  const auto settings = settings_of(arguments, source);
+  auto settings = settings_of(arguments, source);
   if (!settings) return fail(settings.error());
+  const auto sound = open_sound(arguments, stop, *settings);
+  if (!sound) return fail(sound.error());
   auto file = AtomicFile::create(arguments.output);
   if (!file) return fail(file.error());
   if (file->replaced_leftover()) print_replaced_leftover(arguments.output);
@@ -157,7 +215,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
       [&](std::span<const std::uint8_t> bytes) {
         return file->write(bytes).and_then([&] { return file->flush(); });
       },
-      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet);
+      see, arguments.quiet ? Measured::kRate : Measured::kPsnr, arguments.quiet, sound->interleaver.get());
   if (!encoded) return fail(with_advice(about_input(encoded.error(), arguments.input)));
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());

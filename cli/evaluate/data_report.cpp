@@ -31,6 +31,7 @@ json point_json(const RdPoint& p) {
     out["bytes"] = byte_count_json(p.bytes);
   else
     out["bytes"] = {{"total", p.bytes.total}};
+  if (p.bytes.sound > 0) out["sound_kbps"] = p.sound_kbps();
   const QualitySummary sum = summarise(p.pictures);
   add_area(sum.frame, "frame", out);
   add_area(sum.face, "face", out);

@@ -27,7 +27,9 @@ struct RdPoint {
   [[nodiscard]] double rate(std::uint64_t of_bytes) const {
     return seconds > 0 ? 8e-3 * static_cast<double>(of_bytes) / seconds : 0;
   }
-  [[nodiscard]] double kbps() const { return rate(bytes.total); }
+  /// Of the pictures, without their sound: what other codecs are compared with.
+  [[nodiscard]] double kbps() const { return rate(bytes.total - bytes.sound); }
+  [[nodiscard]] double sound_kbps() const { return rate(bytes.sound); }
 };
 
 /// What measuring a stream adds to it: pictures and VMAF, as the run folder keeps them.

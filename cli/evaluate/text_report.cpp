@@ -30,13 +30,15 @@ void print_point(const RdPoint& p) {
   const auto b = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
   std::printf("%-*s %8.3f %7.3f %8llu %8llu %8llu %6llu %8llu", kNameWidth, p.label.c_str(), p.kbps(),
               p.rate(p.bytes.motion), b(p.bytes.startup), b(p.bytes.geometry), b(p.bytes.patterns),
-              b(p.bytes.other), b(p.bytes.total));
+              b(p.bytes.other), b(p.bytes.total - p.bytes.sound));
   for (const AreaSummary* area : {&sum.face, &sum.frame})
     std::printf("%s%s%s", number(if_any(*area, area->y.psnr()), 8, 2).c_str(),
                 number(if_any(*area, area->ssim), 6, 4).c_str(),
                 number(if_any(*area, area->ms_ssim), 7, 4).c_str());
   if (p.vmaf) std::printf(" %6.2f", *p.vmaf);
   std::printf("\n");
+  if (p.bytes.sound > 0)
+    std::printf("  sound beside the pictures: %llu bytes, %.3f kbit/s\n", b(p.bytes.sound), p.sound_kbps());
   if (const std::string notes = p.report ? notes_of(*p.report) : ""; !notes.empty())
     std::printf("  %s\n", notes.c_str());
 }

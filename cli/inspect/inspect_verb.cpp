@@ -10,9 +10,9 @@
 
 #include "cli/display/picture_sources.h"
 #include "cli/inspect/inspect_arguments.h"
-#include "cli/inspect/packet_list.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
+#include "cli/stream/packet_list.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene_face.h"
 #include "decoder/scene_index.h"
@@ -134,6 +134,7 @@ void print(const std::string& name, const Summary& s) {
     if (bytes >= 0.5)
       std::printf("    %-14s %9.0f bytes %9.3f kbit/s\n", part.c_str(), bytes,
                   s.seconds > 0 ? 8e-3 * bytes / s.seconds : 0);
+  if (b.sound > 0) line("sound", b.sound);
   line("other", b.other);
   line("total", b.total);
   std::printf("  scenes: %zu%s\n", s.scenes.size(), s.ended ? "" : "; no end packet: cut, or not ended yet");
@@ -171,11 +172,11 @@ nlohmann::json to_json(const PacketEntry& p) {
 void print_packets(const std::string& name, const std::vector<PacketEntry>& packets) {
   std::printf("%s: %zu packets\n", name.c_str(),
               static_cast<std::size_t>(std::ranges::count_if(packets, is_packet)));
-  std::printf("  %12s  %-8s  %-3s  %12s  %9s\n", "at byte", "type", "key", "time", "bytes");
+  std::printf("  %12s  %-11s  %-3s  %12s  %9s\n", "at byte", "type", "key", "time", "bytes");
   for (const PacketEntry& p : packets) {
     std::array<char, 32> time{"-"};
     if (p.time) std::snprintf(time.data(), time.size(), "%.3f s", seconds_of(*p.time));
-    std::printf("  %12llu  %-8s  %-3s  %12s  %9llu%s%s\n", static_cast<unsigned long long>(p.offset),
+    std::printf("  %12llu  %-11s  %-3s  %12s  %9llu%s%s\n", static_cast<unsigned long long>(p.offset),
                 p.type.c_str(), p.key ? "key" : "", time.data(), static_cast<unsigned long long>(p.bytes),
                 p.error.empty() ? "" : "  ", p.error.c_str());
   }

@@ -13,6 +13,8 @@ constexpr std::array kSeekForthKeys = {Key{"Up", 5}, Key{"PageUp", 5}};
 constexpr std::array kSeekBackKeys = {Key{"Down", -5}, Key{"PageDown", -5}};
 constexpr std::array kRestartKeys = {Key{"r"}, Key{"Home"}};
 constexpr std::array kLoopKeys = {Key{"l"}};
+constexpr std::array kVolumeKeys = {Key{"-", -1}, Key{"+", 1}, Key{"=", 1}, Key{"Shift+=", 1}};
+constexpr std::array kMuteKeys = {Key{"v"}};
 constexpr std::array kFullScreenKeys = {Key{"f"}, Key{"F11"}};
 constexpr std::array kInfoKeys = {Key{"i"}};
 constexpr std::array kWireKeys = {Key{"w"}};
@@ -43,6 +45,8 @@ constexpr std::array kLines = {
     KeyLine{Action::kSeek, kSeekBackKeys, "5 seconds back"},
     KeyLine{Action::kRestart, kRestartKeys, "from the beginning"},
     KeyLine{Action::kLoop, kLoopKeys, "again and again, or once"},
+    KeyLine{Action::kVolume, kVolumeKeys, "softer, louder"},
+    KeyLine{Action::kMute, kMuteKeys, "voice off, on"},
     KeyLine{Action::kFullScreen, kFullScreenKeys, "full screen"},
     KeyLine{Action::kInfo, kInfoKeys, "time and rate"},
     KeyLine{Action::kWire, kWireKeys, "wire-frame"},

@@ -16,6 +16,8 @@ enum class Action : std::uint8_t {
   kSeek,  ///< amount in seconds
   kRestart,
   kLoop,
+  kVolume,  ///< amount -1 or 1
+  kMute,
   kFullScreen,
   kInfo,
   kWire,

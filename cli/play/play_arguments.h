@@ -12,6 +12,7 @@ struct PlayArguments {
   double from = 0;      ///< seconds; where to begin
   bool loop = false;    ///< begin again at the end
   bool paused = false;  ///< show the first picture and wait
+  bool no_sound = false;
 };
 
 /// The module of the verb, and its function.

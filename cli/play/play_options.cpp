@@ -26,11 +26,12 @@ void add_play(CLI::App& app, Run& run) {
   add_from(*verb, a.from);
   verb->add_flag("--loop", a.loop, "Begin again at the end");
   verb->add_flag("--paused", a.paused, "Begin paused");
+  verb->add_flag("--no-sound", a.no_sound, "Neither play nor record the sound");
   verb->add_option("--source", a.source, "Show this video, of which the stream was made, beside it");
   verb->add_option(
       "--record", a.record,
-      "Save what is seen, at the size of the picture and at the speed of the stream: .mp4, .mkv, "
-      ".y4m, frame_%05d.png; while paused, a picture for each change");
+      "Save what is seen and heard, at the size of the picture and at the speed of the stream: .mp4, .mkv; "
+      "without sound: .y4m, frame_%05d.png; while paused, a picture for each change");
   verb->footer("Keys and mouse:\n" + key_help() + "\n\n" + kExamples);
 }
 

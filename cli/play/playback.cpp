@@ -24,12 +24,24 @@ void Playback::take(std::uint64_t begin, std::uint32_t duration, Time now) {
   // A picture that begins behind the end of the last leaves a gap where pictures are lost: it is not waited
   // for.
   const bool gap = anchor_ && begin > end_;
-  if (!anchor_ || paused_ || gap || now > wall_time(begin) + kMostLate) anchor_ = Anchor{begin, now};
+  const bool slows_down = anchor_ && !follows_ && now > wall_time(begin) + kMostLate;
+  if (!anchor_ || paused_ || gap || slows_down) anchor_ = Anchor{begin, now};
   begin_ = begin;
   end_ = begin + duration;
 }
 
+void Playback::follow(std::uint64_t stream, Time now) {
+  anchor_ = Anchor{stream, now};
+  follows_ = true;
+}
+
+void Playback::jump() {
+  anchor_.reset();
+  follows_ = false;
+}
+
 void Playback::pause(bool paused, Time now) {
+  if (paused_ != paused) follows_ = false;
   if (paused_ && !paused) anchor_ = Anchor{begin_, now};
   paused_ = paused;
 }

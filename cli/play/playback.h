@@ -20,8 +20,12 @@ class Playback {
   /// @param begin     in the stream, 1/90000 s
   /// @param duration  1/90000 s
   void take(std::uint64_t begin, std::uint32_t duration, Time now);
+  /// Another clock, that of the sound, says what time of the stream it is. From then on to the next jump or
+  /// pause pictures keep to it, however late they are: call it again and again.
+  /// @param stream  1/90000 s
+  void follow(std::uint64_t stream, Time now);
   /// Pictures follow that are not those behind the last: the next one is shown at once.
-  void jump() { anchor_.reset(); }
+  void jump();
   /// There is no picture behind the last. take() goes on.
   void end() { ended_ = true; }
 
@@ -58,6 +62,7 @@ class Playback {
   std::uint64_t begin_ = 0, end_ = 0;  ///< of the picture taken last, 1/90000 s
   std::optional<Time> drawn_;
   bool paused_ = false, ended_ = false;
+  bool follows_ = false;  ///< another clock
 };
 
 /// The time in a stream as players write it: "1:02:03.45" or "2:03.45".

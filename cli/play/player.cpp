@@ -52,6 +52,7 @@ Result<void> Player::open() {
     source_.emplace(std::move(*source));
     shows_source_ = true;
   }
+  if (auto opened = open_sound(); !opened) return opened;
   // Before the window: an output that cannot be is an error without one.
   if (auto begun = begin_recording(); !begun) return begun;
   if (auto drawn = stage_.draw(decoder()); !drawn) return drawn;
@@ -60,6 +61,7 @@ Result<void> Player::open() {
   auto window = Window::open("fbs: " + arguments_.input, content_of(*first));
   if (!window) return fail(window.error());
   window_.emplace(std::move(*window));
+  open_device();
   return {};
 }
 
@@ -74,6 +76,10 @@ Result<void> Player::open_stream() {
   if (whole || first_time() > 0)
     if (auto sought = file_->seek(first_time()); !sought) return sought;
   if (whole) length_ = stream_length(file_->kept());
+  if (!whole && !arguments_.no_sound) {
+    peek_.emplace(arguments_.input);
+    parts_.follow_pictures();
+  }
   prepare_decoder();
   const auto found = losses_.next(*file_);
   if (!found) return fail(found.error());
@@ -82,6 +88,7 @@ Result<void> Player::open_stream() {
   const auto now = Playback::Clock::now();
   playback_.pause(arguments_.paused, now);
   playback_.take(decoder().position().time, decoder().duration(), now);
+  next_ = decoder().position().time + decoder().duration();
   return {};
 }
 
@@ -92,7 +99,13 @@ void Player::prepare_decoder() {
 
 Result<void> Player::begin_recording() {
   if (arguments_.record.empty()) return {};
-  auto recording = Recording::open(arguments_.record, decoder().format());
+  std::optional<RecordedSound> sound;
+  if (sound_ && has_sound_track(arguments_.record)) {
+    auto created = RecordedSound::create(parts_, sound_->queue().sample_rate(), sound_->queue().channels());
+    if (!created) return fail(created.error());
+    sound.emplace(std::move(*created));
+  }
+  auto recording = Recording::open(arguments_.record, decoder().format(), std::move(sound));
   if (!recording) return fail(recording.error());
   recording_.emplace(std::move(*recording));
   return {};
@@ -108,6 +121,7 @@ Result<void> Player::run() {
   if (auto drawn = draw(); !drawn) return drawn;
   while (!quits_) {
     if (auto taken = take_events(); !taken) return taken;
+    update_sound();
     if (!quits_ && drawn_ && (wanted_ || playback_.is_due(Playback::Clock::now())))
       if (auto gone = advance(); !gone) return gone;
     if (decoder().pictures() == 0) continue;  // of the time that has been gone to
@@ -133,7 +147,12 @@ Result<void> Player::advance() {
   const bool wanted = std::exchange(wanted_, false);
   if (status && *status == DecodeStatus::kPicture) {
     const auto now = Playback::Clock::now();
-    playback_.take(decoder().position().time, decoder().duration(), now);
+    const std::uint64_t begin = decoder().position().time;
+    if (begin > next_) stop_sound();  // pictures are lost there
+    next_ = begin + decoder().duration();
+    playback_.take(begin, decoder().duration(), now);
+    recorded_ = false;
+    read_sound();
     // What is recorded leaves out no picture.
     if (wanted || recording_ || !playback_.is_late(now)) drawn_ = false;
     return {};
@@ -150,6 +169,7 @@ Result<void> Player::advance() {
 
 void Player::end_stream() {
   playback_.end();
+  stop_sound();
   shown_ = false;
   length_ = decoder().position().time + decoder().duration();
   if (!std::exchange(reported_, true)) losses_.finish(*file_);
@@ -162,10 +182,12 @@ void Player::go_to(std::uint64_t time) {
   file_->rejoin(time);
   prepare_decoder();
   playback_.jump();
+  stop_sound();
   wanted_ = true;
 }
 
 void Player::step(int pictures) {
+  stop_sound();
   playback_.pause(true, Playback::Clock::now());
   const std::uint64_t now = decoder().position().time;
   if (pictures > 0)
@@ -221,6 +243,9 @@ void Player::take_key(const KeyPress& press) {
     case Action::kRestart:
     case Action::kLoop:
       return take_playing_key(press);
+    case Action::kVolume:
+    case Action::kMute:
+      return take_sound_key(press);
     case Action::kFullScreen:
     case Action::kInfo:
     case Action::kSource:
@@ -242,6 +267,7 @@ void Player::take_playing_key(const KeyPress& press) {
         playback_.pause(false, Playback::Clock::now());
         go_to(first_time());
       } else {
+        stop_sound();
         playback_.pause(!playback_.paused(), Playback::Clock::now());
       }
       break;

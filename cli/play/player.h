@@ -2,18 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/play/key_map.h"
+#include "cli/play/pipe_peek.h"
 #include "cli/play/play_arguments.h"
 #include "cli/play/playback.h"
 #include "cli/play/recording.h"
+#include "cli/play/sound_device.h"
+#include "cli/play/sound_playback.h"
 #include "cli/play/source_track.h"
 #include "cli/play/stage.h"
 #include "cli/play/window.h"
 #include "cli/stream/loss_report.h"
+#include "cli/stream/sound_parts.h"
 #include "cli/stream/stream_file.h"
 
 namespace fbs::cli {
@@ -31,6 +36,10 @@ class Player {
 
  private:
   Result<void> open_stream();
+  /// Finds out what sound there is.
+  Result<void> open_sound();
+  /// For the sound that there is. Where there is none, pictures go on in silence.
+  void open_device();
   /// A decoder begins with every go_to().
   void prepare_decoder();
   Result<void> begin_recording();
@@ -40,6 +49,18 @@ class Player {
   /// is wanted. Nothing happens if the user does something while bytes are waited for.
   Result<void> advance();
   void end_stream();
+  /// Keeps sound and pictures together, whatever has been done since the last call.
+  void update_sound();
+  /// What follows is another time, or waits: nothing of what has been decoded is to be heard.
+  void stop_sound();
+  /// Up to here what has not come will not come: sound comes before its pictures. 1/kSoundClock s.
+  [[nodiscard]] std::int64_t sound_come() const;
+  /// Takes the sound of what has been read.
+  void read_sound();
+  [[nodiscard]] SoundSpan sound_of_picture() const;
+  /// Where tests ask for it: number and time of the picture that has been shown, and what is heard then.
+  void log_times();
+  void take_sound_key(const KeyPress& press);
   /// Wants the picture of that time.
   void go_to(std::uint64_t time);
   /// Wants the picture before or behind.
@@ -64,6 +85,8 @@ class Player {
   [[nodiscard]] Size content_of(const cv::Mat& image) const;
   [[nodiscard]] std::vector<Panel> panels() const;
   [[nodiscard]] std::vector<std::string> info() const;
+  /// What of the sound is not as in the stream.
+  [[nodiscard]] std::string sound_text() const;
   [[nodiscard]] double progress() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
   [[nodiscard]] const StreamDecoder& decoder() const { return file_->decoder(); }
@@ -71,8 +94,15 @@ class Player {
   const PlayArguments& arguments_;
   std::optional<StreamFile> file_;
   LossReport losses_;
+  std::uint64_t next_ = 0;               ///< time behind the current picture, 1/90000 s
   std::optional<std::uint64_t> length_;  ///< of the stream, 1/90000 s, when it is known
   Playback playback_;
+  SoundParts parts_;
+  std::size_t parts_read_ = 0;          ///< bytes of the stream
+  std::optional<PipePeek> peek_;        ///< if it is no file
+  std::optional<SoundPlayback> sound_;  ///< if there is any, and it is wanted
+  std::optional<SoundDevice> device_;   ///< of sound_
+  std::ofstream times_;                 ///< log_times()
   Stage stage_;
   std::optional<SourceTrack> source_;
   std::optional<Recording> recording_;
@@ -83,6 +113,7 @@ class Player {
   bool wanted_ = false;       ///< the next picture, whatever the time
   bool interrupted_ = false;  ///< bytes were waited for when the user did something
   bool reported_ = false;     ///< what was lost
+  bool recorded_ = false;     ///< the current picture
   bool drawn_ = true;         ///< the current picture, as it is to be
   bool shown_ = true;         ///< the window shows that
 };

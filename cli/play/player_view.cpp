@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "cli/display/display_image.h"
 #include "cli/display/text_panel.h"
@@ -38,17 +39,21 @@ Result<void> Player::draw() {
   drawn_ = true;
   shown_ = false;
   playback_.drawn(Playback::Clock::now());
-  if (!recording_) return {};
+  // While the stream plays, what is changed is seen in the next picture.
+  if (!recording_ || (std::exchange(recorded_, true) && playback_.is_running())) return {};
   const auto picture = stage_.file_picture(decoder());
   if (!picture) return fail(picture.error());
-  return recording_->write(*picture, decoder().duration());
+  return recording_->write(*picture, decoder().duration(), sound_of_picture());
 }
 
 Result<void> Player::show() {
   shown_ = true;
   const auto shown = image();
   if (!shown) return fail(shown.error());
-  return window_->show(*shown, content_of(*shown), panels(), shows_info_ ? progress() : -1);
+  if (auto seen = window_->show(*shown, content_of(*shown), panels(), shows_info_ ? progress() : -1); !seen)
+    return seen;
+  log_times();
+  return {};
 }
 
 Result<cv::Mat> Player::image() {
@@ -86,12 +91,13 @@ std::vector<std::string> Player::info() const {
   const std::uint64_t time = std::max<std::uint64_t>(end, kTicksPerSecond);
   const double rate =
       8e-3 * static_cast<double>(file_->bytes_decoded()) * kTicksPerSecond / static_cast<double>(time);
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(), "%s%s%s   %.1f kbit/s   picture %llu   patterns %zu%s%s",
+  const std::string sound = sound_text();
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), "%s%s%s   %.1f kbit/s   picture %llu   patterns %zu%s%s%s%s",
                 clock_text(begin).c_str(), length_ ? " / " : "", length_ ? clock_text(*length_).c_str() : "",
                 rate, static_cast<unsigned long long>(decoder().position().pictures),
                 decoder().scene().patterns.size(), playback_.paused() ? "   paused" : "",
-                loops_ ? "   loop" : "");
+                loops_ ? "   loop" : "", sound.empty() ? "" : "   ", sound.c_str());
   std::vector<std::string> out = {line.data()};
   if (stage_.pattern)
     out.push_back("pattern " + std::to_string(*stage_.pattern + 1) + " alone (o: as in the stream)");

@@ -2,28 +2,35 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "cli/decode/decoded_time.h"
+#include "cli/play/recorded_sound.h"
 #include "cli/video/video_sink.h"
 
 namespace fbs::cli {
 
-/// Writes pictures one after another as long as each lasts in the stream, however long it was looked at.
+/// Writes pictures one after another as long as each lasts in the stream, however long it was looked at, and
+/// the sound that belongs to each.
 class Recording {
  public:
-  static Result<Recording> open(const std::string& name, const VideoFormat& format);
+  /// @param sound  none: it has none, or `name` is of a format without sound
+  static Result<Recording> open(const std::string& name, const VideoFormat& format,
+                                std::optional<RecordedSound> sound);
 
   /// @param duration  1/90000 s
-  Result<void> write(const Picture& picture, std::uint32_t duration);
+  Result<void> write(const Picture& picture, std::uint32_t duration, const SoundSpan& sound);
   /// Gives the file its name. Call it once, last.
-  Result<void> finish() { return sink_->finish(); }
+  Result<void> finish();
 
  private:
-  Recording(std::unique_ptr<VideoSink> sink, Rational rate) : sink_(std::move(sink)), time_(rate) {}
+  Recording(std::unique_ptr<VideoSink> sink, Rational rate, std::optional<RecordedSound> sound)
+      : sink_(std::move(sink)), sound_(std::move(sound)), time_(rate) {}
 
   std::unique_ptr<VideoSink> sink_;
+  std::optional<RecordedSound> sound_;
   DecodedTime time_;
 };
 

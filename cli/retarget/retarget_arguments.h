@@ -12,6 +12,7 @@ struct RetargetArguments {
   std::string output;          ///< stream
   std::string wire_frame;      ///< glTF; empty: that of the face
   std::optional<int> quality;  ///< of the picture, 0..100; nothing: kPictureQuality
+  bool no_sound = false;       ///< leave that of the motion out
   bool quiet = false;
 };
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cli/encode/encode_session.h"
@@ -11,6 +13,8 @@
 #include "cli/outcome.h"
 #include "cli/output_check.h"
 #include "cli/retarget/retarget_arguments.h"
+#include "cli/stream/sound_interleaver.h"
+#include "cli/stream/sound_parts.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/atomic_file.h"
 #include "cli/video/video_source.h"
@@ -69,6 +73,22 @@ Result<FaceStream> read_face(const RetargetArguments& arguments) {
   return on_wire_frame(std::move(*face), std::move(*frame));
 }
 
+/// The result with the sound of the motion, whose times it has. Frames go over as they are.
+Result<Bytes> with_sound(Bytes stream, std::span<const std::uint8_t> motion) {
+  SoundParts sound;
+  sound.add(motion);
+  if (sound.all().empty()) return stream;
+  const SoundSetup setup = sound.all().front().setup;
+  auto next = sound.all().begin();
+  const auto groups_before = [&](std::int64_t time) -> Result<std::vector<SoundGroup>> {
+    std::vector<SoundGroup> groups;
+    for (; next != sound.all().end() && begin_of(*next) < time; ++next)
+      if (next->setup == setup) groups.push_back(next->group);  // a stream has one codec
+    return groups;
+  };
+  return SoundInterleaver(setup, groups_before).add(stream);
+}
+
 Result<void> check_files(const RetargetArguments& a) {
   if (auto named = check_stream_name(a.output); !named) return named;
   std::vector<NamedFile> inputs{{"--motion", a.motion}, {"--face", a.face}};
@@ -85,7 +105,8 @@ Result<Outcome> retarget_files(const RetargetArguments& arguments) {
   if (!motion) return fail(about_file(arguments.motion, motion.error()));
   const auto face = read_face(arguments);
   if (!face) return fail(face.error());
-  const auto stream = retarget(*motion, *face);
+  auto stream = retarget(*motion, *face);
+  if (stream && !arguments.no_sound) stream = with_sound(std::move(*stream), *moving);
   if (!stream) return fail(about_file(arguments.output, stream.error()));
 
   auto out = AtomicFile::create(arguments.output);

@@ -13,6 +13,7 @@ inline nlohmann::json byte_count_json(const ByteCount& bytes) {
           {"geometry", bytes.geometry},
           {"patterns", bytes.patterns},
           {"motion", bytes.motion},
+          {"sound", bytes.sound},
           {"index", 0},  // format 3 has no index packet; readers of this JSON add the key up
           {"other", bytes.other}};
 }

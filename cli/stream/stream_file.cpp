@@ -5,12 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <system_error>
 
+#include "cli/matroska/matroska_module.h"
+#include "cli/module.h"
+#include "cli/video/video_source.h"
 #include "decoder/scene_index.h"
 
 namespace fbs::cli {
@@ -33,14 +37,45 @@ StreamFile::Descriptor::~Descriptor() {
 }
 
 Result<StreamFile> StreamFile::open(const std::string& name, const StopSignal* stop) {
-  if (name == "-") return StreamFile("standard input", Descriptor(STDIN_FILENO), stop);
+  if (name == "-") {
+    StreamFile stream("standard input", Descriptor(STDIN_FILENO), stop);
+    if (stream.is_matroska_input())
+      return fail(ErrorCode::kUnsupported,
+                  "standard input: a Matroska file is read by its name, not from standard input");
+    return stream;
+  }
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number() < 0)
     return fail(ErrorCode::kIo, name + ": cannot open: " + std::generic_category().message(errno));
   struct stat status {};
   if (fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
     return fail(ErrorCode::kIo, name + ": cannot read: is a directory");
-  return StreamFile(name, std::move(file), stop);
+  StreamFile stream(name, std::move(file), stop);
+  if (S_ISREG(status.st_mode))
+    if (auto extracted = stream.extract(); !extracted) return fail(extracted.error());
+  return stream;
+}
+
+Result<void> StreamFile::extract() {
+  if (!is_matroska_input()) return {};
+  if (!is_stream_file(name_))
+    return fail(ErrorCode::kUnsupported, name_ + ": is a Matroska file without fbs video (V_FBS)");
+  const auto bytes = read_all();
+  if (!bytes) return fail(bytes.error());
+  const auto convert = load_module_function<StreamOfMatroska>(kMatroskaModule, kStreamOfMatroskaSymbol);
+  if (!convert) return fail(convert.error());
+  Result<MatroskaStream> stream;
+  (*convert)(*bytes, stream);
+  if (!stream) return fail(stream.error().code, name_ + ": " + stream.error().text);
+  extracted_ = std::move(stream->bytes);
+  left_out_ = std::move(stream->left_out);
+  return {};
+}
+
+bool StreamFile::is_matroska_input() const {
+  std::array<std::uint8_t, kEbmlHead.size()> head{};
+  return ::pread(file_.number(), head.data(), head.size(), 0) == static_cast<ssize_t>(head.size()) &&
+         head == kEbmlHead;
 }
 
 Result<DecodeStatus> StreamFile::next() {
@@ -67,6 +102,12 @@ Result<DecodeStatus> StreamFile::next() {
 }
 
 Result<std::size_t> StreamFile::read(std::span<std::uint8_t> buffer) {
+  if (extracted_) {
+    const std::size_t n = std::min(buffer.size(), extracted_->size() - extracted_read_);
+    std::copy_n(extracted_->begin() + static_cast<std::ptrdiff_t>(extracted_read_), n, buffer.begin());
+    extracted_read_ += n;
+    return n;
+  }
   for (;;) {
     if (!wait()) return fail(ErrorCode::kIo, name_ + ": stopped");
     const ssize_t n = ::read(file_.number(), buffer.data(), buffer.size());

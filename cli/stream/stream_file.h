@@ -16,7 +16,7 @@
 namespace fbs::cli {
 
 /// Reads `name` (`-`: standard input) into a decoder on demand. Errors name the file and, where the stream is
-/// damaged, the byte.
+/// damaged, the byte. Of a Matroska file it reads the stream that is inside; bytes are counted in that.
 class StreamFile {
  public:
   /// @param stop  must outlive the object; null: reading is never stopped
@@ -55,8 +55,15 @@ class StreamFile {
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
   [[nodiscard]] const StreamDecoder& decoder() const { return decoder_; }
   [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] bool is_matroska() const { return extracted_.has_value(); }
+  /// Codec IDs of the tracks of a Matroska file that are not read.
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
+  /// Whether it begins as Matroska does. False of pipes, of which nothing is read.
+  [[nodiscard]] bool is_matroska_input() const;
+  /// Takes the stream out of a regular file that begins as Matroska does; others are left as they are.
+  Result<void> extract();
   /// @return number of bytes; 0 at the end
   Result<std::size_t> read(std::span<std::uint8_t> buffer);
   /// Whether there is something to read, or the end; false when idle_ says so.
@@ -90,6 +97,9 @@ class StreamFile {
   std::uint64_t from_ = 0;     ///< time to be reached, 1/90000 s; 0: reached
   std::optional<std::vector<std::uint8_t>> kept_;
   std::function<bool()> idle_;
+  std::optional<std::vector<std::uint8_t>> extracted_;  ///< the whole stream of a Matroska file
+  std::size_t extracted_read_ = 0;                      ///< bytes of it
+  std::vector<std::string> left_out_;
 };
 
 /// Seconds, from 0 to 1e8, in 1/90000 s.

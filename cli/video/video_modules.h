@@ -6,21 +6,26 @@
 #include <vector>
 
 #include "cli/video/colour.h"
+#include "cli/video/sound_source.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 
 namespace fbs {
 
-inline constexpr const char* kAvModule = "fbs_av";          ///< libav: files, H.264 output
+inline constexpr const char* kAvModule = "fbs_av";          ///< libav: files, sound, H.264 output
 inline constexpr const char* kImageModule = "fbs_image";    ///< OpenImageIO: image sequences
 inline constexpr const char* kCameraModule = "fbs_camera";  ///< OpenCV: cameras
 
 inline constexpr const char* kOpenSourceSymbol = "fbs_open_source";
 inline constexpr const char* kOpenSinkSymbol = "fbs_open_sink";
+inline constexpr const char* kOpenSoundSourceSymbol = "fbs_open_sound_source";  ///< of kAvModule
 
 /// Sets `source`: a function with C linkage cannot return it.
 using OpenSourceFunction = void(const std::string& input, const SourceOptions& options,
                                 Result<std::unique_ptr<VideoSource>>& source);
+
+using OpenSoundSourceFunction = void(const std::string& input, const SoundSourceOptions& options,
+                                     Result<std::unique_ptr<SoundSource>>& source);
 
 using OpenSinkFunction = void(const std::string& output, const VideoFormat& format,
                               const SinkOptions& options, Result<std::unique_ptr<VideoSink>>& sink);

@@ -1,5 +1,7 @@
 #include "cli/video/video_sink.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "cli/module.h"
@@ -27,12 +29,26 @@ Result<std::unique_ptr<VideoSink>> open_by_module(const char* module, const std:
 
 }  // namespace
 
+Result<void> VideoSink::write_sound(std::span<const std::uint8_t> /*frame*/, std::int64_t /*begin*/) {
+  return fail(ErrorCode::kUnsupported, "the output has no sound");
+}
+
+bool has_sound_track(const std::string& output) {
+  std::string extension = std::filesystem::path(output).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mp4" || extension == ".mkv";
+}
+
 Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
                                                    const SinkOptions& options) {
-  if (output.ends_with(".mp4") || output.ends_with(".mkv")) {
+  if (!options.sound_source.empty() && options.sound) {
+    return fail(ErrorCode::kInvalidArgument, "cannot write " + output + ": it takes one sound, not two");
+  }
+  if (has_sound_track(output)) {
     return open_by_module(kAvModule, output, format, options);
   }
-  if (!options.sound_source.empty()) {
+  if (!options.sound_source.empty() || options.sound) {
     return fail(ErrorCode::kUnsupported, "cannot write " + output + ": sound needs .mp4 or .mkv");
   }
   if (output == "null:") return std::make_unique<NullSink>();

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
+#include "bitstream/sound_syntax.h"
 #include "common/picture.h"
 #include "common/result.h"
 
@@ -22,6 +25,14 @@ class VideoSink {
   ///         after an error the sink must not be used further
   virtual Result<void> write(const Picture& picture, std::int64_t pts) = 0;
 
+  /// A frame of the sound that SinkOptions describe, in order; pictures and sound are best given as their
+  /// times come.
+  /// @param frame  a packet of Opus; empty: lost, silence
+  /// @param begin  1/kSoundClock s from time 0 of the pictures, at the end of the frame before or later; the
+  ///               first is before 0 by the setup's skip
+  /// @return ErrorCode::kUnsupported when the sink has no such sound, else as write()
+  virtual Result<void> write_sound(std::span<const std::uint8_t> frame, std::int64_t begin);
+
   /// Whether an unfinished file of an earlier run was in the way and has been replaced.
   [[nodiscard]] virtual bool replaced_leftover() const { return false; }
 
@@ -30,10 +41,16 @@ class VideoSink {
 };
 
 struct SinkOptions {
-  std::string sound_source;  ///< .mp4 and .mkv: file whose sound is copied into the output; none when empty
-  std::int64_t sound_begin =
-      0;  ///< 1/90000 s: sound before this time is left out, and what follows is earlier
+  /// .mp4 and .mkv: file whose sound is copied into the output; none when empty.
+  std::string sound_source = {};
+  /// 1/90000 s: sound before this time is left out, and what follows is earlier.
+  std::int64_t sound_begin = 0;
+  /// .mp4 and .mkv: Opus that write_sound brings; not together with sound_source.
+  std::optional<SoundSetup> sound = std::nullopt;
 };
+
+/// Whether the output may have sound: .mp4 and .mkv, in letters of any size.
+[[nodiscard]] bool has_sound_track(const std::string& output);
 
 /// Opens `output`:
 ///   `null:`             discards the pictures
@@ -43,7 +60,7 @@ struct SinkOptions {
 ///   `frame_%05d.png`    image sequence numbered from 1 through OpenImageIO, or another suffix that it writes
 ///
 /// @return ErrorCode::kIo when it cannot be created (the text says why), kUnsupported for other names,
-///         and for sound with an output that has none
+///         for sound with an output that has none, and for sound that is not Opus
 Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
                                                    const SinkOptions& options = {});
 

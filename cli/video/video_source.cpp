@@ -1,7 +1,6 @@
 #include "cli/video/video_source.h"
 
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -16,6 +15,9 @@ namespace fbs {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Bytes of a Matroska file in which its tracks are described: writers put them first.
+constexpr std::size_t kTracksWithin = 1 << 16;
 
 Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const std::string& input,
                                                     const SourceOptions& options) {
@@ -42,9 +44,13 @@ bool is_stream_file(const std::string& name) {
   std::error_code ignored;
   if (!fs::is_regular_file(name, ignored)) return false;  // what is read from a pipe is gone
   std::ifstream file(name, std::ios::binary);
-  std::array<char, kSignature.size()> start{};
-  return file.read(start.data(), start.size()) &&
-         std::memcmp(start.data(), kSignature.data(), start.size()) == 0;
+  std::string start(kTracksWithin, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  const auto begins_with = [&](const std::array<std::uint8_t, 4>& bytes) {
+    return start.starts_with(std::string(bytes.begin(), bytes.end()));
+  };
+  return begins_with(kSignature) || (begins_with(kEbmlHead) && start.find("V_FBS") != std::string::npos);
 }
 
 Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,

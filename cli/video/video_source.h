@@ -1,6 +1,7 @@
 // One interface to the sources of pictures: files, image sequences, pipes and cameras.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -59,7 +60,10 @@ struct SourceOptions {
 /// Whether `input` names a numbered sequence, several images or a folder of them.
 bool is_image_sequence(const std::string& input);
 
-/// Whether this is a file that begins as a stream does. False of pipes, of which nothing is read.
+/// How Matroska files begin: the ID of their first element.
+inline constexpr std::array<std::uint8_t, 4> kEbmlHead{0x1A, 0x45, 0xDF, 0xA3};
+
+/// Whether this is a stream, or a Matroska file that has one. False of pipes, of which nothing is read.
 bool is_stream_file(const std::string& name);
 
 /// Opens `input`:

@@ -21,6 +21,11 @@ inline float value(const cv::Mat& luma, glm::vec2 at) {
   return bilinear<std::uint8_t>(luma, BilinearCell(clamped(luma, at - 0.5F, 1.01F)));
 }
 
+/// Where a sample lies in a cell, of 0..1.
+constexpr float share(std::size_t i) {
+  return (static_cast<float>(i) + 0.5F) / kSamplesAcrossCell;
+}
+
 /// Of a cell as it moved, over what it was; negative when it has folded.
 double area_ratio(const std::array<glm::dvec2, 4>& to, glm::dvec2 size) {
   const glm::dvec2 d1 = to[3] - to[0], d2 = to[2] - to[1];
@@ -36,6 +41,7 @@ CellCost::CellCost(const Setup& setup, const Geometry& geometry, const MapGrid& 
   points_ = without_margin(scene.texture_mesh(observations.first().state).surround);
   for (const auto& observation : observations.later())
     later_.push_back(later_picture(setup, geometry, observation));
+  if (!later_.empty()) first_ = samples_of_first();
 }
 
 std::vector<glm::dvec2> CellCost::without_margin(const std::vector<glm::ivec2>& screen) const {
@@ -79,25 +85,53 @@ glm::dvec2 CellCost::displacement(const Later& later, std::size_t point, const M
   return similar + h * (later.displacement[0][point] - similar);
 }
 
-double CellCost::in_picture(const Later& later, const Cell& cell, const std::array<glm::dvec2, 4>& to) const {
+CellCost::Cell CellCost::cell_at(int column, int row) const {
+  const auto factor = static_cast<double>(observations_.factor());
+  const glm::dvec2 first = points_.front() / factor, last = points_.back() / factor;
+  const glm::dvec2 size = (last - first) / glm::dvec2(grid_.columns, grid_.rows);
+  const glm::dvec2 low = first + glm::dvec2(column, row) * size;
+  return {low, low + size};
+}
+
+std::size_t CellCost::index_of(int column, int row) const {
+  return static_cast<std::size_t>(row + 1) * static_cast<std::size_t>(grid_.columns + 2) +
+         static_cast<std::size_t>(column + 1);
+}
+
+std::vector<CellCost::CellSamples> CellCost::samples_of_first() const {
+  const auto factor = static_cast<double>(observations_.factor());
+  const glm::vec2 begin(points_.front() / factor), end(points_.back() / factor);
+  std::vector<CellSamples> out(index_of(grid_.columns, grid_.rows) + 1);
+  for (int row = -1; row <= grid_.rows; ++row)
+    for (int column = -1; column <= grid_.columns; ++column) {
+      const Cell cell = cell_at(column, row);
+      const glm::vec2 low(cell.low), size(cell.high - cell.low);
+      CellSamples& samples = out[index_of(column, row)];
+      for (std::size_t k = 0; k < kCellSamples; ++k) {
+        const glm::vec2 from =
+            low + size * glm::vec2(share(k % kSamplesAcrossCell), share(k / kSamplesAcrossCell));
+        samples[k] = value(observations_.first().luma,
+                           {std::clamp(from.x, begin.x, end.x), std::clamp(from.y, begin.y, end.y)});
+      }
+    }
+  return out;
+}
+
+double CellCost::in_picture(const Later& later, const CellSamples& first,
+                            const std::array<glm::dvec2, 4>& to) {
   constexpr auto kLimit = static_cast<float>(kTruncation * kTruncation);
-  const auto share = [](int i) { return (static_cast<float>(i) + 0.5F) / kSamplesAcrossCell; };
-  const glm::vec2 low(cell.low), size(cell.high - cell.low);
   const glm::vec2 picture(later.luma->cols, later.luma->rows);
   float sum = 0;
-  for (int v = 0; v < kSamplesAcrossCell; ++v) {
+  for (std::size_t v = 0; v < kSamplesAcrossCell; ++v) {
     const float fy = share(v);
     const glm::vec2 left = glm::vec2(to[0]) * (1 - fy) + glm::vec2(to[2]) * fy,
                     right = glm::vec2(to[1]) * (1 - fy) + glm::vec2(to[3]) * fy;
-    for (int u = 0; u < kSamplesAcrossCell; ++u) {
+    for (std::size_t u = 0; u < kSamplesAcrossCell; ++u) {
       const float fx = share(u);
       const glm::vec2 p = left * (1 - fx) + right * fx;
       if (!(p.x >= 0 && p.y >= 0 && p.x < picture.x && p.y < picture.y)) continue;
       if (later.hidden.ptr(static_cast<int>(p.y))[static_cast<int>(p.x)] != 0) continue;
-      const glm::vec2 from = low + size * glm::vec2(fx, fy);
-      const float r = value(*later.luma, p) -
-                      value(observations_.first().luma, {std::clamp(from.x, cell.begin.x, cell.end.x),
-                                                         std::clamp(from.y, cell.begin.y, cell.end.y)});
+      const float r = value(*later.luma, p) - first[v * kSamplesAcrossCell + u];
       sum += std::min(kLimit, r * r);
     }
   }
@@ -106,21 +140,18 @@ double CellCost::in_picture(const Later& later, const Cell& cell, const std::arr
 
 double CellCost::operator()(int column, int row, const std::array<MapLabel, 4>& corner) const {
   const std::array<std::size_t, 4> k = grid_.corners_of(column, row);
-  const auto factor = static_cast<double>(observations_.factor());
-  const glm::dvec2 first = points_.front() / factor, last = points_.back() / factor;
-  const glm::dvec2 size = (last - first) / glm::dvec2(grid_.columns, grid_.rows);
-  const glm::dvec2 low = first + glm::dvec2(column, row) * size, high = low + size;
-  const Cell cell{low, high, glm::vec2(first), glm::vec2(last)};
+  const Cell cell = cell_at(column, row);
+  const CellSamples& first = first_[index_of(column, row)];
   double sum = 0;
   for (const Later& later : later_) {
     std::array<glm::dvec2, 4> to;
     for (std::size_t i = 0; i < 4; ++i)
-      to[i] = glm::dvec2(i % 2 == 0 ? low.x : high.x, i < 2 ? low.y : high.y) +
+      to[i] = glm::dvec2(i % 2 == 0 ? cell.low.x : cell.high.x, i < 2 ? cell.low.y : cell.high.y) +
               displacement(later, k[i], corner[i]);
-    const double area = area_ratio(to, high - low);
+    const double area = area_ratio(to, cell.high - cell.low);
     sum += area < kMinCellArea
                ? kTruncation * kTruncation
-               : in_picture(later, cell, to) * area / (kSamplesAcrossCell * kSamplesAcrossCell);
+               : in_picture(later, first, to) * area / (kSamplesAcrossCell * kSamplesAcrossCell);
   }
   return sum / static_cast<double>(later_.size());
 }

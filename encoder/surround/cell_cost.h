@@ -8,6 +8,7 @@
 #include "bitstream/syntax.h"
 #include "encoder/surround/map_grid.h"
 #include "encoder/surround/surround_observations.h"
+#include "encoder/surround/surround_tuning.h"
 
 namespace fbs {
 
@@ -36,24 +37,31 @@ class CellCost {
     cv::Mat hidden;                                       ///< nonzero where the head is
     std::array<std::vector<glm::dvec2>, 3> displacement;  ///< with head, body, ground: work pixels
   };
+  static constexpr std::size_t kCellSamples =
+      static_cast<std::size_t>(surround::kSamplesAcrossCell) * surround::kSamplesAcrossCell;
+  using CellSamples = std::array<float, kCellSamples>;  ///< luma, row by row
+
   /// A cell in the first picture, work pixels.
   struct Cell {
     glm::dvec2 low, high;
-    glm::vec2 begin, end;  ///< bounds of the picture
   };
 
+  [[nodiscard]] Cell cell_at(int column, int row) const;
+  [[nodiscard]] std::size_t index_of(int column, int row) const;
+  [[nodiscard]] std::vector<CellSamples> samples_of_first() const;
   [[nodiscard]] Later later_picture(const Setup& setup, const Geometry& geometry,
                                     const SurroundObservations::Observation& observation) const;
   [[nodiscard]] cv::Mat covered_by_head(std::span<const glm::ivec3> vertices, cv::Size size) const;
   [[nodiscard]] std::vector<glm::dvec2> without_margin(const std::vector<glm::ivec2>& screen) const;
   [[nodiscard]] static glm::dvec2 displacement(const Later& later, std::size_t point, const MapLabel& label);
-  [[nodiscard]] double in_picture(const Later& later, const Cell& cell,
-                                  const std::array<glm::dvec2, 4>& to) const;
+  [[nodiscard]] static double in_picture(const Later& later, const CellSamples& first,
+                                         const std::array<glm::dvec2, 4>& to);
 
   MapGrid grid_;
   const SurroundObservations& observations_;
   std::vector<glm::dvec2> points_;
   std::vector<Later> later_;
+  std::vector<CellSamples> first_;  ///< of each cell in the first picture, as index_of() says
 };
 
 }  // namespace fbs

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "encoder/surround/surround_tuning.h"
@@ -71,12 +72,12 @@ void MapLabelling::start() {
   }
 }
 
-double MapLabelling::cost_of(std::size_t k, const MapLabel& label) {
+double MapLabelling::cost_of(std::size_t k, const MapLabel& label, double enough) {
   const int c = static_cast<int>(k % grid_.stride()), r = static_cast<int>(k / grid_.stride());
   const MapLabel was = std::exchange(labels_[k], label);
   double sum = prior_cost(k, label) + smoothness(k, label);
   for (int row = r - 1; row <= r; ++row)
-    for (int column = c - 1; column <= c; ++column) {
+    for (int column = c - 1; column <= c && sum < enough; ++column) {
       const auto i = grid_.corners_of(column, row);
       sum += cell_cost_(column, row, {labels_[i[0]], labels_[i[1]], labels_[i[2]], labels_[i[3]]});
     }
@@ -85,11 +86,11 @@ double MapLabelling::cost_of(std::size_t k, const MapLabel& label) {
 }
 
 MapLabel MapLabelling::best_label(std::size_t k) {
-  double least = cost_of(k, labels_[k]) - 1e-9;
+  double least = cost_of(k, labels_[k], std::numeric_limits<double>::infinity()) - 1e-9;
   MapLabel best = labels_[k];
   for (const MapLabel& l : map_labels()) {
     if (distance(l, labels_[k]) > kMaxLabelChange && !has_neighbour(k, l)) continue;
-    if (const double now = cost_of(k, l); now < least) {
+    if (const double now = cost_of(k, l, least); now < least) {
       least = now;
       best = l;
     }

@@ -28,7 +28,8 @@ class MapLabelling {
   /// One sweep on the cells as they are drawn; false when nothing changed.
   bool improve();
   /// Prior, smoothness and the four cells' cost when a point changes to a label.
-  [[nodiscard]] double cost_of(std::size_t k, const MapLabel& label);
+  /// @param enough  a cost of at least this need not be exact, which saves most of the cells
+  [[nodiscard]] double cost_of(std::size_t k, const MapLabel& label, double enough);
   [[nodiscard]] MapLabel best_label(std::size_t k);
   /// The visit in which a point or one of those around it changed last.
   [[nodiscard]] int changed_near(std::size_t k) const;

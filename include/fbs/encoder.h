@@ -85,6 +85,12 @@ FBS_API void fbs_encoder_close(fbs_encoder** encoder);
 FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture,
                                     uint32_t duration);
 
+/** Asks for a place where a viewer can join, as one does who has lost something: a scene begins with the next
+ * picture that can begin one, after `delay` at the latest. With `live` only. Asking again before that changes
+ * nothing. A picture without motion, shown where no face is and there is one pattern, is not sent again.
+ * @return FBS_OK; FBS_ERROR_ARGUMENT without `live`, or after the end */
+FBS_API fbs_status fbs_encoder_request_scene(fbs_encoder* encoder);
+
 /** Says that there are no more pictures, and codes what is held back.
  * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no
  *         picture or this is the second call; other errors as of fbs_encoder_push(). In any case the encoding

@@ -38,6 +38,7 @@ class Encoder {
   void push(const fbs_const_picture& picture, std::uint32_t duration = 0) {
     check(fbs_encoder_push(get(), &picture, duration));
   }
+  void request_scene() { check(fbs_encoder_request_scene(get())); }
   void finish() { check(fbs_encoder_finish(get())); }
 
   /// Nothing: push more, or finish; after finish(): there is no more.

@@ -20,7 +20,7 @@ class BoundedDecoding {
   DecodeTally run() {
     while (tally_.drawn < kMaxDrawnPictures && step()) continue;
     const ByteCount& b = decoder_.bytes();
-    require(b.geometry + b.patterns + b.motion + b.other == b.total, "bytes do not sum up");
+    require(b.geometry + b.patterns + b.motion + b.sound + b.other == b.total, "bytes do not sum up");
     return tally_;
   }
 

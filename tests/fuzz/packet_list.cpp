@@ -1,6 +1,6 @@
 // Bytes to the list of packets that `fbs inspect --packets` prints: its entries cover the stream, and what it
 // reports the decoder reports too.
-#include "cli/inspect/packet_list.h"
+#include "cli/stream/packet_list.h"
 
 #include <algorithm>
 

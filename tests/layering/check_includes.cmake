@@ -8,14 +8,15 @@ set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
   decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/draw decoder
-  decoder/export
-  encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
+  decoder/export decoder/sound
+  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
   cli/video/images cli/video/av cli/video cli/display cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
+          "decoder/export decoder/sound"
           "encoder/landmarks encoder/model" "encoder/track/head encoder/track/snake" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.
@@ -24,6 +25,8 @@ set(foreign
   "opencv2/videoio@cli/video"
   "opencv2/highgui@none"
   "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
+  "opus(/|\\.h)@decoder/sound|encoder/sound"
+  "codec2(/|\\.h)@decoder/sound|encoder/sound"
   "aom/@encoder/patterns"
   "dav1d/@decoder"
   "hwy/@decoder/vectors|decoder/field|decoder/raster"
@@ -31,9 +34,11 @@ set(foreign
   "nlohmann@encoder/find|cli"
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
+  "(matroska|ebml|webm)/@cli"
   "CLI/@cli"
   "SDL@cli"
-  "tiny_gltf@decoder/export")
+  "tiny_gltf@decoder/export"
+  "gst/@gstreamer")
 set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table out of glTF; in no library
 # Interfaces that modules implement: they stand in cli/video, which is above them.
 set(module_interface "cli/(module|verbs|progress)\\.h|cli/video/[a-z0-9_]+\\.h")
@@ -93,6 +98,18 @@ foreach(source ${sources})
           break()
         endif()
       endforeach()
+    endif()
+  endforeach()
+endforeach()
+# The plugin is a user of the libraries like any other: of ours it includes include/fbs alone.
+file(GLOB plugin RELATIVE ${ROOT} ${ROOT}/gstreamer/*.h ${ROOT}/gstreamer/*.c)
+foreach(source ${plugin})
+  math(EXPR checked "${checked} + 1")
+  file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(include ${includes})
+    if(include MATCHES "\"[^\"]*/" OR NOT include MATCHES "\"|<(fbs|gst)/|<string\\.h>")
+      message("${source}: ${include} is not for the plugin")
+      math(EXPR faults "${faults} + 1")
     endif()
   endforeach()
 endforeach()

@@ -191,6 +191,15 @@ class Install(ProgramTest):
         self.assertEqual([pathlib.Path(path).resolve() for path in included], [SOURCE.resolve() / "include"])
         self.assertNotIn(" -W", theirs)
 
+    def test_gstreamer_finds_the_plugin(self):
+        plugins = list(self.prefix.glob("lib*/**/gstreamer-1.0/libgstfbs.so"))
+        if not plugins or not shutil.which("gst-inspect-1.0"):
+            self.skipTest("the plugin for GStreamer was not built, or no gst-inspect-1.0")
+        environment = {**os.environ, "GST_PLUGIN_PATH": str(plugins[0].parent), "GST_REGISTRY": str(self.folder / "registry")}
+        for element in ("fbsenc", "fbsdec"):
+            self.assertIn(str(plugins[0]), run("gst-inspect-1.0", element, env=environment))
+        self.assertNotIn(str(BUILD), run("readelf", "-d", plugins[0]))
+
     def test_headers_stand_alone(self):
         include = self.prefix / "include"
         self.assertEqual(sorted(path.name for path in (include / "fbs").iterdir()), sorted(HEADERS))

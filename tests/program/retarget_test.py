@@ -9,6 +9,7 @@ import sys
 
 from harness import (FBS, KEYED_FBS, SOURCE, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, flat_y4m,
                      packets, talker)
+from speech import make_speech
 
 TOUCHING = 0.01        # eye distances
 INNER_LIPS = ((61, 67), (62, 66), (63, 65))
@@ -56,6 +57,19 @@ class Retarget(ProgramTest):
             self.assertLess(worst, 0.5, name)
         self.assertGreater(correlation(before.distance(62, 66), after.distance(62, 66)), 0.97)
         self.assertGreater(correlation(before.distance(37, 41), after.distance(37, 41)), 0.97)
+
+    def test_sound_is_that_of_the_motion(self):
+        make_speech(self.folder / "motion.fbs", 3, self.folder)
+        make_speech(self.folder / "face.fbs", 2, self.folder, seed=8)
+        self.succeed("decode", "motion.fbs", "motion.wav", "--quiet")
+        self.retarget("motion.fbs", "face.fbs")
+        self.succeed("decode", "out.fbs", "out.wav", "--quiet")
+        self.assertEqual((self.folder / "out.wav").read_bytes(), (self.folder / "motion.wav").read_bytes())
+        self.retarget("motion.fbs", "face.fbs", "--no-sound")
+        self.fail_cleanly("decode", "out.fbs", "none.wav", says=["has no sound"])
+        # A face with a voice has none to give.
+        self.retarget(TALK_ONE_FBS, "face.fbs")
+        self.fail_cleanly("decode", "out.fbs", "none.wav", says=["has no sound"])
 
     def test_motion_of_another(self):
         face = self.close_up()

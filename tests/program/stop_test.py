@@ -1,10 +1,12 @@
 """Ctrl-C, SIGTERM and kill -9: what was read until then is kept."""
+import json
 import os
 import signal
 import subprocess
 import time
 
-from harness import LITTLE_LOST, FBS, MAX_SECONDS, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, ProgramTest, Y4m, read_y4m
+from harness import LITTLE_LOST, FBS, MAX_SECONDS, TALK_FBS, TALK_ONE_FBS, TALK_Y4M, ProgramTest, Y4m, ffmpeg, read_y4m
+from sound_test import read_wave
 
 STOPS = {signal.SIGINT: 130, signal.SIGTERM: 143}  # signal: exit code
 PICTURE = len(b"FRAME\n") + 176 * 144 * 3 // 2     # bytes of the talker's
@@ -48,6 +50,21 @@ class Stop(ProgramTest):
             self.assertRegex(said, r"(?s)\Afbs: finishing the stream.*\nout\.fbs: \d+ pictures, .*\nfbs: stopped by " + stop.name)
             self.assertEqual(list(self.files()), ["out.fbs"])
             self.assertIn(len(self.decoded("out.fbs").pictures), range(35, 41))  # some may wait in the pipe
+
+    def test_encoder_of_a_file_with_sound_finishes_both(self):
+        """The sound behind what was read is still read: pictures that wait need it."""
+        ffmpeg("-stream_loop", "20", "-i", TALK_Y4M, "-f", "lavfi", "-i", "anoisesrc=amplitude=0.2:duration=80", "-c:v", "libx264",
+               "-preset", "ultrafast", "-qp", "10", "-c:a", "pcm_s16le", "-shortest", self.folder / "talk.mkv")
+        running = self.start("encode", "talk.mkv", "out.fbs")
+        self.wait_for(self.part().exists)
+        time.sleep(1)
+        running.send_signal(signal.SIGINT)
+        self.ends_with(running, 130)
+        shown = json.loads(self.succeed("inspect", "out.fbs", "--json"))
+        self.assertLess(shown["frames"], 2400)
+        self.succeed("decode", "out.fbs", "out.wav", "--quiet")
+        loud = read_wave(self.folder / "out.wav")[1][-2400:]
+        self.assertGreater(max(map(abs, loud)), 300, "the last 50 ms are heard")
 
     def test_encoder_of_a_file_finishes_the_stream(self):
         for stop, code in STOPS.items():

@@ -9,6 +9,7 @@
 #include "tests/vectors/blend_vectors.h"
 #include "tests/vectors/limits_vectors.h"
 #include "tests/vectors/scene_vectors.h"
+#include "tests/vectors/sound_vectors.h"
 #include "tests/vectors/vector_tools.h"
 #include "tests/vectors/wire_frame_vectors.h"
 
@@ -115,7 +116,8 @@ int main(int argc, char** argv) {
   const fbs::Bytes talk =
       fbs::encoded(fbs::pictures_of(fbs::talker_settings(128, 96, 20)), fbs::one_pattern(5));
   fbs::add_good(folder, talk);
-  fbs::add_scenes(folder);
+  const fbs::Bytes late = fbs::add_scenes(folder);
+  fbs::add_sound(folder, argv[1], talk, late);
   fbs::add_limits(folder);
   fbs::add_blends(folder);
   fbs::add_wire_frames(folder, talk);

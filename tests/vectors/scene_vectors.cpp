@@ -52,13 +52,14 @@ Bytes joined_scenes(const std::vector<Scene>& scenes, std::uint64_t pictures) {
 
 }  // namespace
 
-void add_scenes(Folder& folder) {
+Bytes add_scenes(Folder& folder) {
   const Bytes stream = late();
   const auto scenes = scenes_of(stream);
   if (scenes.size() != 2 || must(decode_setup(scenes[1].front().payload)).before != position(kFirst))
     give_up("the talker does not begin the second scene");
   folder.add("late.fbs", stream, kFirst + kSecond);
   folder.add("joined.fbs", joined_scenes({scenes[1]}, kFirst + kSecond), kSecond);
+  return stream;
 }
 
 void add_broken_scenes(Folder& folder) {

@@ -5,7 +5,8 @@
 
 namespace fbs {
 
-void add_scenes(Folder& folder);
+/// @return late.fbs, of two scenes
+Bytes add_scenes(Folder& folder);
 void add_broken_scenes(Folder& folder);
 
 }  // namespace fbs

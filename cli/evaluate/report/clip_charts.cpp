@@ -108,7 +108,8 @@ std::string byte_bars(const ClipReport& clip) {
     out += "<span class=\"bar-name\">" + escaped(point_name(p)) + "</span><span class=\"bar\">";
     for (const auto& [style, bytes] :
          {std::pair{"geometry", p.bytes.geometry}, std::pair{"patterns", p.bytes.patterns},
-          std::pair{"motion", p.bytes.motion}, std::pair{"other", p.bytes.other}})
+          std::pair{"motion", p.bytes.motion}, std::pair{"sound", p.bytes.sound},
+          std::pair{"other", p.bytes.other}})
       out += std::string("<i class=\"") + style + "\" title=\"" + style + ": " + std::to_string(bytes) +
              " bytes\" style=\"width: " +
              decimal(100 * static_cast<double>(bytes) / static_cast<double>(most), 2) + "%\"></i>";

@@ -1,5 +1,6 @@
 #include "cli/evaluate/report/html_report.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -80,10 +81,12 @@ Result<std::string> stills_of(const ClipReport& clip) {
   return out;
 }
 
-std::string byte_keys() {
+std::string byte_keys(const ClipReport& clip) {
+  const bool sound = std::ranges::any_of(clip.points, [](const RdPoint& p) { return p.bytes.sound > 0; });
   std::string out;
-  for (const char* part : {"geometry", "patterns", "motion", "other"})
-    out += std::string("<span><i class=\"key ") + part + "\"></i>" + part + "</span>";
+  for (const std::string part : {"geometry", "patterns", "motion", "sound", "other"})
+    if (part != "sound" || sound)
+      out.append("<span><i class=\"key ").append(part).append("\"></i>").append(part).append("</span>");
   return out;
 }
 
@@ -103,7 +106,7 @@ Result<std::string> clip_section(const ClipReport& clip, bool with_heading) {
                  {"frame_curve", rate_chart(clip, Area::kFrame)},
                  {"streams", point_table(clip)},
                  {"bars", byte_bars(clip)},
-                 {"keys", byte_keys()},
+                 {"keys", byte_keys(clip)},
                  {"stills", std::move(*stills)},
                  {"face_time_caption", face ? "Face: luma PSNR of each picture" + rival : ""},
                  {"face_time", time_chart(clip, Area::kFace)},

@@ -2,12 +2,18 @@
 
 #include "cli/module.h"
 #include "cli/video/av/av_sink.h"
+#include "cli/video/av/av_sound_source.h"
 #include "cli/video/av/av_source.h"
 #include "cli/video/video_modules.h"
 
 FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,
                                        fbs::Result<std::unique_ptr<fbs::VideoSource>>& source) {
   source = fbs::open_av_source(input, options);
+}
+
+FBS_MODULE_EXPORT void fbs_open_sound_source(const std::string& input, const fbs::SoundSourceOptions& options,
+                                             fbs::Result<std::unique_ptr<fbs::SoundSource>>& source) {
+  source = fbs::open_av_sound_source(input, options);
 }
 
 FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::VideoFormat& format,

@@ -1,5 +1,6 @@
 #include "cli/video/av/av_muxer.h"
 
+#include <string_view>
 #include <utility>
 
 namespace fbs {
@@ -38,6 +39,12 @@ AvMuxer::~AvMuxer() {
 
 AVStream* AvMuxer::add_stream() {
   return avformat_new_stream(context_, nullptr);
+}
+
+std::int64_t AvMuxer::forgotten_delay(const AVCodecParameters& sound) const {
+  const bool forgets = avformat_version() < AV_VERSION_INT(59, 31, 100);
+  const bool written = sound.codec_id == AV_CODEC_ID_OPUS && std::string_view(container().name) == "matroska";
+  return forgets && written ? sound.initial_padding : 0;
 }
 
 Result<void> AvMuxer::write_header() {

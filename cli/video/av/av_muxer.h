@@ -23,12 +23,17 @@ class AvMuxer {
   AVStream* add_stream();
   [[nodiscard]] const AVOutputFormat& container() const { return *context_->oformat; }
 
+  /// To be added to the times of a track of sound, 1/48000 s. In Matroska they are later by CodecDelay, which
+  /// players subtract; up to version 5.1 ffmpeg writes that element for Opus and forgets to add it.
+  [[nodiscard]] std::int64_t forgotten_delay(const AVCodecParameters& sound) const;
+
   Result<void> write_header();
   /// Takes the packet's data; its times are in the stream's time base.
   Result<void> write(AVPacket& packet);
   /// Writes the end of the container and gives the file its name.
   Result<void> finish();
 
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
   [[nodiscard]] bool replaced_leftover() const { return file_.replaced_leftover(); }
 
   [[nodiscard]] tl::unexpected<Error> error(const std::string& reason) const;

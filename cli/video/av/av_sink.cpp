@@ -11,6 +11,7 @@ extern "C" {
 #include <utility>
 
 #include "cli/video/av/av_muxer.h"
+#include "cli/video/av/av_opus_track.h"
 #include "cli/video/av/av_sound.h"
 #include "cli/video/av/av_support.h"
 #include "cli/video/timestamps.h"
@@ -65,6 +66,7 @@ class AvSink final : public VideoSink {
 
   Result<void> open(const std::string& output, const SinkOptions& options);
   Result<void> write(const Picture& picture, std::int64_t pts) override;
+  Result<void> write_sound(std::span<const std::uint8_t> frame, std::int64_t begin) override;
   [[nodiscard]] bool replaced_leftover() const override { return muxer_->replaced_leftover(); }
   Result<void> finish() override;
 
@@ -77,7 +79,8 @@ class AvSink final : public VideoSink {
   VideoFormat format_;
   std::unique_ptr<AvMuxer> muxer_;
   AvCodec encoder_;
-  std::optional<AvSound> sound_;
+  std::optional<AvSound> sound_;     ///< copied from a file
+  std::optional<AvOpusTrack> opus_;  ///< given to write_sound
   AvFrame frame_{av_frame_alloc()};
   AvPacket packet_{av_packet_alloc()};
   AVStream* stream_ = nullptr;  ///< of muxer_
@@ -86,7 +89,7 @@ class AvSink final : public VideoSink {
 };
 
 Result<void> AvSink::open(const std::string& output, const SinkOptions& options) {
-  auto muxer = AvMuxer::create(output, output.ends_with(".mp4") ? "mp4" : "matroska");
+  auto muxer = AvMuxer::create(output, av_match_ext(output.c_str(), "mp4") != 0 ? "mp4" : "matroska");
   if (!muxer) return fail(muxer.error());
   muxer_ = std::move(*muxer);
   stream_ = muxer_->add_stream();
@@ -102,6 +105,11 @@ Result<void> AvSink::open(const std::string& output, const SinkOptions& options)
     auto sound = AvSound::open(options.sound_source, options.sound_begin, *muxer_);
     if (!sound) return fail(sound.error());
     sound_ = std::move(*sound);
+  }
+  if (options.sound) {
+    auto track = AvOpusTrack::add(*options.sound, *muxer_);
+    if (!track) return fail(track.error());
+    opus_ = std::move(*track);
   }
   return muxer_->write_header();
 }
@@ -164,6 +172,11 @@ Result<void> AvSink::write(const Picture& picture, std::int64_t pts) {
   last_pts_ = std::max(encoder_pts(pts), earliest);
   frame_->pts = last_pts_;
   return encode(frame_.get());
+}
+
+Result<void> AvSink::write_sound(std::span<const std::uint8_t> frame, std::int64_t begin) {
+  if (!opus_) return VideoSink::write_sound(frame, begin);
+  return opus_->write(frame, begin, *muxer_);
 }
 
 /// Exact on the regular grid, though 90000 ticks a second may only round it.

@@ -2,7 +2,16 @@
 
 #include <algorithm>
 
+#include "bitstream/sound_syntax.h"
+#include "cli/video/av/av_source.h"
+
 namespace fbs {
+namespace {
+
+/// What encoders put before the sound proper, 1/AV_TIME_BASE s; AAC has 46 ms of it.
+constexpr std::int64_t kLongestPriming = 60'000;
+
+}  // namespace
 
 Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvMuxer& muxer) {
   AvSound sound;
@@ -17,11 +26,12 @@ Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvM
   }
   sound.from_ = sound.container_->streams[index];
   sound.packet_.reset(av_packet_alloc());
-  sound.begins_later_ = begin > 0;
+  const std::int64_t start =
+      sound.container_->start_time != AV_NOPTS_VALUE ? sound.container_->start_time : 0;
+  const std::int64_t origin = first_picture_time(*sound.container_, source, nullptr).value_or(start);
+  sound.begins_later_ = begin > 0 || origin - start > kLongestPriming;
   const AVRational base = sound.from_->time_base;
-  sound.shift_ = av_rescale_q(begin, kTick, base);
-  if (const std::int64_t start = sound.container_->start_time; start != AV_NOPTS_VALUE)
-    sound.shift_ += av_rescale_q(start, AVRational{1, AV_TIME_BASE}, base);
+  sound.shift_ = av_rescale_q(begin, kTick, base) + av_rescale_q(origin, kTimeBase, base);
 
   const AVCodecID codec = sound.from_->codecpar->codec_id;
   if (avformat_query_codec(&muxer.container(), codec, FF_COMPLIANCE_NORMAL) == 0) {
@@ -34,6 +44,7 @@ Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvM
       avcodec_parameters_copy(sound.to_->codecpar, sound.from_->codecpar) < 0) {
     return muxer.error("out of memory");
   }
+  sound.shift_ -= av_rescale_q(muxer.forgotten_delay(*sound.to_->codecpar), AVRational{1, kSoundClock}, base);
   sound.to_->codecpar->codec_tag = 0;  // each container has its own
   sound.to_->time_base = sound.from_->time_base;
   return sound;

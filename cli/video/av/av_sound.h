@@ -9,8 +9,8 @@
 
 namespace fbs {
 
-/// Copies packets without re-encoding. Times count from the start of the source, as in VideoSource, so that
-/// sound and pictures stay in sync.
+/// Copies packets without re-encoding. Times count from the first picture of the source, which is time 0 of a
+/// stream made of it; without pictures, from its start.
 class AvSound {
  public:
   /// Finds the main sound stream of `source` and adds one for it to the muxer.

@@ -39,6 +39,11 @@ Rational choose_frame_rate(AVFormatContext* container, AVStream* stream) {
   return plausible_rate(as_rational(rate)) ? as_rational(rate) : kUnknownRate;
 }
 
+/// 1/AV_TIME_BASE s.
+std::int64_t start_time(const AVFormatContext& container) {
+  return container.start_time == AV_NOPTS_VALUE ? 0 : container.start_time;
+}
+
 std::optional<Orientation> orientation_of(const std::uint8_t* matrix_bytes, std::size_t size) {
   std::array<std::int32_t, 9> matrix{};
   if (matrix_bytes == nullptr || size < sizeof matrix) return std::nullopt;
@@ -66,6 +71,8 @@ class AvSource final : public VideoSource {
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
+  /// Of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
+  [[nodiscard]] std::int64_t first_picture_time() const;
 
  private:
   Result<void> open_decoder(const SourceOptions& options);
@@ -217,12 +224,17 @@ void AvSource::note_failure(int code, bool cut) {
                    name_ + ": " + (damaged ? "cut off or damaged" : av_reason(code))};
 }
 
+std::int64_t AvSource::first_picture_time() const {
+  if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
+    return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTimeBase);
+  }
+  return start_time(*container_);
+}
+
 std::int64_t AvSource::next_pts() {
   std::int64_t pts = last_pts_ + regular_pts(1, format_.frame_rate);
   if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
-    const std::int64_t start = container_->start_time == AV_NOPTS_VALUE
-                                   ? 0
-                                   : av_rescale(container_->start_time, kTicksPerSecond, AV_TIME_BASE);
+    const std::int64_t start = av_rescale(start_time(*container_), kTicksPerSecond, AV_TIME_BASE);
     pts = av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTick) - start;
   } else if (index_ == 0) {
     pts = 0;
@@ -265,6 +277,19 @@ Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, co
   auto source = std::make_unique<AvSource>(input);
   if (auto opened = source->open(options); !opened) return fail(opened.error());
   return source;
+}
+
+Result<std::int64_t> first_picture_time(AVFormatContext& container, const std::string& input,
+                                        const StopSignal* stop) {
+  const int index = av_find_best_stream(&container, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (index < 0 || (container.streams[index]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
+    return start_time(container);
+  }
+  SourceOptions options;
+  options.stop = stop;
+  AvSource source(input);
+  if (auto opened = source.open(options); !opened) return fail(opened.error());
+  return source.first_picture_time();
 }
 
 }  // namespace fbs

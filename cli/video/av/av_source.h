@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/video/av/av_support.h"
 #include "cli/video/video_source.h"
 
 namespace fbs {
@@ -12,5 +13,12 @@ namespace fbs {
 /// Timestamps are those of the container counted from its start. Containers that round them (Matroska to 1
 /// ms) get the exact time back when the rounded one lies within one of their units of the regular grid.
 Result<std::unique_ptr<VideoSource>> open_av_source(const std::string& input, const SourceOptions& options);
+
+/// Time of the first picture that open_av_source returns of `input`, or the start of a container without
+/// pictures; on the container's own clock, 1/AV_TIME_BASE s. Errors as there.
+/// @param container  `input`, opened
+/// @param stop       interrupts reading; may be null
+Result<std::int64_t> first_picture_time(AVFormatContext& container, const std::string& input,
+                                        const StopSignal* stop);
 
 }  // namespace fbs

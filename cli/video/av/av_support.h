@@ -36,6 +36,9 @@ using AvInput = std::unique_ptr<AVFormatContext, AvInputDeleter>;
 
 inline constexpr AVRational kTick{1, static_cast<int>(kTicksPerSecond)};
 
+/// libav's AV_TIME_BASE_Q is no C++.
+inline constexpr AVRational kTimeBase{1, AV_TIME_BASE};
+
 /// libav's text for one of its codes.
 inline std::string av_reason(int code) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};

@@ -1,10 +1,12 @@
 // Encoding as it happens: packets leave with each group, and nothing later is waited for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <thread>
 
 #include "common/quality.h"
+#include "decoder/scene_index.h"
 #include "decoder/stream_decoder.h"
 #include "encoder/encoder.h"
 #include "tests/unit/talker_clip.h"
@@ -42,6 +44,7 @@ class LiveLine {
     ASSERT_TRUE(encoder_.push(picture));
     pass_on();
   }
+  void request_scene() { ASSERT_TRUE(encoder_.request_scene()); }
   void finish() {
     ASSERT_TRUE(encoder_.finish());
     pass_on();
@@ -111,6 +114,68 @@ TEST(Live, AChangeIsSentWithItsGroup) {
   for (int i = 0; i < 2 * kGroup; ++i) line.push(changed);
   EXPECT_EQ(line.patterns, 2U);
   EXPECT_GT(error(), 25);
+}
+
+/// Pictures with which scenes begin.
+std::vector<std::uint64_t> scene_begins(const std::vector<std::uint8_t>& stream) {
+  std::vector<std::uint64_t> out;
+  for (const SceneEntry& scene : index_scenes(stream)) out.push_back(scene.before.pictures);
+  return out;
+}
+
+/// @param requests  pictures before which a scene is asked for
+std::vector<std::uint8_t> encoded_with_requests(int threads, int patterns, const std::vector<int>& requests) {
+  EncoderSettings settings = live_settings();
+  settings.threads = threads;
+  settings.patterns = patterns;
+  auto encoder = Encoder::create(clip().format(), settings);
+  EXPECT_TRUE(encoder);
+  std::vector<std::uint8_t> stream;
+  const auto take = [&] {
+    const auto bytes = encoder->take();
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+  };
+  for (int i = 0; i < kPictures; ++i) {
+    if (std::ranges::find(requests, i) != requests.end()) {
+      EXPECT_TRUE(encoder->request_scene());
+    }
+    EXPECT_TRUE(encoder->push(clip()[i]));
+    take();
+  }
+  EXPECT_TRUE(encoder->finish());
+  take();
+  return stream;
+}
+
+TEST(Live, ASceneBeginsOnRequestAfterTheGroup) {
+  for (const int patterns : {0, 1}) {
+    for (const int threads : {1, 2}) {
+      EXPECT_EQ(scene_begins(encoded_with_requests(threads, patterns, {})).size(), 1U);
+      // The first picture is a group of its own. Whoever asks twice gets one.
+      const auto begins = scene_begins(encoded_with_requests(threads, patterns, {10, 11, 30}));
+      ASSERT_EQ(begins.size(), 3U) << patterns << " patterns, " << threads << " threads";
+      EXPECT_GE(begins[1], 10U);
+      EXPECT_LE(begins[1], 10U + kGroup);
+      EXPECT_GE(begins[2], 30U);
+      EXPECT_LE(begins[2], 30U + kGroup);
+    }
+  }
+}
+
+TEST(Live, StreamsWithRequestsDecodeWhole) {
+  LiveLine line;
+  for (int i = 0; i < kPictures; ++i) {
+    if (i % 7 == 3) line.request_scene();
+    line.push(clip()[i]);
+    EXPECT_GT(static_cast<int>(line.shown.size()), i - kGroup) << i;
+  }
+  line.finish();
+  ASSERT_EQ(line.shown.size(), std::size_t{kPictures});
+  EXPECT_GT(psnr_of(line.shown), 27);
+}
+
+TEST(Live, AFileHasNoScenesOnRequest) {
+  EXPECT_FALSE(Encoder::create(clip().format(), {})->request_scene());
 }
 
 std::vector<std::uint8_t> encoded(EncoderSettings settings, int threads) {

@@ -89,6 +89,30 @@ TEST(Playback, NothingIsDueBehindTheEnd) {
   EXPECT_TRUE(playback.is_due(kStart + 10s + 100ms));
 }
 
+TEST(Playback, PicturesFollowAnotherClock) {
+  Playback playback = begun();
+  playback.follow(kTenth / 2, kStart + 90ms);
+  EXPECT_EQ(playback.until_due(kStart + 90ms), 50ms);
+  playback.follow(kTenth / 2, kStart + 500ms);  // it stood still
+  EXPECT_EQ(playback.until_due(kStart + 500ms), 50ms);
+  playback.follow(kTenth, kStart + 510ms);
+  EXPECT_TRUE(playback.is_due(kStart + 510ms));
+}
+
+TEST(Playback, AnotherClockIsNotSlowedDown) {
+  Playback playback = begun();
+  playback.drawn(kStart);
+  playback.follow(20 * kTenth, kStart + 100ms);
+  playback.take(kTenth, kTenth, kStart + 110ms);
+  EXPECT_TRUE(playback.is_due(kStart + 110ms));
+  EXPECT_TRUE(playback.is_late(kStart + 110ms));
+  playback.jump();
+  playback.take(50 * kTenth, kTenth, kStart + 120ms);
+  EXPECT_EQ(playback.until_due(kStart + 120ms), 100ms) << "after a jump it has to be followed anew";
+  playback.take(51 * kTenth, kTenth, kStart + 5s);
+  EXPECT_FALSE(playback.is_due(kStart + 5s)) << "without it, a stream is slowed down";
+}
+
 TEST(ClockText, IsWhatPlayersWrite) {
   EXPECT_EQ(clock_text(0), "0:00.00");
   EXPECT_EQ(clock_text(kTicksPerSecond * 61 + kTicksPerSecond / 4), "1:01.25");

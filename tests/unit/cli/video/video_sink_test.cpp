@@ -44,7 +44,7 @@ TEST_F(VideoSinkFiles, LeaveNothingWithoutFinish) {
 }
 
 TEST_F(VideoSinkFiles, StandAloneAfterFinish) {
-  for (const char* name : {"a.y4m", "a.mp4", "a.mkv", "a_%03d.png"}) {
+  for (const char* name : {"a.y4m", "a.mp4", "A.MP4", "a.mkv", "a_%03d.png"}) {
     auto sink = open_video_sink(path(name), kFormat);
     ASSERT_TRUE(sink) << sink.error().text;
     ASSERT_TRUE((*sink)->write(Picture(96, 64), 0));

@@ -1,4 +1,4 @@
-#include "cli/inspect/packet_list.h"
+#include "cli/stream/packet_list.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
+#include "bitstream/payload/sound_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
 #include "decoder/stream_clock.h"
@@ -19,8 +20,9 @@
 namespace fbs::cli {
 namespace {
 
-constexpr auto kNames = std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion",
-                                                    "end", "blend", "wire-frame"});  // by PacketType
+constexpr auto kNames =
+    std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend",
+                                "wire-frame", "sound setup", "sound"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);
@@ -93,6 +95,14 @@ class SceneReader {
         const auto read = decode_surround(packet.payload);
         return read ? Result<void>{} : fail(read.error());
       }
+      case PacketType::kSoundSetup: {
+        entry.time = times_.of(released_);
+        const auto read = decode_sound_setup(packet.payload);
+        sound_ = read.value_or(std::nullopt);
+        return read ? Result<void>{} : fail(read.error());
+      }
+      case PacketType::kSound:
+        return take_sound(packet, entry);
       case PacketType::kPattern:
         return take_patterns(packet, entry);
       case PacketType::kMotion:
@@ -103,6 +113,15 @@ class SceneReader {
   }
 
  private:
+  Result<void> take_sound(const Packet& packet, PacketEntry& entry) const {
+    if (!sound_) return {};
+    const auto group = decode_sound(packet.payload, *sound_);
+    if (!group) return fail(group.error());
+    const std::int64_t begin = group->first * sound_->duration - sound_->skip;
+    entry.time = begin < 0 ? 0 : static_cast<std::uint64_t>(begin) * kTicksPerSecond / kSoundClock;
+    return {};
+  }
+
   Result<void> take_patterns(const Packet& packet, PacketEntry& entry) {
     const auto read = patterns_.decode(packet.payload, setup_, times_.count());
     if (!read) return fail(read.error());
@@ -160,21 +179,25 @@ class SceneReader {
   std::int32_t stored_ = 0;    // slots that are not empty
   PatternPacketReader patterns_;
   std::shared_ptr<const WireFrame> wire_frame_;
+  std::optional<SoundSetup> sound_;
   std::optional<MotionDecoder> motion_;
   std::optional<BlendDecoder> blend_;
 };
 
-class PacketLister {
+}  // namespace
+
+class PacketLister::Impl {
  public:
-  void take(const Packet& packet) {
-    PacketEntry& entry = entries.emplace_back();
+  PacketEntry take(const Packet& packet) {
+    PacketEntry entry;
     entry.offset = packet.offset;
     entry.bytes = packet.size;
     entry.type = name_of(packet.type);
     if (const auto taken = read(packet, entry); !taken) {
       entry.error = taken.error().text;
-      lose();
+      if (!is_sound(packet.type)) lose();
     }
+    return entry;
   }
 
   void lose() {
@@ -183,7 +206,7 @@ class PacketLister {
     lost_ = true;
   }
 
-  std::vector<PacketEntry> entries;
+  [[nodiscard]] const StreamPosition& released() const { return clock_.now(); }
 
  private:
   Result<void> read(const Packet& packet, PacketEntry& entry) {
@@ -241,13 +264,33 @@ class PacketLister {
   bool lost_ = false;          // something since the last setup packet
 };
 
-}  // namespace
+PacketLister::PacketLister() : impl_(std::make_unique<Impl>()) {}
+PacketLister::~PacketLister() = default;
+PacketLister::PacketLister(PacketLister&&) noexcept = default;
+PacketLister& PacketLister::operator=(PacketLister&&) noexcept = default;
+
+PacketEntry PacketLister::take(const Packet& packet) {
+  return impl_->take(packet);
+}
+
+void PacketLister::lose() {
+  impl_->lose();
+}
+
+std::uint64_t PacketLister::released() const {
+  return impl_->released().time;
+}
+
+std::uint64_t PacketLister::released_pictures() const {
+  return impl_->released().pictures;
+}
 
 std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {
   PacketReader reader;
   reader.feed(stream);
   reader.close();
   PacketLister lister;
+  std::vector<PacketEntry> entries;
   std::optional<Error> damage;
   for (;;) {
     const auto read = damage ? reader.resync() : reader.next();
@@ -259,12 +302,12 @@ std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {
     const bool end = read->status != ReadStatus::kPacket;
     if (damage) {
       const std::uint64_t next = end ? stream.size() : read->packet.offset;
-      lister.entries.push_back(
+      entries.push_back(
           {damage->byte_offset, next - damage->byte_offset, kDamage, false, std::nullopt, damage->text});
       damage.reset();
     }
-    if (end) return std::move(lister.entries);
-    lister.take(read->packet);
+    if (end) return entries;
+    entries.push_back(lister.take(read->packet));
   }
 }
 

@@ -1,0 +1,24 @@
+// Times of sound beside those of pictures.
+#pragma once
+
+#include <cstdint>
+
+#include "bitstream/sound_syntax.h"
+#include "common/picture.h"
+
+namespace fbs {
+
+/// What a decoder has to hear before a place where it begins, 1/kSoundClock s. RFC 7845, section 4.6, of
+/// Opus; Codec 2 needs less.
+inline constexpr std::int32_t kSoundPreroll = kSoundClock * 80 / 1000;
+
+/// Of a time of pictures. By the reduced fraction, so that any time of a stream fits into 64 bits.
+/// @param ticks  1/90000 s, 0..kMaxStreamTime
+/// @return 1/kSoundClock s, rounded down
+[[nodiscard]] constexpr std::int64_t sound_time(std::int64_t ticks) {
+  constexpr std::int64_t kDivisor = 6000;
+  static_assert(kSoundClock % kDivisor == 0 && kTicksPerSecond % kDivisor == 0);
+  return ticks * (kSoundClock / kDivisor) / (kTicksPerSecond / kDivisor);
+}
+
+}  // namespace fbs

@@ -1,0 +1,22 @@
+// Writes Matroska files (RFC 9559).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/matroska/matroska_content.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// Unit of times in a file, ns. A cluster cannot last longer than 32767 of them.
+inline constexpr std::int64_t kMatroskaTick = 100'000;
+
+/// The same bytes for the same content. Clusters begin with each key block of the video, which the cues list.
+/// @param application  WritingApp
+/// @return kInternal when libmatroska fails
+Result<std::vector<std::uint8_t>> write_matroska(const MatroskaContent& content,
+                                                 const std::string& application);
+
+}  // namespace fbs::cli

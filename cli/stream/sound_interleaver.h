@@ -1,0 +1,44 @@
+// Puts sound into a stream, each part before the pictures that it belongs to. SPEC 6.3.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bitstream/packet.h"
+#include "bitstream/sound_syntax.h"
+#include "cli/stream/packet_list.h"
+#include "common/result.h"
+
+namespace fbs::cli {
+
+/// The frames of sound that begin before a time, apart from those that were given already, in order. A group
+/// may have any number of frames.
+/// @param before  1/kSoundClock s from the first picture
+using SoundFeed = std::function<Result<std::vector<SoundGroup>>(std::int64_t before)>;
+
+/// Packets of a stream without sound go in, those of the same with sound come out: their checks change, since
+/// each goes on from that of the packet before (SPEC 3.1).
+class SoundInterleaver {
+ public:
+  /// @param setup  is_valid()
+  SoundInterleaver(const SoundSetup& setup, SoundFeed feed) : setup_(setup), feed_(std::move(feed)) {}
+
+  /// @param bytes  the next ones of the stream, in pieces of any size
+  /// @return what of it is ready; errors of PacketReader and of the feed; kInvalidArgument if it has sound
+  Result<std::vector<std::uint8_t>> add(std::span<const std::uint8_t> bytes);
+
+ private:
+  Result<void> take(const Packet& packet, std::vector<std::uint8_t>& out);
+  Result<void> add_sound(std::int64_t before, std::vector<std::uint8_t>& out);
+
+  SoundSetup setup_;
+  SoundFeed feed_;
+  PacketReader reader_;
+  PacketLister lister_;
+  PacketWriter writer_;
+  bool begun_ = false;
+};
+
+}  // namespace fbs::cli

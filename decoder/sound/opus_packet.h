@@ -1,0 +1,12 @@
+// What an Opus packet says of itself.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace fbs {
+
+/// Duration of an Opus packet, 1/kSoundClock s; 0 if it is none.
+[[nodiscard]] std::int32_t opus_duration(std::span<const std::uint8_t> packet);
+
+}  // namespace fbs

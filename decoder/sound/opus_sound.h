@@ -1,0 +1,16 @@
+// Opus (RFC 6716), decoded by libopus at 48 kHz.
+#pragma once
+
+#include <memory>
+
+#include "decoder/sound/sound_decoder.h"
+
+namespace fbs {
+
+/// The shortest frame of Opus and the longest packet, samples at 48 kHz: 2.5 and 120 ms.
+inline constexpr std::int32_t kMinOpusDuration = 120, kMaxOpusDuration = 5760;
+
+/// @return errors as those of SoundDecoder::create
+Result<std::unique_ptr<SoundDecoder>> create_opus_sound(const SoundSetup& setup);
+
+}  // namespace fbs

@@ -1,0 +1,149 @@
+/* The properties of fbsenc: the settings of the encoder, fbs/encoder.h. */
+#include "fbsenc.h"
+
+enum {
+  PROP_0,
+  PROP_QUALITY,
+  PROP_BITRATE,
+  PROP_EFFORT,
+  PROP_PATTERNS,
+  PROP_FACE,
+  PROP_ALLOW_NO_FACE,
+  PROP_KEY_INTERVAL,
+  PROP_LIVE,
+  PROP_DELAY,
+  PROP_BUFFER,
+  PROP_THREADS,
+};
+
+static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+  fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
+  GST_OBJECT_LOCK(object);
+  switch (id) {
+    case PROP_QUALITY:
+      s->quality = g_value_get_int(value);
+      break;
+    case PROP_BITRATE:
+      s->bitrate = g_value_get_uint(value) / 1000.0;
+      break;
+    case PROP_EFFORT:
+      s->effort = g_value_get_int(value);
+      break;
+    case PROP_PATTERNS:
+      s->patterns = g_value_get_int(value);
+      break;
+    case PROP_FACE:
+      s->face = g_value_get_int(value);
+      break;
+    case PROP_ALLOW_NO_FACE:
+      s->allow_no_face = g_value_get_boolean(value);
+      break;
+    case PROP_KEY_INTERVAL:
+      s->key_interval = g_value_get_double(value);
+      break;
+    case PROP_LIVE:
+      s->live = g_value_get_boolean(value);
+      break;
+    case PROP_DELAY:
+      s->live_delay = g_value_get_double(value);
+      break;
+    case PROP_BUFFER:
+      s->live_buffer = g_value_get_double(value);
+      break;
+    case PROP_THREADS:
+      s->threads = g_value_get_int(value);
+      break;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+  GST_OBJECT_UNLOCK(object);
+}
+
+static void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  const fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
+  GST_OBJECT_LOCK(object);
+  switch (id) {
+    case PROP_QUALITY:
+      g_value_set_int(value, s->quality);
+      break;
+    case PROP_BITRATE:
+      g_value_set_uint(value, (guint)(s->bitrate * 1000 + 0.5));
+      break;
+    case PROP_EFFORT:
+      g_value_set_int(value, s->effort);
+      break;
+    case PROP_PATTERNS:
+      g_value_set_int(value, s->patterns);
+      break;
+    case PROP_FACE:
+      g_value_set_int(value, s->face);
+      break;
+    case PROP_ALLOW_NO_FACE:
+      g_value_set_boolean(value, s->allow_no_face);
+      break;
+    case PROP_KEY_INTERVAL:
+      g_value_set_double(value, s->key_interval);
+      break;
+    case PROP_LIVE:
+      g_value_set_boolean(value, s->live);
+      break;
+    case PROP_DELAY:
+      g_value_set_double(value, s->live_delay);
+      break;
+    case PROP_BUFFER:
+      g_value_set_double(value, s->live_buffer);
+      break;
+    case PROP_THREADS:
+      g_value_set_int(value, s->threads);
+      break;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+  GST_OBJECT_UNLOCK(object);
+}
+
+#define PROPERTY_FLAGS (G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY)
+
+static void install_int(GObjectClass* type, guint id, const char* name, const char* nick, const char* blurb,
+                        gint min, gint max, gint value) {
+  g_object_class_install_property(type, id,
+                                  g_param_spec_int(name, nick, blurb, min, max, value, PROPERTY_FLAGS));
+}
+
+static void install_double(GObjectClass* type, guint id, const char* name, const char* nick,
+                           const char* blurb, gdouble max, gdouble value) {
+  g_object_class_install_property(type, id,
+                                  g_param_spec_double(name, nick, blurb, 0, max, value, PROPERTY_FLAGS));
+}
+
+static void install_boolean(GObjectClass* type, guint id, const char* name, const char* nick,
+                            const char* blurb) {
+  g_object_class_install_property(type, id, g_param_spec_boolean(name, nick, blurb, TRUE, PROPERTY_FLAGS));
+}
+
+void gst_fbs_enc_install_properties(GObjectClass* type) {
+  type->set_property = set_property;
+  type->get_property = get_property;
+  install_int(type, PROP_QUALITY, "quality", "Quality", "Quality, where no bit rate is set", 0, 100, 50);
+  g_object_class_install_property(
+      type, PROP_BITRATE,
+      g_param_spec_uint("bitrate", "Bit rate", "Bit/s, from which quality follows (0 = quality decides)", 0,
+                        1000000000, 0, PROPERTY_FLAGS));
+  install_int(type, PROP_EFFORT, "effort", "Effort", "More takes longer and needs fewer bits", 0, 2, 1);
+  install_int(type, PROP_PATTERNS, "patterns", "Patterns",
+              "Pictures of the person that the decoder keeps (0 = chosen by the encoder)", 0, 64, 0);
+  install_int(type, PROP_FACE, "face", "Face", "Which face is followed; the largest one is 0", 0, 99, 0);
+  install_boolean(type, PROP_ALLOW_NO_FACE, "allow-no-face", "Allow no face",
+                  "Encode a video in which no face is found all the same, instead of failing at its end");
+  install_double(type, PROP_KEY_INTERVAL, "key-interval", "Key interval",
+                 "Seconds between scenes at most, where a viewer can join (0 = up to 40)", 3600, 0);
+  install_boolean(type, PROP_LIVE, "live", "Live",
+                  "No look-ahead. Otherwise fewer bits are needed, and buffers come up to 40 seconds later");
+  install_double(type, PROP_DELAY, "delay", "Delay", "Live: pictures are coded in groups of so many seconds",
+                 8, 0.2);
+  install_double(type, PROP_BUFFER, "buffer", "Buffer",
+                 "Live, with a bit rate: nothing waits longer to be sent, seconds", 60, 2);
+  install_int(type, PROP_THREADS, "threads", "Threads",
+              "Live: more than 1 code while the next pictures are analysed (0 = as many as there are cores)",
+              0, FBS_MAX_THREADS, 0);
+}

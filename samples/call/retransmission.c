@@ -1,0 +1,57 @@
+#include "retransmission.h"
+
+#include "pipeline.h"
+
+#define USUAL_JITTER 60 /* ms */
+
+static void expose(GstElement* bin, GstElement* element, const char* pad_name, guint session) {
+  char* const name = g_strdup_printf("%s_%u", pad_name, session);
+  GstPad* const pad = gst_element_get_static_pad(element, pad_name);
+  gst_element_add_pad(bin, gst_ghost_pad_new(name, pad));
+  gst_object_unref(pad);
+  g_free(name);
+}
+
+/* rtpbin takes a bin whose pads have the number of the session. */
+static GstElement* retransmission(const char* factory, guint session) {
+  GstElement* const bin = gst_bin_new(NULL);
+  GstElement* const element = gst_element_factory_make(factory, NULL);
+  char* const sent = g_strdup_printf("%u", PAYLOAD_PICTURES + session);
+  GstStructure* const map = gst_structure_new("types", sent, G_TYPE_UINT, (guint)PAYLOAD_RTX + session, NULL);
+  g_object_set(element, "payload-type-map", map, NULL);
+  gst_structure_free(map);
+  g_free(sent);
+  gst_bin_add(GST_BIN(bin), element);
+  expose(bin, element, "sink", session);
+  expose(bin, element, "src", session);
+  return bin;
+}
+
+static GstElement* on_aux_sender(GstElement* rtp, guint session, gpointer user) {
+  (void)rtp;
+  (void)user;
+  return retransmission("rtprtxsend", session);
+}
+
+static GstElement* on_aux_receiver(GstElement* rtp, guint session, gpointer user) {
+  (void)rtp;
+  (void)user;
+  return retransmission("rtprtxreceive", session);
+}
+
+/* Packets that are only late are not asked for, nor are those whose copies are on their way. */
+static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session, guint source,
+                             gpointer user) {
+  const CallOptions* const options = user;
+  const gboolean copied = session == SESSION_PICTURES && (options->repair & REPAIR_COPY) != 0;
+  (void)rtp;
+  (void)source;
+  g_object_set(buffer, "rtx-min-delay", USUAL_JITTER + (copied ? COPY_DELAY : 0), NULL);
+}
+
+void retransmission_connect(GstElement* rtp, const CallOptions* options) {
+  g_object_set(rtp, "do-retransmission", TRUE, NULL);
+  g_signal_connect(rtp, "request-aux-sender", G_CALLBACK(on_aux_sender), NULL);
+  g_signal_connect(rtp, "request-aux-receiver", G_CALLBACK(on_aux_receiver), NULL);
+  g_signal_connect(rtp, "new-jitterbuffer", G_CALLBACK(on_jitter_buffer), (gpointer)options);
+}

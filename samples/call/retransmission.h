@@ -1,0 +1,12 @@
+/* Retransmission: RFC 4588. */
+#ifndef FBS_CALL_RETRANSMISSION_H
+#define FBS_CALL_RETRANSMISSION_H
+
+#include <gst/gst.h>
+
+#include "options.h"
+
+/** Of both sessions of rtpbin, before it has any pads. */
+void retransmission_connect(GstElement* rtp, const CallOptions* options);
+
+#endif

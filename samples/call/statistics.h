@@ -1,0 +1,40 @@
+/* One line a second: README.md says what the columns mean. */
+#ifndef FBS_CALL_STATISTICS_H
+#define FBS_CALL_STATISTICS_H
+
+#include <gst/gst.h>
+
+#include "network.h"
+#include "receiver.h"
+
+/** Counts since the call began. */
+typedef struct {
+  guint64 sent[SENT_KINDS]; /**< bytes */
+  guint64 packets, dropped;
+  guint64 missing, repaired; /**< packets that the jitter buffers waited for in vain, or that came by RTX */
+  guint64 shown;
+  guint64 requests, heard, scenes; /**< requests for a scene, those of the other end, and scenes sent */
+  guint64 freezes, breaks;         /**< of pictures and voice */
+  GstClockTime frozen, broken;     /**< how long these were */
+} Counts;
+
+typedef struct {
+  GstElement* pipeline;
+  Network* network;
+  Receiver* receiver;
+  GMutex lock;
+  GList* jitter_buffers; /**< owned elements */
+  guint64 scenes, heard; /**< of Counts */
+  guint seconds;
+  Counts before; /**< at the last line */
+} Statistics;
+
+void statistics_init(Statistics* statistics, GstElement* pipeline, Network* network, Receiver* receiver);
+void statistics_clear(Statistics* statistics);
+
+/** Every second. */
+void statistics_print(Statistics* statistics);
+/** When the call has ended: all of it. */
+void statistics_print_total(Statistics* statistics);
+
+#endif
