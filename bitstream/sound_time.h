@@ -21,4 +21,11 @@ inline constexpr std::int32_t kSoundPreroll = kSoundClock * 80 / 1000;
   return ticks * (kSoundClock / kDivisor) / (kTicksPerSecond / kDivisor);
 }
 
+/// When the samples of a frame begin: SPEC 4.10.
+/// @param frame  its number in the stream, below kMaxSoundFrames
+/// @return 1/kSoundClock s from the first picture; negative before it
+[[nodiscard]] constexpr std::int64_t frame_time(const SoundSetup& setup, std::int64_t frame) {
+  return frame * setup.duration - setup.skip;
+}
+
 }  // namespace fbs

@@ -50,11 +50,6 @@ class Decoding {
   /// The next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> open_sink();
-  /// Time in the stream of the output's beginning, 1/90000 s. Pictures that are lost there leave a gap, so
-  /// that sound keeps its place.
-  [[nodiscard]] std::uint64_t begin() {
-    return arguments_.from > 0 ? decoder().position().time : decoder().start().time;
-  }
   /// Whether the silence before the current picture can be filled.
   Result<void> check_silence();
   /// The sound up to the end of the current picture.

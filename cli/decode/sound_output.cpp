@@ -10,10 +10,6 @@ namespace {
 
 constexpr int kTranscodedBitrate = 24000;  // bit/s: of what Codec 2 has left, nothing is lost
 
-std::int64_t time_of(const SoundSetup& setup, std::int64_t frame) {
-  return frame * setup.duration - setup.skip;
-}
-
 /// The setup for a decoder that begins at a later time, with the first frame it needs: its skip is what it
 /// hears only to get there.
 SoundSetup joined(SoundSetup setup, std::span<const SoundPart> known, std::int64_t begin) {
@@ -21,7 +17,7 @@ SoundSetup joined(SoundSetup setup, std::span<const SoundPart> known, std::int64
   const std::int64_t covers = (begin + setup.skip) / setup.duration,
                      ahead = std::max<std::int64_t>(begin + setup.skip - kSoundPreroll, 0) / setup.duration,
                      first = known.empty() ? covers + 1 : known.front().group.first,
-                     time = time_of(setup, std::max(first, std::min(covers, ahead)));
+                     time = frame_time(setup, std::max(first, std::min(covers, ahead)));
   setup.skip = static_cast<std::int32_t>(std::max<std::int64_t>(begin - time, 0));
   return setup;
 }
@@ -48,7 +44,7 @@ Result<void> SinkSound::add(SoundPart part) {
   if (waiting_size_ + memory_of(part.group) > kMaxSoundAhead) return {};  // far ahead of its pictures
   std::int64_t frame = part.group.first;
   for (std::vector<std::uint8_t>& bytes : part.group.frames) {
-    const std::int64_t time = time_of(part.setup, frame++) - begin_;
+    const std::int64_t time = frame_time(part.setup, frame++) - begin_;
     if (time >= -setup_.skip) wait(time, std::move(bytes));
   }
   return {};
@@ -90,7 +86,7 @@ void SinkSound::wait(std::int64_t time, std::vector<std::uint8_t> frame) {
 }
 
 void SinkSound::wait(SoundEncoder::Frames frames) {
-  for (auto& frame : frames) wait(time_of(setup_, transcoder_->frames++), std::move(frame));
+  for (auto& frame : frames) wait(frame_time(setup_, transcoder_->frames++), std::move(frame));
 }
 
 }  // namespace fbs::cli

@@ -3,6 +3,8 @@
 #include <iterator>
 #include <utility>
 
+#include "bitstream/sound_time.h"
+
 namespace fbs::cli {
 namespace {
 
@@ -43,7 +45,7 @@ Result<double> SoundTrack::code_all() {
 
 Result<std::vector<SoundGroup>> SoundTrack::before(std::int64_t time) {
   SoundGroup group{first_, {}};
-  while (first_ * setup().duration - setup().skip < time) {
+  while (frame_time(setup(), first_) < time) {
     if (!frames_.empty()) {
       group.frames.push_back(std::move(frames_.front()));
       frames_.pop_front();

@@ -9,6 +9,7 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
+#include "bitstream/sound_time.h"
 #include "cli/matroska/block_division.h"
 #include "cli/stream/sound_interleaver.h"
 #include "decoder/sound/opus_packet.h"
@@ -202,7 +203,7 @@ class NumberedFeed {
     std::vector<SoundGroup> groups;
     for (; next_ < sound_.frames.size(); ++next_) {
       auto& [number, bytes] = sound_.frames[next_];
-      if (number * sound_.setup.duration - sound_.setup.skip >= time) break;
+      if (frame_time(sound_.setup, number) >= time) break;
       if (groups.empty() ||
           groups.back().first + static_cast<std::int64_t>(groups.back().frames.size()) != number)
         groups.push_back({number, {}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bitstream/sound_time.h"
 #include "common/picture.h"
 
 namespace fbs::cli {
@@ -51,7 +52,7 @@ std::size_t RecordedSound::room(std::int64_t end) const {
 
 Result<void> RecordedSound::write(const SoundEncoder::Frames& frames, VideoSink& sink) {
   for (const auto& frame : frames) {
-    const std::int64_t time = frames_++ * setup().duration - setup().skip;
+    const std::int64_t time = frame_time(setup(), frames_++);
     if (auto written = sink.write_sound(frame, time); !written) return written;
   }
   return {};

@@ -15,6 +15,7 @@
 #include "bitstream/payload/sound_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
+#include "bitstream/sound_time.h"
 #include "decoder/stream_clock.h"
 
 namespace fbs::cli {
@@ -117,7 +118,7 @@ class SceneReader {
     if (!sound_) return {};
     const auto group = decode_sound(packet.payload, *sound_);
     if (!group) return fail(group.error());
-    const std::int64_t begin = group->first * sound_->duration - sound_->skip;
+    const std::int64_t begin = frame_time(*sound_, group->first);
     entry.time = begin < 0 ? 0 : static_cast<std::uint64_t>(begin) * kTicksPerSecond / kSoundClock;
     return {};
   }

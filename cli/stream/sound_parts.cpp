@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bitstream/payload/sound_payload.h"
+#include "bitstream/sound_time.h"
 
 namespace fbs::cli {
 
@@ -41,7 +42,7 @@ void SoundParts::take(const Packet& packet) {
 }
 
 std::int64_t begin_of(const SoundPart& part) {
-  return part.group.first * part.setup.duration - part.setup.skip;
+  return frame_time(part.setup, part.group.first);
 }
 
 std::int64_t end_of(const SoundPart& part) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bitstream/sound_syntax.h"
+#include "bitstream/sound_time.h"
 #include "common/result.h"
 #include "decoder/sound/sound_decoder.h"
 
@@ -55,7 +56,7 @@ class SoundReader {
   void reset();
 
  private:
-  [[nodiscard]] std::int64_t frame_time() const { return frame_ * setup_.duration - setup_.skip; }
+  [[nodiscard]] std::int64_t frame_time() const { return fbs::frame_time(setup_, frame_); }
   [[nodiscard]] bool has_frame() const { return index_ < group_.frames.size(); }
   Result<bool> fill(std::int64_t end, SoundPiece& piece);
   Result<void> decode_frame(std::vector<std::int16_t>& out);

@@ -21,9 +21,7 @@ Result<AvSound> AvSound::open(const std::string& source, std::int64_t begin, AvM
   if (!sound.container_) return fail(ErrorCode::kIo, "cannot read " + source + ": " + av_reason(code));
   const int index = av_find_best_stream(sound.container_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
   if (index < 0) return fail(ErrorCode::kUnsupported, source + ": contains no sound");
-  for (unsigned i = 0; i < sound.container_->nb_streams; ++i) {
-    if (static_cast<int>(i) != index) sound.container_->streams[i]->discard = AVDISCARD_ALL;
-  }
+  discard_others(*sound.container_, index);
   sound.from_ = sound.container_->streams[index];
   sound.packet_.reset(av_packet_alloc());
   const std::int64_t start =

@@ -67,9 +67,7 @@ Result<bool> AvSoundSource::open(const SoundSourceOptions& options) {
   const auto index = choose_track(options.track);
   if (!index) return fail(index.error());
   if (!*index) return false;
-  for (unsigned i = 0; i < container_->nb_streams; ++i) {
-    if (static_cast<int>(i) != **index) container_->streams[i]->discard = AVDISCARD_ALL;
-  }
+  discard_others(*container_, **index);
   if (auto opened = open_decoder(**index); !opened) return fail(opened.error());
   const auto start = first_picture_time(*container_, name_, options.stop);
   if (!start) return fail(start.error());
@@ -102,11 +100,8 @@ Result<void> AvSoundSource::open_decoder(int index) {
     return error(ErrorCode::kUnsupported,
                  std::string("no decoder for its sound (") + avcodec_get_name(id) + ")");
   }
-  decoder_.reset(avcodec_alloc_context3(codec));
+  const int code = open_av_decoder(*codec, *stream_, 1, decoder_);
   if (!decoder_) return error(ErrorCode::kInternal, "out of memory");
-  int code = avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
-  decoder_->pkt_timebase = stream_->time_base;  // lets the decoder leave out the encoder's delay
-  if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
   if (code < 0) return error(ErrorCode::kUnsupported, "cannot decode its sound: " + av_reason(code));
   return {};
 }

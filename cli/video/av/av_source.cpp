@@ -137,15 +137,9 @@ Result<void> AvSource::open_decoder(const SourceOptions& options) {
   if ((stream_->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
     return error(ErrorCode::kUnsupported, "holds no video, only a cover picture");
   }
-  for (unsigned i = 0; i < container_->nb_streams; ++i) {
-    if (static_cast<int>(i) != index) container_->streams[i]->discard = AVDISCARD_ALL;
-  }
-  decoder_.reset(avcodec_alloc_context3(codec));
+  discard_others(*container_, index);
+  const int code = open_av_decoder(*codec, *stream_, std::max(options.decoder_threads, 1), decoder_);
   if (!decoder_) return error(ErrorCode::kInternal, "out of memory");
-  int code = avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
-  decoder_->pkt_timebase = stream_->time_base;
-  decoder_->thread_count = std::max(options.decoder_threads, 1);
-  if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
   if (code < 0) return error(ErrorCode::kUnsupported, "cannot decode its video: " + av_reason(code));
   return {};
 }

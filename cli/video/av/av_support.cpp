@@ -48,4 +48,20 @@ AvInput open_av_input(const std::string& name, const StopSignal* stop, int& erro
   return input;
 }
 
+void discard_others(AVFormatContext& container, int index) {
+  for (unsigned i = 0; i < container.nb_streams; ++i) {
+    if (static_cast<int>(i) != index) container.streams[i]->discard = AVDISCARD_ALL;
+  }
+}
+
+int open_av_decoder(const AVCodec& codec, const AVStream& stream, int threads, AvCodec& decoder) {
+  decoder.reset(avcodec_alloc_context3(&codec));
+  if (!decoder) return AVERROR(ENOMEM);
+  const int code = avcodec_parameters_to_context(decoder.get(), stream.codecpar);
+  if (code < 0) return code;
+  decoder->pkt_timebase = stream.time_base;  // lets a decoder of sound leave out the encoder's delay
+  decoder->thread_count = threads;
+  return avcodec_open2(decoder.get(), &codec, nullptr);
+}
+
 }  // namespace fbs

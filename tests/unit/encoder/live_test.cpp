@@ -124,10 +124,9 @@ std::vector<std::uint64_t> scene_begins(const std::vector<std::uint8_t>& stream)
 }
 
 /// @param requests  pictures before which a scene is asked for
-std::vector<std::uint8_t> encoded_with_requests(int threads, int patterns, const std::vector<int>& requests) {
-  EncoderSettings settings = live_settings();
+std::vector<std::uint8_t> encoded(EncoderSettings settings, int threads,
+                                  const std::vector<int>& requests = {}) {
   settings.threads = threads;
-  settings.patterns = patterns;
   auto encoder = Encoder::create(clip().format(), settings);
   EXPECT_TRUE(encoder);
   std::vector<std::uint8_t> stream;
@@ -148,11 +147,13 @@ std::vector<std::uint8_t> encoded_with_requests(int threads, int patterns, const
 }
 
 TEST(Live, ASceneBeginsOnRequestAfterTheGroup) {
+  EncoderSettings settings = live_settings();
   for (const int patterns : {0, 1}) {
+    settings.patterns = patterns;
     for (const int threads : {1, 2}) {
-      EXPECT_EQ(scene_begins(encoded_with_requests(threads, patterns, {})).size(), 1U);
+      EXPECT_EQ(scene_begins(encoded(settings, threads)).size(), 1U);
       // The first picture is a group of its own. Whoever asks twice gets one.
-      const auto begins = scene_begins(encoded_with_requests(threads, patterns, {10, 11, 30}));
+      const auto begins = scene_begins(encoded(settings, threads, {10, 11, 30}));
       ASSERT_EQ(begins.size(), 3U) << patterns << " patterns, " << threads << " threads";
       EXPECT_GE(begins[1], 10U);
       EXPECT_LE(begins[1], 10U + kGroup);
@@ -176,24 +177,6 @@ TEST(Live, StreamsWithRequestsDecodeWhole) {
 
 TEST(Live, AFileHasNoScenesOnRequest) {
   EXPECT_FALSE(Encoder::create(clip().format(), {})->request_scene());
-}
-
-std::vector<std::uint8_t> encoded(EncoderSettings settings, int threads) {
-  settings.threads = threads;
-  auto encoder = Encoder::create(clip().format(), settings);
-  EXPECT_TRUE(encoder);
-  std::vector<std::uint8_t> stream;
-  const auto take = [&] {
-    const auto bytes = encoder->take();
-    stream.insert(stream.end(), bytes.begin(), bytes.end());
-  };
-  for (int i = 0; i < kPictures; ++i) {
-    EXPECT_TRUE(encoder->push(clip()[i]));
-    take();
-  }
-  EXPECT_TRUE(encoder->finish());
-  take();
-  return stream;
 }
 
 TEST(Live, ThreadsChangeNothing) {
