@@ -3,7 +3,8 @@
 
 dav1d, Draco, Opus and Codec 2 come as Debian's sources, checked against the hashes of its signed index, with Debian's
 patches. Headers that need no building are taken from the packages that are installed. Needs emscripten, node-acorn, cmake,
-ninja and patch. When PREFIX is complete, nothing is done, and no network is needed."""
+ninja and patch. When PREFIX is complete, nothing is done, and no network is needed. Exit code 77 when the machine lacks a
+tool or the network."""
 import argparse
 import hashlib
 import os
@@ -12,7 +13,6 @@ import re
 import shutil
 import subprocess
 import sys
-import urllib.error
 import urllib.request
 from dataclasses import dataclass
 
@@ -22,8 +22,15 @@ TOOLS = {"em++": "emscripten", "node": "nodejs", "cmake": "cmake", "ninja": "nin
 HEADERS = ("glm", "tl", "hwy")
 
 
+SKIPPED = 77  # exit code: nothing is wrong, but the machine lacks a tool or the network
+
+
 class Missing(Exception):
-    """What the machine lacks, or what went wrong."""
+    """What the machine lacks."""
+
+
+class Failed(Exception):
+    """What went wrong."""
 
 
 @dataclass
@@ -47,7 +54,7 @@ def run(*arguments, **options):
                           errors="replace", check=False, **options)
     if done.returncode != 0:
         last = "\n".join(line[:200] for line in done.stdout.splitlines()[-15:])
-        raise Missing(f"{pathlib.Path(str(arguments[0])).name} failed:\n{last}")
+        raise Failed(f"{pathlib.Path(str(arguments[0])).name} failed:\n{last}")
     return done.stdout
 
 
@@ -62,7 +69,7 @@ def apt(suite, sources):
     command = ["apt-get", "-q", "-o", "Dir::Etc::sourceparts=/nonexistent", "-o",
                f"Dir::Etc::sourcelist={folder}/debian.sources", "-o", f"Dir::State::lists={folder}/lists"]
     if not (folder / "updated").exists():
-        run(*command, "update")
+        run(*command, "update", "--error-on=any")
         (folder / "updated").touch()
     return command
 
@@ -71,7 +78,7 @@ def download(uri, path, sha256):
     with urllib.request.urlopen(uri, timeout=60) as answer:
         content = answer.read()
     if hashlib.sha256(content).hexdigest() != sha256:
-        raise Missing(f"{uri}: not the file of Debian's index")
+        raise Failed(f"{uri}: not the file of Debian's index")
     path.write_bytes(content)
 
 
@@ -80,7 +87,11 @@ def archives(library, sources):
     wanted = [rf"{library.name}_[^-]*\.orig\.tar\.\w+"] + [rf"{library.name}_.*\.debian\.tar\.\w+"] * library.patched
     fault = ""
     for suite in library.suites:
-        listed = run(*apt(suite, sources), "source", "--print-uris", library.name)
+        try:
+            command = apt(suite, sources)
+        except Failed as failed:
+            raise Missing(f"Debian's index cannot be fetched: {failed}") from None
+        listed = run(*command, "source", "--print-uris", library.name)
         files = [re.fullmatch(r"'(\S+)' (\S+) \d+ SHA256:(\w+)", line.strip()) for line in listed.splitlines()]
         try:
             out = []
@@ -89,7 +100,7 @@ def archives(library, sources):
                 out.append(sources / name)
                 download(uri, out[-1], sha256)
             return out
-        except (urllib.error.URLError, TimeoutError) as error:
+        except (OSError, StopIteration) as error:  # of the network; not in the list
             fault = f"{library.name} of {suite}: {error}"
     raise Missing(fault)
 
@@ -152,7 +163,10 @@ def main():
     try:
         build(prefix, arguments.sources.resolve(), arguments.flags)
     except Missing as missing:
-        sys.exit(f"make.py: {missing}")
+        print(f"make.py: {missing}", file=sys.stderr)
+        sys.exit(SKIPPED)
+    except Failed as failed:
+        sys.exit(f"make.py: {failed}")
 
 
 if __name__ == "__main__":

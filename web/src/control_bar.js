@@ -26,7 +26,7 @@ export class ControlBar {
    */
   constructor(bar, deeds) {
     this.play = iconButton(deeds.toggle);
-    this.time = range(0, 0.1, "Time", (value) => deeds.seek(value));
+    this.time = range(0, 0.01, "Time", (value) => deeds.seek(value));
     this.time.className = "time";
     this.clock = document.createElement("span");
     this.clock.className = "clock";
@@ -41,7 +41,10 @@ export class ControlBar {
     Object.assign(this.face, { type: "button", className: "framed", textContent: "Face" });
     this.face.setAttribute("aria-expanded", "false");
     this.face.addEventListener("click", deeds.face);
-    bar.append(this.play, this.time, this.clock, this.sound, this.rate, this.face);
+    const right = document.createElement("span");
+    right.className = "right";
+    right.append(this.rate, this.face);
+    bar.append(this.play, this.time, this.clock, this.sound, right);
   }
 
   /** @param {BarState} state */

@@ -20,7 +20,10 @@ export class DecodingSession {
     this.generation = generation;
     this.editing = edit;
     this.send = send;
-    /** Null until the module has been loaded. @type {FbsDecoder | null} */
+    /**
+     * Null until the module has been loaded.
+     * @type {FbsDecoder | null}
+     */
     this.decoder = null;
     this.abort = new AbortController();
     this.complete = false;
@@ -29,8 +32,10 @@ export class DecodingSession {
     this.hasPicture = false;
     /** @type {FbsError | null} */
     this.lastFault = null;
-    /** A request; `seek`: the decoder has to go to the time first. @type {{
-     *   skipTo: number, isSeek: boolean, seek: boolean, buffer?: ArrayBuffer } | null} */
+    /**
+     * A request; `seek`: the decoder has to go to the time first.
+     * @type {{ skipTo: number, isSeek: boolean, seek: boolean, buffer?: ArrayBuffer } | null}
+     */
     this.wanted = null;
     this.toldWaiting = false;
   }

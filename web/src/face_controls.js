@@ -5,15 +5,18 @@
  * @typedef {keyof FaceEdit} Part
  */
 
-/** @type {{ part: Part, name: string, low: number, high: number, step: number, low_word: string, high_word: string }[]} */
+/**
+ * Words are for values below and above 0. `sign`: -1 where the slider's left is what the part counts above 0.
+ * @type {{ part: Part, name: string, low: number, high: number, step: number, words: [string, string], sign: number }[]}
+ */
 const SLIDERS = [
-  { part: "yaw", name: "Turn", low: -18, high: 18, step: 1, low_word: "right", high_word: "left" },
-  { part: "pitch", name: "Nod", low: -12, high: 12, step: 1, low_word: "up", high_word: "down" },
-  { part: "roll", name: "Tilt", low: -15, high: 15, step: 1, low_word: "left", high_word: "right" },
-  { part: "brows", name: "Brows", low: -1, high: 1, step: 0.05, low_word: "lowered", high_word: "raised" },
-  { part: "mouth", name: "Mouth", low: -1, high: 1, step: 0.05, low_word: "shut", high_word: "opened" },
-  { part: "smile", name: "Smile", low: -1, high: 1, step: 0.05, low_word: "less", high_word: "more" },
-  { part: "lids", name: "Eyes", low: -0.25, high: 1, step: 0.05, low_word: "opened", high_word: "shut" },
+  { part: "yaw", name: "Turn", low: -18, high: 18, step: 1, words: ["right", "left"], sign: -1 },
+  { part: "pitch", name: "Nod", low: -12, high: 12, step: 1, words: ["up", "down"], sign: 1 },
+  { part: "roll", name: "Tilt", low: -15, high: 15, step: 1, words: ["left", "right"], sign: 1 },
+  { part: "brows", name: "Brows", low: -1, high: 1, step: 0.05, words: ["lowered", "raised"], sign: 1 },
+  { part: "mouth", name: "Mouth", low: -1, high: 1, step: 0.05, words: ["shut", "opened"], sign: 1 },
+  { part: "smile", name: "Smile", low: -1, high: 1, step: 0.05, words: ["less", "more"], sign: 1 },
+  { part: "lids", name: "Eyes", low: -0.25, high: 1, step: 0.05, words: ["opened", "shut"], sign: 1 },
 ];
 /** Degrees of an arrow key. */
 const KEY_TURN = 3;
@@ -40,14 +43,11 @@ export class FaceControls {
   sliders() {
     const out = document.createElement("div");
     out.className = "sliders";
-    for (const { part, name, low, high, step } of SLIDERS) {
+    for (const { part, name, low, high, step, sign } of SLIDERS) {
       const label = document.createElement("label");
       const input = document.createElement("input");
-      // The picture's left is where the slider's left is.
-      const mirrored = part === "yaw";
       Object.assign(input, { type: "range", min: String(low), max: String(high), step: String(step), value: "0" });
-      if (mirrored) input.style.direction = "rtl";
-      input.addEventListener("input", () => this.set({ [part]: Number(input.value) }));
+      input.addEventListener("input", () => this.set({ [part]: sign * Number(input.value) }));
       this.inputs.set(part, input);
       label.append(name, input);
       out.append(label);
@@ -68,11 +68,12 @@ export class FaceControls {
 
   /** @param {FaceEdit} some */
   set(some) {
-    for (const { part, low, high } of SLIDERS) {
+    for (const { part, low, high, sign } of SLIDERS) {
       const value = some[part];
-      if (value !== undefined) this.edit[part] = Math.max(low, Math.min(high, value));
+      if (value === undefined) continue;
+      this.edit[part] = Math.max(low, Math.min(high, value));
+      /** @type {HTMLInputElement} */ (this.inputs.get(part)).value = String(sign * this.edit[part]);
     }
-    this.inputs.forEach((input, part) => (input.value = String(this.edit[part])));
     this.speakValues();
     this.change({ ...this.edit });
   }
@@ -88,11 +89,11 @@ export class FaceControls {
   }
 
   speakValues() {
-    for (const { part, low, high, low_word, high_word } of SLIDERS) {
-      const value = this.edit[part];
-      const amount = high > 1 ? `${Math.round(Math.abs(value))} degrees` : `${Math.round((100 * value) / (value < 0 ? low : high))} %`;
-      this.inputs.get(part)?.setAttribute("aria-valuetext",
-        value === 0 ? "as in the video" : `${amount} ${value < 0 ? low_word : high_word}`);
+    for (const { part, low, high, words } of SLIDERS) {
+      const value = this.edit[part], limit = value < 0 ? low : high;
+      const amount = high > 1 ? `${Math.round(Math.abs(value))} degrees` : `${Math.round((100 * value) / limit)} %`;
+      const text = value === 0 ? "as in the video" : `${amount} ${words[value < 0 ? 0 : 1]}`;
+      this.inputs.get(part)?.setAttribute("aria-valuetext", text);
     }
   }
 

@@ -22,57 +22,73 @@ const UPDATE_MS = 250;
 const NOTHING = { bytes: 0, soundBytes: 0, time: 0, soundRate: 0, complete: false };
 
 export class Playback {
+  loop = false;
+  volume = 1;
+  muted = false;
+  playing = false;
+  ended = false;
+  /** @type {PlayerError | null} */
+  error = null;
+  arrival = NOTHING;
+  /** @type {ShownPicture | null} */
+  shown = null;
+  /**
+   * Of a picture that is not shown any more.
+   * @type {ArrayBuffer | undefined}
+   */
+  spare;
+  /** Where the clock begins when it starts, seconds. */
+  position = 0;
   /** @type {WallClock | SoundOutput} */
   clock = new WallClock();
-  arrival = NOTHING;
+  /** @type {SoundOutput | null} */
+  sound = null;
+
+  /**
+   * The next picture, before its time.
+   * @type {ShownPicture | null}
+   */
+  pending = null;
+  requested = false;
+  seeking = false;
+  /** The next picture has not come. */
+  waiting = false;
+  /** There is no next picture. */
+  atEnd = false;
+  soundRequested = false;
+  /** All sound that has come has been taken. */
+  soundStarved = false;
+  redrawing = false;
+  redrawAgain = false;
+
+  timer = 0;
+  frame = 0;
   lastUpdate = 0;
 
   /** @param {(type: string, detail?: any) => void} emit */
   constructor(emit) {
     this.emit = emit;
     this.client = new DecoderClient((answer) => this.take(answer));
-    this.loop = false;
-    this.volume = 1;
-    this.muted = false;
-    this.timer = this.frame = 0;
-    /** @type {SoundOutput | null} */
-    this.sound = null;
-    this.forget();
   }
 
   /** As before the first load. */
   forget() {
     this.unschedule();
     this.closeSound();
-    this.playing = false;
-    this.ended = false;
-    /** @type {PlayerError | null} */
-    this.error = null;
+    this.playing = this.ended = false;
+    this.error = this.shown = null;
     this.arrival = NOTHING;
-    /** @type {ShownPicture | null} */
-    this.shown = null;
-    /** Of a picture that is not shown any more. @type {ArrayBuffer | undefined} */
     this.spare = undefined;
-    /** Where the clock begins when it starts. */
     this.position = 0;
     this.forgetRequests();
   }
 
   /** What was asked is of no interest any more. */
   forgetRequests() {
-    /** The next picture, before its time. @type {ShownPicture | null} */
     this.pending = null;
-    this.requested = false;
-    this.seeking = false;
-    /** The next picture has not come. */
-    this.waiting = false;
-    /** There is no next picture. */
-    this.atEnd = false;
-    this.soundRequested = false;
-    /** All sound that has come has been taken. */
-    this.soundStarved = false;
-    this.redrawing = false;
-    this.redrawAgain = false;
+    this.requested = this.seeking = this.waiting = this.atEnd = false;
+    this.soundRequested = this.soundStarved = false;
+    this.redrawing = this.redrawAgain = false;
   }
 
   /** @param {string} url  absolute */
@@ -161,7 +177,10 @@ export class Playback {
     return this.arrival.soundRate > 0 && !this.muted;
   }
 
-  /** Goes on, by the clock of the sound if there is any. @returns {Promise<boolean>}  whether the browser allows it */
+  /**
+   * Goes on, by the clock of the sound if there is any.
+   * @returns {Promise<boolean>}  whether the browser allows it
+   */
   async goWithSound() {
     if (!this.wantsSound) {
       this.go();

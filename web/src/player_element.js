@@ -81,7 +81,10 @@ export class FbsPlayer extends HTMLElement {
     this.update();
   }
 
-  /** Loads when the script that sets attributes is done. @param {boolean} [again] */
+  /**
+   * Loads when the script that sets attributes is done.
+   * @param {boolean} [again]
+   */
   planLoad(again = false) {
     if (again) this.currentSrc = "";
     if (this.planned) return;
@@ -223,7 +226,10 @@ export class FbsPlayer extends HTMLElement {
     this.setAttribute("label", label);
   }
 
-  /** What is added to the motion of the stream; to be set in part. @returns {Required<FaceEdit>} */
+  /**
+   * What is added to the motion of the stream; to be set in part.
+   * @returns {Required<FaceEdit>}
+   */
   get faceEdit() {
     return { ...this.faceControls.edit };
   }
@@ -325,7 +331,8 @@ export class FbsPlayer extends HTMLElement {
     const target = /** @type {HTMLElement} */ (event.composedPath()[0]);
     const inner = target.localName;
     if (inner === "button" && (event.key === " " || event.key === "Enter")) return;
-    if (inner === "input" && /^(Arrow|Home|End|Page)/.test(event.key) && !event.shiftKey) return;
+    const moves = /^(Arrow|Home|End|Page)/.test(event.key) && !event.shiftKey;
+    if (inner === "input" && target !== this.controlBar.time && moves) return;
     const taken = target === this.stage || event.shiftKey ? this.faceControls.takeKey(event.key) : false;
     if (taken || this.takePlayerKey(event.key)) event.preventDefault();
   }

@@ -27,7 +27,10 @@ export class SoundOutput {
     this.gain.gain.value = volume;
   }
 
-  /** Waits until the context plays. @returns {Promise<boolean>}  false: the browser does not let it */
+  /**
+   * Waits until the context plays.
+   * @returns {Promise<boolean>}  false: the browser does not let it
+   */
   async allowed() {
     const context = /** @type {AudioContext} */ (this.context);
     const patience = new Promise((resolve) => setTimeout(resolve, PATIENCE_MS));

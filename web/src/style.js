@@ -48,7 +48,7 @@ canvas { display: block; width: 100%; height: 100%; }
 }
 .time { flex: 1 1 96px; min-width: 72px; }
 .clock, .rate { font-variant-numeric: tabular-nums; white-space: nowrap; font-size: 13px; }
-.rate { margin-left: auto; }
+.right { display: flex; align-items: center; gap: 8px; margin-left: auto; }
 button {
   min-width: 32px;
   height: 32px;
