@@ -9,13 +9,12 @@
 
 #include "bitstream/sound_time.h"
 #include "library/boundary.h"
+#include "library/face_data.h"
 #include "web/module/web_decoder.h"
 
 namespace {
 
 using namespace fbs;
-using cli::EditPart;
-using cli::StateEdit;
 using web::WebDecoder;
 
 double seconds_of(std::uint64_t ticks) {
@@ -40,16 +39,6 @@ struct Instance {
 
   int fail(const Error& e) { return error.set(status_of(e.code), e.text.c_str(), e.byte_offset); }
 };
-
-/// A share of a part's limit, -1..1, in its units.
-std::int32_t share_of(EditPart part, float share) {
-  const StateEdit::Limits& limits = StateEdit::limits(part);
-  return static_cast<std::int32_t>(share * static_cast<float>(share < 0 ? -limits.low : limits.high));
-}
-
-std::int32_t turn_of(float degrees) {
-  return static_cast<std::int32_t>(degrees * 65536 / 360);
-}
 
 }  // namespace
 
@@ -146,15 +135,7 @@ WEB_EXPORT const char* web_blendshapes() {
 
 WEB_EXPORT void web_edit(Instance* d, float pitch, float yaw, float roll, float brows, float mouth,
                          float smile, float lids) {
-  StateEdit& edit = d->decoder.edit();
-  edit.reset();
-  edit.add(EditPart::kPitch, turn_of(pitch));
-  edit.add(EditPart::kYaw, turn_of(yaw));
-  edit.add(EditPart::kRoll, turn_of(roll));
-  edit.add(EditPart::kBrows, share_of(EditPart::kBrows, brows));
-  edit.add(EditPart::kMouth, share_of(EditPart::kMouth, mouth));
-  edit.add(EditPart::kSmile, share_of(EditPart::kSmile, smile));
-  edit.add(EditPart::kLids, share_of(EditPart::kLids, lids));
+  if (const auto edit = edit_of({pitch, yaw, roll, brows, mouth, smile, lids})) d->decoder.edit(*edit);
 }
 
 WEB_EXPORT int web_sound_rate(Instance* d) {

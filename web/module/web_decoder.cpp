@@ -69,7 +69,7 @@ const WebDecoder::Face* WebDecoder::face() {
   const State state = edited(*face);
   face_.state = face_state(state);
   write_landmarks(*face, state, face_.landmarks);
-  face_.blendshapes = measure_(face->geometry(), state).blendshapes;
+  face_.blendshapes = measure_(face->geometry(), state);
   return &face_;
 }
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bitstream/packet.h"
-#include "cli/play/state_edit.h"
 #include "common/picture.h"
 #include "common/result.h"
-#include "decoder/export/face_table.h"
+#include "decoder/expression/expression_targets.h"
+#include "decoder/expression/state_edit.h"
 #include "decoder/stream_decoder.h"
 #include "fbs/fbs.h"
 #include "web/module/web_sound.h"
@@ -44,7 +44,7 @@ class WebDecoder {
   [[nodiscard]] Result<const Picture*> draw();
 
   /// What the viewer adds to the motion of the stream.
-  [[nodiscard]] cli::StateEdit& edit() { return edit_; }
+  void edit(const StateEdit& edit) { edit_ = edit; }
 
   /// Of the picture that next() announced last.
   [[nodiscard]] const StreamDecoder& stream() const { return *decoder_; }
@@ -73,9 +73,9 @@ class WebDecoder {
   bool damaged_ = false;  ///< it has to search
   std::uint64_t sound_bytes_ = 0;
   WebSound sound_;
-  cli::StateEdit edit_;
+  StateEdit edit_;
   Picture picture_;
-  FaceMeasure measure_;
+  BlendshapeMeasure measure_;
   Face face_{};
 };
 

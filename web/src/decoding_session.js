@@ -27,6 +27,8 @@ export class DecodingSession {
     this.decoder = null;
     this.abort = new AbortController();
     this.complete = false;
+    /** The connection has broken. */
+    this.broken = false;
     this.failed = false;
     /** Whether next() has announced a picture since the beginning or the last seek. */
     this.hasPicture = false;
@@ -61,6 +63,7 @@ export class DecodingSession {
       });
     } catch (fault) {
       if (!signal.aborted && !(fault instanceof FbsError)) throw fault;
+      this.broken = true;
       if (!signal.aborted) this.report(/** @type {FbsError} */ (fault), decoder.arrivedBytes.all === 0);
     }
     if (!signal.aborted) {
@@ -163,6 +166,8 @@ export class DecodingSession {
         if (time + duration > skipTo) return found;
       } catch (fault) {
         if (!(fault instanceof FbsError)) throw fault;
+        // What has been cut off on the way has been reported.
+        if (fault.code === "truncated" && this.broken) continue;
         this.lastFault = fault;
         const fatal = fault.code === "not-fbs";
         this.report(fault, fatal);

@@ -16,7 +16,7 @@ const SLIDERS = [
   { part: "brows", name: "Brows", low: -1, high: 1, step: 0.05, words: ["lowered", "raised"], sign: 1 },
   { part: "mouth", name: "Mouth", low: -1, high: 1, step: 0.05, words: ["shut", "opened"], sign: 1 },
   { part: "smile", name: "Smile", low: -1, high: 1, step: 0.05, words: ["less", "more"], sign: 1 },
-  { part: "lids", name: "Eyes", low: -0.25, high: 1, step: 0.05, words: ["opened", "shut"], sign: 1 },
+  { part: "lids", name: "Eyes", low: -1, high: 1, step: 0.05, words: ["opened", "shut"], sign: 1 },
 ];
 /** Degrees of an arrow key. */
 const KEY_TURN = 3;

@@ -69,7 +69,7 @@ export interface FaceEdit {
   mouth?: number;
   /** -1..1: positive: corners out and up. */
   smile?: number;
-  /** -0.25..1: 1: shut; negative: opened wider. */
+  /** -1..1: positive: shut. */
   lids?: number;
 }
 
