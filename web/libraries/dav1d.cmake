@@ -29,7 +29,7 @@ prefixed(dav1d_depth_sources ${dav1d}/src
 set_source_files_properties(${dav1d_depth_sources} PROPERTIES COMPILE_DEFINITIONS BITDEPTH=8)
 
 add_library(dav1d STATIC ${dav1d_sources} ${dav1d_depth_sources})
-target_compile_options(dav1d PRIVATE -std=c99 -D_POSIX_C_SOURCE=200112L)
+target_compile_options(dav1d PRIVATE -Os -std=c99 -D_POSIX_C_SOURCE=200112L)
 target_include_directories(dav1d PRIVATE ${dav1d_config} ${dav1d_config}/dav1d ${dav1d} ${dav1d}/include ${dav1d}/include/compat/gcc)
 installed(dav1d dav1d 1.0.0)
 install(DIRECTORY ${dav1d}/include/dav1d DESTINATION include FILES_MATCHING PATTERN "*.h")
