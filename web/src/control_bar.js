@@ -43,8 +43,8 @@ export class ControlBar {
     this.face.addEventListener("click", deeds.face);
     const right = document.createElement("span");
     right.className = "right";
-    right.append(this.rate, this.face);
-    bar.append(this.play, this.time, this.clock, this.sound, right);
+    right.append(this.sound, this.rate, this.face);
+    bar.append(this.play, this.time, this.clock, right);
   }
 
   /** @param {BarState} state */

@@ -46,9 +46,9 @@ canvas { display: block; width: 100%; height: 100%; }
   border: solid var(--fbs-line);
   border-width: 0 1px 1px;
 }
-.time { flex: 1 1 96px; min-width: 72px; }
+.time { flex: 100 1 96px; min-width: 72px; }
 .clock, .rate { font-variant-numeric: tabular-nums; white-space: nowrap; font-size: 13px; }
-.right { display: flex; align-items: center; gap: 8px; margin-left: auto; }
+.right { flex: 1 0 auto; display: flex; align-items: center; justify-content: flex-end; gap: 8px; }
 button {
   min-width: 32px;
   height: 32px;
@@ -67,7 +67,7 @@ button[aria-expanded="true"] { background: color-mix(in srgb, currentColor 14%, 
 :focus-visible { outline: 2px solid var(--fbs-accent); outline-offset: 1px; }
 .stage:focus-visible { outline-offset: -2px; }
 input[type="range"] { margin: 0; min-width: 0; height: 24px; accent-color: var(--fbs-accent); cursor: pointer; }
-.sound { display: flex; align-items: center; }
+.sound { display: flex; align-items: center; margin-right: auto; }
 .sound input { width: 64px; }
 .face {
   padding: 8px 10px 10px;
