@@ -1,8 +1,6 @@
 """The streams of the tests, made by the program, and what the program itself decodes them to."""
-import hashlib
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import wave
@@ -46,13 +44,8 @@ def make():
 
 def native_pictures(stream):
     """MD5 of the planes of each picture, as the program decodes them."""
-    out = FOLDER / f"{stream.stem}.y4m"
-    run(FBS, "decode", stream, out, "--vfr")
-    content = out.read_bytes().partition(b"\n")[2]
-    size = WIDTH * HEIGHT * 3 // 2
-    frames = [content[k + 6:k + 6 + size] for k in range(0, len(content), size + 6)]
-    assert all(re.fullmatch(b"FRAME\n", content[k:k + 6]) for k in range(0, len(content), size + 6))
-    return [hashlib.md5(frame).hexdigest() for frame in frames]
+    done = subprocess.run([FBS, "decode", stream, "--md5"], check=True, stdout=subprocess.PIPE, text=True, timeout=120)
+    return [line.split()[0] for line in done.stdout.splitlines()]
 
 
 def native_sound(stream):
