@@ -194,7 +194,7 @@ class TestPlayer(unittest.TestCase):
         self.assertEqual(self.js("return face.landmarks.length"), 3 * 68)
         ActionChains(self.driver).drag_and_drop_by_offset(self.inner(".stage"), 60, 0).perform()
         self.until("player.faceEdit.yaw < 1")  # to the picture's right
-        self.inner(".bar .right button").click()
+        self.inner(".bar .framed").click()
         self.js("player.shadowRoot.querySelectorAll('.deeds button')[1].click()")
         self.until(f"Math.abs(face.pose.yaw - {before['yaw']}) < 0.01")
         self.js("fetch('/shown', { method: 'POST', body: player.playback.shown.planes })")
@@ -233,7 +233,7 @@ class TestPlayer(unittest.TestCase):
 
     def test_every_control_has_a_name(self):
         self.make("talk.fbs")
-        self.inner(".bar .right button").click()
+        self.inner(".bar .framed").click()
         nodes = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
         value = lambda node, key: node.get(key, {}).get("value", "")
         controls = [(value(n, "role"), value(n, "name")) for n in nodes if value(n, "role") in ("button", "slider", "application")]
