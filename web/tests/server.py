@@ -50,6 +50,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             content = gzip.compress(content, 9, mtime=0)
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(content)))
+        self.send_header("Access-Control-Allow-Origin", "*")
         self.send_header("Cache-Control", "no-store" if "fresh" in query else "max-age=3600")
         self.end_headers()
         cut = int(query.get("cut", len(content)))
