@@ -1,0 +1,1 @@
+"""fbs, a video codec for talking heads."""
