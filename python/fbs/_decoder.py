@@ -128,7 +128,12 @@ class Decoder:
         else:
             self._file = source
         if self._stream is not None:
-            self._look_ahead()
+            try:
+                self._look_ahead()
+            except Error as problem:
+                if not isinstance(source, (str, os.PathLike)):
+                    raise
+                raise type(problem)(f"{os.fspath(source)}: {problem}", problem.offset) from None
 
     # ---- opening and closing ----
 
