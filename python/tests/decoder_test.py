@@ -183,6 +183,7 @@ def test_states_are_those_of_each_picture(stream):
         )
         np.testing.assert_array_equal(decoder.landmarks, states.landmarks[row])
         np.testing.assert_array_equal(decoder.confidence, states.confidence[row])
+        np.testing.assert_array_equal(decoder.blendshapes, states.blendshapes[row])
         assert decoder.vertices.shape == (105, 3)
     assert np.ptp(states.yaw) > 1 and np.all(states.confidence <= 1)
     assert np.all(np.abs(states.position - [88, 64]) < 30)
@@ -191,9 +192,38 @@ def test_states_are_those_of_each_picture(stream):
 def test_pictures_without_a_face_have_no_state():
     decoder = fbs.Decoder(VECTORS / "nobody.fbs")
     next(decoder)
-    assert decoder.state is decoder.landmarks is decoder.confidence is decoder.vertices is None
+    assert decoder.state is decoder.landmarks is decoder.confidence is decoder.vertices is decoder.blendshapes is None
+    assert decoder.edited(yaw=1) is None
+    with pytest.raises(fbs.NoFaceError):
+        decoder.render(fbs.FaceState(0, 0, 0, 80, 60, 20, np.zeros((36, 2))))
     states = decoder.states
     assert not states.has_face.any() and np.isnan(states.landmarks).all() and list(states) == [None] * 4
+
+
+def test_the_state_that_was_sent_draws_the_picture_that_was_sent(stream):
+    decoder = fbs.Decoder(stream)
+    for row, picture in enumerate(decoder):
+        assert decoder.render(decoder.state).tobytes() == picture.tobytes()
+        assert decoder.render(decoder.states[row]).tobytes() == picture.tobytes()
+        assert decoder.draw().tobytes() == picture.tobytes()
+
+
+def test_an_edited_state_turns_the_head(stream):
+    decoder = fbs.Decoder(stream)
+    as_sent = next(decoder)
+    edited = decoder.edited(yaw=10, mouth=1)
+    assert edited.yaw == pytest.approx(decoder.state.yaw + 10, abs=0.1)
+    out = fbs.Picture.empty(176, 144)
+    assert decoder.render(edited, out=out) is out and out.number == as_sent.number
+    change = np.abs(out.y.astype(int) - as_sent.y)
+    assert change[40:110, 60:120].mean() > 5 > change[:20, :20].mean()
+    by_hand = decoder.render(dataclasses.replace(decoder.state, yaw=decoder.state.yaw + 10))
+    assert by_hand.tobytes() != as_sent.tobytes()
+    for wrong in ({"yaw": 91}, {"pitch": float("nan")}, {"control_points": np.zeros((36, 3))}, {"eye_distance": 0}):
+        with pytest.raises(fbs.ArgumentError):
+            decoder.render(dataclasses.replace(edited, **wrong))
+    with pytest.raises(fbs.ArgumentError):
+        decoder.edited(yaw=float("nan"))
 
 
 def test_states_of_a_damaged_stream():

@@ -31,6 +31,8 @@ def test_a_stream_has_what_its_states_have(stream):
     np.testing.assert_allclose(table["ry_deg"], states.yaw, atol=1e-2)
     np.testing.assert_allclose(table["rz_deg"], states.roll, atol=1e-2)
     np.testing.assert_allclose(table["x30"], states.landmarks[:, 30, 0], atol=1e-2)
+    for k, name in enumerate(fbs.BLENDSHAPES):
+        np.testing.assert_allclose(table[name], states.blendshapes[:, k], atol=1e-3)
     np.testing.assert_allclose(table["scale"], states.eye_distance, atol=1e-2)
 
 
