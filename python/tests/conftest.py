@@ -17,6 +17,7 @@ PICTURES = 20
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--keep", help="folder for pictures to be looked at")
     parser.addoption("--pictures", type=int, default=400, help="that the tests of memory decode")
 
 
