@@ -2,9 +2,11 @@
 
 import doctest
 import inspect
+import re
 
 import numpy as np
 import pytest
+from conftest import SOURCE
 
 import fbs
 
@@ -18,6 +20,20 @@ def test_examples(name, talker, tmp_path, monkeypatch):
     for example in doctest.DocTestFinder().find(getattr(fbs, name), name, module=False, globs=names):
         said = []
         assert runner.run(example, out=said.append).failed == 0, "".join(said)
+
+
+def test_the_manual_runs(talker, tmp_path, monkeypatch, capsys):
+    """Its blocks of Python, one after the other."""
+    monkeypatch.chdir(tmp_path)
+    fbs.decode(talker / "talk.fbs", "talk.mkv")
+    blocks = re.findall(r"```python\n(.*?)```", (SOURCE / "docs/python.md").read_text(), re.DOTALL)
+    assert len(blocks) >= 5
+    names = {}
+    for block in blocks:
+        exec(compile(block, "docs/python.md", "exec"), names)
+    assert names["turned"].tobytes() != names["as_sent"].tobytes() != names["higher"].tobytes()
+    assert names["picture"].number == len(fbs.decode("again.fbs")) - 1
+    assert "cannot read nobody.mkv" in capsys.readouterr().err
 
 
 def test_there_are_examples():
