@@ -141,7 +141,7 @@ def test_drawing_into_arrays_of_ones_own(stream):
         decoder.draw(out=(read_only, upside_down, upside_down))
 
 
-@pytest.mark.parametrize("name", ["talk.fbs", "joined.fbs", "late.fbs", "durations.fbs", "lost_scene.fbs"])
+@pytest.mark.parametrize("name", ["talk.fbs", "joined.fbs", "late.fbs", "durations.fbs", "two_heads.fbs", "lost_scene.fbs"])
 def test_seeking_finds_every_picture(name):
     decoder = fbs.Decoder(VECTORS / name, keep_going=True)
     pictures = [(p.number, p.time, p.duration, p.tobytes()) for p in decoder if not p.held]
@@ -158,11 +158,23 @@ def test_seeking_finds_every_picture(name):
             decoder.seek(**wrong)
 
 
+def test_seeking_reads_no_scene_before_the_one_it_needs():
+    data = bytearray((VECTORS / "two_heads.fbs").read_bytes())
+    first, second = fbs.Decoder(data).scenes
+    data[first.offset + 1000] ^= 255
+    decoder = fbs.Decoder(data)
+    decoder.seek(number=second.number)
+    assert next(decoder).number == second.number
+    decoder.seek(number=first.number)
+    with pytest.raises(fbs.DamagedError):
+        list(decoder)
+
+
 def test_scenes_are_where_decoding_can_begin():
-    decoder = fbs.Decoder(VECTORS / "joined.fbs")
+    data = (VECTORS / "two_heads.fbs").read_bytes()
+    decoder = fbs.Decoder(data)
     begins = [picture.number for picture in decoder if picture.new_scene]
-    assert [scene.number for scene in decoder.scenes] == begins
-    data = (VECTORS / "joined.fbs").read_bytes()
+    assert [scene.number for scene in decoder.scenes] == begins == [0, 6]
     last = fbs.Decoder()
     last.feed(data[:4] + data[decoder.scenes[-1].offset :])
     assert next(last).new_scene
