@@ -444,6 +444,11 @@ class Decoder:
         number : int
             Instead: the picture of this number, or the next one that is not lost.
 
+        Raises
+        ------
+        DamagedError, TruncatedError, ...
+            Between the beginning of its scene and the picture, unless `keep_going`.
+
         Examples
         --------
         >>> decoder = fbs.Decoder("talk.fbs")
