@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -50,13 +51,15 @@ class Scene(NamedTuple):
 class Decoder:
     """Decodes a stream, picture by picture.
 
-    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is.
+    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is. Several threads may share
+    one: each picture is given to one of them.
 
     Parameters
     ----------
     source : path, bytes, or binary file, optional
-        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work. A file, or whatever else has
-        a method ``read``, is read as pictures are asked for. Without: the stream comes through :meth:`feed`.
+        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work; the path may be that of a
+        Matroska file that has a stream. A file, or whatever else has a method ``read``, is read as pictures are asked
+        for. Without: the stream comes through :meth:`feed`.
     threads : int, optional
         That draw each picture, 1 to 64; the pictures are the same. By default one for each core, up to four.
     max_pixels : int, optional
@@ -107,6 +110,7 @@ class Decoder:
         if max_pixels < 0:
             raise ArgumentError(f"max_pixels is not negative, as {max_pixels} is")
         self.errors: list[Error] = []
+        self._lock = threading.RLock()
         self._max_pixels = max_pixels
         self._keep_going = keep_going
         self._decoder = _fbs.Decoder(threads, max_pixels)
@@ -178,11 +182,13 @@ class Decoder:
         DamagedError, TruncatedError, ...
             Reported once, unless `keep_going`: the next call goes on behind the damage, at the next scene.
         """
-        waiting, self._waiting = self._waiting, None
-        if isinstance(waiting, Error):
-            raise waiting
-        if waiting is not None:
-            return waiting
+        with self._lock:
+            waiting, self._waiting = self._waiting, None
+            if isinstance(waiting, Error):
+                raise waiting
+            return self._next_info() if waiting is None else waiting
+
+    def _next_info(self) -> PictureInfo | None:
         while True:
             try:
                 status, number, ticks, duration, held, new_scene = self._decoder.next()
@@ -292,9 +298,10 @@ class Decoder:
         return self
 
     def __next__(self) -> Picture:
-        if self.advance() is None:
-            raise StopIteration
-        return self.draw()
+        with self._lock:
+            if self.advance() is None:
+                raise StopIteration
+            return self.draw()
 
     def _target(self, out: PictureLike | None) -> Picture:
         """`out`, or a new picture, with the place of the current one."""
@@ -459,10 +466,11 @@ class Decoder:
         before = [scene for scene in self.scenes if begins_by_then(scene)] or self.scenes[:1]
         if not before:
             raise DamagedError("there is no scene in the stream")
-        self._decoder.reset()
-        self._waiting = self._info = None
-        self._source.go_to(before[-1].offset)
-        while (info := self.advance()) is not None:
-            if is_there(info):
-                self._waiting = info
-                return
+        with self._lock:
+            self._decoder.reset()
+            self._waiting = self._info = None
+            self._source.go_to(before[-1].offset)
+            while (info := self.advance()) is not None:
+                if is_there(info):
+                    self._waiting = info
+                    return

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from typing import BinaryIO, Optional, Union
 
+from fbs import _program
 from fbs.errors import ArgumentError, FileError
 
 Buffer = Union[bytes, bytearray, memoryview]
 Source = Union[str, "os.PathLike[str]", Buffer, BinaryIO]
 
+_MATROSKA = b"\x1aE\xdf\xa3"  # how such files begin
 _PIECE = 1 << 16  # bytes that are fed before the pictures in them are taken
 
 
@@ -72,6 +75,16 @@ class ByteSource:
 def _bytes_of(path: str) -> bytes:
     try:
         with open(path, "rb") as file:
-            return file.read()
+            found = file.read()
     except OSError as problem:
         raise FileError(f"cannot read {path}: {problem.strerror}") from problem
+    return _taken_out(path) if found.startswith(_MATROSKA) else found
+
+
+def _taken_out(path: str) -> bytes:
+    """The stream in a Matroska file."""
+    with tempfile.TemporaryDirectory(prefix="fbs-") as folder:
+        stream = os.path.join(folder, "stream.fbs")
+        _program.run(["remux", _program.argument(path), stream])
+        with open(stream, "rb") as file:
+            return file.read()

@@ -108,6 +108,14 @@ def test_files_are_read_as_pictures_are_asked_for(stream):
         assert digest(decoder) == digest(fbs.Decoder(stream))
 
 
+def test_a_matroska_file_may_have_the_stream(stream, tmp_path, video):
+    _program.run(["remux", stream, tmp_path / "talk.mkv"])
+    assert digest(fbs.Decoder(tmp_path / "talk.mkv")) == digest(fbs.Decoder(stream))
+    _program.run(["decode", stream, tmp_path / "other.mkv"])
+    with pytest.raises(fbs.Error, match=r"other\.mkv"):
+        fbs.Decoder(tmp_path / "other.mkv")
+
+
 def test_pictures_own_their_memory(stream):
     decoder = fbs.Decoder(stream)
     first = next(decoder)
@@ -265,8 +273,7 @@ def test_threads_share_one_decoder_and_several_run_side_by_side(stream):
     drawn, digests = [], []
 
     def share():
-        while shared.advance() is not None:
-            drawn.append(shared.draw())
+        drawn.extend(shared)
 
     def alone():
         digests.append(digest(fbs.Decoder(stream, threads=2)))
@@ -276,4 +283,4 @@ def test_threads_share_one_decoder_and_several_run_side_by_side(stream):
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(drawn) == PICTURES and digests == [expected] * 3
+    assert digest(sorted(drawn, key=lambda picture: picture.number)) == expected and digests == [expected] * 3
