@@ -5,6 +5,7 @@ import gc
 import hashlib
 import io
 import re
+import sys
 import threading
 
 import numpy as np
@@ -267,20 +268,23 @@ def test_calls_that_make_no_sense():
             fbs.Decoder(threads=threads)
 
 
-def test_threads_share_one_decoder_and_several_run_side_by_side(stream):
+@pytest.fixture
+def hasty_threads():
+    """Threads change places wherever they can."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    yield
+    sys.setswitchinterval(interval)
+
+
+def test_threads_share_one_decoder_and_several_run_side_by_side(stream, hasty_threads):
     expected = digest(fbs.Decoder(stream))
-    shared = fbs.Decoder(stream)
-    drawn, digests = [], []
-
-    def share():
-        drawn.extend(shared)
-
-    def alone():
-        digests.append(digest(fbs.Decoder(stream, threads=2)))
-
-    threads = [threading.Thread(target=target) for target in [share] * 3 + [alone] * 3]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert digest(sorted(drawn, key=lambda picture: picture.number)) == expected and digests == [expected] * 3
+    for _ in range(10):
+        shared, drawn, digests = fbs.Decoder(stream), [], []
+        targets = [lambda: drawn.extend(shared)] * 3 + [lambda: digests.append(digest(fbs.Decoder(stream, threads=2)))]
+        threads = [threading.Thread(target=target) for target in targets]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert digest(sorted(drawn, key=lambda picture: picture.number)) == expected and digests == [expected]
