@@ -55,6 +55,7 @@ def run(
     on_progress: Progress | None = None,
     cwd: str | os.PathLike[str] | None = None,
     timeout: float | None = None,
+    launcher: Sequence[str] = (),
 ) -> str:
     """Run ``fbs ARGUMENTS`` and wait for its end.
 
@@ -71,6 +72,8 @@ def run(
         The folder to run in.
     timeout : float, optional
         Seconds.
+    launcher : sequence of str, optional
+        A command that runs the program, such as ``("nice",)``.
 
     Returns
     -------
@@ -92,7 +95,7 @@ def run(
     name = program()
     try:
         child = subprocess.Popen(
-            [name, *map(os.fspath, arguments)],
+            [*launcher, name, *map(os.fspath, arguments)],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
