@@ -15,13 +15,16 @@ ENVELOPE = "envelope"
 
 _COLUMNS = [
     "clip", "clip_key", "task_key", "setting", "codec", "quality", "width", "height", "fps", "pictures",
-    "seconds", "bytes", "bytes_patterns", "bytes_motion", "bytes_geometry", "kbps", "psnr_face", "psnr_frame",
+    "seconds", "bytes", "bytes_startup", "bytes_patterns", "bytes_motion", "bytes_geometry", "kbps", "psnr_face", "psnr_frame",
     "face_pictures", "face_share", "worst_picture", "worst_psnr", "cuts", "patterns", "yaw_range_deg",
     "pitch_range_deg", "motion", "encode_s", "decode_s", "peer_size", "peer_rate", "crf",
 ]  # fmt: skip
 
 _OF_CLIP = ["width", "height", "fps", "pictures", "seconds", "face_pictures", "face_share", "cuts",
             "yaw_range_deg", "pitch_range_deg", "motion"]  # fmt: skip
+
+
+_WHOLE_NUMBERS = ["quality", "cuts", "patterns", "worst_picture", "peer_size", "peer_rate", "crf"]
 
 
 def current(tasks: pd.DataFrame) -> pd.DataFrame:
@@ -33,6 +36,7 @@ def current(tasks: pd.DataFrame) -> pd.DataFrame:
 def read_points(folder: ResultsFolder, tasks: pd.DataFrame) -> pd.DataFrame:
     """Points of current tasks, with the columns that a report needs."""
     points = folder.points(_COLUMNS).to_pandas()
+    points = points.astype({name: "Int32" for name in _WHOLE_NUMBERS})  # NumPy's integers have no null
     return points[points["task_key"].isin(tasks["task_key"])].reset_index(drop=True)
 
 

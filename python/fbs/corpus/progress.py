@@ -33,11 +33,12 @@ class Progress:
         if tally.failed:
             line += f", {tally.failed} failed"
         left_s = (self._total - tally.done) / speed
-        return line + (f", {_duration(left_s)} left" if left_s >= 1 else "")
+        return line + (f", {duration(left_s)} left" if left_s >= 1 else "")
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """In the unit that makes it a number of two or three digits."""
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
-        if seconds >= 2 * size:
+        if seconds >= 3 * size:
             return f"{seconds / size:.0f} {unit}"
     return f"{seconds:.0f} s"

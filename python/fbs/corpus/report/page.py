@@ -17,6 +17,7 @@ from markupsafe import Markup
 from fbs.corpus.clip import Clip
 from fbs.corpus.clip_table import AREAS, current, read_points, table_of_clips
 from fbs.corpus.order import Order
+from fbs.corpus.progress import duration
 from fbs.corpus.report import charts, tables
 from fbs.corpus.results_folder import ResultsFolder, write_atomically
 from fbs.corpus.setting import FbsSetting
@@ -100,6 +101,7 @@ def _value_charts(streams: pd.DataFrame) -> list[tuple[str, Markup]]:
         ("Frame", "psnr_frame", "luma PSNR of the frame, dB", False),
         ("Encoding", "encode_speed", "pictures per second", True),
         ("Decoding, one thread", "decode_speed", "pictures per second", True),
+        ("Before the first picture", "bytes_startup", "bytes", True),
     )
     return [(name, charts.quality_chart(streams, column, unit, is_log=is_log)) for name, column, unit, is_log in wanted]
 
@@ -145,5 +147,5 @@ def _template() -> jinja2.Template:
     environment = jinja2.Environment(
         autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    environment.filters["number"] = tables.number
+    environment.filters |= {"number": tables.number, "things": tables.things, "duration": duration}
     return environment.from_string(_text("report.html.jinja"))

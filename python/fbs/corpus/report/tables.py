@@ -19,6 +19,11 @@ def number(value: float | None, digits: int = 1) -> str:
     return f"{value:.{digits}f}".replace("-", "\N{MINUS SIGN}")
 
 
+def things(count: int, name: str) -> str:
+    """"1 clip", "12 clips"."""
+    return f"{count} {name}" + ("" if count == 1 else "s")
+
+
 def names(peers: list[str]) -> str:
     """"x264, x265 and AV1"."""
     shown = [NAMES[p] for p in peers]
@@ -35,8 +40,8 @@ def counts(tasks: pd.DataFrame, clips: pd.DataFrame) -> dict[str, object]:
         "failed_clips": int(tasks.loc[failed, "clip"].nunique()),
         "measured": len(clips),
         "hosts": int(tasks["host"].nunique()),
-        "task_hours": float(tasks["task_s"].sum()) / 3600,
-        "cpu_hours": float(tasks["cpu_s"].sum()) / 3600,
+        "task_s": float(tasks["task_s"].sum()),
+        "cpu_s": float(tasks["cpu_s"].sum()),
         "seconds": float(clips["seconds"].sum()) if len(clips) else 0.0,
         "pictures": int(clips["pictures"].sum()) if len(clips) else 0,
         "again": int((tasks["attempts"] > 1).sum()),
