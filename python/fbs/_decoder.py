@@ -1,0 +1,410 @@
+"""The decoder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Union
+
+import numpy as np
+
+from fbs import _fbs
+from fbs._face import FaceState, States, states_of
+from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureLike
+from fbs.errors import ArgumentError, DamagedError, Error, FileError, NoMemoryError, NotFbsError
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float32]
+
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO]
+
+_OK, _NEED_DATA, _END = 0, 1, 2
+_PIECE = 1 << 16  # bytes that are fed before the pictures in them are taken
+_LAST_TIME = (1 << 64) - 1
+
+
+class PictureInfo(NamedTuple):
+    """A picture's place in its stream: `number` from 0, `time` and `duration` in seconds.
+
+    `held`: the picture was lost, and the one before is shown in its place. `new_scene`: decoding can begin here.
+    """
+
+    number: int
+    time: float
+    duration: float
+    held: bool
+    new_scene: bool
+
+
+class Scene(NamedTuple):
+    """Where decoding can begin: `offset` in bytes, `number` and `time` (s) of its first picture."""
+
+    offset: int
+    number: int
+    time: float
+
+
+class Decoder:
+    """Decodes a stream, picture by picture.
+
+    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is.
+
+    Parameters
+    ----------
+    source : path, bytes, or binary file, optional
+        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work. A file, or whatever else has
+        a method ``read``, is read as pictures are asked for. Without: the stream comes through :meth:`feed`.
+    threads : int, optional
+        That draw each picture, 1 to 64; the pictures are the same. By default one for each core, up to four.
+    max_pixels : int, optional
+        Streams with more pixels in a picture are refused before memory is taken. 0: the format's limit, 8192 by 8192.
+    keep_going : bool
+        Go on behind damage. What was wrong is in :attr:`errors`. Otherwise it is raised; asking for the next
+        picture then goes on.
+
+    Attributes
+    ----------
+    errors : list of Error
+        With `keep_going`: what was wrong with the stream so far.
+
+    Examples
+    --------
+    >>> with fbs.Decoder("talk.fbs") as decoder:
+    ...     print(decoder.format.width, decoder.format.height, decoder.format.fps)
+    ...     brightness = [picture.y.mean() for picture in decoder]
+    176 144 30
+    >>> len(brightness)
+    20
+
+    From a network, as bytes arrive:
+
+    >>> decoder = fbs.Decoder()
+    >>> shown = 0
+    >>> for piece in (stream[:300], stream[300:]):
+    ...     decoder.feed(piece)
+    ...     for picture in decoder:
+    ...         shown += 1
+    >>> decoder.finish()
+    >>> shown + len(list(decoder))
+    20
+    """
+
+    def __init__(
+        self,
+        source: Source | None = None,
+        *,
+        threads: int | None = None,
+        max_pixels: int = 0,
+        keep_going: bool = False,
+    ) -> None:
+        if threads is None:
+            threads = min(4, len(os.sched_getaffinity(0)))
+        if not 1 <= threads <= 64:
+            raise ArgumentError(f"threads is 1 to 64, not {threads}")
+        if max_pixels < 0:
+            raise ArgumentError(f"max_pixels is not negative, as {max_pixels} is")
+        self.errors: list[Error] = []
+        self._max_pixels = max_pixels
+        self._keep_going = keep_going
+        self._decoder = _fbs.Decoder(threads, max_pixels)
+        self._stream: bytes | bytearray | memoryview | None = None
+        self._file: BinaryIO | None = None
+        self._fed = 0
+        self._info: PictureInfo | None = None
+        self._format: Format | None = None
+        self._waiting: PictureInfo | Error | None = None  # found, and not given out yet
+        self._scenes: list[Scene] | None = None
+        if isinstance(source, (bytes, bytearray, memoryview)):
+            self._stream = source
+        elif isinstance(source, (str, os.PathLike)):
+            self._stream = _bytes_of(source)
+        elif source is not None and not hasattr(source, "read"):
+            raise ArgumentError(f"a stream is a path, bytes, or a binary file, not {type(source).__name__}")
+        else:
+            self._file = source
+        if self._stream is not None:
+            self._look_ahead()
+
+    # ---- opening and closing ----
+
+    def close(self) -> None:
+        """Free the decoder's memory. Pictures that it gave out stay."""
+        self._decoder.close()
+
+    def __enter__(self) -> Decoder:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # ---- bytes in ----
+
+    def feed(self, piece: bytes | bytearray | memoryview) -> None:
+        """Take the next bytes of the stream, in pieces of any size. They are copied.
+
+        For decoders without a source. Iterate over the pictures in between: what is fed and not decoded is kept.
+        """
+        if self._stream is not None or self._file is not None:
+            raise ArgumentError("this decoder reads its source by itself")
+        self._decoder.feed(piece)
+
+    def finish(self) -> None:
+        """Say that no more bytes will come."""
+        self._decoder.finish()
+
+    def _feed_more(self) -> bool:
+        """Feed a piece of the source, or its end. False where there is no source."""
+        if self._stream is not None:
+            piece: bytes | memoryview = memoryview(self._stream)[self._fed : self._fed + _PIECE]
+        elif self._file is not None:
+            # What a pipe has now, rather than what it will have once the piece is full.
+            read = getattr(self._file, "read1", self._file.read)
+            piece = read(_PIECE)
+        else:
+            return False
+        self._fed += len(piece)
+        if len(piece) > 0:
+            self._decoder.feed(piece)
+        else:
+            self._decoder.finish()
+        return True
+
+    # ---- pictures out ----
+
+    def advance(self) -> PictureInfo | None:
+        """Go on to the next picture, without drawing it.
+
+        Returns
+        -------
+        PictureInfo or None
+            None at the end, and where more bytes have to be fed first.
+
+        Raises
+        ------
+        DamagedError, TruncatedError, ...
+            Reported once, unless `keep_going`: the next call goes on behind the damage, at the next scene.
+        """
+        waiting, self._waiting = self._waiting, None
+        if isinstance(waiting, Error):
+            raise waiting
+        if waiting is not None:
+            return waiting
+        while True:
+            try:
+                status, number, ticks, duration, held, new_scene = self._decoder.next()
+            except Error as problem:
+                if not self._keep_going or isinstance(problem, (ArgumentError, NoMemoryError, NotFbsError)):
+                    raise
+                self.errors.append(problem)
+                continue
+            if status == _OK:
+                self._info = PictureInfo(
+                    number, ticks / TICKS_PER_SECOND, duration / TICKS_PER_SECOND, held, new_scene
+                )
+                return self._info
+            if status == _END or not self._feed_more():
+                return None
+
+    def draw(self, out: PictureLike | None = None) -> Picture:
+        """Draw the picture that :meth:`advance` went to last.
+
+        Parameters
+        ----------
+        out : Picture or three planes, optional
+            To draw into: uint8 arrays of the picture's size, whose rows are contiguous.
+
+        Returns
+        -------
+        Picture
+            Of `out`, if that is given; else of memory of its own.
+        """
+        picture = self._target(out)
+        self._decoder.draw(*picture.planes)
+        return picture
+
+    def __iter__(self) -> Iterator[Picture]:
+        return self
+
+    def __next__(self) -> Picture:
+        if self.advance() is None:
+            raise StopIteration
+        return self.draw()
+
+    def _target(self, out: PictureLike | None) -> Picture:
+        """`out`, or a new picture, with the place of the current one."""
+        if self._info is None:
+            raise ArgumentError("there is no picture yet")
+        format = self.format
+        if out is None:
+            picture = Picture.empty(format.width, format.height)
+        else:
+            picture = out if isinstance(out, Picture) else Picture(*out)
+            if not all(isinstance(plane, np.ndarray) and plane.dtype == np.uint8 for plane in picture.planes):
+                raise ArgumentError("planes to draw into are arrays of uint8")
+        picture.matrix, picture.full_range = format.matrix, format.full_range
+        picture.number, picture.time, picture.duration, picture.held, picture.new_scene = self._info
+        return picture
+
+    def _look_ahead(self) -> None:
+        """Find the first picture, so that what is no stream is refused at once."""
+        try:
+            self._waiting = self.advance()
+        except Error as problem:
+            if self._decoder.format() is None:
+                raise
+            self._waiting = problem
+
+    # ---- what is known ----
+
+    @property
+    def format(self) -> Format:
+        """Size, rate and colours of all pictures.
+
+        Raises
+        ------
+        ArgumentError
+            Nothing is known yet: more bytes have to be fed.
+        """
+        if self._format is None:
+            found = self._decoder.format()
+            if found is None and self._waiting is None and self._info is None:
+                self._look_ahead()
+                found = self._decoder.format()
+            if found is None:
+                raise ArgumentError("the format is not known yet")
+            width, height, rate_num, rate_den, aspect_num, aspect_den, matrix, full_range = found
+            aspect = Fraction(aspect_num, aspect_den) if aspect_num and aspect_den else None
+            self._format = Format(
+                width, height, Fraction(rate_num, rate_den), aspect, MATRICES[matrix], full_range
+            )
+        return self._format
+
+    @property
+    def info(self) -> PictureInfo | None:
+        """The place of the current picture; None before the first."""
+        return self._info
+
+    @property
+    def state(self) -> FaceState | None:
+        """The face in the current picture; None if it has none. Needs no drawing."""
+        found = self._decoder.state()
+        return None if found is None else FaceState(*found)
+
+    @property
+    def landmarks(self) -> Floats | None:
+        """(68, 2) float32 array: the 68 points of iBUG in the current picture, pixels; None if it has no face."""
+        found = self._decoder.landmarks()
+        return None if found is None else found[:, :2]
+
+    @property
+    def confidence(self) -> Floats | None:
+        """(68,) float32 array: of each landmark, 0 to 1; None if the current picture has no face."""
+        found = self._decoder.landmarks()
+        return None if found is None else found[:, 2]
+
+    @property
+    def vertices(self) -> Floats | None:
+        """(n, 3) float32 array: the wire-frame in the current picture; None if it has no face.
+
+        x and y are pixels; z is eye distances away from the viewer, from the middle of the head.
+        """
+        found: Floats | None = self._decoder.vertices()
+        return found
+
+    # ---- the whole stream ----
+
+    @property
+    def states(self) -> States:
+        """The faces of all pictures of the stream, without drawing them. Leaves the current picture as it is.
+
+        Examples
+        --------
+        >>> states = fbs.Decoder("talk.fbs").states
+        >>> states.landmarks.shape, states.pose.shape
+        ((20, 68, 2), (20, 3))
+        """
+        columns: dict[str, Any] = _fbs.read_states(self._whole("states"), self._max_pixels, self._keep_going)
+        return states_of(columns, TICKS_PER_SECOND)
+
+    @property
+    def scenes(self) -> list[Scene]:
+        """Where decoding can begin, in order."""
+        if self._scenes is None:
+            stream = self._whole("scenes")
+            found: list[Scene] = []
+            ticks = _LAST_TIME
+            while (scene := _fbs.find_scene(stream, ticks)) is not None:
+                offset, number, ticks = scene
+                if found and found[-1].offset == offset:  # the first is given for any time before it, too
+                    break
+                found.append(Scene(offset, number, ticks / TICKS_PER_SECOND))
+                if ticks == 0:
+                    break
+                ticks -= 1
+            self._scenes = found[::-1]
+        return self._scenes
+
+    def seek(self, time: float | None = None, *, number: int | None = None) -> None:
+        """Make another picture the next one.
+
+        Parameters
+        ----------
+        time : float
+            Seconds: the picture that is shown then.
+        number : int
+            Instead: the picture of this number, or the next one that is not lost.
+
+        Examples
+        --------
+        >>> decoder = fbs.Decoder("talk.fbs")
+        >>> decoder.seek(0.5)
+        >>> next(decoder).number
+        15
+        >>> decoder.seek(number=3)
+        >>> next(decoder).number
+        3
+        """
+        stream = self._whole("seek")
+        if (time is None) == (number is None):
+            raise ArgumentError("seek to a time or to a number")
+        place = time if time is not None else number
+        if place is None or not place >= 0:
+            raise ArgumentError(f"a place in a stream is not negative, as {place} is")
+
+        def begins_by_then(scene: Scene) -> bool:
+            return scene.number <= place if time is None else scene.time <= place
+
+        def is_there(info: PictureInfo) -> bool:
+            return info.number >= place if time is None else info.time + info.duration > place
+
+        before = [scene for scene in self.scenes if begins_by_then(scene)] or self.scenes[:1]
+        if not before:
+            raise DamagedError("there is no scene in the stream")
+        self._decoder.reset()
+        self._waiting = self._info = None
+        self._fed = before[-1].offset
+        assert self._fed <= len(stream)
+        while (info := self.advance()) is not None:
+            if is_there(info):
+                self._waiting = info
+                return
+
+    def _whole(self, wanted: str) -> bytes | bytearray | memoryview:
+        if self._stream is None:
+            raise ArgumentError(f"{wanted}: only of a path or of bytes, which are there from the beginning")
+        return self._stream
+
+
+def _bytes_of(path: str | os.PathLike[str]) -> bytes:
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except OSError as problem:
+        raise FileError(f"cannot read {os.fspath(path)}: {problem.strerror}") from problem
