@@ -6,15 +6,12 @@ import resource
 import shutil
 import time
 import warnings
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from fbs import _program
 from fbs.corpus.order import Order
 from fbs.errors import Error, PartialWarning
-
-_PARTIAL = 2
 
 
 def _launcher(memory_bytes: int | None) -> list[str]:
@@ -53,7 +50,8 @@ class Calls:
                 timeout=self.order.timeout_s,
                 launcher=_launcher(self.order.memory_bytes),
             )
-        self._note(*(str(w.message) for w in caught if issubclass(w.category, PartialWarning)))
+        said = [str(w.message) for w in caught if issubclass(w.category, PartialWarning)]
+        self.notes += [text for text in said if text not in self.notes]
         return text, time.monotonic() - begin
 
     def encode(self, clip: str, stream: Path, quality: int) -> float:
@@ -63,21 +61,10 @@ class Calls:
         options += self.frames_option()
         if order.allow_no_face:
             options.append("--allow-no-face")
-        begin = time.monotonic()
-        try:
-            self.run("encode", clip, stream, *options)
-        except Error as problem:
-            # A source that is cut off: what could be read of it is encoded.
-            if problem.exit_code != _PARTIAL or not stream.exists():
-                raise
-            self._note(str(problem))
-        return time.monotonic() - begin
+        return self.run("encode", clip, stream, *options)[1]
 
     def frames_option(self) -> list[str]:
         return [] if self.order.frames is None else ["--frames", str(self.order.frames)]
-
-    def _note(self, *texts: str) -> None:
-        self.notes += [t for t in texts if t not in self.notes]
 
 
 def children_cpu_s() -> float:

@@ -21,7 +21,7 @@ def make_reference(clip: Clip, setting: FbsSetting, order: Order) -> Reference:
     """Encode a clip at the highest quality, unless a worker has done so in an earlier run."""
     key = order.task_key(clip, setting)
     folder = _folder_of(order)
-    if folder is not None and (kept := _kept_reference(folder, clip, key)):
+    if folder is not None and (kept := _kept_reference(folder, clip, stream_name(setting, key))):
         return kept
     attempt = Attempt(f"{key}.reference", order, folder)
     reference = Reference(setting.quality)
@@ -38,17 +38,17 @@ def make_reference(clip: Clip, setting: FbsSetting, order: Order) -> Reference:
     reference.cpu_s = attempt.cpu_s
     reference.notes = attempt.notes
     if folder is not None and reference.error is None:
-        folder.keep_stream(clip.key, stream_name(setting, key), reference.stream)
-        folder.keep_stream(clip.key, f"{key}.json", reference.to_json().encode())
+        name = stream_name(setting, key)
+        folder.keep_stream(clip.key, name, reference.stream)
+        folder.keep_stream(clip.key, f"{name}.json", reference.to_json().encode())
     return reference
 
 
-def _kept_reference(folder: ResultsFolder, clip: Clip, key: str) -> Reference | None:
-    facts = folder.stream_path(clip.key, f"{key}.json")  # written last
+def _kept_reference(folder: ResultsFolder, clip: Clip, name: str) -> Reference | None:
+    facts = folder.stream_path(clip.key, f"{name}.json")  # written last
     if not facts.exists():
         return None
-    stream = folder.stream_path(clip.key, stream_name(setting, key)).read_bytes()
-    return Reference(stream=stream, **json.loads(facts.read_text()))
+    return Reference(stream=folder.stream_path(clip.key, name).read_bytes(), **json.loads(facts.read_text()))
 
 
 def measure(clip: Clip, setting: Setting, order: Order, reference: Reference) -> Result:
