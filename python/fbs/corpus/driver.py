@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import uuid
 from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 
 from distributed import Client, Future, KilledWorker
@@ -14,7 +14,7 @@ from fbs.corpus.plan import ClipPlan
 from fbs.corpus.result import Result
 from fbs.corpus.results_folder import ResultsFolder
 from fbs.corpus.setting import Setting
-from fbs.corpus.window import Window
+from fbs.corpus.window import Window, unique_key
 
 FOLD_AT = 10_000
 """Finished tasks that are folded into a part of the tables: fewer files against more memory of the client."""
@@ -27,7 +27,6 @@ class _OpenClip:
     plan: ClipPlan
     left: int
     reference: Future | None = None
-    reference_tries: int = 0
 
 
 @dataclass
@@ -79,8 +78,8 @@ class Driver:
         """Do all plans. Whatever leaves this early cancels what is in flight."""
         try:
             self._fill(plans)
-            for one, future in self._window.ended():
-                self._take(one, future)
+            for one, result, problem in self._window.ended():
+                self._take(one, result, problem)
                 self._fill(plans)
         except BaseException:
             self._window.cancel()
@@ -92,34 +91,26 @@ class Driver:
         """A clip is begun as a whole, so the limit is passed by the tasks of one clip at most."""
         while self._window.has_room and (plan := next(plans, None)):
             clip = _OpenClip(plan, len(plan.settings))
-            for setting in plan.settings:
-                self._submit(_Task(clip, setting))
+            self._submit(clip, [_Task(clip, setting) for setting in plan.settings])
 
-    def _submit(self, one: _Task) -> None:
-        clip, order = one.clip, self._order
-        plan = clip.plan
+    def _submit(self, clip: _OpenClip, tasks: list[_Task]) -> None:
+        plan, order = clip.plan, self._order
         if clip.reference is None:
-            clip.reference_tries += 1
-            clip.reference = self._client.submit(
-                task.make_reference, plan.clip, plan.reference, order, key=_unique("reference"), pure=False
-            )
-        self._window.submit(
-            one, _unique("measure"), task.measure, plan.clip, one.setting, order, clip.reference
-        )
+            key = unique_key("make_reference")
+            clip.reference = self._client.submit(task.make_reference, plan.clip, plan.reference, order, key=key, pure=False)
+        settings = [one.setting for one in tasks]
+        self._window.submit(tasks, task.measure, settings, clip=plan.clip, order=order, reference=clip.reference)
 
-    def _take(self, one: _Task, future: Future) -> None:
-        problem = future.exception() if future.status == "error" else None
-        if future.status == "finished":
-            result = future.result()
-        elif isinstance(problem, KilledWorker) or future.status in ("cancelled", "lost"):
+    def _take(self, one: _Task, result: Result | None, problem: BaseException | None) -> None:
+        if isinstance(problem, KilledWorker | CancelledError):
             self.tally.lost.append(f"{one.clip.plan.clip.name}, {one.setting.name}")
             if one.tries < self._order.attempts:
                 self._try_again(one)
                 return
             result = self._give_up(one, f"the workers that had it were killed, {one.tries} times")
-        else:  # a bug, ours or of the machine: one clip must not stop a million
+        elif problem is not None:  # a bug, ours or of the machine: one clip must not stop a million
             result = self._give_up(one, f"{type(problem).__name__}: {problem}")
-        future.release()
+        assert result is not None
         self._keep(one, result)
 
     def _try_again(self, one: _Task) -> None:
@@ -128,7 +119,7 @@ class Driver:
         reference = one.clip.reference
         if reference is not None and reference.status not in ("finished", "pending"):
             one.clip.reference = None
-        self._submit(one)
+        self._submit(one.clip, [one])
 
     def _give_up(self, one: _Task, error: str) -> Result:
         return task.failed_result(one.clip.plan.clip, one.setting, self._order, error, one.tries)
@@ -155,8 +146,3 @@ class Driver:
     def _fold(self) -> None:
         self._folder.fold(self._handled)
         self._handled.clear()
-
-
-def _unique(name: str) -> str:
-    """A key of Dask: nothing of an earlier client is mistaken for it."""
-    return f"{name}-{uuid.uuid4().hex}"

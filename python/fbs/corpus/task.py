@@ -51,7 +51,7 @@ def _kept_reference(folder: ResultsFolder, clip: Clip, name: str) -> Reference |
     return Reference(stream=folder.stream_path(clip.key, name).read_bytes(), **json.loads(facts.read_text()))
 
 
-def measure(clip: Clip, setting: Setting, order: Order, reference: Reference) -> Result:
+def measure(setting: Setting, clip: Clip, order: Order, reference: Reference) -> Result:
     """Encode a clip, decode the stream, measure its pictures.
 
     Returns

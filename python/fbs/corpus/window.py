@@ -1,20 +1,23 @@
-"""Futures in flight: never more than a limit, so that neither client nor scheduler grows with the corpus."""
+"""Futures in flight: never many more than a limit, so that neither client nor scheduler grows with the corpus."""
 
 from __future__ import annotations
 
+import uuid
 from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
 from typing import Any
 
 from distributed import Client, Future, as_completed
 
 
 class Window:
-    """Submits calls and gives back each when it has ended."""
+    """Submits calls, and gives back each when it has ended."""
 
     def __init__(self, client: Client, limit: int) -> None:
         self.limit = limit
         self._client = client
-        self._ended = as_completed(loop=client.loop)
+        # Results come along, many in a message: asking for each by itself takes longer than all the rest.
+        self._ended = as_completed(loop=client.loop, with_results=True, raise_errors=False)
         self._tags: dict[Future, Any] = {}
 
     def __len__(self) -> int:
@@ -24,19 +27,44 @@ class Window:
     def has_room(self) -> bool:
         return len(self._tags) < self.limit
 
-    def submit(self, tag: object, key: str, function: Callable[..., object], *arguments: object) -> Future:
-        """Submit a call whose end is waited for. A future among the arguments is replaced by its result."""
-        future = self._client.submit(function, *arguments, key=key, pure=False)
-        self._tags[future] = tag
-        self._ended.add(future)
-        return future
+    def submit(self, tags: list[Any], function: Callable[..., object], *arguments: list[Any], **shared: object) -> None:
+        """Submit a call for each tag, all in one message.
 
-    def ended(self) -> Iterator[tuple[Any, Future]]:
-        """Calls in the order in which they end, until none is left; others may be submitted meanwhile."""
+        Parameters
+        ----------
+        arguments : list
+            Each has one value for each call.
+        shared
+            Arguments that all calls have. A future among them is replaced by its result.
+        """
+        keys = [unique_key(function.__name__) for _ in tags]
+        futures = self._client.map(function, *arguments, key=keys, pure=False, **shared)
+        self._tags.update(zip(futures, tags, strict=True))
+        self._ended.update(futures)
+
+    def ended(self) -> Iterator[tuple[Any, Any, BaseException | None]]:
+        """Calls in the order in which they end, until none is left; others may be submitted meanwhile.
+
+        Yields
+        ------
+        tag, value, problem
+            What a call gave, or the exception that took its place; CancelledError where the cluster lost it.
+        """
         while self._tags:
-            future = next(self._ended)
-            yield self._tags.pop(future), future
+            future, value = next(self._ended)
+            status = future.status
+            tag = self._tags.pop(future)
+            future.release()
+            if status == "finished":
+                yield tag, value, None
+            else:
+                yield tag, None, value[1] if status == "error" else CancelledError(status)
 
     def cancel(self) -> None:
         self._client.cancel(list(self._tags), force=True)
         self._tags.clear()
+
+
+def unique_key(name: str) -> str:
+    """A key of Dask: nothing of an earlier client is mistaken for it."""
+    return f"{name}-{uuid.uuid4().hex}"
