@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import time
 import uuid
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from typing import Any
 
 from distributed import Client, Future, as_completed
+
+_PATIENCE_S = 0.01
+"""Between two looks for calls that have ended."""
 
 
 class Window:
@@ -49,19 +53,31 @@ class Window:
         ------
         tag, value, problem
             What a call gave, or the exception that took its place; CancelledError where the cluster lost it.
+
+        Raises
+        ------
+        ConnectionError
+            The client has not found the scheduler for half a minute.
         """
         while self._tags:
-            future, value = next(self._ended)
-            status = future.status
-            tag = self._tags.pop(future)
-            future.release()
-            if status == "finished":
-                yield tag, value, None
-            else:
-                yield tag, None, value[1] if status == "error" else CancelledError(status)
+            batch = self._ended.next_batch(block=False)
+            if self._client.status in ("closing", "closed"):
+                raise ConnectionError("the scheduler is gone; the same command goes on from there with another")
+            if not batch:
+                time.sleep(_PATIENCE_S)
+            for future, value in batch:
+                status = future.status
+                tag = self._tags.pop(future)
+                future.release()
+                if status == "finished":
+                    yield tag, value, None
+                else:
+                    yield tag, None, value[1] if status == "error" else CancelledError(status)
 
     def cancel(self) -> None:
-        self._client.cancel(list(self._tags), force=True)
+        """Forget what has not ended, and stop it where it has not begun."""
+        if self._client.status == "running":
+            self._client.cancel(list(self._tags), force=True)
         self._tags.clear()
 
 
