@@ -13,6 +13,7 @@ distributed = pytest.importorskip("distributed")
 pytest.importorskip("pyarrow")
 
 from corpus_fake import fake, make_clips  # noqa: E402, F401
+
 from fbs.corpus.clip import clips_in  # noqa: E402
 from fbs.corpus.cluster import connected  # noqa: E402
 from fbs.corpus.driver import Driver  # noqa: E402
@@ -172,7 +173,21 @@ def test_a_killed_command_goes_on_where_it_was(fake, tmp_path):
     fake.clear()
     clips = make_clips(tmp_path / "clips", **{f"c{n}": "slow" for n in range(4)})
     results = tmp_path / "results"
-    command = [sys.executable, "-m", "fbs.corpus", clips, "--out", results, "--qualities", "20", "50", "--workers", "1", "--worst", "0"]
+    command = [
+        sys.executable,
+        "-m",
+        "fbs.corpus",
+        clips,
+        "--out",
+        results,
+        "--qualities",
+        "20",
+        "50",
+        "--workers",
+        "1",
+        "--worst",
+        "0",
+    ]
     first = subprocess.Popen([*command, "--quiet"], start_new_session=True)
     finished = lambda: [path.stem for path in results.glob("finished/*/*.json")]  # noqa: E731
     end = time.monotonic() + 30

@@ -31,7 +31,9 @@ def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("real")
     (folder / "clips/more").mkdir(parents=True)
     for name, seed in (("one", "3"), ("more/two", "5")):
-        subprocess.run([TALKER, folder / f"clips/{name}.y4m", "--size", "96x80", "--frames", "14", "--seed", seed], check=True)
+        subprocess.run(
+            [TALKER, folder / f"clips/{name}.y4m", "--size", "96x80", "--frames", "14", "--seed", seed], check=True
+        )
     (folder / "clips/broken.mkv").write_bytes(b"not a video")
     done = subprocess.run(
         [sys.executable, "-m", "fbs.corpus", folder / "clips", "--out", folder / "out", "--qualities", *QUALITIES, "--peers", "x264",

@@ -30,7 +30,14 @@ def without_waiting_for_the_disk(monkeypatch):
 def result(clip, setting, points=(), *, error=None, finished=1000, key=None):
     names = {"clip": clip, "clip_key": f"{abs(hash(clip)):016x}"[:16], "setting": setting}
     names["task_key"] = key or f"{abs(hash((clip, setting, finished))):016x}"[:16]
-    task = names | {"error": error, "points": len(points), "attempts": 1, "host": "here", "task_s": 2.0, "finished": finished}
+    task = names | {
+        "error": error,
+        "points": len(points),
+        "attempts": 1,
+        "host": "here",
+        "task_s": 2.0,
+        "finished": finished,
+    }
     return Result(task, [names | point for point in points])
 
 
@@ -44,19 +51,46 @@ def stream(quality, kbps, psnr, **more):
 
 
 def peer(codec, crf, kbps, psnr):
-    return {"codec": codec, "crf": crf, "peer_size": 1, "peer_rate": 1, "kbps": kbps, "psnr_face": psnr, "psnr_frame": psnr}
+    return {
+        "codec": codec,
+        "crf": crf,
+        "peer_size": 1,
+        "peer_rate": 1,
+        "kbps": kbps,
+        "psnr_face": psnr,
+        "psnr_frame": psnr,
+    }
 
 
 def corpus(folder, clips=12):
     """Clips for which fbs takes half the rate of x264, but the last, which it takes twice as much for."""
-    folder.begin_run({"folder": "/data/faces", "frames": None, "effort": 1, "allow_no_face": False, "peer_sizes": [1], "peer_rates": [1]})
+    folder.begin_run(
+        {
+            "folder": "/data/faces",
+            "frames": None,
+            "effort": 1,
+            "allow_no_face": False,
+            "peer_sizes": [1],
+            "peer_rates": [1],
+        }
+    )
     for n in range(clips):
         factor = 2 if n == clips - 1 else 0.5
         more = {"yaw_range_deg": 60} if n == clips - 1 else {"yaw_range_deg": 10 + n % 3}
         for quality in (20, 35, 50, 65, 80):
-            folder.keep(result(f"c{n:03}.mkv", f"fbs-quality-{quality}", [stream(quality, factor * quality, 20 + quality / 8, **more)]))
+            folder.keep(
+                result(
+                    f"c{n:03}.mkv",
+                    f"fbs-quality-{quality}",
+                    [stream(quality, factor * quality, 20 + quality / 8, **more)],
+                )
+            )
         rates = [(crf, 80 - crf) for crf in (60, 50, 40, 30, 20, 10)]
-        folder.keep(result(f"c{n:03}.mkv", "x264-size-1-rate-1", [peer("x264", crf, kbps, 20 + kbps / 8) for crf, kbps in rates]))
+        folder.keep(
+            result(
+                f"c{n:03}.mkv", "x264-size-1-rate-1", [peer("x264", crf, kbps, 20 + kbps / 8) for crf, kbps in rates]
+            )
+        )
     folder.fold()
 
 
@@ -174,7 +208,9 @@ def test_a_report_of_nothing_says_so(tmp_path):
     assert "No clip could be measured" in page and "no face" in page
 
 
-@pytest.mark.parametrize(("low", "high", "is_log"), [(3, 9, True), (4.1, 4.2, True), (0.01, 5000, True), (-70, 3, False), (30, 30, False)])
+@pytest.mark.parametrize(
+    ("low", "high", "is_log"), [(3, 9, True), (4.1, 4.2, True), (0.01, 5000, True), (-70, 3, False), (30, 30, False)]
+)
 def test_axes_have_round_ticks(low, high, is_log):
     axis = axis_over([low, high], 0, 100, is_log=is_log)
     ticks = axis.ticks()

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures what docs/corpus.md says of scaling and overhead.
 
-    measure_corpus.py talkers DIR --talker build/release/talker   makes fifty clips: seeds, lights, poses, sizes
-    measure_corpus.py overhead [--tasks N ...] [--workers N ...]  tasks that do nothing: time of each, memory of the client
-    measure_corpus.py scaling DIR --workers 1 2 4 [OPTION ...]    runs a corpus with so many workers; OPTIONs of fbs.corpus
-    measure_corpus.py report RESULTS --clips N                    multiplies results: time and memory of a large report
+measure_corpus.py talkers DIR --talker build/release/talker   makes fifty clips: seeds, lights, poses, sizes
+measure_corpus.py overhead [--tasks N ...] [--workers N ...]  tasks that do nothing: time of each, memory of the client
+measure_corpus.py scaling DIR --workers 1 2 4 [OPTION ...]    runs a corpus with so many workers; OPTIONs of fbs.corpus
+measure_corpus.py report RESULTS --clips N                    multiplies results: time and memory of a large report
 """
 
 import argparse
@@ -49,7 +49,9 @@ def nothing(number):
 
 
 def measure_overhead(options):
-    print("| workers | tasks | in flight | seconds | ms per task | client and scheduler, MB |\n|--:|--:|--:|--:|--:|--:|")
+    print(
+        "| workers | tasks | in flight | seconds | ms per task | client and scheduler, MB |\n|--:|--:|--:|--:|--:|--:|"
+    )
     for workers in options.workers:
         for count in options.tasks:
             with connected("local", workers=workers) as client:
@@ -66,7 +68,10 @@ def measure_overhead(options):
                     assert value == n
                     fill()
                 taken = time.monotonic() - begin
-            print(f"| {workers} | {count} | {window.limit} | {taken:.1f} | {1e3 * taken / count:.2f} | {peak_mb():.0f} |", flush=True)
+            print(
+                f"| {workers} | {count} | {window.limit} | {taken:.1f} | {1e3 * taken / count:.2f} | {peak_mb():.0f} |",
+                flush=True,
+            )
 
 
 def measure_scaling(options):
@@ -74,14 +79,29 @@ def measure_scaling(options):
     first = None
     for workers in options.workers:
         with tempfile.TemporaryDirectory() as out:
-            command = [sys.executable, "-m", "fbs.corpus", options.folder, "--out", out, "--workers", workers, "--worst", 0, "--quiet"]
+            command = [
+                sys.executable,
+                "-m",
+                "fbs.corpus",
+                options.folder,
+                "--out",
+                out,
+                "--workers",
+                workers,
+                "--worst",
+                0,
+                "--quiet",
+            ]
             begin = time.monotonic()
             subprocess.run([*map(str, command), *options.rest], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             taken = time.monotonic() - begin
             tasks = ResultsFolder(out).tasks()
         first = first or taken * workers
         cpu = tasks["cpu_s"].sum()
-        print(f"| {workers} | {taken:.1f} | {100 * first / taken / workers:.0f} % | {len(tasks)} | {cpu:.0f} |", flush=True)
+        print(
+            f"| {workers} | {taken:.1f} | {100 * first / taken / workers:.0f} % | {len(tasks)} | {cpu:.0f} |",
+            flush=True,
+        )
 
 
 def measure_report(options):
@@ -95,7 +115,9 @@ def measure_report(options):
         for kind, table in (("points", points), ("tasks", tasks)):
             (folder.path / kind).mkdir()
             for n in range(-(-options.clips // have)):
-                parquet.write_table(_renamed(table, n), folder.path / kind / f"part-{n:06d}.parquet", compression="zstd")
+                parquet.write_table(
+                    _renamed(table, n), folder.path / kind / f"part-{n:06d}.parquet", compression="zstd"
+                )
         size = sum(path.stat().st_size for path in folder.path.rglob("*.parquet"))
         before, begin = peak_mb(), time.monotonic()
         report = write_report(folder, None, None, ReportOptions("large", 10))

@@ -83,46 +83,99 @@ def parse(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 def _add_measuring(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
-        "--qualities", metavar="Q", nargs="+", type=_number(0, 100), default=[20, 35, 50, 65, 80],
+        "--qualities",
+        metavar="Q",
+        nargs="+",
+        type=_number(0, 100),
+        default=[20, 35, 50, 65, 80],
         help="of fbs (default: 20 35 50 65 80); BD-rate needs four",
     )
-    group.add_argument("--peers", type=_list_of(PEERS), default=[], metavar="LIST",
-                       help="also encode with these of x264,x265,av1, through ffmpeg; takes far longer")
-    group.add_argument("--peer-sizes", type=_list_of(SIZES), default=list(SIZES), metavar="LIST",
-                       help="divisors of width and height for peers (default: 1,2)")
-    group.add_argument("--peer-rates", type=_list_of(RATES), default=list(RATES), metavar="LIST",
-                       help="peers code every so many pictures (default: 1,2,3)")
+    group.add_argument(
+        "--peers",
+        type=_list_of(PEERS),
+        default=[],
+        metavar="LIST",
+        help="also encode with these of x264,x265,av1, through ffmpeg; takes far longer",
+    )
+    group.add_argument(
+        "--peer-sizes",
+        type=_list_of(SIZES),
+        default=list(SIZES),
+        metavar="LIST",
+        help="divisors of width and height for peers (default: 1,2)",
+    )
+    group.add_argument(
+        "--peer-rates",
+        type=_list_of(RATES),
+        default=list(RATES),
+        metavar="LIST",
+        help="peers code every so many pictures (default: 1,2,3)",
+    )
     group.add_argument("--frames", type=_number(1, 10**9), metavar="N", help="the first N pictures of each clip only")
     group.add_argument("--effort", type=_number(0, 2), default=1, help="of fbs (default: 1)")
     group.add_argument("--allow-no-face", action="store_true", help="measure clips without a face, too")
 
 
 def _add_cluster(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--scheduler", default=LOCAL, metavar="ADDRESS",
-                       help="of a Dask scheduler, such as tcp://10.0.0.1:8786 (default: local, on this machine)")
-    group.add_argument("--workers", type=_number(1, 4096), metavar="N",
-                       help="processes of a local cluster (default: one for each core)")
-    group.add_argument("--memory-limit", default="auto", metavar="SIZE",
-                       help="of a local worker, without the programs it runs (default: auto)")
+    group.add_argument(
+        "--scheduler",
+        default=LOCAL,
+        metavar="ADDRESS",
+        help="of a Dask scheduler, such as tcp://10.0.0.1:8786 (default: local, on this machine)",
+    )
+    group.add_argument(
+        "--workers",
+        type=_number(1, 4096),
+        metavar="N",
+        help="processes of a local cluster (default: one for each core)",
+    )
+    group.add_argument(
+        "--memory-limit",
+        default="auto",
+        metavar="SIZE",
+        help="of a local worker, without the programs it runs (default: auto)",
+    )
     group.add_argument("--dashboard", metavar="ADDRESS", help="show the dashboard of a local cluster, at :8787 say")
-    group.add_argument("--through-client", action="store_true",
-                       help="workers cannot write to RESULTS: send results through this process")
+    group.add_argument(
+        "--through-client",
+        action="store_true",
+        help="workers cannot write to RESULTS: send results through this process",
+    )
 
 
 def _add_running(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--retry-failed", action="store_true", help="try again what failed in an earlier run")
     group.add_argument("--report-only", action="store_true", help="only make the report anew")
     group.add_argument("--keep-streams", action="store_true", help="keep all streams of fbs, in RESULTS/streams")
-    group.add_argument("--attempts", type=_number(1, 100), default=3, metavar="N",
-                       help="give a clip up when workers that had it were killed so often (default: 3)")
-    group.add_argument("--timeout", type=_positive, default=3600, metavar="SECONDS",
-                       help="of one call of the program (default: 3600)")
-    group.add_argument("--task-memory", type=_bytes, metavar="SIZE",
-                       help="most address space of one call of the program, such as 4GB (default: no limit)")
-    group.add_argument("--in-flight", type=_number(1, 10**6), metavar="N",
-                       help="most tasks on the cluster at a time (default: 4 for each thread, 64 at least)")
-    group.add_argument("--worst", type=_number(0, 100), default=10, metavar="N",
-                       help="clips that the report shows pictures of (default: 10)")
+    group.add_argument(
+        "--attempts",
+        type=_number(1, 100),
+        default=3,
+        metavar="N",
+        help="give a clip up when workers that had it were killed so often (default: 3)",
+    )
+    group.add_argument(
+        "--timeout", type=_positive, default=3600, metavar="SECONDS", help="of one call of the program (default: 3600)"
+    )
+    group.add_argument(
+        "--task-memory",
+        type=_bytes,
+        metavar="SIZE",
+        help="most address space of one call of the program, such as 4GB (default: no limit)",
+    )
+    group.add_argument(
+        "--in-flight",
+        type=_number(1, 10**6),
+        metavar="N",
+        help="most tasks on the cluster at a time (default: 4 for each thread, 64 at least)",
+    )
+    group.add_argument(
+        "--worst",
+        type=_number(0, 100),
+        default=10,
+        metavar="N",
+        help="clips that the report shows pictures of (default: 10)",
+    )
     group.add_argument("--quiet", action="store_true", help="print no progress")
 
 

@@ -9,9 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-SUFFIXES = frozenset(
-    ".y4m .mp4 .mkv .webm .mov .avi .m4v .mpg .mpeg .ts .ogv .flv .wmv .3gp".split()
-)
+SUFFIXES = frozenset(".y4m .mp4 .mkv .webm .mov .avi .m4v .mpg .mpeg .ts .ogv .flv .wmv .3gp".split())
 """Of files that are taken for clips, in small letters."""
 
 

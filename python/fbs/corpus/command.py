@@ -62,7 +62,9 @@ def _run(options: argparse.Namespace) -> int:
         folder.fold()
         failed = folder.write_failures()
         _say(options, "making the report")
-        report = write_report(folder, order, functools.partial(client.submit, pure=False), _report_options(options, folder))
+        report = write_report(
+            folder, order, functools.partial(client.submit, pure=False), _report_options(options, folder)
+        )
     for line in tally.lost:
         print(f"fbs.corpus: lost with its worker, tried again: {line}", file=sys.stderr)
     return _end(report, failed)
@@ -97,7 +99,7 @@ def _report(options: argparse.Namespace) -> int:
 
 
 def _report_options(options: argparse.Namespace, folder: ResultsFolder) -> ReportOptions:
-    return ReportOptions(Path(str(folder.asked()["folder"])).name, options.worst)
+    return ReportOptions(Path(folder.asked()["folder"]).name, options.worst)
 
 
 def _say(options: argparse.Namespace, text: str) -> None:

@@ -97,7 +97,9 @@ class Driver:
         plan, order = clip.plan, self._order
         if clip.reference is None:
             key = unique_key("make_reference")
-            clip.reference = self._client.submit(task.make_reference, plan.clip, plan.reference, order, key=key, pure=False)
+            clip.reference = self._client.submit(
+                task.make_reference, plan.clip, plan.reference, order, key=key, pure=False
+            )
         settings = [one.setting for one in tasks]
         self._window.submit(tasks, task.measure, settings, clip=plan.clip, order=order, reference=clip.reference)
 

@@ -6,10 +6,11 @@ import csv
 import io
 import json
 import math
+from typing import Any
 
 import numpy as np
 
-Row = dict[str, object]
+Row = dict[str, Any]
 
 _AREAS = [f"{m}_{a}" for a in ("face", "frame") for m in ("psnr", "psnr_u", "psnr_v", "ssim", "ms_ssim")]
 
@@ -17,7 +18,6 @@ _AREAS = [f"{m}_{a}" for a in ("face", "frame") for m in ("psnr", "psnr_u", "psn
 def point_row(point: Row) -> Row:
     """Columns that a point of ``fbs evaluate --json`` has, of fbs or another codec."""
     parts = point["bytes"]
-    assert isinstance(parts, dict)
     row: Row = {
         "codec": str(point["codec"]).lower(),
         "pictures": point["frames"],

@@ -32,6 +32,4 @@ class Order:
 
     def task_key(self, clip: Clip, setting: Setting) -> str:
         """Names the result of a task: another clip, setting or program has another."""
-        return short_hash(
-            [clip.key, setting.name, self.program, self.frames, self.effort, self.allow_no_face]
-        )
+        return short_hash([clip.key, setting.name, self.program, self.frames, self.effort, self.allow_no_face])

@@ -22,6 +22,7 @@ import socket
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -167,8 +168,7 @@ class ResultsFolder:
         """Rows of all points."""
         schema = POINTS if columns is None else pa.schema([POINTS.field(c) for c in columns])
         tables = [
-            parquet.read_table(self.path / "points" / part.name, columns=columns).cast(schema)
-            for part in self._parts()
+            parquet.read_table(self.path / "points" / part.name, columns=columns).cast(schema) for part in self._parts()
         ]
         return pa.concat_tables([schema.empty_table(), *tables])
 
@@ -202,7 +202,7 @@ class ResultsFolder:
 
     # The run.
 
-    def begin_run(self, asked: dict[str, object]) -> None:
+    def begin_run(self, asked: dict[str, Any]) -> None:
         """Note what is asked for.
 
         Raises
@@ -221,7 +221,7 @@ class ResultsFolder:
                     raise ValueError(f"{self.path}: has results with another {option}; give another --out")
         write_atomically(path, (json.dumps(asked, indent=1) + "\n").encode())
 
-    def asked(self) -> dict[str, object]:
+    def asked(self) -> dict[str, Any]:
         """What was asked for; empty before the first run."""
         path = self.path / "run.json"
         return json.loads(path.read_text()) if path.exists() else {}

@@ -6,9 +6,7 @@ import pyarrow as pa
 
 
 def _schema(columns: list[tuple[str, pa.DataType, str]]) -> pa.Schema:
-    return pa.schema(
-        [pa.field(name, kind, metadata={"description": text}) for name, kind, text in columns]
-    )
+    return pa.schema([pa.field(name, kind, metadata={"description": text}) for name, kind, text in columns])
 
 
 def _quality(area: str) -> list[tuple[str, pa.DataType, str]]:
@@ -48,11 +46,19 @@ POINTS = _schema(
         ("vmaf_frame", pa.float32(), "VMAF of the frame; null where ffmpeg has none"),
         ("face_pictures", pa.int32(), "pictures in which a face is believed"),
         ("face_share", pa.float32(), "samples of the face over those of the frame, mean"),
-        ("worst_picture", pa.int32(), "number, from 0, of the picture with the least luma PSNR of the face (else frame)"),
+        (
+            "worst_picture",
+            pa.int32(),
+            "number, from 0, of the picture with the least luma PSNR of the face (else frame)",
+        ),
         ("worst_psnr", pa.float32(), "of that picture, dB"),
         ("cuts", pa.int32(), "scenes after the first; fbs only"),
         ("patterns", pa.int32(), "pictures that were sent; fbs only"),
-        ("yaw_range_deg", pa.float32(), "95th less 5th percentile of yaw; of the best stream of fbs only, as the next two"),
+        (
+            "yaw_range_deg",
+            pa.float32(),
+            "95th less 5th percentile of yaw; of the best stream of fbs only, as the next two",
+        ),
         ("pitch_range_deg", pa.float32(), "the same of pitch"),
         ("motion", pa.float32(), "median path of the head per second, in distances between the eyes"),
         ("encode_s", pa.float32(), "wall time of fbs encode; null of others"),
@@ -78,7 +84,7 @@ TASKS = _schema(
         ("finished", pa.timestamp("ms", tz="UTC"), "when it was finished or given up"),
     ]
 )
-"""One row for each task: a clip and a setting. Where a clip cannot be encoded at its highest quality, all its tasks fail."""
+"""One row for each task, a clip and a setting. Where a clip cannot be encoded at its highest quality, all fail."""
 
 
 def table_of(rows: list[dict[str, object]], schema: pa.Schema) -> pa.Table:

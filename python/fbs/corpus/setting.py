@@ -38,9 +38,7 @@ class PeerSetting:
 Setting = FbsSetting | PeerSetting
 
 
-def settings_of(
-    qualities: list[int], peers: list[str], sizes: list[int], rates: list[int]
-) -> list[Setting]:
+def settings_of(qualities: list[int], peers: list[str], sizes: list[int], rates: list[int]) -> list[Setting]:
     """All settings of a clip, the highest quality first: its stream says where the face is."""
     streams = [FbsSetting(q) for q in sorted(set(qualities), reverse=True)]
     return streams + [PeerSetting(p, s, r) for p in peers for s in sizes for r in rates]

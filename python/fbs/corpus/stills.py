@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fbs.corpus import work
 from fbs.corpus.attempt import Attempt
@@ -17,8 +17,8 @@ from fbs.corpus.setting import FbsSetting
 
 KINDS = ("source", "fbs", "difference")
 
-Submit = Callable[..., Future]
-"""Of a client of Dask, or of any executor."""
+Submit = Callable[..., Any]
+"""Of a client of Dask, or of any executor: gives a future."""
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ class Window:
     def has_room(self) -> bool:
         return len(self._tags) < self.limit
 
-    def submit(self, tags: list[Any], function: Callable[..., object], *arguments: list[Any], **shared: object) -> None:
+    def submit(self, tags: list[Any], function: Callable[..., object], *arguments: list[Any], **shared: Any) -> None:
         """Submit a call for each tag, all in one message.
 
         Parameters

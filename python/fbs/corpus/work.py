@@ -47,9 +47,7 @@ def measure_peer(calls: Calls, clip: Clip, setting: PeerSetting, reference: Path
     return [{**point_row(p), **columns, "crf": crf_of(p["point"])} for p in report["peers"]]
 
 
-def encode_and_measure(
-    calls: Calls, clip: Clip, setting: FbsSetting, region: Path, stream: Path, scratch: Path
-) -> Row:
+def encode_and_measure(calls: Calls, clip: Clip, setting: FbsSetting, region: Path, stream: Path, scratch: Path) -> Row:
     """A point of fbs; the stream is left in its file."""
     encode_s = calls.encode(clip.path, stream, setting.quality)
     return measure_stream(calls, clip, stream, region, encode_s, scratch)
@@ -61,7 +59,5 @@ def make_stills(calls: Calls, clip: Clip, stream: Path, region: Path, folder: Pa
 
 
 def _evaluate(calls: Calls, clip: Clip, stream: Path, *options: str | Path) -> dict:
-    text, _ = calls.run(
-        "evaluate", clip.path, stream, "--json", "--quiet", *calls.frames_option(), *options
-    )
+    text, _ = calls.run("evaluate", clip.path, stream, "--json", "--quiet", *calls.frames_option(), *options)
     return json.loads(text)

@@ -57,7 +57,7 @@ def _log_ticks(low: float, high: float) -> list[float]:
 
 
 def tick_text(value: float) -> str:
-    """"20", "0.5", "1500": without trailing zeros."""
+    """ "20", "0.5", "1500": without trailing zeros."""
     text = f"{value:.6g}"
     if "e" in text:
         text = f"{value:.0f}"

@@ -54,7 +54,9 @@ def curve_chart(series: list[Series], x_name: str, y_name: str, label: str) -> M
             edge = [*zip(s.x, s.high, strict=True), *reversed([*zip(s.x, s.low, strict=True)])]
             band = f'<polygon points="{_points(edge, x, y)}"/>'
         line = [*zip(s.x, s.y, strict=True)]
-        dots = "".join(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="3.5"/>' for a, b in line) if s.has_points else ""
+        dots = (
+            "".join(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="3.5"/>' for a, b in line) if s.has_points else ""
+        )
         parts.append(f'<g class="series {s.css_class}">{band}<polyline points="{_points(line, x, y)}"/>{dots}</g>')
         if line:
             ends.append([x.at(line[-1][0]) + 7, y.at(line[-1][1]) + 4, s])
@@ -79,14 +81,18 @@ def row_chart(rows: list[Row], x_name: str, label: str, *, is_log: bool = False,
     x = axis_over([*values.tolist(), *([] if mark is None else [mark])], left, _WIDTH - right, is_log=is_log)
     parts = [_grid(x, None, x_name, "", height - bottom, top)]
     if mark is not None:
-        parts.append(f'<line class="axis" x1="{x.at(mark):.1f}" x2="{x.at(mark):.1f}" y1="{top}" y2="{height - bottom}"/>')
+        parts.append(
+            f'<line class="axis" x1="{x.at(mark):.1f}" x2="{x.at(mark):.1f}" y1="{top}" y2="{height - bottom}"/>'
+        )
     for n, row in enumerate(rows):
         parts.append(_row(row, x, top + row_height * (n + 0.5), row_height))
     return _svg(parts, height, label)
 
 
 def _row(row: Row, x: Axis, middle: float, height: float) -> str:
-    name = f'<text class="row-name" x="{x.begin - 8:.1f}" y="{middle + 4:.1f}" text-anchor="end">{escape(row.name)}</text>'
+    name = (
+        f'<text class="row-name" x="{x.begin - 8:.1f}" y="{middle + 4:.1f}" text-anchor="end">{escape(row.name)}</text>'
+    )
     values = row.values[np.isfinite(row.values)]
     if not len(values):
         return name + f'<text class="tick" x="{x.begin + 4:.1f}" y="{middle + 4:.1f}">none</text>'
@@ -145,8 +151,7 @@ def _grid(x: Axis, y: Axis | None, x_name: str, y_name: str, bottom: float, top:
         at = x.at(tick)
         out.append(f'<line class="grid" x1="{at:.1f}" x2="{at:.1f}" y1="{top}" y2="{bottom}"/>')
         out.append(f'<text class="tick" x="{at:.1f}" y="{bottom + 15}" text-anchor="middle">{tick_text(tick)}</text>')
-    for tick in y.ticks() if y else []:
-        at = y.at(tick)
+    for tick, at in [(t, y.at(t)) for t in y.ticks()] if y else []:
         out.append(f'<line class="grid" x1="{x.begin}" x2="{x.end}" y1="{at:.1f}" y2="{at:.1f}"/>')
         out.append(f'<text class="tick" x="{x.begin - 6}" y="{at + 4:.1f}" text-anchor="end">{tick_text(tick)}</text>')
     out.append(f'<line class="axis" x1="{x.begin}" x2="{x.end}" y1="{bottom}" y2="{bottom}"/>')

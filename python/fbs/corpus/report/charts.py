@@ -7,7 +7,7 @@ import pandas as pd
 from markupsafe import Markup
 
 from fbs.corpus.bd_rate import quality_at
-from fbs.corpus.clip_table import AREAS, ENVELOPE, bd_column, curve_of
+from fbs.corpus.clip_table import ENVELOPE, bd_column, curve_of
 from fbs.corpus.report.chart import Row, Series, curve_chart, row_chart
 from fbs.corpus.setting import PEERS
 from fbs.corpus.statistics import median_interval

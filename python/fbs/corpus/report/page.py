@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import json
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -115,7 +114,7 @@ def _worst(
     clips: pd.DataFrame,
 ) -> list[dict[str, object]]:
     worst = worst_clips(clips, options.worst)
-    corpus = str(folder.asked()["folder"])
+    corpus = folder.asked()["folder"]
     reference = FbsSetting(int(streams["quality"].max()))
     wanted = []
     for _, clip in worst.iterrows():
@@ -134,9 +133,7 @@ def _found(corpus: str, name: str) -> Clip:
 
 
 def _sources(stills: Stills) -> dict[str, str]:
-    return {
-        kind: "data:image/jpeg;base64," + base64.b64encode(image).decode() for kind, image in stills.images.items()
-    }
+    return {kind: "data:image/jpeg;base64," + base64.b64encode(image).decode() for kind, image in stills.images.items()}
 
 
 def _text(name: str) -> str:

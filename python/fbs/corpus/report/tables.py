@@ -20,12 +20,12 @@ def number(value: float | None, digits: int = 1) -> str:
 
 
 def things(count: int, name: str) -> str:
-    """"1 clip", "12 clips"."""
+    """ "1 clip", "12 clips"."""
     return f"{count} {name}" + ("" if count == 1 else "s")
 
 
 def names(peers: list[str]) -> str:
-    """"x264, x265 and AV1"."""
+    """ "x264, x265 and AV1"."""
     shown = [NAMES[p] for p in peers]
     return " and ".join([", ".join(shown[:-1]), shown[-1]] if len(shown) > 1 else shown)
 
@@ -117,7 +117,9 @@ def quality_rows(points: pd.DataFrame, streams: pd.DataFrame) -> list[dict[str, 
         for column in ("kbps", "psnr_face", "psnr_frame", "encode_speed", "decode_speed"):
             row[column] = spread(group[column].to_numpy(dtype=float))
         for area in ("face", "frame"):
-            gains = [gain(stream, peers[stream["clip"]], area) for _, stream in group.iterrows() if stream["clip"] in peers]
+            gains = [
+                gain(stream, peers[stream["clip"]], area) for _, stream in group.iterrows() if stream["clip"] in peers
+            ]
             row[f"gain_{area}"] = spread(np.array(gains, dtype=float))
         rows.append(row)
     return rows
@@ -137,7 +139,18 @@ def clip_rows(clips: pd.DataFrame, most: int) -> list[dict[str, object]]:
 
 def worst_row(clip: pd.Series, images: dict[str, str], error: str | None) -> dict[str, object]:
     """One of the worst clips."""
-    names = ("clip", "width", "height", "kbps", "quality", "psnr_face", "psnr_frame", "worst_picture", "worst_psnr", "reasons")
+    names = (
+        "clip",
+        "width",
+        "height",
+        "kbps",
+        "quality",
+        "psnr_face",
+        "psnr_frame",
+        "worst_picture",
+        "worst_psnr",
+        "reasons",
+    )
     row = {name: clip[name] for name in names}
     row |= {"gain_face": clip["gain_face"], "bd_face": clip[bd_column(ENVELOPE, "face")]}
     return row | {"images": images, "error": error}
