@@ -114,6 +114,11 @@ Result<void> StreamDecoder::render_state(const State& state, std::optional<std::
                  : renderer_.render(scene(), state, out);
 }
 
+Result<void> StreamDecoder::render_state(const State& state, const PictureView& out) {
+  if (pictures_ == 0 || kept_) return render(out);
+  return renderer_.render(scene(), state, out);
+}
+
 void StreamDecoder::count(const Packet& packet) {
   // Count skipped bytes as other.
   bytes_.other += packet.offset - bytes_.total;

@@ -128,6 +128,8 @@ class StreamDecoder {
   /// @return kInvalidArgument before the first picture, and when there is no such pattern
   [[nodiscard]] Result<void> render_state(const State& state, std::optional<std::size_t> pattern,
                                           Picture& out);
+  /// The blend of `state` into memory of the caller, whose planes have the format's size.
+  [[nodiscard]] Result<void> render_state(const State& state, const PictureView& out);
 
   // Of the picture that next() announced last; a held picture has the state and scene of the one it repeats.
   [[nodiscard]] const State& state() const { return state_; }

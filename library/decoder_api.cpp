@@ -1,8 +1,10 @@
 // The decoder of fbs/fbs.h.
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
 
+#include "decoder/expression/expression_targets.h"
 #include "decoder/scene_face.h"
 #include "decoder/scene_index.h"
 #include "decoder/stream_decoder.h"
@@ -38,7 +40,10 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
 
   [[nodiscard]] bool has_picture() const { return !broken && stream->pictures() > 0; }
 
+  [[nodiscard]] PictureView planes_of(const fbs_picture& caller) const;
+
   /// Calls `body` with the face's geometry and the state, if there are any.
+  /// @return what `body` returns
   template <class Body>
   fbs_status with_face(Body&& body) const;
 
@@ -49,6 +54,7 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   bool broken = false;    ///< an exception has left the stream in a state that nobody knows
   Picture picture;        ///< given out
   bool is_drawn = false;  ///< `picture` is that of the stream
+  mutable BlendshapeMeasure blendshapes;
   mutable LastError error;
 };
 
@@ -58,9 +64,16 @@ fbs_status fbs_decoder::with_face(Body&& body) const {
     if (!has_picture()) return error.set_argument(kNoPicture);
     const SceneGeometry* const face = face_of(stream->scene());
     if (face == nullptr) return error.set(FBS_ERROR_NO_FACE, "the scene has no face");
-    body(*face, stream->state());
-    return FBS_OK;
+    return body(*face, stream->state());
   });
+}
+
+PictureView fbs_decoder::planes_of(const fbs_picture& caller) const {
+  const auto plane = [&](std::size_t k) {
+    const PlaneSize size = plane_size(stream->format(), k);
+    return PlaneView(caller.data[k], size.width, size.height, caller.stride[k]);
+  };
+  return PictureView(plane(0), plane(1), plane(2));
 }
 
 void fbs_decoder_default_settings(fbs_decoder_settings* settings, size_t struct_size) {
@@ -167,11 +180,22 @@ fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture) {
   if (!d.has_picture()) return d.error.set_argument(kNoPicture);
   if (const char* const fault = fault_of(*picture, d.stream->format())) return d.error.set_argument(fault);
   return guarded(d.error, [&] {
-    const auto plane = [&](std::size_t k) {
-      const PlaneSize size = plane_size(d.stream->format(), k);
-      return PlaneView(picture->data[k], size.width, size.height, picture->stride[k]);
-    };
-    const auto drawn = d.stream->render(PictureView(plane(0), plane(1), plane(2)));
+    const auto drawn = d.stream->render(d.planes_of(*picture));
+    return drawn ? FBS_OK : d.error.set(drawn.error());
+  });
+}
+
+fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_state* state,
+                                  const fbs_picture* picture) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (state == nullptr || picture == nullptr) return d.error.set_argument(kNull);
+  if (!d.has_picture()) return d.error.set_argument(kNoPicture);
+  if (const char* const fault = fault_of(*picture, d.stream->format())) return d.error.set_argument(fault);
+  return d.with_face([&](const SceneGeometry&, const State& sent) {
+    const auto wanted = state_of(*state, sent);
+    if (!wanted) return d.error.set_argument("a number of the state is beyond the limits of the format");
+    const auto drawn = d.stream->render_state(*wanted, d.planes_of(*picture));
     return drawn ? FBS_OK : d.error.set(drawn.error());
   });
 }
@@ -195,7 +219,22 @@ fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
 fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   if (out == nullptr) return decoder->error.set_argument(kNull);
-  return decoder->with_face([&](const SceneGeometry&, const State& state) { *out = face_state(state); });
+  return decoder->with_face([&](const SceneGeometry&, const State& state) {
+    *out = face_state(state);
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_get_edited_state(const fbs_decoder* decoder, const fbs_face_edit* edit,
+                                        fbs_face_state* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (edit == nullptr || out == nullptr) return decoder->error.set_argument(kNull);
+  const auto wanted = edit_of(*edit);
+  if (!wanted) return decoder->error.set_argument("the edit has something that is not a number");
+  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
+    *out = face_state(wanted->applied(state, face.geometry()));
+    return FBS_OK;
+  });
 }
 
 fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out) {
@@ -203,6 +242,17 @@ fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* o
   if (out == nullptr) return decoder->error.set_argument(kNull);
   return decoder->with_face([&](const SceneGeometry& face, const State& state) {
     write_landmarks(face, state, std::span<fbs_landmark, kLandmarkCount>(out, kLandmarkCount));
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_get_blendshapes(const fbs_decoder* decoder, float* out) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  if (out == nullptr) return decoder->error.set_argument(kNull);
+  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
+    const std::vector<double> weights = decoder->blendshapes(face.geometry(), state);
+    std::transform(weights.begin(), weights.end(), out, [](double w) { return static_cast<float>(w); });
+    return FBS_OK;
   });
 }
 
@@ -211,13 +261,23 @@ fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out,
   if (out == nullptr || count == nullptr) return decoder->error.set_argument(kNull);
   const std::size_t room = *count;
   *count = 0;
-  const fbs_status status = decoder->with_face([&](const SceneGeometry& face, const State& state) {
+  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
     *count = face.geometry().positions.size();
-    if (*count <= room) write_vertices(face, state, {out, *count});
+    if (*count > room) return decoder->error.set_argument("there is no room for the vertices");
+    write_vertices(face, state, {out, *count});
+    return FBS_OK;
   });
-  if (status == FBS_OK && *count > room)
-    return decoder->error.set_argument("there is no room for the vertices");
-  return status;
+}
+
+const char* fbs_blendshape_name(size_t index) {
+  if (index >= FBS_BLENDSHAPES) return nullptr;
+  LastError ignored;
+  const char* name = nullptr;
+  const fbs_status status = guarded(ignored, [&] {
+    name = blendshape_names()[index].c_str();
+    return FBS_OK;
+  });
+  return status == FBS_OK ? name : nullptr;
 }
 
 const char* fbs_decoder_error(const fbs_decoder* decoder) {

@@ -1,5 +1,6 @@
 #include "library/face_data.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -32,6 +33,26 @@ VertexAreas areas_of(const WireFrame& head, const Vertices& vertices) {
   return out;
 }
 
+/// The integer nearest to `value / unit`, if it is one of -limit..limit.
+std::optional<std::int32_t> in_units(double value, double unit, std::int32_t limit) {
+  const double units = std::round(value / unit);
+  if (!(std::abs(units) <= limit)) return std::nullopt;  // not a number, too
+  return static_cast<std::int32_t>(units);
+}
+
+/// The limits of a part for -1 and 1.
+std::int32_t share_of(EditPart part, float share) {
+  const StateEdit::Limits& limits = StateEdit::limits(part);
+  const double clamped = std::clamp(share, -1.0F, 1.0F);
+  return static_cast<std::int32_t>(std::lround(clamped < 0 ? -clamped * limits.low : clamped * limits.high));
+}
+
+std::int32_t angle_of(EditPart part, float degrees) {
+  const StateEdit::Limits& limits = StateEdit::limits(part);
+  const double units = static_cast<double>(degrees) / kDegreesPerUnit;
+  return static_cast<std::int32_t>(std::lround(std::clamp<double>(units, limits.low, limits.high)));
+}
+
 }  // namespace
 
 fbs_face_state face_state(const State& state) {
@@ -47,6 +68,41 @@ fbs_face_state face_state(const State& state) {
     out.control[c][0] = static_cast<float>(state.control[c].x) * kEyeDistancesPerUnit;
     out.control[c][1] = static_cast<float>(state.control[c].y) * kEyeDistancesPerUnit;
   }
+  return out;
+}
+
+std::optional<State> state_of(const fbs_face_state& face, const State& sent) {
+  State out = sent;
+  const auto set = [](std::int32_t& place, double value, double unit, std::int32_t limit) {
+    const auto units = in_units(value, unit, limit);
+    if (units) place = *units;
+    return units.has_value();
+  };
+  bool valid = set(out.pose[kPitch], face.pitch, kDegreesPerUnit, kMaxRotation) &&
+               set(out.pose[kYaw], face.yaw, kDegreesPerUnit, kMaxRotation) &&
+               set(out.pose[kRoll], face.roll, kDegreesPerUnit, kMaxRotation) &&
+               set(out.pose[kShiftX], face.x, kPixelsPerUnit, kMaxTranslation) &&
+               set(out.pose[kShiftY], face.y, kPixelsPerUnit, kMaxTranslation) && face.eye_distance >= 1 &&
+               set(out.pose[kLogScale], std::log2(face.eye_distance), kOctavesPerUnit, kMaxLogScale);
+  for (std::size_t c = 0; c < kControlCount; ++c)
+    valid = valid && set(out.control[c].x, face.control[c][0], kEyeDistancesPerUnit, kMaxControl) &&
+            set(out.control[c].y, face.control[c][1], kEyeDistancesPerUnit, kMaxControl);
+  if (!valid) return std::nullopt;
+  if (out != sent) set_in_motion(out);
+  return out;
+}
+
+std::optional<StateEdit> edit_of(const fbs_face_edit& edit) {
+  for (const float v : {edit.pitch, edit.yaw, edit.roll, edit.brows, edit.mouth, edit.smile, edit.lids})
+    if (std::isnan(v)) return std::nullopt;
+  StateEdit out;
+  out.add(EditPart::kPitch, angle_of(EditPart::kPitch, edit.pitch));
+  out.add(EditPart::kYaw, angle_of(EditPart::kYaw, edit.yaw));
+  out.add(EditPart::kRoll, angle_of(EditPart::kRoll, edit.roll));
+  out.add(EditPart::kBrows, share_of(EditPart::kBrows, edit.brows));
+  out.add(EditPart::kMouth, share_of(EditPart::kMouth, edit.mouth));
+  out.add(EditPart::kSmile, share_of(EditPart::kSmile, edit.smile));
+  out.add(EditPart::kLids, share_of(EditPart::kLids, edit.lids));
   return out;
 }
 

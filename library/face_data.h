@@ -1,15 +1,25 @@
 // A face in the units of fbs/fbs.h.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "common/state.h"
 #include "decoder/animate/scene_geometry.h"
+#include "decoder/expression/state_edit.h"
 #include "fbs/fbs.h"
 
 namespace fbs {
 
 [[nodiscard]] fbs_face_state face_state(const State& state);
+
+/// The state that shows what face_state() would describe so: `sent` where they agree, else with the head's
+/// regions in motion.
+/// @return nothing when a number is none, or beyond a limit of common/state.h
+[[nodiscard]] std::optional<State> state_of(const fbs_face_state& face, const State& sent);
+
+/// @return nothing when a number is none
+[[nodiscard]] std::optional<StateEdit> edit_of(const fbs_face_edit& edit);
 
 /// @param out  as many as the wire-frame has
 void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex> out);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cli/display/face_overlay.h"
-#include "cli/play/state_edit.h"
+#include "decoder/expression/state_edit.h"
 #include "decoder/stream_decoder.h"
 
 namespace fbs::cli {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "decoder/export/face_movements.h"
+#include "decoder/expression/face_movements.h"
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/head_projection.h"
 
@@ -126,21 +126,7 @@ std::string json_head(const VideoFormat& video) {
 
 }  // namespace
 
-const std::vector<std::string>& blendshape_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> out;
-    for (const auto& part : named_shapes())
-      for (const NamedShape& s : part) out.emplace_back(s.name);
-    return out;
-  }();
-  return names;
-}
-
 FaceNumbers FaceMeasure::operator()(const Geometry& head, const State& state) {
-  if (head_ != head) {
-    head_ = head;
-    targets_.emplace(head);
-  }
   FaceNumbers out;
   const HeadPose pose = head_pose(state);
   const std::array<std::int32_t, 3> turns{pose.pitch, pose.yaw, pose.roll};
@@ -160,8 +146,7 @@ FaceNumbers FaceMeasure::operator()(const Geometry& head, const State& state) {
     return std::asin(std::clamp(offset / kEyeballRadius, -1.0, 1.0)) * 180 / std::numbers::pi;
   };
   out.gaze_deg = {degrees(pupils.x), degrees(pupils.y)};
-  out.blendshapes = targets_->weights(state);
-  out.blendshapes.resize(targets_->named_count());
+  out.blendshapes = blendshapes_(head, state);
   return out;
 }
 

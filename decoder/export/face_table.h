@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/picture.h"
-#include "decoder/export/expression_targets.h"
+#include "decoder/expression/expression_targets.h"
 
 namespace fbs {
 
@@ -21,7 +21,7 @@ struct FaceNumbers {
   double scale = 0;                      ///< pixels per eye distance
   std::array<glm::dvec2, kLandmarkCount> landmarks{};  ///< pixels
   glm::dvec2 gaze_deg{};            ///< in the head's frame: positive to the picture's right, and down
-  std::vector<double> blendshapes;  ///< of the named shapes of ExpressionTargets
+  std::vector<double> blendshapes;  ///< weights of blendshape_names()
 };
 
 /// Makes the numbers of states; keeps what depends on the head alone.
@@ -30,8 +30,7 @@ class FaceMeasure {
   [[nodiscard]] FaceNumbers operator()(const Geometry& head, const State& state);
 
  private:
-  std::optional<Geometry> head_;  ///< that targets_ are for
-  std::optional<ExpressionTargets> targets_;
+  BlendshapeMeasure blendshapes_;
 };
 
 struct FaceRow {
@@ -58,8 +57,5 @@ class FaceTable {
   TableFormat format_;
   bool first_ = true;
 };
-
-/// Names of FaceNumbers::blendshapes.
-[[nodiscard]] const std::vector<std::string>& blendshape_names();
 
 }  // namespace fbs

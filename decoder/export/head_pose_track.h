@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "decoder/export/expression_targets.h"
+#include "decoder/expression/expression_targets.h"
 #include "decoder/export/head_recording.h"
 
 namespace fbs {

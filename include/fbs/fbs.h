@@ -162,6 +162,22 @@ typedef struct fbs_vertex {
   float z;    /**< eye distances away from the viewer, from the middle of the head */
 } fbs_vertex;
 
+/** Weights of movements of the face that have a name in animation programs: those of ARKit where both have
+ * them. docs/export.md says what each is at a weight of 1; 0 is the face of the scene's first picture. */
+#define FBS_BLENDSHAPES 32
+
+/** "jawOpen"; null from FBS_BLENDSHAPES on, and where there is no memory. */
+FBS_API const char* fbs_blendshape_name(size_t index);
+
+/** What a viewer adds to a face: all 0 changes nothing. Beyond its limits each counts as the limit. */
+typedef struct fbs_face_edit {
+  float pitch, yaw, roll; /**< degrees, +-12, +-18 and +-15 */
+  float brows;            /**< -1: lowered, 1: raised, as far as looks right */
+  float mouth;            /**< -1: shut, 1: opened wide */
+  float smile;            /**< -1: corners down and in, 1: up and out */
+  float lids;             /**< -1: opened wider, 1: shut */
+} fbs_face_edit;
+
 /* ---- decoder ---- */
 
 typedef struct fbs_decoder fbs_decoder;
@@ -228,6 +244,18 @@ FBS_API fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_pictu
  *                 width. Exactly width * height samples of each plane are written */
 FBS_API fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture);
 
+/** Draws the face of a state of the caller's, in the scene of the picture that was announced last: what a
+ * viewer sees who turns the head. What fbs_decoder_get_picture() gives is left alone. The state that
+ * fbs_decoder_get_state() gives draws the picture as it was sent; so does any where a held picture's scene is
+ * gone.
+ * @param state    numbers of any kind within the format's limits: rotations of +-90 degrees, control points
+ *                 of +-2, an eye distance of 1 to 8192 pixels, a place within +-16384 pixels
+ * @param picture  as of fbs_decoder_draw()
+ * @return FBS_OK; FBS_ERROR_ARGUMENT: beyond a limit, or before the first picture; FBS_ERROR_NO_FACE;
+ *         FBS_ERROR_NO_MEMORY */
+FBS_API fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_state* state,
+                                          const fbs_picture* picture);
+
 /** @return FBS_OK; FBS_NEED_DATA until the setup has arrived */
 FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out);
 
@@ -235,8 +263,14 @@ FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format
  * FBS_ERROR_NO_FACE in a scene without a face; FBS_ERROR_ARGUMENT before the first picture. */
 
 FBS_API fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out);
+/** The state with a viewer's changes, for fbs_decoder_draw_state(). Lips and lids do not pass each other.
+ * @return also FBS_ERROR_ARGUMENT when a number of `edit` is none */
+FBS_API fbs_status fbs_decoder_get_edited_state(const fbs_decoder* decoder, const fbs_face_edit* edit,
+                                                fbs_face_state* out);
 /** @param out  FBS_LANDMARKS points */
 FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out);
+/** @param out  FBS_BLENDSHAPES weights */
+FBS_API fbs_status fbs_decoder_get_blendshapes(const fbs_decoder* decoder, float* out);
 /** @param out    the vertices of the scene's wire-frame
  * @param count  before: how many there is room for; after: how many there are, 0 without a face. If there is
  *               too little room, nothing is written and the answer is FBS_ERROR_ARGUMENT */

@@ -66,12 +66,23 @@ class Decoder {
     return out;
   }
   void draw(const fbs_picture& picture) { check(fbs_decoder_draw(get(), &picture)); }
+  void draw(const fbs_face_state& state, const fbs_picture& picture) {
+    check(fbs_decoder_draw_state(get(), &state, &picture));
+  }
 
   /// Nothing until the setup has arrived.
   std::optional<fbs_format> format() const { return ask<fbs_format>(fbs_decoder_get_format); }
 
   // Nothing in a scene without a face.
   std::optional<fbs_face_state> state() const { return ask<fbs_face_state>(fbs_decoder_get_state); }
+  std::optional<fbs_face_state> edited_state(const fbs_face_edit& edit) const {
+    return ask<fbs_face_state>(
+        [&](const fbs_decoder* d, auto* out) { return fbs_decoder_get_edited_state(d, &edit, out); });
+  }
+  std::optional<std::array<float, FBS_BLENDSHAPES>> blendshapes() const {
+    return ask<std::array<float, FBS_BLENDSHAPES>>(
+        [](const fbs_decoder* d, auto* out) { return fbs_decoder_get_blendshapes(d, out->data()); });
+  }
   std::optional<std::array<fbs_landmark, FBS_LANDMARKS>> landmarks() const {
     return ask<std::array<fbs_landmark, FBS_LANDMARKS>>(
         [](const fbs_decoder* d, auto* out) { return fbs_decoder_get_landmarks(d, out->data()); });

@@ -51,6 +51,7 @@ from fbs.errors import (
 )
 
 if TYPE_CHECKING:
+    from fbs._fbs import BLENDSHAPES
     from fbs._decoder import Decoder, PictureInfo, Scene
     from fbs._encoder import Encoder, Packet, Report
     from fbs._encoding import encode
@@ -63,6 +64,7 @@ __version__ = "0.1.0"
 
 # Loaded when they are asked for: errors and the program need neither numpy nor the extension.
 _HOMES = {
+    "BLENDSHAPES": "_fbs",
     "Decoder": "_decoder",
     "Encoder": "_encoder",
     "FaceState": "_face",
@@ -83,6 +85,7 @@ _HOMES = {
 
 __all__ = [
     "ArgumentError",
+    "BLENDSHAPES",
     "DamagedError",
     "Decoder",
     "Encoder",
@@ -119,7 +122,8 @@ def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module 'fbs' has no attribute {name!r}")
     value = getattr(import_module(f"fbs.{_HOMES[name]}"), name)
-    value.__module__ = "fbs"
+    if callable(value):
+        value.__module__ = "fbs"  # for help() and for tracebacks
     globals()[name] = value
     return value
 

@@ -128,7 +128,12 @@ class Decoder:
         else:
             self._file = source
         if self._stream is not None:
-            self._look_ahead()
+            try:
+                self._look_ahead()
+            except Error as problem:
+                if not isinstance(source, (str, os.PathLike)):
+                    raise
+                raise type(problem)(f"{os.fspath(source)}: {problem}", problem.offset) from None
 
     # ---- opening and closing ----
 
@@ -229,6 +234,78 @@ class Decoder:
         self._decoder.draw(*picture.planes)
         return picture
 
+    def edited(
+        self,
+        *,
+        pitch: float = 0,
+        yaw: float = 0,
+        roll: float = 0,
+        brows: float = 0,
+        mouth: float = 0,
+        smile: float = 0,
+        lids: float = 0,
+    ) -> FaceState | None:
+        """The face in the current picture with changes, to be drawn by :meth:`render`.
+
+        Lips and lids do not pass each other. Beyond its limits each change counts as the limit.
+
+        Parameters
+        ----------
+        pitch, yaw, roll : float
+            Degrees that are added, up to 12, 18 and 15 either way.
+        brows : float
+            -1: lowered, 1: raised, as far as looks right.
+        mouth : float
+            -1: shut, 1: opened wide.
+        smile : float
+            -1: corners down and in, 1: up and out.
+        lids : float
+            -1: opened wider, 1: shut.
+
+        Returns
+        -------
+        FaceState or None
+            None if the picture has no face.
+        """
+        found = self._decoder.edited_state((pitch, yaw, roll, brows, mouth, smile, lids))
+        return None if found is None else FaceState(*found)
+
+    def render(self, state: FaceState, out: PictureLike | None = None) -> Picture:
+        """Draw the current picture with another state of the face.
+
+        Parameters
+        ----------
+        state : FaceState
+            Rotations within 90 degrees, control points within 2 eye distances.
+        out : Picture or three planes, optional
+            As of :meth:`draw`.
+
+        Returns
+        -------
+        Picture
+            Of `out`, if that is given. With :attr:`state` it is the picture as it was sent.
+
+        Raises
+        ------
+        NoFaceError
+            The picture has none.
+
+        Examples
+        --------
+        >>> decoder = fbs.Decoder("talk.fbs")
+        >>> as_sent = next(decoder)
+        >>> turned = decoder.render(decoder.edited(yaw=10, mouth=0.5))
+        >>> turned.y.shape == as_sent.y.shape, np.array_equal(turned.y, as_sent.y)
+        (True, False)
+        """
+        picture = self._target(out)
+        pose = (state.pitch, state.yaw, state.roll, state.x, state.y, state.eye_distance)
+        control = np.ascontiguousarray(state.control_points, np.float32)
+        if control.shape != (36, 2):
+            raise ArgumentError(f"control points are a (36, 2) array, not {control.shape}")
+        self._decoder.draw_state(pose, control, *picture.planes)
+        return picture
+
     def __iter__(self) -> Iterator[Picture]:
         return self
 
@@ -308,6 +385,12 @@ class Decoder:
         """(68,) float32 array: of each landmark, 0 to 1; None if the current picture has no face."""
         found = self._decoder.landmarks()
         return None if found is None else found[:, 2]
+
+    @property
+    def blendshapes(self) -> Floats | None:
+        """(32,) float32 array: weights of the movements in :data:`fbs.BLENDSHAPES`; None if there is no face."""
+        found: Floats | None = self._decoder.blendshapes()
+        return found
 
     @property
     def vertices(self) -> Floats | None:

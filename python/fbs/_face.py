@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 class FaceState:
     """Where the head is and what the face does, in one picture.
 
-    ``dataclasses.replace(state, yaw=state.yaw + 20)`` makes another, which :meth:`fbs.Decoder.render` draws.
+    ``dataclasses.replace(state, yaw=state.yaw + 10)`` makes another, which :meth:`fbs.Decoder.render` draws;
+    :meth:`fbs.Decoder.edited` makes one by what a face can do.
 
     Attributes
     ----------
@@ -70,6 +71,8 @@ class States:
         The 68 points of iBUG (300-W), x and y, pixels. The centre of the first pixel is 0.5, 0.5.
     confidence : (n, 68) float32 array
         Of each landmark, 0 to 1: how much of the face around it is turned to the viewer.
+    blendshapes : (n, 32) float32 array
+        Weights of movements, named by :data:`fbs.BLENDSHAPES` as in ARKit; 0 is the face of the scene's first picture.
     """
 
     number: NDArray[np.int64]
@@ -84,6 +87,7 @@ class States:
     control_points: Floats
     landmarks: Floats
     confidence: Floats
+    blendshapes: Floats
 
     @property
     def pitch(self) -> Floats:
@@ -134,4 +138,5 @@ def states_of(columns: dict[str, NDArray[Any]], ticks_per_second: int) -> States
         control_points=columns["control"],
         landmarks=landmarks[:, :, :2],
         confidence=landmarks[:, :, 2],
+        blendshapes=columns["blendshapes"],
     )

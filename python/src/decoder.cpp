@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -53,6 +54,24 @@ void draw(Decoder& self, const PlaneArray& y, const PlaneArray& u, const PlaneAr
   self.call([&](fbs_decoder* d) { check(d, fbs_decoder_draw(d, &picture)); });
 }
 
+nb::tuple tuple_of(const fbs_face_state& s) {
+  std::vector<float> control(&s.control[0][0], &s.control[0][0] + std::size_t{2} * FBS_CONTROL_POINTS);
+  return nb::make_tuple(s.pitch, s.yaw, s.roll, s.x, s.y, s.eye_distance,
+                        owned_array(std::move(control), {FBS_CONTROL_POINTS, 2}));
+}
+
+using ControlArray =
+    nb::ndarray<const float, nb::shape<FBS_CONTROL_POINTS, 2>, nb::c_contig, nb::device::cpu>;
+
+/// @param pose  pitch, yaw, roll, x, y, eye distance
+void draw_state(Decoder& self, const std::array<float, 6>& pose, const ControlArray& control,
+                const PlaneArray& y, const PlaneArray& u, const PlaneArray& v) {
+  fbs_face_state state{pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], {}};
+  std::copy_n(control.data(), std::size_t{2} * FBS_CONTROL_POINTS, &state.control[0][0]);
+  const fbs_picture picture = view_of(y, u, v);
+  self.call([&](fbs_decoder* d) { check(d, fbs_decoder_draw_state(d, &state, &picture)); });
+}
+
 /// What `question` gives of the picture; nothing without a face.
 template <class Answer, class Question>
 std::optional<Answer> ask(Decoder& self, Question&& question) {
@@ -76,10 +95,23 @@ nb::object format(Decoder& self) {
 nb::object state(Decoder& self) {
   const auto s =
       ask<fbs_face_state>(self, [](fbs_decoder* d, auto& out) { return fbs_decoder_get_state(d, &out); });
-  if (!s) return nb::none();
-  std::vector<float> control(&s->control[0][0], &s->control[0][0] + 2 * FBS_CONTROL_POINTS);
-  return nb::make_tuple(s->pitch, s->yaw, s->roll, s->x, s->y, s->eye_distance,
-                        owned_array(std::move(control), {FBS_CONTROL_POINTS, 2}));
+  return s ? nb::object(tuple_of(*s)) : nb::none();
+}
+
+/// @param edit  as fbs_face_edit has it
+nb::object edited_state(Decoder& self, const std::array<float, 7>& edit) {
+  const fbs_face_edit changes{edit[0], edit[1], edit[2], edit[3], edit[4], edit[5], edit[6]};
+  const auto s = ask<fbs_face_state>(
+      self, [&](fbs_decoder* d, auto& out) { return fbs_decoder_get_edited_state(d, &changes, &out); });
+  return s ? nb::object(tuple_of(*s)) : nb::none();
+}
+
+nb::object blendshapes(Decoder& self) {
+  auto weights = ask<std::vector<float>>(self, [](fbs_decoder* d, auto& out) {
+    out.resize(FBS_BLENDSHAPES);
+    return fbs_decoder_get_blendshapes(d, out.data());
+  });
+  return weights ? owned_array(std::move(*weights), {FBS_BLENDSHAPES}) : nb::none();
 }
 
 /// x, y and confidence of each.
@@ -132,7 +164,11 @@ void bind_decoder(nb::module_& module) {
       .def("next", next)
       .def("draw", draw, nb::arg("y"), nb::arg("u"), nb::arg("v"))
       .def("format", format)
+      .def("draw_state", draw_state, nb::arg("pose"), nb::arg("control"), nb::arg("y"), nb::arg("u"),
+           nb::arg("v"))
       .def("state", state)
+      .def("edited_state", edited_state, nb::arg("edit"))
+      .def("blendshapes", blendshapes)
       .def("landmarks", landmarks)
       .def("vertices", vertices);
   module.def("find_scene", find_scene, nb::arg("stream"), nb::arg("time"));

@@ -30,6 +30,7 @@ struct States {
   std::vector<float> pose;       ///< pitch, yaw, roll, x, y, eye distance
   std::vector<float> control;    ///< x, y of each control point
   std::vector<float> landmarks;  ///< x, y, confidence of each landmark
+  std::vector<float> blendshapes;
 
   void add(const fbs_decoder* decoder, const fbs_picture_info& info) {
     number.push_back(info.number);
@@ -39,20 +40,24 @@ struct States {
     new_scene.push_back(info.new_scene != 0 ? 1 : 0);
     fbs_face_state state;
     std::array<fbs_landmark, FBS_LANDMARKS> points;
+    std::array<float, FBS_BLENDSHAPES> weights;
     const bool seen = fbs_decoder_get_state(decoder, &state) == FBS_OK &&
-                      fbs_decoder_get_landmarks(decoder, points.data()) == FBS_OK;
+                      fbs_decoder_get_landmarks(decoder, points.data()) == FBS_OK &&
+                      fbs_decoder_get_blendshapes(decoder, weights.data()) == FBS_OK;
     has_face.push_back(seen ? 1 : 0);
     if (!seen) {
       constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
       pose.resize(pose.size() + 6, kNone);
       control.resize(control.size() + std::size_t{2} * FBS_CONTROL_POINTS, kNone);
       landmarks.resize(landmarks.size() + std::size_t{3} * FBS_LANDMARKS, kNone);
+      blendshapes.resize(blendshapes.size() + FBS_BLENDSHAPES, kNone);
       return;
     }
     pose.insert(pose.end(), {state.pitch, state.yaw, state.roll, state.x, state.y, state.eye_distance});
     for (const auto& point : state.control) control.insert(control.end(), {point[0], point[1]});
     for (const fbs_landmark& point : points)
       landmarks.insert(landmarks.end(), {point.x, point.y, point.confidence});
+    blendshapes.insert(blendshapes.end(), weights.begin(), weights.end());
   }
 };
 
@@ -102,6 +107,7 @@ nb::dict read_states(nb::handle stream, std::uint64_t max_pixels, bool keep_goin
   out["pose"] = owned_array(std::move(states.pose), {n, 6});
   out["control"] = owned_array(std::move(states.control), {n, FBS_CONTROL_POINTS, 2});
   out["landmarks"] = owned_array(std::move(states.landmarks), {n, FBS_LANDMARKS, 3});
+  out["blendshapes"] = owned_array(std::move(states.blendshapes), {n, FBS_BLENDSHAPES});
   return out;
 }
 

@@ -153,9 +153,24 @@ class Session {
     require(told != FBS_ERROR_INTERNAL, "internal error");
     require(fbs_decoder_get_landmarks(get(), landmarks.data()) == told, "a state without landmarks");
     require(fbs_decoder_get_vertices(get(), vertices.data(), &count) == told, "a state without vertices");
+    std::array<float, FBS_BLENDSHAPES> weights;
+    require(fbs_decoder_get_blendshapes(get(), weights.data()) == told, "a state without blendshapes");
+    if (told == FBS_OK) draw_edited(random, format);
     const fbs_picture wrong{format.width + 1, format.height, {}, {}};
     require(fbs_decoder_draw(get(), &wrong) == FBS_ERROR_ARGUMENT, "a picture without memory is drawn");
     require(fbs_decoder_feed(get(), nullptr, 1) == FBS_ERROR_ARGUMENT, "no bytes are taken");
+  }
+
+  void draw_edited(Random& random, const fbs_format& format) {
+    const auto any = [&](float limit) { return limit * (static_cast<float>(random() % 2001) / 1000 - 1); };
+    const fbs_face_edit edit{any(12), any(18), any(15), any(1), any(1), any(1), any(1)};
+    fbs_face_state state;
+    require(fbs_decoder_get_edited_state(get(), &edit, &state) == FBS_OK, "a state is not edited");
+    Bytes memory(std::size_t{format.width} * format.height);
+    const auto stride = static_cast<std::ptrdiff_t>(format.width);
+    const fbs_picture drawn{
+        format.width, format.height, {memory.data(), memory.data(), memory.data()}, {stride, stride, stride}};
+    require(fbs_decoder_draw_state(get(), &state, &drawn) == FBS_OK, "an edited state is not drawn");
   }
 
   std::span<const std::uint8_t> stream_;

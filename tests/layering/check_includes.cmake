@@ -8,7 +8,7 @@ set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
   decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/draw decoder
-  decoder/export decoder/sound
+  decoder/expression decoder/export decoder/sound
   encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
@@ -16,7 +16,7 @@ set(floors
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
-          "decoder/export decoder/sound"
+          "decoder/export decoder/sound" "decoder/expression decoder/sound" "decoder/expression encoder"
           "encoder/landmarks encoder/model" "encoder/track/head encoder/track/snake" "encoder/track encoder/fit" "encoder/fit encoder/surround"
           "encoder/track encoder/surround" "encoder/patterns encoder/plan" "encoder/surround encoder/plan")
 # What big libraries are for, and the only rooms that may include them.

@@ -5,8 +5,8 @@ cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE sources
   ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp
   ${ROOT}/decoder/*.h ${ROOT}/decoder/*.cpp)
-# Models and tables for other programs are made beside the decoder, which uses none of it.
-list(FILTER sources EXCLUDE REGEX "/decoder/export/")
+# Models, tables and named expressions for other programs are made beside the decoder, which uses none of them.
+list(FILTER sources EXCLUDE REGEX "/decoder/(export|expression)/")
 list(APPEND sources
   ${ROOT}/common/generic_head.cpp ${ROOT}/common/picture.h ${ROOT}/common/result.h ${ROOT}/common/state.h)
 # common/generic_head.h is left out: FeatureVertex::s is a float, "only the encoder uses it".

@@ -1,5 +1,6 @@
 // Calls that make no sense, and calls in any order: nothing crashes, and what is documented holds.
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <random>
@@ -14,7 +15,9 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   fbs_const_picture picture;
   fbs_picture memory{};
   fbs_format format;
-  fbs_face_state state;
+  fbs_face_state state{};
+  const fbs_face_edit edit{};
+  float weights[FBS_BLENDSHAPES];
   fbs_landmark landmarks[FBS_LANDMARKS];
   fbs_vertex vertices[FBS_MAX_VERTICES];
   size_t count = FBS_MAX_VERTICES;
@@ -28,6 +31,9 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   EXPECT_EQ(fbs_decoder_reset(none), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_picture(none, &picture), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_draw(none, &memory), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_draw_state(none, &state, &memory), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_edited_state(none, &edit, &state), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_blendshapes(none, weights), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_format(none, &format), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_state(none, &state), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_landmarks(none, landmarks), FBS_ERROR_ARGUMENT);
@@ -43,6 +49,11 @@ TEST(ApiCalls, NullPointersAreAnswered) {
     EXPECT_EQ(fbs_decoder_get_picture(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_draw(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_draw(d, &memory), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_draw_state(d, nullptr, &memory), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_draw_state(d, &state, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_edited_state(d, nullptr, &state), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_edited_state(d, &edit, nullptr), FBS_ERROR_ARGUMENT);
+    EXPECT_EQ(fbs_decoder_get_blendshapes(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_format(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_state(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_landmarks(d, nullptr), FBS_ERROR_ARGUMENT);
@@ -174,11 +185,35 @@ class RandomCalls {
     EXPECT_EQ(fbs_decoder_get_landmarks(get(), landmarks), status);
     EXPECT_EQ(fbs_decoder_get_vertices(get(), vertices, &count), status);
     EXPECT_EQ(status == FBS_ERROR_ARGUMENT, !has_picture_);
+    float weights[FBS_BLENDSHAPES];
+    EXPECT_EQ(fbs_decoder_get_blendshapes(get(), weights), status);
+    if (status == FBS_OK && random_() % 4 == 0) draw_edited(state);
     if (status != FBS_OK) {
       EXPECT_TRUE(status == FBS_ERROR_ARGUMENT || status == FBS_ERROR_NO_FACE);
       return;
     }
     for (const fbs_landmark& point : landmarks) EXPECT_TRUE(point.confidence >= 0 && point.confidence <= 1);
+  }
+
+  /// Any state within the limits is drawn.
+  void draw_edited(fbs_face_state state) {
+    const auto any = [&](float limit) {
+      return limit * (static_cast<float>(random_()) / static_cast<float>(std::mt19937::max()) * 2 - 1);
+    };
+    const fbs_face_edit edit = {any(20), any(30), any(20), any(2), any(2), any(2), any(2)};
+    EXPECT_EQ(fbs_decoder_get_edited_state(get(), &edit, &state), FBS_OK);
+    if (random_() % 2 == 0) {
+      state.yaw = any(90);
+      state.eye_distance = 1 + std::abs(any(300));
+      state.control[random_() % FBS_CONTROL_POINTS][0] = any(2);
+    }
+    fbs_format format{};
+    EXPECT_EQ(fbs_decoder_get_format(get(), &format), FBS_OK);
+    std::vector<std::uint8_t> memory(std::size_t{3} * format.width * format.height);
+    const auto stride = static_cast<std::ptrdiff_t>(format.width);
+    const fbs_picture picture = {
+        format.width, format.height, {memory.data(), memory.data(), memory.data()}, {stride, stride, stride}};
+    EXPECT_EQ(fbs_decoder_draw_state(get(), &state, &picture), FBS_OK) << fbs_decoder_error(get());
   }
 
   void read_picture() {

@@ -1,4 +1,8 @@
 // Pictures in memory of the decoder and of the caller.
+#include <array>
+#include <cmath>
+#include <cstring>
+
 #include "tests/unit/library/api_decoder.h"
 
 namespace fbs {
@@ -65,6 +69,83 @@ TEST(DecoderPicture, DrawsIntoAnyLayout) {
         EXPECT_EQ(memory.touched(), 0u) << vector << ' ' << slack << ' ' << upside_down;
       }
   }
+}
+
+TEST(DecoderPicture, TheStateThatWasSentDrawsThePictureThatWasSent) {
+  for (const std::string vector : {"odd.fbs", "talk.fbs", "patterns.fbs"}) {
+    const ApiDecoder decoder = at_first_picture(vector);
+    do {
+      fbs_face_state state;
+      ASSERT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_OK);
+      const auto sent = shown_by(decoder.get());
+      fbs_format format;
+      ASSERT_EQ(fbs_decoder_get_format(decoder.get(), &format), FBS_OK);
+      CallerMemory memory(format.width, format.height, 3, false);
+      ASSERT_EQ(fbs_decoder_draw_state(decoder.get(), &state, &memory.picture()), FBS_OK);
+      EXPECT_EQ(memory.samples(), sent) << vector;
+      EXPECT_EQ(memory.touched(), 0u);
+    } while (fbs_decoder_next(decoder.get(), nullptr) == FBS_OK);
+  }
+}
+
+TEST(DecoderPicture, AnEditedStateMovesTheFaceAlone) {
+  const ApiDecoder decoder = at_first_picture("talk.fbs");
+  const auto sent = shown_by(decoder.get());
+  fbs_face_edit edit{};
+  fbs_face_state plain, edited;
+  ASSERT_EQ(fbs_decoder_get_state(decoder.get(), &plain), FBS_OK);
+  ASSERT_EQ(fbs_decoder_get_edited_state(decoder.get(), &edit, &edited), FBS_OK);
+  EXPECT_EQ(std::memcmp(&plain, &edited, sizeof plain), 0);
+  edit.yaw = 10;
+  edit.mouth = 1;
+  ASSERT_EQ(fbs_decoder_get_edited_state(decoder.get(), &edit, &edited), FBS_OK);
+  EXPECT_NEAR(edited.yaw, plain.yaw + 10, 0.01);
+  fbs_format format;
+  ASSERT_EQ(fbs_decoder_get_format(decoder.get(), &format), FBS_OK);
+  CallerMemory memory(format.width, format.height, 0, false);
+  ASSERT_EQ(fbs_decoder_draw_state(decoder.get(), &edited, &memory.picture()), FBS_OK);
+  const auto drawn = memory.samples();
+  EXPECT_NE(drawn, sent);
+  EXPECT_EQ(drawn[0], sent[0]) << "the corner of the background stays";
+  EXPECT_EQ(shown_by(decoder.get()), sent) << "what is given out stays";
+}
+
+TEST(DecoderPicture, StatesNeedAFaceAndLimits) {
+  const ApiDecoder decoder = at_first_picture("talk.fbs");
+  fbs_face_state state;
+  ASSERT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_OK);
+  fbs_format format;
+  ASSERT_EQ(fbs_decoder_get_format(decoder.get(), &format), FBS_OK);
+  CallerMemory memory(format.width, format.height, 0, false);
+  state.yaw = 91;
+  EXPECT_EQ(fbs_decoder_draw_state(decoder.get(), &state, &memory.picture()), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(fbs_decoder_error(decoder.get()), "a number of the state is beyond the limits of the format");
+
+  const ApiDecoder nobody = at_first_picture("nobody.fbs");
+  ASSERT_EQ(fbs_decoder_get_format(nobody.get(), &format), FBS_OK);
+  CallerMemory other(format.width, format.height, 0, false);
+  state.yaw = 0;
+  const fbs_face_edit edit{};
+  float weights[FBS_BLENDSHAPES];
+  EXPECT_EQ(fbs_decoder_draw_state(nobody.get(), &state, &other.picture()), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_edited_state(nobody.get(), &edit, &state), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_blendshapes(nobody.get(), weights), FBS_ERROR_NO_FACE);
+}
+
+TEST(DecoderPicture, BlendshapesHaveNamesAndFollowTheMouth) {
+  const ApiDecoder decoder = at_first_picture("talk.fbs");
+  EXPECT_STREQ(fbs_blendshape_name(0), "jawOpen");
+  for (std::size_t k = 0; k < FBS_BLENDSHAPES; ++k) EXPECT_STRNE(fbs_blendshape_name(k), nullptr) << k;
+  EXPECT_EQ(fbs_blendshape_name(FBS_BLENDSHAPES), nullptr);
+  float widest = 0;
+  do {
+    std::array<float, FBS_BLENDSHAPES> weights;
+    weights.fill(NAN);
+    ASSERT_EQ(fbs_decoder_get_blendshapes(decoder.get(), weights.data()), FBS_OK);
+    for (const float w : weights) EXPECT_TRUE(std::isfinite(w));
+    widest = std::max(widest, weights[0]);
+  } while (fbs_decoder_next(decoder.get(), nullptr) == FBS_OK);
+  EXPECT_GT(widest, 0.05F) << "the talker opens the jaw";
 }
 
 TEST(DecoderPicture, EveryPictureIsTheSameInTheCallersMemory) {

@@ -43,6 +43,64 @@ TEST(FaceData, StateIsInPixelsDegreesAndEyeDistances) {
   EXPECT_EQ(face.control[3][1], -1);
 }
 
+TEST(FaceData, AStateComesBackAsItWas) {
+  State state = toy_state(80, 50);
+  state.blend.fill(BlendMode::kStillBefore);
+  std::int32_t value = -kMaxControl;
+  for (glm::ivec2& c : state.control) {
+    c = {value, -value};
+    value += 97;
+  }
+  for (const std::int32_t turn : {-kMaxRotation, -1, 0, 4321, kMaxRotation})
+    for (const std::int32_t scale : {0, 1, 20481, kMaxLogScale}) {
+      state.pose = {turn, -turn, turn / 2, 3 * turn, -turn, scale};
+      EXPECT_EQ(state_of(face_state(state), state), state) << turn << ' ' << scale;
+    }
+}
+
+TEST(FaceData, AnotherStateSetsTheHeadInMotion) {
+  State sent = toy_state(80, 50);
+  sent.blend.fill(BlendMode::kStillBefore);
+  fbs_face_state face = face_state(sent);
+  face.yaw += 5;
+  const auto state = state_of(face, sent);
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->pose[kYaw], sent.pose[kYaw] + 910);
+  EXPECT_EQ(state->blend[static_cast<std::size_t>(Region::kMouth)], BlendMode::kByState);
+  EXPECT_EQ(state->blend[static_cast<std::size_t>(Region::kGround)], BlendMode::kStillBefore);
+}
+
+TEST(FaceData, StatesBeyondTheFormatAreNone) {
+  const State sent = toy_state(80, 50);
+  const fbs_face_state good = face_state(sent);
+  const auto refused = [&](auto&& change) {
+    fbs_face_state face = good;
+    change(face);
+    return !state_of(face, sent);
+  };
+  for (const float bad : {NAN, INFINITY, -INFINITY, 1e9F}) {
+    EXPECT_TRUE(refused([&](fbs_face_state& f) { f.pitch = bad; })) << bad;
+    EXPECT_TRUE(refused([&](fbs_face_state& f) { f.y = bad; })) << bad;
+    EXPECT_TRUE(refused([&](fbs_face_state& f) { f.eye_distance = bad; })) << bad;
+    EXPECT_TRUE(refused([&](fbs_face_state& f) { f.control[FBS_CONTROL_POINTS - 1][1] = bad; })) << bad;
+  }
+  EXPECT_TRUE(refused([](fbs_face_state& f) { f.roll = 90.1F; }));
+  EXPECT_TRUE(refused([](fbs_face_state& f) { f.eye_distance = 0.9F; }));
+}
+
+TEST(FaceData, EditsStopAtTheLimitsOfTheHeader) {
+  const auto edit = edit_of({100, -100, 5, 2, -2, 0.5F, 0});
+  ASSERT_TRUE(edit);
+  EXPECT_EQ(edit->value(EditPart::kPitch), 12 * 65536 / 360);
+  EXPECT_EQ(edit->value(EditPart::kYaw), -(18 * 65536 / 360));
+  EXPECT_EQ(edit->value(EditPart::kRoll), std::lround(5 * 65536 / 360.0));
+  EXPECT_EQ(edit->value(EditPart::kBrows), StateEdit::limits(EditPart::kBrows).high);
+  EXPECT_EQ(edit->value(EditPart::kMouth), StateEdit::limits(EditPart::kMouth).low);
+  EXPECT_EQ(edit->value(EditPart::kSmile), StateEdit::limits(EditPart::kSmile).high / 2);
+  EXPECT_EQ(edit->value(EditPart::kLids), 0);
+  EXPECT_FALSE(edit_of({0, 0, 0, 0, 0, 0, NAN}));
+}
+
 TEST(FaceData, SignsAreThoseOfTheHeader) {
   const auto left = turned(20), frontal = turned(0);
   const auto tip = static_cast<std::size_t>(ibug::kNoseTip);

@@ -1,9 +1,9 @@
-#include "decoder/export/expression_targets.h"
+#include "decoder/expression/expression_targets.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "decoder/export/face_movements.h"
+#include "decoder/expression/face_movements.h"
 
 namespace fbs {
 namespace {
@@ -171,6 +171,26 @@ std::vector<double> ExpressionTargets::weights(const State& state) const {
   }
   named.insert(named.end(), details.begin(), details.end());
   return named;
+}
+
+const std::vector<std::string>& blendshape_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const auto& part : named_shapes())
+      for (const NamedShape& s : part) out.emplace_back(s.name);
+    return out;
+  }();
+  return names;
+}
+
+std::vector<double> BlendshapeMeasure::operator()(const Geometry& head, const State& state) {
+  if (head_ != head) {
+    head_ = head;
+    targets_.emplace(head);
+  }
+  std::vector<double> weights = targets_->weights(state);
+  weights.resize(targets_->named_count());
+  return weights;
 }
 
 glm::dvec2 displacement(const ExpressionTarget& target, const WireFrame& head, std::size_t vertex) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,6 +66,20 @@ class ExpressionTargets {
   std::vector<ExpressionTarget> targets_;
   std::size_t named_count_ = 0;
   std::array<Part, kExpressionPartCount> parts_;
+};
+
+/// Names of the named shapes, in the order of ExpressionTargets.
+[[nodiscard]] const std::vector<std::string>& blendshape_names();
+
+/// Weights of the named shapes alone, of states of one head after another; keeps what depends on the head.
+class BlendshapeMeasure {
+ public:
+  /// @return as many as blendshape_names()
+  [[nodiscard]] std::vector<double> operator()(const Geometry& head, const State& state);
+
+ private:
+  std::optional<Geometry> head_;  ///< that targets_ are for
+  std::optional<ExpressionTargets> targets_;
 };
 
 /// How far the shape moves a vertex at a weight of one, head units; z is zero.

@@ -1,4 +1,4 @@
-#include "decoder/export/expression_targets.h"
+#include "decoder/expression/expression_targets.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "bitstream/syntax.h"
 #include "common/state.h"
 
-namespace fbs::cli {
+namespace fbs {
 
 /// Its values are offsets; 0 changes nothing.
 enum class EditPart : std::uint8_t {
@@ -52,4 +52,8 @@ class StateEdit {
   Values values_{};
 };
 
-}  // namespace fbs::cli
+/// Warps those regions of the head that the state shows without motion: they would not follow a change of
+/// pose or control points.
+void set_in_motion(State& state);
+
+}  // namespace fbs

@@ -1,4 +1,4 @@
-#include "cli/play/state_edit.h"
+#include "decoder/expression/state_edit.h"
 
 #include <algorithm>
 #include <span>
@@ -6,7 +6,7 @@
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/mouth_interior.h"
 
-namespace fbs::cli {
+namespace fbs {
 namespace {
 
 constexpr std::int32_t degrees(int d) {
@@ -94,14 +94,6 @@ void keep_within_limits(State& state) {
     c = {std::clamp(c.x, -kMaxControl, kMaxControl), std::clamp(c.y, -kMaxControl, kMaxControl)};
 }
 
-void set_in_motion(State& state) {
-  for (const Region r : {Region::kMouth, Region::kRightEye, Region::kLeftEye, Region::kFace, Region::kHair}) {
-    BlendMode& mode = state.blend[static_cast<std::size_t>(r)];
-    if (mode == BlendMode::kHalfStill || mode == BlendMode::kStillBefore || mode == BlendMode::kStillAfter)
-      mode = BlendMode::kByState;
-  }
-}
-
 }  // namespace
 
 const StateEdit::Limits& StateEdit::limits(EditPart part) {
@@ -111,6 +103,14 @@ const StateEdit::Limits& StateEdit::limits(EditPart part) {
 void StateEdit::add(EditPart part, std::int32_t offset) {
   std::int32_t& value = values_[static_cast<std::size_t>(part)];
   value = std::clamp(value + offset, limits(part).low, limits(part).high);
+}
+
+void set_in_motion(State& state) {
+  for (const Region r : {Region::kMouth, Region::kRightEye, Region::kLeftEye, Region::kFace, Region::kHair}) {
+    BlendMode& mode = state.blend[static_cast<std::size_t>(r)];
+    if (mode == BlendMode::kHalfStill || mode == BlendMode::kStillBefore || mode == BlendMode::kStillAfter)
+      mode = BlendMode::kByState;
+  }
 }
 
 State StateEdit::applied(const State& state, const Geometry& head) const {
@@ -129,4 +129,4 @@ State StateEdit::applied(const State& state, const Geometry& head) const {
   return out;
 }
 
-}  // namespace fbs::cli
+}  // namespace fbs

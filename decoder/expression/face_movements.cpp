@@ -1,4 +1,4 @@
-#include "decoder/export/face_movements.h"
+#include "decoder/expression/face_movements.h"
 
 #include <algorithm>
 #include <cmath>

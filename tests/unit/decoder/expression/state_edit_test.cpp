@@ -1,4 +1,4 @@
-#include "cli/play/state_edit.h"
+#include "decoder/expression/state_edit.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "decoder/head/mouth_interior.h"
 #include "tests/unit/toy_scene.h"
 
-namespace fbs::cli {
+namespace fbs {
 namespace {
 
 using Vertices = std::vector<glm::ivec3>;
@@ -155,4 +155,4 @@ TEST(StateEdit, HeadThatIsShownStillIsWarpedAndTheGroundIsNot) {
 }
 
 }  // namespace
-}  // namespace fbs::cli
+}  // namespace fbs
