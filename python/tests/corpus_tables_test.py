@@ -12,12 +12,13 @@ pytest.importorskip("pyarrow")
 pytest.importorskip("distributed")
 
 from fbs.corpus.bd_rate import bd_rate, envelope, quality_at  # noqa: E402
-from fbs.corpus.clip_table import current, read_points, table_of_clips  # noqa: E402
+from fbs.corpus.clip_table import current, read_points, table_of_clips, table_of_streams  # noqa: E402
 from fbs.corpus.report.axis import Axis, axis_over  # noqa: E402
 from fbs.corpus.report.page import ReportOptions, write_report  # noqa: E402
 from fbs.corpus.result import Result  # noqa: E402
 from fbs.corpus.results_folder import Keys, ResultsFolder  # noqa: E402
 from fbs.corpus.schema import POINTS, TASKS  # noqa: E402
+from fbs.corpus.setting import asked_settings  # noqa: E402
 from fbs.corpus.statistics import median_interval  # noqa: E402
 from fbs.corpus.worst import worst_clips  # noqa: E402
 
@@ -62,18 +63,15 @@ def peer(codec, crf, kbps, psnr):
     }
 
 
+ASKED = {
+    "folder": "/data/faces", "frames": None, "effort": 1, "allow_no_face": False,
+    "qualities": [20, 35, 50, 65, 80], "peers": ["x264"], "peer_sizes": [1], "peer_rates": [1],
+}  # fmt: skip
+
+
 def corpus(folder, clips=12):
     """Clips for which fbs takes half the rate of x264, but the last, which it takes twice as much for."""
-    folder.begin_run(
-        {
-            "folder": "/data/faces",
-            "frames": None,
-            "effort": 1,
-            "allow_no_face": False,
-            "peer_sizes": [1],
-            "peer_rates": [1],
-        }
-    )
+    folder.begin_run(ASKED)
     for n in range(clips):
         factor = 2 if n == clips - 1 else 0.5
         more = {"yaw_range_deg": 60} if n == clips - 1 else {"yaw_range_deg": 10 + n % 3}
@@ -165,7 +163,9 @@ def test_a_newer_result_takes_the_place_of_an_older_one(tmp_path):
     folder.fold()
     folder.keep(result("b", "fbs-quality-20", [stream(20, 3, 32)], key="b" * 16))
     folder.fold()
-    points = read_points(folder, current(folder.tasks()))
+    folder.keep(result("b", "fbs-quality-21", [stream(21, 4, 33)]))  # of an earlier run with other qualities
+    folder.fold()
+    points = read_points(folder, current(folder.tasks(), asked_settings(ASKED)))
     assert sorted(points["kbps"]) == [2, 3]
     assert folder.write_failures() == 0
 
@@ -173,7 +173,8 @@ def test_a_newer_result_takes_the_place_of_an_older_one(tmp_path):
 def test_the_worst_clip_is_found_and_why(tmp_path):
     folder = ResultsFolder(tmp_path)
     corpus(folder)
-    clips = table_of_clips(read_points(folder, folder.tasks()))
+    points = read_points(folder, folder.tasks())
+    clips = table_of_clips(points, table_of_streams(points))
     assert clips["bd_rate_face_x264"].tolist()[:11] == pytest.approx([-50] * 11, abs=1)
     assert clips["bd_rate_face_x264"].iloc[11] == pytest.approx(100, abs=3)
     assert clips["gain_face"].iloc[0] == pytest.approx(50 / 8 - 25 / 8, abs=0.5)
@@ -201,7 +202,7 @@ def test_the_report_is_one_file_that_stays_small(tmp_path):
 
 def test_a_report_of_nothing_says_so(tmp_path):
     folder = ResultsFolder(tmp_path)
-    folder.begin_run({"folder": "/data/faces", "frames": None, "effort": 1, "allow_no_face": False})
+    folder.begin_run(ASKED)
     folder.keep(result("a.mkv", "fbs-quality-80", error="no face"))
     folder.fold()
     page = write_report(folder, None, None, ReportOptions("faces", 10)).read_text()

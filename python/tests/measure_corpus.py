@@ -22,6 +22,7 @@ import pyarrow.parquet as parquet
 from fbs.corpus.cluster import connected
 from fbs.corpus.report.page import ReportOptions, write_report
 from fbs.corpus.results_folder import ResultsFolder
+from fbs.corpus.schema import TASKS
 from fbs.corpus.window import Window
 
 
@@ -107,7 +108,7 @@ def measure_scaling(options):
 def measure_report(options):
     """Writes the parts of a run again and again under other names, then makes the report of them all."""
     source = ResultsFolder(options.results)
-    points, tasks = source.points(), pa.Table.from_pandas(source.tasks(), preserve_index=False)
+    points, tasks = source.points(), pa.Table.from_pandas(source.tasks(), schema=TASKS, preserve_index=False)
     have = len(tasks["clip"].unique())
     with tempfile.TemporaryDirectory() as out:
         folder = ResultsFolder(out)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import bisect
+import math
 from collections.abc import Iterable
 
 import numpy as np
@@ -16,7 +18,7 @@ Curve = list[tuple[float, float]]
 def envelope(points: Iterable[tuple[float, float]]) -> Curve:
     """The points that no other beats at the same or a lower rate; those without a number are left out."""
     out: Curve = []
-    valid = (p for p in points if p[0] > 0 and np.isfinite(p).all())
+    valid = (p for p in points if p[0] > 0 and math.isfinite(p[0]) and math.isfinite(p[1]))
     for kbps, quality in sorted(valid, key=lambda p: (p[0], -p[1])):
         if not out or quality > out[-1][1]:
             out.append((kbps, quality))
@@ -27,8 +29,11 @@ def quality_at(curve: Curve, kbps: float) -> float | None:
     """Quality at a rate, linear over its logarithm between two points; None outside the curve's rates."""
     if not curve or not curve[0][0] <= kbps <= curve[-1][0]:
         return None
-    rates, qualities = zip(*curve, strict=True)
-    return float(np.interp(np.log(kbps), np.log(rates), qualities))
+    after = min(bisect.bisect_right(curve, (kbps, math.inf)), len(curve) - 1)
+    if after == 0:
+        return curve[0][1]
+    (low, worse), (high, better) = curve[after - 1], curve[after]
+    return worse + math.log(kbps / low) / math.log(high / low) * (better - worse)
 
 
 def bd_rate(anchor: Curve, test: Curve) -> float | None:

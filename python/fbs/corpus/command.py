@@ -22,7 +22,7 @@ from fbs.corpus.plan import ClipPlan, plans_of
 from fbs.corpus.progress import Progress
 from fbs.corpus.report.page import ReportOptions, write_report
 from fbs.corpus.results_folder import Keys, ResultsFolder
-from fbs.corpus.setting import settings_of
+from fbs.corpus.setting import asked_settings
 from fbs.errors import Error
 
 COMPLETE, FAILED, PARTIAL, INTERRUPTED = 0, 1, 2, 130
@@ -72,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, client: Client, count: int) -> Tally:
     done, failed = folder.finished()
-    settings = settings_of(options.qualities, options.peers, options.peer_sizes, options.peer_rates)
+    settings = asked_settings(folder.asked())
     skipped = Keys() if options.retry_failed else failed
 
     def plans() -> Iterator[ClipPlan]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 PEERS = ("x264", "x265", "av1")
 SIZES = (1, 2)
@@ -36,6 +37,11 @@ class PeerSetting:
 
 
 Setting = FbsSetting | PeerSetting
+
+
+def asked_settings(asked: dict[str, Any]) -> list[Setting]:
+    """Those that run.json notes."""
+    return settings_of(*(asked[name] for name in ("qualities", "peers", "peer_sizes", "peer_rates")))
 
 
 def settings_of(qualities: list[int], peers: list[str], sizes: list[int], rates: list[int]) -> list[Setting]:

@@ -105,8 +105,8 @@ def _row(row: Row, x: Axis, middle: float, height: float) -> str:
         f'y1="{middle - height * 0.3:.1f}" y2="{middle + height * 0.3:.1f}"/>'
     )
     if row.interval is not None:
-        a, b = (x.at(v) for v in row.interval)
-        box += f'<line class="interval" x1="{a:.1f}" x2="{b:.1f}" y1="{middle + height * 0.36:.1f}" y2="{middle + height * 0.36:.1f}"/>'
+        (a, b), y = (x.at(v) for v in row.interval), middle + height * 0.36
+        box += f'<line class="interval" x1="{a:.1f}" x2="{b:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>'
     return f'{name}<g class="row {row.css_class}">{shape}{box}</g>'
 
 

@@ -14,12 +14,12 @@ import pyarrow.parquet as parquet
 from markupsafe import Markup
 
 from fbs.corpus.clip import Clip
-from fbs.corpus.clip_table import AREAS, current, read_points, table_of_clips
+from fbs.corpus.clip_table import AREAS, current, read_points, table_of_clips, table_of_streams
 from fbs.corpus.order import Order
 from fbs.corpus.progress import duration
 from fbs.corpus.report import charts, tables
 from fbs.corpus.results_folder import ResultsFolder, write_atomically
-from fbs.corpus.setting import FbsSetting
+from fbs.corpus.setting import FbsSetting, asked_settings
 from fbs.corpus.stills import Stills, Submit, stills_of
 from fbs.corpus.worst import ranking, worst_clips
 
@@ -43,9 +43,10 @@ def write_report(folder: ResultsFolder, order: Order | None, submit: Submit | No
     order, submit
         For stills that are not there yet; None: without them.
     """
-    tasks = current(folder.tasks())
+    tasks = current(folder.tasks(), asked_settings(folder.asked()))
     points = read_points(folder, tasks)
-    clips = table_of_clips(points)
+    streams = table_of_streams(points)
+    clips = table_of_clips(points, streams)
     sink = pa.BufferOutputStream()
     parquet.write_table(pa.Table.from_pandas(clips, preserve_index=False), sink, compression="zstd")
     write_atomically(folder.path / "clips.parquet", sink.getvalue().to_pybytes())
@@ -55,7 +56,7 @@ def write_report(folder: ResultsFolder, order: Order | None, submit: Submit | No
         asked=folder.asked(),
         failures=tables.failures(tasks, _MOST_FAILURES),
         counts=tables.counts(tasks, clips),
-        **(_measured(folder, order, submit, options, points, clips) if len(clips) else {"clips": []}),
+        **(_measured(folder, order, submit, options, points, streams, clips) if len(clips) else {"clips": []}),
     )
     path = folder.path / "report.html"
     write_atomically(path, page.encode())
@@ -68,23 +69,18 @@ def _measured(
     submit: Submit | None,
     options: ReportOptions,
     points: pd.DataFrame,
+    streams: pd.DataFrame,
     clips: pd.DataFrame,
 ) -> dict[str, object]:
     """What a report has where a clip could be measured."""
     peers = charts.peers_of(points)
-    streams = points[points["codec"] == "fbs"]
-    speed = {
-        "encode_speed": streams["pictures"] / streams["encode_s"],
-        "decode_speed": streams["pictures"] / streams["decode_s"],
-    }
-    streams = streams.assign(**speed)
     return {
         "summary": tables.summary(clips, peers),
         "peers": tables.names(peers),
         "rate_charts": {area: charts.rate_chart(points, area) for area in AREAS},
         "bd_charts": {area: charts.bd_chart(clips, peers, area) for area in AREAS} if peers else {},
         "bd_rows": tables.bd_rows(clips, peers),
-        "qualities": tables.quality_rows(points, streams),
+        "qualities": tables.quality_rows(streams),
         "value_charts": _value_charts(streams),
         "worst": _worst(folder, order, submit, options, streams, clips),
         "worst_by": ranking(clips)[1],

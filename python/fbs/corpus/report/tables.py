@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from fbs.corpus.clip_table import ENVELOPE, bd_column, gain
+from fbs.corpus.clip_table import ENVELOPE, bd_column
 from fbs.corpus.report.charts import NAMES
 from fbs.corpus.statistics import median_interval, spread
 
@@ -108,20 +108,13 @@ def bd_rows(clips: pd.DataFrame, peers: list[str]) -> list[dict[str, object]]:
     return rows
 
 
-def quality_rows(points: pd.DataFrame, streams: pd.DataFrame) -> list[dict[str, object]]:
-    """Medians of each quality, with the gain over other codecs at the rate of each clip."""
-    peers = {clip: own for clip, own in points[points["codec"] != "fbs"].groupby("clip")}
+def quality_rows(streams: pd.DataFrame) -> list[dict[str, object]]:
+    """Medians and quartiles of each quality."""
+    columns = ("kbps", "psnr_face", "psnr_frame", "gain_face", "gain_frame", "encode_speed", "decode_speed")
     rows = []
     for quality, group in streams.groupby("quality"):
         row: dict[str, object] = {"quality": quality, "clips": len(group)}
-        for column in ("kbps", "psnr_face", "psnr_frame", "encode_speed", "decode_speed"):
-            row[column] = spread(group[column].to_numpy(dtype=float))
-        for area in ("face", "frame"):
-            gains = [
-                gain(stream, peers[stream["clip"]], area) for _, stream in group.iterrows() if stream["clip"] in peers
-            ]
-            row[f"gain_{area}"] = spread(np.array(gains, dtype=float))
-        rows.append(row)
+        rows.append(row | {column: spread(group[column].to_numpy(dtype=float)) for column in columns})
     return rows
 
 
