@@ -105,7 +105,14 @@ def worker_processes(client):
     return list(client.run(os.getpid).values())
 
 
-def test_a_worker_that_is_killed_loses_nothing(client, order, tmp_path, fake):
+@pytest.mark.parametrize("allowed_failures", [3, 0])
+def test_a_worker_that_is_killed_loses_nothing(allowed_failures, client, order, tmp_path, fake):
+    """Dask gives tasks to other workers; one that it gives up, since too many of them died, is given to it again."""
+
+    def allow(number, dask_scheduler):
+        before, dask_scheduler.allowed_failures = dask_scheduler.allowed_failures, number
+        return before
+
     clips = make_clips(tmp_path / "clips", **{f"c{n}": "slow" for n in range(4)})
     killed = []
 
@@ -114,9 +121,12 @@ def test_a_worker_that_is_killed_loses_nothing(client, order, tmp_path, fake):
             killed.append(worker_processes(client)[0])
             os.kill(killed[0], signal.SIGKILL)
 
+    usual = client.run_on_scheduler(allow, allowed_failures)
     tally, tasks = drive(client, clips, order, on_result=kill_one)
+    client.run_on_scheduler(allow, usual)
     assert killed and (tally.done, tally.failed) == (12, 0)
     assert len(tasks) == 12 and tasks["error"].isna().all()
+    assert bool(tally.lost) == (allowed_failures == 0)
     # At most what ran on it was done again.
     assert len(fake.lines("encode")) <= 8 + 1
 

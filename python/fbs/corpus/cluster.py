@@ -41,7 +41,7 @@ def connected(
             threads_per_worker=1,
             processes=True,
             memory_limit=memory_limit,
-            dashboard_address=dashboard,
+            dashboard_address=dashboard or "127.0.0.1:0",
         ) as cluster,
         Client(cluster, set_as_default=False) as client,
     ):
