@@ -65,8 +65,8 @@ def _run(options: argparse.Namespace) -> int:
         report = write_report(
             folder, order, functools.partial(client.submit, pure=False), _report_options(options, folder)
         )
-    for line in tally.lost:
-        print(f"fbs.corpus: lost with its worker, tried again: {line}", file=sys.stderr)
+    if tally.lost:
+        _say(options, f"{tally.lost} tasks were lost with their workers, and given out again")
     return _end(report, failed)
 
 

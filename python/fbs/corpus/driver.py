@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from distributed import Client, Future, KilledWorker
 
@@ -43,8 +43,8 @@ class Tally:
 
     done: int = 0
     failed: int = 0
-    lost: list[str] = field(default_factory=list)
-    """A line for each time that the cluster lost a task with its workers."""
+    lost: int = 0
+    """So often the cluster gave up a task whose workers had been killed, and was given it again."""
 
 
 class Driver:
@@ -105,8 +105,8 @@ class Driver:
 
     def _take(self, one: _Task, result: Result | None, problem: BaseException | None) -> None:
         if isinstance(problem, KilledWorker | CancelledError):
-            self.tally.lost.append(f"{one.clip.plan.clip.name}, {one.setting.name}")
             if one.tries < self._order.attempts:
+                self.tally.lost += 1
                 self._try_again(one)
                 return
             result = self._give_up(one, f"the workers that had it were killed, {one.tries} times")
