@@ -127,6 +127,33 @@ def measure_report(options):
               f"memory {before:.0f} to {peak_mb():.0f} MB")  # fmt: skip
 
 
+def estimate(options):
+    """CPU time of a picture and a setting, by size; what clips of that kind would take, and the tables of a run."""
+    folder = ResultsFolder(options.results)
+    tasks = folder.tasks()
+    points = folder.points(["task_key", "codec", "width", "height", "pictures", "kbps"]).to_pandas()
+    shapes = points.drop_duplicates("task_key").set_index("task_key")
+    tasks = tasks[tasks["error"].isna()].join(shapes, on="task_key", how="inner")
+    tasks["size"] = tasks["width"].astype(str) + "x" + tasks["height"].astype(str)
+    tasks["ms"] = 1e3 * tasks["cpu_s"] / tasks["pictures"]
+    fbs_kbps = tasks[tasks["codec"] == "fbs"].groupby("setting")["kbps"].mean().sum()
+    tables = sum(path.stat().st_size for kind in ("points", "tasks") for path in (folder.path / kind).glob("*.parquet"))
+    print(f"Parquet: {tables / len(points):.0f} bytes a point, {len(points) / len(tasks):.1f} points a task")
+    print(f"Streams of fbs: {fbs_kbps:.1f} kbit/s in all qualities")
+    print(
+        "| size | codec | settings | CPU, ms a picture and setting | core hours | days on all cores | per 1000 clips |"
+    )
+    print("|---|---|--:|--:|--:|--:|--:|")
+    for (size, codec), group in tasks.groupby(["size", "codec"]):
+        settings = group["setting"].nunique()
+        ms = group["ms"].mean()
+        hours = options.clips * options.seconds * options.fps * settings * ms / 1e3 / 3600
+        print(
+            f"| {size} | {codec} | {settings} | {ms:.1f} | {hours:.0f} | {hours / options.cores / 24:.1f} "
+            f"| {1000 * hours / options.clips * options.price:.2f} |"
+        )
+
+
 def _renamed(table, number):
     for name in ("clip", "task_key"):
         values = pa.array([f"{number}-{value}" for value in table[name].to_pylist()])
@@ -150,6 +177,14 @@ def main():
     scaling.add_argument("folder", type=pathlib.Path)
     scaling.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4])
     scaling.set_defaults(run=measure_scaling)
+    paper = what.add_parser("paper")
+    paper.add_argument("results", type=pathlib.Path)
+    paper.add_argument("--clips", type=int, default=1_000_000)
+    paper.add_argument("--seconds", type=float, default=10, help="of a clip")
+    paper.add_argument("--fps", type=float, default=25)
+    paper.add_argument("--cores", type=int, default=1000)
+    paper.add_argument("--price", type=float, default=0.04, help="of a core for an hour")
+    paper.set_defaults(run=estimate)
     report = what.add_parser("report")
     report.add_argument("results", type=pathlib.Path)
     report.add_argument("--clips", type=int, default=100_000)
