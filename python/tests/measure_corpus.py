@@ -4,6 +4,7 @@
 measure_corpus.py talkers DIR --talker build/release/talker   makes fifty clips: seeds, lights, poses, sizes
 measure_corpus.py overhead [--tasks N ...] [--workers N ...]  tasks that do nothing: time of each, memory of the client
 measure_corpus.py scaling DIR --workers 1 2 4 [OPTION ...]    runs a corpus with so many workers; OPTIONs of fbs.corpus
+measure_corpus.py paper RESULTS --clips N --price P           what N clips would take, by the tasks of a run
 measure_corpus.py report RESULTS --clips N                    multiplies results: time and memory of a large report
 """
 
