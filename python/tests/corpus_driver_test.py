@@ -79,6 +79,13 @@ def test_a_broken_clip_is_listed_and_the_rest_goes_on(client, order, tmp_path):
     assert failed["attempts"].tolist() == [1, 1, 1]
 
 
+def test_a_name_that_is_no_text_is_a_name(client, order, tmp_path):
+    clips = make_clips(tmp_path / "clips")
+    Path(os.fsdecode(os.fsencode(clips) + b"/f\xe9.y4m")).write_text("ok\n")
+    _, tasks = drive(client, clips, order)
+    assert tasks["error"].isna().all() and set(tasks.index.get_level_values("clip")) == {"f\ufffd.y4m"}
+
+
 def test_what_is_done_or_failed_is_not_done_again(client, order, tmp_path, fake):
     clips = make_clips(tmp_path / "clips", a="ok", b="broken")
     drive(client, clips, order)

@@ -155,6 +155,15 @@ def test_results_of_another_corpus_are_not_mixed(tmp_path):
     folder.begin_run(asked | {"qualities": [1]})
 
 
+def test_two_commands_do_not_write_to_one_folder(tmp_path):
+    with ResultsFolder(tmp_path / "new").locked():
+        with pytest.raises(ValueError, match="another command is at work there"):
+            with ResultsFolder(tmp_path / "new").locked():
+                pass
+    with ResultsFolder(tmp_path / "new").locked():
+        pass
+
+
 def test_a_newer_result_takes_the_place_of_an_older_one(tmp_path):
     folder = ResultsFolder(tmp_path)
     folder.keep(result("a", "fbs-quality-20", [stream(20, 1, 30)], finished=1000))

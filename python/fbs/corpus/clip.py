@@ -36,6 +36,11 @@ class Clip:
         return os.path.join(self.folder, self.name)
 
     @property
+    def shown_name(self) -> str:
+        """The name as tables have it: bytes that are no UTF-8 are replaced."""
+        return os.fsencode(self.name).decode("utf-8", "replace")
+
+    @property
     def key(self) -> str:
         """Of this state of the clip, wherever the folder is mounted."""
         return short_hash([self.name, self.size, self.changed_ns])

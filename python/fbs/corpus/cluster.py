@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 
-import dask
 from distributed import Client, LocalCluster
 
 LOCAL = "local"
@@ -35,7 +34,6 @@ def connected(
         return
     # A worker that is killed is started again; its task counts for itself (attempt.py).
     with (
-        dask.config.set({"distributed.worker.daemon": True}),
         LocalCluster(
             n_workers=workers,
             threads_per_worker=1,

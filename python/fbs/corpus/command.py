@@ -34,7 +34,13 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command; give its exit code."""
     options = parse(arguments)
     try:
-        return _report(options) if options.report_only else _run(options)
+        if not options.report_only and next(names_in(options.folder), None) is None:
+            raise Error(f"{options.folder}: has no clip")
+        folder = ResultsFolder(Path(options.out).absolute())
+        if options.report_only and not folder.asked():
+            raise Error(f"{options.out}: has no results")
+        with folder.locked():
+            return _report(options, folder) if options.report_only else _run(options, folder)
     except KeyboardInterrupt:
         print(f"\nfbs.corpus: stopped; the same command goes on from there, in {options.out}", file=sys.stderr)
         return INTERRUPTED
@@ -43,11 +49,7 @@ def main(arguments: list[str] | None = None) -> int:
         return FAILED
 
 
-def _run(options: argparse.Namespace) -> int:
-    count = sum(1 for _ in names_in(options.folder))
-    if count == 0:
-        raise Error(f"{options.folder}: has no clip")
-    folder = ResultsFolder(Path(options.out).absolute())
+def _run(options: argparse.Namespace, folder: ResultsFolder) -> int:
     folder.begin_run(order_facts(options))
     folder.fold()
     with connected(
@@ -58,7 +60,7 @@ def _run(options: argparse.Namespace) -> int:
     ) as client:
         version = client.submit(program_version, pure=False).result()
         order = _order_of(options, folder, version)
-        tally = _drive(options, folder, order, client, count)
+        tally = _drive(options, folder, order, client)
         folder.fold()
         failed = folder.write_failures()
         _say(options, "making the report")
@@ -70,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
     return _end(report, failed)
 
 
-def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, client: Client, count: int) -> Tally:
+def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, client: Client) -> Tally:
     done, failed = folder.finished()
     settings = asked_settings(folder.asked())
     skipped = Keys() if options.retry_failed else failed
@@ -79,6 +81,7 @@ def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, cli
         return plans_of(clips_in(options.folder), settings, order, done, skipped)
 
     left = sum(len(plan.settings) for plan in plans())
+    count = sum(1 for _ in names_in(options.folder))
     finished = count * len(settings) - left
     _say(options, f"{count} clips with {len(settings)} settings each: {left} tasks, {finished} are done already")
     threads = sum(client.nthreads().values())
@@ -86,10 +89,7 @@ def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, cli
     return Driver(client, folder, order, limit, Progress(left, options.quiet)).run(plans())
 
 
-def _report(options: argparse.Namespace) -> int:
-    folder = ResultsFolder(Path(options.out).absolute())
-    if not folder.asked():
-        raise Error(f"{options.out}: has no results")
+def _report(options: argparse.Namespace, folder: ResultsFolder) -> int:
     folder.fold()
     failed = folder.write_failures()
     order = _order_of(options, folder, program_version())

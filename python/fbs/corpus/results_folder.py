@@ -15,12 +15,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import json
 import os
 import shutil
 import socket
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -201,6 +203,23 @@ class ResultsFolder:
         return done_keys, Keys(k for k in failed if k not in done_keys)
 
     # The run.
+
+    @contextlib.contextmanager
+    def locked(self) -> Iterator[None]:
+        """Keep other commands out; the lock goes with the process, however that ends.
+
+        Raises
+        ------
+        ValueError
+            Another command is at work here.
+        """
+        self.path.mkdir(parents=True, exist_ok=True)
+        with (self.path / ".lock").open("w") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise ValueError(f"{self.path}: another command is at work there") from None
+            yield
 
     def begin_run(self, asked: dict[str, Any]) -> None:
         """Note what is asked for.

@@ -78,7 +78,7 @@ def failed_result(clip: Clip, setting: Setting, order: Order, error: str, attemp
     """Of a task that gave none itself."""
     return Result(
         {
-            "clip": clip.name,
+            "clip": clip.shown_name,
             "clip_key": clip.key,
             "setting": setting.name,
             "task_key": order.task_key(clip, setting),
