@@ -176,7 +176,7 @@ def test_a_newer_result_takes_the_place_of_an_older_one(tmp_path):
     folder.fold()
     points = read_points(folder, current(folder.tasks(), asked_settings(ASKED)))
     assert sorted(points["kbps"]) == [2, 3]
-    assert folder.write_failures() == 0
+    assert folder.write_failures(folder.tasks()) == 0
 
 
 def test_the_worst_clip_is_found_and_why(tmp_path):
@@ -198,7 +198,7 @@ def test_the_report_is_one_file_that_stays_small(tmp_path):
     corpus(folder, 250)
     folder.keep(result("<b>.mkv", "fbs-quality-80", error="cannot read <b>.mkv: not a video"))
     folder.fold()
-    page = write_report(folder, None, None, ReportOptions("faces", 10)).read_text()
+    page = write_report(folder, folder.tasks(), None, None, ReportOptions("faces", 10)).read_text()
     assert not re.search(r"https?://|<script|@import|url\(|<link|\{\{|nan|None", page)
     assert "249 clips" not in page and "250 of 251 clips measured" in page
     assert "&lt;b&gt;.mkv" in page and "<b>.mkv" not in page
@@ -214,7 +214,7 @@ def test_a_report_of_nothing_says_so(tmp_path):
     folder.begin_run(ASKED)
     folder.keep(result("a.mkv", "fbs-quality-80", error="no face"))
     folder.fold()
-    page = write_report(folder, None, None, ReportOptions("faces", 10)).read_text()
+    page = write_report(folder, folder.tasks(), None, None, ReportOptions("faces", 10)).read_text()
     assert "No clip could be measured" in page and "no face" in page
 
 

@@ -122,7 +122,7 @@ def measure_report(options):
                 )
         size = sum(path.stat().st_size for path in folder.path.rglob("*.parquet"))
         before, begin = peak_mb(), time.monotonic()
-        report = write_report(folder, None, None, ReportOptions("large", 10))
+        report = write_report(folder, folder.tasks(), None, None, ReportOptions("large", 10))
         taken = time.monotonic() - begin
         print(f"{options.clips} clips: {size / 1e6:.0f} MB of Parquet, report of {report.stat().st_size / 1e3:.0f} kB in {taken:.0f} s, "
               f"memory {before:.0f} to {peak_mb():.0f} MB")  # fmt: skip

@@ -20,8 +20,8 @@ bytes_motion bytes_geometry kbps psnr_face psnr_frame face_pictures face_share w
 yaw_range_deg pitch_range_deg motion encode_s decode_s""".split()
 _OF_BEST_STREAM = """clip clip_key width height fps pictures seconds face_pictures face_share cuts yaw_range_deg
 pitch_range_deg motion""".split()
-_OF_SHOWN_STREAM = """quality kbps psnr_face psnr_frame bytes bytes_patterns bytes_motion patterns worst_picture worst_psnr
-gain_face gain_frame""".split()
+_OF_SHOWN_STREAM = """quality kbps psnr_face psnr_frame bytes bytes_patterns bytes_motion patterns worst_picture
+worst_psnr gain_face gain_frame""".split()
 _WHOLE_NUMBERS = ["quality", "cuts", "patterns", "worst_picture"]
 
 
@@ -68,20 +68,28 @@ def bd_column(peer: str, area: str) -> str:
     return f"bd_rate_{area}_{peer}"
 
 
+def rival_column(peer: str, area: str) -> str:
+    return f"rival_{area}_{peer}"
+
+
 def table_of_streams(points: pd.DataFrame) -> pd.DataFrame:
     """Points of fbs in order of clip and quality, with what is measured in another unit, or against other codecs.
 
-    Columns that are added: ``gain_face`` and ``gain_frame``, dB over the peers' envelope at the rate of the stream, NaN
-    where none goes so low; ``encode_speed`` and ``decode_speed``, pictures per second.
+    Columns that are added: ``rival_face_x264`` and so on, luma PSNR of another codec at the rate of the stream, NaN where
+    it does not go so low; ``gain_face`` and ``gain_frame``, dB over the best of them; ``encode_speed`` and
+    ``decode_speed``, pictures per second.
     """
     streams = points[points["codec"] == "fbs"].sort_values(["clip", "quality"], ignore_index=True)
     streams["encode_speed"] = streams["pictures"] / streams["encode_s"]
     streams["decode_speed"] = streams["pictures"] / streams["decode_s"]
     for area in AREAS:
-        peers = {clip: best_of_peers(curves) for clip, curves in clip_curves(points, area)}
-        own = zip(streams["clip"], streams["kbps"], streams[f"psnr_{area}"], strict=True)
-        theirs = ((psnr, quality_at(peers[clip], kbps)) for clip, kbps, psnr in own)
-        streams[f"gain_{area}"] = [np.nan if other is None else psnr - other for psnr, other in theirs]
+        curves = {clip: codecs | {ENVELOPE: best_of_peers(codecs)} for clip, codecs in clip_curves(points, area)}
+        for peer in (*PEERS, ENVELOPE):
+            theirs = [
+                quality_at(curves[c].get(peer, []), r) for c, r in zip(streams["clip"], streams["kbps"], strict=True)
+            ]
+            streams[rival_column(peer, area)] = np.array(theirs, dtype=float)
+        streams[f"gain_{area}"] = streams[f"psnr_{area}"] - streams[rival_column(ENVELOPE, area)]
     return streams
 
 

@@ -15,6 +15,7 @@ from distributed import Client
 from fbs.corpus.arguments import order_facts, parse
 from fbs.corpus.child import program_version
 from fbs.corpus.clip import clips_in, names_in
+from fbs.corpus.clip_table import current
 from fbs.corpus.cluster import connected
 from fbs.corpus.driver import Driver, Tally
 from fbs.corpus.order import Order
@@ -23,7 +24,8 @@ from fbs.corpus.progress import Progress
 from fbs.corpus.report.page import ReportOptions, write_report
 from fbs.corpus.results_folder import Keys, ResultsFolder
 from fbs.corpus.setting import asked_settings
-from fbs.errors import Error
+from fbs.corpus.stills import Submit
+from fbs.errors import Error, ProgramMissingError
 
 COMPLETE, FAILED, PARTIAL, INTERRUPTED = 0, 1, 2, 130
 _IN_FLIGHT_PER_THREAD = 4
@@ -62,14 +64,11 @@ def _run(options: argparse.Namespace, folder: ResultsFolder) -> int:
         order = _order_of(options, folder, version)
         tally = _drive(options, folder, order, client)
         folder.fold()
-        failed = folder.write_failures()
         _say(options, "making the report")
-        report = write_report(
-            folder, order, functools.partial(client.submit, pure=False), _report_options(options, folder)
-        )
+        code = _write(options, folder, order, functools.partial(client.submit, pure=False))
     if tally.lost:
         _say(options, f"{tally.lost} tasks were lost with their workers, and given out again")
-    return _end(report, failed)
+    return code
 
 
 def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, client: Client) -> Tally:
@@ -91,28 +90,30 @@ def _drive(options: argparse.Namespace, folder: ResultsFolder, order: Order, cli
 
 def _report(options: argparse.Namespace, folder: ResultsFolder) -> int:
     folder.fold()
-    failed = folder.write_failures()
-    order = _order_of(options, folder, program_version())
+    try:
+        order = _order_of(options, folder, program_version())
+    except ProgramMissingError:
+        return _write(options, folder, None, None)
     with ThreadPoolExecutor(1) as executor:
-        report = write_report(folder, order, executor.submit, _report_options(options, folder))
-    return _end(report, failed)
+        return _write(options, folder, order, executor.submit)
 
 
-def _report_options(options: argparse.Namespace, folder: ResultsFolder) -> ReportOptions:
-    return ReportOptions(Path(folder.asked()["folder"]).name, options.worst)
+def _write(options: argparse.Namespace, folder: ResultsFolder, order: Order | None, submit: Submit | None) -> int:
+    """Write report and failures; without a program the report has the pictures that are there."""
+    tasks = current(folder.tasks(), asked_settings(folder.asked()))
+    failed = folder.write_failures(tasks)
+    title = Path(folder.asked()["folder"]).name
+    report = write_report(folder, tasks, order, submit, ReportOptions(title, options.worst))
+    print(report)
+    if not failed:
+        return COMPLETE
+    print(f"fbs.corpus: {failed} tasks failed: {folder.path / 'failures.parquet'}", file=sys.stderr)
+    return PARTIAL
 
 
 def _say(options: argparse.Namespace, text: str) -> None:
     if not options.quiet:
         print(f"fbs.corpus: {text}", file=sys.stderr, flush=True)
-
-
-def _end(report: Path, failed: int) -> int:
-    print(report)
-    if not failed:
-        return COMPLETE
-    print(f"fbs.corpus: {failed} tasks failed: {report.parent / 'failures.parquet'}", file=sys.stderr)
-    return PARTIAL
 
 
 def _order_of(options: argparse.Namespace, folder: ResultsFolder, version: str) -> Order:

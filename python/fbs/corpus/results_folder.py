@@ -180,9 +180,8 @@ class ResultsFolder:
         frame = pa.concat_tables([TASKS.empty_table(), *tables]).to_pandas()
         return frame.drop_duplicates("task_key", keep="last", ignore_index=True)
 
-    def write_failures(self) -> int:
-        """Write the table of those that failed and have not been done since; give their number."""
-        tasks = self.tasks()
+    def write_failures(self, tasks: pd.DataFrame) -> int:
+        """Write the table of those among `tasks` that failed; give their number."""
         failed = tasks[tasks["error"].notna()].sort_values(["clip", "setting"])
         _write_table(
             self.path / "failures.parquet",

@@ -45,7 +45,10 @@ def render(clip: Clip, reference: FbsSetting, setting: FbsSetting, order: Order)
 
 
 def stills_of(
-    folder: Path, wanted: list[tuple[str, Clip, FbsSetting, FbsSetting]], order: Order, submit: Submit
+    folder: Path,
+    wanted: list[tuple[str, Clip, FbsSetting, FbsSetting]],
+    order: Order | None,
+    submit: Submit | None,
 ) -> list[Stills]:
     """Those of several clips at the same time, from `folder` where they have been made before.
 
@@ -53,22 +56,27 @@ def stills_of(
     ----------
     wanted : list
         Of key, clip, setting of the reference, setting to show.
+    order, submit
+        None: no more are made.
     """
     futures = {
         key: submit(render, clip, reference, setting, order)
         for key, clip, reference, setting in wanted
-        if not _are_there(folder / key)
+        if submit is not None and not _are_there(folder / key)
     }
-    out = []
-    for key, *_ in wanted:
-        if key not in futures:
-            out.append(Stills({kind: (folder / key / f"{kind}.jpg").read_bytes() for kind in KINDS}))
-            continue
-        made = futures[key].result()
-        for kind, image in made.images.items():
-            write_atomically(folder / key / f"{kind}.jpg", image)
-        out.append(made)
-    return out
+    return [_kept(folder / key, futures.get(key)) for key, *_ in wanted]
+
+
+def _kept(folder: Path, made: Any) -> Stills:
+    """Stills as they are in their folder, where those that have just been made are put first."""
+    if made is None and not _are_there(folder):
+        return Stills({}, "there is no program to make them")
+    if made is None:
+        return Stills({kind: (folder / f"{kind}.jpg").read_bytes() for kind in KINDS})
+    stills: Stills = made.result()
+    for kind, image in stills.images.items():
+        write_atomically(folder / f"{kind}.jpg", image)
+    return stills
 
 
 def _are_there(folder: Path) -> bool:

@@ -6,16 +6,12 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from fbs.corpus.bd_rate import Curve, quality_at
-from fbs.corpus.clip_table import ENVELOPE, bd_column, clip_curves
+from fbs.corpus.clip_table import ENVELOPE, bd_column, rival_column
 from fbs.corpus.report.chart import Row, Series, curve_chart, row_chart
 from fbs.corpus.setting import PEERS
 from fbs.corpus.statistics import median_interval
 
 NAMES = {"fbs": "fbs", "x264": "x264", "x265": "x265", "av1": "AV1", ENVELOPE: "best of all"}
-_GRID_POINTS = 40
-_MOST_CLIPS = 3000
-"""Clips that curves of other codecs are interpolated for, evenly chosen of more: medians hardly change."""
 
 
 def peers_of(points: pd.DataFrame) -> list[str]:
@@ -24,35 +20,21 @@ def peers_of(points: pd.DataFrame) -> list[str]:
     return [p for p in PEERS if p in there]
 
 
-def rate_chart(points: pd.DataFrame, area: str) -> Markup:
-    """Median and quartiles of luma PSNR: of fbs at each quality, of others at rates that most clips have."""
-    clips = points["clip"].unique()
-    some = points[points["clip"].isin(clips[:: -(-len(clips) // _MOST_CLIPS)])]
-    curves = [curves for _, curves in clip_curves(some, area)]
-    series = [_own_series(points[points["codec"] == "fbs"], area)]
-    series += [_peer_series([c[p] for c in curves if c.get(p)], p) for p in peers_of(points)]
+def rate_chart(streams: pd.DataFrame, peers: list[str], area: str) -> Markup:
+    """Median luma PSNR at each quality of fbs, and of other codecs at the rates that it takes for each clip."""
+    groups = streams.groupby("quality")
+    rate = groups["kbps"].median()
+    psnr = groups[f"psnr_{area}"]
+    low, middle, high = (psnr.quantile(q) for q in (0.25, 0.5, 0.75))
+    shown = middle.notna()
+    own = (values[shown].tolist() for values in (rate, middle, low, high))
+    series = [Series("fbs", "fbs", *own, has_points=True)]
+    for peer in peers:
+        rivals = groups[rival_column(peer, area)]
+        shown = 2 * rivals.count() >= groups.size()  # else it would be the median of easy clips
+        series.append(Series(NAMES[peer], peer, rate[shown].tolist(), rivals.median()[shown].tolist(), has_points=True))
     label = f"Median luma PSNR of the {area} over bitrate"
     return curve_chart([s for s in series if s.x], "kbit/s", f"{area}, dB", label)
-
-
-def _own_series(points: pd.DataFrame, area: str) -> Series:
-    groups = points.dropna(subset=[f"psnr_{area}"]).groupby("quality")
-    rate = groups["kbps"].median()
-    low, middle, high = (groups[f"psnr_{area}"].quantile(q) for q in (0.25, 0.5, 0.75))
-    return Series("fbs", "fbs", rate.tolist(), middle.tolist(), low.tolist(), high.tolist(), has_points=True)
-
-
-def _peer_series(curves: list[Curve], peer: str) -> Series:
-    series = Series(NAMES[peer], peer, [], [])
-    if not curves:
-        return series
-    lowest, highest = (float(np.median([curve[end][0] for curve in curves])) for end in (0, -1))
-    for kbps in np.geomspace(lowest, highest, _GRID_POINTS).tolist():
-        values = [q for curve in curves if (q := quality_at(curve, kbps)) is not None]
-        if 2 * len(values) >= len(curves):  # else it would be the median of easy clips
-            series.x.append(kbps)
-            series.y.append(float(np.median(values)))
-    return series
 
 
 def bd_chart(clips: pd.DataFrame, peers: list[str], area: str) -> Markup:

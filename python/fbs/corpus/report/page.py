@@ -14,12 +14,12 @@ import pyarrow.parquet as parquet
 from markupsafe import Markup
 
 from fbs.corpus.clip import Clip
-from fbs.corpus.clip_table import AREAS, current, read_points, table_of_clips, table_of_streams
+from fbs.corpus.clip_table import AREAS, read_points, table_of_clips, table_of_streams
 from fbs.corpus.order import Order
 from fbs.corpus.progress import duration
 from fbs.corpus.report import charts, tables
 from fbs.corpus.results_folder import ResultsFolder, write_atomically
-from fbs.corpus.setting import FbsSetting, asked_settings
+from fbs.corpus.setting import FbsSetting
 from fbs.corpus.stills import Stills, Submit, stills_of
 from fbs.corpus.worst import ranking, worst_clips
 
@@ -35,15 +35,18 @@ class ReportOptions:
     """Clips with pictures."""
 
 
-def write_report(folder: ResultsFolder, order: Order | None, submit: Submit | None, options: ReportOptions) -> Path:
+def write_report(
+    folder: ResultsFolder, tasks: pd.DataFrame, order: Order | None, submit: Submit | None, options: ReportOptions
+) -> Path:
     """Write clips.parquet and report.html.
 
     Parameters
     ----------
+    tasks : DataFrame
+        Those that the report is about.
     order, submit
         For stills that are not there yet; None: without them.
     """
-    tasks = current(folder.tasks(), asked_settings(folder.asked()))
     points = read_points(folder, tasks)
     streams = table_of_streams(points)
     clips = table_of_clips(points, streams)
@@ -77,7 +80,7 @@ def _measured(
     return {
         "summary": tables.summary(clips, peers),
         "peers": tables.names(peers),
-        "rate_charts": {area: charts.rate_chart(points, area) for area in AREAS},
+        "rate_charts": {area: charts.rate_chart(streams, peers, area) for area in AREAS},
         "bd_charts": {area: charts.bd_chart(clips, peers, area) for area in AREAS} if peers else {},
         "bd_rows": tables.bd_rows(clips, peers),
         "qualities": tables.quality_rows(streams),
@@ -116,10 +119,7 @@ def _worst(
     for _, clip in worst.iterrows():
         key = f"{clip['clip_key']}-quality-{int(clip['quality'])}"
         wanted.append((key, _found(corpus, str(clip["clip"])), reference, FbsSetting(int(clip["quality"]))))
-    if order is None or submit is None:
-        stills = [Stills({}, "not made")] * len(wanted)
-    else:
-        stills = stills_of(folder.path / "stills", wanted, order, submit)
+    stills = stills_of(folder.path / "stills", wanted, order, submit)
     return [tables.worst_row(clip, _sources(s), s.error) for (_, clip), s in zip(worst.iterrows(), stills, strict=True)]
 
 
