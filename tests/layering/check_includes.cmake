@@ -12,7 +12,8 @@ set(floors
   encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
-  cli/video/images cli/video/av cli/video cli/display cli)
+  cli/video/images cli/video/av cli/video cli/display cli
+  web)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
@@ -57,7 +58,8 @@ set(checked 0)
 file(GLOB_RECURSE sources RELATIVE ${ROOT}
   ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp ${ROOT}/decoder/*.h
   ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/include/*.h ${ROOT}/include/*.hpp
-  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
+  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp
+  ${ROOT}/web/module/*.h ${ROOT}/web/module/*.cpp)
 foreach(source ${sources})
   math(EXPR checked "${checked} + 1")
   floor_of(${source} mine)
