@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "cli/help_formatter.h"
+#include "cli/report.h"
 #include "cli/standard_output.h"
 #include "cli/verb.h"
 
@@ -51,12 +53,17 @@ std::string text_of(const CLI::ParseError& wrong, const CLI::App& app, int argc,
   return std::string(wrong.what()) + "; see fbs " + verbs.front()->get_name() + " --help";
 }
 
+int end_with(const fbs::Error& error) {
+  std::fprintf(stderr, "fbs: %s\n", error.text.c_str());
+  fbs::report_error(error.code);
+  return kFailed;
+}
+
 /// @return `code`, or kFailed when what was printed does not arrive
 int end_output(int code) {
   const auto flushed = fbs::cli::flush_standard_output();
   if (flushed) return code;
-  std::fprintf(stderr, "fbs: %s\n", flushed.error().text.c_str());
-  return kFailed;
+  return end_with(flushed.error());
 }
 
 int run_program(int argc, char** argv) {
@@ -81,13 +88,11 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return end_output(app.exit(asked));
   } catch (const CLI::ParseError& wrong) {
-    std::fprintf(stderr, "fbs: %s\n", text_of(wrong, app, argc, argv).c_str());
-    return kFailed;
+    return end_with({fbs::ErrorCode::kInvalidArgument, text_of(wrong, app, argc, argv)});
   }
   const auto result = run();
   if (result) return end_output(static_cast<int>(*result));
-  std::fprintf(stderr, "fbs: %s\n", result.error().text.c_str());
-  return kFailed;
+  return end_with(result.error());
 }
 
 }  // namespace
@@ -95,8 +100,11 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
-  } catch (const std::exception& problem) {  // out of memory, say
-    std::fprintf(stderr, "fbs: %s\n", problem.what());
+  } catch (const std::bad_alloc&) {
+    std::fputs("fbs: out of memory\n", stderr);
+    fbs::report_no_memory();
     return kFailed;
+  } catch (const std::exception& problem) {
+    return end_with({fbs::ErrorCode::kInternal, problem.what()});
   }
 }

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/report.h"
+
 namespace fbs {
 namespace {
 
@@ -62,25 +64,33 @@ Progress::Progress(std::string label, std::optional<std::int64_t> total, bool qu
     : label_(std::move(label)),
       total_(total),
       visible_(!quiet && isatty(STDERR_FILENO) == 1),
-      begun_(Clock::now()) {}
+      begun_(Clock::now()),
+      last_told_(begun_) {}
 
 Progress::~Progress() {
   finish();
 }
 
 void Progress::update(std::int64_t done) {
-  if (!visible_) return;
+  if (!visible_ && !reports()) return;
+  done_ = done;
   const Clock::time_point now = Clock::now();
-  if (now - (drawn_ ? last_drawn_ : begun_) < kRedrawInterval) return;
+  if (now - last_told_ < kRedrawInterval) return;
+  last_told_ = now;
+  report_progress(label_, done, total_);
+  if (visible_) draw(now);
+}
+
+void Progress::draw(Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - begun_).count();
-  const std::string text = progress_text(label_, done, total_, seconds, terminal_columns());
+  const std::string text = progress_text(label_, done_, total_, seconds, terminal_columns());
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);
   drawn_ = true;
-  last_drawn_ = now;
 }
 
 void Progress::finish() {
+  if (const std::int64_t done = std::exchange(done_, 0); done > 0) report_progress(label_, done, total_);
   if (drawn_) {
     std::fputs("\r\033[K", stderr);
     std::fflush(stderr);

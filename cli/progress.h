@@ -9,7 +9,8 @@
 namespace fbs {
 
 /// One line of standard error, redrawn in place at most ten times a second. Draws nothing when standard error
-/// is not a terminal or `quiet` is set; finish() and the destructor clear the line.
+/// is not a terminal or `quiet` is set; finish() and the destructor clear the line. The same goes to
+/// cli/report.h.
 class Progress {
  public:
   /// @param label   the activity, such as "encoding"
@@ -28,12 +29,15 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void draw(Clock::time_point now);
+
   std::string label_;
   std::optional<std::int64_t> total_;
   bool visible_;
   bool drawn_ = false;
+  std::int64_t done_ = 0;  ///< not told of yet, perhaps
   Clock::time_point begun_;
-  Clock::time_point last_drawn_;
+  Clock::time_point last_told_;
 };
 
 /// The text of the line, without control characters: "encoding  42 %  123/300  51.2 pictures/s  3 s left".

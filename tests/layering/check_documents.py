@@ -12,7 +12,7 @@ DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "
              "samples/README.md", "samples/*/README.md", "tests/*/README.md", "web/README.md", "web/*/README.md",
              "web/samples/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
-FOLDERS = "bitstream|cli|common|decoder|docs|encoder|gstreamer|include|library|samples|scripts|tests|web"
+FOLDERS = "bitstream|cli|common|decoder|docs|encoder|gstreamer|include|library|python|samples|scripts|tests|web"
 SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg"
 # Named in documents, but not ours to have.
 ELSEWHERE = {"measure.py"}

@@ -54,6 +54,27 @@ class Terminal(ProgramTest):
         self.assertRegex(done.stderr.decode(), rf"\Aout\.fbs: 120 pictures, {size} bytes, total [\d.]+ kbit/s \(motion [\d.]+\), PSNR face"
                                                r" [\d.]+ dB, frame [\d.]+ dB\n\Z")
 
+    def reports(self, *arguments, number=None):
+        """What fbs writes to the descriptor of FBS_REPORT_FD."""
+        ours, theirs = os.pipe()
+        subprocess.run([FBS, *arguments], stderr=subprocess.DEVNULL, cwd=self.folder, pass_fds=[theirs],
+                       env={**os.environ, "FBS_REPORT_FD": number or str(theirs)})
+        os.close(theirs)
+        with open(ours) as pipe:
+            return pipe.read().splitlines()
+
+    def test_reports_for_programs(self):
+        lines = self.reports("encode", TALK_Y4M, "out.fbs", "--quiet")
+        self.assertEqual(lines[-1], "progress 120 120 encoding")
+        for line in lines:
+            self.assertRegex(line, r"\Aprogress \d+ 120 encoding\Z")
+        self.assertRegex(self.reports("decode", TALK_FBS, "null:")[-1], r"\Aprogress 120 - decoding\Z")
+        for kind, arguments in (("io", ("encode", "none.mkv", "out.fbs")), ("not_fbs", ("decode", TALK_Y4M, "null:")),
+                                ("argument", ("decode",))):
+            self.assertEqual(self.reports(*arguments), [f"error {kind}"])
+        for number in ("", "x", "99"):
+            self.assertEqual(self.reports("decode", TALK_FBS, "null:", number=number or " "), [])
+
     def test_bar_on_a_terminal(self):
         try:
             ours, theirs = pty.openpty()

@@ -1,0 +1,272 @@
+"""The encoder."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple, Union
+
+from fbs import _fbs
+from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, PictureLike, planes_of
+from fbs.errors import ArgumentError
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float32]
+
+Rate = Union[int, float, Fraction]
+
+_SIDES = range(64, 8193)
+_MAX_DURATION = 60.0  # s
+
+
+class Packet(bytes):
+    """A piece of a stream, which is all its packets one after the other.
+
+    Attributes
+    ----------
+    key : bool
+        Decoding can begin here.
+    number : int
+        Of the first picture that needs it; of the last packet: pictures in all.
+    time : float
+        Of that picture, s; of the last packet: the length of the video.
+    """
+
+    key: bool
+    number: int
+    time: float
+
+
+class Report(NamedTuple):
+    """What happened so far: `pictures` pushed, those `without_face`, `cuts`, and `scenes` begun."""
+
+    pictures: int
+    without_face: int
+    cuts: int
+    scenes: int
+
+
+class Encoder:
+    """Encodes pictures as they come.
+
+    Without `live` the encoder looks ahead: packets come in bursts, up to forty seconds of video later.
+    :func:`fbs.encode` writes files, and takes the sound along.
+
+    Parameters
+    ----------
+    width, height : int
+        Pixels, 64 to 8192.
+    fps : int, float or Fraction
+        Nominal pictures per second. 29.97 and its like are taken as 30000/1001.
+    quality : int
+        0 (fewest bytes) to 100 (best pictures).
+    bitrate : float, optional
+        kbit/s in all, from which quality follows.
+    seconds : float, optional
+        Length of the video, if it is known; for `bitrate`.
+    effort : {0, 1, 2}
+        More takes longer and needs fewer bits.
+    patterns : int
+        Pictures of the person in a scene, 1 to 64; 0: chosen by the encoder.
+    face : int
+        Which face is followed, 0 being the largest.
+    allow_no_face : bool
+        Encode a video without any face, too.
+    key_interval : float
+        Seconds between scenes at most: where a viewer can join. 0: up to 40.
+    live : bool
+        No look-ahead.
+    live_delay : float
+        Pictures are encoded in groups of so many seconds.
+    live_buffer : float
+        With `bitrate`: nothing waits longer to be sent, s.
+    threads : int
+        Live: 1, or more to encode while the next pictures are analysed. 0: as many as there are cores.
+    matrix : {"bt601", "bt709", "unspecified"}
+        Of YCbCr: what RGB pictures are converted to, and what planes are.
+    full_range : bool
+        Whether black is 0 and white 255.
+    pixel_aspect : Fraction, optional
+        Width of a pixel over its height; None: unknown.
+
+    Examples
+    --------
+    >>> encoder = fbs.Encoder(64, 64, fps=25, allow_no_face=True)
+    >>> packets = []
+    >>> for level in range(5):
+    ...     packets += encoder.push(np.full((64, 64, 3), 20 * level, np.uint8))
+    >>> packets += encoder.finish()
+    >>> len(list(fbs.Decoder(b"".join(packets))))
+    5
+    """
+
+    def __init__(
+        self,
+        width: int,
+        height: int,
+        *,
+        fps: Rate = 25,
+        quality: int = 50,
+        bitrate: float | None = None,
+        seconds: float | None = None,
+        effort: int = 1,
+        patterns: int = 0,
+        face: int = 0,
+        allow_no_face: bool = False,
+        key_interval: float = 0,
+        live: bool = False,
+        live_delay: float = 0.2,
+        live_buffer: float = 2,
+        threads: int = 0,
+        matrix: str = "bt601",
+        full_range: bool = False,
+        pixel_aspect: Fraction | None = Fraction(1),
+    ) -> None:
+        rate = rate_of(fps)
+        _require("width", width in _SIDES, width, "64 to 8192")
+        _require("height", height in _SIDES, height, "64 to 8192")
+        _require("quality", 0 <= quality <= 100, quality, "0 to 100")
+        _require("bitrate", bitrate is None or bitrate > 0, bitrate, "positive")
+        _require("seconds", seconds is None or seconds > 0, seconds, "positive")
+        _require("effort", effort in (0, 1, 2), effort, "0 to 2")
+        _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")
+        _require("face", face >= 0, face, "not negative")
+        _require("matrix", matrix in MATRICES, matrix, "one of " + ", ".join(MATRICES))
+        for name, value in (("key_interval", key_interval), ("live_delay", live_delay), ("live_buffer", live_buffer)):
+            _require(name, value >= 0, value, "not negative")
+        self._format = Format(width, height, rate, pixel_aspect, matrix, full_range)
+        self._encoder = _fbs.Encoder(
+            {
+                "width": width,
+                "height": height,
+                "rate_num": rate.numerator,
+                "rate_den": rate.denominator,
+                "aspect_num": 0 if pixel_aspect is None else pixel_aspect.numerator,
+                "aspect_den": 1 if pixel_aspect is None else pixel_aspect.denominator,
+                "matrix": MATRICES.index(matrix),
+                "full_range": int(full_range),
+                "quality": quality,
+                "bitrate": float(bitrate or 0),
+                "seconds": float(seconds or 0),
+                "effort": effort,
+                "patterns": patterns,
+                "face": face,
+                "allow_no_face": int(allow_no_face),
+                "key_interval": float(key_interval),
+                "live": int(live),
+                "live_delay": float(live_delay),
+                "live_buffer": float(live_buffer),
+                "threads": threads,
+            }
+        )
+
+    def push(self, picture: PictureLike, duration: float | None = None) -> list[Packet]:
+        """Take the next picture. It is copied.
+
+        Parameters
+        ----------
+        picture : (h, w, 3) uint8 array, Picture, or three planes
+            RGB, or Y, Cb and Cr of 8-bit 4:2:0.
+        duration : float, optional
+            Seconds, 60 at most; that of `fps` unless given.
+
+        Returns
+        -------
+        list of Packet
+            Those that are ready: often none.
+
+        Raises
+        ------
+        ArgumentError
+            The picture has another size, or the encoding has ended; nothing is taken.
+        Error
+            Any other ends the encoding.
+        """
+        ticks = 0
+        if duration is not None:
+            _require("duration", 0 < duration <= _MAX_DURATION, duration, "at most 60 s")
+            ticks = max(1, round(duration * TICKS_PER_SECOND))
+        self._encoder.push(*planes_of(picture, self._format), ticks)
+        return self.pull()
+
+    def finish(self) -> list[Packet]:
+        """Say that there are no more pictures, and encode what is held back.
+
+        Returns
+        -------
+        list of Packet
+            The rest.
+
+        Raises
+        ------
+        NoFaceError
+            No picture showed a face.
+        """
+        self._encoder.finish()
+        return self.pull()
+
+    def pull(self) -> list[Packet]:
+        """Packets that became ready since: with `live` and `threads` that is a little after a push."""
+        packets = []
+        while (found := self._encoder.pull()) is not None:
+            data, key, number, ticks = found
+            packet = Packet(data)
+            packet.key, packet.number, packet.time = key, number, ticks / TICKS_PER_SECOND
+            packets.append(packet)
+        return packets
+
+    def request_scene(self) -> None:
+        """Begin a scene with the next picture that can begin one, as for a viewer who has lost something. Live only."""
+        self._encoder.request_scene()
+
+    @property
+    def format(self) -> Format:
+        """Size, rate and colours of all pictures."""
+        return self._format
+
+    @property
+    def report(self) -> Report:
+        """What happened so far."""
+        return Report(*self._encoder.report())
+
+    @property
+    def landmarks(self) -> Floats | None:
+        """(68, 2) float32 array: the points of iBUG in the picture pushed last, pixels; None without a face.
+
+        As they were tracked, without coding loss.
+        """
+        found = self._encoder.landmarks()
+        return None if found is None else found[:, :2]
+
+    def close(self) -> None:
+        """Free the encoder. Packets that were not given out are lost."""
+        self._encoder.close()
+
+    def __enter__(self) -> Encoder:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def rate_of(fps: Rate) -> Fraction:
+    """Pictures per second as the ratio that is meant."""
+    if not 0 < fps <= 1000:
+        raise ArgumentError(f"fps is more than 0 and at most 1000, not {fps}")
+    if isinstance(fps, float):
+        television = Fraction(round(fps) * 1000, 1001)
+        if round(fps) > 0 and not fps.is_integer() and abs(float(television) - fps) < 0.005:
+            return television
+        return Fraction(fps).limit_denominator(1001)
+    return Fraction(fps)
+
+
+def _require(name: str, holds: bool, value: object, range: str) -> None:
+    if not holds:
+        raise ArgumentError(f"{name} is {range}, not {value!r}")
