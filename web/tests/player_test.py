@@ -141,11 +141,11 @@ class TestPlayer(unittest.TestCase):
         self.inner(".bar button").click()  # a gesture: sound is allowed
         begin = time.monotonic()
         self.until("player.ended")
-        self.assertLess(abs(time.monotonic() - begin - 3), 1)
+        self.assertLess(abs(time.monotonic() - begin - 3), 1.5)
         self.assertEqual(self.js("return events"), ["loadedmetadata", "play", "playing", "pause", "ended"])
         times, shown = self.js("return [times, shown]")
         self.assertEqual(times, sorted(times))
-        self.assertGreater(len(times), 6)
+        self.assertGreater(len(times), 4)
         self.assertEqual(shown, sorted(shown))
         self.assertEqual(shown[-1], 74 / 25)
         self.assertTrue(self.js("return player.playback.sound.context.sampleRate === 48000"))
@@ -162,33 +162,35 @@ class TestPlayer(unittest.TestCase):
         self.until("player.ended")
 
     def test_plays_what_has_come(self):
-        self.make("talk.fbs", muted="")
-        self.server.link.rate = 30000
-        begin = time.monotonic()
-        self.js("events.length = 0; player.preload = 'none'; player.src += '?fresh'")
-        time.sleep(0.1)
-        self.assertEqual(self.js("return [player.paused, player.playback.shown]"), [True, None])
-        self.js("player.play()")
-        self.until("player.playback.shown !== null")
-        self.assertEqual(self.js("return player.duration"), None)  # infinite: not in JSON
-        self.assertLess(time.monotonic() - begin, 1.6)             # the stream takes 2.6 s
+        self.server.gate.clear()
+        self.make("talk.fbs?hold=5000", muted="", autoplay="")
+        self.until("events.join().endsWith('playing,waiting')")
+        arrived, shown = self.js("return [player.arrivedTime, player.playback.shown.number]")
+        self.assertTrue(0.5 < arrived < 2, arrived)
+        self.assertEqual(shown, round(arrived * 25) - 1)
+        self.assertEqual(self.js("return [player.duration, player.paused]"), [None, False])  # infinite: not in JSON
+        self.server.gate.set()
         self.until("player.ended")
-        self.assertRegex(self.js("return events.join()"), "playing,.*waiting,.*playing,.*ended")
-        self.assertGreater(time.monotonic() - begin, 2.6)
+        self.assertTrue(self.js("return events.join()").endswith("playing,waiting,playing,pause,ended"))
         self.assertEqual(self.js("return player.duration"), 3)
 
     def test_waits_for_a_time_that_has_not_come(self):
-        self.make("talk.fbs")
-        self.server.link.rate = 40000
-        self.js("""player.addEventListener("loadeddata", () => {
-                     player.currentTime = 2.5;
-                     window.early = player.seeking && player.arrivedTime < 2;
-                   }, { once: true });
-                   events.length = 0;
-                   player.src += "?fresh";""")
+        self.server.gate.clear()
+        self.make("talk.fbs?hold=5000")
+        self.js("player.currentTime = 2.5")
+        self.until("events.includes('waiting')")
+        self.assertTrue(self.js("return player.seeking"))
+        self.server.gate.set()
         self.until("events.includes('seeked')")
-        self.assertTrue(self.js("return early"))
         self.assertEqual(self.js("return [player.currentTime, player.playback.shown.number]"), [2.5, 62])
+
+    def test_loads_nothing_before_it_is_asked(self):
+        self.js(MAKE.replace("const [attributes, done]", "const done = () => {}, [attributes]"),
+                {"src": "/media/talk.fbs", "preload": "none", "muted": ""})
+        time.sleep(0.2)
+        self.assertEqual(self.js("return [player.currentSrc, player.playback.client.worker, events.length]"), ["", None, 0])
+        self.js("player.play()")
+        self.until("player.currentTime > 0.2")
 
     def test_package_and_stream_of_another_origin(self):
         with Server(self.server.folders) as other:
@@ -289,7 +291,7 @@ class TestPlayer(unittest.TestCase):
                 ("page.fbs", "error not-fbs", True, "not an fbs stream"),
                 ("cut.fbs", "error truncated", False, "ends"),
                 ("damaged.fbs", "error damaged", False, ""),
-                ("talk.fbs?cut=8000&fresh", "error network", False, "fetched")):
+                ("talk.fbs?cut=8000", "error network", False, "fetched")):
             with self.subTest(src):
                 self.server.link.rate = 200000 if "?" in src else None  # something comes before it breaks off
                 self.make(src, muted="", autoplay="")
