@@ -2,6 +2,7 @@
 """The player in Chromium without a window: player_test.py [TestPlayer.NAME...]. Needs build/web/package and the program."""
 import array
 import hashlib
+import json
 import math
 import sys
 import time
@@ -41,7 +42,8 @@ class TestPlayer(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         material.make()
-        folders = {"package": material.WEB / "package", "pages": material.ROOT / "web/tests/pages", "media": material.FOLDER}
+        folders = {"package": material.WEB / "package", "pages": material.ROOT / "web/tests/pages",
+                   "demo": material.ROOT / "web/demo", "media": material.FOLDER}
         cls.server = cls.enterClassContext(Server(folders))
         cls.driver = cls.enterClassContext(chromium())
 
@@ -62,7 +64,7 @@ class TestPlayer(unittest.TestCase):
     def until(self, condition, seconds=15):
         end = time.monotonic() + seconds
         while not self.js(f"return {condition}"):
-            self.assertLess(time.monotonic(), end, f"never: {condition}; events: {self.js('return events')}")
+            self.assertLess(time.monotonic(), end, f"never: {condition}; events: {self.js('return window.events')}")
             time.sleep(0.02)
 
     def press(self, *keys):
@@ -148,7 +150,11 @@ class TestPlayer(unittest.TestCase):
         self.assertGreater(len(times), 4)
         self.assertEqual(shown, sorted(shown))
         self.assertEqual(shown[-1], 74 / 25)
-        self.assertTrue(self.js("return player.playback.sound.context.sampleRate === 48000"))
+        self.assertEqual(self.js("return player.playback.sound.context.sampleRate"), 48000)
+        rate = self.js("return player.rate")
+        self.assertAlmostEqual(sum(rate.values()) * 3000 / 8, material.TALK.stat().st_size, delta=1)
+        self.assertGreater(rate["sound"], 6)
+        self.assertEqual(self.inner(".rate").text, f"{rate['picture']:.1f} + {rate['sound']:.1f} kbit/s")
         self.inner(".bar button").click()  # from the beginning
         self.until("!player.paused && player.currentTime > 0.2 && player.currentTime < 2")
 
@@ -282,6 +288,19 @@ class TestPlayer(unittest.TestCase):
         self.assertEqual(len(live), 1)
         self.inner(".bar button").click()
         self.until("player.shadowRoot.querySelector('[role=status]').textContent === 'Playing'")
+
+    def test_demo(self):
+        size = material.TALK.stat().st_size
+        entry = {"rate": 25, "fbs": "talk.fbs", "fbs_bytes": size, "av1": "none.webm", "av1_bytes": 2 * size,
+                 "av1_size": "176x144", "av1_fps": 12.5}
+        (material.FOLDER / "media.json").write_text(json.dumps({"seconds": 3, "media": [entry]}))
+        self.driver.get(self.server.url("demo/index.html"))
+        self.until("document.querySelector('fbs-player')?.videoWidth === 176")
+        captions = [element.text for element in self.driver.find_elements("css selector", "figcaption")]
+        self.assertEqual([caption.split()[1] for caption in captions], [f"{k * size * 8 / 3000:.1f}" for k in (1, 2)])
+        (material.FOLDER / "media.json").unlink()
+        self.driver.get(self.server.url("demo/index.html?again"))
+        self.until("document.querySelector('#rows').textContent.includes('404')")
 
     # ---- what goes wrong
 

@@ -54,7 +54,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(content)))
         self.send_header("Access-Control-Allow-Origin", "*")
-        self.send_header("Cache-Control", "no-store" if query else "max-age=3600")
+        self.send_header("Cache-Control", "no-store" if query or path.suffix == ".json" else "max-age=3600")
         self.end_headers()
         cut, hold = (int(query.get(name, len(content))) for name in ("cut", "hold"))
         try:
