@@ -6,11 +6,16 @@ cd "$(dirname "$0")/.."
 out=$(mkdir -p "${1:-build/web}" && cd "${1:-build/web}" && pwd)
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # where Debian has acorn, which emscripten needs
 
+# Vectors make no difference to the libraries: both modules have the same.
+web/libraries/make.py "$out/libraries" --sources "$out/sources"
+
 # build VARIANT FLAGS
 build() {
-  web/libraries/make.py "$out/libraries/$1" --sources "$out/sources" --flags="$2"
-  [ -f "$out/$1/build.ninja" ] || emcmake cmake -S web -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLIBRARIES="$out/libraries/$1" \
-    -DCMAKE_C_FLAGS="$2" -DCMAKE_CXX_FLAGS="$2" >"$out/$1.log" 2>&1 || { cat "$out/$1.log"; exit 1; }
+  if [ ! "$out/$1/build.ninja" -nt "$out/libraries/complete" ]; then
+    rm -rf "${out:?}/$1"
+    emcmake cmake -S web -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLIBRARIES="$out/libraries" \
+      -DCMAKE_C_FLAGS="$2" -DCMAKE_CXX_FLAGS="$2" >"$out/$1.log" 2>&1 || { cat "$out/$1.log"; exit 1; }
+  fi
   cmake --build "$out/$1"
 }
 build simd -msimd128

@@ -160,7 +160,7 @@ def main():
     parser.add_argument("prefix", type=pathlib.Path, metavar="PREFIX")
     parser.add_argument("--sources", type=pathlib.Path, default=DEFAULT_SOURCES, metavar="FOLDER",
                         help="where downloads are kept (default: build/web/sources)")
-    parser.add_argument("--flags", default="", help="for both compilers, such as -msimd128")
+    parser.add_argument("--flags", default="", help="for both compilers, such as -fexceptions")
     arguments = parser.parse_args()
     prefix = arguments.prefix.resolve()
     complete, made_by = prefix / "complete", stamp(arguments.flags)
