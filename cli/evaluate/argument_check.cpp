@@ -17,6 +17,7 @@ Result<void> refuse(const std::string& text) {
 Result<void> check_folder(const EvaluateArguments& a) {
   if (!a.streams.empty()) return refuse(a.source + ": is a folder of videos: STREAM goes with one video");
   if (!a.region.empty()) return refuse(a.source + ": is a folder of videos: --region goes with one video");
+  if (!a.stills.empty()) return refuse(a.source + ": is a folder of videos: --stills goes with one video");
   return {};
 }
 

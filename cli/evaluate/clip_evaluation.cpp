@@ -54,6 +54,8 @@ class ClipEvaluation {
   Result<void> measure_streams();
   Result<void> measure_peers();
   /// From the lowest rate up, until fbs's rates are covered.
+  /// Sizes and rates of those that are asked for.
+  [[nodiscard]] std::vector<PeerVariant> wanted_variants() const;
   Result<void> climb(const PeerCodec& codec, const PeerVariant& variant, double enough_kbps);
   Result<RdPoint> peer_point(const PeerCodec& codec, const PeerVariant& variant, int crf);
   /// Measures a point, unless that has been done.
@@ -64,6 +66,7 @@ class ClipEvaluation {
   const Tools& tools_;
   const RunFolder& run_;
   const StopSignal& stop_;
+  const PartLimits limits_{arguments_.frames, {}};
   ClipReport clip_;
   json key_;  ///< of everything that is made of the source
   FaceRegions regions_;
@@ -110,7 +113,9 @@ Result<void> ClipEvaluation::open(const std::string& source) {
   auto opened = open_video_source(clip_.read_from);
   if (!opened) return fail(opened.error());
   clip_.format = (*opened)->format();
-  key_ = {{"source", file_stamp(clip_.read_from)}, {"program", program_stamp()}};
+  key_ = {{"source", file_stamp(clip_.read_from)},
+          {"frames", arguments_.frames.value_or(0)},
+          {"program", program_stamp()}};
   return {};
 }
 
@@ -160,7 +165,7 @@ Result<void> ClipEvaluation::encode(int quality) {
   options.stop = &stop_;
   auto opened = open_video_source(clip_.read_from, options);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {}, &stop_);
+  SourcePart source(std::move(*opened), limits_, &stop_);
   auto file = AtomicFile::create(point.file);
   if (!file) return fail(file.error());
   const auto encoded = encode_source(
@@ -194,7 +199,7 @@ Result<void> ClipEvaluation::read_tracks() {
 
 Result<void> ClipEvaluation::take_regions(std::vector<StreamTrack>& tracks) {
   if (!arguments_.region.empty()) {
-    auto read = read_region_csv(arguments_.region);
+    auto read = read_region(arguments_.region, &stop_);
     if (!read) return fail(read.error());
     regions_ = std::move(*read);
     if (regions_.outlines.size() > tracks.front().times.size())
@@ -223,7 +228,7 @@ Result<void> ClipEvaluation::measure(const std::string& name, const Open& open, 
   if (const auto found = run_.find(name, key); found && read_quality(*found, point)) return {};
   auto shown = open();
   if (!shown) return fail(shown.error());
-  MeasurementSetting setting{clip_.read_from, &regions_, tools_.vmaf, arguments_.quiet, &stop_};
+  MeasurementSetting setting{clip_.read_from, limits_, &regions_, tools_.vmaf, arguments_.quiet, &stop_};
   const auto source = measure_pictures(setting, **shown, run_.path(name + ".log"), point);
   if (!source) return fail(source.error());
   if (!std::exchange(warned_, true))
@@ -252,11 +257,11 @@ Result<RdPoint> ClipEvaluation::peer_point(const PeerCodec& codec, const PeerVar
   const std::string name = codec.encoder + "-" + std::to_string(variant.divisor) + "x" +
                            std::to_string(variant.step) + "-crf" + std::to_string(crf);
   point.file = run_.path(name + "." + codec.suffix);
-  json key = {{"source", key_["source"]}, {"options", codec.options}};
+  json key = {{"source", key_["source"]}, {"frames", key_["frames"]}, {"options", codec.options}};
   const auto made = run_.find(name, key);
   if (!made || *made != file_stamp(point.file)) {
-    if (auto coded =
-            encode_peer(clip_.read_from, {codec, variant, crf, point.file, arguments_.quiet}, &stop_);
+    if (auto coded = encode_peer(clip_.read_from, limits_,
+                                 {codec, variant, crf, point.file, arguments_.quiet}, &stop_);
         !coded)
       return fail(coded.error());
     if (clip_.whole)
@@ -284,12 +289,23 @@ Result<void> ClipEvaluation::climb(const PeerCodec& codec, const PeerVariant& va
   return {};
 }
 
+std::vector<PeerVariant> ClipEvaluation::wanted_variants() const {
+  const auto wanted = [](const std::vector<int>& list, int value) {
+    return list.empty() || std::ranges::find(list, value) != list.end();
+  };
+  std::vector<PeerVariant> out;
+  for (const PeerVariant& variant : peer_variants(clip_.format.width, clip_.format.height))
+    if (wanted(arguments_.peer_sizes, variant.divisor) && wanted(arguments_.peer_rates, variant.step))
+      out.push_back(variant);
+  return out;
+}
+
 Result<void> ClipEvaluation::measure_peers() {
   clip_.compared = !tools_.peers.empty();
   double enough_kbps = 0;
   for (const RdPoint& p : clip_.points) enough_kbps = std::max(enough_kbps, kRateToCover * p.kbps());
   for (const PeerCodec& codec : tools_.peers)
-    for (const PeerVariant& variant : peer_variants(clip_.format.width, clip_.format.height))
+    for (const PeerVariant& variant : wanted_variants())
       if (auto climbed = climb(codec, variant, enough_kbps); !climbed) return climbed;
   return {};
 }
@@ -304,6 +320,15 @@ Result<Tools> find_tools(const EvaluateArguments& arguments) {
   if (tools.peers.empty())
     return fail(ErrorCode::kUnsupported,
                 "--peers needs ffmpeg with libx264, libx265, libsvtav1 or libaom-av1, and finds none");
+  if (arguments.peer_codecs.empty()) return tools;
+  std::vector<PeerCodec> wanted;
+  for (const std::string& name : arguments.peer_codecs) {
+    const auto found = std::ranges::find(tools.peers, name, &PeerCodec::option);
+    if (found == tools.peers.end())
+      return fail(ErrorCode::kUnsupported, "--peer-codec " + name + ": ffmpeg has no encoder of it");
+    wanted.push_back(*found);
+  }
+  tools.peers = std::move(wanted);
   return tools;
 }
 

@@ -1,6 +1,7 @@
 // Arguments of `fbs evaluate`.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +17,17 @@ struct EvaluateArguments {
   std::vector<int> qualities;        ///< to encode with when there is no stream; empty: kDefaultQualities
   bool live = false;                 ///< encode as live pictures are
   bool allow_no_face = false;
-  bool peers = false;       ///< code with other codecs, too
-  std::string region;       ///< table of landmarks that says where the face is; empty: a stream says it
-  std::string csv;          ///< file for the values of each picture; empty: none
-  std::string html;         ///< file for the report; empty: none
-  std::string keep;         ///< folder for what is finished; empty: beside the report, else a temporary one
+  std::optional<std::int64_t> frames;    ///< encode and measure at most so many pictures of the source
+  bool peers = false;                    ///< code with other codecs, too
+  std::vector<std::string> peer_codecs;  ///< their names, in small letters; empty: all that ffmpeg has
+  std::vector<int> peer_sizes;           ///< divisors of the size; empty: all
+  std::vector<int> peer_rates;           ///< divisors of the picture rate; empty: all
+  std::string region;  ///< table of landmarks, or a stream, that says where the face is; empty: the streams
+                       ///< that are measured do
+  std::string csv;     ///< file for the values of each picture; empty: none
+  std::string html;    ///< file for the report; empty: none
+  std::string stills;  ///< folder for pictures; empty: none
+  std::string keep;    ///< folder for what is finished; empty: beside the report, else a temporary one
   std::optional<int> jobs;  ///< videos of a folder at the same time
   bool json = false;
   bool quiet = false;

@@ -1,4 +1,5 @@
 // The options of `fbs evaluate`.
+#include <cstdint>
 
 #include "cli/encode/encode_arguments.h"
 #include "cli/evaluate/evaluate_arguments.h"
@@ -7,6 +8,8 @@
 
 namespace fbs::cli {
 namespace {
+
+constexpr std::int64_t kMaxFrames = 1'000'000'000;  // as of encode
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -18,6 +21,23 @@ constexpr const char* kExamples =
     "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
     "\n"
     "A run with --html or --keep that is interrupted goes on where it was when it is started again.";
+
+void add_peers(CLI::App& verb, EvaluateArguments& a) {
+  verb.add_flag("--peers", a.peers, "Also encode with x264, x265 and AV1, through ffmpeg; takes minutes");
+  verb.add_option("--peer-codec", a.peer_codecs, "Only these of x264, x265, av1")
+      ->check(CLI::IsMember({"x264", "x265", "av1"}))
+      ->expected(1, 3)
+      ->needs("--peers");
+  verb.add_option("--peer-size", a.peer_sizes, "Only at the full size (1), at half of it (2)")
+      ->check(CLI::Range(1, 2))
+      ->expected(1, 2)
+      ->needs("--peers");
+  verb.add_option("--peer-rate", a.peer_rates,
+                  "Only with all pictures (1), every second (2), every third (3)")
+      ->check(CLI::Range(1, 3))
+      ->expected(1, 3)
+      ->needs("--peers");
+}
 
 }  // namespace
 
@@ -32,11 +52,20 @@ void add_evaluate(CLI::App& app, Run& run) {
       ->expected(1, 16);
   verb->add_flag("--live", a.live, "Encode as live pictures are");
   verb->add_flag("--allow-no-face", a.allow_no_face, "Measure a video without a face instead of failing");
-  verb->add_flag("--peers", a.peers, "Also encode with x264, x265 and AV1, through ffmpeg; takes minutes");
-  verb->add_option("--region", a.region, "Table of 68 landmarks that says where the face is (see export)")
-      ->type_name("CSV");
+  verb->add_option("--frames", a.frames, "Encode and measure the first N pictures only")
+      ->check(CLI::Range(std::int64_t{1}, kMaxFrames))
+      ->type_name("N");
+  add_peers(*verb, a);
+  verb->add_option(
+          "--region", a.region,
+          "Table of 68 landmarks (see export) or stream whose mesh says where the face is, instead of the "
+          "streams that are measured")
+      ->type_name("FILE");
   verb->add_option("--html", a.html, "Write a report with curves and pictures")->type_name("FILE");
   verb->add_option("--csv", a.csv, "Write the values of each picture")->type_name("FILE");
+  verb->add_option("--stills", a.stills,
+                   "Folder for JPEG files of a typical picture and of the worst: source, streams, difference")
+      ->type_name("DIR");
   verb->add_option("--keep", a.keep,
                    "Folder for what is finished (default: NAME.fbs-run beside --html NAME.html)")
       ->type_name("DIR");

@@ -12,6 +12,7 @@
 #include "cli/evaluate/evaluate_arguments.h"
 #include "cli/evaluate/folder_evaluation.h"
 #include "cli/evaluate/report/html_report.h"
+#include "cli/evaluate/report/stills.h"
 #include "cli/evaluate/text_report.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
@@ -54,6 +55,11 @@ Result<Outcome> evaluate_single(const EvaluateArguments& arguments, const Tools&
   const bool whole = clip->whole;
   std::vector<ClipReport> clips{std::move(*clip)};
   if (auto written = write_files(arguments, clips); !written) return fail(written.error());
+  if (!arguments.stills.empty()) {
+    const auto stills = make_stills(clips.front());
+    if (!stills) return fail(stills.error());
+    if (auto written = write_stills(arguments.stills, *stills); !written) return fail(written.error());
+  }
   if (arguments.json)
     std::printf("%s\n", clip_json(clips.front()).dump(1).c_str());
   else

@@ -27,7 +27,7 @@ Result<SourcePart> measure_pictures(const MeasurementSetting& setting, ShownPict
   options.stop = setting.stop;
   auto opened = open_video_source(setting.source, options);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {}, setting.stop);
+  SourcePart source(std::move(*opened), setting.limits, setting.stop);
   std::optional<VmafMeter> vmaf;
   if (setting.vmaf) {
     auto started = VmafMeter::start(source.format().width, source.format().height, log);

@@ -16,6 +16,7 @@ namespace fbs::cli {
 /// What all streams of a source are measured with.
 struct MeasurementSetting {
   std::string source;
+  PartLimits limits;
   const FaceRegions* regions = nullptr;
   bool vmaf = false;
   bool quiet = false;  ///< no progress bar

@@ -78,6 +78,7 @@ def run(
     on_progress: Progress | None = None,
     cwd: PathLike | None = None,
     timeout: float | None = None,
+    launcher: Sequence[str] = (),
 ) -> str:
     """Run ``fbs ARGUMENTS`` and wait for its end.
 
@@ -95,6 +96,8 @@ def run(
         The folder to run in.
     timeout : float, optional
         Seconds.
+    launcher : sequence of str, optional
+        A command that runs the program, such as ``("nice",)``.
 
     Returns
     -------
@@ -114,7 +117,7 @@ def run(
         There are results, but the source was cut off or damaged, or something was left out.
     """
     name = program()
-    child = _Child([name, *map(os.fspath, arguments)], cwd)
+    child = _Child([*launcher, name, *map(os.fspath, arguments)], cwd)
     try:
         child.follow(on_progress, None if timeout is None else time.monotonic() + timeout)
     except TimeoutError:

@@ -67,6 +67,30 @@ class Reports(EvaluateTest):
         self.assertEqual(own["points"][0]["psnr_frame"], given["points"][0]["psnr_frame"])
         self.assertNotEqual(own["points"][0]["psnr_face"], given["points"][0]["psnr_face"])
 
+    def test_region_from_a_stream_that_is_not_measured(self):
+        both = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_ONE_FBS, TALK_FBS, "--json"))
+        one = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_FBS, "--region", TALK_ONE_FBS, "--json"))
+        self.assertEqual(one["points"], both["points"][1:])
+        self.assertEqual(one["region"], both["region"])
+
+    def test_first_pictures_only(self):
+        self.succeed("encode", "talk.y4m", "ten.fbs", "--quality", "50", "--frames", "10", "--quiet")
+        given = json.loads(self.succeed("evaluate", "talk.y4m", "ten.fbs", "--frames", "10", "--json"))["points"][0]
+        own = json.loads(self.succeed("evaluate", "talk.y4m", "--quality", "50", "--frames", "10", "--json"))["points"][0]
+        self.assertEqual(given["frames"], 10)
+        for value in ("bytes", "kbps", "psnr_face", "psnr_frame"):
+            self.assertEqual(given[value], own[value], value)
+        self.fail_cleanly("evaluate", "talk.y4m", "ten.fbs", "--frames", "11", says=["fewer pictures than"])
+
+    def test_stills_are_files(self):
+        self.succeed("evaluate", "talk.y4m", "--quality", "50", "--stills", "new/stills", "--quiet")
+        written = sorted((self.folder / "new/stills").iterdir())
+        self.assertEqual([path.name for path in written],
+                         [f"{why}-{what}.jpg" for why in ("typical", "worst") for what in ("difference", "fbs", "source")])
+        for path in written:
+            self.assertTrue(path.read_bytes().startswith(b"\xff\xd8"), path)
+        self.assertEqual(len({path.read_bytes() for path in written}), 6)
+
     def test_says_in_how_many_pictures_the_face_is_believed(self):
         header, *lines = TALK_TRUTH.read_text().splitlines()
         self.write("half.csv", "\n".join([header] + lines[:60]).encode() + b"\n")
@@ -154,6 +178,14 @@ class Peers(EvaluateTest):
         self.assertEqual(set(report["bd_rate"]), {"face", "frame"})
         self.assertEqual((self.folder / "out.html").read_text().count("data:image/jpeg"), 6)
 
+    def test_only_the_peers_that_are_asked_for(self):
+        self.succeed("encode", "talk.y4m", "best.fbs", "--quality", "50", "--quiet")
+        report = json.loads(self.succeed("evaluate", "talk.y4m", "best.fbs", "--peers", "--peer-codec", "x264", "--peer-size", "2",
+                                         "--peer-rate", "3", "1", "--json"))
+        self.assertEqual({point["point"].partition(" crf")[0] for point in report["peers"]},
+                         {"x264 1/2 size", "x264 1/2 size 1/3 rate"})
+        self.fail_cleanly("evaluate", "talk.y4m", "best.fbs", "--peer-codec", "x264", says=["--peer-codec requires --peers"])
+
     def test_needs_ffmpeg(self):
         self.fail_cleanly("evaluate", "talk.y4m", "--peers", says=["--peers needs ffmpeg"],
                           environment={**os.environ, "PATH": "/nowhere"})
@@ -192,6 +224,8 @@ class Refused(EvaluateTest):
         self.write("faces.csv", TALK_TRUTH.read_bytes())
         for line, says in (("clips talk.fbs", "STREAM goes with one video"),
                            ("clips --region faces.csv", "--region goes with one video"),
+                           ("clips --stills out", "--stills goes with one video"),
+                           ("talk.y4m --stills talk.fbs/out", "cannot make the folder"),
                            ("talk.y4m --jobs 2", "--jobs is for a folder"),
                            ("talk.y4m talk.fbs --quality 50", "--quality is for encoding"),
                            ("talk.y4m talk.fbs --live", "--live is for encoding"),
@@ -203,7 +237,7 @@ class Refused(EvaluateTest):
                            ("talk.y4m --csv -", "needs the name of a file"),
                            ("talk.y4m --html absent/out.html", "there is no folder absent"),
                            ("talk.y4m --region faces.csv", "more than talk.y4m"),
-                           ("talk.y4m --region talk.fbs", "has no columns"),
+                           ("talk.y4m --region talk.y4m", "has no columns"),
                            ("talk.y4m --keep talk.fbs/run", "cannot make the folder"),
                            ("- -", "read once only"),
                            ("camera:0", "record it first")):

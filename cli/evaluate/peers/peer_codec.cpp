@@ -13,18 +13,25 @@ constexpr int kMinSide = 64;  // samples
 // these rates it would be a fifth of the bytes.
 const PeerCodec kX264{
     "x264",
+    "x264",
     "libx264",
     "h264",
     {"-preset", "slower", "-g", "9999", "-bsf:v", "filter_units=remove_types=6", "-f", "h264"},
     {51, 46, 41, 36, 31, 26, 21}};
 const PeerCodec kX265{"x265",
+                      "x265",
                       "libx265",
                       "hevc",
                       {"-preset", "slow", "-x265-params", "keyint=-1:info=0:log-level=error", "-f", "hevc"},
                       {51, 46, 41, 36, 31, 26, 21}};
-const PeerCodec kSvtAv1{
-    "AV1", "libsvtav1", "ivf", {"-preset", "4", "-g", "9999", "-f", "ivf"}, {63, 57, 51, 45, 39, 33, 27}};
+const PeerCodec kSvtAv1{"AV1",
+                        "av1",
+                        "libsvtav1",
+                        "ivf",
+                        {"-preset", "4", "-g", "9999", "-f", "ivf"},
+                        {63, 57, 51, 45, 39, 33, 27}};
 const PeerCodec kAom{"AV1",
+                     "av1",
                      "libaom-av1",
                      "ivf",
                      {"-cpu-used", "3", "-b:v", "0", "-g", "9999", "-f", "ivf"},

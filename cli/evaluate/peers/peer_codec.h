@@ -8,6 +8,7 @@ namespace fbs::cli {
 
 struct PeerCodec {
   std::string name;                  ///< for people: "x265", "AV1"
+  std::string option;                ///< for --peer-codec: "x265", "av1"
   std::string encoder;               ///< of ffmpeg
   std::string suffix;                ///< of a file with its raw stream
   std::vector<std::string> options;  ///< of ffmpeg, for the best a slow preset gives at low rates

@@ -7,7 +7,6 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/encode/source_part.h"
 #include "cli/evaluate/peers/child_process.h"
 #include "cli/progress.h"
 
@@ -63,13 +62,13 @@ Result<void> feed(SourcePart& source, const PeerJob& job, ChildProcess& ffmpeg) 
   }
 }
 
-Result<void> encode_to(const std::string& unfinished, const std::string& name, const PeerJob& job,
-                       const StopSignal* stop) {
+Result<void> encode_to(const std::string& unfinished, const std::string& name, const PartLimits& limits,
+                       const PeerJob& job, const StopSignal* stop) {
   SourceOptions options;
   options.stop = stop;
   auto opened = open_video_source(name, options);
   if (!opened) return fail(opened.error());
-  SourcePart source(std::move(*opened), {}, stop);
+  SourcePart source(std::move(*opened), limits, stop);
   auto ffmpeg = ChildProcess::start(command_of(source.format(), job, unfinished),
                                     ChildProcess::Pipe::kToStandardInput, job.file + ".log");
   if (!ffmpeg) return fail(ffmpeg.error());
@@ -92,9 +91,10 @@ std::uint32_t little_endian_32(const std::vector<std::uint8_t>& bytes, std::size
 
 }  // namespace
 
-Result<void> encode_peer(const std::string& source, const PeerJob& job, const StopSignal* stop) {
+Result<void> encode_peer(const std::string& source, const PartLimits& limits, const PeerJob& job,
+                         const StopSignal* stop) {
   const std::string unfinished = job.file + ".part";
-  auto encoded = encode_to(unfinished, source, job, stop);
+  auto encoded = encode_to(unfinished, source, limits, job, stop);
   std::error_code ignored;
   if (!encoded) fs::remove(unfinished, ignored);
   return encoded;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "cli/encode/source_part.h"
 #include "cli/evaluate/peers/peer_codec.h"
 #include "cli/video/stop_signal.h"
 #include "common/result.h"
@@ -18,10 +19,11 @@ struct PeerJob {
   bool quiet = false;  ///< no progress bar
 };
 
-/// Codes the source. The file appears when it is complete; what is half done is removed.
+/// Codes the source up to its limits. The file appears when it is complete; what is half done is removed.
 /// @param stop  may be null
 /// @return kIo with what ffmpeg said, or when the signal came
-Result<void> encode_peer(const std::string& source, const PeerJob& job, const StopSignal* stop);
+Result<void> encode_peer(const std::string& source, const PartLimits& limits, const PeerJob& job,
+                         const StopSignal* stop);
 
 /// Bytes of the packets in a raw stream. Of .ivf without its headers and the temporal delimiters of AV1, two
 /// bytes a picture that no container needs; of anything else, of the file.

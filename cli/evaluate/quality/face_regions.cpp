@@ -1,8 +1,10 @@
 #include "cli/evaluate/quality/face_regions.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/stream/stream_file.h"
+#include "cli/video/video_source.h"
 
 namespace fbs::cli {
 
@@ -47,6 +49,13 @@ Result<StreamTrack> read_track(const std::string& stream, const StopSignal* stop
   }
   track.bytes = decoder.bytes();
   return track;
+}
+
+Result<FaceRegions> read_region(const std::string& file, const StopSignal* stop) {
+  if (!is_stream_file(file)) return read_region_csv(file);
+  auto track = read_track(file, stop);
+  if (!track) return fail(track.error());
+  return FaceRegions{"the mesh of " + file, std::move(track->outlines)};
 }
 
 }  // namespace fbs::cli

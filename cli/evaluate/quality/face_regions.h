@@ -46,4 +46,7 @@ Result<StreamTrack> read_track(const std::string& stream, const StopSignal* stop
 /// @return kIo, kInvalidArgument with the line that is wrong; texts name the file
 Result<FaceRegions> read_region_csv(const std::string& file);
 
+/// The mesh of a stream, or read_region_csv() of anything else.
+Result<FaceRegions> read_region(const std::string& file, const StopSignal* stop);
+
 }  // namespace fbs::cli

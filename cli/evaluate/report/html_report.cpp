@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/evaluate/clip_means.h"
+#include "cli/evaluate/report/base64.h"
 #include "cli/evaluate/report/chart.h"
 #include "cli/evaluate/report/clip_charts.h"
 #include "cli/evaluate/report/html_tables.h"
@@ -64,7 +65,7 @@ std::string image(const Still::Image& i, const Still& still, const ClipReport& c
     caption += (q.face ? "frame " : ": frame ") + decimal(q.frame.y.psnr(), 1) + " dB";
   }
   return "<figure><img alt=\"" + escaped(name) + "\" style=\"aspect-ratio: " + shape +
-         "\" src=\"data:image/jpeg;base64," + i.jpeg + "\"><figcaption>" + caption +
+         "\" src=\"data:image/jpeg;base64," + base64(i.jpeg) + "\"><figcaption>" + caption +
          "</figcaption></figure>\n";
 }
 

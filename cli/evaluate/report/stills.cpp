@@ -1,16 +1,18 @@
 #include "cli/evaluate/report/stills.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "cli/evaluate/quality/shown_pictures.h"
-#include "cli/evaluate/report/base64.h"
 #include "cli/evaluate/run_folder.h"
+#include "cli/video/atomic_file.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 
@@ -71,7 +73,28 @@ Result<void> add_images(const ClipReport& clip, const RdPoint* point, const Pict
     if (found == pictures.end()) continue;
     auto jpeg = jpeg_of(found->second, clip.format);
     if (!jpeg) return fail(jpeg.error());
-    still.images.push_back({base64(*jpeg), point});
+    still.images.push_back({std::move(*jpeg), point});
+  }
+  return {};
+}
+
+Picture difference_of(const Picture& a, const Picture& b) {
+  constexpr int kGain = 4, kBlack = 16, kWhite = 235;
+  Picture out(a.width(), a.height());
+  for (std::size_t i = 0; i < a.y.samples.size(); ++i)
+    out.y.samples[i] = static_cast<std::uint8_t>(
+        std::min(kWhite, kBlack + kGain * std::abs(int{a.y.samples[i]} - int{b.y.samples[i]})));
+  return out;
+}
+
+Result<void> add_differences(const VideoFormat& format, const Pictures& source, const Pictures& fbs,
+                             std::vector<Still>& stills) {
+  for (Still& still : stills) {
+    const auto a = source.find(still.picture), b = fbs.find(still.picture);
+    if (a == source.end() || b == fbs.end()) continue;
+    auto jpeg = jpeg_of(difference_of(a->second, b->second), format);
+    if (!jpeg) return fail(jpeg.error());
+    still.difference = std::move(*jpeg);
   }
   return {};
 }
@@ -84,8 +107,8 @@ std::vector<Still> choose(const RdPoint& point) {
   });
   std::vector<Still> out;
   if (order.empty()) return out;
-  out.push_back({order[order.size() / 2], "typical", {}});
-  if (order.size() > 1) out.push_back({order.front(), "worst", {}});
+  out.push_back({order[order.size() / 2], "typical", {}, {}});
+  if (order.size() > 1) out.push_back({order.front(), "worst", {}, {}});
   return out;
 }
 
@@ -106,8 +129,31 @@ Result<std::vector<Still>> make_stills(const ClipReport& clip) {
     const auto pictures = pictures_of_stream(clip, *p, wanted);
     if (!pictures) return fail(pictures.error());
     if (auto added = add_images(clip, p, *pictures, stills); !added) return fail(added.error());
+    if (p != point) continue;
+    if (auto added = add_differences(clip.format, *source, *pictures, stills); !added)
+      return fail(added.error());
   }
   return stills;
+}
+
+Result<void> write_stills(const std::string& folder, const std::vector<Still>& stills) {
+  const auto opened = RunFolder::open(folder);
+  if (!opened) return fail(opened.error());
+  const auto write = [&](const std::string& name, const std::string& jpeg) -> Result<void> {
+    auto file = AtomicFile::create(opened->path(name + ".jpg"));
+    if (!file) return fail(file.error());
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(jpeg.data()), jpeg.size());
+    return file->write(bytes).and_then([&] { return file->commit(); });
+  };
+  for (const Still& still : stills) {
+    for (const Still::Image& image : still.images)
+      if (auto written =
+              write(still.why + "-" + (image.point == nullptr ? "source" : image.point->codec), image.jpeg);
+          !written)
+        return written;
+    if (auto written = write(still.why + "-difference", still.difference); !written) return written;
+  }
+  return {};
 }
 
 }  // namespace fbs::cli

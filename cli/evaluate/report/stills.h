@@ -14,14 +14,19 @@ struct Still {
   std::size_t picture = 0;
   std::string why;  ///< "typical", "worst"
   struct Image {
-    std::string jpeg;                ///< the file's bytes, base64
+    std::string jpeg;                ///< the file's bytes
     const RdPoint* point = nullptr;  ///< null: the source
   };
   std::vector<Image> images;
+  std::string difference;  ///< of fbs from the source: four times that of luma, on black; JPEG
 };
 
 /// The picture of the median PSNR of the face (of the frame, without a face) in shown_point(), and that of
 /// the least. The pointers are into `clip`.
 Result<std::vector<Still>> make_stills(const ClipReport& clip);
+
+/// Writes them as `WHY-source.jpg`, `WHY-fbs.jpg`, `WHY-difference.jpg` and, of a rival, `WHY-x265.jpg`.
+/// @param folder  made where needed
+Result<void> write_stills(const std::string& folder, const std::vector<Still>& stills);
 
 }  // namespace fbs::cli

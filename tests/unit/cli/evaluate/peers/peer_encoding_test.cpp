@@ -42,7 +42,7 @@ TEST(PeerCodec, HalfSizeNeedsSixtyFourSamples) {
 }
 
 TEST(PeerCodec, LabelSaysSizeAndRate) {
-  const PeerCodec codec{"x265", "libx265", "hevc", {}, {}};
+  const PeerCodec codec{"x265", "x265", "libx265", "hevc", {}, {}};
   EXPECT_EQ(peer_label(codec, {1, 1}, 51), "x265 crf 51");
   EXPECT_EQ(peer_label(codec, {2, 3}, 45), "x265 1/2 size 1/3 rate crf 45");
 }
