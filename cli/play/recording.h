@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/decode/decoded_time.h"
-#include "cli/play/recorded_sound.h"
+#include "cli/play/sound/recorded_sound.h"
 #include "cli/video/video_sink.h"
 
 namespace fbs::cli {

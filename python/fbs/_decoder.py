@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from fbs import _fbs
 from fbs._face import FaceState, States, states_of
 from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureLike
-from fbs.errors import ArgumentError, DamagedError, Error, FileError, NoMemoryError, NotFbsError
+from fbs._source import Buffer, ByteSource, Source
+from fbs.errors import ArgumentError, DamagedError, Error, NoMemoryError, NotFbsError
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -21,10 +23,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float32]
 
-Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryIO]
-
 _OK, _NEED_DATA, _END = 0, 1, 2
-_PIECE = 1 << 16  # bytes that are fed before the pictures in them are taken
 _LAST_TIME = (1 << 64) - 1
 
 
@@ -52,13 +51,15 @@ class Scene(NamedTuple):
 class Decoder:
     """Decodes a stream, picture by picture.
 
-    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is.
+    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is. Several threads may share
+    one: each picture is given to one of them.
 
     Parameters
     ----------
     source : path, bytes, or binary file, optional
-        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work. A file, or whatever else has
-        a method ``read``, is read as pictures are asked for. Without: the stream comes through :meth:`feed`.
+        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work; the path may be that of a
+        Matroska file that has a stream. A file, or whatever else has a method ``read``, is read as pictures are asked
+        for. Without: the stream comes through :meth:`feed`.
     threads : int, optional
         That draw each picture, 1 to 64; the pictures are the same. By default one for each core, up to four.
     max_pixels : int, optional
@@ -109,31 +110,22 @@ class Decoder:
         if max_pixels < 0:
             raise ArgumentError(f"max_pixels is not negative, as {max_pixels} is")
         self.errors: list[Error] = []
+        self._lock = threading.RLock()
         self._max_pixels = max_pixels
         self._keep_going = keep_going
         self._decoder = _fbs.Decoder(threads, max_pixels)
-        self._stream: bytes | bytearray | memoryview | None = None
-        self._file: BinaryIO | None = None
-        self._fed = 0
+        self._source = ByteSource(source)
         self._info: PictureInfo | None = None
         self._format: Format | None = None
         self._waiting: PictureInfo | Error | None = None  # found, and not given out yet
         self._scenes: list[Scene] | None = None
-        if isinstance(source, (bytes, bytearray, memoryview)):
-            self._stream = source
-        elif isinstance(source, (str, os.PathLike)):
-            self._stream = _bytes_of(source)
-        elif source is not None and not hasattr(source, "read"):
-            raise ArgumentError(f"a stream is a path, bytes, or a binary file, not {type(source).__name__}")
-        else:
-            self._file = source
-        if self._stream is not None:
+        if self._source.is_whole:
             try:
                 self._look_ahead()
             except Error as problem:
-                if not isinstance(source, (str, os.PathLike)):
+                if self._source.name is None:
                     raise
-                raise type(problem)(f"{os.fspath(source)}: {problem}", problem.offset) from None
+                raise type(problem)(f"{self._source.name}: {problem}", problem.offset) from None
 
     # ---- opening and closing ----
 
@@ -151,12 +143,12 @@ class Decoder:
 
     # ---- bytes in ----
 
-    def feed(self, piece: bytes | bytearray | memoryview) -> None:
+    def feed(self, piece: Buffer) -> None:
         """Take the next bytes of the stream, in pieces of any size. They are copied.
 
         For decoders without a source. Iterate over the pictures in between: what is fed and not decoded is kept.
         """
-        if self._stream is not None or self._file is not None:
+        if not self._source.is_fed:
             raise ArgumentError("this decoder reads its source by itself")
         self._decoder.feed(piece)
 
@@ -166,15 +158,9 @@ class Decoder:
 
     def _feed_more(self) -> bool:
         """Feed a piece of the source, or its end. False where there is no source."""
-        if self._stream is not None:
-            piece: bytes | memoryview = memoryview(self._stream)[self._fed : self._fed + _PIECE]
-        elif self._file is not None:
-            # What a pipe has now, rather than what it will have once the piece is full.
-            read = getattr(self._file, "read1", self._file.read)
-            piece = read(_PIECE)
-        else:
+        if self._source.is_fed:
             return False
-        self._fed += len(piece)
+        piece = self._source.piece()
         if len(piece) > 0:
             self._decoder.feed(piece)
         else:
@@ -196,11 +182,13 @@ class Decoder:
         DamagedError, TruncatedError, ...
             Reported once, unless `keep_going`: the next call goes on behind the damage, at the next scene.
         """
-        waiting, self._waiting = self._waiting, None
-        if isinstance(waiting, Error):
-            raise waiting
-        if waiting is not None:
-            return waiting
+        with self._lock:
+            waiting, self._waiting = self._waiting, None
+            if isinstance(waiting, Error):
+                raise waiting
+            return self._next_info() if waiting is None else waiting
+
+    def _next_info(self) -> PictureInfo | None:
         while True:
             try:
                 status, number, ticks, duration, held, new_scene = self._decoder.next()
@@ -310,9 +298,10 @@ class Decoder:
         return self
 
     def __next__(self) -> Picture:
-        if self.advance() is None:
-            raise StopIteration
-        return self.draw()
+        with self._lock:
+            if self.advance() is None:
+                raise StopIteration
+            return self.draw()
 
     def _target(self, out: PictureLike | None) -> Picture:
         """`out`, or a new picture, with the place of the current one."""
@@ -413,14 +402,16 @@ class Decoder:
         >>> states.landmarks.shape, states.pose.shape
         ((20, 68, 2), (20, 3))
         """
-        columns: dict[str, Any] = _fbs.read_states(self._whole("states"), self._max_pixels, self._keep_going)
+        columns: dict[str, Any] = _fbs.read_states(
+            self._source.whole("states"), self._max_pixels, self._keep_going
+        )
         return states_of(columns, TICKS_PER_SECOND)
 
     @property
     def scenes(self) -> list[Scene]:
         """Where decoding can begin, in order."""
         if self._scenes is None:
-            stream = self._whole("scenes")
+            stream = self._source.whole("scenes")
             found: list[Scene] = []
             ticks = _LAST_TIME
             while (scene := _fbs.find_scene(stream, ticks)) is not None:
@@ -444,6 +435,11 @@ class Decoder:
         number : int
             Instead: the picture of this number, or the next one that is not lost.
 
+        Raises
+        ------
+        DamagedError, TruncatedError, ...
+            Between the beginning of its scene and the picture, unless `keep_going`.
+
         Examples
         --------
         >>> decoder = fbs.Decoder("talk.fbs")
@@ -454,7 +450,7 @@ class Decoder:
         >>> next(decoder).number
         3
         """
-        stream = self._whole("seek")
+        self._source.whole("seek")
         if (time is None) == (number is None):
             raise ArgumentError("seek to a time or to a number")
         place = time if time is not None else number
@@ -470,24 +466,11 @@ class Decoder:
         before = [scene for scene in self.scenes if begins_by_then(scene)] or self.scenes[:1]
         if not before:
             raise DamagedError("there is no scene in the stream")
-        self._decoder.reset()
-        self._waiting = self._info = None
-        self._fed = before[-1].offset
-        assert self._fed <= len(stream)
-        while (info := self.advance()) is not None:
-            if is_there(info):
-                self._waiting = info
-                return
-
-    def _whole(self, wanted: str) -> bytes | bytearray | memoryview:
-        if self._stream is None:
-            raise ArgumentError(f"{wanted}: only of a path or of bytes, which are there from the beginning")
-        return self._stream
-
-
-def _bytes_of(path: str | os.PathLike[str]) -> bytes:
-    try:
-        with open(path, "rb") as file:
-            return file.read()
-    except OSError as problem:
-        raise FileError(f"cannot read {os.fspath(path)}: {problem.strerror}") from problem
+        with self._lock:
+            self._decoder.reset()
+            self._waiting = self._info = None
+            self._source.go_to(before[-1].offset)
+            while (info := self.advance()) is not None:
+                if is_there(info):
+                    self._waiting = info
+                    return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -109,6 +110,7 @@ class States:
 
     def __getitem__(self, index: int) -> FaceState | None:
         """Of the picture in row `index`; None where it has no face."""
+        index = operator.index(index)
         if not self.has_face[index]:
             return None
         pitch, yaw, roll = map(float, self.pose[index])

@@ -210,12 +210,23 @@ def planes_of(picture: PictureLike, format: Format) -> tuple[Plane, Plane, Plane
         planes = [np.asarray(plane) for plane in picture]
         if len(planes) != 3 or any(plane.dtype != np.uint8 or plane.ndim != 2 for plane in planes):
             raise ArgumentError("a picture is an (h, w, 3) array of uint8, a Picture, or three planes of uint8")
-        picture = Picture(*planes)
+        picture = Picture(*planes, matrix=format.matrix, full_range=format.full_range)
     if (picture.width, picture.height) != (format.width, format.height):
         raise ArgumentError(
             f"the picture is {picture.width}x{picture.height}, the stream {format.width}x{format.height}"
         )
+    if _meaning(picture) != _meaning(format):
+        raise ArgumentError(f"the picture has {_named(picture)}, the stream {_named(format)}")
     return _rows_contiguous(picture)
+
+
+def _meaning(colours: Picture | Format) -> tuple[bool, bool]:
+    """What the samples mean: BT.709 or not, full range or not."""
+    return colours.matrix == "bt709", colours.full_range
+
+
+def _named(colours: Picture | Format) -> str:
+    return f"matrix {colours.matrix} and {'full' if colours.full_range else 'limited'} range"
 
 
 def _rows_contiguous(picture: Picture) -> tuple[Plane, Plane, Plane]:

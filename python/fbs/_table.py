@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from fbs import _program
+from fbs.errors import ArgumentError
 
 if TYPE_CHECKING:
     import pandas
@@ -39,7 +40,7 @@ def track(
     video : path
         Whatever ``fbs encode`` reads; or a stream, ``.fbs``, whose table it has without tracking anything.
     face : int
-        Which face is followed, 0 being the largest.
+        Of a video: which face is followed, 0 being the largest.
     frames : int, optional
         Only so many pictures.
     duration : float, optional
@@ -86,6 +87,8 @@ def track(
     """
     name = _program.argument(video)
     if os.fspath(video).endswith(".fbs"):
+        if face or any(value is not None for value in (frames, duration, fps)):
+            raise ArgumentError("face, frames, duration and fps are for videos; the table of a stream has all pictures")
         arguments = ["export", name, "-", *options]
     else:
         arguments = ["track", name, "-", *options]

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from fbs import _program
-from fbs._decoder import Decoder, Source
+from fbs._decoder import Decoder
 from fbs._encoding import discarded_part
+from fbs._source import Source
 from fbs.errors import ArgumentError
 
 if TYPE_CHECKING:

@@ -130,6 +130,8 @@ def test_wrong_pictures_are_refused_and_the_rest_goes_on(pictures):
         np.zeros((144, 176), np.uint8),
         pictures[0][:2],
         (pictures[0][0], pictures[0][1], pictures[0][1][:, :87]),
+        fbs.Picture(*pictures[0], matrix="bt709"),
+        fbs.Picture(*pictures[0], full_range=True),
     ]
     for picture in wrong:
         with pytest.raises(fbs.ArgumentError):

@@ -53,5 +53,7 @@ def test_all_that_is_public_is_documented():
             for member, value in vars(thing).items():
                 if not member.startswith("_") and (callable(value) or isinstance(value, property)):
                     assert inspect.getdoc(value), f"{name}.{member}"
+            if issubclass(thing, Exception) and not issubclass(thing, Warning):
+                assert issubclass(thing, fbs.Error)
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         fbs.nothing

@@ -71,4 +71,4 @@ def test_of_encoders(stream, request):
         encoder.push(picture)
         encoder.finish()
 
-    check(once, request.config.getoption("pictures") // 20)
+    check(once, request.config.getoption("pictures") // 40)

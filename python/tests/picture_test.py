@@ -21,7 +21,7 @@ def test_rgb_is_that_of_the_program(tmp_path, video, matrix, full_range):
     colours = {"matrix": matrix, "full_range": full_range}
     pictures = list(fbs.Decoder(VECTORS / "odd.fbs"))[:2]
     encoder = fbs.Encoder(pictures[0].width, pictures[0].height, allow_no_face=True, **colours)
-    packets = [packet for picture in pictures for packet in encoder.push(picture)] + encoder.finish()
+    packets = [packet for picture in pictures for packet in encoder.push(picture.planes)] + encoder.finish()
     (tmp_path / "odd.fbs").write_bytes(b"".join(packets))
     picture = next(fbs.Decoder(tmp_path / "odd.fbs"))
     assert (picture.matrix, picture.full_range) == (matrix, full_range)

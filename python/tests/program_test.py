@@ -1,6 +1,7 @@
 """Whole files, through the program."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -138,6 +139,17 @@ def test_evaluation_is_a_dictionary(video, stream):
     assert point["frames"] == PICTURES and 20 < point["psnr_frame"] < 50
     assert point["bytes"]["total"] == stream.stat().st_size
     assert told[-1][0] == PICTURES
+
+
+def test_results_and_errors_go_from_process_to_process(stream):
+    decoder = fbs.Decoder(stream)
+    picture = next(decoder)
+    with pytest.raises(fbs.FileError) as raised:
+        fbs.inspect("/nowhere.fbs")
+    for thing in (picture, decoder.state, decoder.states, decoder.info, decoder.format, raised.value):
+        again = pickle.loads(pickle.dumps(thing))
+        assert type(again) is type(thing) and str(again) == str(thing)
+    assert again.exit_code == 2 and again.log == raised.value.log
 
 
 def test_no_descriptor_stays_open(stream):

@@ -36,6 +36,11 @@ def test_a_stream_has_what_its_states_have(stream):
     np.testing.assert_allclose(table["scale"], states.eye_distance, atol=1e-2)
 
 
+def test_settings_of_tracking_are_not_for_streams(stream):
+    with pytest.raises(fbs.ArgumentError, match="for videos"):
+        fbs.track(stream, frames=3)
+
+
 def test_a_video_is_tracked(video, stream):
     told = []
     table = fbs.track(video, frames=8, on_progress=lambda *n: told.append(n))

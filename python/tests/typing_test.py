@@ -1,9 +1,14 @@
 """What type checkers make of the package."""
 
+import ast
+import pathlib
 import subprocess
 import sys
 
 import pytest
+
+import fbs
+from fbs import _fbs
 
 # What users write, and the types that it must have.
 SCRIPT = """
@@ -34,6 +39,20 @@ ndarray[tuple[Any, ...], dtype[unsignedinteger[_8Bit]]]
 pathlib.Path
 dict[str, Any]
 """
+
+
+def test_the_stub_names_what_is_in_the_extension():
+    stub = ast.parse((pathlib.Path(fbs.__file__).parent / "_fbs.pyi").read_text())
+
+    def named(body, of):
+        names = {n.name for n in body if isinstance(n, (ast.FunctionDef, ast.ClassDef))}
+        names |= {n.target.id for n in body if isinstance(n, ast.AnnAssign)}
+        assert {n for n in names if not n.startswith("_")} == {n for n in vars(of) if not n.startswith("_")}
+
+    named(stub.body, _fbs)
+    for thing in stub.body:
+        if isinstance(thing, ast.ClassDef):
+            named(thing.body, getattr(_fbs, thing.name))
 
 
 def mypy(*arguments, cwd):

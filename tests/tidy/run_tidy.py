@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over all sources but the tests, in parallel. What was clean stays clean: a stamp for each source
-holds a hash of the source, the headers of ours that it includes, its command and .clang-tidy, and an unchanged one is
-skipped.
+"""Runs clang-tidy over all sources but the tests, in parallel. What was clean stays clean: a stamp is named by a hash of
+a source, the headers of ours that it includes, its command and .clang-tidy, and what has a stamp is skipped. Stamps are
+kept in the user's cache, and so hold for other clones.
 
-    run_tidy.py CLANG_TIDY BUILD    BUILD has compile_commands.json, and gets the stamps in tests/tidy/stamps
+    run_tidy.py CLANG_TIDY BUILD    BUILD has compile_commands.json
 """
 
 import concurrent.futures
@@ -14,9 +14,12 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("common", "bitstream", "decoder", "encoder", "library", "cli", "samples", "training")
+STAMPS = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "fbs/tidy"
+KEPT_DAYS = 60  # after their last use
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
@@ -39,7 +42,9 @@ def with_headers(path, seen):
     return seen
 
 
-def fingerprint(path, command, settings):
+def fingerprint(build, path, command, settings):
+    for folder, name in ((build, "BUILD"), (SOURCE, "SOURCE")):
+        command = command.replace(str(folder), name)
     digest = hashlib.sha256(settings + command.encode())
     for name in sorted(with_headers(path, set())):
         digest.update(name.encode() + (SOURCE / name).read_bytes())
@@ -48,20 +53,27 @@ def fingerprint(path, command, settings):
 
 def check(tidy, build, path, command, settings):
     """What clang-tidy finds; empty when it is clean."""
-    stamp = build / "tests/tidy/stamps" / path.replace("/", ".")
-    now = fingerprint(path, command, settings)
-    if stamp.is_file() and stamp.read_text() == now:
+    stamp = STAMPS / fingerprint(build, path, command, settings)
+    if stamp.is_file():
+        stamp.touch()
         return ""
     done = subprocess.run([tidy, "-p", build, "--quiet", SOURCE / path], capture_output=True, text=True)
     if done.returncode == 0:
-        stamp.write_text(now)
+        stamp.touch()
         return ""
     return done.stdout or done.stderr or f"{path}: clang-tidy ended with {done.returncode}\n"
 
 
+def drop_old_stamps():
+    for stamp in STAMPS.iterdir():
+        if stamp.stat().st_mtime < time.time() - KEPT_DAYS * 86400:
+            stamp.unlink(missing_ok=True)
+
+
 def main():
     tidy, build = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    (build / "tests/tidy/stamps").mkdir(parents=True, exist_ok=True)
+    STAMPS.mkdir(parents=True, exist_ok=True)
+    drop_old_stamps()
     version = subprocess.run([tidy, "--version"], check=True, capture_output=True).stdout
     settings = version + (SOURCE / ".clang-tidy").read_bytes()
     found = sources(build)

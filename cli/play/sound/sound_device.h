@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cli/play/sound_queue.h"
+#include "cli/play/sound/sound_queue.h"
 #include "common/result.h"
 
 namespace fbs::cli {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bitstream/syntax.h"
-#include "cli/play/sound_queue.h"
+#include "cli/play/sound/sound_queue.h"
 #include "cli/stream/sound_cursor.h"
 #include "cli/stream/sound_parts.h"
 

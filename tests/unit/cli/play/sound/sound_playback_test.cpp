@@ -1,4 +1,4 @@
-#include "cli/play/sound_playback.h"
+#include "cli/play/sound/sound_playback.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cli/play/sound_device.h"
+#include "cli/play/sound/sound_device.h"
 
 #include <SDL.h>
 

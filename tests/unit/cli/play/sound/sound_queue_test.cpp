@@ -1,4 +1,4 @@
-#include "cli/play/sound_queue.h"
+#include "cli/play/sound/sound_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cli/play/recorded_sound.h"
+#include "cli/play/sound/recorded_sound.h"
 
 #include <algorithm>
 #include <utility>
