@@ -9,7 +9,7 @@ export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # where Debian has acorn, whic
 # build VARIANT FLAGS
 build() {
   web/libraries/make.py "$out/libraries/$1" --sources "$out/sources" --flags="$2"
-  emcmake cmake -S web -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLIBRARIES="$out/libraries/$1" \
+  [ -f "$out/$1/build.ninja" ] || emcmake cmake -S web -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLIBRARIES="$out/libraries/$1" \
     -DCMAKE_C_FLAGS="$2" -DCMAKE_CXX_FLAGS="$2" >"$out/$1.log" 2>&1 || { cat "$out/$1.log"; exit 1; }
   cmake --build "$out/$1"
 }

@@ -1,7 +1,7 @@
 #include "bitstream/payload/draco_points.h"
 
-#include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
+#include <draco/compression/point_cloud/point_cloud_sequential_decoder.h>
 #include <draco/core/decoder_buffer.h>
 #include <draco/core/encoder_buffer.h>
 #include <draco/point_cloud/point_cloud.h>
@@ -100,10 +100,11 @@ Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes, std::size_
   stream.insert(stream.end(), bytes.begin(), bytes.end());
   draco::DecoderBuffer buffer;
   buffer.Init(stream.data(), stream.size());
-  draco::Decoder decoder;
-  auto cloud = decoder.DecodePointCloudFromBuffer(&buffer);
-  if (!cloud.ok()) return fail(ErrorCode::kInvalidStream, "Draco cannot decode the geometry");
-  return read_points(*cloud.value(), count);
+  draco::PointCloud cloud;
+  draco::PointCloudSequentialDecoder decoder;  // what the start says
+  if (!decoder.Decode(draco::DecoderOptions(), &buffer, &cloud).ok())
+    return fail(ErrorCode::kInvalidStream, "Draco cannot decode the geometry");
+  return read_points(cloud, count);
 } catch (const std::exception&) {
   return fail(ErrorCode::kInvalidStream, "Draco threw an exception");
 }

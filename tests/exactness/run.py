@@ -139,8 +139,7 @@ def stack_option():
 def web_libraries():
     """The libraries for WebAssembly, as the player in a browser has them but with exceptions."""
     prefix = BUILD / "web"
-    if not (prefix / "complete").exists():
-        command(sys.executable, ROOT / "web/libraries/make.py", prefix, "--flags=-fexceptions")
+    command(sys.executable, ROOT / "web/libraries/make.py", prefix, "--flags=-fexceptions")
     return prefix
 
 

@@ -31,7 +31,7 @@ function row(entry, seconds) {
 
 const rows = document.querySelector("#rows");
 try {
-  const answer = await fetch(`${MEDIA}media.json`);
+  const answer = await fetch(`${MEDIA}media.json`, { cache: "no-cache" });
   if (!answer.ok) throw new Error(`media.json: ${answer.status}`);
   const { seconds, media } = await answer.json();
   rows.replaceChildren(...media.map((entry) => row(entry, seconds)));

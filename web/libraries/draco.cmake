@@ -6,7 +6,7 @@ file(WRITE ${draco_config}/draco/draco_features.h "#define DRACO_POINT_CLOUD_COM
 prefixed(draco_sources ${draco}/draco
   attributes/attribute_quantization_transform.cc attributes/attribute_octahedron_transform.cc
   attributes/attribute_transform.cc attributes/geometry_attribute.cc attributes/point_attribute.cc
-  compression/attributes/attributes_decoder.cc compression/attributes/kd_tree_attributes_decoder.cc
+  compression/attributes/attributes_decoder.cc
   compression/attributes/sequential_attribute_decoder.cc
   compression/attributes/sequential_attribute_decoders_controller.cc
   compression/attributes/sequential_integer_attribute_decoder.cc
@@ -14,10 +14,7 @@ prefixed(draco_sources ${draco}/draco
   compression/attributes/sequential_quantization_attribute_decoder.cc
   compression/bit_coders/adaptive_rans_bit_decoder.cc compression/bit_coders/direct_bit_decoder.cc
   compression/bit_coders/rans_bit_decoder.cc compression/bit_coders/symbol_bit_decoder.cc
-  compression/decode.cc compression/entropy/symbol_decoding.cc
-  compression/point_cloud/algorithms/dynamic_integer_points_kd_tree_decoder.cc
-  compression/point_cloud/algorithms/float_points_tree_decoder.cc
-  compression/point_cloud/point_cloud_decoder.cc compression/point_cloud/point_cloud_kd_tree_decoder.cc
+  compression/entropy/symbol_decoding.cc compression/point_cloud/point_cloud_decoder.cc
   compression/point_cloud/point_cloud_sequential_decoder.cc
   core/bit_utils.cc core/data_buffer.cc core/decoder_buffer.cc core/divide.cc core/draco_types.cc core/hash_utils.cc
   core/options.cc core/quantization_utils.cc core/status.cc

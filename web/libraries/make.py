@@ -147,7 +147,12 @@ def build(prefix, sources, flags):
         if not link.exists():
             link.symlink_to(pathlib.Path("/usr/include") / name)
     shutil.rmtree(folder)
-    (prefix / "complete").touch()
+
+
+def stamp(flags):
+    """Of what the libraries are made by: another one, and they are made again."""
+    recipe = b"".join(path.read_bytes() for path in sorted(HERE.glob("*")) if path.is_file())
+    return hashlib.sha256(recipe + flags.encode()).hexdigest()
 
 
 def main():
@@ -158,10 +163,13 @@ def main():
     parser.add_argument("--flags", default="", help="for both compilers, such as -msimd128")
     arguments = parser.parse_args()
     prefix = arguments.prefix.resolve()
-    if (prefix / "complete").exists():
+    complete, made_by = prefix / "complete", stamp(arguments.flags)
+    if complete.exists() and complete.read_text() == made_by:
         return
+    shutil.rmtree(prefix, ignore_errors=True)
     try:
         build(prefix, arguments.sources.resolve(), arguments.flags)
+        complete.write_text(made_by)
     except Missing as missing:
         print(f"make.py: {missing}", file=sys.stderr)
         sys.exit(SKIPPED)

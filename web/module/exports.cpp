@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ double seconds_of(std::uint64_t ticks) {
 }
 
 std::uint64_t ticks_of(double seconds) {
-  return static_cast<std::uint64_t>(std::clamp(seconds, 0.0, seconds_of(kMaxStreamTime)) * kTicksPerSecond +
-                                    0.5);
+  if (!(seconds > 0)) return 0;  // nor is it a number
+  return static_cast<std::uint64_t>(
+      std::llround(std::clamp(seconds, 0.0, seconds_of(kMaxStreamTime)) * kTicksPerSecond));
 }
 
 /// The layouts of the arrays are those of src/fbs_module.js.

@@ -34,7 +34,6 @@ void WebDecoder::feed() {
 void WebDecoder::finish() {
   finished_ = true;
   decoder_->close();
-  sound_.finish();
 }
 
 bool WebDecoder::seek(std::uint64_t time) {

@@ -2,6 +2,8 @@
 // an edited face.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>

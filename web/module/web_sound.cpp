@@ -1,7 +1,6 @@
 #include "web/module/web_sound.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "bitstream/sound_time.h"
 #include "decoder/sound/sound_decoder.h"
@@ -33,7 +32,6 @@ std::vector<std::int16_t> WebSound::take(std::int64_t end) {
 }
 
 std::int64_t WebSound::known() const {
-  if (finished_) return std::numeric_limits<std::int64_t>::max();
   const std::int64_t pictures = sound_time(static_cast<std::int64_t>(parts_.released()));
   return parts_.all().empty() ? pictures : std::max(pictures, cli::end_of(parts_.all().back()));
 }

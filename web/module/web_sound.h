@@ -19,8 +19,6 @@ class WebSound {
 
   /// @param bytes  the next ones of the stream
   void add(std::span<const std::uint8_t> bytes) { parts_.add(bytes); }
-  /// No more bytes will come.
-  void finish() { finished_ = true; }
 
   /// Of the pictures that have come, with all before them: 1/90000 s.
   [[nodiscard]] std::uint64_t released() const { return parts_.released(); }
@@ -44,7 +42,6 @@ class WebSound {
   std::optional<cli::SoundCursor> cursor_;  ///< once a codec is known
   int sample_rate_ = 0, channels_ = 0;
   std::int64_t begin_ = 0;  ///< of the last seek()
-  bool finished_ = false;
 };
 
 }  // namespace fbs::web

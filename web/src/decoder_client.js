@@ -35,6 +35,8 @@ export class DecoderClient {
   constructor(take) {
     this.take = take;
     this.generation = 0;
+    /** The generation of the last load: what is about the stream is of interest after a seek, too. */
+    this.loaded = 0;
     /** @type {Worker | null} */
     this.worker = null;
     /** @type {import("./types").FaceEdit} */
@@ -44,7 +46,8 @@ export class DecoderClient {
   /** @param {string} url  absolute */
   load(url) {
     this.worker ??= this.start();
-    this.ask({ type: "load", generation: ++this.generation, url });
+    this.loaded = ++this.generation;
+    this.ask({ type: "load", generation: this.generation, url });
   }
 
   /** @param {number} time */
@@ -75,7 +78,7 @@ export class DecoderClient {
   stop() {
     this.worker?.terminate();
     this.worker = null;
-    ++this.generation;
+    this.loaded = ++this.generation;
   }
 
   /** @param {Request} request @param {Transferable[]} [transfer] */
@@ -86,7 +89,8 @@ export class DecoderClient {
   start() {
     const worker = startWorker();
     worker.onmessage = ({ data }) => {
-      if (worker === this.worker && data.generation === this.generation) this.take(data);
+      const since = data.type === "arrival" || data.type === "error" ? this.loaded : this.generation;
+      if (worker === this.worker && data.generation >= since) this.take(data);
     };
     worker.onerror = () => this.fail(new FbsError("network", "the decoder's worker could not be started"));
     worker.postMessage({ type: "edit", edit: this.editing });

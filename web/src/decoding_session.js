@@ -51,7 +51,9 @@ export class DecodingSession {
     const { signal } = this.abort;
     const stream = openStream(url, signal);
     stream.catch(() => {});  // is seen below
-    const decoder = (await module).open();
+    const ready = await module;
+    if (signal.aborted) return;
+    const decoder = ready.open();
     this.decoder = decoder;
     decoder.edit(this.editing);
     try {

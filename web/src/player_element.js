@@ -288,7 +288,7 @@ export class FbsPlayer extends HTMLElement {
 
   /** @param {string} text */
   say(text) {
-    this.message.textContent = text;
+    this.message.textContent = text && text[0].toUpperCase() + text.slice(1);
     this.message.classList.toggle("alone", !this.playback.shown);
     if (text) this.status.textContent = text;
   }

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Measures the player: measure.py [STREAM...]. Prints, and asserts nothing.
 
-Size of the package; for each stream (those of the tests if none is named) pictures per second in Chromium's worker, with the
-ratio to the program's on one thread, and seconds from a click to the first picture over a link of 50 kbit/s: on a page whose
-decoder has been loaded, and on one where nothing has, not even the player's scripts."""
+Size of the package; for each stream (those of the tests if none is named) pictures per second of the processor's time in
+node, and by the clock in Chromium's worker, with the ratio to the program's on one thread; and seconds from a click to the
+first picture over a link of 50 kbit/s: on a page whose decoder has been loaded, and on one where nothing has, not even the
+player's scripts."""
 import pathlib
+import resource
 import statistics
 import subprocess
 import sys
@@ -72,9 +74,19 @@ def print_sizes():
 
 
 def native_seconds(stream):
-    begin = time.monotonic()
+    """By the clock, and of the processor's time."""
+    begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([material.FBS, "decode", stream, "null:", "--quiet", "--threads", "1"], check=True)
-    return time.monotonic() - begin
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.monotonic() - begin, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+
+
+def print_speed(stream, pictures):
+    native = pictures / min(native_seconds(stream)[1] for _ in range(RUNS))
+    done = subprocess.run(["node", material.ROOT / "web/tests/decode_speed.mjs", material.WEB / "package", stream],
+                          stdout=subprocess.PIPE, text=True, check=True)
+    for name, speed in (line.split() for line in done.stdout.splitlines()):
+        print(f"  {float(speed):.0f} pictures/s of processor time by {name}, {float(speed) / native:.2f} of the program's")
 
 
 def print_rate(driver, server, stream):
@@ -83,9 +95,10 @@ def print_rate(driver, server, stream):
     for _ in range(RUNS):
         driver.get(server.url("pages/blank.html"))
         pictures, seconds = driver.execute_async_script(DECODE, f"/media/{stream.name}")
-        runs.append((pictures / seconds, native_seconds(stream) / seconds))
+        runs.append((pictures / seconds, native_seconds(stream)[0] / seconds))
     web, ratio = (statistics.median(run[k] for run in runs) for k in (0, 1))
-    print(f"  {web:.0f} pictures/s in the worker, {ratio:.2f} of the program's")
+    print(f"  {web:.0f} pictures/s by the clock in the worker, {ratio:.2f} of the program's")
+    return pictures
 
 
 def print_clicks(server, stream):
@@ -112,7 +125,8 @@ def main():
             server.compresses = True
             with chromium() as driver:
                 driver.set_script_timeout(300)
-                print_rate(driver, server, stream)
+                pictures = print_rate(driver, server, stream)
+            print_speed(stream, pictures)
             print_clicks(server, stream)
 
 

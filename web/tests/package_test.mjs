@@ -1,11 +1,12 @@
 // package_test.mjs PACKAGE: what `npm pack` puts into the archive, and that its entry points can be imported from there.
-// Exit code 77 where there is no npm.
+// Exit code 77 where there is no npm, or the build has been skipped.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 
 let cwd = path.resolve(process.argv[2]);
+if (!existsSync(cwd)) process.exit(77);
 const run = (command, ...rest) => execFileSync(command, rest, { encoding: "utf8", cwd, stdio: ["ignore", "pipe", "inherit"] });
 let wrong = 0;
 

@@ -2,7 +2,9 @@
 """The player in Chromium without a window: player_test.py [TestPlayer.NAME...]. Needs build/web/package and the program."""
 import array
 import hashlib
+import json
 import math
+import sys
 import time
 import unittest
 
@@ -22,7 +24,6 @@ for (const name of ["loadedmetadata", "play", "playing", "pause", "waiting", "se
 for (const [name, value] of Object.entries(attributes)) player.setAttribute(name, value);
 for (const name of ["loadeddata", "error"]) player.addEventListener(name, () => done(name), { once: true });
 document.body.replaceChildren(player);
-if (attributes.preload === "none") done("made");
 """
 COLLECT = """
 const [url, done] = arguments;
@@ -41,7 +42,8 @@ class TestPlayer(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         material.make()
-        folders = {"package": material.WEB / "package", "pages": material.ROOT / "web/tests/pages", "media": material.FOLDER}
+        folders = {"package": material.WEB / "package", "pages": material.ROOT / "web/tests/pages",
+                   "demo": material.ROOT / "web/demo", "media": material.FOLDER}
         cls.server = cls.enterClassContext(Server(folders))
         cls.driver = cls.enterClassContext(chromium())
 
@@ -62,7 +64,7 @@ class TestPlayer(unittest.TestCase):
     def until(self, condition, seconds=15):
         end = time.monotonic() + seconds
         while not self.js(f"return {condition}"):
-            self.assertLess(time.monotonic(), end, f"never: {condition}; events: {self.js('return events')}")
+            self.assertLess(time.monotonic(), end, f"never: {condition}; events: {self.js('return window.events')}")
             time.sleep(0.02)
 
     def press(self, *keys):
@@ -97,6 +99,12 @@ class TestPlayer(unittest.TestCase):
             self.js("fetch('/shown', { method: 'POST', body: player.playback.shown.planes })")
             self.assertEqual(hashlib.md5(self.server.posted("shown")).hexdigest(), native[number])
         self.assertEqual(self.js("return [player.currentTime, player.duration, player.paused]"), [3, 3, True])
+        # News of the stream that crosses a seek on its way counts.
+        self.js("""const { playback } = player, { arrival, client } = playback;
+                   playback.arrival = { ...arrival, complete: false };
+                   player.currentTime = 1;
+                   client.worker.onmessage({ data: { type: "arrival", generation: client.loaded, arrival } });""")
+        self.assertEqual(self.js("return player.duration"), 3)
 
     def test_colours_are_right_by_webgl_and_without(self):
         self.make("talk.fbs")
@@ -135,14 +143,18 @@ class TestPlayer(unittest.TestCase):
         self.inner(".bar button").click()  # a gesture: sound is allowed
         begin = time.monotonic()
         self.until("player.ended")
-        self.assertLess(abs(time.monotonic() - begin - 3), 1)
+        self.assertLess(abs(time.monotonic() - begin - 3), 1.5)
         self.assertEqual(self.js("return events"), ["loadedmetadata", "play", "playing", "pause", "ended"])
         times, shown = self.js("return [times, shown]")
         self.assertEqual(times, sorted(times))
-        self.assertGreater(len(times), 6)
+        self.assertGreater(len(times), 4)
         self.assertEqual(shown, sorted(shown))
         self.assertEqual(shown[-1], 74 / 25)
-        self.assertTrue(self.js("return player.playback.sound.context.sampleRate === 48000"))
+        self.assertEqual(self.js("return player.playback.sound.context.sampleRate"), 48000)
+        rate = self.js("return player.rate")
+        self.assertAlmostEqual(sum(rate.values()) * 3000 / 8, material.TALK.stat().st_size, delta=1)
+        self.assertGreater(rate["sound"], 6)
+        self.assertEqual(self.inner(".rate").text, f"{rate['picture']:.1f} + {rate['sound']:.1f} kbit/s")
         self.inner(".bar button").click()  # from the beginning
         self.until("!player.paused && player.currentTime > 0.2 && player.currentTime < 2")
 
@@ -156,16 +168,49 @@ class TestPlayer(unittest.TestCase):
         self.until("player.ended")
 
     def test_plays_what_has_come(self):
-        self.make("talk.fbs", preload="none")
-        self.server.link.rate = 30000
-        begin = time.monotonic()
-        self.js("player.muted = true; player.src += '?fresh'; player.play()")
-        self.until("player.playback.shown !== null")
-        self.assertEqual(self.js("return player.duration"), None)  # infinite: not in JSON
-        self.assertLess(time.monotonic() - begin, 1.6)             # the stream takes 2.6 s
-        self.until("events.includes('waiting') && player.ended")
-        self.assertGreater(time.monotonic() - begin, 2.6)
+        self.server.gate.clear()
+        self.make("talk.fbs?hold=5000", muted="", autoplay="")
+        self.until("events.join().endsWith('playing,waiting')")
+        arrived, shown = self.js("return [player.arrivedTime, player.playback.shown.number]")
+        self.assertTrue(0.5 < arrived < 2, arrived)
+        self.assertEqual(shown, round(arrived * 25) - 1)
+        self.assertEqual(self.js("return [player.duration, player.paused]"), [None, False])  # infinite: not in JSON
+        self.server.gate.set()
+        self.until("player.ended")
+        self.assertTrue(self.js("return events.join()").endswith("playing,waiting,playing,pause,ended"))
         self.assertEqual(self.js("return player.duration"), 3)
+
+    def test_waits_for_a_time_that_has_not_come(self):
+        self.server.gate.clear()
+        self.make("talk.fbs?hold=5000")
+        self.js("player.currentTime = 2.5")
+        self.until("events.includes('waiting')")
+        self.assertTrue(self.js("return player.seeking"))
+        self.server.gate.set()
+        self.until("events.includes('seeked')")
+        self.assertEqual(self.js("return [player.currentTime, player.playback.shown.number]"), [2.5, 62])
+
+    def test_loads_nothing_before_it_is_asked(self):
+        self.js(MAKE.replace("const [attributes, done]", "const done = () => {}, [attributes]"),
+                {"src": "/media/talk.fbs", "preload": "none", "muted": ""})
+        time.sleep(0.2)
+        self.assertEqual(self.js("return [player.currentSrc, player.playback.client.worker, events.length]"), ["", None, 0])
+        self.js("player.play()")
+        self.until("player.currentTime > 0.2")
+
+    def test_package_and_stream_of_another_origin(self):
+        with Server(self.server.folders) as other:
+            self.driver.get(self.server.url("pages/blank.html"))
+            said = self.driver.execute_async_script("""
+                const [base, done] = arguments;
+                import(`${base}package/src/index.js`).then(() => {
+                  const player = document.createElement("fbs-player");
+                  player.src = `${base}media/radio.fbs`;
+                  for (const name of ["loadeddata", "error"])
+                    player.addEventListener(name, ({ detail }) => done(detail?.message ?? player.videoWidth));
+                  document.body.append(player);
+                });""", other.url(""))
+            self.assertEqual(said, material.WIDTH)
 
     def test_does_not_start_where_it_must_not(self):
         self.make("talk.fbs", autoplay="")  # no sound without a gesture
@@ -194,7 +239,7 @@ class TestPlayer(unittest.TestCase):
         self.assertEqual(self.js("return face.landmarks.length"), 3 * 68)
         ActionChains(self.driver).drag_and_drop_by_offset(self.inner(".stage"), 60, 0).perform()
         self.until("player.faceEdit.yaw < 1")  # to the picture's right
-        self.inner(".bar .right button").click()
+        self.inner(".bar .framed").click()
         self.js("player.shadowRoot.querySelectorAll('.deeds button')[1].click()")
         self.until(f"Math.abs(face.pose.yaw - {before['yaw']}) < 0.01")
         self.js("fetch('/shown', { method: 'POST', body: player.playback.shown.planes })")
@@ -233,7 +278,7 @@ class TestPlayer(unittest.TestCase):
 
     def test_every_control_has_a_name(self):
         self.make("talk.fbs")
-        self.inner(".bar .right button").click()
+        self.inner(".bar .framed").click()
         nodes = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
         value = lambda node, key: node.get(key, {}).get("value", "")
         controls = [(value(n, "role"), value(n, "name")) for n in nodes if value(n, "role") in ("button", "slider", "application")]
@@ -244,6 +289,19 @@ class TestPlayer(unittest.TestCase):
         self.inner(".bar button").click()
         self.until("player.shadowRoot.querySelector('[role=status]').textContent === 'Playing'")
 
+    def test_demo(self):
+        size = material.TALK.stat().st_size
+        entry = {"rate": 25, "fbs": "talk.fbs", "fbs_bytes": size, "av1": "none.webm", "av1_bytes": 2 * size,
+                 "av1_size": "176x144", "av1_fps": 12.5}
+        (material.FOLDER / "media.json").write_text(json.dumps({"seconds": 3, "media": [entry]}))
+        self.driver.get(self.server.url("demo/index.html"))
+        self.until("document.querySelector('fbs-player')?.videoWidth === 176")
+        captions = [element.text for element in self.driver.find_elements("css selector", "figcaption")]
+        self.assertEqual([caption.split()[1] for caption in captions], [f"{k * size * 8 / 3000:.1f}" for k in (1, 2)])
+        (material.FOLDER / "media.json").unlink()
+        self.driver.get(self.server.url("demo/index.html?again"))
+        self.until("document.querySelector('#rows').textContent.includes('404')")
+
     # ---- what goes wrong
 
     def test_errors(self):
@@ -252,14 +310,14 @@ class TestPlayer(unittest.TestCase):
                 ("page.fbs", "error not-fbs", True, "not an fbs stream"),
                 ("cut.fbs", "error truncated", False, "ends"),
                 ("damaged.fbs", "error damaged", False, ""),
-                ("talk.fbs?cut=8000&fresh", "error network", False, "fetched")):
+                ("talk.fbs?cut=8000", "error network", False, "fetched")):
             with self.subTest(src):
                 self.server.link.rate = 200000 if "?" in src else None  # something comes before it breaks off
                 self.make(src, muted="", autoplay="")
                 self.until(f"events.includes('{event}')")
                 error = self.js("return player.error")
                 self.assertEqual((error["fatal"], says in error["message"]), (fatal, True), error)
-                self.assertIn(error["message"], self.inner(".message").text)
+                self.assertIn(error["message"].lower(), self.inner(".message").text.lower())
                 if not fatal:
                     self.until("player.ended")
         self.assertEqual(self.make("talk.fbs"), "loadeddata")  # the next one plays
@@ -268,7 +326,13 @@ class TestPlayer(unittest.TestCase):
         self.js("""window.fetch = ((fetch) => (url, ...rest) => fetch(String(url).replace(/fbs(-simd)?.wasm/, "no.wasm"),
                    ...rest))(window.fetch)""")
         self.assertEqual(self.make("talk.fbs"), "error")
-        self.assertEqual(self.js("return player.error.code"), "http")
+        self.assertEqual(self.js("return [player.error.code, player.error.fatal, player.paused]"), ["http", True, True])
+
+    def test_error_of_a_decoder_that_fails(self):
+        self.js("""const nothing = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]);
+                   WebAssembly.compileStreaming = async () => new WebAssembly.Module(nothing);""")
+        self.assertEqual(self.make("talk.fbs"), "error")
+        self.assertEqual(self.js("return [player.error.code, player.error.fatal]"), ["internal", True])
 
 
 def shorts(content):
@@ -293,4 +357,6 @@ def signal_to_noise(expected, got):
 
 
 if __name__ == "__main__":
+    if not (material.WEB / "package").exists():
+        sys.exit(77)  # the build has been skipped
     unittest.main(verbosity=2)

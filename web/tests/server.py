@@ -1,4 +1,7 @@
-"""A static server for the tests: can be slow, break off, and take what pages report."""
+"""A static server for the tests: can be slow, pause, break off, and take what pages report.
+
+    /media/talk.fbs?hold=4000    sends so many bytes, and the rest when `gate` is set
+    /media/talk.fbs?cut=4000     breaks the connection after so many"""
 import gzip
 import http.server
 import mimetypes
@@ -50,11 +53,16 @@ class Handler(http.server.BaseHTTPRequestHandler):
             content = gzip.compress(content, 9, mtime=0)
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(content)))
-        self.send_header("Cache-Control", "no-store" if "fresh" in query else "max-age=3600")
+        self.send_header("Access-Control-Allow-Origin", "*")
+        self.send_header("Cache-Control", "no-store" if query or path.suffix == ".json" else "max-age=3600")
         self.end_headers()
-        cut = int(query.get("cut", len(content)))
+        cut, hold = (int(query.get(name, len(content))) for name in ("cut", "hold"))
         try:
-            self.server.link.send(self.wfile, content[:cut])
+            self.server.link.send(self.wfile, content[:min(cut, hold)])
+            self.wfile.flush()
+            if hold < len(content):
+                self.server.gate.wait(30)
+                self.server.link.send(self.wfile, content[hold:])
         except OSError:
             return
         if cut < len(content):
@@ -79,6 +87,7 @@ class Server(http.server.ThreadingHTTPServer):
         super().__init__(("127.0.0.1", 0), Handler)
         self.folders = {name: pathlib.Path(folder).resolve() for name, folder in folders.items()}
         self.link = Link()
+        self.gate = threading.Event()
         self.compresses = False
         self.reports = []
         self.thread = threading.Thread(target=self.serve_forever, daemon=True)
