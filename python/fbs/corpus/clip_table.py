@@ -75,8 +75,8 @@ def rival_column(peer: str, area: str) -> str:
 def table_of_streams(points: pd.DataFrame) -> pd.DataFrame:
     """Points of fbs in order of clip and quality, with what is measured in another unit, or against other codecs.
 
-    Columns that are added: ``rival_face_x264`` and so on, luma PSNR of another codec at the rate of the stream, NaN where
-    it does not go so low; ``gain_face`` and ``gain_frame``, dB over the best of them; ``encode_speed`` and
+    Columns that are added: ``rival_face_x264`` and so on, luma PSNR of another codec at the rate of the stream, NaN
+    where it does not go so low; ``gain_face`` and ``gain_frame``, dB over the best of them; ``encode_speed`` and
     ``decode_speed``, pictures per second.
     """
     streams = points[points["codec"] == "fbs"].sort_values(["clip", "quality"], ignore_index=True)

@@ -22,25 +22,28 @@ class Trait:
 
     values: Callable[[pd.DataFrame], pd.Series]
     is_hard_when_high: bool
+    least: float
+    """A deviation that is not worth a word, in the unit of the values."""
     text: str
     """With the clip's value and the median."""
 
 
 TRAITS = (
-    Trait(lambda c: 100 * c["face_pictures"] / c["pictures"], False,
+    Trait(lambda c: 100 * c["face_pictures"] / c["pictures"], False, 2,
           "a face is believed in {value:.0f} % of its pictures (median {median:.0f} %)"),
-    Trait(lambda c: c["yaw_range_deg"], True, "the head turns over {value:.0f}° (median {median:.0f}°)"),
-    Trait(lambda c: c["pitch_range_deg"], True, "the head nods over {value:.0f}° (median {median:.0f}°)"),
-    Trait(lambda c: c["motion"], True,
+    Trait(lambda c: c["yaw_range_deg"], True, 3, "the head turns over {value:.0f}° (median {median:.0f}°)"),
+    Trait(lambda c: c["pitch_range_deg"], True, 3, "the head nods over {value:.0f}° (median {median:.0f}°)"),
+    Trait(lambda c: c["motion"], True, 0.05,
           "the head moves {value:.2f} eye distances a second (median {median:.2f})"),
-    Trait(lambda c: c["cuts"], True, "it has {value:.0f} cuts or new scenes (median {median:.0f})"),
-    Trait(lambda c: 100 * c["face_share"], False, "the face is {value:.1f} % of the picture (median {median:.1f} %)"),
-    Trait(lambda c: c["fps"], False, "{value:.0f} pictures a second are large steps (median {median:.0f})"),
-    Trait(lambda c: c["seconds"], False,
+    Trait(lambda c: c["cuts"], True, 0.5, "it has {value:.0f} cuts or new scenes (median {median:.0f})"),
+    Trait(lambda c: 100 * c["face_share"], False, 1,
+          "the face is {value:.1f} % of the picture (median {median:.1f} %)"),
+    Trait(lambda c: c["fps"], False, 5, "{value:.0f} pictures a second are large steps (median {median:.0f})"),
+    Trait(lambda c: c["seconds"], False, 0.5,
           "in {value:.1f} s the first picture weighs much (median {median:.1f} s)"),
-    Trait(lambda c: c["psnr_face"] - c["worst_psnr"], True,
+    Trait(lambda c: c["psnr_face"] - c["worst_psnr"], True, 0.5,
           "its worst picture is {value:.1f} dB below the whole clip (median {median:.1f} dB): one passage fails"),
-    Trait(lambda c: c["psnr_face"] - c["gain_face"], True,
+    Trait(lambda c: c["psnr_face"] - c["gain_face"], True, 0.5,
           "it is easy for other codecs: their best reaches {value:.1f} dB at this rate (median {median:.1f} dB)"),
 )  # fmt: skip
 
@@ -73,7 +76,7 @@ def reasons(clips: pd.DataFrame, chosen: pd.Index) -> list[list[str]]:
         if values.notna().sum() < 4:
             continue
         low, median, high = np.nanpercentile(values, [25, 50, 75])
-        deviation = max((high - low) / _DEVIATIONS_PER_RANGE, 0.02 * abs(median), 1e-3)
+        deviation = max((high - low) / _DEVIATIONS_PER_RANGE, trait.least)
         sign = 1 if trait.is_hard_when_high else -1
         for index in chosen:
             distance = sign * (values[index] - median) / deviation

@@ -31,7 +31,7 @@ def rate_chart(streams: pd.DataFrame, peers: list[str], area: str) -> Markup:
     series = [Series("fbs", "fbs", *own, has_points=True)]
     for peer in peers:
         rivals = groups[rival_column(peer, area)]
-        shown = 2 * rivals.count() >= groups.size()  # else it would be the median of easy clips
+        shown = 4 * rivals.count() >= 3 * groups.size()  # else it would be the median of easy clips
         series.append(Series(NAMES[peer], peer, rate[shown].tolist(), rivals.median()[shown].tolist(), has_points=True))
     label = f"Median luma PSNR of the {area} over bitrate"
     return curve_chart([s for s in series if s.x], "kbit/s", f"{area}, dB", label)

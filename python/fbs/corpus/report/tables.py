@@ -83,7 +83,8 @@ def summary(clips: pd.DataFrame, peers: list[str]) -> str:
         median = float(np.median(values))
         text = f"{number(abs(median), 0)} % {'less' if median < 0 else 'more'} rate for the same {area}"
         if interval := median_interval(values):
-            text += f" (95 % interval {number(interval[0], 0)} to {number(interval[1], 0)} %; {len(values)} clips)"
+            low, high = (number(end, 0) for end in interval)
+            text += f" (95\N{NO-BREAK SPACE}% interval {low} to {high} %; {len(values)} clips)"
         found.append(text)
     if found:
         best = f"the best of {names(peers)}" if len(peers) > 1 else names(peers)
