@@ -5,6 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 out=$(mkdir -p "${1:-build/web}" && cd "${1:-build/web}" && pwd)
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # where Debian has acorn, which emscripten needs
+if command -v ccache >/dev/null; then  # what was compiled once, in this clone or another, is not compiled again
+  export EM_COMPILER_WRAPPER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+fi
 
 # Vectors make no difference to the libraries: both modules have the same.
 web/libraries/make.py "$out/libraries" --sources "$out/sources"
