@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 jobs=$(nproc)
 status=0
 
-scripts/install_packages.sh
+scripts/install_packages.sh packages.txt web_packages.txt
 
 # test_preset PRESET [ctest option ...]: builds, runs ctest, writes its counts to build/PRESET/tests.xml
 test_preset() {

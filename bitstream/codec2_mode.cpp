@@ -16,7 +16,8 @@ std::span<const Codec2Mode> codec2_modes() {
 }
 
 const Codec2Mode* find_codec2_mode(std::int32_t bitrate) {
-  const auto* const found = std::ranges::find(kModes, bitrate, &Codec2Mode::bitrate);
+  const auto* const found = std::find_if(kModes.begin(), kModes.end(),
+                                         [&](const Codec2Mode& mode) { return mode.bitrate == bitrate; });
   return found == kModes.end() ? nullptr : found;
 }
 

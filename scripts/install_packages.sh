@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Installs those packages of packages.txt that are missing. When none is, it needs neither network nor root.
+# install_packages.sh [LIST...]: installs those packages of the lists in this folder (packages.txt) that are missing. When
+# none is, it needs neither network nor root.
 set -euo pipefail
 cd "$(dirname "$0")"
+[ $# -gt 0 ] || set -- packages.txt
 
 if ! command -v dpkg-query >/dev/null; then
-  echo "not a Debian system: assuming that the equivalents of scripts/packages.txt are installed" >&2
+  echo "not a Debian system: assuming that the equivalents of these lists in scripts/ are installed: $*" >&2
   exit 0
 fi
 
 missing=()
-for package in $(sed 's/#.*//' packages.txt); do
+for package in $(sed 's/#.*//' "$@"); do
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
 done
 [ ${#missing[@]} -gt 0 ] || exit 0

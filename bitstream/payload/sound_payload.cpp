@@ -47,7 +47,7 @@ bool is_valid(const SoundSetup& s) {
   if (s.skip < 0 || s.skip > kMaxSoundSkip) return false;
   if (s.codec == SoundCodec::kOpus)
     return s.mode == 0 && (s.channels == 1 || s.channels == 2) &&
-           std::ranges::find(kOpusDurations, s.duration) != kOpusDurations.end();
+           std::find(kOpusDurations.begin(), kOpusDurations.end(), s.duration) != kOpusDurations.end();
   const Codec2Mode* const mode = find_codec2_mode(s.mode);
   return s.codec == SoundCodec::kCodec2 && s.channels == 1 && mode != nullptr &&
          mode->duration() == s.duration;
@@ -85,7 +85,8 @@ Result<std::optional<SoundSetup>> decode_sound_setup(std::span<const std::uint8_
 Result<std::vector<std::uint8_t>> encode_sound(const SoundGroup& group, const SoundSetup& setup) {
   const bool right = is_valid(setup) && group.first >= 0 && group.first < kMaxSoundFrames &&
                      !group.frames.empty() && group.frames.size() <= most_frames(setup) &&
-                     std::ranges::all_of(group.frames, [&](const auto& f) { return is_frame(f, setup); });
+                     std::all_of(group.frames.begin(), group.frames.end(),
+                                 [&](const auto& f) { return is_frame(f, setup); });
   if (!right) return fail(ErrorCode::kInvalidArgument, "no such frames of sound can be sent");
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);

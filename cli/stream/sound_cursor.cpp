@@ -11,8 +11,8 @@ void SoundCursor::seek(std::int64_t time) {
   begin_ = time;
   taken_ = 0;
   const auto& all = parts_.all();
-  const auto first =
-      std::ranges::find_if(all, [&](const SoundPart& part) { return end_of(part) > time - kSoundPreroll; });
+  const auto first = std::find_if(all.begin(), all.end(),
+                                  [&](const SoundPart& part) { return end_of(part) > time - kSoundPreroll; });
   next_ = static_cast<std::size_t>(first - all.begin());
 }
 

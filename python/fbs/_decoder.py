@@ -12,7 +12,7 @@ import numpy as np
 
 from fbs import _fbs
 from fbs._face import FaceState, States, states_of
-from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureLike
+from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureLike, require_writable
 from fbs._source import Buffer, ByteSource, Source
 from fbs.errors import ArgumentError, DamagedError, Error, NoMemoryError, NotFbsError
 
@@ -312,8 +312,8 @@ class Decoder:
             picture = Picture.empty(format.width, format.height)
         else:
             picture = out if isinstance(out, Picture) else Picture(*out)
-            if not all(isinstance(plane, np.ndarray) and plane.dtype == np.uint8 for plane in picture.planes):
-                raise ArgumentError("planes to draw into are arrays of uint8")
+            for plane in picture.planes:
+                require_writable(plane, 2)
         picture.matrix, picture.full_range = format.matrix, format.full_range
         picture.number, picture.time, picture.duration, picture.held, picture.new_scene = self._info
         return picture

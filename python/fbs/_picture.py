@@ -93,6 +93,9 @@ class Picture:
     ) -> None:
         if matrix not in MATRICES:
             raise ArgumentError(f"matrix is one of {', '.join(MATRICES)}, not {matrix!r}")
+        for plane in (y, u, v):
+            if not isinstance(plane, np.ndarray) or plane.dtype != np.uint8 or plane.ndim != 2:
+                raise ArgumentError(f"a plane is a 2-D array of uint8, not {_described(plane)}")
         self.y = y
         self.u = u
         self.v = v
@@ -130,7 +133,7 @@ class Picture:
         """
         rgb = np.asarray(rgb)
         if rgb.dtype != np.uint8 or rgb.ndim != 3 or rgb.shape[2] != 3:
-            raise ArgumentError(f"an RGB picture is a (h, w, 3) array of uint8, not {_described(rgb)}")
+            raise ArgumentError(f"an RGB picture is an (h, w, 3) array of uint8, not {_described(rgb)}")
         if rgb.strides[1:] != (3, 1):
             rgb = np.ascontiguousarray(rgb)
         picture = cls.empty(rgb.shape[1], rgb.shape[0], matrix=matrix, full_range=full_range)
@@ -167,6 +170,7 @@ class Picture:
         """
         if out is None:
             out = np.empty((self.height, self.width, 3), np.uint8)
+        require_writable(out, 3)
         _fbs.rgb_from_planes(*_rows_contiguous(self), out, MATRICES.index(self.matrix), self.full_range)
         return out
 
@@ -208,7 +212,7 @@ def planes_of(picture: PictureLike, format: Format) -> tuple[Plane, Plane, Plane
         picture = Picture.from_rgb(picture, matrix=format.matrix, full_range=format.full_range)
     elif not isinstance(picture, Picture):
         planes = [np.asarray(plane) for plane in picture]
-        if len(planes) != 3 or any(plane.dtype != np.uint8 or plane.ndim != 2 for plane in planes):
+        if len(planes) != 3:
             raise ArgumentError("a picture is an (h, w, 3) array of uint8, a Picture, or three planes of uint8")
         picture = Picture(*planes, matrix=format.matrix, full_range=format.full_range)
     if (picture.width, picture.height) != (format.width, format.height):
@@ -234,5 +238,13 @@ def _rows_contiguous(picture: Picture) -> tuple[Plane, Plane, Plane]:
     return y, u, v
 
 
-def _described(array: NDArray[Any]) -> str:
-    return f"{array.shape} of {array.dtype}"
+def require_writable(array: Plane, dimensions: int) -> None:
+    """ArgumentError, unless this is an array that a picture can be written into."""
+    if not isinstance(array, np.ndarray) or array.dtype != np.uint8 or array.ndim != dimensions:
+        raise ArgumentError(f"what is written into is a {dimensions}-D array of uint8, not {_described(array)}")
+    if not array.flags.writeable:
+        raise ArgumentError("what is written into is read-only")
+
+
+def _described(thing: object) -> str:
+    return f"{thing.shape} of {thing.dtype}" if isinstance(thing, np.ndarray) else type(thing).__name__

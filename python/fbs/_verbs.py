@@ -174,6 +174,7 @@ def evaluate(
     video: PathLike,
     *streams: PathLike,
     quality: Sequence[int] = (),
+    frames: int | None = None,
     peers: bool = False,
     html: PathLike | None = None,
     csv: PathLike | None = None,
@@ -195,12 +196,14 @@ def evaluate(
         To be measured. Without, the source is encoded first.
     quality : sequence of int
         To encode at; 20, 35, 50, 65 and 80 unless given.
+    frames : int, optional
+        Only so many pictures.
     peers : bool
         Also encode with x264, x265 and AV1, as far as ``ffmpeg`` has them; takes minutes.
     html, csv : path, optional
         Write a report, or a table of the values of each picture.
     region : path, optional
-        Table of landmarks that says where the face is.
+        Table of landmarks, or stream, that says where the face is.
     keep : path, optional
         Folder for what is finished; the same call goes on from there.
     live, allow_no_face
@@ -235,6 +238,8 @@ def evaluate(
     for name, path in (("--html", html), ("--csv", csv), ("--region", region), ("--keep", keep)):
         if path is not None:
             arguments += [name, _program.argument(path)]
+    if frames is not None:
+        arguments.append(f"--frames={frames}")
     if jobs != 1:
         arguments.append(f"--jobs={jobs}")
     flags = (("--peers", peers), ("--live", live), ("--allow-no-face", allow_no_face))

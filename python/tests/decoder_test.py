@@ -10,7 +10,7 @@ import threading
 
 import numpy as np
 import pytest
-from conftest import PICTURES, VECTORS
+from conftest import PICTURES, SOURCE, VECTORS
 
 import fbs
 from fbs import _program
@@ -49,6 +49,16 @@ def test_pictures_are_those_of_the_program(stream):
     printed = _program.run(["decode", stream, "--md5"]).splitlines()
     ours = [f"{hashlib.md5(picture.tobytes()).hexdigest()} {picture.number}" for picture in fbs.Decoder(stream)]
     assert [re.sub(r"\s+", " ", line.strip()) for line in printed] == ours
+
+
+def test_pictures_of_a_person_are_those_of_the_program(tmp_path):
+    clip = SOURCE.parent / "shared/clips/akiyo_cif.mkv"
+    if not clip.exists():
+        pytest.skip(f"no {clip}")
+    path = fbs.encode(clip, tmp_path / "clip.fbs", effort=0, options=["--frames", "40"])
+    printed = [line.split()[0] for line in _program.run(["decode", path, "--md5"]).splitlines()]
+    assert printed == [hashlib.md5(picture.tobytes()).hexdigest() for picture in fbs.Decoder(path)]
+    assert np.ptp(fbs.Decoder(path).states.landmarks, axis=(0, 1)).min() > 50
 
 
 def test_damage_is_raised_once_and_decoding_goes_on():
@@ -146,7 +156,7 @@ def test_drawing_into_arrays_of_ones_own(stream):
             decoder.draw(out=wrong)
     read_only = np.zeros((144, 176), np.uint8)
     read_only.flags.writeable = False
-    with pytest.raises((fbs.ArgumentError, TypeError)):
+    with pytest.raises(fbs.ArgumentError, match="read-only"):
         decoder.draw(out=(read_only, upside_down, upside_down))
 
 

@@ -65,7 +65,7 @@ def test_rgb_of_any_layout():
     "wrong", [np.zeros((70, 70), np.uint8), np.zeros((70, 70, 4), np.uint8), np.zeros((70, 70, 3)), "talk.png"]
 )
 def test_what_is_no_picture_is_refused(wrong):
-    with pytest.raises(fbs.ArgumentError, match="RGB picture is a"):
+    with pytest.raises(fbs.ArgumentError, match="RGB picture is an"):
         fbs.Picture.from_rgb(wrong)
 
 
@@ -74,5 +74,13 @@ def test_small_pictures_and_unknown_matrices_are_refused():
         fbs.Picture.from_rgb(np.zeros((63, 64, 3), np.uint8))
     with pytest.raises(fbs.ArgumentError, match="bt2020"):
         fbs.Picture.empty(64, 64, matrix="bt2020")
+    plane = np.zeros((64, 64), np.uint8)
+    for wrong in (plane.astype(float), plane[0], plane.tolist()):
+        with pytest.raises(fbs.ArgumentError, match="a plane is a 2-D array of uint8, not"):
+            fbs.Picture(plane, wrong, plane)
+    with pytest.raises(fbs.ArgumentError, match="planes are"):
+        fbs.Picture(plane, plane, plane).rgb()
+    with pytest.raises(fbs.ArgumentError, match="not .* of float64"):
+        fbs.Picture.empty(64, 64).rgb(out=np.zeros((64, 64, 3)))
     with pytest.raises(fbs.ArgumentError, match="differ in size"):
         fbs.Picture.from_rgb(np.zeros((64, 64, 3), np.uint8)).rgb(out=np.zeros((64, 65, 3), np.uint8))

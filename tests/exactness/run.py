@@ -4,8 +4,8 @@
 Each build compiles common, bitstream and decoder anew, with its own compiler, options and processor, and its pictures
 must have the MD5s of tests/vectors/vectors.txt. NAME may be a pattern such as 'gcc*'. What a machine lacks is said and left
 out: other processors need Debian's cross compilers and qemu-user, and the packages of the libraries for them, which are
-downloaded; WebAssembly needs emscripten, node-acorn and meson, and the libraries' sources. All of that stays in
-build/exactness. Exit code 1 if a build fails or a picture differs."""
+downloaded; WebAssembly needs what web/libraries/make.py names. All of that stays in build/exactness. Exit code 1 if a
+build fails or a picture differs."""
 import argparse
 import concurrent.futures
 import fnmatch
@@ -76,9 +76,6 @@ class WebAssembly(Build):
     def prepare(self):
         prefix = web_libraries()
         headers = prefix / "include"
-        for library in ("glm", "tl", "hwy"):
-            if not (headers / library).exists():
-                (headers / library).symlink_to(pathlib.Path("/usr/include") / library)
         link = [str(prefix / "lib/libdav1d.a"), str(prefix / "lib/libdraco.a"), "-sALLOW_MEMORY_GROWTH=1", "-sNODERAWFS=1",
                 "-sEXIT_RUNTIME=1", "-fexceptions", "-sSTACK_SIZE=4MB" if stack_option() else "-sTOTAL_STACK=4MB"]
         return [f"-isystem{headers}", "-fexceptions"], link, self.run
@@ -140,57 +137,19 @@ def stack_option():
 
 
 def web_libraries():
-    """dav1d and Draco for WebAssembly, from Debian's sources."""
-    prefix, sources = BUILD / "web", BUILD / "web-sources"
-    if (prefix / "complete").exists():
-        return prefix
-    for tool, package in (("em++", "emscripten"), ("node", "nodejs"), ("meson", "meson")):
-        if not shutil.which(tool):
-            raise Missing(package)
-    for folder in (prefix / "lib", prefix / "include", sources / "lists/partial"):
-        folder.mkdir(parents=True, exist_ok=True)
-    (sources / "debian.sources").write_text(
-        "Types: deb-src\nURIs: http://deb.debian.org/debian\nSuites: bookworm\nComponents: main\n"
-        "Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n")
-    apt = ["apt-get", "-o", "Dir::Etc::sourceparts=/nonexistent", "-o", f"Dir::Etc::sourcelist={sources}/debian.sources",
-           "-o", f"Dir::State::lists={sources}/lists"]
-    command(*apt, "update")
-    command(*apt, "source", "--download-only", "dav1d", "draco", cwd=sources)
-    for archive in sources.glob("*.orig.tar.xz"):
-        command("tar", "xf", archive, "-C", sources)
-    folder = lambda pattern: next(path for path in sources.glob(pattern) if path.is_dir())
-    build_web_dav1d(folder("dav1d-*"), prefix)
-    build_web_draco(folder("*draco-*"), prefix)
-    (prefix / "complete").touch()
+    """The libraries for WebAssembly, as the player in a browser has them but with exceptions."""
+    prefix = BUILD / "web"
+    if not (prefix / "complete").exists():
+        command(sys.executable, ROOT / "web/libraries/make.py", prefix, "--flags=-fexceptions")
     return prefix
-
-
-def build_web_dav1d(source, prefix):
-    cross = source / "emscripten.txt"
-    cross.write_text("[binaries]\nc = 'emcc'\ncpp = 'em++'\nar = 'emar'\n[host_machine]\nsystem = 'emscripten'\n"
-                     "cpu_family = 'wasm32'\ncpu = 'wasm32'\nendian = 'little'\n")
-    build = source / "build-web"
-    shutil.rmtree(build, ignore_errors=True)
-    command("meson", "setup", build, source, f"--cross-file={cross}", "-Denable_asm=false",
-            "-Denable_tools=false", "-Denable_tests=false", "-Dbuildtype=release", "-Ddefault_library=static", "-Dlogging=false", f"-Dprefix={prefix}", "-Dlibdir=lib")
-    command("ninja", "-C", build, "install")
-
-
-def build_web_draco(source, prefix):
-    build = source / "build-web"
-    command("emcmake", "cmake", "-S", source, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-            "-DCMAKE_CXX_FLAGS=-fexceptions", "-DDRACO_TESTS=OFF", "-DDRACO_JS_GLUE=OFF", "-DDRACO_WASM=OFF",
-            env=os.environ | {"EMSCRIPTEN": str(pathlib.Path(shutil.which("emcc")).resolve().parent)})
-    command("ninja", "-C", build, "draco_static")
-    shutil.copy(next(build.glob("libdraco.a")), prefix / "lib/libdraco.a")
-    shutil.copytree(source / "src/draco", prefix / "include/draco", dirs_exist_ok=True)
-    shutil.copytree(build / "draco", prefix / "include/draco", dirs_exist_ok=True)
 
 
 def sources():
     tools = {"head_table_tool.cpp"}
+    beside = {ROOT / "decoder/export", ROOT / "decoder/sound"}  # what needs more libraries, and draws nothing
     found = [path for folder in ("common", "bitstream", "decoder") for path in sorted((ROOT / folder).rglob("*.cpp"))]
-    return [path for path in found if path.name not in tools] + [VECTORS / "stream_digest.cpp", VECTORS / "stream_md5.cpp"]
+    found = [path for path in found if path.name not in tools and path.parent not in beside]
+    return found + [VECTORS / "stream_digest.cpp", VECTORS / "stream_md5.cpp"]
 
 
 def decode(build, pool):

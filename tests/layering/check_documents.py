@@ -9,9 +9,10 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "bitstream/SPEC.md", "docs/*.md", "docs/pictures/*.svg",
-             "samples/README.md", "samples/*/README.md", "tests/*/README.md"]
+             "samples/README.md", "samples/*/README.md", "tests/*/README.md", "web/README.md", "web/*/README.md",
+             "web/samples/*/README.md"]
 WITH_SYMBOLS = ["docs/paper.md"]
-FOLDERS = "bitstream|cli|common|decoder|docs|encoder|gstreamer|include|library|python|samples|scripts|tests"
+FOLDERS = "bitstream|cli|common|decoder|docs|encoder|gstreamer|include|library|python|samples|scripts|tests|web"
 SUFFIXES = "c|cpp|h|hpp|py|cmake|sh|md|svg"
 # Named in documents, but not ours to have.
 ELSEWHERE = {"measure.py"}

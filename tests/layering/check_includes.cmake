@@ -12,7 +12,8 @@ set(floors
   encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
   encoder
   fbs library
-  cli/video/images cli/video/av cli/video cli/display cli)
+  cli/video/images cli/video/av cli/video cli/display cli
+  web)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
@@ -57,7 +58,8 @@ set(checked 0)
 file(GLOB_RECURSE sources RELATIVE ${ROOT}
   ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp ${ROOT}/decoder/*.h
   ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/include/*.h ${ROOT}/include/*.hpp
-  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
+  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp
+  ${ROOT}/web/module/*.h ${ROOT}/web/module/*.cpp)
 foreach(source ${sources})
   math(EXPR checked "${checked} + 1")
   floor_of(${source} mine)
@@ -101,16 +103,21 @@ foreach(source ${sources})
     endif()
   endforeach()
 endforeach()
-# The plugin is a user of the libraries like any other: of ours it includes include/fbs alone.
-file(GLOB plugin RELATIVE ${ROOT} ${ROOT}/gstreamer/*.h ${ROOT}/gstreamer/*.c)
-foreach(source ${plugin})
-  math(EXPR checked "${checked} + 1")
-  file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
-  foreach(include ${includes})
-    if(include MATCHES "\"[^\"]*/" OR NOT include MATCHES "\"|<(fbs|gst)/|<string\\.h>")
-      message("${source}: ${include} is not for the plugin")
-      math(EXPR faults "${faults} + 1")
-    endif()
+# The plugin and Python's extension are users of the libraries like any other: of ours they include include/fbs alone.
+foreach(user "gstreamer@(fbs|gst)/|string\\.h" "python/src@(fbs|nanobind)/|[a-z_]+>")
+  string(REPLACE "@" ";" user "${user}")
+  list(GET user 0 folder)
+  list(GET user 1 headers)
+  file(GLOB its_sources RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.c ${ROOT}/${folder}/*.cpp)
+  foreach(source ${its_sources})
+    math(EXPR checked "${checked} + 1")
+    file(STRINGS ${ROOT}/${source} includes REGEX "^[ \t]*#[ \t]*include")
+    foreach(include ${includes})
+      if(include MATCHES "\"[^\"]*/" OR NOT include MATCHES "\"|<(${headers})")
+        message("${source}: ${include} is not for ${folder}")
+        math(EXPR faults "${faults} + 1")
+      endif()
+    endforeach()
   endforeach()
 endforeach()
 if(checked LESS 100)

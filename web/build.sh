@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Builds the browser player: build.sh [FOLDER] makes FOLDER/package (default: build/web/package), as npm has packages.
+# What it downloads and the libraries are kept in FOLDER: a second build is quick, and needs no network.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+out=$(mkdir -p "${1:-build/web}" && cd "${1:-build/web}" && pwd)
+export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # where Debian has acorn, which emscripten needs
+
+# build VARIANT FLAGS
+build() {
+  web/libraries/make.py "$out/libraries/$1" --sources "$out/sources" --flags="$2"
+  emcmake cmake -S web -B "$out/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DLIBRARIES="$out/libraries/$1" \
+    -DCMAKE_C_FLAGS="$2" -DCMAKE_CXX_FLAGS="$2" >"$out/$1.log" 2>&1 || { cat "$out/$1.log"; exit 1; }
+  cmake --build "$out/$1"
+}
+build simd -msimd128
+build plain ""
+
+package=$out/package
+rm -rf "$package"
+mkdir -p "$package/src"
+cp web/src/*.js web/src/*.ts "$package/src/"
+cp "$out/simd/fbs.wasm" "$package/src/fbs-simd.wasm"
+cp "$out/plain/fbs.wasm" "$package/src/fbs.wasm"
+chmod 644 "$package"/src/*.wasm
+cp web/package.json web/README.md LICENSE "$package/"

@@ -1,0 +1,31 @@
+# Points without triangles, decoded one after another: what a stream has.
+set(draco ${SOURCES}/draco/src)
+set(draco_config ${CMAKE_CURRENT_BINARY_DIR}/draco)
+file(WRITE ${draco_config}/draco/draco_features.h "#define DRACO_POINT_CLOUD_COMPRESSION_SUPPORTED\n")
+
+prefixed(draco_sources ${draco}/draco
+  attributes/attribute_quantization_transform.cc attributes/attribute_octahedron_transform.cc
+  attributes/attribute_transform.cc attributes/geometry_attribute.cc attributes/point_attribute.cc
+  compression/attributes/attributes_decoder.cc compression/attributes/kd_tree_attributes_decoder.cc
+  compression/attributes/sequential_attribute_decoder.cc
+  compression/attributes/sequential_attribute_decoders_controller.cc
+  compression/attributes/sequential_integer_attribute_decoder.cc
+  compression/attributes/sequential_normal_attribute_decoder.cc
+  compression/attributes/sequential_quantization_attribute_decoder.cc
+  compression/bit_coders/adaptive_rans_bit_decoder.cc compression/bit_coders/direct_bit_decoder.cc
+  compression/bit_coders/rans_bit_decoder.cc compression/bit_coders/symbol_bit_decoder.cc
+  compression/decode.cc compression/entropy/symbol_decoding.cc
+  compression/point_cloud/algorithms/dynamic_integer_points_kd_tree_decoder.cc
+  compression/point_cloud/algorithms/float_points_tree_decoder.cc
+  compression/point_cloud/point_cloud_decoder.cc compression/point_cloud/point_cloud_kd_tree_decoder.cc
+  compression/point_cloud/point_cloud_sequential_decoder.cc
+  core/bit_utils.cc core/data_buffer.cc core/decoder_buffer.cc core/divide.cc core/draco_types.cc core/hash_utils.cc
+  core/options.cc core/quantization_utils.cc core/status.cc
+  metadata/geometry_metadata.cc metadata/metadata.cc metadata/metadata_decoder.cc
+  point_cloud/point_cloud.cc)
+add_library(draco STATIC ${draco_sources})
+target_compile_options(draco PRIVATE -Os)
+target_include_directories(draco PRIVATE ${draco_config} ${draco})
+install(TARGETS draco EXPORT draco ARCHIVE DESTINATION lib INCLUDES DESTINATION include)
+install(EXPORT draco NAMESPACE draco:: FILE draco-config.cmake DESTINATION lib/cmake/draco)
+install(DIRECTORY ${draco}/draco ${draco_config}/draco DESTINATION include FILES_MATCHING PATTERN "*.h")

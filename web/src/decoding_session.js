@@ -1,0 +1,198 @@
+/** One stream in the worker: it arrives, and requests for its pictures are answered when they can be. */
+import { FbsError } from "./fbs_module.js";
+import { openStream, readStream } from "./stream_source.js";
+
+/**
+ * @typedef {import("./types").Answer} Answer
+ * @typedef {import("./types").FaceEdit} FaceEdit
+ * @typedef {import("./fbs_module.js").FbsDecoder} FbsDecoder
+ * @typedef {import("./fbs_module.js").FbsModule} FbsModule
+ * @typedef {(answer: Answer, transfer?: Transferable[]) => void} Send
+ */
+
+export class DecodingSession {
+  /**
+   * @param {number} generation  of the answers
+   * @param {FaceEdit} edit
+   * @param {Send} send
+   */
+  constructor(generation, edit, send) {
+    this.generation = generation;
+    this.editing = edit;
+    this.send = send;
+    /**
+     * Null until the module has been loaded.
+     * @type {FbsDecoder | null}
+     */
+    this.decoder = null;
+    this.abort = new AbortController();
+    this.complete = false;
+    /** The connection has broken. */
+    this.broken = false;
+    this.failed = false;
+    /** Whether next() has announced a picture since the beginning or the last seek. */
+    this.hasPicture = false;
+    /** @type {FbsError | null} */
+    this.lastFault = null;
+    /**
+     * A request; `seek`: the decoder has to go to the time first.
+     * @type {{ skipTo: number, isSeek: boolean, seek: boolean, buffer?: ArrayBuffer } | null}
+     */
+    this.wanted = null;
+    this.toldWaiting = false;
+  }
+
+  /**
+   * Reads the stream to its end. Stream and module come at the same time.
+   * @param {string} url
+   * @param {Promise<FbsModule>} module
+   */
+  async read(url, module) {
+    const { signal } = this.abort;
+    const stream = openStream(url, signal);
+    stream.catch(() => {});  // is seen below
+    const decoder = (await module).open();
+    this.decoder = decoder;
+    decoder.edit(this.editing);
+    try {
+      await readStream(await stream, (bytes) => {
+        if (signal.aborted) return;
+        decoder.feed(bytes);
+        this.tellArrival(decoder);
+        this.answer();
+      });
+    } catch (fault) {
+      if (!signal.aborted && !(fault instanceof FbsError)) throw fault;
+      this.broken = true;
+      if (!signal.aborted) this.report(/** @type {FbsError} */ (fault), decoder.arrivedBytes.all === 0);
+    }
+    if (!signal.aborted) {
+      this.complete = true;
+      decoder.finish();
+      this.tellArrival(decoder);
+      this.answer();
+    }
+  }
+
+  close() {
+    this.abort.abort();
+    this.decoder?.close();
+    this.decoder = null;
+  }
+
+  /** @param {FbsDecoder} decoder */
+  tellArrival(decoder) {
+    const { generation, complete } = this;
+    const { all, sound } = decoder.arrivedBytes;
+    const { arrivedTime: time, soundRate } = decoder;
+    const arrival = { bytes: all, soundBytes: sound, time, soundRate, complete };
+    this.send({ type: "arrival", generation, arrival });
+  }
+
+  /** @param {FbsError} fault @param {boolean} fatal */
+  report({ code, message }, fatal) {
+    this.failed ||= fatal;
+    this.send({ type: "error", generation: this.generation, error: { code, message, fatal } });
+    if (fatal) this.abort.abort();
+  }
+
+  /**
+   * Asks for the next picture that ends after a time.
+   * @param {number} skipTo
+   * @param {ArrayBuffer} [buffer]
+   */
+  next(skipTo, buffer) {
+    this.wanted = { skipTo, isSeek: false, seek: false, buffer };
+    this.toldWaiting = false;
+    this.answer();
+  }
+
+  /** @param {number} generation @param {number} time */
+  seek(generation, time) {
+    this.generation = generation;
+    this.wanted = { skipTo: time, isSeek: true, seek: true };
+    this.toldWaiting = false;
+    this.answer();
+  }
+
+  /** @param {number} to */
+  sound(to) {
+    const sound = this.wanted?.seek ? null : this.decoder?.sound(to) ?? null;
+    this.send({ type: "sound", generation: this.generation, sound }, sound ? [sound.samples.buffer] : []);
+  }
+
+  /** @param {FaceEdit} edit */
+  edit(edit) {
+    this.editing = edit;
+    this.decoder?.edit(edit);
+  }
+
+  /** @param {ArrayBuffer} [buffer] */
+  redraw(buffer) {
+    if (this.decoder && this.hasPicture) this.draw(this.decoder, true, buffer);
+  }
+
+  answer() {
+    const { decoder, wanted } = this;
+    if (!decoder || !wanted || this.failed) return;
+    if (wanted.seek && decoder.seek(wanted.skipTo)) this.hasPicture = wanted.seek = false;
+    const found = wanted.seek ? this.withoutScene() : this.advance(decoder, wanted.skipTo);
+    if (found === "need-data") {
+      if (!this.toldWaiting) this.send({ type: "waiting", generation: this.generation });
+      this.toldWaiting = true;
+      return;
+    }
+    this.wanted = null;
+    // Behind the end there is the last picture.
+    if (found === "picture" || (wanted.isSeek && this.hasPicture)) this.draw(decoder, false, wanted.buffer);
+    if (found === "end") this.end();
+  }
+
+  withoutScene() {
+    return this.complete ? "end" : "need-data";
+  }
+
+  /**
+   * @param {FbsDecoder} decoder
+   * @param {number} skipTo  pictures that end before it are not looked at
+   */
+  advance(decoder, skipTo) {
+    for (;;) {
+      try {
+        const found = decoder.next();
+        if (found !== "picture") return found;
+        this.hasPicture = true;
+        const { time, duration } = decoder.announced();
+        if (time + duration > skipTo) return found;
+      } catch (fault) {
+        if (!(fault instanceof FbsError)) throw fault;
+        // What has been cut off on the way has been reported.
+        if (fault.code === "truncated" && this.broken) continue;
+        this.lastFault = fault;
+        const fatal = fault.code === "not-fbs";
+        this.report(fault, fatal);
+        if (fatal) return "need-data";
+      }
+    }
+  }
+
+  /**
+   * @param {FbsDecoder} decoder
+   * @param {boolean} redraw
+   * @param {ArrayBuffer} [buffer]
+   */
+  draw(decoder, redraw, buffer) {
+    const { generation } = this;
+    const drawn = decoder.draw(buffer);
+    const picture = { ...drawn, ...decoder.announced(), format: decoder.format(), face: decoder.face() };
+    this.send({ type: "picture", generation, picture, redraw }, [drawn.planes.buffer]);
+  }
+
+  end() {
+    if (!this.hasPicture) {
+      const code = this.lastFault?.code ?? "damaged";
+      return this.report(new FbsError(code, this.lastFault?.message ?? "the stream has no picture"), true);
+    }
+    this.send({ type: "end", generation: this.generation });
+  }
+}

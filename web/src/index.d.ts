@@ -1,0 +1,65 @@
+/** <fbs-player>, the element. Importing this package defines it. */
+import type { Face, FaceDetail, FaceEdit, PlayerError } from "./types";
+
+export * from "./decoder";
+
+/** Fetches and compiles the decoder before a player needs it. All players of the page share it. */
+export function prepareDecoder(): Promise<WebAssembly.Module>;
+
+export interface FbsPlayerEventMap extends HTMLElementEventMap {
+  /** A picture is shown. */
+  face: CustomEvent<FaceDetail>;
+  /** Playback goes on after it unless it is fatal. */
+  error: CustomEvent<PlayerError> & ErrorEvent;
+}
+
+export class FbsPlayer extends HTMLElement {
+  // As of HTMLMediaElement. Besides these events: play, playing, pause, timeupdate, waiting, seeking, seeked, ended,
+  // loadedmetadata, loadeddata, durationchange, progress, volumechange.
+  src: string;
+  preload: string;
+  autoplay: boolean;
+  loop: boolean;
+  controls: boolean;
+  muted: boolean;
+  /** 0..1 */
+  volume: number;
+  /** Seconds. A time that has not come yet is waited for. */
+  currentTime: number;
+  /** Seconds: NaN before the first picture, Infinity until the whole stream has come. */
+  readonly duration: number;
+  readonly paused: boolean;
+  readonly ended: boolean;
+  readonly seeking: boolean;
+  readonly error: PlayerError | null;
+  readonly currentSrc: string;
+  readonly videoWidth: number;
+  readonly videoHeight: number;
+  /** Rejects where nothing can be played, and where the browser allows no sound before the visitor has done something. */
+  play(): Promise<void>;
+  pause(): void;
+  load(): void;
+
+  /** What the picture shows, for those who do not see it. The attribute is `label`. */
+  label: string;
+  /** What is added to the motion of the stream. Setting changes those that are named. */
+  get faceEdit(): Required<FaceEdit>;
+  set faceEdit(edit: FaceEdit);
+  /** Of the picture that is shown; null without a face. */
+  readonly face: Face | null;
+  /** Seconds of the stream that have come. */
+  readonly arrivedTime: number;
+  /** kbit/s on average of what has come. */
+  readonly rate: { picture: number; sound: number };
+
+  addEventListener<K extends keyof FbsPlayerEventMap>(
+    type: K, listener: (this: FbsPlayer, event: FbsPlayerEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(
+    type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "fbs-player": FbsPlayer;
+  }
+}

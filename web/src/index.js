@@ -1,0 +1,8 @@
+/** Defines <fbs-player>, and gives what programs use beside it. */
+import { FbsPlayer } from "./player_element.js";
+
+export { FbsPlayer };
+export { prepareDecoder } from "./decoder_client.js";
+export { FbsDecoder, FbsError, FbsModule, compileModule, loadModule, moduleUrl } from "./fbs_module.js";
+
+if (!customElements.get("fbs-player")) customElements.define("fbs-player", FbsPlayer);

@@ -1,0 +1,50 @@
+/** Decodes for one player, beside the page. What it takes and sends is in types.d.ts. */
+import { DecodingSession } from "./decoding_session.js";
+import { loadModule } from "./fbs_module.js";
+
+/**
+ * @typedef {import("./types").Request} Request
+ * @typedef {import("./types").Answer} Answer
+ * @typedef {import("./fbs_module.js").FbsModule} FbsModule
+ */
+
+/** @type {(module: FbsModule | Promise<FbsModule>) => void} */
+let giveModule;
+/** @type {Promise<FbsModule>} */
+const module = new Promise((resolve) => (giveModule = resolve));
+/** @type {DecodingSession | null} */
+let session = null;
+/** @type {import("./types").FaceEdit} */
+let edit = {};
+
+/** @param {Answer} answer @param {Transferable[]} [transfer] */
+function send(answer, transfer = []) {
+  /** @type {any} */ (self).postMessage(answer, transfer);
+}
+
+/** @param {Request} request */
+async function take(request) {
+  if (request.type === "module") return giveModule(loadModule(request.module));
+  if (request.type === "load") {
+    session?.close();
+    session = new DecodingSession(request.generation, edit, send);
+    return session.read(request.url, module);
+  }
+  if (request.type === "edit") edit = request.edit;
+  if (request.type === "edit") return session?.edit(edit);
+  if (request.type === "seek") return session?.seek(request.generation, request.time);
+  if (request.generation !== session?.generation) return;  // asked before it knew of a seek
+  if (request.type === "next") session.next(request.skipTo, request.buffer);
+  if (request.type === "sound") session.sound(request.to);
+  if (request.type === "redraw") session.redraw(request.buffer);
+}
+
+self.onmessage = async ({ data }) => {
+  try {
+    await take(data);
+  } catch (fault) {
+    // No memory, or a bug: the module is done with, and the player starts another worker for its next stream.
+    const message = `the decoder has failed: ${fault instanceof Error ? fault.message : fault}`;
+    send({ type: "error", generation: session?.generation ?? 0, error: { code: "internal", message, fatal: true } });
+  }
+};
