@@ -193,6 +193,20 @@ def test_the_worst_clip_is_found_and_why(tmp_path):
     assert worst["reasons"].iloc[1] == []
 
 
+def test_what_goes_with_bad_results_is_named_first():
+    clips = pd.DataFrame(
+        {"motion": np.arange(40) / 100, "face_share": 0.1, "pictures": 50, "face_pictures": 50, "psnr_face": 30.0}
+    )
+    clips = clips.assign(
+        yaw_range_deg=10.0, pitch_range_deg=5.0, cuts=0, fps=25.0, seconds=2.0, gain_face=np.nan, worst_psnr=29.0,
+        bd_rate_face_envelope=-clips["motion"], psnr_frame=30.0,
+    )  # fmt: skip
+    clips.loc[0, "face_share"] = 0.01
+    first, second = worst_clips(clips, 2)["reasons"]
+    assert first[0].startswith("the head hardly moves, 0.00 eye") and first[1].startswith("the face is 1.0 %")
+    assert len(second) == 1 and second[0].startswith("the head hardly moves, 0.01 eye")
+
+
 def test_the_report_is_one_file_that_stays_small(tmp_path):
     folder = ResultsFolder(tmp_path)
     corpus(folder, 250)
@@ -202,7 +216,10 @@ def test_the_report_is_one_file_that_stays_small(tmp_path):
     assert not re.search(r"https?://|<script|@import|url\(|<link|\{\{|nan|None", page)
     assert "250 of 251 clips measured" in page and "; 249 clips</small>" in page
     assert "&lt;b&gt;.mkv" in page and "<b>.mkv" not in page
-    assert "50 % less rate for the same face (95\N{NO-BREAK SPACE}% interval \N{MINUS SIGN}50 to \N{MINUS SIGN}50 %; 250 clips)" in page
+    assert (
+        "50 % less rate for the same face (95\N{NO-BREAK SPACE}% interval \N{MINUS SIGN}50 to \N{MINUS SIGN}50 %; 250 clips)"
+        in page
+    )
     assert "The first 200 of 250; all are in clips.parquet" in page
     assert page.count("<svg") == 10 and 'class="density"' in page
     assert len(page) < 300_000

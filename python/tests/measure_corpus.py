@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 
+import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as parquet
 
@@ -77,33 +78,22 @@ def measure_overhead(options):
 
 
 def measure_scaling(options):
-    print("| workers | seconds | efficiency | tasks | CPU, s |\n|--:|--:|--:|--:|--:|")
+    """Efficiency is that from the begin of the first task to the end of the last, without start and report."""
+    print("| workers | command, s | tasks, s | efficiency | tasks | CPU, s |\n|--:|--:|--:|--:|--:|--:|")
     first = None
     for workers in options.workers:
         with tempfile.TemporaryDirectory() as out:
-            command = [
-                sys.executable,
-                "-m",
-                "fbs.corpus",
-                options.folder,
-                "--out",
-                out,
-                "--workers",
-                workers,
-                "--worst",
-                0,
-                "--quiet",
-            ]
+            command = [sys.executable, "-m", "fbs.corpus", options.folder, "--out", out, "--workers", workers]
+            command += ["--worst", 0, "--quiet", *options.rest]
             begin = time.monotonic()
-            subprocess.run([*map(str, command), *options.rest], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            taken = time.monotonic() - begin
+            subprocess.run(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            whole = time.monotonic() - begin
             tasks = ResultsFolder(out).tasks()
+        begun = tasks["finished"] - pd.to_timedelta(tasks["task_s"], unit="s")
+        taken = (tasks["finished"].max() - begun.min()).total_seconds()
         first = first or taken * workers
-        cpu = tasks["cpu_s"].sum()
-        print(
-            f"| {workers} | {taken:.1f} | {100 * first / taken / workers:.0f} % | {len(tasks)} | {cpu:.0f} |",
-            flush=True,
-        )
+        share, cpu = 100 * first / taken / workers, tasks["cpu_s"].sum()
+        print(f"| {workers} | {whole:.1f} | {taken:.1f} | {share:.0f} % | {len(tasks)} | {cpu:.0f} |", flush=True)
 
 
 def measure_report(options):
