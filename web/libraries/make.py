@@ -20,8 +20,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 DEFAULT_SOURCES = HERE.parents[1] / "build/web/sources"
 TOOLS = {"em++": "emscripten", "node": "nodejs", "cmake": "cmake", "ninja": "ninja-build", "patch": "patch", "cc": "gcc"}
 HEADERS = ("glm", "tl", "hwy")
-
-
 SKIPPED = 77  # exit code: nothing is wrong, but the machine lacks a tool or the network
 
 
@@ -58,13 +56,22 @@ def run(*arguments, **options):
     return done.stdout
 
 
+def debian():
+    """The address from which this machine has Debian's packages: it has their sources, too."""
+    listed = run("apt-get", "indextargets", "--format", "$(REPO_URI)", "Identifier: Packages", "Origin: Debian",
+                 "Label: Debian").split()
+    if not listed:
+        raise Missing("apt knows no address of Debian's packages: apt-get update")
+    return listed[0]
+
+
 def apt(suite, sources):
     """The command line of apt-get that knows the sources of a suite, and nothing else."""
     folder = sources / suite
     if not (folder / "updated").exists():
         (folder / "lists/partial").mkdir(parents=True, exist_ok=True)
         (folder / "debian.sources").write_text(
-            f"Types: deb-src\nURIs: http://deb.debian.org/debian\nSuites: {suite}\nComponents: main\n"
+            f"Types: deb-src\nURIs: {debian()}\nSuites: {suite}\nComponents: main\n"
             "Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n")
     command = ["apt-get", "-q", "-o", "Dir::Etc::sourceparts=/nonexistent", "-o",
                f"Dir::Etc::sourcelist={folder}/debian.sources", "-o", f"Dir::State::lists={folder}/lists"]
