@@ -7,13 +7,13 @@
 #include "bitstream/packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/setup_payload.h"
-#include "encoder/face_scene.h"
 #include "encoder/find/found_marks.h"
-#include "encoder/planar_scene.h"
-#include "encoder/scene_timing.h"
+#include "encoder/plan/scene_timing.h"
+#include "encoder/scene/face_scene.h"
+#include "encoder/scene/planar_scene.h"
+#include "encoder/scene/still_scene.h"
 #include "encoder/shots/cut_detector.h"
 #include "encoder/shots/fade_in.h"
-#include "encoder/still_scene.h"
 
 namespace fbs {
 namespace {

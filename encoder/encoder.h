@@ -7,7 +7,7 @@
 
 #include "common/picture.h"
 #include "common/result.h"
-#include "encoder/picture_analysis.h"
+#include "encoder/analysis/picture_analysis.h"
 #include "encoder/settings.h"
 
 namespace fbs {

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "decoder/expression/expression_targets.h"
-#include "decoder/scene_face.h"
-#include "decoder/scene_index.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/scene_index.h"
+#include "decoder/stream/stream_decoder.h"
 #include "fbs/fbs.h"
 #include "library/boundary.h"
 #include "library/caller_picture.h"

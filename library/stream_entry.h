@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs {
 

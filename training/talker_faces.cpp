@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 
 namespace fbs {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/stream/decoded_sound.h"
 #include "cli/video/video_sink.h"
 #include "common/result.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/sound/decoded_sound.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/sound/sound_encoder.h"
 
 namespace fbs::cli {

@@ -8,7 +8,7 @@
 #include "cli/video/colour.h"
 #include "cli/video/constant_rate.h"
 #include "cli/video/timestamps.h"
-#include "cli/video/y4m.h"
+#include "cli/video/y4m/y4m.h"
 
 namespace fbs::cli {
 namespace {

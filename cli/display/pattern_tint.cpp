@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "decoder/renderer.h"
+#include "decoder/draw/renderer.h"
 
 namespace fbs::cli {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cli/video/colour.h"
 #include "common/result.h"
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 
 namespace fbs::cli {
 

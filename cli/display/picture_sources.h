@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/state.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

@@ -10,16 +10,16 @@
 
 #include "cli/display/overlay.h"
 #include "cli/encode/encode_arguments.h"
-#include "cli/encode/encode_session.h"
 #include "cli/encode/sound_choice.h"
 #include "cli/encode/sound_track.h"
-#include "cli/encode/source_part.h"
-#include "cli/encode/until_stopped.h"
+#include "cli/files/atomic_file.h"
+#include "cli/files/output_check.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
-#include "cli/output_check.h"
+#include "cli/source/encode_session.h"
+#include "cli/source/source_part.h"
+#include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
-#include "cli/video/atomic_file.h"
 #include "cli/video/video_modules.h"
 
 namespace fbs::cli {

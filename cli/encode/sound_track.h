@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/files/stop_signal.h"
 #include "cli/video/sound_source.h"
-#include "cli/video/stop_signal.h"
 #include "encoder/sound/sound_encoder.h"
 
 namespace fbs::cli {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/output_check.h"
+#include "cli/files/output_check.h"
 
 namespace fbs::cli {
 namespace {

@@ -6,15 +6,15 @@
 #include <memory>
 #include <utility>
 
-#include "cli/encode/encode_session.h"
 #include "cli/evaluate/file_stamp.h"
 #include "cli/evaluate/measurement.h"
 #include "cli/evaluate/peers/peer_encoding.h"
 #include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/quality/vmaf.h"
+#include "cli/files/atomic_file.h"
+#include "cli/source/encode_session.h"
 #include "cli/stream/stream_file.h"
-#include "cli/video/atomic_file.h"
-#include "cli/video/y4m.h"
+#include "cli/video/y4m/y4m.h"
 
 namespace fbs::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/evaluate/evaluate_arguments.h"
 #include "cli/evaluate/peers/peer_codec.h"
 #include "cli/evaluate/run_folder.h"
-#include "cli/video/stop_signal.h"
+#include "cli/files/stop_signal.h"
 #include "common/result.h"
 
 namespace fbs::cli {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <span>
 
+#include "cli/files/atomic_file.h"
 #include "cli/stream/byte_count_json.h"
-#include "cli/video/atomic_file.h"
 
 namespace fbs::cli {
 namespace {

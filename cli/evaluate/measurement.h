@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/encode/source_part.h"
 #include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/quality/shown_pictures.h"
 #include "cli/evaluate/rd_point.h"
-#include "cli/video/stop_signal.h"
+#include "cli/files/stop_signal.h"
+#include "cli/source/source_part.h"
 #include "common/result.h"
 
 namespace fbs::cli {

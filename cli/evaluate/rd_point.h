@@ -8,7 +8,7 @@
 
 #include "cli/evaluate/quality/picture_quality.h"
 #include "common/result.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/encoder.h"
 
 namespace fbs::cli {

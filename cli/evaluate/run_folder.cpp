@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 
 namespace fbs::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
-#include "cli/encode/encode_session.h"
 #include "cli/evaluate/clip_means.h"
+#include "cli/source/encode_session.h"
 
 namespace fbs::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include "cli/export/model_module.h"
 #include "cli/export/obj_sequence.h"
 #include "cli/export/table_output.h"
+#include "cli/files/atomic_file.h"
+#include "cli/files/output_check.h"
 #include "cli/module.h"
-#include "cli/output_check.h"
 #include "cli/stream/stream_file.h"
-#include "cli/video/atomic_file.h"
-#include "decoder/scene_face.h"
+#include "decoder/scene/scene_face.h"
 
 namespace fbs::cli {
 namespace {

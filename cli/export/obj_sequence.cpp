@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cli/export/head_looks.h"
-#include "cli/output_check.h"
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
+#include "cli/files/output_check.h"
 #include "decoder/export/obj_model.h"
 
 namespace fbs::cli {

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "cli/output_check.h"
+#include "cli/files/output_check.h"
 #include "cli/standard_output.h"
 
 namespace fbs::cli {

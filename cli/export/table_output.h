@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 #include "common/result.h"
 #include "decoder/export/face_table.h"
 

@@ -12,10 +12,10 @@
 #include "cli/inspect/inspect_arguments.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
-#include "cli/stream/packet_list.h"
 #include "cli/stream/stream_file.h"
-#include "decoder/scene_face.h"
-#include "decoder/scene_index.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/packet_list.h"
+#include "decoder/stream/scene_index.h"
 
 namespace fbs::cli {
 namespace {

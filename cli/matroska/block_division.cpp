@@ -5,7 +5,7 @@
 
 #include "bitstream/packet.h"
 #include "bitstream/payload/setup_payload.h"
-#include "cli/stream/packet_list.h"
+#include "decoder/stream/packet_list.h"
 
 namespace fbs::cli {
 namespace {

@@ -1,9 +1,9 @@
 // fbs play: shows a stream in a window.
 #include <array>
 
+#include "cli/files/output_check.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
-#include "cli/output_check.h"
 #include "cli/play/play_arguments.h"
 #include "cli/play/player.h"
 

@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/play/stream_length.h"
+#include "decoder/stream/stream_length.h"
 
 namespace fbs::cli {
 namespace {

@@ -18,8 +18,8 @@
 #include "cli/play/stage.h"
 #include "cli/play/window.h"
 #include "cli/stream/loss_report.h"
-#include "cli/stream/sound_parts.h"
 #include "cli/stream/stream_file.h"
+#include "decoder/sound/sound_parts.h"
 
 namespace fbs::cli {
 

@@ -8,7 +8,7 @@
 #include "cli/display/display_image.h"
 #include "cli/display/text_panel.h"
 #include "cli/play/player.h"
-#include "decoder/scene_face.h"
+#include "decoder/scene/scene_face.h"
 
 namespace fbs::cli {
 namespace {

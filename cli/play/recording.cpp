@@ -1,8 +1,8 @@
 #include "cli/play/recording.h"
 
-#include "cli/output_check.h"
+#include "cli/files/output_check.h"
 #include "cli/video/constant_rate.h"
-#include "cli/video/y4m.h"
+#include "cli/video/y4m/y4m.h"
 
 namespace fbs::cli {
 

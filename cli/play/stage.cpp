@@ -3,7 +3,7 @@
 #include "cli/display/display_image.h"
 #include "cli/display/pattern_overlay.h"
 #include "cli/video/colour.h"
-#include "decoder/scene_face.h"
+#include "decoder/scene/scene_face.h"
 
 namespace fbs::cli {
 

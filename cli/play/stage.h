@@ -7,7 +7,7 @@
 
 #include "cli/display/face_overlay.h"
 #include "decoder/expression/state_edit.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

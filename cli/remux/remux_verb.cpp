@@ -2,13 +2,13 @@
 #include <array>
 #include <cstdio>
 
+#include "cli/files/atomic_file.h"
+#include "cli/files/output_check.h"
 #include "cli/matroska/matroska_module.h"
 #include "cli/module.h"
-#include "cli/output_check.h"
 #include "cli/remux/remux_arguments.h"
-#include "cli/stream/packet_list.h"
 #include "cli/stream/stream_file.h"
-#include "cli/video/atomic_file.h"
+#include "decoder/stream/packet_list.h"
 
 namespace fbs::cli {
 namespace {

@@ -6,18 +6,18 @@
 #include <utility>
 #include <vector>
 
-#include "cli/encode/encode_session.h"
-#include "cli/encode/source_part.h"
 #include "cli/export/model_module.h"
+#include "cli/files/atomic_file.h"
+#include "cli/files/output_check.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
-#include "cli/output_check.h"
 #include "cli/retarget/retarget_arguments.h"
+#include "cli/source/encode_session.h"
+#include "cli/source/source_part.h"
 #include "cli/stream/sound_interleaver.h"
-#include "cli/stream/sound_parts.h"
 #include "cli/stream/stream_file.h"
-#include "cli/video/atomic_file.h"
 #include "cli/video/video_source.h"
+#include "decoder/sound/sound_parts.h"
 #include "encoder/retarget/retarget.h"
 #include "encoder/retarget/wire_frame_fit.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "decoder/scene_face.h"
+#include "decoder/scene/scene_face.h"
 
 namespace fbs::cli {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/picture.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

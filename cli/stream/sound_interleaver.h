@@ -8,8 +8,8 @@
 
 #include "bitstream/packet.h"
 #include "bitstream/sound_syntax.h"
-#include "cli/stream/packet_list.h"
 #include "common/result.h"
+#include "decoder/stream/packet_list.h"
 
 namespace fbs::cli {
 

@@ -15,7 +15,7 @@
 #include "cli/matroska/matroska_module.h"
 #include "cli/module.h"
 #include "cli/video/video_source.h"
-#include "decoder/scene_index.h"
+#include "decoder/stream/scene_index.h"
 
 namespace fbs::cli {
 namespace {

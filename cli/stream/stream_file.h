@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/video/stop_signal.h"
-#include "decoder/stream_decoder.h"
+#include "cli/files/stop_signal.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

@@ -5,7 +5,7 @@
 
 #include "common/picture.h"
 #include "common/quality.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

@@ -2,13 +2,13 @@
 #include <array>
 #include <cstdio>
 
-#include "cli/encode/source_part.h"
-#include "cli/encode/until_stopped.h"
 #include "cli/export/table_output.h"
+#include "cli/files/output_check.h"
 #include "cli/module.h"
 #include "cli/outcome.h"
-#include "cli/output_check.h"
 #include "cli/progress.h"
+#include "cli/source/source_part.h"
+#include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
 #include "cli/track/track_arguments.h"
 #include "encoder/encoder.h"

@@ -7,7 +7,7 @@
 #include "cli/module.h"
 #include "cli/video/images/number_pattern.h"
 #include "cli/video/video_modules.h"
-#include "cli/video/y4m.h"
+#include "cli/video/y4m/y4m.h"
 
 namespace fbs {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 #include "common/result.h"
 
 namespace fbs {

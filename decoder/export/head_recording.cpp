@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "decoder/scene_face.h"
+#include "decoder/scene/scene_face.h"
 
 namespace fbs {
 

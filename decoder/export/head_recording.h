@@ -7,7 +7,7 @@
 #include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "common/state.h"
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 
 namespace fbs {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/picture.h"
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 #include "encoder/blend/source_samples.h"
 
 namespace fbs {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 #include "encoder/blend/source_samples.h"
 
 namespace fbs {

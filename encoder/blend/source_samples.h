@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "decoder/blend/picture_blend.h"
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 #include "encoder/blend/visible_surface.h"
 
 namespace fbs {

@@ -1,6 +1,6 @@
 #include "encoder/patterns/coded_frames.h"
 
-#include "decoder/obu.h"
+#include "decoder/pattern/obu.h"
 
 namespace fbs {
 namespace {

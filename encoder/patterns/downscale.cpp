@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "decoder/upscale.h"
+#include "decoder/pattern/upscale.h"
 
 namespace fbs {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 #include "encoder/patterns/pattern_encoder.h"
 
 namespace fbs {

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 #include "encoder/patterns/av1_encoder.h"
 #include "encoder/patterns/downscale.h"
 

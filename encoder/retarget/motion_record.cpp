@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "decoder/scene_face.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs {
 

@@ -6,7 +6,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "decoder/head/head_mesh.h"
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 #include "decoder/raster/rasteriser.h"
 #include "tests/unit/toy_scene.h"
 #include "tests/vectors/stream_digest.h"

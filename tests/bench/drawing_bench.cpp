@@ -12,7 +12,7 @@
 #include "decoder/field/node_weights.h"
 #include "decoder/field/surround_field.h"
 #include "decoder/field/warp_kernels.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/unit/toy_scene.h"
 #include "tests/vectors/stream_digest.h"
 

@@ -1,4 +1,4 @@
-#include "decoder/renderer.h"
+#include "decoder/draw/renderer.h"
 #include "tests/figures/canvas.h"
 #include "tests/figures/edited_state.h"
 #include "tests/figures/figures.h"

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "cli/video/video_source.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/model/pose.h"
 #include "encoder/track/feature_tracker.h"
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 
 namespace fbs::figures {
 namespace {

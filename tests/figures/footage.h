@@ -8,7 +8,7 @@
 #include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "common/result.h"
-#include "decoder/scene.h"
+#include "decoder/scene/scene.h"
 #include "encoder/encoder.h"
 #include "encoder/model/pose.h"
 #include "tests/figures/face_motion.h"

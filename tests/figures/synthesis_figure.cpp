@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "decoder/draw/renderer.h"
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/mouth_interior.h"
-#include "decoder/renderer.h"
 #include "encoder/retarget/face_stream.h"
 #include "encoder/retarget/motion_record.h"
 #include "encoder/retarget/retarget.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace fbs::fuzz {

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "bitstream/byte_io.h"
-#include "decoder/stream_decoder.h"
-#include "samples/talker/talker_render.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/fuzz/byte_mutator.h"
+#include "tests/talker/talker_render.h"
 
 namespace {
 

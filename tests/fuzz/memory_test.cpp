@@ -16,7 +16,7 @@
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/payload/wire_frame_payload.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/stream_mutator.h"
 #include "tests/vectors/stream_digest.h"

@@ -1,11 +1,11 @@
 // Bytes to the list of packets that `fbs inspect --packets` prints: its entries cover the stream, and what it
 // reports the decoder reports too.
-#include "cli/stream/packet_list.h"
+#include "decoder/stream/packet_list.h"
 
 #include <algorithm>
 
 #include "bitstream/packet.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace {
@@ -29,7 +29,7 @@ std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> stream(data, size);
-  const auto entries = fbs::cli::list_packets(stream);
+  const auto entries = fbs::list_packets(stream);
   bool right = true;
   const bool begins = size >= fbs::kSignature.size() &&
                       std::equal(fbs::kSignature.begin(), fbs::kSignature.end(), stream.begin());

@@ -1,7 +1,7 @@
 // Bytes to AV1 frames of one scene: width and height, each 64 and a byte, then frames of two bytes of length,
 // the high one first, and so many bytes. What is decoded has the size that was asked for, whatever came
 // before.
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Bytes to the list of scenes: they are in order, do not overlap and lie within the stream.
-#include "decoder/scene_index.h"
+#include "decoder/stream/scene_index.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

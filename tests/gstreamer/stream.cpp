@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 
 namespace fbs::gstreamer {
 namespace {

@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.25)
 set(floors
   common
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
-  decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/draw decoder
+  decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/pattern decoder/scene decoder/draw decoder/stream
   decoder/expression decoder/export decoder/sound
-  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/retarget
+  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/settings.h encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/analysis encoder/segment encoder/scene encoder/retarget
   encoder
   fbs library
-  cli/video/images cli/video/av cli/video cli/display cli
+  cli/files cli/video/images cli/video/av cli/video/y4m cli/video cli/display cli
   web)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
@@ -25,11 +25,11 @@ set(foreign
   "opencv2/video/@encoder/track/head"
   "opencv2/videoio@cli/video"
   "opencv2/highgui@none"
-  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder|cli|cli/video|cli/display"
+  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder/analysis|encoder/segment|encoder/scene|cli|cli/video|cli/display"
   "opus(/|\\.h)@decoder/sound|encoder/sound"
   "codec2(/|\\.h)@decoder/sound|encoder/sound"
   "aom/@encoder/patterns"
-  "dav1d/@decoder"
+  "dav1d/@decoder/pattern"
   "hwy/@decoder/vectors|decoder/field|decoder/raster"
   "draco/@bitstream/payload|decoder/export"
   "nlohmann@encoder/find|cli"
@@ -44,9 +44,9 @@ set(tool_of_the_build "common/head_table_tool.cpp")  # makes the head's table ou
 # Interfaces that modules implement: they stand in cli/video, which is above them.
 set(module_interface "cli/(module|verbs|progress)\\.h|cli/video/[a-z0-9_]+\\.h")
 
-# The floor of a path: the longest name in `floors` that it lies in.
+# The floor of a path: the longest name in `floors` that it has or lies in.
 function(floor_of path out)
-  get_filename_component(folder ${path} DIRECTORY)
+  set(folder ${path})
   while(folder AND NOT folder IN_LIST floors)
     get_filename_component(folder "${folder}" DIRECTORY)
   endwhile()

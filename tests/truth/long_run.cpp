@@ -19,11 +19,11 @@
 #include <string_view>
 #include <vector>
 
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/encoder.h"
 #include "encoder/model/pose.h"
-#include "samples/talker/talker_noise.h"
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_noise.h"
+#include "tests/talker/talker_render.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "cli/video/video_source.h"
 #include "encoder/encoder.h"
 #include "encoder/track/feature_tracker.h"
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "encoder/find/marks.h"
 #include "encoder/landmarks/shape.h"
 #include "encoder/model/pose.h"
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 
 namespace fbs {
 

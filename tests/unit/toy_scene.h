@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "decoder/renderer.h"
+#include "decoder/draw/renderer.h"
 
 namespace fbs {
 

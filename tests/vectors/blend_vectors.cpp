@@ -12,7 +12,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
-#include "decoder/obu.h"
+#include "decoder/pattern/obu.h"
 #include "encoder/patterns/pattern_sequence.h"
 
 namespace fbs {

@@ -6,7 +6,7 @@
 
 #include "common/md5.h"
 #include "decoder/sound/sound_reader.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs {
 namespace {

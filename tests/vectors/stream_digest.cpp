@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "common/md5.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs {
 

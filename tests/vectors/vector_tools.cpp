@@ -9,7 +9,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
 #include "encoder/encoder.h"
-#include "samples/talker/talker_render.h"
+#include "tests/talker/talker_render.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {

@@ -9,7 +9,7 @@
 
 #include "bitstream/syntax.h"
 #include "encoder/settings.h"
-#include "samples/talker/talker_motion.h"
+#include "tests/talker/talker_motion.h"
 
 namespace fbs {
 

@@ -1,8 +1,8 @@
 #include "web/module/web_decoder.h"
 
 #include "bitstream/sound_time.h"
-#include "decoder/scene_face.h"
-#include "decoder/scene_index.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/scene_index.h"
 #include "library/face_data.h"
 
 namespace fbs::web {

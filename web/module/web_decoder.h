@@ -14,7 +14,7 @@
 #include "common/result.h"
 #include "decoder/expression/expression_targets.h"
 #include "decoder/expression/state_edit.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "fbs/fbs.h"
 #include "web/module/web_sound.h"
 

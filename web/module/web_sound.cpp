@@ -33,7 +33,7 @@ std::vector<std::int16_t> WebSound::take(std::int64_t end) {
 
 std::int64_t WebSound::known() const {
   const std::int64_t pictures = sound_time(static_cast<std::int64_t>(parts_.released()));
-  return parts_.all().empty() ? pictures : std::max(pictures, cli::end_of(parts_.all().back()));
+  return parts_.all().empty() ? pictures : std::max(pictures, end_of(parts_.all().back()));
 }
 
 }  // namespace fbs::web

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "cli/stream/sound_cursor.h"
-#include "cli/stream/sound_parts.h"
+#include "decoder/sound/sound_cursor.h"
+#include "decoder/sound/sound_parts.h"
 
 namespace fbs::web {
 
@@ -38,8 +38,8 @@ class WebSound {
   /// Up to here sound that has not come will not come, 1/kSoundClock s.
   [[nodiscard]] std::int64_t known() const;
 
-  cli::SoundParts parts_;
-  std::optional<cli::SoundCursor> cursor_;  ///< once a codec is known
+  SoundParts parts_;
+  std::optional<SoundCursor> cursor_;  ///< once a codec is known
   int sample_rate_ = 0, channels_ = 0;
   std::int64_t begin_ = 0;  ///< of the last seek()
 };

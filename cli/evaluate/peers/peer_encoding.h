@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/encode/source_part.h"
 #include "cli/evaluate/peers/peer_codec.h"
-#include "cli/video/stop_signal.h"
+#include "cli/files/stop_signal.h"
+#include "cli/source/source_part.h"
 #include "common/result.h"
 
 namespace fbs::cli {

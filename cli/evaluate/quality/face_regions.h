@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/files/stop_signal.h"
 #include "cli/stream/face_outline.h"
-#include "cli/video/stop_signal.h"
 #include "common/result.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/video/stop_signal.h"
+#include "cli/files/stop_signal.h"
 #include "common/picture.h"
 #include "common/result.h"
 

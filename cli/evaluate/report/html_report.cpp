@@ -14,7 +14,7 @@
 #include "cli/evaluate/report/html_tables.h"
 #include "cli/evaluate/report/report_texts.h"
 #include "cli/evaluate/report/stills.h"
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 
 namespace fbs::cli {
 namespace {

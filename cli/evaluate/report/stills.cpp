@@ -12,7 +12,7 @@
 
 #include "cli/evaluate/quality/shown_pictures.h"
 #include "cli/evaluate/run_folder.h"
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 

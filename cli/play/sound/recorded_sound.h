@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/stream/sound_cursor.h"
-#include "cli/stream/sound_parts.h"
 #include "cli/video/video_sink.h"
+#include "decoder/sound/sound_cursor.h"
+#include "decoder/sound/sound_parts.h"
 #include "encoder/sound/sound_encoder.h"
 
 namespace fbs::cli {

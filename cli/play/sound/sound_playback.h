@@ -7,8 +7,8 @@
 
 #include "bitstream/syntax.h"
 #include "cli/play/sound/sound_queue.h"
-#include "cli/stream/sound_cursor.h"
-#include "cli/stream/sound_parts.h"
+#include "decoder/sound/sound_cursor.h"
+#include "decoder/sound/sound_parts.h"
 
 namespace fbs::cli {
 

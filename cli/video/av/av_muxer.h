@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 #include "cli/video/av/av_support.h"
 
 namespace fbs {

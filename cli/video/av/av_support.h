@@ -13,7 +13,7 @@ extern "C" {
 #include <memory>
 #include <string>
 
-#include "cli/video/stop_signal.h"
+#include "cli/files/stop_signal.h"
 #include "cli/video/timestamps.h"
 
 namespace fbs {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/video/atomic_file.h"
+#include "cli/files/atomic_file.h"
 #include "cli/video/colour.h"
 #include "cli/video/images/number_pattern.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "bitstream/packet.h"
 #include "common/quality.h"
-#include "decoder/scene_face.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/stream_decoder.h"
 
 namespace fbs {
 

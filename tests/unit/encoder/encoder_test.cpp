@@ -8,7 +8,7 @@
 #include <random>
 
 #include "common/quality.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {

@@ -3,7 +3,7 @@
 
 #include "bitstream/packet.h"
 #include "common/quality.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/encoder.h"
 #include "tests/unit/talker_clip.h"
 

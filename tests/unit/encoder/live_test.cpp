@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "common/quality.h"
-#include "decoder/scene_index.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/scene_index.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/encoder.h"
 #include "tests/unit/talker_clip.h"
 

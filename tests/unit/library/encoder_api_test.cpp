@@ -9,7 +9,7 @@
 #include <random>
 
 #include "bitstream/packet.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "encoder/encoder.h"
 #include "fbs/encoder.h"
 #include "fbs/fbs.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/ibug.h"
-#include "decoder/scene_face.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/unit/library/api_decoder.h"
 #include "tests/unit/split_head.h"
 #include "tests/unit/toy_scene.h"

@@ -7,7 +7,7 @@
 #include "cli/display/display_image.h"
 #include "cli/display/pattern_legend.h"
 #include "cli/display/pattern_tint.h"
-#include "tests/unit/decoder/stream_writer.h"
+#include "tests/unit/decoder/stream/stream_writer.h"
 
 namespace fbs::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "decoder/blend/picture_blend.h"
-#include "tests/unit/decoder/stream_writer.h"
+#include "tests/unit/decoder/stream/stream_writer.h"
 
 namespace fbs::cli {
 namespace {

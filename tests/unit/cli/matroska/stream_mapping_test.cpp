@@ -4,7 +4,7 @@
 
 #include "bitstream/packet.h"
 #include "cli/matroska/block_division.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/unit/cli/matroska/voiced_vector.h"
 
 namespace fbs::cli {

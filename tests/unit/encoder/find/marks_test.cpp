@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "samples/talker/talker_files.h"
+#include "tests/talker/talker_files.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "common/quality.h"
-#include "decoder/upscale.h"
+#include "decoder/pattern/upscale.h"
 #include "tests/unit/encoder/patterns/scenery.h"
 
 namespace fbs {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/quality.h"
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 #include "tests/unit/encoder/patterns/scenery.h"
 
 namespace fbs {

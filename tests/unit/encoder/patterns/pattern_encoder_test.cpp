@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/quality.h"
-#include "decoder/pattern_decoder.h"
+#include "decoder/pattern/pattern_decoder.h"
 #include "tests/unit/encoder/patterns/scenery.h"
 
 namespace fbs {

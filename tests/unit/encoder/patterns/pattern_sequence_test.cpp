@@ -6,8 +6,8 @@
 #include <random>
 
 #include "common/quality.h"
-#include "decoder/pattern_decoder.h"
-#include "decoder/upscale.h"
+#include "decoder/pattern/pattern_decoder.h"
+#include "decoder/pattern/upscale.h"
 #include "encoder/patterns/downscale.h"
 #include "tests/unit/encoder/patterns/scenery.h"
 

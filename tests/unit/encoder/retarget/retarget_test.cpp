@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
-#include "decoder/scene_face.h"
-#include "decoder/stream_decoder.h"
+#include "decoder/scene/scene_face.h"
+#include "decoder/stream/stream_decoder.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {

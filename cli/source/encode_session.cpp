@@ -1,0 +1,200 @@
+#include "cli/source/encode_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "bitstream/syntax.h"
+#include "cli/progress.h"
+#include "encoder/segment/picture_spool.h"
+
+namespace fbs::cli {
+namespace {
+
+/// Of a gap between two pictures, 1/90000 s: one hour. A longer one is a clock that was set, and shortened.
+constexpr std::int64_t kMaxGap = 60 * std::int64_t{kMaxDuration};
+
+/// Durations as the encoder expects them: 0 where the pictures follow the frame rate to within two ticks.
+/// These add up over a long video, in which the nominal duration is a rounded one, so that sound would run
+/// away: what has become more than kMaxRunaway is made good at once.
+class Durations {
+ public:
+  explicit Durations(std::uint32_t nominal) : nominal_(nominal) {}
+
+  /// It may be more than kMaxDuration.
+  std::uint32_t of(std::int64_t pts, std::int64_t next_pts) {
+    const std::int64_t d = std::min(next_pts - pts, kMaxGap), difference = d - nominal_;
+    if (d <= 0) return 0;
+    const std::int64_t ahead = ahead_ - difference;  // of the pictures, after one of nominal duration
+    const bool regular = std::abs(difference) <= 2 && std::abs(ahead) <= kMaxRunaway;
+    if (regular) {
+      ahead_ = ahead;
+      return 0;
+    }
+    const std::int64_t right = std::max<std::int64_t>(1, d - ahead_);
+    ahead_ += right - d;
+    return static_cast<std::uint32_t>(right);
+  }
+
+ private:
+  static constexpr std::int64_t kMaxRunaway = kTicksPerSecond / 200;  // 5 ms
+
+  std::int64_t nominal_, ahead_ = 0;  // 1/90000 s
+};
+
+/// Pictures from their encoding until they are decoded: a segment of them, on disk. First in, first out.
+class WaitingPictures {
+ public:
+  Result<void> push(const Picture& picture) { return new_.add(picture); }
+
+  /// Not to be called when none waits.
+  Result<Picture> pop() {
+    // A file that has been read to its end makes room for the pictures since.
+    if (read_ == old_.count()) {
+      old_ = std::exchange(new_, {});
+      read_ = 0;
+    }
+    return old_.read(read_++);
+  }
+
+ private:
+  PictureSpool old_, new_;
+  std::size_t read_ = 0;  ///< pictures of old_
+};
+
+/// Decodes what is encoded as it comes, and measures it.
+class ClosedLoop {
+ public:
+  /// @param sound  null: none
+  ClosedLoop(Encoder encoder, SoundInterleaver* sound, const TakeBytes& take, Measured what)
+      : encoder_(std::move(encoder)),
+        sound_(sound),
+        take_(take),
+        compares_(what != Measured::kRate),
+        meter_(decoder_) {}
+
+  /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
+  Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
+    for (; duration > kMaxDuration; duration -= kMaxDuration, now.pts += kMaxDuration)
+      if (auto pushed = push_one(now, kMaxDuration, see); !pushed) return pushed;
+    return push_one(now, duration, see);
+  }
+
+  /// Passes on what another thread codes, until there is another picture to read.
+  Result<void> wait_for(const VideoSource& source) {
+    constexpr std::chrono::milliseconds kPatience{5};
+    while (encoder_.is_coding() && !source.is_ready(kPatience)) continue;
+    return pass_on();
+  }
+
+  Result<Encoded> finish() {
+    if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
+    if (auto passed = pass_on(); !passed) return fail(passed.error());
+    if (decoder_.pictures() < pushed_)
+      return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
+    return Encoded{meter_.result(), encoder_.report()};
+  }
+
+ private:
+  Result<void> push_one(const TimedPicture& now, std::uint32_t duration, const SeePicture& see) {
+    if (auto pushed = encoder_.push(now.picture, duration); !pushed) return pushed;
+    if (see)
+      if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
+    ++pushed_;
+    if (compares_)
+      if (auto kept = waiting_.push(now.picture); !kept) return kept;
+    return pass_on();
+  }
+
+  Result<void> pass_on() {
+    auto bytes = encoder_.take();
+    if (bytes.empty()) return {};
+    if (sound_ != nullptr) {
+      auto added = sound_->add(bytes);
+      if (!added) return fail(added.error());
+      bytes = std::move(*added);
+    }
+    if (auto taken = take_(bytes); !taken) return taken;
+    decoder_.feed(bytes);
+    for (;;) {
+      auto status = decoder_.next();
+      if (!status)
+        return fail(ErrorCode::kInternal, "the encoded stream does not decode: " + status.error().text);
+      if (*status != DecodeStatus::kPicture) return {};
+      if (decoder_.pictures() > pushed_)
+        return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
+      if (auto measured = measure(); !measured) return measured;
+    }
+  }
+
+  /// The current picture of the decoder.
+  Result<void> measure() {
+    if (!compares_) {
+      meter_.add();
+      return {};
+    }
+    const auto source = waiting_.pop();
+    if (!source) return fail(source.error());
+    return meter_.compare(*source);
+  }
+
+  Encoder encoder_;
+  SoundInterleaver* sound_;
+  const TakeBytes& take_;
+  bool compares_;
+  StreamDecoder decoder_;
+  StreamMeter meter_;
+  std::uint64_t pushed_ = 0;  ///< pictures
+  WaitingPictures waiting_;
+};
+
+}  // namespace
+
+Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings, const TakeBytes& take,
+                              const SeePicture& see, Measured what, bool quiet, SoundInterleaver* sound) {
+  auto encoder = Encoder::create(source.format(), settings);
+  if (!encoder) return fail(encoder.error());
+  ClosedLoop loop(std::move(*encoder), sound, take, what);
+  Progress progress("encoding", source.frame_count_estimate(), quiet);
+  const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
+  // How long a picture lasts is known with the next one, which nobody waits for where it can be helped: a
+  // live picture is given what the one before lasted.
+  const bool waits = !settings.live && !source.has_constant_rate();
+  Durations durations(nominal);
+  std::int64_t done = 0, last_pts = -nominal;
+  auto current = source.next();
+  while (current && *current) {
+    std::uint32_t duration =
+        source.has_constant_rate() || waits ? 0 : durations.of(last_pts, (*current)->pts);
+    std::optional<Result<std::optional<TimedPicture>>> next;
+    if (waits) {
+      next = source.next();
+      if (!*next) return fail(next->error());
+      duration = **next ? durations.of((*current)->pts, (**next)->pts) : 0;
+    }
+    last_pts = (*current)->pts;
+    if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());
+    progress.update(++done);
+    if (auto waited = loop.wait_for(source); !waited) return fail(waited.error());
+    current = next ? std::move(*next) : source.next();
+  }
+  if (!current) return fail(current.error());
+  return loop.finish();
+}
+
+std::string notes_of(const EncodingReport& report) {
+  std::string out;
+  if (report.cuts > 0) out = std::to_string(report.cuts) + (report.cuts == 1 ? " cut" : " cuts");
+  const auto add = [&](const std::string& note) { out += (out.empty() ? "" : "; ") + note; };
+  if (report.with_landmarks > 0)
+    add("landmarks used in " + std::to_string(report.from_landmarks) + " of " +
+        std::to_string(report.with_landmarks) + " pictures that have them");
+  if (report.without_face > 0)
+    add("no face followed in " + std::to_string(report.without_face) + " of " +
+        std::to_string(report.pictures) + " pictures");
+  return out;
+}
+
+}  // namespace fbs::cli

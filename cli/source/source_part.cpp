@@ -1,0 +1,87 @@
+#include "cli/source/source_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace fbs::cli {
+namespace {
+
+/// Whether the pictures before the error are worth keeping.
+bool ends_source(const Error& error) {
+  return error.code == ErrorCode::kTruncated || error.code == ErrorCode::kInvalidStream ||
+         error.code == ErrorCode::kIo;
+}
+
+}  // namespace
+
+SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal* stop)
+    : source_(std::move(source)), limits_(limits), stop_(stop) {}
+
+Result<std::optional<TimedPicture>> SourcePart::next() {
+  ended_ = ended_ || stopped() || (limits_.pictures && pictures_ >= *limits_.pictures);
+  if (ended_) return std::nullopt;
+  auto picture = source_->next();
+  ended_ = !picture || !*picture || !within_seconds((*picture)->pts);
+  if (!picture) return end_by(picture.error());
+  if (ended_) return std::nullopt;
+  ++pictures_;
+  return picture;
+}
+
+Result<std::optional<TimedPicture>> SourcePart::end_by(const Error& error) {
+  // A read that the signal interrupted fails. What it had read of a picture is lost.
+  if (stopped()) return std::nullopt;
+  if (pictures_ == 0 || !ends_source(error)) return fail(error);
+  failure_ = error;
+  return std::nullopt;
+}
+
+bool SourcePart::within_seconds(std::int64_t pts) {
+  if (!first_pts_) first_pts_ = pts;
+  if (!limits_.seconds) return true;
+  return static_cast<double>(pts - *first_pts_) < *limits_.seconds * kTicksPerSecond;
+}
+
+std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
+  auto estimate = source_->frame_count_estimate();
+  const auto limit = [&](std::int64_t pictures) {
+    estimate = estimate ? std::min(*estimate, pictures) : pictures;
+  };
+  if (limits_.pictures) limit(*limits_.pictures);
+  const Rational rate = format().frame_rate;
+  if (limits_.seconds) limit(std::llround(std::ceil(*limits_.seconds * rate.num / rate.den)));
+  return estimate;
+}
+
+Error about_input(Error error, const std::string& name) {
+  const std::string input = name == "-" ? "standard input" : name;
+  if (error.code != ErrorCode::kIo && !error.text.starts_with(input)) error.text = input + ": " + error.text;
+  return error;
+}
+
+Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
+                                    std::optional<double> sequence_rate, const StopSignal& stop) {
+  if (sequence_rate && !is_image_sequence(name))
+    return fail(ErrorCode::kInvalidArgument, "--rate is for images: " + name + " has its own");
+  SourceOptions options;
+  options.stop = &stop;
+  if (sequence_rate)
+    options.sequence_rate = {static_cast<std::uint32_t>(std::lround(*sequence_rate * 1000)), 1000};
+  auto opened = open_video_source(name, options);
+  if (!opened) return fail(opened.error());
+  return SourcePart(std::move(*opened), limits, &stop);
+}
+
+void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
+                          const char* done) {
+  if (source.failure())
+    std::fprintf(stderr, "fbs: %s; the %llu pictures before are %s\n", source.failure()->text.c_str(),
+                 static_cast<unsigned long long>(pictures), done);
+  else if (source.damaged_packets() > 0)
+    std::fprintf(stderr, "fbs: %s: %lld damaged packets skipped\n", name.c_str(),
+                 static_cast<long long>(source.damaged_packets()));
+}
+
+}  // namespace fbs::cli

@@ -1,0 +1,70 @@
+// A picture is a function of (scene, state): this is the function. SPEC 10.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/result.h"
+#include "decoder/blend/picture_blend.h"
+#include "decoder/draw/atlas_blend.h"
+#include "decoder/draw/surround_painter.h"
+#include "decoder/draw/workers.h"
+#include "decoder/field/surround_field.h"
+#include "decoder/raster/row_runs.h"
+#include "decoder/scene/scene.h"
+
+namespace fbs {
+
+/// Draws pictures of a scene. Keeps scratch memory only: what it draws depends on its arguments alone,
+/// whatever the number of threads.
+class Renderer {
+ public:
+  /// @param threads  that share each picture; 1: the caller's alone
+  explicit Renderer(int threads = 1);
+
+  /// Draws the picture of `state` into `out`, whose planes have the sizes of the pattern's.
+  /// @return kInvalidArgument, and `out` untouched, when the scene has no pattern, when its pattern's texture
+  ///         mesh is not one of the scene's geometry, or when `out` has another size
+  [[nodiscard]] Result<void> render(const Scene& scene, const State& state, const PictureView& out);
+
+  /// The same into a picture, which takes the pattern's size.
+  [[nodiscard]] Result<void> render(const Scene& scene, const State& state, Picture& out);
+
+  /// Draws the picture of `state` from one pattern alone, warped everywhere, whatever the modes of the state.
+  /// @param pattern  index into Scene::patterns
+  /// @return kInvalidArgument as above, and when there is no such pattern
+  [[nodiscard]] Result<void> render_from(std::size_t pattern, const Scene& scene, const State& state,
+                                         Picture& out);
+
+  /// Draws an area of the picture's luma; what lies outside is undefined.
+  [[nodiscard]] Result<void> render_luma(const Scene& scene, const State& state, const SampleArea& area,
+                                         const PlaneView& out);
+
+ private:
+  using Targets = std::array<PlaneView, 3>;
+  void draw(const Scene& scene, const State& state, const PictureBlend& regions, const Targets& targets,
+            const SampleArea& luma, const SampleArea& chroma);
+
+  /// Makes cover_, weights_ and field_.
+  void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
+
+  /// Of a thread.
+  struct Scratch {
+    SurroundPainter surround;
+    std::vector<BlendedSource> atlas;
+  };
+
+  NodeCover cover_;
+  NodeWeights weights_;
+  std::vector<const std::vector<glm::ivec2>*> seen_;  ///< the grid's points in each source
+  SurroundField field_;
+  AtlasBlend atlas_;
+  DepthPlane luma_depth_, chroma_depth_;
+  std::unique_ptr<Workers> workers_;
+  std::vector<Scratch> scratch_;  ///< of each
+};
+
+}  // namespace fbs

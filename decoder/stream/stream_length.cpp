@@ -1,0 +1,29 @@
+#include "decoder/stream/stream_length.h"
+
+#include "bitstream/packet.h"
+#include "bitstream/payload/end_payload.h"
+#include "bitstream/payload/setup_payload.h"
+
+namespace fbs {
+
+std::optional<std::uint64_t> stream_length(std::span<const std::uint8_t> stream) {
+  PacketReader reader;
+  reader.feed(stream);
+  reader.close();
+  std::optional<Setup> last;
+  std::optional<std::uint64_t> pictures;
+  for (bool damaged = false;;) {
+    const auto read = damaged ? reader.resync() : reader.next();
+    damaged = !read;
+    if (damaged) continue;
+    if (read->status != ReadStatus::kPacket) break;
+    if (read->packet.type == PacketType::kSetup)
+      if (const auto setup = decode_setup(read->packet.payload)) last = *setup;
+    if (read->packet.type == PacketType::kEnd)
+      if (const auto end = decode_end(read->packet.payload)) pictures = end->pictures;
+  }
+  if (!last || !pictures || *pictures < last->before.pictures) return std::nullopt;
+  return last->before.time + (*pictures - last->before.pictures) * nominal_duration(last->format.frame_rate);
+}
+
+}  // namespace fbs

@@ -1,0 +1,33 @@
+#include "encoder/plan/scene_timing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bitstream/syntax.h"
+
+namespace fbs {
+namespace {
+
+/// What is seen before the surround's map and the mouth's colours are fixed. Longer sees more open mouths and
+/// more of what moves; the first bytes come as much later.
+constexpr double kLookaheadSeconds = 2;
+
+}  // namespace
+
+SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& settings)
+    : nominal_duration(fbs::nominal_duration(format.frame_rate)) {
+  const double fps = fps_of(format);
+  group_pictures = settings.group_pictures > 0
+                       ? settings.group_pictures
+                       : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
+  if (settings.live)
+    group_pictures =
+        std::clamp(static_cast<int>(std::lround(fps * settings.live->delay)), 1, kMaxGroupPictures);
+  if (settings.key_interval > 0) {
+    const double others = std::floor(fps * settings.key_interval) - 1;  // the first has a group of its own
+    group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));
+  }
+  lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
+}
+
+}  // namespace fbs

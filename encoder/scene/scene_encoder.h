@@ -1,0 +1,54 @@
+// One scene of a video: from the picture that begins it to the next scene or the end.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/picture.h"
+#include "common/result.h"
+#include "encoder/analysis/picture_analysis.h"
+#include "encoder/landmarks/landmark_file.h"
+
+namespace fbs {
+
+class SceneEncoder {
+ public:
+  SceneEncoder() = default;
+  SceneEncoder(const SceneEncoder&) = delete;
+  SceneEncoder& operator=(const SceneEncoder&) = delete;
+  virtual ~SceneEncoder() = default;
+
+  /// The scene's first picture is pushed too.
+  /// @param duration  1/90000 s; 0: that of the frame rate
+  virtual Result<void> push(const Picture& picture, std::uint32_t duration) = 0;
+
+  /// Landmarks of the picture pushed next, by another tracker.
+  virtual void give_landmarks(const LandmarkPoints& /*landmarks*/) {}
+
+  /// The picture pushed next begins another shot, which the scene is to carry.
+  virtual void cut() = 0;
+
+  /// Of a live scene: ends it with its present group, so that the picture after begins another one. A scene
+  /// that shows one picture, without motion, does not.
+  virtual void request_scene() {}
+
+  /// Whether the picture, which is pushed next, shows whom the scene follows. It then follows them again from
+  /// there on.
+  [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;
+
+  /// Whether it can carry a shot of anything else, too.
+  [[nodiscard]] virtual bool carries_shots() const = 0;
+
+  /// Codes what is still held back.
+  virtual Result<void> finish() = 0;
+
+  /// Whole packets that are ready; the scene forgets them.
+  [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
+
+  /// Whether packets may become ready without another call.
+  [[nodiscard]] virtual bool is_coding() const { return false; }
+
+  [[nodiscard]] virtual const PictureAnalysis& analysis() const = 0;
+};
+
+}  // namespace fbs

@@ -1,0 +1,42 @@
+#include "encoder/scene/scene_packets.h"
+
+#include <cassert>
+#include <utility>
+
+namespace fbs {
+
+void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {
+  if (started_)
+    writer_.write(ready_, PacketType::kMotion, payload);
+  else
+    held_back_.emplace_back(payload.begin(), payload.end());
+}
+
+void ScenePackets::add(PacketType type, std::span<const std::uint8_t> payload) {
+  assert(started_);
+  writer_.write(ready_, type, payload);
+}
+
+void ScenePackets::start(const SceneHead& head) {
+  assert(!started_);
+  for (const auto& [type, payload] : {std::pair{PacketType::kSetup, &head.setup},
+                                      {PacketType::kGeometry, &head.geometry},
+                                      {PacketType::kSurround, &head.surround},
+                                      {PacketType::kPattern, &head.pattern}})
+    if (!payload->empty()) writer_.write(ready_, type, *payload);
+  for (const auto& payload : held_back_) writer_.write(ready_, PacketType::kMotion, payload);
+  held_back_.clear();
+  started_ = true;
+}
+
+void ScenePackets::begin_again() {
+  assert(started_ && held_back_.empty());
+  started_ = false;
+}
+
+std::vector<std::uint8_t> ScenePackets::take() {
+  written_ += ready_.size();
+  return std::exchange(ready_, {});
+}
+
+}  // namespace fbs

@@ -1,0 +1,70 @@
+#include "encoder/scene/still_scene.h"
+
+#include "bitstream/pattern/pattern_packet.h"
+#include "bitstream/payload/setup_payload.h"
+#include "bitstream/track.h"
+#include "encoder/patterns/first_pattern.h"
+#include "encoder/plan/group_plan.h"
+#include "encoder/plan/rate_control.h"
+#include "encoder/plan/rate_target.h"
+
+namespace fbs {
+namespace {
+
+constexpr double kUsualEyeDistance = 64;  // pixels; quality is defined relative to a face, and there is none
+
+}  // namespace
+
+StillScene::StillScene(const Setup& setup, const SceneTiming& timing)
+    : timing_(timing), parts_(setup.parts), coder_(setup, CodedState{}) {}
+
+Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& format,
+                                                        const EncoderSettings& settings, const Picture& first,
+                                                        const StreamPosition& before) {
+  Setup setup;
+  setup.before = before;
+  setup.format = format;
+  setup.parts = mask_of(PartId::kPose);
+  FirstPattern pattern(format, first);
+  const auto rate = plan_rate(rate_target(settings, kUsualEyeDistance), kOtherStartupBytes,
+                              [&](int quantiser) { return pattern.bytes(quantiser); });
+  if (!rate) return fail(rate.error());
+  setup.steps = rate->point.steps;
+  auto coded = pattern.take(rate->point.pattern_quantiser);
+  if (!coded) return fail(coded.error());
+
+  SceneHead head;
+  auto setup_payload = encode_setup(setup);
+  if (!setup_payload) return fail(setup_payload.error());
+  head.setup = std::move(*setup_payload);
+  const PatternSyntax first_pattern{0, 0, CodedState{}, std::move(coded->av1)};
+  auto pattern_payload = encode_first_pattern(first_pattern, setup);
+  if (!pattern_payload) return fail(pattern_payload.error());
+  head.pattern = std::move(*pattern_payload);
+
+  std::unique_ptr<StillScene> scene(new StillScene(setup, SceneTiming(format, settings)));
+  scene->packets_.start(head);
+  return scene;
+}
+
+Result<void> StillScene::push(const Picture&, std::uint32_t duration) {
+  durations_.push_back(duration);
+  ++pictures_;
+  return timing_.group_ends(durations_.size(), pictures_) ? end_group() : Result<void>{};
+}
+
+Result<void> StillScene::end_group() {
+  if (durations_.empty()) return {};
+  const bool key = coder_.needs_key();
+  const CodedState& anchor = coder_.anchor(key);
+  MotionGroup group = knots_everywhere(anchor, std::vector(durations_.size(), anchor), parts_);
+  group.key = key;
+  group.durations = group_durations(durations_, timing_.nominal_duration);
+  const auto payload = coder_.encode(group);
+  if (!payload) return fail(payload.error());
+  packets_.add_motion(*payload);
+  durations_.clear();
+  return {};
+}
+
+}  // namespace fbs

@@ -1,0 +1,42 @@
+// A scene without a face: its first picture is shown as long as it lasts.
+#pragma once
+
+#include <memory>
+
+#include "bitstream/motion/motion_encoder.h"
+#include "encoder/plan/scene_timing.h"
+#include "encoder/scene/scene_encoder.h"
+#include "encoder/scene/scene_packets.h"
+
+namespace fbs {
+
+class StillScene : public SceneEncoder {
+ public:
+  /// @param before  where in the stream the scene begins
+  static Result<std::unique_ptr<SceneEncoder>> begin(const VideoFormat& format,
+                                                     const EncoderSettings& settings, const Picture& first,
+                                                     const StreamPosition& before = {});
+
+  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  void cut() override {}
+  [[nodiscard]] bool recognises(const Picture&) override { return false; }
+  [[nodiscard]] bool carries_shots() const override { return false; }
+  Result<void> finish() override { return end_group(); }
+  [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
+  [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }
+
+ private:
+  StillScene(const Setup& setup, const SceneTiming& timing);
+  /// The state of every picture is that of the pattern.
+  Result<void> end_group();
+
+  SceneTiming timing_;
+  PartMask parts_;
+  MotionEncoder coder_;
+  std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
+  std::uint64_t pictures_ = 0;
+  ScenePackets packets_;
+  PictureAnalysis analysis_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,319 @@
+#include "encoder/segment/live_patterns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "bitstream/packet.h"
+#include "decoder/pattern/contrast_map.h"
+#include "encoder/blend/mode_choice.h"
+#include "encoder/patterns/downscale.h"
+#include "encoder/patterns/first_pattern.h"
+#include "encoder/plan/pattern_point.h"
+#include "encoder/plan/scene_timing.h"
+
+namespace fbs {
+namespace {
+
+/// Of a later pattern against the first, about, until one has been coded.
+constexpr double kLaterShare = 0.35;
+
+/// How fast the size that is expected of a pattern follows those that were coded.
+constexpr double kLearn = 0.5;
+
+/// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone.
+constexpr int kKeyBoost = 12;
+
+/// To find out what the first pattern takes.
+constexpr int kMaxKeyTrials = 3;
+
+constexpr int kMaxQuantiser = 63;
+
+/// Samples of a picture that a core has time for with all that helps.
+constexpr int kCif = 352 * 288;
+
+/// Speeds of libaom, where a core has time beside all else and where it has not: 6 takes 12 % more of the
+/// whole rate than 3.
+constexpr int kHastySpeed = 6;
+int unhurried_speed(const VideoFormat& size) {
+  const int samples = size.width * size.height;
+  return samples <= kCif ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
+}
+
+/// Patterns for which there is time: two a second at CIF, and two at once.
+constexpr double kUnhurriedSamplesPerSecond = 2 * kCif, kUnhurriedAtOnce = 2;
+double unhurried_per_second(const VideoFormat& size) {
+  return kUnhurriedSamplesPerSecond / (1.0 * size.width * size.height);
+}
+
+/// Pictures that share their errors at most where modes are chosen anew later on, and time is short: that
+/// takes 4 % of it, and 2 to 3 % more of the rate.
+constexpr std::size_t kDraftShared = 3;
+std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
+  return refit && format.width * format.height > kCif ? kDraftShared : 1;
+}
+
+/// The face is looked at more than the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR, the
+/// frame as many.
+constexpr double kFaceWeight = 3;
+
+double weight_of(std::size_t region) {
+  return region <= static_cast<std::size_t>(Region::kFace) ? kFaceWeight : 1;
+}
+
+double error_of(const ModeErrors& errors, const RegionModes& modes) {
+  double sum = 0;
+  for (std::size_t r = 0; r < kRegionCount; ++r)
+    sum += weight_of(r) * errors[r][static_cast<std::size_t>(modes[r])];
+  return sum;
+}
+
+double least_error(const ModeErrors& errors) {
+  double sum = 0;
+  for (std::size_t r = 0; r < kRegionCount; ++r)
+    sum += weight_of(r) * *std::min_element(errors[r].begin(), errors[r].end());
+  return sum;
+}
+
+}  // namespace
+
+LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
+                           const CodedState& rest)
+    : format_(format), settings_(settings), rest_(rest), store_(pattern_store(format)) {
+  if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
+}
+
+void LivePatterns::begin_scene(const CodedState& rest) {
+  rest_ = rest;
+  picture_ = 0;
+  av1_.reset();
+  decoder_.reset();
+  pattern_packets_ = {};
+  blends_ = {};
+  regret_ = {};
+  modes_ = {};
+  next_slot_ = 0;
+}
+
+Result<void> LivePatterns::add(const Picture& picture) {
+  if (std::exchange(cut_, false) || segment_.shots.empty()) segment_.shots.push_back({});
+  ++segment_.shots.back().pictures;
+  return segment_.pictures.add(picture);
+}
+
+void LivePatterns::add(std::span<const State> states, std::vector<std::uint8_t> payload) {
+  segment_.groups.push_back({states.size(), std::move(payload)});
+  for (State s : states) {
+    s.picture = picture_ + static_cast<std::int32_t>(segment_.states.size());
+    segment_.states.push_back(s);
+  }
+}
+
+std::size_t LivePatterns::pattern_time() const {
+  if (is_key()) return 0;
+  if (segment_.shots.size() > 1) return segment_.states.size() - segment_.shots.back().pictures;
+  return segment_.states.size() - 1;
+}
+
+SegmentPatterns LivePatterns::usable(const Scene& scene) const {
+  AvailablePatterns all(scene.patterns.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return {{*scene.geometry, scene.setup.mouth, scene.patterns}, std::vector(segment_.groups.size(), all)};
+}
+
+double LivePatterns::Size::at(int other_quantiser) const {
+  return bits * std::pow(kBytesPerStep, quantiser - other_quantiser);
+}
+
+std::optional<int> LivePatterns::affordable(const Size& size, int from) const {
+  if (!rate_) return from;
+  for (int q = from; q <= kMaxQuantiser; ++q)
+    if (size.at(q) <= 8 * rate_->room()) return q;
+  return std::nullopt;
+}
+
+Result<int> LivePatterns::key_quantiser() {
+  const double price = rate_ ? rate_->price() : 1;
+  const int wanted = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
+  if (!rate_) return wanted;
+  if (key_.bits > 0) return affordable(key_, wanted).value_or(kMaxQuantiser);
+  auto picture = segment_.pictures.read(0);
+  if (!picture) return fail(picture.error());
+  if (settings_.reduced) *picture = downscaled(*picture);
+  FirstPattern trial(coded_format(), *picture, kTrialSpeed);
+  int quantiser = wanted;
+  for (int i = 0; i < kMaxKeyTrials; ++i) {
+    const auto bytes = trial.bytes(quantiser);
+    if (!bytes) return fail(bytes.error());
+    key_ = {8.0 * static_cast<double>(*bytes), quantiser};
+    const int next = affordable(key_, wanted).value_or(kMaxQuantiser);
+    if (next == quantiser) break;
+    quantiser = next;
+  }
+  return quantiser;
+}
+
+Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene, std::size_t shared) {
+  if (auto measured = measure(scene, shared); !measured) return fail(measured.error());
+  for (const SegmentErrors::Run& run : errors_.runs)
+    for (std::size_t i = 0; i < run.pictures; ++i) regret_.add(least_error(run.errors));
+  const double price = rate_ ? rate_->price() : 1;
+  const Size& size = segment_.shots.size() > 1 ? key_ : later_;
+  const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price));
+  if (!quantiser || !regret_.pays(size.at(*quantiser), price * pattern_lambda(settings_.quantiser)))
+    return std::nullopt;
+  return quantiser;
+}
+
+VideoFormat LivePatterns::coded_format() const {
+  VideoFormat format = format_;
+  if (settings_.reduced) {
+    format.width = reduced_size(format.width);
+    format.height = reduced_size(format.height);
+  }
+  return format;
+}
+
+int LivePatterns::speed() const {
+  return coded_lately_ < kUnhurriedAtOnce ? unhurried_speed(coded_format()) : kHastySpeed;
+}
+
+Result<void> LivePatterns::open(int quantiser) {
+  auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed()});
+  if (!av1) return fail(av1.error());
+  av1_.emplace(std::move(*av1));
+  auto decoder = PatternDecoder::create(format_.width, format_.height);
+  if (!decoder) return fail(decoder.error());
+  decoder_.emplace(std::move(*decoder));
+  return {};
+}
+
+Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
+  if (auto ready = av1_ ? av1_->set(quantiser, speed()) : open(quantiser); !ready) return fail(ready.error());
+  auto picture = segment_.pictures.read(time);
+  if (!picture) return fail(picture.error());
+  const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[time];
+  if (ContrastMap::is_needed(scene.setup))
+    ContrastMap(scene.setup, scene.geometry->head_mesh(), scene.geometry->texture_mesh(seen))
+        .reduce(*picture);
+  auto frames = av1_->encode(settings_.reduced ? downscaled(*picture) : *picture);
+  if (!frames) return fail(frames.error());
+  if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
+  auto decoded = decoder_->decode(frames->front());
+  if (!decoded) return fail(decoded.error());
+  learn(frames->front().size(), quantiser);
+  ++coded_lately_;
+  const std::size_t slot = std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_));
+  return Sent{time, slot, std::move(frames->front()), std::move(*decoded)};
+}
+
+void LivePatterns::learn(std::size_t bytes, int quantiser) {
+  const double bits = 8.0 * static_cast<double>(bytes);
+  if (is_key() || segment_.shots.size() > 1) {
+    key_ = {bits, quantiser};
+    if (later_.bits == 0) later_ = {kLaterShare * key_.at(settings_.quantiser), settings_.quantiser};
+  } else {
+    later_ = {later_.at(quantiser) + kLearn * (bits - later_.at(quantiser)), quantiser};
+  }
+}
+
+void LivePatterns::place(Scene& scene, const Sent& sent) {
+  errors_ = {};
+  const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[sent.time];
+  Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
+  if (sent.slot < scene.patterns.size())
+    scene.patterns[sent.slot] = std::move(pattern);
+  else
+    scene.patterns.push_back(std::move(pattern));
+}
+
+Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
+  if (!errors_.runs.empty()) return {};
+  auto errors = mode_errors(segment_, usable(scene), shared);
+  if (!errors) return fail(errors.error());
+  errors_ = std::move(*errors);
+  return {};
+}
+
+Result<void> LivePatterns::choose(const Scene& scene, std::size_t shared) {
+  if (auto measured = measure(scene, shared); !measured) return measured;
+  const std::vector<RegionModes> modes = errors_.cheapest_modes(settings_.lambda, modes_);
+  for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
+  return {};
+}
+
+Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
+  std::vector<TypedPayload> out;
+  for (Segment::Group& group : segment_.groups)
+    out.emplace_back(PacketType::kMotion, std::move(group.payload));
+  if (sent) {
+    const PatternSyntax pattern{static_cast<std::int32_t>(sent->slot),
+                                picture_ + static_cast<std::int32_t>(sent->time), rest_, sent->av1};
+    const std::int32_t known = picture_ + static_cast<std::int32_t>(segment_.states.size());
+    auto payload = pattern_packets_.encode(std::span(&pattern, 1), setup, known);
+    if (!payload) return fail(payload.error());
+    // The scene's first has a state of its own, and motion is relative to it.
+    out.emplace(is_key() ? out.begin() : out.end(), PacketType::kPattern, std::move(*payload));
+  }
+  std::size_t first = 0;
+  for (const Segment::Group& group : segment_.groups) {
+    BlendGroup blend;
+    blend.key = blends_.needs_key();
+    for (std::size_t t = first; t < first + group.pictures; ++t)
+      blend.modes.push_back(segment_.states[t].blend);
+    first += group.pictures;
+    auto payload = blends_.encode(blend);
+    if (!payload) return fail(payload.error());
+    out.emplace_back(PacketType::kBlend, std::move(*payload));
+  }
+  return out;
+}
+
+Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::optional<int> quantiser,
+                                                             const StateRefit& refit) {
+  std::optional<Sent> sent;
+  const std::size_t time = pattern_time();
+  if (quantiser) {
+    auto coded = code(scene, time, *quantiser);
+    if (!coded) return fail(coded.error());
+    sent.emplace(std::move(*coded));
+    place(scene, *sent);
+  }
+  if (auto chosen = choose(scene, shared_before(refit, format_)); !chosen) return fail(chosen.error());
+  if (refit) {
+    if (auto done = refit(segment_, usable(scene)); !done) return fail(done.error());
+    errors_ = {};
+    if (sent) place(scene, *sent);
+    if (auto chosen = choose(scene, 1); !chosen) return fail(chosen.error());
+  }
+  if (sent) regret_.begin(error_of(errors_.runs[time].errors, segment_.states[time].blend));
+  return sent;
+}
+
+Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
+                                                            const StateRefit& refit) {
+  if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  const StateRefit used = settings_.refits && !is_key() ? refit : StateRefit{};
+  Result<std::optional<int>> quantiser = is_key() ? Result<std::optional<int>>(key_quantiser())
+                                                  : later_quantiser(scene, shared_before(used, format_));
+  if (!quantiser) return fail(quantiser.error());
+  const auto sent = make(scene, *quantiser, used);
+  if (!sent) return fail(sent.error());
+  auto out = packets(scene.setup, *sent);
+  if (!out) return out;
+  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+  coded_lately_ = std::max(0.0, coded_lately_ - unhurried_per_second(coded_format()) * seconds);
+  if (rate_) {
+    std::size_t bytes = other_bytes;
+    for (const auto& [type, payload] : *out) bytes += packet_size(payload.size());
+    rate_->add(static_cast<double>(bytes), seconds);
+  }
+  modes_ = segment_.states.back().blend;
+  picture_ += static_cast<std::int32_t>(segment_.states.size());
+  segment_ = {};
+  errors_ = {};
+  return out;
+}
+
+}  // namespace fbs

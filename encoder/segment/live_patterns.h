@@ -1,0 +1,117 @@
+// Patterns of a live scene: sent when they pay for what has been seen, without look-ahead.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/blend/blend_coder.h"
+#include "bitstream/pattern/pattern_packet.h"
+#include "decoder/pattern/pattern_decoder.h"
+#include "encoder/patterns/av1_encoder.h"
+#include "encoder/plan/live_rate.h"
+#include "encoder/plan/pattern_regret.h"
+#include "encoder/segment/pattern_stage.h"
+#include "encoder/segment/segment_blend.h"
+
+namespace fbs {
+
+struct LivePatternSettings {
+  int quantiser = 58;       ///< libaom's scale, 0..63; of all patterns but a scene's first
+  bool reduced = false;     ///< patterns are coded at half width and height
+  double lambda = 0;        ///< squared luma levels that a bit of blend modes is worth
+  bool refits = true;       ///< states are fitted to what is shown
+  double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
+  double buffer = 0;        ///< LiveSettings::buffer
+};
+
+/// Each group is a segment: its packets are ready as soon as its pictures are known. A pattern shows the last
+/// picture of its group, or the first of another shot, and serves from that group on.
+class LivePatterns : public PatternStage {
+ public:
+  /// @param rest  seen state of pattern 0 as coded
+  LivePatterns(const VideoFormat& format, const LivePatternSettings& settings, const CodedState& rest);
+
+  void begin_scene(const CodedState& rest) override;
+  Result<void> add(const Picture& picture) override;
+  void cut() override { cut_ = true; }
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override;
+  [[nodiscard]] bool segment_ends(std::size_t /*next*/) const override { return true; }
+  [[nodiscard]] std::size_t pictures() const override { return segment_.pictures.count(); }
+  [[nodiscard]] std::int32_t store() const override { return store_; }
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
+                                                              const StateRefit& refit) override;
+
+ private:
+  /// A pattern of the segment.
+  struct Sent {
+    std::size_t time;  ///< picture of the segment that it shows
+    std::size_t slot;
+    std::vector<std::uint8_t> av1;
+    Picture decoded;
+  };
+  /// Picture of the segment that a pattern would show.
+  [[nodiscard]] std::size_t pattern_time() const;
+  /// Bits that a pattern takes, as the last one like it did.
+  struct Size {
+    double bits = 0;
+    int quantiser = 0;
+    [[nodiscard]] double at(int other_quantiser) const;
+  };
+  /// The quantiser to code the scene's first pattern with.
+  [[nodiscard]] Result<int> key_quantiser();
+  /// The quantiser to code another pattern with; nothing: none is needed, or none can be sent.
+  /// @param shared  errors that are not known yet are shared by so many pictures at most
+  [[nodiscard]] Result<std::optional<int>> later_quantiser(const Scene& scene, std::size_t shared);
+  /// The finest one, no finer than `from`, with which a pattern may be sent now; nothing: even the coarsest
+  /// takes too much.
+  [[nodiscard]] std::optional<int> affordable(const Size& size, int from) const;
+  [[nodiscard]] bool is_key() const { return picture_ == 0; }
+  /// The size at which patterns are coded.
+  [[nodiscard]] VideoFormat coded_format() const;
+  /// libaom's, for the next pattern: hasty where many have been coded lately.
+  [[nodiscard]] int speed() const;
+  /// Begins an AV1 sequence.
+  Result<void> open(int quantiser);
+  /// Codes a picture of the segment.
+  [[nodiscard]] Result<Sent> code(const Scene& scene, std::size_t time, int quantiser);
+  /// Remembers what it took.
+  void learn(std::size_t bytes, int quantiser);
+  /// Puts the pattern into the store, as seen in the state that its picture has now.
+  void place(Scene& scene, const Sent& sent);
+  [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
+  /// Sees to it that errors_ are known.
+  /// @param shared  by so many pictures at most
+  Result<void> measure(const Scene& scene, std::size_t shared);
+  /// Sets the blend modes of the segment.
+  Result<void> choose(const Scene& scene, std::size_t shared);
+  /// A pattern at this quantiser, if any; states and blend modes.
+  /// @param refit  empty: states stay as they are
+  [[nodiscard]] Result<std::optional<Sent>> make(Scene& scene, std::optional<int> quantiser,
+                                                 const StateRefit& refit);
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(const Setup& setup,
+                                                          const std::optional<Sent>& sent);
+
+  VideoFormat format_;
+  LivePatternSettings settings_;
+  CodedState rest_;
+  std::int32_t store_;
+  std::optional<LiveRate> rate_;
+  Size key_, later_;         ///< of a whole picture, and of one that others predict
+  double coded_lately_ = 0;  ///< patterns, less those for which there has been time since
+  // Of the scene.
+  std::optional<Av1Encoder> av1_;
+  std::optional<PatternDecoder> decoder_;
+  PatternPacketWriter pattern_packets_;
+  BlendEncoder blends_;
+  PatternRegret regret_;
+  RegionModes modes_{};  ///< of the last picture
+  std::size_t next_slot_ = 0;
+  std::int32_t picture_ = 0;  ///< number of the segment's first
+  Segment segment_;
+  SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
+  bool cut_ = false;
+};
+
+}  // namespace fbs

@@ -1,0 +1,40 @@
+// What the encoder's settings mean for the two passes over a scene: motion, then patterns.
+#pragma once
+
+#include <memory>
+
+#include "encoder/plan/rate_control.h"
+#include "encoder/segment/live_patterns.h"
+#include "encoder/segment/pattern_pass.h"
+#include "encoder/settings.h"
+
+namespace fbs {
+
+/// What quality means for the motion and the first pattern.
+[[nodiscard]] RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px);
+
+/// @param motion  operating point of the motion
+[[nodiscard]] PatternPassSettings pass_settings(const EncoderSettings& settings,
+                                                const OperatingPoint& motion);
+
+/// The same for a scene without a face: more patterns, in the place of motion.
+[[nodiscard]] PatternPassSettings planar_pass_settings(const EncoderSettings& settings,
+                                                       const OperatingPoint& motion);
+
+/// The stage for the patterns of a scene with a face, live or with look-ahead.
+/// @param motion  operating point of the motion
+/// @param rest    seen state of pattern 0 as coded
+[[nodiscard]] std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings,
+                                                          const OperatingPoint& motion,
+                                                          const VideoFormat& format, const CodedState& rest);
+
+/// The same for a scene without a face.
+[[nodiscard]] std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings,
+                                                            const OperatingPoint& motion,
+                                                            const VideoFormat& format,
+                                                            const CodedState& rest);
+
+/// Pictures between scenes at the most; 0: where it costs little.
+[[nodiscard]] double key_interval_of(const EncoderSettings& settings, const VideoFormat& format);
+
+}  // namespace fbs

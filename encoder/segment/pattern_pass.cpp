@@ -1,0 +1,430 @@
+#include "encoder/segment/pattern_pass.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "bitstream/packet.h"
+#include "decoder/pattern/contrast_map.h"
+#include "encoder/image/pyramid.h"
+#include "encoder/patterns/pattern_size.h"
+#include "encoder/patterns/pattern_trial.h"
+#include "encoder/plan/scene_timing.h"
+
+namespace fbs {
+namespace {
+
+/// A segment ends after so many seconds at most: what is not yet coded is on disk, and its end is a delay.
+constexpr double kSegmentSeconds = 40;
+
+/// The patterns of a segment take no more than this, bytes, several times over while they are made.
+constexpr double kSegmentBytes = 64e6;
+
+// For deciding how many patterns: pictures coded, and every so many drawn.
+constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
+
+// Modes that are chosen anew later on are shared by so many pictures at most.
+constexpr std::size_t kDraftShared = 3;
+
+/// A shot whose pictures differ by no more from its first, luma levels, shows a still picture. Compared at a
+/// long side of so many pixels, where noise averages out and a talking mouth does not.
+constexpr double kStillLevels = 4;
+constexpr int kStillLongSide = 64;
+
+/// Steps of the quantiser, for twice as many pictures to a pattern than usual: stills, such as slides, are
+/// worth finer patterns. The distortion that they share falls with the square of the quantiser.
+constexpr double kStepsPerSharing = 4.5;
+
+constexpr int kMaxRateTrials = 4;  // recodings to meet a rate
+constexpr double kRateTolerance = 0.02;
+
+}  // namespace
+
+PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
+                         const CodedState& rest)
+    : format_(format),
+      settings_(settings),
+      rest_(rest),
+      store_(pattern_store(format)),
+      most_(store_),
+      point_(settings.point) {
+  if (!settings.without_face) return;
+  const double bytes = 1.5 * format.width * format.height;
+  most_ = static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures));
+}
+
+void PatternPass::begin_scene(const CodedState& rest) {
+  assert(segment_.states.empty());
+  rest_ = rest;
+  picture_ = 0;
+  coders_ = {};
+}
+
+Result<void> PatternPass::add(const Picture& picture) {
+  const cv::Mat small =
+      reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
+  if (std::exchange(cut_, false) || segment_.shots.empty()) {
+    segment_.shots.push_back({0, true});
+    shot_first_ = small;
+  }
+  Shot& shot = segment_.shots.back();
+  ++shot.pictures;
+  if (cv::norm(small, shot_first_, cv::NORM_INF) > kStillLevels) shot.still = false;
+  return segment_.pictures.add(picture);
+}
+
+void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> payload) {
+  segment_.groups.push_back({states.size(), std::move(payload)});
+  for (State s : states) {
+    s.picture = picture_ + static_cast<std::int32_t>(segment_.states.size());
+    segment_.states.push_back(s);
+  }
+}
+
+bool PatternPass::segment_ends(std::size_t next) const {
+  const std::size_t pictures = this->pictures();
+  // The motion of a whole segment may be sent before its first picture is shown.
+  if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  const double fps = fps_of(format_);
+  if (settings_.key_interval > 0 && static_cast<double>(pictures + next) > settings_.key_interval * fps)
+    return true;
+  if (settings_.count > 0) return false;
+  if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
+  const bool any_density = settings_.without_face && settings_.bitrate_kbps > 0;
+  const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
+  const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
+  return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
+}
+
+Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
+  Draft draft;
+  draft.times = times_wanted();
+  for (const std::size_t time : draft.times) {
+    auto source = segment_.pictures.read(time);
+    if (!source) return fail(source.error());
+    draft.pictures.push_back(std::move(*source));
+  }
+  // Before anything is coded, patterns are taken to come in display order and without loss.
+  for (std::size_t k = 0; k < draft.times.size(); ++k) draft.coded.push_back({k, {}, draft.pictures[k]});
+  place(scene, draft);
+  return draft;
+}
+
+const State& PatternPass::seen_state(const Scene& scene, std::size_t time) const {
+  return picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
+}
+
+Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const {
+  const State& seen = seen_state(scene, time);
+  return p.av1.empty() ? make_pattern(p.decoded, seen, scene.geometry)
+                       : make_coded_pattern(p.decoded, seen, scene.geometry, scene.setup);
+}
+
+void PatternPass::place(const Scene& scene, Draft& draft) const {
+  draft.shown.clear();
+  draft.patterns = scene.patterns;
+  if (picture_ == 0) draft.patterns.clear();
+  for (const SequencePattern& p : draft.coded) {
+    draft.shown.push_back(draft.times[p.picture]);
+    draft.patterns.push_back(pattern_of(scene, p, draft.times[p.picture]));
+  }
+  draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
+}
+
+SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
+  SegmentPatterns out{{*scene.geometry, scene.setup.mouth, draft.patterns}, {}};
+  const std::size_t old = draft.patterns.size() - draft.coded.size(), slots = scene.setup.patterns;
+  for (const std::size_t arrived : draft.arrived) {
+    // In the order of the decoder's slots: each new pattern takes the place of the old one in its slot.
+    AvailablePatterns available(std::max(old, std::min(arrived, slots)));
+    for (std::size_t slot = 0; slot < available.size(); ++slot)
+      available[slot] = slot < arrived ? old + slot + (arrived - 1 - slot) / slots * slots : slot;
+    out.available.push_back(std::move(available));
+  }
+  return out;
+}
+
+Result<double> PatternPass::loss_between(const Scene& scene) {
+  const auto draft = draft_of(scene);
+  if (!draft) return fail(draft.error());
+  return blend_loss(segment_, usable(scene, *draft), kLossEvery);
+}
+
+int PatternPass::quantiser_at(bool reduced) const {
+  if (settings_.quantiser) return *settings_.quantiser;
+  const int halvings = reduced ? 1 : 0;
+  const int usual = quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
+  if (!settings_.without_face || settings_.count > 0) return usual;
+  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+  const double wanted = std::min(point_.per_second, fps_of(format_)) * seconds;
+  const double octaves = std::log2(wanted / static_cast<double>(times_wanted().size()));
+  return std::max(0, usual - static_cast<int>(std::lround(kStepsPerSharing * std::max(0.0, octaves))));
+}
+
+SequenceSettings PatternPass::trial_coding(bool reduced) const {
+  SequenceSettings out = coding_;
+  out.speed = kTrialSpeed;
+  out.reduced = reduced;
+  out.quantiser = quantiser_at(reduced);
+  return out;
+}
+
+void PatternPass::set_size(bool reduced) {
+  coding_.reduced = reduced;
+  coding_.quantiser = quantiser_at(reduced);
+}
+
+std::vector<std::size_t> PatternPass::times_wanted() const {
+  const std::size_t pictures = segment_.states.size();
+  const double seconds = static_cast<double>(pictures) / fps_of(format_);
+  const std::size_t wanted = settings_.count > 0
+                                 ? settings_.count
+                                 : pattern_count(segment_.shots, std::lround(point_.per_second * seconds));
+  // What a group is drawn from is kept all at once.
+  const std::size_t most =
+      settings_.without_face ? std::min<std::size_t>(most_, store_ / 2 * segment_.groups.size()) : most_;
+  return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
+}
+
+Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::size_t> times) {
+  const std::size_t count = std::min(kTrialPictures, times.size());
+  std::vector<Picture> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    auto picture = segment_.pictures.read(times[(times.size() - count) / 2 + k]);
+    if (!picture) return fail(picture.error());
+    out.push_back(std::move(*picture));
+  }
+  return out;
+}
+
+Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
+  const std::vector<std::size_t> times = times_wanted();
+  if (times.size() < 2) return false;
+  const auto loss = loss_between(scene);
+  if (!loss) return fail(loss.error());
+  const auto pictures = trial_pictures(times);
+  if (!pictures) return fail(pictures.error());
+  const auto full = trial_cost(format_, *pictures, trial_coding(false));
+  if (!full) return fail(full.error());
+  const auto reduced = trial_cost(format_, *pictures, trial_coding(true));
+  if (!reduced) return fail(reduced.error());
+  double motion = 0;
+  for (const Segment::Group& g : segment_.groups) motion += static_cast<double>(g.payload.size());
+  return fbs::reduced_size_pays(*loss, times.size(), motion, *full, *reduced);
+}
+
+Result<void> PatternPass::choose_size(const Scene& scene) {
+  const auto reduced = settings_.reduced ? Result<bool>(*settings_.reduced) : reduced_size_pays(scene);
+  if (!reduced) return fail(reduced.error());
+  set_size(*reduced);
+  return {};
+}
+
+Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
+  const auto errors = mode_errors(segment_, usable(scene, draft), most);
+  if (!errors) return fail(errors.error());
+  const std::vector<RegionModes> modes = errors->cheapest_modes(settings_.lambda);
+  for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
+  return {};
+}
+
+Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
+  auto solved = solve_patterns(segment_, usable(scene, draft), draft.coded.size(), SolverSettings{});
+  if (!solved) return fail(solved.error());
+  for (std::size_t k = 0; k < solved->size(); ++k)
+    draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
+  return {};
+}
+
+Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
+  std::vector<Picture> pictures = draft.pictures;
+  if (ContrastMap::is_needed(scene.setup))
+    for (std::size_t k = 0; k < pictures.size(); ++k)
+      ContrastMap(scene.setup, scene.geometry->head_mesh(),
+                  scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
+          .reduce(pictures[k]);
+  auto coded = code_pattern_sequence(format_, pictures, coding);
+  if (!coded) return fail(coded.error());
+  draft.coded = std::move(*coded);
+  place(scene, draft);
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> PatternPass::blend_payload(BlendEncoder& encoder, std::size_t begin,
+                                                             std::size_t pictures) const {
+  BlendGroup group;
+  group.key = encoder.needs_key();
+  for (std::size_t t = begin; t < begin + pictures; ++t) group.modes.push_back(segment_.states[t].blend);
+  return encoder.encode(group);
+}
+
+Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup, const Draft& draft,
+                                                             Coders& coders) const {
+  std::vector<PatternSyntax> patterns;
+  std::vector<std::size_t> bytes;
+  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
+    const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
+    patterns.push_back({static_cast<std::int32_t>(k) % store_, picture, rest_, draft.coded[k].av1});
+    bytes.push_back(patterns.back().av1.size());
+  }
+  std::vector<TypedPayload> out;
+  std::size_t moved = 0, drawn = 0;
+  for (const PlannedPacket& p : in_stream_order(segment_, draft.shown, draft.arrived, bytes)) {
+    Result<std::vector<std::uint8_t>> payload;
+    if (p.type == PacketType::kPattern) {
+      const auto end = static_cast<std::int32_t>(picture_ + moved);
+      payload = coders.patterns.encode(std::span(patterns).subspan(p.first, p.count), setup, end);
+    } else if (const Segment::Group& group = segment_.groups[p.first]; p.type == PacketType::kMotion) {
+      payload = group.payload;
+      moved += group.pictures;
+    } else {
+      payload = blend_payload(coders.blends, drawn, group.pictures);
+      drawn += group.pictures;
+    }
+    if (!payload) return fail(payload.error());
+    out.emplace_back(p.type, std::move(*payload));
+  }
+  return out;
+}
+
+Result<double> PatternPass::bytes_of(const Setup& setup, const Draft& draft) const {
+  Coders coders = coders_;
+  const auto packets = coded_packets(setup, draft, coders);
+  if (!packets) return fail(packets.error());
+  std::size_t bytes = 0;
+  for (const auto& [type, payload] : *packets) bytes += packet_size(payload.size());
+  return static_cast<double>(bytes);
+}
+
+Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draft) {
+  auto out = coded_packets(scene.setup, draft, coders_);
+  if (!out) return out;
+  // The decoder's slots after the segment.
+  const std::size_t old = draft.patterns.size() - draft.coded.size();
+  if (picture_ == 0) scene.patterns.clear();
+  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
+    if (const std::size_t slot = k % store_; slot < scene.patterns.size())
+      scene.patterns[slot] = std::move(draft.patterns[old + k]);
+    else
+      scene.patterns.push_back(std::move(draft.patterns[old + k]));
+  }
+  picture_ += static_cast<std::int32_t>(segment_.states.size());
+  segment_ = {};
+  return out;
+}
+
+Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
+  if (auto done = refit(segment_, usable(scene, draft)); !done) return done;
+  place(scene, draft);  // what patterns show depends on the states they were seen in
+  return {};
+}
+
+Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
+  auto draft = draft_of(scene);
+  if (!draft) return draft;
+  if (settings_.solves) {
+    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. At half
+    // size whatever is chosen, since only errors like those of the coded patterns are wanted.
+    if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
+    if (auto chosen = choose(scene, *draft, kDraftShared); !chosen) return fail(chosen.error());
+    if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
+  }
+  if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
+  // A lone pattern is not far from what the states were fitted to.
+  const int refits = draft->times.size() > 1 ? settings_.refits : 0;
+  if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftShared : 1); !chosen)
+    return fail(chosen.error());
+  // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
+  // for what solving would: bits of motion for nothing.
+  for (int i = 0; i < refits; ++i) {
+    if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
+    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftShared : 1); !chosen)
+      return fail(chosen.error());
+  }
+  return draft;
+}
+
+Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
+  int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
+  while (high - low > 4) {
+    const int middle = (low + high) / 2;
+    point_ = settings_.point_at(middle);
+    set_size(coding_.reduced);
+    auto draft = draft_of(scene);
+    if (!draft) return fail(draft.error());
+    if (auto coded = code(scene, *draft, trial_coding(coding_.reduced)); !coded) return fail(coded.error());
+    const auto taken = bytes_of(scene.setup, *draft);
+    if (!taken) return fail(taken.error());
+    (*taken <= bytes ? low : high) = middle;
+  }
+  return low;
+}
+
+Result<void> PatternPass::aim(const Scene& scene, double bytes) {
+  point_ = settings_.point_at(50);
+  for (int trial = 0; trial < 2; ++trial) {
+    const bool before = coding_.reduced;
+    if (auto sized = choose_size(scene); !sized) return sized;
+    if (trial > 0 && coding_.reduced == before) break;
+    const auto quality = quality_for(scene, bytes);
+    if (!quality) return fail(quality.error());
+    point_ = settings_.point_at(*quality);
+    set_size(coding_.reduced);
+  }
+  return {};
+}
+
+Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
+  // Quantisers that take too many bytes and few enough, the nearest known.
+  int over = -1, under = 64;
+  Draft best = draft;
+  double nearest = 0;
+  for (int trial = 0;; ++trial) {
+    const auto taken = bytes_of(scene.setup, draft);
+    if (!taken) return fail(taken.error());
+    const int quantiser = coding_.quantiser;
+    (*taken > bytes ? over : under) = quantiser;
+    const double miss = std::abs(std::log(*taken / bytes));
+    if (trial == 0 || miss < nearest) {
+      nearest = miss;
+      best = draft;
+    }
+    if (trial == kMaxRateTrials || nearest < kRateTolerance || over + 1 >= under) break;
+    const int step = static_cast<int>(std::lround(std::log(*taken / bytes) / std::log(kBytesPerStep)));
+    const int next = std::clamp(quantiser + step, over + 1, under - 1);
+    if (next == quantiser) break;
+    coding_.quantiser = next;
+    if (auto coded = code(scene, draft, coding_); !coded) return coded;
+  }
+  draft = std::move(best);
+  return choose(scene, draft, 1);
+}
+
+Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::size_t other_bytes,
+                                                           const StateRefit& refit) {
+  if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  double allowed = 0;
+  if (settings_.bitrate_kbps > 0) {
+    const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+    allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
+    if (auto aimed = aim(scene, std::max(allowed, 1.0)); !aimed) return fail(aimed.error());
+  } else if (auto sized = choose_size(scene); !sized) {
+    return fail(sized.error());
+  }
+  // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
+  if (picture_ == 0 && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
+    coding_.quantiser = settings_.lone_quantiser;
+  auto draft = make(scene, refit);
+  if (!draft) return fail(draft.error());
+  if (settings_.bitrate_kbps > 0) {
+    if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());
+    const auto taken = bytes_of(scene.setup, *draft);
+    if (!taken) return fail(taken.error());
+    left_bytes_ = allowed - *taken;
+  }
+  return packets(scene, *draft);
+}
+
+}  // namespace fbs

@@ -1,0 +1,127 @@
+// The second pass over a scene: with pictures analysed and their motion planned, chooses, solves for, codes
+// and places the patterns, segment by segment.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "bitstream/blend/blend_coder.h"
+#include "bitstream/pattern/pattern_packet.h"
+#include "decoder/scene/scene.h"
+#include "encoder/patterns/pattern_sequence.h"
+#include "encoder/plan/pattern_point.h"
+#include "encoder/segment/pattern_stage.h"
+
+namespace fbs {
+
+struct PatternPassSettings {
+  PatternPoint point{};  ///< where no bitrate is set
+  /// What a quality of 0..100 stands for, where a bitrate decides.
+  PatternPoint (*point_at)(int quality) = &PatternPoint::at;
+  std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
+  double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
+  int lone_quantiser = 40;       ///< where a scene is too short for a second pattern
+  std::optional<int> quantiser;  ///< of the patterns; as the point says
+  std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
+  bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
+  int refits = 1;                ///< of fitting states to what is shown
+  bool without_face = false;     ///< patterns show all that moves: often more than the decoder keeps at once
+  double lambda = 0;             ///< squared luma levels that a bit is worth
+  double key_interval = 0;       ///< EncoderSettings::key_interval
+};
+
+class PatternPass : public PatternStage {
+ public:
+  /// @param rest  seen state of pattern 0 as coded
+  PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
+
+  void begin_scene(const CodedState& rest) override;
+  Result<void> add(const Picture& picture) override;
+  void cut() override { cut_ = true; }
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override;
+  [[nodiscard]] bool segment_ends(std::size_t next) const override;
+  [[nodiscard]] std::size_t pictures() const override { return segment_.pictures.count(); }
+  [[nodiscard]] std::int32_t store() const override { return store_; }
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
+                                                              const StateRefit& refit) override;
+
+ private:
+  /// Patterns of the segment while they are made.
+  struct Draft {
+    std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
+    std::vector<Picture> pictures;   ///< to be coded, in the order of times
+    std::vector<SequencePattern> coded;
+    std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
+    std::vector<std::size_t> arrived;  ///< arrivals()
+    std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
+  };
+  /// With pictures as they are for patterns.
+  [[nodiscard]] Result<Draft> draft_of(const Scene& scene);
+  /// Error of the pictures between lossless patterns.
+  [[nodiscard]] Result<double> loss_between(const Scene& scene);
+  /// Pictures of the segment that are to become patterns.
+  [[nodiscard]] std::vector<std::size_t> times_wanted() const;
+  /// Decides whether patterns are coded at half width and height.
+  Result<void> choose_size(const Scene& scene);
+  [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
+  /// Neighbours from the middle of the segment.
+  [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
+  /// Of a pattern that is a picture of the segment.
+  [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
+  /// As the decoder makes it; with its picture as it is where that is not coded yet.
+  [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
+  void place(const Scene& scene, Draft& draft) const;
+  [[nodiscard]] static SegmentPatterns usable(const Scene& scene, const Draft& draft);
+  /// @param most  so many pictures at most share their modes
+  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t most);
+  Result<void> solve(const Scene& scene, Draft& draft);
+  Result<void> code(const Scene& scene, Draft& draft, const SequenceSettings& coding);
+  /// To find out how patterns would be coded.
+  [[nodiscard]] SequenceSettings trial_coding(bool reduced) const;
+  /// Solves, codes, chooses and fits states anew, as the settings say.
+  [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
+  /// Patterns follow the states of their pictures.
+  Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
+  [[nodiscard]] int quantiser_at(bool reduced) const;
+  void set_size(bool reduced);
+  /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.
+  [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
+  /// Sets quality and size for so many bytes.
+  Result<void> aim(const Scene& scene, double bytes);
+  /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few
+  /// percent.
+  Result<void> meet(const Scene& scene, double bytes, Draft& draft);
+  /// Of all packets of the segment.
+  [[nodiscard]] Result<double> bytes_of(const Setup& setup, const Draft& draft) const;
+  /// The coders that adapt through the scene, beside that of motion.
+  struct Coders {
+    PatternPacketWriter patterns;
+    BlendEncoder blends;
+  };
+  [[nodiscard]] Result<std::vector<std::uint8_t>> blend_payload(BlendEncoder& encoder, std::size_t begin,
+                                                                std::size_t pictures) const;
+  /// The segment's packets in stream order.
+  [[nodiscard]] Result<std::vector<TypedPayload>> coded_packets(const Setup& setup, const Draft& draft,
+                                                                Coders& coders) const;
+  /// The same; ends the segment.
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, Draft& draft);
+
+  VideoFormat format_;
+  PatternPassSettings settings_;
+  CodedState rest_;  ///< seen state of the scene's first pattern
+  std::int32_t store_;
+  std::int32_t most_;         ///< patterns in a segment
+  std::int32_t picture_ = 0;  ///< number of the segment's first
+  double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
+  Segment segment_;
+  bool cut_ = false;
+  cv::Mat shot_first_;  ///< of the last shot's pictures in the segment, reduced luma
+  Coders coders_;
+  // How the segment is coded: as the settings say, or what meets the bitrate.
+  PatternPoint point_;
+  SequenceSettings coding_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,139 @@
+#include "decoder/pattern/contrast_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bitstream/syntax.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 128;
+
+TextureMesh texture() {
+  const Scene scene = toy_scene(Picture(kWidth, kHeight));
+  return scene.patterns.front().texture;
+}
+
+/// @param contrast  of the surround
+Setup setup(std::int32_t contrast, int width = kWidth, int height = kHeight) {
+  Setup out;
+  out.format.width = width;
+  out.format.height = height;
+  out.contrast = contrast;
+  return out;
+}
+
+/// Two grey levels in turn.
+Picture two_levels(std::uint8_t low, std::uint8_t high) {
+  Picture out(kWidth, kHeight);
+  for (Plane* plane : {&out.y, &out.u, &out.v})
+    for (std::size_t i = 0; i < plane->samples.size(); ++i) plane->samples[i] = i % 2 == 0 ? low : high;
+  return out;
+}
+
+/// A sample in the middle of the face.
+glm::ivec2 middle(const TextureMesh& mesh) {
+  glm::ivec2 sum{0, 0};
+  for (std::size_t v = 0; v < kVertexCount; ++v) sum += mesh.head[v];
+  return sum / static_cast<int>(kVertexCount) / 64;
+}
+
+TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
+  const TextureMesh mesh = texture();
+  Picture p = two_levels(28, 228);
+  ContrastMap(setup(128), generic_head_mesh(), mesh).reduce(p);
+  const glm::ivec2 in = middle(mesh);
+  EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
+  EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
+  EXPECT_EQ(std::abs(p.y.row(1)[1] - 128), 50);
+  EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 50);
+}
+
+// Of contrast c one level is 256 / c levels of the pattern, rounded twice.
+TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
+  const TextureMesh mesh = texture();
+  for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {
+    const ContrastMap map(setup(surround), generic_head_mesh(), mesh);
+    for (int level = 0; level < 256; level += 5) {
+      const Picture original =
+          two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(255 - level));
+      Picture p = original;
+      map.reduce(p);
+      map.expand(p);
+      for (std::size_t i = 0; i < p.y.samples.size(); ++i)
+        ASSERT_NEAR(p.y.samples[i], original.y.samples[i], surround == kContrastOne ? 0 : 1);
+    }
+  }
+}
+
+TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
+  const TextureMesh mesh = texture();
+  auto raised = setup(192);
+  raised.chroma_contrast = 384;
+  const ContrastMap map(raised, generic_head_mesh(), mesh);
+  Picture p = two_levels(168, 168);
+  map.reduce(p);
+  const glm::ivec2 in = middle(mesh);
+  EXPECT_EQ(p.y.row(in.y)[in.x], 168);
+  EXPECT_EQ(p.u.row(in.y / 2)[in.x / 2], 128 + 60);
+  EXPECT_EQ(p.v.row(1)[1], 128 + 30);
+  map.expand(p);
+  for (const std::uint8_t v : p.u.samples) EXPECT_NEAR(v, 168, 1);
+}
+
+// SPEC 11.7. Samples wholly inside the face or outside it are looked up in tables.
+TEST(ContrastMap, ExpandsEachLevelByTheRule) {
+  const TextureMesh mesh = texture();
+  auto raised = setup(200);
+  raised.chroma_contrast = 384;
+  const ContrastMap map(raised, generic_head_mesh(), mesh);
+  const glm::ivec2 in = middle(mesh);
+  for (int level = 0; level < 256; ++level) {
+    const auto expanded = [&](int contrast) {
+      const int inverse = ((256 << 16) + contrast / 2) / contrast;
+      return std::clamp(128 + (((level - 128) * inverse + (1 << 15)) >> 16), 0, 255);
+    };
+    Picture p = two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level));
+    map.expand(p);
+    ASSERT_EQ(p.y.row(in.y)[in.x], level);
+    ASSERT_EQ(p.u.row(in.y / 2)[in.x / 2], expanded(384)) << level;
+    ASSERT_EQ(p.v.row(in.y / 2)[in.x / 2], expanded(384)) << level;
+    for (const Plane* plane : {&p.y, &p.u, &p.v}) ASSERT_EQ(plane->row(1)[1], expanded(200)) << level;
+  }
+}
+
+TEST(ContrastMap, LargestDeviationsStayInRange) {
+  Picture p = two_levels(0, 255);
+  ContrastMap(setup(kMinContrast), generic_head_mesh(), texture()).expand(p);
+  EXPECT_EQ(p.y.row(1)[0], 0);
+  EXPECT_EQ(p.y.row(1)[1], 255);
+}
+
+TEST(ContrastMap, GoesOverFromFaceToSurroundAcrossTheRing) {
+  const TextureMesh mesh = texture();
+  Picture p = two_levels(228, 228);
+  ContrastMap(setup(kMinContrast), generic_head_mesh(), mesh).reduce(p);
+  int between = 0;
+  for (const std::uint8_t v : p.y.samples) between += v > 185 && v < 221;
+  EXPECT_GT(between, 50);
+}
+
+// The ring reaches beyond the picture's border, and chroma of an odd size has a sample more than half.
+TEST(ContrastMap, TakesAnySize) {
+  for (const auto& [w, h] : {std::pair{16, 16}, {17, 33}, {161, 127}}) {
+    Picture p(w, h);
+    for (auto& v : p.y.samples) v = 200;
+    const Picture before = p;
+    const ContrastMap map(setup(200, w, h), generic_head_mesh(), texture());
+    map.reduce(p);
+    EXPECT_NE(p.y.samples, before.y.samples);
+    map.expand(p);
+    for (const std::uint8_t v : p.y.samples) EXPECT_NEAR(v, 200, 1);
+  }
+}
+
+}  // namespace
+}  // namespace fbs

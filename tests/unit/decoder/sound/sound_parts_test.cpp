@@ -1,0 +1,93 @@
+#include "decoder/sound/sound_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "cli/stream/sound_interleaver.h"
+
+namespace fbs::cli {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
+
+/// A stream of several scenes, with frames of 20 ms that have their number in them.
+Bytes stream_with_sound() {
+  std::ifstream file(std::string(FBS_VECTORS) + "/late.fbs", std::ios::binary);
+  const Bytes stream(std::istreambuf_iterator<char>(file), {});
+  SoundGroup group{0, {}};
+  const auto feed = [&](std::int64_t before) -> Result<std::vector<SoundGroup>> {
+    group = {group.first + static_cast<std::int64_t>(group.frames.size()), {}};
+    for (std::int64_t k = group.first; k * kVoice.duration - kVoice.skip < before; ++k)
+      group.frames.push_back({static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(k >> 8)});
+    return group.frames.empty() ? std::vector<SoundGroup>() : std::vector<SoundGroup>{group};
+  };
+  return SoundInterleaver(kVoice, feed).add(stream).value();
+}
+
+std::vector<SoundGroup> decoded(const Bytes& stream) {
+  StreamDecoder decoder;
+  decoder.keep_sound();
+  decoder.feed(stream);
+  decoder.close();
+  std::vector<SoundGroup> out;
+  for (;;) {
+    const auto status = decoder.next();
+    for (SoundPart& part : decoder.take_sound()) out.push_back(std::move(part.group));
+    if (status && *status == DecodeStatus::kEnd) return out;
+  }
+}
+
+std::vector<SoundGroup> read(const Bytes& stream) {
+  SoundParts parts;
+  parts.add(stream);
+  std::vector<SoundGroup> out;
+  for (const SoundPart& part : parts.all()) out.push_back(part.group);
+  return out;
+}
+
+TEST(SoundPartsOfStream, AreWhatTheDecoderOfPicturesGives) {
+  const Bytes stream = stream_with_sound();
+  EXPECT_GT(read(stream).size(), 1U);
+  EXPECT_EQ(read(stream), decoded(stream));
+}
+
+TEST(SoundPartsOfStream, AreTheSameAfterDamageAnywhere) {
+  const Bytes stream = stream_with_sound();
+  std::size_t lost = 0;
+  for (std::size_t at = 5; at < stream.size(); at += stream.size() / 41) {
+    Bytes damaged = stream;
+    damaged[at] ^= 0x5A;
+    const auto parts = read(damaged);
+    EXPECT_EQ(parts, decoded(damaged)) << at;
+    lost += parts.size() < read(stream).size() ? 1 : 0;
+  }
+  EXPECT_GT(lost, 10U);
+}
+
+TEST(SoundPartsOfStream, PicturesAreReleasedWithTheirSound) {
+  const Bytes stream = stream_with_sound();
+  SoundParts parts, plain;
+  parts.follow_pictures();
+  std::uint64_t released = 0;
+  for (const std::uint8_t byte : stream) {
+    parts.add({&byte, 1});
+    if (parts.released() == released) continue;
+    released = parts.released();
+    ASSERT_FALSE(parts.all().empty());
+    EXPECT_GE(end_of(parts.all().back()) * 90000, static_cast<std::int64_t>(released) * kSoundClock);
+  }
+  StreamDecoder decoder;
+  decoder.feed(stream);
+  decoder.close();
+  while (decoder.next().value() == DecodeStatus::kPicture) continue;
+  EXPECT_EQ(released, decoder.position().time + decoder.duration());
+  plain.add(stream);
+  EXPECT_EQ(plain.released(), 0U);
+}
+
+}  // namespace
+}  // namespace fbs::cli

@@ -1,0 +1,119 @@
+#include "decoder/stream/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace fbs {
+namespace {
+
+/// Pictures that can be told apart: yaw and duration are their number.
+Result<void> add(Timeline& timeline, int first, int count) {
+  std::vector<State> states(static_cast<std::size_t>(count));
+  std::vector<std::uint32_t> durations;
+  for (int i = 0; i < count; ++i) {
+    states[i].pose[kYaw] = first + i;
+    durations.push_back(static_cast<std::uint32_t>(first + i));
+  }
+  return timeline.add(states, durations);
+}
+
+std::vector<RegionModes> modes(std::size_t count, BlendMode mode = BlendMode::kByTime) {
+  RegionModes all;
+  all.fill(mode);
+  return std::vector<RegionModes>(count, all);
+}
+
+TEST(Timeline, EndCountsPicturesThatAreShownAndForgottenToo) {
+  Timeline t;
+  for (int first = 0; first < 1000; first += 100) {
+    EXPECT_EQ(t.end(), first);
+    ASSERT_TRUE(add(t, first, 100));
+    ASSERT_TRUE(t.release(modes(100)));
+    while (t.has_next()) t.next();
+  }
+  EXPECT_EQ(t.find(0), nullptr);
+}
+
+TEST(Timeline, PicturesWaitUntilTheyAreReleased) {
+  Timeline t;
+  ASSERT_TRUE(add(t, 0, 5));
+  EXPECT_FALSE(t.has_next());
+  ASSERT_TRUE(t.release(modes(2)));
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(t.has_next());
+    const Timeline::Entry picture = t.next();
+    EXPECT_EQ(picture.state.picture, i);
+    EXPECT_EQ(picture.state.pose[kYaw], i);
+    EXPECT_EQ(picture.duration, static_cast<std::uint32_t>(i));
+  }
+  EXPECT_FALSE(t.has_next());
+}
+
+TEST(Timeline, NumbersGoOnFromGroupToGroup) {
+  Timeline t;
+  for (int group = 0; group < 4; ++group) ASSERT_TRUE(add(t, 10 * group, 10));
+  t.release_all();
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(t.next().state.picture, i);
+}
+
+TEST(Timeline, ReleaseGivesEachPictureItsModes) {
+  Timeline t;
+  ASSERT_TRUE(add(t, 0, 3));
+  auto some = modes(3);
+  some[1][2] = BlendMode::kStillAfter;
+  ASSERT_TRUE(t.release(some));
+  for (const RegionModes& expected : some) EXPECT_EQ(t.next().state.blend, expected);
+}
+
+TEST(Timeline, ReleaseOfPicturesWithoutMotionIsAnErrorAndDoesNothing) {
+  Timeline t;
+  EXPECT_EQ(t.release(modes(1)).error().code, ErrorCode::kInvalidStream);
+  ASSERT_TRUE(add(t, 0, 3));
+  EXPECT_FALSE(t.release(modes(4)));
+  EXPECT_FALSE(t.has_next());
+  EXPECT_TRUE(t.release(modes(2)));
+  EXPECT_FALSE(t.release(modes(2)));
+  EXPECT_TRUE(t.release(modes(1)));
+}
+
+TEST(Timeline, FindsWaitingPictures) {
+  Timeline t;
+  ASSERT_TRUE(add(t, 0, 20));
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_NE(t.find(i), nullptr);
+    EXPECT_EQ(t.find(i)->pose[kYaw], i);
+  }
+  EXPECT_EQ(t.find(20), nullptr);
+  EXPECT_EQ(t.find(-1), nullptr);
+  EXPECT_EQ(Timeline().find(0), nullptr);
+}
+
+TEST(Timeline, KeepsTheLastDisplayedPicturesAndNoMore) {
+  Timeline t;
+  const int count = 3 * kKeptPictures;
+  ASSERT_TRUE(add(t, 0, count));
+  t.release_all();
+  for (int i = 0; i < count; ++i) {
+    t.next();
+    const int oldest = std::max(0, i + 1 - kKeptPictures);
+    ASSERT_NE(t.find(oldest), nullptr) << i;
+    EXPECT_EQ(t.find(oldest)->pose[kYaw], oldest);
+    EXPECT_EQ(t.find(oldest - 1), nullptr) << i;
+  }
+}
+
+TEST(Timeline, BoundsThePicturesThatWait) {
+  Timeline t;
+  for (int n = 0; n < kMaxWaitingPictures; n += kMaxGroupPictures) ASSERT_TRUE(add(t, n, kMaxGroupPictures));
+  const auto more = add(t, kMaxWaitingPictures, 1);
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().code, ErrorCode::kTooLarge);
+  ASSERT_TRUE(t.release(modes(1)));
+  t.next();
+  EXPECT_TRUE(add(t, kMaxWaitingPictures, 1)) << "one has gone";
+  EXPECT_FALSE(add(t, kMaxWaitingPictures + 1, 1));
+}
+
+}  // namespace
+}  // namespace fbs
