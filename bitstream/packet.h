@@ -41,7 +41,7 @@ class PacketWriter {
   return size;
 }
 
-/// Longest payload of a setup packet or an end packet that resync() finds. SPEC 3.2.
+/// Longest payload of a setup packet or an end packet that is found behind damage. SPEC 3.2.
 inline constexpr std::size_t kMaxSearchedPayload = 127;  ///< bytes
 
 /// One packet whose check is right. Its payload still has to be parsed.
@@ -67,8 +67,9 @@ struct ReadResult {
 ///
 ///   reader.feed(bytes);                 // or reader.close() at the end of the input
 ///   for (;;) {
-///     auto read = reader.next();        // or resync() after an error, to continue after the damage
-///     if (!read || read->status != ReadStatus::kPacket) break;
+///     auto read = reader.next();
+///     if (!read) { report(read.error()); continue; }       // goes on behind the damage
+///     if (read->status != ReadStatus::kPacket) break;
 ///     use(read->packet);
 ///   }
 ///
@@ -77,6 +78,8 @@ struct ReadResult {
 class PacketReader {
  public:
   PacketReader();
+  /// Reads a whole stream: feed(), then close().
+  explicit PacketReader(std::span<const std::uint8_t> stream);
   ~PacketReader();
   PacketReader(PacketReader&&) noexcept;
   PacketReader& operator=(PacketReader&&) noexcept;
@@ -89,21 +92,17 @@ class PacketReader {
   /// No more bytes will come.
   void close();
 
-  /// Reads the next packet. After an error it returns the same error again until resync() finds a packet.
+  /// Reads the next packet. An error is reported once. The next call searches past the damage for a setup
+  /// packet or an end packet with the right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream
+  /// that is joined in its middle begins so, with kNotFbs.
   /// @return kNotFbs         the stream does not begin with the signature, or is empty
   ///         kTruncated      closed inside the signature or a packet; offset of that packet
-  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is not
-  ///                         there; offset of the packet
+  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is missing;
+  ///                         offset of the packet
   ///         kTooLarge       payload beyond kMaxPayload; offset of the packet
   [[nodiscard]] Result<ReadResult> next();
 
-  /// After an error of next(): searches past the damage for a setup packet or an end packet with the right
-  /// check and at most kMaxSearchedPayload bytes, and reads it; next() continues after it. May also be called
-  /// first, to join a stream in its middle.
-  /// @return kPacket; kNeedMore (call resync() again after feeding); kEnd when closed and nothing was found
-  [[nodiscard]] Result<ReadResult> resync();
-
-  /// Position of next(), or of the search, in bytes from the start of the stream.
+  /// Where next() or its search is, in bytes from the start of the stream.
   [[nodiscard]] std::uint64_t offset() const;
 
  private:

@@ -18,6 +18,17 @@ struct PlaneSize {
   return {(format.width + 1) / 2, (format.height + 1) / 2};
 }
 
+[[nodiscard]] inline fbs_format caller_format(const VideoFormat& format) {
+  return {static_cast<uint32_t>(format.width),
+          static_cast<uint32_t>(format.height),
+          format.frame_rate.num,
+          format.frame_rate.den,
+          format.pixel_aspect.num,
+          format.pixel_aspect.den,
+          static_cast<fbs_matrix>(format.matrix),
+          format.range == ColourRange::kFull ? 1 : 0};
+}
+
 /// What is wrong with a picture that is to have the format's size; null: nothing.
 template <class CallerPicture>
 [[nodiscard]] const char* fault_of(const CallerPicture& picture, const VideoFormat& format) {

@@ -205,14 +205,7 @@ fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
   if (out == nullptr) return decoder->error.set_argument(kNull);
   const VideoFormat& format = decoder->stream->format();
   if (decoder->broken || format.width == 0) return FBS_NEED_DATA;
-  *out = {static_cast<uint32_t>(format.width),
-          static_cast<uint32_t>(format.height),
-          format.frame_rate.num,
-          format.frame_rate.den,
-          format.pixel_aspect.num,
-          format.pixel_aspect.den,
-          static_cast<fbs_matrix>(format.matrix),
-          format.range == ColourRange::kFull ? 1 : 0};
+  *out = caller_format(format);
   return FBS_OK;
 }
 

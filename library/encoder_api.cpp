@@ -134,7 +134,13 @@ fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
     if (!packet) return e.error.set(packet.error());
     if (!*packet) return e.phase == fbs_encoder::Phase::kPushing ? FBS_NEED_DATA : FBS_END;
     const QueuedPacket& p = **packet;
-    *out = {p.bytes.data(), p.bytes.size(), p.key ? 1 : 0, p.first.pictures, p.first.time};
+    *out = {p.bytes.data(),
+            p.bytes.size(),
+            static_cast<int>(p.type),
+            p.type == PacketType::kSetup ? 1 : 0,
+            static_cast<std::uint32_t>(p.pictures),
+            p.first.pictures,
+            p.first.time};
     return FBS_OK;
   });
 }

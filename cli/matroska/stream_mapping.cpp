@@ -68,9 +68,7 @@ Result<void> take_sound(const Packet& packet, Parted& out) {
 
 /// @return an error for a damaged stream, and for sound of another kind than Opus
 Result<Parted> part(std::span<const std::uint8_t> stream) {
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   Parted out;
   write_signature(out.pictures);
   PacketWriter writer;
@@ -235,13 +233,10 @@ std::optional<MatroskaContent> with_sound_apart(std::span<const std::uint8_t> st
 
 bool has_sound_inside(const MatroskaVideo& video) {
   const Bytes stream = bytes_of(video);
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
-  for (bool damaged = false;;) {
-    const auto read = damaged ? reader.resync() : reader.next();
-    damaged = !read;
-    if (damaged) continue;
+  PacketReader reader(stream);
+  for (;;) {
+    const auto read = reader.next();
+    if (!read) continue;
     if (read->status != ReadStatus::kPacket) return false;
     if (is_sound(read->packet.type)) return true;
   }

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "bitstream/packet.h"
+#include "bitstream/scene/scene_reader.h"
 #include "bitstream/sound_syntax.h"
-#include "decoder/stream/packet_list.h"
-#include "decoder/stream/stream_decoder.h"
+#include "decoder/stream/packet_times.h"
+#include "decoder/stream/sound_inbox.h"
 
 namespace fbs {
 
@@ -22,10 +23,10 @@ class SoundParts {
   void add(std::span<const std::uint8_t> bytes);
 
   /// Reads motion too from now on, for released(). Off by default, since it takes longer than all the rest.
-  void follow_pictures() { lister_.emplace(); }
+  void follow_pictures() { pictures_.emplace(); }
   /// End of the pictures that may be shown once all that was added has come, 1/90000 s: their sound has come.
   /// 0 without follow_pictures().
-  [[nodiscard]] std::uint64_t released() const { return lister_ ? lister_->released() : 0; }
+  [[nodiscard]] std::uint64_t released() const { return pictures_ ? pictures_->released().time : 0; }
 
   /// In the order of the stream. Times need not rise where a stream is damaged.
   [[nodiscard]] const std::vector<SoundPart>& all() const { return parts_; }
@@ -33,12 +34,9 @@ class SoundParts {
  private:
   void take(const Packet& packet);
 
-  PacketReader reader_;
-  std::optional<PacketLister> lister_;
-  bool damaged_ = false;             ///< the reader has to search
-  bool lost_ = true;                 ///< a packet since the last setup packet
-  std::optional<SoundSetup> setup_;  ///< of the scene
-  std::int64_t next_ = 0;            ///< number of the first frame that has not come
+  PacketReader packets_;
+  SceneReader reader_;                   ///< sees no packets of pictures
+  std::optional<PacketTimes> pictures_;  ///< sees them
   std::vector<SoundPart> parts_;
 };
 

@@ -19,7 +19,7 @@
 #ifndef FBS_ENCODER_H
 #define FBS_ENCODER_H
 
-#include <fbs/fbs.h>
+#include <fbs/packet.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,7 +52,9 @@ typedef struct fbs_encoder fbs_encoder;
 typedef struct fbs_packet {
   const uint8_t* data; /**< valid until the next call for this encoder */
   size_t size;         /**< bytes, at least 1 */
+  int type;            /**< fbs_packet_type */
   int key;             /**< 1: a setup packet: decoding can begin here */
+  uint32_t pictures;   /**< that can be shown once it has arrived */
   uint64_t number;     /**< of the first picture that needs the packet; of the last packet: pictures in all */
   uint64_t time;       /**< of that picture, ticks; of the last packet: the length of the video */
 } fbs_packet;

@@ -183,7 +183,7 @@ TEST(Memory, SearchPastDamageForgetsWhatItHasSeen) {
   reader.feed(Bytes(8, 0));
   EXPECT_FALSE(reader.next());
   for (int i = 0; i < 200; ++i) {
-    EXPECT_EQ(reader.resync()->status, ReadStatus::kNeedMore);
+    EXPECT_EQ(reader.next()->status, ReadStatus::kNeedMore);
     reader.feed(piece);
   }
   EXPECT_LT(meter.peak(), kMiB / 2);
