@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "decoder/stream/packet_list.h"
 #include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
