@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-/// Whether the check of such a packet is that of the packet alone. SPEC 3.1.
+/// Whether the check of such a packet covers that packet alone. SPEC 3.1.
 bool begins_chain(PacketType type) {
   return type == PacketType::kSetup || type == PacketType::kEnd;
 }
@@ -38,8 +38,8 @@ struct PacketReader::Impl {
   std::uint64_t dropped = 0;  // bytes of the stream before `buffer`
   std::size_t position = 0;   // of next(), in `buffer`
   bool closed = false;
-  bool begun = false;                 // the signature has been read or is not required any more
-  bool searching = false;             // `position` is that of resync()
+  bool begun = false;                 // the signature has been read or is no longer required
+  bool searching = false;             // `position` belongs to resync()
   std::uint16_t check = kCrc16Start;  // of the packet before
   std::optional<Error> error;         // what next() returns until resync() finds a packet
 
@@ -100,8 +100,8 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   return ReadResult{ReadStatus::kPacket, packet};
 }
 
-// SPEC 3.2. A candidate is as short as its length, one byte, can say: so it is tested at once, and bytes that
-// are nothing but candidates take linear time as well.
+// SPEC 3.2. A candidate's length is one byte, so it is tested at once: bytes that are nothing but candidates
+// take linear time as well.
 ReadStatus PacketReader::Impl::search() {
   for (; position < buffer.size(); ++position) {
     const auto bytes = ahead();
@@ -130,7 +130,7 @@ PacketReader& PacketReader::operator=(PacketReader&&) noexcept = default;
 void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
-  // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
+  // Drop what was read once it is the larger half, so that each byte moves a bounded number of times.
   if (s.position > s.buffer.size() / 2) {
     s.buffer.erase(s.buffer.begin(), s.buffer.begin() + s.position);
     s.dropped += s.position;
