@@ -24,7 +24,7 @@ Error at(const Packet& packet, const Error& error) {
   return {error.code, error.text, packet.offset};
 }
 
-/// Mean light of the mouth interior, over pictures by how far the mouth is open.
+/// Mean light of the mouth interior, over pictures weighted by mouth opening.
 class InteriorMean {
  public:
   void add(const Geometry& geometry, const State& state) {
@@ -43,7 +43,7 @@ class InteriorMean {
   double weight_ = 0;
 };
 
-/// The packets of a stream up to the end of the first scene that has a face.
+/// Reads the packets of a stream up to the end of the first scene with a face.
 class Reading {
  public:
   /// @return false when the scene is complete
@@ -123,7 +123,7 @@ class Reading {
         face_.later.push_back(
             {states_.at(static_cast<std::size_t>(pattern.picture)), std::move(pattern.av1)});
       } else {
-        return has_face() ? Result<bool>(false) : Result<bool>(true);  // replaces one: the store is full
+        return has_face() ? Result<bool>(false) : Result<bool>(true);  // a replacement: the store is full
       }
     }
     return true;
