@@ -1,4 +1,4 @@
-// Pictures in memory of a caller, as fbs/fbs.h describes them.
+// Pictures in a caller's memory, as described in fbs/fbs.h.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct PlaneSize {
   return {(format.width + 1) / 2, (format.height + 1) / 2};
 }
 
-/// What is wrong with a picture that is to have the format's size; null: nothing.
+/// The fault of a picture that should have the format's size; null if none.
 template <class CallerPicture>
 [[nodiscard]] const char* fault_of(const CallerPicture& picture, const VideoFormat& format) {
   if (picture.width != static_cast<unsigned>(format.width) ||

@@ -56,7 +56,7 @@ Result<void> PacketTimes::take_motion(std::span<const std::uint8_t> payload) {
     ++pictures_;
     if (setup_.patterns > 1) waiting_.push_back(duration);
   }
-  if (setup_.patterns == 1) shown_ = moved_;  // SPEC 6: they need no blend packet
+  if (setup_.patterns == 1) shown_ = moved_;  // SPEC 6: pictures need no blend packet
   return {};
 }
 

@@ -1,4 +1,4 @@
-// An encoder's bytes as packets, each with the picture that needs it first.
+// An encoder's bytes as packets, each with the first picture that needs it.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 
 namespace fbs {
 
-/// Follows a stream packet by packet, as far as it tells of numbers and durations of pictures.
+/// Follows a stream packet by packet, for numbers and durations of pictures only.
 class PacketTimes {
  public:
-  /// @return the place in the stream of the first picture that needs the packet; of an end packet, the end.
-  ///         kInternal: it is none that our encoder writes
+  /// @return the position in the stream of the first picture that needs the packet; for an end packet, the
+  /// end.
+  ///         kInternal: our encoder does not write such a packet
   Result<StreamPosition> take(PacketType type, std::span<const std::uint8_t> payload);
 
  private:
@@ -30,7 +31,7 @@ class PacketTimes {
 
   StreamPosition moved_;  // behind the last picture that has its motion
   StreamPosition shown_;  // behind the last picture that has everything
-  // Of the scene.
+  // The current scene.
   Setup setup_;
   std::int32_t pictures_ = 0;
   std::deque<std::uint32_t> waiting_;  // durations of the pictures between shown_ and moved_
@@ -40,12 +41,12 @@ class PacketTimes {
 };
 
 struct QueuedPacket {
-  std::span<const std::uint8_t> bytes;  ///< whole packet; that of the first begins with the signature
+  std::span<const std::uint8_t> bytes;  ///< the whole packet; the first begins with the signature
   bool key = false;                     ///< a setup packet
   StreamPosition first;                 ///< PacketTimes::take()
 };
 
-/// Takes bytes of a stream from its beginning on, and gives out packets.
+/// Takes the bytes of a stream from its beginning on, and returns packets.
 class PacketQueue {
  public:
   void add(std::span<const std::uint8_t> bytes);
@@ -55,8 +56,8 @@ class PacketQueue {
 
  private:
   std::vector<std::uint8_t> bytes_;
-  std::size_t begin_ = 0;  // of what has not been given out
-  bool signed_ = false;    // the signature has been given out
+  std::size_t begin_ = 0;  // of the bytes not yet returned
+  bool signed_ = false;    // the signature has been returned
   PacketTimes times_;
 };
 
