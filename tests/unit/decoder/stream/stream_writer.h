@@ -1,4 +1,4 @@
-// Streams for the decoder's tests, and what a decoder makes of them.
+// Streams for the decoder's tests, and a decoder's output for them.
 #pragma once
 
 #include <gtest/gtest.h>
