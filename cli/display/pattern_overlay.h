@@ -12,7 +12,7 @@ namespace fbs::cli {
 /// What a viewer draws of the decoder's scene.
 struct DrawnState {
   const State& state;
-  std::optional<std::size_t> pattern;  ///< if set, the only one; none: those of the state
+  std::optional<std::size_t> pattern;  ///< if set, the only one; none: as in the state
 };
 
 /// The image, tinted by the colours of the patterns.

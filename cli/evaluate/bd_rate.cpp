@@ -16,7 +16,7 @@ using LogRate = boost::math::interpolators::pchip<Values>;
 
 constexpr std::size_t kMinPoints = 4;  // required by PCHIP's implementation, and by VCEG-M33
 
-/// Slope at the end of the first of two intervals of lengths h0, h1 and slopes d0, d1: that of the parabola
+/// Slope at the end of the first of two intervals of lengths h0, h1 and slopes d0, d1, of the parabola
 /// through the three points, kept monotone. Boost uses d0, the JCT-VC sheets and scipy this.
 double end_slope(double h0, double h1, double d0, double d1) {
   const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);

@@ -55,7 +55,7 @@ void add_channel(GltfBuffer& buffer, const Curve& curve, int node, const char* p
   animation.channels.push_back(channel);
 }
 
-/// Of a rotation's two quaternions, the one nearer to `before`, so that interpolation goes the short way.
+/// The one nearer to `before` of a rotation's two quaternions, so that interpolation goes the short way.
 glm::dquat nearer(const glm::dquat& q, const glm::dquat& before) {
   return glm::dot(q, before) < 0 ? -q : q;
 }

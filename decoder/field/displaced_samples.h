@@ -18,7 +18,7 @@ using BlockMemory = std::array<WarpedBlock, 3>;
 /// The samples of a block that is displaced as a whole.
 /// @param block   its column and row
 /// @param by      1/64 luma sample
-/// @param memory  for planes whose samples lie between those of the texture
+/// @param memory  for planes sampled between the samples of the texture
 [[nodiscard]] BlockSamples3 displaced_block(const PaddedPicture& texture, glm::ivec2 block, glm::ivec2 by,
                                             bool has_chroma, BlockMemory& memory);
 

@@ -18,7 +18,7 @@ inline constexpr int kFractionOneLog2 = 6;  ///< for positions between samples
 using ChromaSamples = std::array<const std::uint8_t*, 2>;
 using ChromaOut = std::array<std::uint8_t*, 2>;
 
-/// Luma samples interpolated between those of a texture, all by the same fraction. Rows of the output are
+/// Luma samples interpolated in a texture, all by the same fraction. Rows of the output are
 /// WarpedBlock's.
 /// @param from      the upper left sample; one more column and row than the area are read
 /// @param fraction  0..63 in x and y

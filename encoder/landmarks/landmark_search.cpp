@@ -54,7 +54,7 @@ Shape median_of(const std::vector<Shape>& shapes) {
   return out;
 }
 
-/// Mean distance of the shapes' landmarks from those of one, in its eye distances.
+/// Mean distance of the shapes' landmarks from one shape's, in its eye distances.
 float spread_about(const Shape& middle, const std::vector<Shape>& shapes) {
   float sum = 0;
   for (const Shape& s : shapes)

@@ -54,7 +54,7 @@ class BSnake {
 
   /// E_tot = E_int - E_img (eq. 1) of the whole curve.
   [[nodiscard]] double energy(const std::vector<glm::dvec2>& control) const;
-  /// dE_tot/dX_i and dE_tot/dY_i; map slopes are those of bilinear interpolation, the normal turns with v_s.
+  /// dE_tot/dX_i and dE_tot/dY_i; map slopes follow bilinear interpolation, the normal turns with v_s.
   [[nodiscard]] std::vector<glm::dvec2> gradient(const std::vector<glm::dvec2>& control) const;
 
   /// The energy without the curve's factor ds.

@@ -293,7 +293,7 @@ TEST(Encoder, SlideAndBackStayOneScene) {
   EXPECT_GT(psnr_from(w.coded, source, 33, 19), 28);
 }
 
-// One that stays is worth a scene, whose patterns are finer than those of a face.
+// A slide that stays is worth a scene, with finer patterns than a face.
 TEST(Encoder, SlideThatStaysIsASceneOfItsOwn) {
   const Pictures source = interrupted(Pictures(60, slide()));
   const Watched w = watched(source);

@@ -144,7 +144,7 @@ TexturedTriangle random_triangle(std::mt19937& random, const Lie& lie, PlaneScal
   return t;
 }
 
-/// Depths about those of random_triangle(), or nothing yet.
+/// Depths near random_triangle()'s, or nothing yet.
 void put_depth(std::mt19937& random, DepthPlane& depth) {
   const unsigned kind = random() % 3;
   for (std::int32_t& z : depth.depth)
