@@ -20,7 +20,7 @@ struct RecordedState {
 /// A person, or the same person whose head was measured again.
 struct RecordedHead {
   Geometry geometry;
-  Picture pattern;                    ///< the first one of the scene
+  Picture pattern;                    ///< the first that shows it
   State seen;                         ///< of `pattern`
   MouthInterior mouth;                ///< colours between parted lips
   std::vector<RecordedState> states;  ///< times ascend; at least one
