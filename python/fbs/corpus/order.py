@@ -19,7 +19,7 @@ class Order:
     run: str
     """Tells this run from earlier ones."""
     frames: int | None = None
-    """Only the first so many pictures of each clip."""
+    """Use at most this many pictures of each clip, from the first on."""
     effort: int = 1
     allow_no_face: bool = False
     keep_streams: bool = False
