@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-/// Whether the check of such a packet is that of the packet alone. SPEC 3.1.
+/// Whether the check of such a packet covers that packet alone. SPEC 3.1.
 bool begins_chain(PacketType type) {
   return type == PacketType::kSetup || type == PacketType::kEnd;
 }
@@ -139,7 +139,7 @@ PacketReader& PacketReader::operator=(PacketReader&&) noexcept = default;
 void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
-  // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
+  // Drop what was read once it is the larger half, so that each byte moves a bounded number of times.
   if (s.position > s.buffer.size() / 2) {
     s.buffer.erase(s.buffer.begin(), s.buffer.begin() + s.position);
     s.dropped += s.position;

@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxPayload = std::size_t{1} << 24;  ///< bytes
 /// Appends the signature that begins every stream.
 void write_signature(std::vector<std::uint8_t>& stream);
 
-/// Writes packets in stream order: the check of a packet goes on from that of the packet before (SPEC 3.1).
-/// A setup packet or the end packet may follow those of any writer.
+/// Writes packets in stream order: the check of a packet continues from the check of the packet before (SPEC
+/// 3.1). A setup packet or the end packet may follow any writer's packets.
 class PacketWriter {
  public:
   /// Appends the next packet.
@@ -34,7 +34,7 @@ class PacketWriter {
   std::uint16_t check_ = kCrc16Start;  // of the packet before
 };
 
-/// Bytes of a packet with a payload of so many.
+/// Bytes of a packet with this many bytes of payload.
 [[nodiscard]] constexpr std::size_t packet_size(std::size_t payload) {
   std::size_t size = payload + 4;
   for (; payload > 0x7F; payload >>= 7) ++size;
@@ -54,7 +54,7 @@ struct Packet {
 
 enum class ReadStatus : std::uint8_t {
   kPacket,    ///< a packet was read
-  kNeedMore,  ///< nothing wrong; feed more bytes, or close(), and ask again
+  kNeedMore,  ///< no error; feed more bytes, or close(), and ask again
   kEnd,       ///< closed, and the stream ended after a whole packet
 };
 
@@ -73,8 +73,8 @@ struct ReadResult {
 ///     use(read->packet);
 ///   }
 ///
-/// Memory: the bytes that were fed and not yet read; less than the largest packet if all packets are read
-/// before more is fed.
+/// Memory: the bytes fed and not yet read; less than the largest packet if all packets are read before more
+/// is fed.
 class PacketReader {
  public:
   PacketReader();

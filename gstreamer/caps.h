@@ -1,4 +1,4 @@
-/* Media types, and what several elements do alike. */
+/* Media types, and functions shared by several elements. */
 #ifndef FBS_GSTREAMER_CAPS_H
 #define FBS_GSTREAMER_CAPS_H
 
@@ -17,7 +17,7 @@ G_BEGIN_DECLS
 #define GST_FBS_GROUP_CAPS \
   GST_FBS_MEDIA_TYPE ", stream-format = (string) byte-stream, alignment = (string) group"
 
-/** Of alignment "group", with what the setup packet says. */
+/** Caps of alignment "group", from a setup packet. */
 GstCaps* gst_fbs_caps_of_setup(const GstFbsSetup* setup);
 
 /** The bytes of a signature at the beginning of a buffer: 4 or 0. */

@@ -10,7 +10,7 @@ G_BEGIN_DECLS
 /** Bytes of one buffer: alignment "group" of caps.h. */
 typedef struct {
   GByteArray* bytes; /**< owned */
-  guint64 number;    /**< of the first picture that they show; of the end packet: pictures in all */
+  guint64 number;    /**< of the first picture shown; for the end packet: number of pictures */
   gboolean key;      /**< begins a scene */
   gboolean end;      /**< the end packet */
 } GstFbsGroup;

@@ -15,11 +15,11 @@ struct _GstFbsParse {
   GstBaseParse parent;
 
   fbs_decoder* clock; /**< tells which pictures a packet releases; nothing is drawn */
-  gboolean has_index; /**< the file has been looked through, or cannot be */
+  gboolean has_index; /**< the file has been scanned, or cannot be */
   gboolean timed;     /**< upstream has timestamps */
-  gboolean synced;    /**< what comes next follows what has been parsed */
+  gboolean synced;    /**< the next bytes follow what has been parsed */
   guint16 chain;      /**< check of the last packet */
-  gsize scanned;      /**< bytes of the next buffer that have been looked at: whole packets */
+  gsize scanned;      /**< scanned bytes of the next buffer: whole packets */
   guint64 offset;     /**< of the next buffer in the file, bytes */
   gboolean has_scene; /**< a setup packet has come */
   gboolean key;       /**< it begins with a setup packet */

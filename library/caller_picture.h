@@ -1,4 +1,4 @@
-// Pictures in memory of a caller, as fbs/fbs.h describes them.
+// Pictures in a caller's memory, as described in fbs/fbs.h.
 #pragma once
 
 #include <array>

@@ -36,8 +36,8 @@ struct fbs_encoder {  // NOLINT(readability-identifier-naming): the interface is
 
   fbs_encoder(const VideoFormat& f, Encoder e) : format(f), encoder(std::move(e)) {}
 
-  /// Calls `body`, which encodes. Unless it succeeds, the encoding has ended; after an exception what the
-  /// encoder holds may be anything.
+  /// Calls `body`, which encodes. If it fails, the encoding has ended; after an exception the encoder's state
+  /// is undefined.
   template <class Body>
   fbs_status encode(Body&& body);
 

@@ -1,4 +1,4 @@
-// An encoder's bytes as packets, each with the picture that needs it first.
+// An encoder's bytes as packets, each with the first picture that needs it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct QueuedPacket {
   StreamPosition first;        ///< of the first picture that needs it; of the end packet, the end
 };
 
-/// Takes bytes of a stream from its beginning on, and gives out packets.
+/// Takes the bytes of a stream from its beginning on, and returns packets.
 class PacketQueue {
  public:
   void add(std::span<const std::uint8_t> bytes);
@@ -28,8 +28,8 @@ class PacketQueue {
 
  private:
   std::vector<std::uint8_t> bytes_;
-  std::size_t begin_ = 0;  // of what has not been given out
-  bool signed_ = false;    // the signature has been given out
+  std::size_t begin_ = 0;  // of the bytes not yet returned
+  bool signed_ = false;    // the signature has been returned
   PacketTimes times_;
 };
 

@@ -44,7 +44,7 @@ Shape mean_shape(const std::vector<PatchSample>& samples) {
   return mean;
 }
 
-/// What is left to the truth, in units of the mean shape.
+/// The remaining distance to the truth, in units of the mean shape.
 Eigen::RowVectorXf missing(const Shape& shape, const Shape& truth, const Shape& mean) {
   const PlaneSimilarity to_mean = PlaneSimilarity::between(shape, mean);
   Eigen::RowVectorXf out(kNumbers);
@@ -98,7 +98,7 @@ DescriptorMap quantised(const Eigen::MatrixXf& weights) {
 LandmarkTable train_cascade(const std::vector<PatchSample>& samples) {
   LandmarkTable table;
   table.mean = mean_shape(samples);
-  // The samples' places are as far off as detectors are: the usual shape is the start.
+  // The samples' places err as much as detectors do, so the usual shape is the start.
   std::vector<Shape> shapes(samples.size(), LandmarkSearch::usual_shape(table.mean));
   for (const Look& look : kLooks) {
     table.stages.push_back(train_stage(look, table.mean, samples, shapes));

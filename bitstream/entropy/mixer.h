@@ -1,7 +1,7 @@
 // Codes one bit with a probability mixed from several contexts. SPEC 2.5.
 //
-// A single context is either specific (few bits to adapt to) or general. A mixer weights the estimates of
-// several, and adapts the weights, which depend on how many bits each context has coded.
+// A single context is either specific, with few bits to learn from, or general. A mixer weights the estimates
+// of several contexts and adapts the weights, which depend on how many bits each context has coded.
 // Method: M. Mahoney, Adaptive Weighing of Context Models for Lossless Data Compression, 2005 (logistic
 // mixing). Differs: integers only, weights by the experience of the contexts, log-odds to base two.
 #pragma once

@@ -135,7 +135,7 @@ Result<std::vector<std::uint8_t>> write_payload(const ScaledHead& frame, const H
   return payload;
 }
 
-// SPEC 4.2: residuals in the order of the vertices, each from those before it.
+// SPEC 4.2: residuals in the order of the vertices, each predicted from earlier vertices.
 std::optional<HeadPoints> undo_prediction(const WireFrame& head, const HeadPoints& coded,
                                           Prediction prediction) {
   const EarlierNeighbours neighbours(head);
@@ -154,7 +154,7 @@ std::optional<HeadPoints> undo_prediction(const WireFrame& head, const HeadPoint
 }  // namespace
 
 bool is_flat(const Geometry& geometry) {
-  constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // of the flattest face, some ten times as much
+  constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // a tenth of the depth of the flattest face
   return std::all_of(geometry.positions.begin(), geometry.positions.end(),
                      [](const glm::ivec3& p) { return std::abs(p.z) < kDepth; });
 }

@@ -6,7 +6,7 @@
 
 namespace fbs::cli {
 
-/// A script for the shell that completes verbs and options of `app`, and file names.
+/// A script with which the shell completes verbs and options of `app`, and file names.
 [[nodiscard]] std::string bash_completions(const CLI::App& app);
 [[nodiscard]] std::string zsh_completions(const CLI::App& app);
 [[nodiscard]] std::string fish_completions(const CLI::App& app);

@@ -1,4 +1,4 @@
-// Which options of `fbs evaluate` go together.
+// Checks which options of `fbs evaluate` may be combined.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace fbs::cli {
 
 /// @param clips  videos in the folder; empty where the source is a video itself
-/// @return kInvalidArgument for an option that would do nothing, and for an output that is an input
+/// @return kInvalidArgument for an option without effect, and for an output that is an input
 Result<void> check_arguments(const EvaluateArguments& arguments, const std::vector<std::string>& clips);
 
 }  // namespace fbs::cli

@@ -9,7 +9,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1'000'000'000;  // as of encode
+constexpr std::int64_t kMaxFrames = 1'000'000'000;  // as for encode
 
 constexpr const char* kExamples =
     "Examples:\n"

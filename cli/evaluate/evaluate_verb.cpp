@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kStopNotice = "fbs: stopping; a second signal ends at once";
 
-/// Where what is finished is kept; empty: nowhere.
+/// Folder for finished results; empty: none.
 std::string kept_folder(const EvaluateArguments& arguments) {
   if (!arguments.keep.empty() || arguments.html.empty()) return arguments.keep;
   return std::filesystem::path(arguments.html).replace_extension(".fbs-run").string();

@@ -10,8 +10,8 @@ namespace fbs::cli {
 
 struct ExportArguments {
   std::string input, output;
-  std::string format;  ///< of a table: "csv", "json"; empty: by the name of the output
-  bool draco = false;  ///< of a .glb or .gltf
+  std::string format;  ///< of a table: "csv", "json"; empty: by the output's name
+  bool draco = false;  ///< for a .glb or .gltf
 };
 
 Result<Outcome> run_export(const ExportArguments& arguments);

@@ -46,7 +46,7 @@ Result<Output> output_of(const ExportArguments& a) {
   return out;
 }
 
-/// Calls `take(decoder)` with every picture.
+/// Calls `take(decoder)` for every picture.
 template <class Take>
 Result<void> for_each_picture(StreamFile& file, const Take& take) {
   for (;;) {
@@ -57,7 +57,7 @@ Result<void> for_each_picture(StreamFile& file, const Take& take) {
   }
 }
 
-/// A stream does not say how sure its encoder was: a face is believed.
+/// A stream does not say how sure its encoder was, so every face is believed.
 FaceRow row_of(const StreamDecoder& decoder, FaceMeasure& measure) {
   FaceRow row;
   row.frame = decoder.position().pictures - decoder.start().pictures;
@@ -99,7 +99,7 @@ Result<HeadRecording> record(StreamFile& file) {
   return recording;
 }
 
-/// What a user may not expect of the model.
+/// Notes on what a user may not expect of the model.
 void print_notes(const std::string& output, const HeadRecording& recording) {
   const std::size_t heads = recording.heads().size();
   if (heads > 1)

@@ -11,7 +11,7 @@ namespace fbs::cli {
 struct InspectArguments {
   std::string input;
   bool json = false;
-  bool packets = false;  ///< list them
+  bool packets = false;  ///< list the packets
 };
 
 Result<Outcome> run_inspect(const InspectArguments& arguments);

@@ -63,7 +63,7 @@ class BlockDivision {
     pending_ = static_cast<std::size_t>(end);
   }
 
-  /// Puts what waits, up to `end`, into the last block, if there is one.
+  /// Appends waiting packets, up to `end`, to the last block, if there is one.
   void append(std::uint64_t end) {
     if (out_.blocks.empty()) return;
     StreamBlock& last = out_.blocks.back();
@@ -75,7 +75,7 @@ class BlockDivision {
   std::span<const std::uint8_t> stream_;
   PacketTimes times_;
   StreamBlocks out_;
-  std::size_t pending_ = kSignature.size();  // first byte that is in no block
+  std::size_t pending_ = kSignature.size();  // first byte not yet in a block
   bool has_setup_ = false;
 };
 

@@ -1,4 +1,4 @@
-// fbs remux: a stream into a Matroska file, and out of it.
+// fbs remux: puts a stream into a Matroska file, and takes it out.
 #include <array>
 #include <cstdio>
 
@@ -29,7 +29,7 @@ Result<void> check_files(const RemuxArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
-/// What is in the way of a use of the file elsewhere, in words.
+/// Notes on what may hinder using the file elsewhere.
 void print_notes(const RemuxArguments& a, const StreamFile& file, const Bytes& stream,
                  const MatroskaFile* made) {
   const auto say = [&](const std::string& name, const std::string& text) {

@@ -1,4 +1,4 @@
-// fbs track: what the encoder's analysis sees in a video, as a table.
+// fbs track: the encoder's analysis of a video as a table.
 #include <array>
 #include <cstdio>
 
@@ -18,11 +18,11 @@ namespace {
 
 constexpr const char* kStopNotice = "fbs: finishing the table; a second signal ends at once";
 
-/// The analysis compares pictures with the first pattern as decoded. One that is nearly the source itself
+/// The analysis compares pictures with the first pattern as decoded. A pattern nearly equal to the source
 /// costs nothing here, since no stream is kept.
 constexpr int kQuality = 100;
 
-/// One pattern: then the encoder codes each second's motion, which is little work, and forgets it.
+/// One pattern: the encoder then codes each second's motion, which is little work, and forgets it.
 Result<EncoderSettings> settings_of(const TrackArguments& arguments) {
   EncoderSettings settings;
   settings.quality = kQuality;

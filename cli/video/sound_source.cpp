@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sound and pictures are read apart, by two readers of the same file.
+/// Whether sound and pictures can be read by two readers of the same file.
 bool can_be_read_twice(const std::string& input) {
   std::error_code ignored;
   const fs::file_status status = fs::status(input, ignored);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes of a Matroska file in which its tracks are described: writers put them first.
+/// The tracks are described within the first bytes of a Matroska file: writers put them first.
 constexpr std::size_t kTracksWithin = 1 << 16;
 
 Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const std::string& input,
@@ -42,7 +42,7 @@ bool is_image_sequence(const std::string& input) {
 
 bool is_stream_file(const std::string& name) {
   std::error_code ignored;
-  if (!fs::is_regular_file(name, ignored)) return false;  // what is read from a pipe is gone
+  if (!fs::is_regular_file(name, ignored)) return false;  // reading a pipe would consume it
   std::ifstream file(name, std::ios::binary);
   std::string start(kTracksWithin, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));

@@ -48,8 +48,8 @@ Plane draw_shares(int width, int height, PlaneScale scale, const HeadMesh& head,
   return out;
 }
 
-/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside the face or outside
-/// it: for those there are tables.
+/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside or outside the
+/// face: tables cover those.
 template <class Change>
 void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contrast, Change&& change) {
   const auto changed = [&](int v, int share) {

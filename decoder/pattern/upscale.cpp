@@ -7,12 +7,12 @@
 namespace fbs {
 namespace {
 
-constexpr int kReach = 3;  // samples that a filter reads beyond the nearest one, at most
+constexpr int kReach = 3;  // the most samples that a filter reads beyond the nearest one
 
-// Sums of one direction are kept of samples around zero, where they fit 16 bits.
+// Sums in one direction are taken around zero, where they fit 16 bits.
 constexpr int kMiddle = 128;
 
-/// Sums of a column's reduced samples for one full row, for each column.
+/// One vertical filter sum of reduced samples per column, for one full row.
 /// @param to  reduced.width sums, with room for kReach before and after, which are filled from the border
 void filter_columns(const Plane& reduced, int y, std::int16_t* to) {
   const int nearest = y / 2, step = y % 2 == 0 ? -1 : 1;

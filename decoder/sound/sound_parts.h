@@ -1,4 +1,4 @@
-// The sound of a stream as it is coded, apart from its pictures.
+// The coded sound of a stream, without its pictures.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace fbs {
 
-/// Reads the sound packets of a stream, and its setup packets as far as these say which of them count (SPEC
-/// 6.2, 6.3): the same parts that StreamDecoder::take_sound() gives, without decoding pictures to get there.
-/// Errors are left to who decodes the pictures.
+/// Reads the sound packets of a stream, and its setup packets as far as they decide which sound counts (SPEC
+/// 6.2, 6.3): the same parts as StreamDecoder::take_sound(), without decoding pictures. Errors are left to
+/// the decoder of the pictures.
 class SoundParts {
  public:
   /// @param bytes  the next ones of the stream, in pieces of any size
@@ -28,7 +28,7 @@ class SoundParts {
   /// 0 without follow_pictures().
   [[nodiscard]] std::uint64_t released() const { return pictures_ ? pictures_->released().time : 0; }
 
-  /// In the order of the stream. Times need not rise where a stream is damaged.
+  /// All parts in the order of the stream. In a damaged stream times may not rise.
   [[nodiscard]] const std::vector<SoundPart>& all() const { return parts_; }
 
  private:
@@ -40,7 +40,7 @@ class SoundParts {
   std::vector<SoundPart> parts_;
 };
 
-/// When its first frame is heard, 1/kSoundClock s; below 0 for what only prepares a decoder.
+/// When its first frame is heard, 1/kSoundClock s; below 0 if it only prepares a decoder.
 [[nodiscard]] std::int64_t begin_of(const SoundPart& part);
 /// When its last frame ends.
 [[nodiscard]] std::int64_t end_of(const SoundPart& part);

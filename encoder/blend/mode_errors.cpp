@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-/// The region that has most of a triangle.
+/// The region with the largest share of a triangle.
 Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {
   const auto& shares = t.head ? geometry.head_shares() : geometry.surround().shares();
   std::array<int, kRegionCount> sum{};
@@ -39,7 +39,7 @@ double dot(const Samples& a, const Samples& b) {
   return static_cast<double>(sum);
 }
 
-/// Errors of the sources of one region, sampled once each, and their products.
+/// Errors of one region's sources, sampled once each, and their products.
 class RegionGram {
  public:
   template <class SampleSource>

@@ -8,7 +8,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kOpen = 0.10;            // eye distances by which the outer lips have parted beyond rest
+constexpr double kOpen = 0.10;            // opening of the outer lips beyond rest, eye distances
 constexpr std::int64_t kMinPictures = 3;  // fewer may be a tongue or a shadow
 constexpr int kSteps = 24;                // along the midline
 

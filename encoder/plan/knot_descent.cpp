@@ -81,7 +81,7 @@ void KnotDescent::move(std::size_t part, std::size_t k, std::size_t place, std::
   for (int t = r.first; t <= r.last; ++t) add_to_slope(t, kPartFirst[part] + place, by * r.share(t));
 }
 
-/// Of the spans that end at knot k and begin there.
+/// Bits of the spans that end and begin at knot k.
 double KnotDescent::bits_around(std::size_t part, std::size_t k) const {
   const Knot& knot = group_.tracks[part][k];
   double bits = terms_.rate.knot(part, before(part, k), knot, group_.pictures);
@@ -89,7 +89,7 @@ double KnotDescent::bits_around(std::size_t part, std::size_t k) const {
   return bits;
 }
 
-/// When the numbers of knot k change to `to`.
+/// Change of the distortion when the numbers of knot k become `to`.
 double KnotDescent::distortion_change(std::size_t part, std::size_t k, const PartValues& to) const {
   const PartValues& from = group_.tracks[part][k].value;
   const std::size_t first = kPartFirst[part];
@@ -146,7 +146,7 @@ bool KnotDescent::falls_upwards(std::size_t part, std::size_t k, std::size_t pla
   return slope < 0;
 }
 
-/// Every number of every knot: one step downhill, or equal to its neighbours, which costs no bits.
+/// Tries for every number of every knot one step downhill, or its neighbours' value, which costs no bits.
 bool KnotDescent::descend(std::size_t part) {
   bool changed = false;
   for (std::size_t k = 0; k < group_.tracks[part].size(); ++k) {
@@ -163,7 +163,7 @@ bool KnotDescent::descend(std::size_t part) {
   return changed;
 }
 
-/// When a part's numbers change by `by` in one picture.
+/// Change of the distortion in one picture when a part's numbers change by `by`.
 double KnotDescent::distortion_change_at(std::size_t part, int picture, const PartPoint& by) const {
   const std::size_t first = kPartFirst[part];
   const float* quadratic = terms_.cost.quadratic(picture);

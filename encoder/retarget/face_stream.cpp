@@ -34,7 +34,7 @@ class InteriorMean {
   double weight_ = 0;
 };
 
-/// The packets of a stream up to the end of the first scene that has a face.
+/// Reads the packets of a stream up to the end of the first scene with a face.
 class Reading {
  public:
   /// @return false when the scene is complete

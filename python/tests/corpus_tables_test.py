@@ -93,7 +93,7 @@ def corpus(folder, clips=12):
 
 
 def test_bd_rate_is_that_of_the_program():
-    # Of tests/unit/cli/evaluate/bd_rate_test.cpp's formula: half the rate at each quality is -50 %.
+    # The formula of tests/unit/cli/evaluate/bd_rate_test.cpp: half the rate at each quality is -50 %.
     anchor = [(10.0, 30.0), (20.0, 33.0), (40.0, 35.0), (80.0, 38.0)]
     assert bd_rate(anchor, [(k / 2, q) for k, q in anchor]) == pytest.approx(-50)
     assert bd_rate(anchor, anchor[:3]) is None

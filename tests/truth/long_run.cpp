@@ -2,8 +2,8 @@
 //
 //   long_run [--pictures 15000] [--clip 150] [--size 176x144] [--noise 2] [--seed 1] [--quality 50]
 //
-// Each picture gets noise of its own, so that no two are identical and drift can accumulate. The pictures are
-// encoded and decoded, and the states compared with those of the second round at the same phase. (In the
+// Each picture gets its own noise, so that no two are identical and drift can accumulate. The pictures are
+// encoded and decoded, and the states compared with the states of the second round at the same phase. (In the
 // first round, parts without a contour, such as pupils, are still converging.) Exit code 1 when the end
 // differs from the beginning.
 #include <algorithm>
@@ -31,8 +31,8 @@ using namespace fbs;
 
 constexpr double kMostDegrees = 0.5, kMostPixels = 0.5;
 
-/// The last two seconds, backwards, show what the first did. Single poses jitter: in each round one is off by
-/// nearly two degrees.
+/// The last two seconds, backwards, show the same as the first two. Single poses jitter: in each round one is
+/// off by nearly two degrees.
 constexpr int kEndPictures = 60;
 constexpr double kDegrees = 57.29577951308232;
 
@@ -180,7 +180,7 @@ std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures,
   format.frame_rate = o.talker.frame_rate;
   EncoderSettings settings;
   settings.quality = o.quality;
-  settings.patterns = 1;  // states do not depend on them
+  settings.patterns = 1;  // states do not depend on patterns
   auto encoder = Encoder::create(format, settings);
   if (!encoder) return encoder.error();
   StreamDecoder decoder;
@@ -219,7 +219,7 @@ int main(int argc, char** argv) {
   std::vector<Shown> second;
   std::vector<Round> seen(static_cast<std::size_t>(rounds) + 1);
   std::vector<Shown> beginning;
-  std::deque<Shown> end;  // the latest first
+  std::deque<Shown> end;  // latest first
   int i = 0;
   const auto error = run(*options, source, rounds * source.round() + 1, [&](const Shown& now) {
     if (i / source.round() == 1) second.push_back(now);

@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Pictures are numbered from 1 and stand as `NAME.part` until finish() renames them all.
+/// Pictures are numbered from 1 and named `NAME.part` until finish() renames them all.
 Result<std::unique_ptr<VideoSink>> open_image_sink(const std::string& output, const VideoFormat& format);
 
 }  // namespace fbs

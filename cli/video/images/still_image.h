@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Images of scene-linear light, as OpenEXR's are, get the transfer curve of sRGB; others are taken for sRGB.
+/// Images of scene-linear light, such as OpenEXR's, get the transfer curve of sRGB; others count as sRGB.
 /// Values beyond 0..1 are clamped, alpha is dropped.
 /// @param format  of the video: its size, range and matrix
 /// @return kIo, kInvalidStream for an image that cannot be read; kInvalidArgument for one of another size;

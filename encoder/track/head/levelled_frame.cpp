@@ -13,7 +13,7 @@ using namespace head_tuning;
 namespace {
 
 cv::Mat levelled(const cv::Mat& luma) {
-  // Means over a large Gaussian, at a quarter of the size.
+  // Means over a large Gaussian, computed at a quarter of the size.
   cv::Mat value, small, mean, variance;
   luma.convertTo(value, CV_32F);
   cv::GaussianBlur(value, value, {3, 3}, 0.8);

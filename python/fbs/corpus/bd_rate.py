@@ -1,4 +1,4 @@
-"""Rate-distortion curves: envelope, quality at a rate, and the measure of Bjøntegaard, as ``fbs evaluate`` has them."""
+"""Rate-distortion curves: envelope, quality at a rate, and the measure of Bjøntegaard, as in ``fbs evaluate``."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ struct Stream {
   PacketWriter writer;
 };
 
-/// Two scenes of different packets.
+/// A stream of two scenes of different packets.
 Stream sample_stream() {
   Stream s;
   const std::array<std::pair<PacketType, std::size_t>, 8> packets = {{{PacketType::kSetup, 18},
@@ -245,7 +245,7 @@ TEST(PacketReader, NoticesThatAnUnknownPacketIsMissing) {
   expect_error_at(s.with({0, 2}), 1, "the unknown one");
 }
 
-// What is missing before them only the number of pictures can tell: SPEC 6.2.
+// Only the number of pictures can tell what is missing before them: SPEC 6.2.
 TEST(PacketReader, SetupAndEndFollowAnything) {
   const Stream s = sample_stream();
   PacketReader reader;
@@ -308,7 +308,7 @@ TEST(PacketReader, SearchEndsWhereNothingIsLeft) {
   EXPECT_EQ(reader.next()->status, ReadStatus::kEnd);
 }
 
-/// Where a search finds a packet behind `noise` random bytes; nothing: nowhere.
+/// Where a search finds a packet after `noise` random bytes; nothing: nowhere.
 std::optional<std::size_t> found_behind(std::size_t noise, PacketType type, std::size_t payload) {
   Bytes bytes = random_bytes(noise, 3);
   PacketWriter().write(bytes, type, Bytes(payload, 0x5A));

@@ -21,7 +21,7 @@ Bytes vector_file(const std::string& name) {
 
 constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 
-/// Frames of 20 ms, each of which has its number in it; without end.
+/// Frames of 20 ms that contain their number; without end.
 class Counting {
  public:
   std::vector<SoundGroup> operator()(std::int64_t before) {
@@ -53,7 +53,7 @@ struct Seen {
   std::uint64_t time = 0;  ///< end of the last picture
 };
 
-/// Checks on the way that no sound comes later than it is heard.
+/// Also checks that no sound comes later than it is heard.
 Seen decoded(const Bytes& stream, bool has_sound) {
   StreamDecoder decoder;
   decoder.keep_sound();

@@ -19,7 +19,7 @@ struct Shown {
   std::size_t scenes = 0;
   std::size_t patterns = 0;
   std::size_t bytes = 0;
-  /// Of luma against the sources.
+  /// PSNR of luma against the sources.
   [[nodiscard]] double psnr(const std::vector<Picture>& sources) const {
     EXPECT_EQ(pictures.size(), sources.size());
     SquaredError error;

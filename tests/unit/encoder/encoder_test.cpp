@@ -133,7 +133,7 @@ TEST(Encoder, ReachesItsFloorOfQuality) {
   EXPECT_GT(squared_error(c.pictures[0].y, talking()[0].y).psnr(), 31) << "the first picture is its pattern";
 }
 
-// What the model is for: far better than the first picture held, for a few bytes a picture.
+// The purpose of the model: far better than the first picture held, for a few bytes per picture.
 TEST(Encoder, MotionBeatsTheFirstPictureHeld) {
   const Coded& c = coded_talk();
   SquaredError held;
@@ -279,7 +279,7 @@ Watched watched(const Pictures& source, const EncoderSettings& settings = {}) {
   return {decoded(encoder->take()), encoder->report()};
 }
 
-// A slide is carried by the scene's patterns, and the face found again behind it.
+// The scene's patterns carry a slide, and the face is found again after it.
 TEST(Encoder, SlideAndBackStayOneScene) {
   const Pictures source = interrupted(Pictures(12, slide()));
   const Watched w = watched(source);
@@ -293,7 +293,7 @@ TEST(Encoder, SlideAndBackStayOneScene) {
   EXPECT_GT(psnr_from(w.coded, source, 33, 19), 28);
 }
 
-// One that stays is worth a scene, whose patterns are finer than those of a face.
+// A slide that stays is worth a scene, with finer patterns than a face.
 TEST(Encoder, SlideThatStaysIsASceneOfItsOwn) {
   const Pictures source = interrupted(Pictures(60, slide()));
   const Watched w = watched(source);
@@ -305,7 +305,7 @@ TEST(Encoder, SlideThatStaysIsASceneOfItsOwn) {
   EXPECT_GT(psnr_from(w.coded, source, 81, 19), 28);
 }
 
-// What is coded of the dark pictures is too coarse for the others.
+// Patterns of dark pictures are too coarse for bright ones.
 TEST(Encoder, FaceOutOfTheDarkHasASceneOfItsOwn) {
   constexpr int kFade = 15;
   Pictures p = talking();
@@ -489,7 +489,7 @@ TEST(Encoder, RefusesAPictureThatLastsTooLongOrLacksSamples) {
   cut.y.samples.pop_back();
   EXPECT_TRUE(refuses(p[0], kMaxDuration + 1));
   for (const Picture& picture : {thin, dense, cut}) EXPECT_TRUE(refuses(picture, 0));
-  // What is refused changes nothing.
+  // A refused picture changes nothing.
   ASSERT_TRUE(encoder->push(p[0], kMaxDuration));
   ASSERT_TRUE(encoder->finish());
   EXPECT_EQ(decoded(encoder->take()).durations, std::vector<std::uint32_t>{kMaxDuration});

@@ -1,4 +1,4 @@
-// Encoding as it happens: packets leave with each group, and nothing later is waited for.
+// Encoding as it happens: packets leave with each group, without waiting for later ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
   EXPECT_EQ(line.patterns, 1U);
 }
 
-// Another picture of the room, as different as a cut but without one: the light of half of it changes.
+// The room changes as much as by a cut, but without one: the light of half of it changes.
 TEST(Live, AChangeIsSentWithItsGroup) {
   Picture changed = clip()[0];
   for (int y = 0; y < changed.height(); ++y)

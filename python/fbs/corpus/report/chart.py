@@ -111,7 +111,7 @@ def _row(row: Row, x: Axis, middle: float, height: float) -> str:
 
 
 def _dots(values: np.ndarray, x: Axis, middle: float, height: float) -> str:
-    """Beside each other where they would cover each other."""
+    """Places dots beside each other where they would overlap."""
     ordered = np.sort(values)
     offsets = (np.arange(len(ordered)) * 7 % 5 - 2) * height * 0.075
     return "".join(

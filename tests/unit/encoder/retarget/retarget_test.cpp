@@ -40,7 +40,7 @@ MotionRecord nodding(int pictures) {
   return motion;
 }
 
-/// Decodes a stream that must be without fault.
+/// Decodes a stream that must be free of errors.
 template <class See>
 void decode(const std::vector<std::uint8_t>& stream, See&& see) {
   StreamDecoder decoder;

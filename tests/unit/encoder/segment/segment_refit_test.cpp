@@ -93,7 +93,7 @@ TEST(SegmentRefit, PatternsStayWhereTheyWereSeen) {
   for (const std::size_t t : {0U, 10U, 20U}) EXPECT_LT(d.off(t, StillSegment::rest(0)), 0.2) << t;
 }
 
-// What a picture without a face shows says nothing of the state.
+// A picture without a face says nothing about the state.
 TEST(SegmentRefit, ALostFaceRests) {
   StillSegment d;
   for (std::size_t t = 0; t < kPictures; ++t) d.analyse(t, t < kGroup || t >= 2 * kGroup);
