@@ -23,7 +23,6 @@ typedef struct {
   guint64 pictures;     /**< pushed to the encoder */
   guint64 time;         /**< the sum of their durations, 1/90000 s */
   guint32 nominal;      /**< duration, 1/90000 s */
-  guint8 patterns;      /**< of the last setup packet */
   GstFbsGroup* group;   /**< not complete yet; or null */
   GQueue ready;         /**< GstFbsGroup */
 } GstFbsEncoderStream;

@@ -1,9 +1,9 @@
+#include <fbs/packet.h>
 #include <gst/rtp/gstrtpbuffer.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "gstreamer/packet.h"
 #include "tests/gstreamer/stream.h"
 
 namespace fbs::gstreamer {
@@ -153,7 +153,7 @@ TEST(RtpFbs, RandomPayloadsAreNoHarm) {
     gst_rtp_buffer_set_marker(&rtp, random() % 3 == 0);
     auto* const payload = static_cast<guint8*>(gst_rtp_buffer_get_payload(&rtp));
     for (guint k = 0; k < size; ++k) payload[k] = static_cast<guint8>(random() >> 8);
-    if (size > 1) payload[1] = GST_FBS_SETUP;
+    if (size > 1) payload[1] = FBS_PACKET_SETUP;
     gst_rtp_buffer_unmap(&rtp);
     gst_harness_push(harness.get(), packet.release());
   }
