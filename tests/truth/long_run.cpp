@@ -19,11 +19,10 @@
 #include <string_view>
 #include <vector>
 
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
 #include "encoder/model/pose.h"
 #include "tests/talker/talker_noise.h"
 #include "tests/talker/talker_render.h"
+#include "tests/unit/encode_decode.h"
 
 namespace {
 
@@ -180,28 +179,18 @@ std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures,
   format.frame_rate = o.talker.frame_rate;
   EncoderSettings settings;
   settings.quality = o.quality;
-  settings.patterns = 1;  // states do not depend on patterns
-  auto encoder = Encoder::create(format, settings);
-  if (!encoder) return encoder.error();
-  StreamDecoder decoder;
-  const auto pass_on = [&]() -> std::optional<Error> {
-    const auto bytes = encoder->take();
-    if (bytes.empty()) return std::nullopt;
-    decoder.feed(bytes);
-    for (;;) {
-      const auto status = decoder.next();
-      if (!status) return status.error();
-      if (*status != DecodeStatus::kPicture) return std::nullopt;
-      if (!decoder.scene().geometry) return Error{ErrorCode::kNoFace, "no face in the first picture"};
+  settings.patterns = 1;  // states do not depend on them
+  const auto stream = encode_pictures(format, settings, pictures, [&](int i) { return source.at(i); });
+  if (!stream) return stream.error();
+  std::optional<Error> error;
+  const auto end = decode_pictures(*stream, [&](const StreamDecoder& decoder) {
+    if (decoder.scene().geometry)
       see(Shown(decoder));
-    }
-  };
-  for (int i = 0; i < pictures; ++i) {
-    if (auto pushed = encoder->push(source.at(i)); !pushed) return pushed.error();
-    if (auto error = pass_on()) return error;
-  }
-  if (auto finished = encoder->finish(); !finished) return finished.error();
-  return pass_on();
+    else
+      error = Error{ErrorCode::kNoFace, "no face in the first picture"};
+  });
+  if (!end) error = end.error();
+  return error;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "common/quality.h"
-#include "decoder/stream/stream_decoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -46,21 +46,7 @@ struct Coded {
 Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFormat& format,
                                           const EncoderSettings& settings,
                                           const std::vector<std::uint32_t>& durations = {}) {
-  auto encoder = Encoder::create(format, settings);
-  if (!encoder) return fail(encoder.error());
-  std::vector<std::uint8_t> stream;
-  const auto take = [&] {
-    const auto bytes = encoder->take();
-    stream.insert(stream.end(), bytes.begin(), bytes.end());
-  };
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    if (auto pushed = encoder->push(source[i], durations.empty() ? 0 : durations[i]); !pushed)
-      return fail(pushed.error());
-    take();
-  }
-  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
-  take();
-  return stream;
+  return encode_pictures(format, settings, source, durations);
 }
 
 Coded decoded(std::vector<std::uint8_t> stream) {
@@ -69,14 +55,12 @@ Coded decoded(std::vector<std::uint8_t> stream) {
   StreamDecoder decoder;
   decoder.feed(out.stream);
   decoder.close();
-  for (;;) {
-    const auto status = decoder.next();
-    EXPECT_TRUE(status) << status.error().text;
-    if (!status || *status != DecodeStatus::kPicture) break;
+  const auto end = decode_pictures(decoder, [&](StreamDecoder&) {
     out.pictures.emplace_back();
     EXPECT_TRUE(decoder.render(out.pictures.back()));
     out.durations.push_back(decoder.duration());
-  }
+  });
+  EXPECT_TRUE(end) << end.error().text;
   out.bytes = decoder.bytes();
   EXPECT_EQ(decoder.announced_pictures(), out.pictures.size());
   return out;

@@ -7,8 +7,7 @@
 
 #include "common/quality.h"
 #include "decoder/stream/scene_index.h"
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -57,15 +56,13 @@ class LiveLine {
  private:
   void pass_on() {
     decoder_.feed(encoder_.take());
-    for (;;) {
-      const auto status = decoder_.next();
-      ASSERT_TRUE(status) << status.error().text;
-      bytes = decoder_.bytes();
-      patterns = decoder_.scene().patterns.size();
-      if (*status != DecodeStatus::kPicture) return;
+    const auto status = decode_pictures(decoder_, [&](StreamDecoder&) {
       shown.emplace_back();
       ASSERT_TRUE(decoder_.render(shown.back()));
-    }
+    });
+    ASSERT_TRUE(status) << status.error().text;
+    bytes = decoder_.bytes();
+    patterns = decoder_.scene().patterns.size();
   }
 
   Encoder encoder_;
