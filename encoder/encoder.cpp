@@ -92,7 +92,7 @@ struct Encoder::Impl {
   }
 
   /// Marks of the face to follow, if the picture shows one.
-  /// @return kInvalidArgument when there are faces, but not so many as are asked for
+  /// @return kTooFewFaces when there are faces, but not so many as are asked for
   [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture, bool all_sizes) const {
     if (settings.marks && report.pictures == 0) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
@@ -101,7 +101,7 @@ struct Encoder::Impl {
     if (faces.empty()) return std::nullopt;
     if (faces.size() > number) return marks_of(faces[number]);
     if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
-    return fail(ErrorCode::kInvalidArgument,
+    return fail(ErrorCode::kTooFewFaces,
                 "no face " + std::to_string(number) + ": picture " + std::to_string(report.pictures) +
                     " shows " + std::to_string(faces.size()) + ", and the largest is face 0");
   }
