@@ -58,10 +58,7 @@ fbs_status fbs_encoder::encode(Body&& body) {
       return FBS_OK;
     }
     packets.add(encoder.take());
-    const bool no_such_face =
-        done.error().code == ErrorCode::kInvalidArgument;  // arguments have been checked
-    return error.set(no_such_face ? FBS_ERROR_NO_FACE : status_of(done.error().code),
-                     done.error().text.c_str());
+    return error.set(done.error());
   });
 }
 

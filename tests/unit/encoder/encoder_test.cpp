@@ -341,7 +341,7 @@ TEST(Encoder, SaysAtOnceThatThereIsNoSuchFace) {
   ASSERT_TRUE(encoder);
   const auto pushed = encoder->push(talking()[0]);
   ASSERT_FALSE(pushed);
-  EXPECT_EQ(pushed.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(pushed.error().code, ErrorCode::kTooFewFaces);
   EXPECT_EQ(pushed.error().text, "no face 1: picture 0 shows 1, and the largest is face 0");
 }
 
