@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -48,6 +49,8 @@ NewVerb<Arguments> new_verb(CLI::App& app, Run& run, const char* name, const cha
 inline constexpr const char* kHiddenGroup = "for measurements";
 
 inline constexpr double kMaxSeconds = 1e8;  ///< of options that are times: three years
+inline constexpr std::int64_t kMaxFrames =
+    1'000'000'000;  ///< of options that count pictures: more than a year
 
 /// CLI::Range lets NaN through.
 [[nodiscard]] CLI::Validator number_within(double low, double high);

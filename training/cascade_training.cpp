@@ -15,7 +15,7 @@ namespace {
 constexpr Look kLooks[] = {{48, 2, 5}, {64, 2, 5}, {80, 2, 5}, {80, 1.5F, 4}, {96, 1.5F, 4}};
 
 /// In mean variances of an input. 15 takes strangers' lips from 3.4 to 3.6 % (five-fold).
-constexpr float kRidge = 5;
+constexpr float kCascadeRidge = 5;
 
 constexpr Eigen::Index kNumbers = 2 * kLandmarkCount;
 
@@ -76,7 +76,7 @@ LandmarkStage train_stage(const Look& look, const Shape& mean, const std::vector
   const Eigen::MatrixXf covariance = centred.transpose() * centred;
   const Eigen::JacobiSVD<Eigen::MatrixXf> svd(covariance, Eigen::ComputeThinU);
   const RowMatrix modes = svd.matrixU().leftCols(kShapeModes).transpose();
-  const LinearMap map = fit_ridge(descriptors, centred * modes.transpose(), kRidge);
+  const LinearMap map = fit_ridge(descriptors, centred * modes.transpose(), kCascadeRidge);
   LandmarkStage stage{look, quantised(map.weights), to_vector(modes), {}};
   stage.offset = to_vector(mean_move + map.offset * modes);
   return stage;

@@ -12,7 +12,7 @@
 namespace fbs {
 namespace {
 
-constexpr float kRidge = 2;
+constexpr float kPlaceRidge = 2;
 constexpr int kRounds = 2;  ///< of learning from mistakes
 /// Most mistakes per picture and round: with six, the rarest faces rank lower.
 constexpr int kMistakes = 2;
@@ -44,7 +44,7 @@ class Samples {
                             {descriptors.row(static_cast<Eigen::Index>(i)).data(), kDescriptorSize});
     });
     const RowMatrix wanted = Eigen::Map<const RowMatrix>(is_face_.data(), count, 1);
-    const LinearMap map = fit_ridge(descriptors, wanted, kRidge);
+    const LinearMap map = fit_ridge(descriptors, wanted, kPlaceRidge);
     return {quantised(map.weights), map.offset(0)};
   }
 

@@ -17,7 +17,7 @@
 namespace fbs {
 
 inline constexpr int kExperienceLevels = 6;  ///< AdaptiveBit::experience()
-inline constexpr std::int32_t kWeightOne = 1 << 16;
+inline constexpr std::int32_t kMixerWeightOne = 1 << 16;
 
 template <std::size_t N>
 class Mixer {
@@ -53,7 +53,7 @@ class Mixer {
 
  private:
   static constexpr int kRateShift = 22;  // a learning rate of 1/64
-  static constexpr std::int32_t kMaxWeight = 8 * kWeightOne;
+  static constexpr std::int32_t kMaxWeight = 8 * kMixerWeightOne;
 
   using Weights = std::array<std::int32_t, kExperienceLevels>;
   static constexpr std::array<Weights, N> initial() {
@@ -62,13 +62,13 @@ class Mixer {
     constexpr std::array<std::int32_t, kExperienceLevels> kShare = {4, 6, 9, 13, 18, 20};
     for (auto& input : weights) {
       for (std::size_t level = 0; level < kExperienceLevels; ++level) {
-        input[level] = kWeightOne * kShare[level] / (16 * static_cast<std::int32_t>(N));
+        input[level] = kMixerWeightOne * kShare[level] / (16 * static_cast<std::int32_t>(N));
       }
     }
     return weights;
   }
 
-  std::array<Weights, N> weights_ = initial();  // 1/kWeightOne
+  std::array<Weights, N> weights_ = initial();  // 1/kMixerWeightOne
 };
 
 }  // namespace fbs

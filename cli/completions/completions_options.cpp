@@ -8,7 +8,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompletionsExamples =
     "Examples:\n"
     "  source <(fbs completions bash)                            in ~/.bashrc\n"
     "  source <(fbs completions zsh)                             in ~/.zshrc, after compinit\n"
@@ -31,7 +31,7 @@ void add_completions(CLI::App& app, Run& run) {
   verb->add_option("SHELL", shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  verb->footer(kExamples);
+  verb->footer(kCompletionsExamples);
 }
 
 }  // namespace fbs::cli

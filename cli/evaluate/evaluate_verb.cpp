@@ -20,7 +20,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kStopNotice = "fbs: stopping; a second signal ends at once";
+constexpr const char* kStoppingEvaluation = "fbs: stopping; a second signal ends at once";
 
 /// Folder for finished results; empty: none.
 std::string kept_folder(const EvaluateArguments& arguments) {
@@ -97,7 +97,7 @@ Result<Outcome> evaluate(const EvaluateArguments& arguments, const StopSignal& s
 
 /// Evaluates until the end or a signal.
 Result<Outcome> evaluate_until_stopped(const EvaluateArguments& arguments) {
-  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
+  const StopSignal stop(arguments.quiet ? nullptr : kStoppingEvaluation);
   auto outcome = evaluate(arguments, stop);
   if (!stop.raised() || outcome) return outcome;
   const std::string kept = kept_folder(arguments);

@@ -6,7 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kExportExamples =
     "Examples:\n"
     "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
     "  fbs export talk.fbs head.gltf --draco           the same as text, its mesh compressed\n"
@@ -29,7 +29,7 @@ void add_export(CLI::App& app, Run& run) {
       ->check(CLI::IsMember({"csv", "json"}))
       ->type_name("csv|json");
   verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
-  verb->footer(kExamples);
+  verb->footer(kExportExamples);
 }
 
 }  // namespace fbs::cli

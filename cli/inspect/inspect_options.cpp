@@ -6,7 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kInspectExamples =
     "Examples:\n"
     "  fbs inspect talk.fbs                            size of each part\n"
     "  fbs inspect talk.fbs --json\n"
@@ -22,7 +22,7 @@ void add_inspect(CLI::App& app, Run& run) {
                  "List every packet, also of a damaged stream: place, type, time of the first picture that "
                  "it concerns, bytes, and what is wrong; exit code 3: something is");
   verb->add_flag("--json", a.json, "Print JSON");
-  verb->footer(kExamples);
+  verb->footer(kInspectExamples);
 }
 
 }  // namespace fbs::cli

@@ -6,7 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRemuxExamples =
     "Examples:\n"
     "  fbs remux talk.fbs talk.mkv                     Matroska, with the sound as a track of its own\n"
     "  fbs remux talk.mkv talk.fbs                     and back: the same bytes\n"
@@ -22,7 +22,7 @@ void add_remux(CLI::App& app, Run& run) {
   verb->add_option("OUTPUT", a.output, "Matroska file (.mkv) or stream (.fbs, or - for standard output)")
       ->required();
   verb->add_flag("--quiet", a.quiet, "Print nothing but errors");
-  verb->footer(kExamples);
+  verb->footer(kRemuxExamples);
 }
 
 }  // namespace fbs::cli

@@ -16,7 +16,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kStopNotice = "fbs: finishing the table; a second signal ends at once";
+constexpr const char* kFinishingTable = "fbs: finishing the table; a second signal ends at once";
 
 /// The analysis compares pictures with the first pattern as decoded. A pattern nearly equal to the source
 /// costs nothing here, since no stream is kept.
@@ -122,6 +122,6 @@ Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
 FBS_MODULE_EXPORT void fbs_run_track(const fbs::cli::TrackArguments& arguments,
                                      fbs::Result<fbs::cli::Outcome>& result) {
   result =
-      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kStopNotice, "no table written",
+      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kFinishingTable, "no table written",
                               [&](const fbs::StopSignal& stop) { return fbs::cli::track(arguments, stop); });
 }

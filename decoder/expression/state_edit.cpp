@@ -25,24 +25,28 @@ constexpr std::array<StateEdit::Limits, kEditPartCount> kLimits = {{
 }};
 
 /// How far a control point follows a part's edit, in 1/100.
-struct Share {
+struct ControlShift {
   std::uint8_t control;  ///< within its feature
   std::int8_t x, y;
 };
 
 // Inner lips ride on the outer ones: a movement of both is given for the outer ones alone, and the lips keep
 // their thickness. Most of an opening is the jaw's. Set by eye.
-constexpr std::array kOuterOpening = {Share{0, 12, 30}, Share{1, 4, -2},   Share{2, 0, -14}, Share{3, 0, -14},
-                                      Share{4, -4, -2}, Share{5, -12, 30}, Share{6, 0, 84},  Share{7, 0, 90},
-                                      Share{8, 0, 90},  Share{9, 0, 84}};
-constexpr std::array kInnerOpening = {Share{5, 16, 6}, Share{7, -16, 6}};
-constexpr std::array kOuterSmile = {Share{0, -100, -70}, Share{1, -50, -28}, Share{4, 50, -28},
-                                    Share{5, 100, -70},  Share{6, 50, -28},  Share{9, -50, -28}};
-constexpr std::array kBrow = {Share{0, 0, -100}, Share{1, 0, -100}, Share{2, 0, -100}, Share{3, 0, -100}};
+constexpr std::array kOuterOpening = {
+    ControlShift{0, 12, 30}, ControlShift{1, 4, -2},   ControlShift{2, 0, -14}, ControlShift{3, 0, -14},
+    ControlShift{4, -4, -2}, ControlShift{5, -12, 30}, ControlShift{6, 0, 84},  ControlShift{7, 0, 90},
+    ControlShift{8, 0, 90},  ControlShift{9, 0, 84}};
+constexpr std::array kInnerOpening = {ControlShift{5, 16, 6}, ControlShift{7, -16, 6}};
+constexpr std::array kOuterSmile = {ControlShift{0, -100, -70}, ControlShift{1, -50, -28},
+                                    ControlShift{4, 50, -28},   ControlShift{5, 100, -70},
+                                    ControlShift{6, 50, -28},   ControlShift{9, -50, -28}};
+constexpr std::array kBrow = {ControlShift{0, 0, -100}, ControlShift{1, 0, -100}, ControlShift{2, 0, -100},
+                              ControlShift{3, 0, -100}};
 
-void move(State& state, FeatureId id, std::span<const Share> shares, std::int32_t offset) {
+void move(State& state, FeatureId id, std::span<const ControlShift> shares, std::int32_t offset) {
   const std::size_t first = feature(id).first_control;
-  for (const Share& s : shares) state.control[first + s.control] += glm::ivec2(s.x, s.y) * offset / 100;
+  for (const ControlShift& s : shares)
+    state.control[first + s.control] += glm::ivec2(s.x, s.y) * offset / 100;
 }
 
 void move_mouth(State& state, const Geometry& head, std::int32_t wanted) {

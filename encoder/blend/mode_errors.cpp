@@ -27,7 +27,7 @@ std::array<std::vector<SurfaceRun>, kRegionCount> runs_by_region(const VisibleSu
 
 using Samples = std::vector<std::int16_t>;
 
-double dot(const Samples& a, const Samples& b) {
+double error_product(const Samples& a, const Samples& b) {
   std::int64_t sum = 0;
   constexpr std::size_t kPiece = 4096;  // products of errors up to 255 stay within 32 bits
   for (std::size_t begin = 0; begin < a.size(); begin += kPiece) {
@@ -69,7 +69,7 @@ class RegionGram {
     if (i < j) std::swap(i, j);
     const std::size_t k = i * (i + 1) / 2 + j;
     if (!known_[k]) {
-      products_[k] = dot(errors_[i], errors_[j]);
+      products_[k] = error_product(errors_[i], errors_[j]);
       known_[k] = true;
     }
     return products_[k];

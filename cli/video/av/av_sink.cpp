@@ -44,7 +44,7 @@ void set_colour(AVCodecContext& encoder, const VideoFormat& format) {
   }
 }
 
-void copy_plane(const Plane& plane, AVFrame& frame, int index) {
+void fill_plane(const Plane& plane, AVFrame& frame, int index) {
   for (int y = 0; y < plane.height; ++y) {
     std::copy_n(plane.row(y), plane.width,
                 frame.data[index] + static_cast<std::ptrdiff_t>(y) * frame.linesize[index]);
@@ -162,8 +162,8 @@ Result<void> AvSink::write(const Picture& picture, std::int64_t pts) {
     return fail(ErrorCode::kInvalidArgument, "picture size differs from the video's");
   }
   if (av_frame_make_writable(frame_.get()) < 0) return muxer_->error("out of memory");
-  copy_plane(picture.y, *frame_, 0);
-  const auto copy_chroma = frame_->format == AV_PIX_FMT_YUV444P ? spread_plane : copy_plane;
+  fill_plane(picture.y, *frame_, 0);
+  const auto copy_chroma = frame_->format == AV_PIX_FMT_YUV444P ? spread_plane : fill_plane;
   copy_chroma(picture.u, *frame_, 1);
   copy_chroma(picture.v, *frame_, 2);
 

@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kMaxDigits = 18;  // enough for any std::int64_t
 
+}  // namespace
+
 bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
-
-}  // namespace
 
 std::string NumberPattern::name(std::int64_t number) const {
   assert(number >= 0);

@@ -22,8 +22,8 @@ constexpr double kMinCorrelationWeight = 20;  ///< sum of weights; fewer points 
 // --- Levelled frames: brightness less its local mean, over the local contrast ---
 
 constexpr double kLevellingReach = 0.22 * WorkFrame::kWorkEyeDistance;  ///< sigma of the local mean, pixels
-constexpr double kMinContrast = 6;     ///< grey levels; less is noise and stays flat
-constexpr double kLevelledSigma = 40;  ///< grey levels that one local standard deviation becomes
+constexpr double kMinLocalContrast = 6;  ///< grey levels; less is noise and stays flat
+constexpr double kLevelledSigma = 40;    ///< grey levels that one local standard deviation becomes
 
 // --- Flow from picture to picture ---
 

@@ -25,7 +25,7 @@ cv::Mat levelled(const cv::Mat& luma) {
   smooth(value, mean);
   value -= mean;
   smooth(value.mul(value), variance);
-  variance += kMinContrast * kMinContrast;
+  variance += kMinLocalContrast * kMinLocalContrast;
   cv::sqrt(variance, variance);
   cv::Mat out;
   cv::divide(value, variance, value, kLevelledSigma);
