@@ -39,13 +39,13 @@ Result<void> check_settings(const EncoderSettings& settings) {
                          is_size(settings.live->buffer) && settings.live->buffer > 0))
     return fail(ErrorCode::kInvalidArgument, "a delay or buffer that is not positive and finite");
   if (settings.live && settings.patterns > 1)
-    return fail(ErrorCode::kInvalidArgument, "a live scene has one pattern, or as many as it needs");
+    return fail(ErrorCode::kInvalidArgument, "live encoding takes 1 pattern, or 0 to choose their number");
   if (!is_size(settings.key_interval))
     return fail(ErrorCode::kInvalidArgument, "a key interval that is negative or not finite");
   if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
   if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
   if (settings.first_pattern && settings.patterns != 1)
-    return fail(ErrorCode::kInvalidArgument, "a first pattern, but not one pattern alone");
+    return fail(ErrorCode::kInvalidArgument, "a first pattern needs the number of patterns to be 1");
   if (settings.track_only && settings.landmarks)
     return fail(ErrorCode::kInvalidArgument, "landmarks are a start of the fit, and there is none");
   if (settings.track_only && !(settings.expression && settings.contours))
@@ -91,7 +91,7 @@ struct Encoder::Impl {
     ready.insert(ready.end(), bytes.begin(), bytes.end());
   }
 
-  /// Marks of the face to follow, if the picture shows one.
+  /// Marks of the face to track, if the picture shows one.
   /// @return kTooFewFaces when there are faces, but not so many as are asked for
   [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture, bool all_sizes) const {
     if (settings.marks && report.pictures == 0) return settings.marks;
@@ -101,9 +101,9 @@ struct Encoder::Impl {
     if (faces.empty()) return std::nullopt;
     if (faces.size() > number) return marks_of(faces[number]);
     if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
-    return fail(ErrorCode::kTooFewFaces,
-                "no face " + std::to_string(number) + ": picture " + std::to_string(report.pictures) +
-                    " shows " + std::to_string(faces.size()) + ", and the largest is face 0");
+    return fail(ErrorCode::kTooFewFaces, "no face " + std::to_string(number) + ": picture " +
+                                             std::to_string(report.pictures) + " shows " +
+                                             std::to_string(faces.size()) + ", and the largest is face 0");
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
@@ -125,7 +125,7 @@ struct Encoder::Impl {
     return {};
   }
 
-  /// Ahead of a picture: sees to it that there is a scene that suits it.
+  /// Ensures, before a picture, that there is a scene for it.
   Result<void> choose_scene(const Picture& picture) {
     const ShotWatch::Step step = shots.next(picture);
     if (step.cut) {

@@ -12,10 +12,10 @@
 
 namespace fbs {
 
-/// What happened in the video so far.
+/// Statistics of the video so far.
 struct EncodingReport {
   std::uint64_t pictures = 0;
-  std::uint64_t without_face = 0;  ///< of them, those in which no face was followed
+  std::uint64_t without_face = 0;  ///< of those, pictures in which no face was tracked
   /// Pictures whose EncoderSettings::landmarks could be a start of the fit, and those where they were best.
   std::uint64_t with_landmarks = 0, from_landmarks = 0;
   std::uint64_t cuts = 0;
@@ -38,17 +38,17 @@ class Encoder {
   ~Encoder();
 
   /// @param picture   4:2:0, of the format's size
-  /// @param duration  1/90000 s, at most kMaxDuration; 0: that of the frame rate
+  /// @param duration  1/90000 s, at most kMaxDuration; 0: the frame rate's
   /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then;
   ///         kTooFewFaces when the first picture with a face shows fewer than EncoderSettings::face asks for
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
-  /// Asks for a place where a viewer can join: the present group is the last of its scene. Nothing happens
+  /// Requests a place where a viewer can join: the present group becomes the last of its scene. Has no effect
   /// where a scene begins anyway.
   /// @return kInvalidArgument if the encoding is not live, or has ended
   Result<void> request_scene();
 
-  /// Codes what is still held back and ends the stream.
+  /// Codes everything still held back and ends the stream.
   /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or the
   ///         stream has ended already
   Result<void> finish();
@@ -56,7 +56,7 @@ class Encoder {
   /// The bytes that are ready; the encoder forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take();
 
-  /// Whether another thread is coding what has been pushed: bytes become ready without another push.
+  /// Whether another thread is still coding: bytes become ready without another push.
   [[nodiscard]] bool is_coding() const;
 
   [[nodiscard]] const PictureAnalysis& analysis() const;  ///< of the picture pushed last

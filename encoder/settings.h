@@ -1,4 +1,4 @@
-// What an encoder can be asked for.
+// The settings of an encoder.
 #pragma once
 
 #include <memory>
@@ -10,40 +10,41 @@
 
 namespace fbs {
 
-/// Of a source that is encoded as it happens.
+/// For a source that is encoded as it happens.
 struct LiveSettings {
-  double delay = 0.2;  ///< s; pictures are coded in groups of so many seconds
-  double buffer = 2;   ///< s; where a bitrate is set: nothing waits longer to be sent at that rate
+  double delay = 0.2;  ///< s; length of the groups in which pictures are coded
+  double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate
 };
 
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
-  double bitrate = 0;          ///< total kbit/s, from which quality follows; 0: quality decides
+  double bitrate = 0;          ///< total kbit/s, which determines quality; 0: quality decides
   double seconds = 0;          ///< length of the video, for bitrate; 0: unknown, ten are assumed
   double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: quality decides
   int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
   int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion
-  int effort = 1;  ///< 0: patterns are pictures as they are; 1: solved for; 2: and states fitted twice
-  int face = 0;    ///< which face to follow, the largest being 0
+  int effort = 1;              ///< 0: patterns are source pictures; 1: solved for; 2: and states fitted twice
+  int face = 0;                ///< which face to follow, the largest being 0
   std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
-  /// With one pattern: sent in the place of the first picture with a face, of its size and with its face in
-  /// the same place. The head and all motion are those of the video.
+  /// With one pattern: sent in place of the first picture with a face; has its size, and its face in the same
+  /// place. The head and all motion come from the video.
   std::optional<Picture> first_pattern;
-  /// Of any tracker, by number of the picture pushed: one more start for the fit of each. None: null.
+  /// Landmarks from any tracker, by number of the picture pushed: an additional start for each fit. Null:
+  /// none.
   std::shared_ptr<const LandmarkTrack> landmarks;
   bool allow_no_face = false;  ///< code a video without any face instead of failing
   /// The paper's own path: contours move the mesh, and no state is fitted to a pattern. Light, mouth interior
   /// and gaze are not sent.
   bool track_only = false;
-  // Off only to measure what each gains:
+  // Off only to measure their gains:
   bool expression = true;       ///< send mouth, brows, lids and gaze
-  bool contours = true;         ///< the fit begins at the contours; off: where it ended one picture before
+  bool contours = true;         ///< the fit starts from the contours; off: from the previous picture's fit
   bool descent = true;          ///< snakes descend; off: they stay at the best of their starts
   bool landmark_search = true;  ///< look for landmarks in every picture
   bool surround = true;         ///< let hair, body and ground move
-  /// Seconds between scenes at the most: where a viewer can join, and damage ends. 0: where it costs little,
-  /// up to 40 with several patterns, never with one.
+  /// Longest time between scenes, s: where viewers can join and damage ends. 0: where it costs little, up to
+  /// 40 with several patterns, never with one.
   double key_interval = 0;
   std::optional<LiveSettings> live;  ///< without look-ahead
   /// Live, with 2 or more, a group is coded while the pictures after it are analysed; the stream is the same.

@@ -121,7 +121,7 @@ static gboolean set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
   return TRUE;
 }
 
-/* Of a group that begins a scene. */
+/* Reads the format from a group that begins a scene. */
 static gboolean take_format(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
   const gboolean taken = set_caps(self, gst_adapter_map(self->group, size), size);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace fbs;
 
-constexpr const char* kNull = "a null pointer";
+constexpr const char* kNullPointer = "a null pointer";
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void fbs_packet_reader_close(fbs_packet_reader** reader) {
 fbs_status fbs_packet_reader_feed(fbs_packet_reader* reader, const uint8_t* bytes, size_t size) {
   if (reader == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_packet_reader& r = *reader;
-  if (bytes == nullptr && size > 0) return r.error.set_argument(kNull);
+  if (bytes == nullptr && size > 0) return r.error.set_argument(kNullPointer);
   if (r.finished) return r.error.set_argument("bytes after fbs_packet_reader_finish()");
   return guarded(r.error, [&] {
     r.stream->packets.feed({bytes, size});
@@ -72,7 +72,7 @@ fbs_status fbs_packet_reader_reset(fbs_packet_reader* reader) {
 fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* info) {
   if (reader == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_packet_reader& r = *reader;
-  if (info == nullptr) return r.error.set_argument(kNull);
+  if (info == nullptr) return r.error.set_argument(kNullPointer);
   return guarded(r.error, [&] {
     auto& [packets, times] = *r.stream;
     const auto read = packets.next();
@@ -112,7 +112,7 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
 
 fbs_status fbs_packet_reader_get_format(const fbs_packet_reader* reader, fbs_format* out) {
   if (reader == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return reader->error.set_argument(kNull);
+  if (out == nullptr) return reader->error.set_argument(kNullPointer);
   const PacketTimes& times = reader->stream->times;
   if (!times.has_setup()) return FBS_NEED_DATA;
   *out = caller_format(times.setup().format);

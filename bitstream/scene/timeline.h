@@ -24,28 +24,28 @@ class Timeline {
   /// @param begin  time of the first picture, 1/90000 s
   explicit Timeline(std::uint64_t begin = 0) : end_time_(begin) {}
 
-  /// The states of the next pictures, which get their numbers.
+  /// Adds the states of the next pictures and numbers them.
   /// @return kTooLarge when more than kMaxWaitingPictures would wait, or their numbers exceed
   /// kMaxPictureNumber
   [[nodiscard]] Result<void> add(std::span<const State> states, std::span<const std::uint32_t> durations);
 
-  /// The next pictures that are not released may be displayed, blended as said.
+  /// Releases the next pictures for display, blended in these modes.
   /// @return kInvalidStream when fewer pictures wait
   [[nodiscard]] Result<void> release(std::span<const RegionModes> modes);
-  /// All of them may.
+  /// Releases all pictures.
   void release_all() { released_ = end(); }
 
   [[nodiscard]] bool has_next() const { return next_ < released_; }
   /// The next picture to be displayed; has_next() is true.
   Entry next();
 
-  /// Pictures of the scene whose states have come.
+  /// Pictures of the scene whose states have arrived.
   [[nodiscard]] std::int32_t end() const { return first_ + static_cast<std::int32_t>(entries_.size()); }
 
   /// When the last of them ends, 1/90000 s.
   [[nodiscard]] std::uint64_t end_time() const { return end_time_; }
 
-  /// A picture by its number; null when it is not known, or no longer.
+  /// A picture by its number; null when it is unknown, or no longer kept.
   [[nodiscard]] const Entry* find(std::int32_t picture) const;
 
  private:

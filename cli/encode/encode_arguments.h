@@ -18,7 +18,7 @@ struct EncodeArguments {
   std::optional<double> buffer;         ///< s, of a live source with a bitrate
   double key_interval = 0;              ///< seconds; 0: where it costs little
   std::optional<std::string> sound;     ///< "opus" or "codec2"; nothing: by the bitrates
-  std::optional<double> sound_bitrate;  ///< kbit/s; nothing: chosen by that of the pictures
+  std::optional<double> sound_bitrate;  ///< kbit/s; nothing: chosen by the pictures' rate
   std::optional<int> track;             ///< of the source's sound, from 0; nothing: the main one
   bool no_sound = false;
   int face = 0;
@@ -26,9 +26,9 @@ struct EncodeArguments {
   std::string marks;      ///< file; empty: automatic
   std::string landmarks;  ///< file; empty: none
   bool track_only = false;
-  std::string overlay;                  ///< video of the source with mesh and snakes drawn on it; empty: none
-  std::optional<std::int64_t> frames;   ///< encode at most so many pictures
-  std::optional<double> duration;       ///< encode at most so many seconds of the source
+  std::string overlay;  ///< video of the source with mesh and snakes drawn over it; empty: none
+  std::optional<std::int64_t> frames;   ///< encode at most this many pictures
+  std::optional<double> duration;       ///< encode at most this many seconds of the source
   std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
   bool allow_no_face = false;
   // For measurements; not shown by --help.

@@ -76,7 +76,7 @@ void add_sound(CLI::App& verb, EncodeArguments& a) {
 void add_experiments(CLI::App& verb, EncodeArguments& a) {
   verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
   verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
-  // What each part of the analysis gains: docs/paper.md.
+  // The gain of each part of the analysis: docs/paper.md.
   verb.add_flag("!--no-expression", a.expression)->group(kHiddenGroup)->excludes("--track-only");
   verb.add_flag("!--no-contours-in-fit", a.contours)->group(kHiddenGroup)->excludes("--track-only");
   verb.add_flag("!--no-descent", a.descent)->group(kHiddenGroup);

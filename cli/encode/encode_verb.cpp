@@ -124,14 +124,14 @@ struct Sound {
   std::unique_ptr<SoundInterleaver> interleaver;
 };
 
-/// No sound is needed from here on, 1/90000 s: with --duration a second behind it, for the last picture.
+/// Time from which no sound is needed, 1/90000 s: with --duration a second after it, for the last picture.
 std::optional<std::int64_t> end_of_sound(const EncodeArguments& a) {
   if (!a.duration) return std::nullopt;
   constexpr double kMost = 1e9;  // s; above it the time would not fit into 64 bits
   return std::llround((std::min(*a.duration, kMost) + 1) * kTicksPerSecond);
 }
 
-/// @param settings  of the pictures: what the sound takes is subtracted from their bitrate
+/// @param settings  of the pictures: the sound's rate is subtracted from their bitrate
 /// @return empty when there is none
 Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, EncoderSettings& settings) {
   if (a.no_sound) return Sound{};
@@ -148,7 +148,7 @@ Result<Sound> open_sound(const EncodeArguments& a, const StopSignal& stop, Encod
     return fail(ErrorCode::kInvalidArgument, std::string(option) + ": " + a.input + " has no sound");
   }
   if (settings.bitrate > 0) {
-    // A voice has pauses, in which Opus takes next to nothing. What a live one will take is not known.
+    // A voice has pauses, in which Opus takes next to nothing. The rate of a live voice is unknown.
     const Result<double> taken = settings.live ? sound_kbps(*wanted) : (*track)->code_all();
     if (!taken) return fail(taken.error());
     settings.bitrate -= *taken;

@@ -13,7 +13,7 @@ struct Rates {
 };
 constexpr Rates kOpus{6, 16, 64}, kCodec2{1.2, 3.2, 3.2};
 constexpr double kShareOfTotal = 0.3;  ///< of --bitrate, for the sound
-/// Of --bitrate, kbit/s. With less, Opus would leave the pictures below what they need: 4 kbit/s.
+/// Least --bitrate for Opus, kbit/s: with less it would leave the pictures below the 4 kbit/s they need.
 constexpr double kLeastTotalOfOpus = 10;
 
 constexpr int kLiveFrame = 20, kFileFrame = 60;  // ms
@@ -27,8 +27,8 @@ SoundCodec chosen_codec(const EncodeArguments& a) {
   return low ? SoundCodec::kCodec2 : SoundCodec::kOpus;
 }
 
-/// From the quality by its square: up to the middle the sound takes little more than the least, as pictures
-/// do.
+/// Grows with the square of the quality: up to the middle the sound takes little more than the least, like
+/// pictures.
 double chosen_rate(const EncodeArguments& a, const Rates& rates) {
   const double share = a.quality / 100.0;
   const double wanted =

@@ -1,4 +1,4 @@
-// Which sound is encoded beside the pictures.
+// Chooses the sound encoded with the pictures.
 #pragma once
 
 #include "cli/encode/encode_arguments.h"
@@ -7,12 +7,12 @@
 
 namespace fbs::cli {
 
-/// By the options, and where they are silent by the quality or the bitrate of the whole.
+/// From the options or, where they are silent, from the quality or the total bitrate.
 /// @param live  short frames, for a short delay
 /// @return kInvalidArgument for a rate that the codec does not have
 [[nodiscard]] Result<SoundSettings> sound_settings(const EncodeArguments& arguments, bool live);
 
-/// What the sound takes of a stream, kbit/s: frames, their sizes and the headers of packets.
+/// The sound's share of a stream, kbit/s: frames, their sizes and packet headers.
 [[nodiscard]] double sound_kbps(const SoundSettings& settings);
 
 }  // namespace fbs::cli

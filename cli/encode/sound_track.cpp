@@ -23,7 +23,7 @@ Result<std::unique_ptr<SoundTrack>> SoundTrack::open(const std::string& input, c
   options.channels = settings.channels;
   options.track = track;
   if (end) options.end = *end;
-  // Not interrupted by the signal: the pictures that have been read are still encoded, with their sound.
+  // Not interrupted by the signal: pictures already read are still encoded, with their sound.
   auto source = open_sound_source(input, options);
   if (!source) return fail(source.error());
   if (!*source) return nullptr;

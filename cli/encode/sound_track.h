@@ -1,4 +1,4 @@
-// The sound of a source, coded as the pictures need it.
+// The sound of a source, coded in step with the pictures.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class SoundTrack {
   [[nodiscard]] const SoundSetup& setup() const { return encoder_->setup(); }
   /// Codes all of the source at once. @return kbit/s that it takes of the stream
   Result<double> code_all();
-  /// As SoundFeed asks for. Reads no farther than it must.
+  /// As required by SoundFeed. Reads no farther than necessary.
   Result<std::vector<SoundGroup>> before(std::int64_t time);
 
  private:

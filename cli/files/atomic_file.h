@@ -36,7 +36,7 @@ class AtomicFile {
   /// @param offset  bytes from the start of the file
   Result<void> seek(std::uint64_t offset);
 
-  /// Whether there was a part that an earlier run had left behind.
+  /// Whether an earlier run had left a part behind.
   [[nodiscard]] bool replaced_leftover() const { return replaced_leftover_; }
 
   /// False for pipes and terminals, where seek fails.
@@ -46,10 +46,10 @@ class AtomicFile {
   /// appear together.
   Result<void> close();
 
-  /// Gives up the lock, which takes a descriptor, before commit(): for all but the first of a large set.
+  /// Releases the lock, and with it a descriptor, before commit(): for all but the first of a large set.
   void unlock() noexcept;
 
-  /// Closes if needed, and renames. Call it once.
+  /// Closes if needed, and renames. Call once.
   Result<void> commit();
 
   [[nodiscard]] const std::string& name() const { return name_; }

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a name stands for: a file that exists, or one that is yet to be made.
+/// The file a name refers to: an existing one, or one still to be created.
 struct Place {
   std::optional<struct stat> existing;
   fs::path made;  ///< absolute, without links; only if there is none
@@ -39,7 +39,7 @@ bool same_file(const Place& a, const Place& b) {
   return !a.existing && !b.existing && !a.made.empty() && a.made == b.made;
 }
 
-/// Whether the name is that of a pipe or device, or of one of the program's open files.
+/// Whether the name denotes a pipe or device, or one of the program's open files.
 bool is_device(const std::string& name) {
   struct stat status {};
   if (name.starts_with("/dev/") || name.starts_with("/proc/")) return true;

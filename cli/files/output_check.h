@@ -1,4 +1,4 @@
-// Checks of outputs: their names, before anything is opened for writing, and what was in their way.
+// Checks of outputs: their names, before anything is opened for writing, and leftovers they replace.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace fbs::cli {
 
-/// A file on the command line, with what it is called in errors.
+/// A file on the command line, with its name in errors.
 struct NamedFile {
   std::string role;  ///< such as "INPUT" or "--overlay"
   std::string name;  ///< as given; `-` is standard input or output; empty: not given
@@ -26,7 +26,7 @@ Result<void> check_stream_name(const std::string& output);
 /// ".mp4" of "talk.MP4"; empty when there is none.
 std::string extension_of(const std::string& name);
 
-/// @return ErrorCode::kUnsupported for a name that ends in `.fbs`: pictures are no stream
+/// @return ErrorCode::kUnsupported for a name that ends in `.fbs`: pictures are not a stream
 Result<void> check_picture_name(const std::string& output);
 
 /// Says on standard error that `OUTPUT.part` of an earlier run was replaced.

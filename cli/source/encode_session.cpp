@@ -13,12 +13,13 @@
 namespace fbs::cli {
 namespace {
 
-/// Of a gap between two pictures, 1/90000 s: one hour. A longer one is a clock that was set, and shortened.
+/// Longest gap between two pictures, 1/90000 s: one hour. A longer one means that a clock was set, and is
+/// shortened.
 constexpr std::int64_t kMaxGap = 60 * std::int64_t{kMaxDuration};
 
 /// Durations as the encoder expects them: 0 where the pictures follow the frame rate to within two ticks.
-/// These add up over a long video, in which the nominal duration is a rounded one, so that sound would run
-/// away: what has become more than kMaxRunaway is made good at once.
+/// Over a long video the rounding of nominal durations adds up, and sound would drift: a drift beyond
+/// kMaxRunaway is corrected at once.
 class Durations {
  public:
   explicit Durations(std::uint32_t nominal) : nominal_(nominal) {}
@@ -51,7 +52,7 @@ class WaitingPictures {
 
   /// Not to be called when none waits.
   Result<Picture> pop() {
-    // A file that has been read to its end makes room for the pictures since.
+    // A file read to its end makes room for later pictures.
     if (read_ == old_.count()) {
       old_ = std::exchange(new_, {});
       read_ = 0;
@@ -64,7 +65,7 @@ class WaitingPictures {
   std::size_t read_ = 0;  ///< pictures of old_
 };
 
-/// Decodes what is encoded as it comes, and measures it.
+/// Decodes and measures the stream as it is encoded.
 class ClosedLoop {
  public:
   /// @param sound  null: none
@@ -75,14 +76,14 @@ class ClosedLoop {
         compares_(what != Measured::kRate),
         meter_(decoder_) {}
 
-  /// A picture of a slide show, say, may stay for longer than one of a stream can: it is shown again.
+  /// A picture, in a slide show for instance, may last longer than a stream allows: it is repeated.
   Result<void> push(TimedPicture now, std::uint32_t duration, const SeePicture& see) {
     for (; duration > kMaxDuration; duration -= kMaxDuration, now.pts += kMaxDuration)
       if (auto pushed = push_one(now, kMaxDuration, see); !pushed) return pushed;
     return push_one(now, duration, see);
   }
 
-  /// Passes on what another thread codes, until there is another picture to read.
+  /// Passes on bytes that another thread codes, until there is another picture to read.
   Result<void> wait_for(const VideoSource& source) {
     constexpr std::chrono::milliseconds kPatience{5};
     while (encoder_.is_coding() && !source.is_ready(kPatience)) continue;
@@ -159,8 +160,8 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
   ClosedLoop loop(std::move(*encoder), sound, take, what);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
-  // How long a picture lasts is known with the next one, which nobody waits for where it can be helped: a
-  // live picture is given what the one before lasted.
+  // A picture's duration is known when the next one arrives; to avoid the wait, a live picture gets the
+  // duration of the previous one.
   const bool waits = !settings.live && !source.has_constant_rate();
   Durations durations(nominal);
   std::int64_t done = 0, last_pts = -nominal;

@@ -26,7 +26,7 @@ struct Encoded {
                                             const TakeBytes& take, const SeePicture& see, Measured what,
                                             bool quiet, SoundInterleaver* sound = nullptr);
 
-/// What a user should know of a video with cuts, or in which no face could be followed: a line, or nothing.
+/// Notes for the user on a video with cuts, or in which no face could be tracked: a line, or nothing.
 /// "2 cuts; no face followed in 40 of 300 pictures".
 [[nodiscard]] std::string notes_of(const EncodingReport& report);
 

@@ -31,7 +31,7 @@ Result<std::optional<TimedPicture>> SourcePart::next() {
 }
 
 Result<std::optional<TimedPicture>> SourcePart::end_by(const Error& error) {
-  // A read that the signal interrupted fails. What it had read of a picture is lost.
+  // A read interrupted by the signal fails; a partly read picture is lost.
   if (stopped()) return std::nullopt;
   if (pictures_ == 0 || !ends_source(error)) return fail(error);
   failure_ = error;

@@ -17,8 +17,8 @@ struct PartLimits {
   std::optional<double> seconds;         ///< of source time from the first picture on, above 0
 };
 
-/// A source that ends cleanly at its limits, where it is cut off or damaged, and when the program is asked to
-/// stop. No picture behind the last is read, but with a limit of seconds one.
+/// A source that ends cleanly at its limits, where it is truncated or damaged, and when the program is asked
+/// to stop. Reads no picture after the last, except one with a limit of seconds.
 class SourcePart final : public VideoSource {
  public:
   /// @param stop  must outlive the object; null: nothing stops it
@@ -34,7 +34,7 @@ class SourcePart final : public VideoSource {
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
 
-  /// The error that ended the source after at least one picture; nullopt: none did.
+  /// The error that ended the source after at least one picture; nullopt: none.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
   /// No failure, and no damaged packets.
   [[nodiscard]] bool is_whole() const { return !failure_ && damaged_packets() == 0; }
@@ -66,7 +66,7 @@ class SourcePart final : public VideoSource {
 
 /// Says on standard error that a source is not whole.
 /// @param pictures  that were read
-/// @param done      what was done with them: "encoded"
+/// @param done      what happened to them: "encoded"
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
                           const char* done);
 

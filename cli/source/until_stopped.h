@@ -1,4 +1,4 @@
-// Verbs that Ctrl-C and SIGTERM end with what they have.
+// Verbs that Ctrl-C and SIGTERM end with partial results.
 #pragma once
 
 #include <functional>

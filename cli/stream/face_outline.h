@@ -16,7 +16,7 @@ struct OutlinePoint {
 /// A closed polygon; empty where there is no face.
 using FaceOutline = std::vector<OutlinePoint>;
 
-/// That of the mesh in the picture which StreamDecoder::next() announced last.
+/// The mesh's outline in the picture that StreamDecoder::next() announced last.
 [[nodiscard]] FaceOutline face_outline(const StreamDecoder& decoder);
 
 struct PixelBox {

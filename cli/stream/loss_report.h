@@ -1,4 +1,4 @@
-// What a damaged stream has lost, for its user.
+// Reports to the user what a damaged stream has lost.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace fbs::cli {
 
-/// Counts the damaged places of a stream that is decoded all the same, and sums up at the end. Prints on
+/// Counts the damaged places of a stream that is decoded nevertheless, and summarises at the end. Prints on
 /// standard error.
 class LossReport {
  public:
@@ -19,12 +19,12 @@ class LossReport {
   /// @param progress  ends with the first line; must outlive the object
   explicit LossReport(Progress& progress) : progress_(&progress) {}
 
-  /// file.next() past what is damaged.
+  /// file.next(), continuing after damage.
   /// @return kPicture or kEnd; errors after which nothing can be decoded: kIo, kNotFbs, kInternal, and
   ///         kInvalidArgument for a time past the end
   Result<DecodeStatus> next(StreamFile& file);
 
-  /// Prints what has been lost, if anything, when the stream has ended.
+  /// Prints the losses, if any, when the stream has ended.
   /// @return kComplete, kLittleLost or kMuchLost
   Outcome finish(StreamFile& file) const;
 

@@ -13,20 +13,21 @@
 
 namespace fbs::cli {
 
-/// The frames of sound that begin before a time, apart from those that were given already, in order. A group
-/// may have any number of frames.
+/// The frames of sound that begin before a time and have not been returned yet, in order. A group may have
+/// any number of frames.
 /// @param before  1/kSoundClock s from the first picture
 using SoundFeed = std::function<Result<std::vector<SoundGroup>>(std::int64_t before)>;
 
-/// Packets of a stream without sound go in, those of the same with sound come out: their checks change, since
-/// each goes on from that of the packet before (SPEC 3.1).
+/// Takes a stream without sound and returns it with sound. The checks of its packets change, since each
+/// continues from the previous one (SPEC 3.1).
 class SoundInterleaver {
  public:
   /// @param setup  is_valid()
   SoundInterleaver(const SoundSetup& setup, SoundFeed feed) : setup_(setup), feed_(std::move(feed)) {}
 
   /// @param bytes  the next ones of the stream, in pieces of any size
-  /// @return what of it is ready; errors of PacketReader and of the feed; kInvalidArgument if it has sound
+  /// @return the bytes that are ready; errors of PacketReader and of the feed; kInvalidArgument if it has
+  /// sound
   Result<std::vector<std::uint8_t>> add(std::span<const std::uint8_t> bytes);
 
  private:

@@ -122,7 +122,7 @@ bool StreamFile::wait() const {
   pollfd asked{file_.number(), POLLIN, 0};
   while (::poll(&asked, 1, static_cast<int>(kIdle.count())) == 0)
     if (!idle_()) return false;
-  return true;  // after an error too: read() says what it is
+  return true;  // also after an error, which read() reports
 }
 
 Result<void> StreamFile::read_more() {

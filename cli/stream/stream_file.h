@@ -16,7 +16,7 @@
 namespace fbs::cli {
 
 /// Reads `name` (`-`: standard input) into a decoder on demand. Errors name the file and, where the stream is
-/// damaged, the byte. Of a Matroska file it reads the stream that is inside; bytes are counted in that.
+/// damaged, the byte. From a Matroska file it reads the stream inside, in which bytes are counted.
 class StreamFile {
  public:
   /// @param stop  must outlive the object; null: reading is never stopped
@@ -31,14 +31,14 @@ class StreamFile {
   /// @param time  1/90000 s, as in StreamDecoder::position()
   Result<void> seek(std::uint64_t time);
 
-  /// Keeps a copy of all that is read from now on, for rejoin(). Only before the first next() or seek().
+  /// Keeps a copy of everything read from now on, for rejoin(). Only before the first next() or seek().
   void keep_bytes() { kept_.emplace(); }
 
-  /// Goes to another time of what has been read, or on from there: as seek(), but with what keep_bytes()
-  /// kept, and as often as wished. decoder() begins anew, as it was made.
+  /// Goes to another time in the part read, or beyond: like seek(), but on the bytes of keep_bytes(), and any
+  /// number of times. decoder() starts anew.
   void rejoin(std::uint64_t time);
 
-  /// Calls `idle` while bytes are waited for, every kIdle. Where it returns false, next() ends with kIo.
+  /// Calls `idle` every kIdle while waiting for bytes. If it returns false, next() ends with kIo.
   void on_wait(std::function<bool()> idle) { idle_ = std::move(idle); }
   static constexpr std::chrono::milliseconds kIdle{20};
 
@@ -49,7 +49,7 @@ class StreamFile {
     return kept_ ? std::span<const std::uint8_t>(*kept_) : std::span<const std::uint8_t>();
   }
 
-  /// Reads all that has not been read yet, and does not feed it to the decoder.
+  /// Reads the rest without feeding it to the decoder.
   Result<std::vector<std::uint8_t>> read_all();
 
   [[nodiscard]] StreamDecoder& decoder() { return decoder_; }
@@ -60,13 +60,13 @@ class StreamFile {
   [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
-  /// Whether it begins as Matroska does. False of pipes, of which nothing is read.
+  /// Whether it begins like Matroska. False for pipes, which are not read.
   [[nodiscard]] bool is_matroska_input() const;
-  /// Takes the stream out of a regular file that begins as Matroska does; others are left as they are.
+  /// Extracts the stream from a regular file that begins like Matroska; others are left alone.
   Result<void> extract();
   /// @return number of bytes; 0 at the end
   Result<std::size_t> read(std::span<std::uint8_t> buffer);
-  /// Whether there is something to read, or the end; false when idle_ says so.
+  /// Whether there is something to read, or the end; false when idle_ asks to stop.
   [[nodiscard]] bool wait() const;
   void join(std::span<const std::uint8_t> bytes, std::uint64_t time);
   /// Feeds the decoder with the next bytes of the file.
@@ -90,10 +90,10 @@ class StreamFile {
       : name_(std::move(name)), file_(std::move(file)), stop_(stop) {}
 
   std::string name_;
-  Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on what a pipe has
+  Descriptor file_;  ///< not a FILE, which would wait for a full buffer before passing on a pipe's bytes
   const StopSignal* stop_;
   StreamDecoder decoder_;
-  std::uint64_t skipped_ = 0;  ///< bytes of the file that the decoder does not get
+  std::uint64_t skipped_ = 0;  ///< bytes of the file not fed to the decoder
   std::uint64_t from_ = 0;     ///< time to be reached, 1/90000 s; 0: reached
   std::optional<std::vector<std::uint8_t>> kept_;
   std::function<bool()> idle_;

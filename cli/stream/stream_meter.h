@@ -22,13 +22,13 @@ struct Measure {
   }
 };
 
-/// What of a stream is measured. Drawing its pictures to compare them takes a tenth of an encoder's time.
+/// What to measure of a stream. Drawing pictures for comparison takes a tenth of an encoder's time.
 enum class Measured : std::uint8_t {
   kRate,
   kPsnr,  ///< and the rate
 };
 
-/// Sums up the pictures of a stream and their differences from the source.
+/// Accumulates the pictures of a stream and their differences from the source.
 class StreamMeter {
  public:
   /// @param decoder  must outlive the object

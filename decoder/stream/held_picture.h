@@ -57,7 +57,7 @@ class HeldPicture {
   std::uint32_t duration_ = 0;
   bool held_ = false;
   std::optional<Scene> past_;  ///< its scene, if another one has begun
-  std::optional<Scene> kept_;  ///< shows it, if what it was drawn from has changed
+  std::optional<Scene> kept_;  ///< the picture itself, if its sources have changed
   /// Come into the scene with the next picture; a picture is only kept when there are too many.
   std::vector<Arrival> arrivals_;
 };

@@ -28,7 +28,7 @@ PacketEntry entry_of(const Packet& packet, PacketTimes& times) {
   }
   entry.key = timed->key;
   entry.time = timed->time;
-  if (timed->missing > 0 && !lost)  // otherwise the loss has been told of
+  if (timed->missing > 0 && !lost)  // otherwise the loss has been reported
     entry.error = std::to_string(timed->missing) +
                   (timed->missing == 1 ? " picture is missing" : " pictures are missing");
   return entry;

@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-inline constexpr const char* kDamage = "damage";  ///< type of an entry that is no packet
+inline constexpr const char* kDamage = "damage";  ///< type of an entry that is not a packet
 
 /// A packet, or damaged bytes between packets.
 struct PacketEntry {
@@ -18,12 +18,11 @@ struct PacketEntry {
   std::string type;                   ///< "setup", "geometry", ...; "type 99" if unknown; kDamage
   bool key = false;                   ///< TimedPacket::key
   std::optional<std::uint64_t> time;  ///< TimedPacket::time; none with an error
-  std::string error;                  ///< what is wrong with it; empty: nothing
+  std::string error;                  ///< its fault; empty: none
 };
 
-/// Lists a stream up to its end. Past damage it goes on where a decoder does, with the next setup or end
-/// packet (SPEC 3.2); other packets of a scene in which something was lost are listed without their times.
-/// AV1 data is not decoded.
+/// Lists a stream up to its end. After damage it continues like a decoder, with the next setup or end packet
+/// (SPEC 3.2); other packets of a damaged scene are listed without times. AV1 data is not decoded.
 /// @param stream  from its signature on
 [[nodiscard]] std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream);
 

@@ -55,8 +55,8 @@ class Indexer {
   }
 
   std::vector<SceneEntry> scenes_;
-  bool open_ = false;  // the last scene goes on
-  bool lost_ = false;  // what is left of it
+  bool open_ = false;  // the last scene continues
+  bool lost_ = false;  // the rest of that scene
   std::shared_ptr<const WireFrame> wire_frame_;
 };
 

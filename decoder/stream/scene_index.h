@@ -16,14 +16,14 @@ struct SceneEntry {
   bool face = false;         ///< it has a geometry packet, and not of a plane
 };
 
-/// Reads packets and skips what is damaged. Scenes without a valid setup packet are left out, and so are
-/// those that begin before an earlier one: no decoder shows them.
+/// Reads packets and skips damage. Leaves out scenes without a valid setup packet, and scenes that begin
+/// before an earlier one: no decoder shows them.
 /// @param stream  from its signature on
-/// @return in stream order, which is that of their positions; empty if there is none
+/// @return in stream order, which is also the order of positions; empty if there is none
 [[nodiscard]] std::vector<SceneEntry> index_scenes(std::span<const std::uint8_t> stream);
 
-/// Where to begin feeding a decoder, after kSignature, that is to show the picture of a time: pictures before
-/// it are left to the caller to drop.
+/// Where to start feeding a decoder, after kSignature, to show the picture of a time: the caller drops
+/// earlier pictures.
 /// @param time  1/90000 s
 /// @return the last scene that begins at or before `time`, or the first if all begin later; null without
 /// scenes

@@ -3,7 +3,7 @@
 namespace fbs {
 
 std::size_t memory_of(const std::vector<std::uint8_t>& frame) {
-  constexpr std::size_t kOverhead = 64;  // of the vector and of what the allocator adds
+  constexpr std::size_t kOverhead = 64;  // for the vector and the allocator
   return kOverhead + frame.size();
 }
 

@@ -10,17 +10,17 @@
 
 namespace fbs {
 
-/// Sound as it came.
+/// Sound as received.
 struct SoundPart {
   SoundSetup setup;
   SoundGroup group;
 };
 
-/// Most of the sound that waits for its pictures, memory_of(): an hour and a half of speech. Streams that
-/// have more of it before a picture are none of an encoder.
+/// Limit of sound that waits for its pictures, memory_of(): an hour and a half of speech. No encoder writes
+/// streams with more before a picture.
 inline constexpr std::size_t kMaxSoundAhead = std::size_t{1} << 24;
 
-/// About what a frame of sound takes, and a group; bytes.
+/// Approximate memory of a frame of sound, and of a group; bytes.
 [[nodiscard]] std::size_t memory_of(const std::vector<std::uint8_t>& frame);
 [[nodiscard]] std::size_t memory_of(const SoundGroup& group);
 

@@ -39,7 +39,8 @@ Result<std::uint64_t> StreamClock::go_to_end(std::uint64_t pictures, std::uint32
 
 std::uint32_t StreamClock::hold(std::uint32_t nominal) {
   assert(is_behind());
-  // SPEC 6.2: at least 1 and at most kMaxDuration must be left for each that follows, and for the last all.
+  // SPEC 6.2: each picture that follows needs at least 1 and at most kMaxDuration, and the last takes the
+  // rest.
   const std::uint64_t after = target_.pictures - now_.pictures - 1, left = target_.time - now_.time;
   const std::uint64_t most = left - after;
   const std::uint64_t least = left - std::min(left - 1, after * kMaxDuration);

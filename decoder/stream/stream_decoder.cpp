@@ -17,7 +17,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     if (next_scene_) begin_scene();
     const auto read = packets_.next();
     if (!read) {
-      // Without a signature the stream is joined in its middle: nothing of it is known to be lost.
+      // Without a signature the stream is joined in its middle: no loss is known.
       if (read.error().code != ErrorCode::kNotFbs) clock_.lose();
       reader_.lose();
       return fail(read.error());

@@ -30,11 +30,11 @@ enum class DecodeStatus : std::uint8_t {
 ///   decoder.feed(bytes);  decoder.close();
 ///   while (decoder.next() == DecodeStatus::kPicture && decoder.render(picture)) { ... }
 ///
-/// After an error next() goes on with the first scene behind the damage when it is called again, and returns
-/// kEnd when there is none. An error is reported once; what depends on a lost packet is left out in silence.
-/// Where a setup packet or the end packet says that pictures are missing, the last picture is shown again for
-/// each of them, so that the pictures behind keep their numbers and times: at most kMaxHeldPictures in a row
-/// (SPEC 6.2).
+/// After an error the next call of next() continues with the first scene after the damage, and returns kEnd
+/// when there is none. An error is reported once; everything that depends on a lost packet is left out
+/// silently. Where a setup packet or the end packet says that pictures are missing, the last picture is
+/// repeated for each of them, so that later pictures keep their numbers and times: at most kMaxHeldPictures
+/// in a row (SPEC 6.2).
 ///
 /// A stream may also be joined at any setup packet: feed kSignature, then the stream from there on.
 class StreamDecoder {
@@ -44,8 +44,7 @@ class StreamDecoder {
   /// No more bytes will come.
   void close() { packets_.close(); }
 
-  /// Counts the bits of motion from the next scene on, which takes as long again as to read it. Off by
-  /// default.
+  /// Counts the bits of motion from the next scene on, which doubles the time to read it. Off by default.
   void count_motion_bits() { tally_.count_motion_bits(); }
 
   /// Keeps a record of every pattern from now on. Off by default, since records are never dropped.
@@ -53,23 +52,23 @@ class StreamDecoder {
 
   /// Keeps the sound from now on, for take_sound(). Off by default.
   void keep_sound() { sound_.keep(); }
-  /// Sound that has come since the last call. A part comes before the pictures that it belongs to. Parts
-  /// beyond kMaxSoundAhead are lost, which next() reports as kTooLarge.
+  /// Sound received since the last call. A part comes before its pictures. Parts beyond kMaxSoundAhead are
+  /// lost, which next() reports as kTooLarge.
   [[nodiscard]] std::vector<SoundPart> take_sound() { return sound_.take(); }
-  /// Of the scene: what its last sound setup packet says; nothing if there was none, or none that we know.
+  /// The scene's last sound setup; nothing if there was none, or an unknown one.
   [[nodiscard]] const std::optional<SoundSetup>& sound_setup() const { return reader_.sound_setup(); }
 
-  /// Refuses streams whose pictures have more pixels, before memory is taken for them. Unlimited by default.
+  /// Refuses streams whose pictures have more pixels, before allocating memory. Unlimited by default.
   void limit_pixels(std::uint64_t max_pixels) { max_pixels_ = max_pixels; }
 
   /// Threads that share the drawing of each picture, at least 1; 1 by default. Pictures are the same.
   void use_threads(int threads) { renderer_ = Renderer(threads); }
 
-  /// Goes on to the next picture. Errors are those of PacketReader and of the payloads, with the byte offset
+  /// Advances to the next picture. Returns errors of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
-  /// pictures are missing of whose loss no error has told, or when fewer pictures are announced than have
-  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row: none of them is; or when
-  /// the picture has more pixels than limit_pixels() allows.
+  /// pictures are missing whose loss no error has reported, or when fewer pictures are announced than have
+  /// been shown; kTooLarge when more than kMaxHeldPictures would be held in a row, in which case none is, or
+  /// when the picture has more pixels than limit_pixels() allows.
   Result<DecodeStatus> next();
 
   /// Draws the picture that next() announced last; `out` takes the format's size.
@@ -78,8 +77,8 @@ class StreamDecoder {
   /// The same into memory of the caller, whose planes have the format's size.
   [[nodiscard]] Result<void> render(const PictureView& out);
 
-  /// Draws a state of the caller's in the scene of that picture: what a viewer sees who moves the face.
-  /// Leaves alone what render() draws. A held picture whose scene is not kept any more is drawn as it is.
+  /// Draws a state of the caller's in the scene of that picture: the view of a user who moves the face. Does
+  /// not affect render(). A held picture whose scene is no longer kept is drawn unchanged.
   /// @param state    within the limits of common/state.h
   /// @param pattern  index into scene().patterns: draws from it alone; none: the blend of `state`
   /// @return kInvalidArgument before the first picture, and when there is no such pattern
@@ -88,7 +87,8 @@ class StreamDecoder {
   /// The blend of `state` into memory of the caller, whose planes have the format's size.
   [[nodiscard]] Result<void> render_state(const State& state, const PictureView& out);
 
-  // Of the picture that next() announced last; a held picture has the state and scene of the one it repeats.
+  // These describe the picture that next() announced last; a held picture has the state and scene of the one
+  // it repeats.
   [[nodiscard]] const State& state() const { return picture_.state(); }
   [[nodiscard]] const Scene& scene() const { return picture_.scene(scene_.scene()); }
   [[nodiscard]] const VideoFormat& format() const { return scene().setup.format; }
@@ -96,22 +96,22 @@ class StreamDecoder {
   [[nodiscard]] const StreamPosition& position() const { return picture_.position(); }
   /// Its duration in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return picture_.duration(); }
-  /// Whether the picture before is shown again, in the place of one that is missing.
+  /// Whether the previous picture is repeated in place of a missing one.
   [[nodiscard]] bool held() const { return picture_.is_held(); }
 
   /// Position of the first picture: not 0, 0 if the stream was joined in its middle.
   [[nodiscard]] const StreamPosition& start() const { return clock_.start(); }
-  /// Announced so far, held ones too.
+  /// Pictures announced so far, including held ones.
   [[nodiscard]] std::uint64_t pictures() const { return picture_.announced(); }
   [[nodiscard]] std::uint64_t held_pictures() const { return clock_.held(); }
-  /// Known to be missing between start() and the last setup packet or the end packet, whether held or not.
+  /// Pictures known to be missing between start() and the last setup packet or the end packet, held or not.
   [[nodiscard]] std::uint64_t missing_pictures() const { return clock_.missing(); }
   [[nodiscard]] const ByteCount& bytes() const { return tally_.bytes(); }
   /// Bits of the motion read so far by part; zero unless count_motion_bits() was called.
   [[nodiscard]] const PartBitsX256& motion_bits() const { return tally_.motion_bits(); }
-  /// In the order they came; empty unless record_patterns() was called.
+  /// In order of arrival; empty unless record_patterns() was called.
   [[nodiscard]] const std::vector<PatternRecord>& pattern_records() const { return tally_.patterns(); }
-  /// Number of pictures that the end packet announces, when it has been read.
+  /// Number of pictures announced by the end packet, once it has been read.
   [[nodiscard]] std::optional<std::uint64_t> announced_pictures() const { return end_; }
 
  private:
@@ -143,7 +143,7 @@ class StreamDecoder {
   }
   /// @return kUnsupported for another size than before; limits of the caller and of PatternDecoder
   [[nodiscard]] Result<NextScene> next_scene(const Setup& setup) const;
-  /// @param reported  whether an error has told of a loss
+  /// @param reported  whether an error has reported a loss
   [[nodiscard]] Result<void> report_missing(std::uint64_t missing, bool reported) const;
   void begin_scene();
 

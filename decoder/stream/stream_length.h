@@ -1,4 +1,4 @@
-// How long a stream is, without decoding it.
+// The length of a stream, without decoding it.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-/// By the last setup packet and the end packet. Where the last scene has durations of its own, which only its
-/// motion tells, they are taken for those of the frame rate.
+/// From the last setup packet and the end packet. Where the last scene has its own durations, which only its
+/// motion gives, the frame rate's are assumed.
 /// @param stream  from its signature on
 /// @return 1/90000 s; none without an end packet
 [[nodiscard]] std::optional<std::uint64_t> stream_length(std::span<const std::uint8_t> stream);

@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-/// Bytes of a stream by what they are for; the parts sum to `total`.
+/// Bytes of a stream by purpose; the parts sum to `total`.
 struct ByteCount {
   std::uint64_t total = 0;
   std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
@@ -24,11 +24,11 @@ struct ByteCount {
   std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
 };
 
-/// A pattern as it came.
+/// A pattern as received.
 struct PatternRecord {
   int slot = 0;               ///< index into Scene::patterns, until another pattern comes for the slot
   std::uint64_t picture = 0;  ///< number in the stream of the picture it shows
-  std::uint64_t bytes = 0;    ///< of its packet, by the share of its frame in those of the packet
+  std::uint64_t bytes = 0;    ///< its share of the packet, in proportion to the frames
   bool reduced = false;       ///< coded at reduced size
 };
 
@@ -52,7 +52,7 @@ class StreamTally {
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
   /// Zero unless count_motion_bits() was called.
   [[nodiscard]] const PartBitsX256& motion_bits() const { return motion_bits_; }
-  /// In the order they came; empty unless record_patterns() was called.
+  /// In order of arrival; empty unless record_patterns() was called.
   [[nodiscard]] const std::vector<PatternRecord>& patterns() const { return patterns_; }
 
  private:

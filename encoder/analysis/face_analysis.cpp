@@ -45,7 +45,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   Observation seen;
   seen.cost = begun_ ? fit_next(picture) : fit_first(picture);
   begun_ = true;
-  // Where the tracker and the fit put the same face, the first time that both have it.
+  // Calibrate where tracker and fit place the same face, the first time that both have it.
   if (given_ && face_shows_ && !given_expression_.is_calibrated())
     given_expression_.calibrate(*given_, now_.pose, now_.offsets);
   given_.reset();
@@ -107,7 +107,7 @@ PictureCost FaceAnalysis::fit_next(const Picture& picture) {
 std::optional<TrackedPose> FaceAnalysis::follow_head(const Picture& picture, const HeadVertices& vertices,
                                                      WorkFrame& frame) {
   const Pose last_good = now_.pose;
-  // Flow between pictures that do not show the head is meaningless: once lost, the head is searched for.
+  // Flow between pictures without the head is meaningless: once lost, the head is searched.
   if (!search_.lost()) {
     const TrackedPose tracked = head_.track(frame, vertices);
     report_.confidence = tracked.confidence;
@@ -165,7 +165,7 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   report_.had_landmarks = starts.size() > searched;
   report_.from_landmarks = best.start >= searched;
   if (best.start < contours) return best.fit;
-  // Lids have no memory to set right: a blink is searched for in each picture.
+  // Lids have no memory to correct: a blink is searched in each picture.
   Offsets followed = features_.offsets();
   std::copy_n(best.fit.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());
   features_.set_offsets(followed);

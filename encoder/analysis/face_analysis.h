@@ -1,4 +1,4 @@
-// Pictures of a scene with a face to fitted states and their costs.
+// Fits states, and their costs, to the pictures of a scene with a face.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace fbs {
 
-/// What a scene begins with. All must outlive the constructor only.
+/// The start of a scene. Everything need only outlive the constructor.
 struct AnalysisStart {
   const Setup& setup;
   const Geometry& geometry;    ///< as decoded
@@ -25,8 +25,8 @@ struct AnalysisStart {
   double eye_distance_px = 0;  ///< in it
 };
 
-/// Tracks head and features, fits the state to each picture and follows body and ground. Holds all that goes
-/// on from picture to picture; knows nothing of bits.
+/// Tracks head and features, fits the state to each picture and tracks body and ground. Holds everything that
+/// lasts from picture to picture; independent of bits.
 class FaceAnalysis {
  public:
   /// @param finder  searches for a lost face; must outlive the object
@@ -34,50 +34,49 @@ class FaceAnalysis {
 
   struct Observation {
     State state;                       ///< as fitted, in whole units
-    bool face = true;                  ///< whether it is followed; else its state is a guess
+    bool face = true;                  ///< whether it is tracked; otherwise its state is a guess
     PictureCost cost;                  ///< of other states
     std::vector<glm::ivec3> vertices;  ///< project_vertices() of the state
   };
-  /// The next picture; the scene's first one first.
+  /// Observes the next picture, beginning with the scene's first.
   [[nodiscard]] Observation observe(const Picture& picture);
 
   /// Landmarks of the next picture, by another tracker: its fit starts from them, too.
   void give_landmarks(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
-  /// The next picture begins another shot: the face is elsewhere until it is recognised.
+  /// The next picture begins another shot: the face is absent until recognised.
   void cut() { elsewhere_ = true; }
 
-  /// The next picture is the first of a scene that goes on with the same head: body and ground count from
-  /// there.
+  /// The next picture begins a scene with the same head: body and ground count from there.
   void begin_scene() { surround_begins_ = true; }
 
-  /// Whether a picture of another shot shows the same head; it is followed again from there on.
+  /// Whether a picture of another shot shows the same head, which is then tracked again.
   /// @param picture  to be observed next
   [[nodiscard]] bool recognises(const Picture& picture);
 
-  /// From now on the map says which part of the picture moves with what.
+  /// Sets the map that says how each part of the picture moves from now on.
   void set_surround_map(const SurroundMap& map);
 
-  /// Of the picture observed last.
+  /// Report of the picture observed last.
   [[nodiscard]] const PictureAnalysis& report() const { return report_; }
 
  private:
   /// @param first  work frame of the first picture, with colour
   FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder, const AnalysisStart& start,
                const WorkFrame& first);
-  /// Where the head is, tracked or found again; nothing while it is lost.
+  /// Pose of the head, tracked or found again; nothing while it is lost.
   /// @param frame  cut where the head was; cut anew where it is found elsewhere
   [[nodiscard]] std::optional<TrackedPose> follow_head(const Picture& picture, const HeadVertices& vertices,
                                                        WorkFrame& frame);
-  /// The pose held and the expression a little weaker: a lost face must never look wild.
+  /// Holds the pose and weakens the expression a little: a lost face must never look wild.
   [[nodiscard]] Fit relaxed();
-  /// Pose as tracked, contours as the snakes see them, all else as before.
+  /// Pose as tracked, contours from the snakes, the rest as before.
   [[nodiscard]] Fit tracked(const WorkFrame& frame, const TrackedPose& head);
   /// Sets now_.
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
-  /// From the contours' expression, or from another start if that is nearer to the picture: the expression
-  /// that its landmarks show, found here or given, whatever came before.
+  /// Refines from the contours' expression, or from another start that is nearer to the picture: the
+  /// expression of its landmarks, found here or given, independent of earlier pictures.
   [[nodiscard]] Fit refined(const Picture& picture, const Fit& tracked);
   void write_report(const Observation& seen);
 

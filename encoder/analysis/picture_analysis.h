@@ -1,4 +1,4 @@
-// What the analysis saw in a picture: for overlays, tables and measurements.
+// Results of the analysis of a picture: for overlays, tables and measurements.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct PictureAnalysis {
   bool followed = false;        ///< whether it is followed in this picture; else it is held
   double confidence = 0;        ///< 0..1
   Geometry geometry;            ///< of the face
-  State state;                  ///< as fitted, in whole units: finer than what a stream may send of it
+  State state;                  ///< as fitted, in whole units: finer than in a stream
   bool had_landmarks = false;   ///< whether EncoderSettings::landmarks were a start of its fit
   bool from_landmarks = false;  ///< and the best one
   std::array<glm::dvec2, kVertexCount> vertices{};  ///< as fitted

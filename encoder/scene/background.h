@@ -1,4 +1,4 @@
-// Work beside the caller's.
+// Runs work in parallel to the caller's.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace fbs {
 /// One task at a time. The destructor waits for the last.
 class Background {
  public:
-  /// Waits for the task before; starts this one unless that failed.
+  /// Waits for the previous task; starts this one unless that failed.
   /// @return failure of the task before
   Result<void> start(std::function<Result<void>()> task) {
     if (auto done = wait(); !done) return done;

@@ -13,8 +13,7 @@
 namespace fbs {
 namespace {
 
-/// Pictures that the surround's map is fitted to, spread over the look-ahead. More cost time and change
-/// little.
+/// Pictures for fitting the surround's map, spread over the look-ahead. More cost time and change little.
 constexpr std::uint64_t kSurroundPictures = 12;
 
 /// Contrast of patterns outside the face. Against full contrast the face takes 3.5 % fewer bytes at the same

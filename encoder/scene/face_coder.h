@@ -1,4 +1,4 @@
-// Codes what has been seen in a scene with a face: joins patterns, planning and packets.
+// Codes the observations of a scene with a face: combines patterns, planning and packets.
 #pragma once
 
 #include <optional>
@@ -28,8 +28,8 @@ class FaceCoder {
   };
   FaceCoder(const EncoderSettings& settings, Start start);
 
-  /// The next picture, and what the analysis saw in it.
-  /// @param duration  1/90000 s; 0: that of the frame rate
+  /// Adds the next picture with its observation.
+  /// @param duration  1/90000 s; 0: the frame rate's
   Result<void> add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration);
   /// The next picture begins another shot.
   void cut();
@@ -50,20 +50,20 @@ class FaceCoder {
   [[nodiscard]] std::vector<std::uint8_t> take() { return ledger_.packets().take(); }
 
  private:
-  /// Until the scene starts: mouth colours, and what the surround's map is fitted to.
+  /// Until the scene starts: collects mouth colours, and pictures for fitting the surround's map.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
   /// Begins another scene with the same person at this picture: a place to join.
   Result<void> begin_again(const Picture& picture, const FaceAnalysis::Observation& seen);
-  /// Fixes what the scene's head says.
+  /// Fixes the content of the scene's head.
   void fix_head();
   Result<void> write_head();
-  /// Fits the surround's map to what has been seen by now.
+  /// Fits the surround's map to the observations so far.
   void fit_map();
-  /// Enough has been seen for the surround's map: fixes what the scene's head says, or in a live scene, whose
-  /// head has been sent, sends the map.
+  /// Ends the look-ahead for the surround's map: fixes the scene's head or, in a live scene, whose head has
+  /// been sent, sends the map.
   Result<void> end_lookahead();
-  /// With several patterns: codes and writes what has been held back.
+  /// With several patterns: codes and writes the pictures held back.
   Result<void> end_segment();
 
   SceneLedger ledger_;

@@ -45,7 +45,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return fail(geometry.error());
 
-  // Where there are several it is only what pictures are compared with until those of a segment are coded.
+  // With several patterns, pictures are compared with this one only until the segment's are coded.
   const Picture& shown = settings.first_pattern ? *settings.first_pattern : first;
   FirstPattern first_pattern(format, shown, settings.patterns == 1 ? kSentSpeed : kTrialSpeed);
   const double eye = adapted->pose.eye_distance_px();
@@ -65,7 +65,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->av1)};
   auto pattern = encode_first_pattern(first_syntax, scene.setup);
   if (!pattern) return fail(pattern.error());
-  // Until pictures have shown more, the surround is a guess by distance from the face.
+  // At first the surround is guessed by distance from the face.
   SurroundObservations observations(format);
   observations.set_first(first, seen);
   const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, observations);
@@ -73,7 +73,7 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
   const SceneTiming timing(format, settings);
-  // A picture of another hand is no measure for the motion.
+  // A picture from elsewhere cannot be the reference of the motion.
   const Picture pattern_seen = settings.first_pattern ? first : scene.patterns.front().picture;
   return std::unique_ptr<FaceScene>(
       new FaceScene(timing, finder, settings, {first, pattern_seen, adapted->pose.shift},
@@ -92,7 +92,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
 
 void FaceScene::request_scene() {
   if (ahead_)
-    requested_ = pictures_ > 0;  // else the next picture begins one anyway
+    requested_ = pictures_ > 0;  // otherwise the next picture begins one anyway
   else
     coder_.request_scene();
 }

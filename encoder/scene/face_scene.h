@@ -1,4 +1,4 @@
-// A scene with a face: what is seen in its pictures, and how that is coded.
+// A scene with a face: the analysis of its pictures, and their coding.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,7 @@
 
 namespace fbs {
 
-/// Live and with threads to spare, a group is coded while the pictures after it are analysed. The stream is
-/// the same.
+/// Live, with several threads, a group is coded while the next pictures are analysed. The stream is the same.
 class FaceScene : public SceneEncoder {
  public:
   /// @param finder  used again when the face is lost; must outlive the scene
@@ -39,7 +38,7 @@ class FaceScene : public SceneEncoder {
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_.report(); }
 
  private:
-  /// A picture that is yet to be coded.
+  /// A picture still to be coded.
   struct Seen {
     Picture picture;
     FaceAnalysis::Observation observation;
@@ -55,10 +54,10 @@ class FaceScene : public SceneEncoder {
             const FirstPicture& first, FaceCoder::Start start);
 
   [[nodiscard]] FaceAnalysis::Observation observed(const Picture& picture);
-  /// The analysis takes over what the coder has decided.
+  /// Passes the coder's decisions to the analysis.
   void learn_from_coder();
   Result<void> code(Seen seen);
-  /// Hands the group over.
+  /// Passes the group to the coder.
   Result<void> code_group();
 
   SceneTiming timing_;
@@ -71,8 +70,8 @@ class FaceScene : public SceneEncoder {
   std::vector<Seen> group_;
   std::uint64_t pictures_ = 0;  ///< of the coder's scene, seen so far
   bool requested_ = false;      ///< that scene is to end
-  bool learned_ = false;        ///< the coder has had the pictures that the surround's map is fitted to
-  bool coder_leads_ = false;    ///< what it decides about the last group changes how the next picture is seen
+  bool learned_ = false;        ///< the coder has the pictures for fitting the surround's map
+  bool coder_leads_ = false;    ///< its decisions on the last group affect the analysis of the next picture
   Background coding_;           ///< uses the coder; last, so that it ends first
 };
 

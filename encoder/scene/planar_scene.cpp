@@ -11,11 +11,11 @@
 namespace fbs {
 namespace {
 
-/// Quality of the motion, and what a bit is worth, are defined relative to a face: one of this share of the
-/// long side.
+/// Quality and lambda of the motion are defined for a face: the eye distance assumed, as a share of the long
+/// side.
 constexpr double kEyeDistance = 1.0 / 11;
 
-/// Of the plane's motion, pixels: fine enough not to blur.
+/// Step of the plane's motion, pixels: fine enough not to blur.
 constexpr double kStepPx = 0.125;
 
 SceneGeometry geometry_of(const Setup& setup, const Geometry& head, const State& rest) {
@@ -77,7 +77,7 @@ void PlanarScene::begin_again() {
 
 Result<void> PlanarScene::begin_motion() {
   moving_ = moves();
-  // A plane that rests need not be sent: without a geometry the decoder shows the same.
+  // A resting plane need not be sent: without a geometry the decoder shows the same.
   const auto numbers = numbers_of(plane_.rest());
   const CodedState rest = moving_ ? coded_state(numbers, scene_.setup) : CodedState{};
   const State rest_state = state_of(rest, scene_.setup.steps);

@@ -33,11 +33,11 @@ class PlanarScene : public SceneEncoder {
   PlanarScene(const Setup& setup, const EncoderSettings& settings, const RatePlan& rate, PicturePlane plane);
   Result<void> end_group();
   Result<void> end_segment();
-  /// The next picture begins another scene: a place to join.
+  /// Begins another scene with the next picture: a place to join.
   void begin_again();
   /// Fixes whether the scene's plane moves, from its first segment, and writes the head.
   Result<void> begin_motion();
-  /// Whether the camera moves so much that the plane pays: in the segment, or lately where it is live.
+  /// Whether the camera moves enough for the plane to pay: in the segment or, live, recently.
   [[nodiscard]] bool moves() const { return moved_ < kPays * still_; }
   [[nodiscard]] Result<void> add_motion();
 
@@ -56,7 +56,7 @@ class PlanarScene : public SceneEncoder {
   Scene scene_;  ///< as the decoder builds it; its geometry is not sent where the plane rests
   GlobalMotion global_;
   bool moving_ = false;           ///< the scene has a plane that moves
-  double moved_ = 0, still_ = 0;  ///< sums of Observation::moved and still that moves() goes by
+  double moved_ = 0, still_ = 0;  ///< sums of Observation::moved and still, for moves()
   std::vector<Observed> observed_;
   std::vector<std::vector<std::uint32_t>> groups_;  ///< of the segment: durations of their pictures
   PictureAnalysis analysis_;

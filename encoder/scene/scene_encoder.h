@@ -18,28 +18,27 @@ class SceneEncoder {
   SceneEncoder& operator=(const SceneEncoder&) = delete;
   virtual ~SceneEncoder() = default;
 
-  /// The scene's first picture is pushed too.
-  /// @param duration  1/90000 s; 0: that of the frame rate
+  /// Pushes the next picture, beginning with the scene's first.
+  /// @param duration  1/90000 s; 0: the frame rate's
   virtual Result<void> push(const Picture& picture, std::uint32_t duration) = 0;
 
   /// Landmarks of the picture pushed next, by another tracker.
   virtual void give_landmarks(const LandmarkPoints& /*landmarks*/) {}
 
-  /// The picture pushed next begins another shot, which the scene is to carry.
+  /// The picture pushed next begins another shot, which the scene must carry.
   virtual void cut() = 0;
 
-  /// Of a live scene: ends it with its present group, so that the picture after begins another one. A scene
-  /// that shows one picture, without motion, does not.
+  /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
+  /// one still picture does not end.
   virtual void request_scene() {}
 
-  /// Whether the picture, which is pushed next, shows whom the scene follows. It then follows them again from
-  /// there on.
+  /// Whether the picture, which is pushed next, shows the scene's person, who is then tracked again.
   [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;
 
-  /// Whether it can carry a shot of anything else, too.
+  /// Whether it can also carry a shot of anything else.
   [[nodiscard]] virtual bool carries_shots() const = 0;
 
-  /// Codes what is still held back.
+  /// Codes everything still held back.
   virtual Result<void> finish() = 0;
 
   /// Whole packets that are ready; the scene forgets them.

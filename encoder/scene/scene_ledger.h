@@ -26,7 +26,7 @@ class SceneLedger {
               const EncoderSettings& settings, std::unique_ptr<PatternStage> patterns);
 
   /// Counts a picture. The pattern stage gets it, too, if there is one.
-  /// @param duration  1/90000 s; 0: that of the frame rate
+  /// @param duration  1/90000 s; 0: the frame rate's
   Result<void> add(const Picture& picture, std::uint32_t duration);
   /// Whether a group ends with the picture added last.
   [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
@@ -47,9 +47,9 @@ class SceneLedger {
   /// Writes the packets of the segment, whose groups have all been planned. The head has been written.
   Result<void> end_segment(Scene& scene, const StateRefit& refit);
 
-  /// A live scene ends with its present group, unless it has ended already.
+  /// Ends a live scene with its present group, unless it has ended already.
   void request_scene() { requested_ = !ended_; }
-  /// Whether a live scene ends with a group, the last of so many pictures.
+  /// Whether a live scene ends with the group that completes this many pictures.
   [[nodiscard]] bool live_scene_ends(std::uint64_t pictures) const {
     return key_interval_ > 0 && static_cast<double>(pictures + timing_.group_pictures) > key_interval_;
   }

@@ -14,7 +14,7 @@ struct SceneHead {
   std::vector<std::uint8_t> setup, geometry, surround, pattern;
 };
 
-/// Holds motion back until the scene has started: what its head says is learned from the first seconds.
+/// Holds motion back until the scene has started: its head is learned from the first seconds.
 class ScenePackets {
  public:
   void add_motion(std::span<const std::uint8_t> payload);
@@ -24,7 +24,7 @@ class ScenePackets {
   /// Writes a packet; the scene has started.
   void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
-  /// Another scene begins: holds back until it has started. No motion is held back.
+  /// Begins another scene, and holds motion back until it has started. None may be held back now.
   void begin_again();
 
   /// Bytes written since the last call of count_from_here(), taken or not.

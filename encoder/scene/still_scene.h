@@ -1,4 +1,4 @@
-// A scene without a face: its first picture is shown as long as it lasts.
+// A scene without a face that shows its first picture throughout.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ class StillScene : public SceneEncoder {
 
  private:
   StillScene(const Setup& setup, const SceneTiming& timing);
-  /// The state of every picture is that of the pattern.
+  /// Codes a group whose pictures all have the pattern's state.
   Result<void> end_group();
 
   SceneTiming timing_;

@@ -13,25 +13,24 @@
 namespace fbs {
 namespace {
 
-/// Of a later pattern against the first, about, until one has been coded.
+/// Assumed size of a later pattern relative to the first, until one has been coded.
 constexpr double kLaterShare = 0.35;
 
-/// How fast the size that is expected of a pattern follows those that were coded.
+/// How fast the expected size of a pattern follows coded ones.
 constexpr double kLearn = 0.5;
 
 /// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone.
 constexpr int kKeyBoost = 12;
 
-/// To find out what the first pattern takes.
+/// Trials to find the size of the first pattern.
 constexpr int kMaxKeyTrials = 3;
 
 constexpr int kMaxQuantiser = 63;
 
-/// Samples of a picture that a core has time for with all that helps.
+/// Samples per picture for which a core has time at full effort.
 constexpr int kCif = 352 * 288;
 
-/// Speeds of libaom, where a core has time beside all else and where it has not: 6 takes 12 % more of the
-/// whole rate than 3.
+/// libaom's speeds when a core has time left and when not: 6 takes 12 % more of the whole rate than 3.
 constexpr int kHastySpeed = 6;
 int unhurried_speed(const VideoFormat& size) {
   const int samples = size.width * size.height;
@@ -50,8 +49,8 @@ std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
   return refit && format.width * format.height > kCif ? kDraftShared : 1;
 }
 
-/// The face is looked at more than the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR, the
-/// frame as many.
+/// Viewers look at the face more than at the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR,
+/// the frame as many.
 constexpr double kFaceWeight = 3;
 
 double weight_of(std::size_t region) {
@@ -225,7 +224,7 @@ Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, cons
     auto payload = store_.coders().patterns.encode(std::span(&pattern, 1), setup,
                                                    store_.number_of(store_.segment().states.size()));
     if (!payload) return fail(payload.error());
-    // The scene's first has a state of its own, and motion is relative to it.
+    // The scene's first pattern carries its state, to which motion is relative.
     out.emplace(store_.is_first() ? out.begin() : out.end(), PacketType::kPattern, std::move(*payload));
   }
   std::size_t first = 0;

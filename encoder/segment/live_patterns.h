@@ -1,4 +1,4 @@
-// Patterns of a live scene: sent when they pay for what has been seen, without look-ahead.
+// Patterns of a live scene: sent when they pay for past pictures, without look-ahead.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@
 namespace fbs {
 
 struct LivePatternSettings {
-  int quantiser = 58;       ///< libaom's scale, 0..63; of all patterns but a scene's first
+  int quantiser = 58;       ///< libaom's scale, 0..63; for all patterns but a scene's first
   bool reduced = false;     ///< patterns are coded at half width and height
   double lambda = 0;        ///< squared luma levels that a bit of blend modes is worth
-  bool refits = true;       ///< states are fitted to what is shown
+  bool refits = true;       ///< states are fitted to the blend
   double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
   double buffer = 0;        ///< LiveSettings::buffer
 };
 
 /// Each group is a segment: its packets are ready as soon as its pictures are known. A pattern shows the last
-/// picture of its group, or the first of another shot, and serves from that group on.
+/// picture of its group, or the first of another shot, and is used from that group on.
 class LivePatterns : public PatternStage {
  public:
   /// @param rest  seen state of pattern 0 as coded
@@ -55,7 +55,7 @@ class LivePatterns : public PatternStage {
   };
   /// Picture of the segment that a pattern would show.
   [[nodiscard]] std::size_t pattern_time() const;
-  /// Bits that a pattern takes, as the last one like it did.
+  /// Predicted bits of a pattern: those of the last one like it.
   struct Size {
     double bits = 0;
     int quantiser = 0;
@@ -64,30 +64,30 @@ class LivePatterns : public PatternStage {
   /// The quantiser to code the scene's first pattern with.
   [[nodiscard]] Result<int> key_quantiser();
   /// The quantiser to code another pattern with; nothing: none is needed, or none can be sent.
-  /// @param shared  errors that are not known yet are shared by so many pictures at most
+  /// @param shared  unknown errors are shared by at most this many pictures
   [[nodiscard]] Result<std::optional<int>> later_quantiser(const Scene& scene, std::size_t shared);
-  /// The finest one, no finer than `from`, with which a pattern may be sent now; nothing: even the coarsest
-  /// takes too much.
+  /// The finest quantiser, no finer than `from`, at which a pattern may be sent now; nothing: even the
+  /// coarsest takes too much.
   [[nodiscard]] std::optional<int> affordable(const Size& size, int from) const;
   /// The size at which patterns are coded.
   [[nodiscard]] VideoFormat coded_format() const;
-  /// libaom's, for the next pattern: hasty where many have been coded lately.
+  /// libaom's speed for the next pattern: hasty where many have been coded lately.
   [[nodiscard]] int speed() const;
   /// Begins an AV1 sequence.
   Result<void> open(int quantiser);
   /// Codes a picture of the segment.
   [[nodiscard]] Result<Sent> code(const Scene& scene, std::size_t time, int quantiser);
-  /// Remembers what it took.
+  /// Records the bytes of a pattern.
   void learn(std::size_t bytes, int quantiser);
-  /// Puts the pattern into the store, as seen in the state that its picture has now.
+  /// Puts the pattern into the store, seen in its picture's present state.
   void place(Scene& scene, const Sent& sent);
   [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
-  /// Sees to it that errors_ are known.
-  /// @param shared  by so many pictures at most
+  /// Computes errors_ if they are unknown.
+  /// @param shared  by at most this many pictures
   Result<void> measure(const Scene& scene, std::size_t shared);
   /// Sets the blend modes of the segment.
   Result<void> choose(const Scene& scene, std::size_t shared);
-  /// A pattern at this quantiser, if any; states and blend modes.
+  /// Makes a pattern at this quantiser, if any, and sets states and blend modes.
   /// @param refit  empty: states stay as they are
   [[nodiscard]] Result<std::optional<Sent>> make(Scene& scene, std::optional<int> quantiser,
                                                  const StateRefit& refit);

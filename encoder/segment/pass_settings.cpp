@@ -8,19 +8,18 @@
 namespace fbs {
 namespace {
 
-/// Times that states are fitted to what is shown, whatever the effort. The first gains 4 % of the rate in the
+/// Most rounds of fitting states to the blend, whatever the effort. The first gains 4 % of the rate in the
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
 
-/// Between scenes of a live source, unless something else is asked for: where viewers join.
+/// Default time between scenes of a live source, s: where viewers join.
 constexpr double kLiveKeySeconds = 10;
 
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
 
-/// Pictures with more samples have live patterns at half the width and height: at 512x512 that takes 10 to 29
-/// % less rate in the face, of three clips; at 352x288 25 % more where little moves, 13 % less where much
-/// does.
+/// Pictures with more samples have live patterns at half width and height: at 512x512 that takes 10 to 29 %
+/// less rate in the face (three clips); at 352x288 25 % more with little motion, 13 % less with much.
 constexpr int kMostFullSize = 400 * 400;
 
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
@@ -46,7 +45,7 @@ RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px
   if (settings.patterns == 1) return target;
   target.quality = settings.bitrate > 0 ? motion_quality_at(settings.bitrate)
                                         : PatternPoint::at(settings.quality).motion_quality;
-  target.bitrate_kbps = 0;  // the patterns take what the motion leaves
+  target.bitrate_kbps = 0;  // patterns take the rest of the rate
   return target;
 }
 

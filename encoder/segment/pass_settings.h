@@ -1,4 +1,4 @@
-// What the encoder's settings mean for the two passes over a scene: motion, then patterns.
+// Derives the settings of the two passes over a scene, motion and then patterns, from the encoder's.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace fbs {
 
-/// What quality means for the motion and the first pattern.
+/// Target of the motion and the first pattern.
 [[nodiscard]] RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px);
 
 /// @param motion  operating point of the motion
 [[nodiscard]] PatternPassSettings pass_settings(const EncoderSettings& settings,
                                                 const OperatingPoint& motion);
 
-/// The same for a scene without a face: more patterns, in the place of motion.
+/// The same for a scene without a face: more patterns, in place of motion.
 [[nodiscard]] PatternPassSettings planar_pass_settings(const EncoderSettings& settings,
                                                        const OperatingPoint& motion);
 
@@ -34,7 +34,7 @@ namespace fbs {
                                                             const VideoFormat& format,
                                                             const CodedState& rest);
 
-/// Pictures between scenes at the most; 0: where it costs little.
+/// Most pictures between scenes; 0: where it costs little.
 [[nodiscard]] double key_interval_of(const EncoderSettings& settings, const VideoFormat& format);
 
 }  // namespace fbs

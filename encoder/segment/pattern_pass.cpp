@@ -13,22 +13,22 @@
 namespace fbs {
 namespace {
 
-/// A segment ends after so many seconds at most: what is not yet coded is on disk, and its end is a delay.
+/// Longest segment, seconds: pictures not yet coded are on disk, and its end is a delay.
 constexpr double kSegmentSeconds = 40;
 
-/// The patterns of a segment take no more than this, bytes, several times over while they are made.
+/// Limit for the patterns of a segment, bytes, of which several copies exist in the making.
 constexpr double kSegmentBytes = 64e6;
 
-// For deciding how many patterns: pictures coded, and every so many drawn.
+// For choosing the number of patterns: pictures to code, and the interval of pictures to draw.
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
-/// A shot whose pictures differ by no more from its first, luma levels, shows a still picture. Compared at a
-/// long side of so many pixels, where noise averages out and a talking mouth does not.
+/// A shot whose pictures differ from its first by no more than this, luma levels, is still. Compared at this
+/// long side, pixels, where noise averages out and a talking mouth does not.
 constexpr double kStillLevels = 4;
 constexpr int kStillLongSide = 64;
 
-/// Steps of the quantiser, for twice as many pictures to a pattern than usual: stills, such as slides, are
-/// worth finer patterns. The distortion that they share falls with the square of the quantiser.
+/// Steps of the quantiser for twice the usual number of pictures per pattern: stills, such as slides, deserve
+/// finer patterns. Their shared distortion falls with the square of the quantiser.
 constexpr double kStepsPerSharing = 4.5;
 
 constexpr int kMaxRateTrials = 4;  // recodings to meet a rate
@@ -82,7 +82,7 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
     if (!source) return fail(source.error());
     draft.pictures.push_back(std::move(*source));
   }
-  // Before anything is coded, patterns are taken to come in display order and without loss.
+  // Before coding, assume patterns in display order and without loss.
   for (std::size_t k = 0; k < draft.times.size(); ++k) draft.coded.push_back({k, {}, draft.pictures[k]});
   place(scene, draft);
   return draft;
@@ -109,7 +109,7 @@ SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
   SegmentPatterns out{{*scene.geometry, scene.setup.mouth, draft.patterns}, {}};
   const std::size_t old = draft.patterns.size() - draft.coded.size(), slots = scene.setup.patterns;
   for (const std::size_t arrived : draft.arrived) {
-    // In the order of the decoder's slots: each new pattern takes the place of the old one in its slot.
+    // In the order of the decoder's slots: each new pattern replaces the old one in its slot.
     AvailablePatterns available(std::max(old, std::min(arrived, slots)));
     for (std::size_t slot = 0; slot < available.size(); ++slot)
       available[slot] = slot < arrived ? old + slot + (arrived - 1 - slot) / slots * slots : slot;
@@ -155,7 +155,7 @@ std::vector<std::size_t> PatternPass::times_wanted() const {
   const std::size_t wanted =
       settings_.count > 0 ? settings_.count
                           : pattern_count(store_.segment().shots, std::lround(point_.per_second * seconds));
-  // What a group is drawn from is kept all at once.
+  // All patterns of a group are kept at once.
   const std::size_t most =
       settings_.without_face
           ? std::min<std::size_t>(most_, store_.slots() / 2 * store_.segment().groups.size())
@@ -273,7 +273,7 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
 
 Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
   if (auto done = refit(store_.segment(), usable(scene, draft)); !done) return done;
-  place(scene, draft);  // what patterns show depends on the states they were seen in
+  place(scene, draft);  // patterns depend on their seen states
   return {};
 }
 
@@ -281,19 +281,19 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
   auto draft = draft_of(scene);
   if (!draft) return draft;
   if (settings_.solves) {
-    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. At half
-    // size whatever is chosen, since only errors like those of the coded patterns are wanted.
+    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. Always
+    // at half size, since only the kind of errors matters.
     if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, kDraftShared); !chosen) return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
   if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
-  // A lone pattern is not far from what the states were fitted to.
+  // A lone pattern is close to the picture that the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.refits : 0;
   if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftShared : 1); !chosen)
     return fail(chosen.error());
-  // States are fitted last, to patterns as they are sent. Fitted before patterns are solved for, they make up
-  // for what solving would: bits of motion for nothing.
+  // States are fitted last, to patterns as sent. Fitted before solving, they would compensate for what
+  // solving corrects: wasted bits of motion.
   for (int i = 0; i < refits; ++i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
     if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftShared : 1); !chosen)
@@ -303,7 +303,7 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
 }
 
 Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
-  int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
+  int low = 0, high = 101;  // the highest that fits, and the lowest that does not
   while (high - low > 4) {
     const int middle = (low + high) / 2;
     point_ = settings_.point_at(middle);
@@ -333,7 +333,7 @@ Result<void> PatternPass::aim(const Scene& scene, double bytes) {
 }
 
 Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
-  // Quantisers that take too many bytes and few enough, the nearest known.
+  // The nearest known quantisers with too many bytes and with few enough.
   int over = -1, under = 64;
   Draft best = draft;
   double nearest = 0;
@@ -369,7 +369,7 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::si
   } else if (auto sized = choose_size(scene); !sized) {
     return fail(sized.error());
   }
-  // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
+  // Few pictures do not justify a coarse pattern: its bytes are the startup of a scene with one pattern.
   if (store_.is_first() && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
     coding_.quantiser = settings_.lone_quantiser;
   auto draft = make(scene, refit);

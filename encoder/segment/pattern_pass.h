@@ -18,18 +18,18 @@ namespace fbs {
 
 struct PatternPassSettings {
   PatternPoint point{};  ///< where no bitrate is set
-  /// What a quality of 0..100 stands for, where a bitrate decides.
+  /// Operating point of a quality, 0..100, where a bitrate decides.
   PatternPoint (*point_at)(int quality) = &PatternPoint::at;
   std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
   double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
-  int lone_quantiser = 40;       ///< where a scene is too short for a second pattern
-  std::optional<int> quantiser;  ///< of the patterns; as the point says
+  int lone_quantiser = 40;       ///< for a scene too short for a second pattern
+  std::optional<int> quantiser;  ///< of the patterns; empty: as the point says
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
-  bool solves = true;            ///< for patterns; otherwise pictures are coded as they are
-  int refits = 1;                ///< of fitting states to what is shown
-  bool without_face = false;     ///< patterns show all that moves: often more than the decoder keeps at once
-  double lambda = 0;             ///< squared luma levels that a bit is worth
-  double key_interval = 0;       ///< EncoderSettings::key_interval
+  bool solves = true;            ///< solves for patterns; otherwise codes source pictures
+  int refits = 1;                ///< rounds of fitting states to the blend
+  bool without_face = false;  ///< patterns show all motion: often more of them than the decoder keeps at once
+  double lambda = 0;          ///< squared luma levels that a bit is worth
+  double key_interval = 0;    ///< EncoderSettings::key_interval
 };
 
 class PatternPass : public PatternStage {
@@ -50,7 +50,7 @@ class PatternPass : public PatternStage {
                                                               const StateRefit& refit) override;
 
  private:
-  /// Patterns of the segment while they are made.
+  /// Patterns of the segment in the making.
   struct Draft {
     std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
     std::vector<Picture> pictures;   ///< to be coded, in the order of times
@@ -59,7 +59,7 @@ class PatternPass : public PatternStage {
     std::vector<std::size_t> arrived;  ///< arrivals()
     std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
   };
-  /// With pictures as they are for patterns.
+  /// Makes a draft whose patterns are source pictures.
   [[nodiscard]] Result<Draft> draft_of(const Scene& scene);
   /// Error of the pictures between lossless patterns.
   [[nodiscard]] Result<double> loss_between(const Scene& scene);
@@ -68,29 +68,29 @@ class PatternPass : public PatternStage {
   /// Decides whether patterns are coded at half width and height.
   Result<void> choose_size(const Scene& scene);
   [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
-  /// Neighbours from the middle of the segment.
+  /// Consecutive patterns from the middle of the segment.
   [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
-  /// As the decoder makes it; with its picture as it is where that is not coded yet.
+  /// The pattern as the decoder makes it; from the source picture if it is not coded yet.
   [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
   [[nodiscard]] static SegmentPatterns usable(const Scene& scene, const Draft& draft);
-  /// @param most  so many pictures at most share their modes
+  /// @param most  at most this many pictures share modes
   Result<void> choose(const Scene& scene, const Draft& draft, std::size_t most);
   Result<void> solve(const Scene& scene, Draft& draft);
   Result<void> code(const Scene& scene, Draft& draft, const SequenceSettings& coding);
-  /// To find out how patterns would be coded.
+  /// Settings for trial coding of patterns.
   [[nodiscard]] SequenceSettings trial_coding(bool reduced) const;
-  /// Solves, codes, chooses and fits states anew, as the settings say.
+  /// Solves for patterns, codes them, chooses modes and fits states again, as the settings say.
   [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
-  /// Patterns follow the states of their pictures.
+  /// Fits the states again; patterns take the new states of their pictures.
   Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
   [[nodiscard]] int quantiser_at(bool reduced) const;
   void set_size(bool reduced);
-  /// The highest quality whose patterns, in haste, let the segment take no more than so many bytes.
+  /// The highest quality at which the segment, by quick trials, takes no more than `bytes`.
   [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
-  /// Sets quality and size for so many bytes.
+  /// Sets quality and size for this many bytes.
   Result<void> aim(const Scene& scene, double bytes);
-  /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few
+  /// Codes the patterns again with other quantisers until the segment takes this many bytes, within a few
   /// percent.
   Result<void> meet(const Scene& scene, double bytes, Draft& draft);
   /// All packets of the segment.
@@ -104,9 +104,9 @@ class PatternPass : public PatternStage {
   PatternPassSettings settings_;
   SegmentStore store_;
   std::int32_t most_;      ///< patterns in a segment
-  double left_bytes_ = 0;  ///< of the rate, that segments before have not taken; negative: overspent
+  double left_bytes_ = 0;  ///< of the rate, left over by earlier segments; negative: overspent
   cv::Mat shot_first_;     ///< of the last shot's pictures in the segment, reduced luma
-  // How the segment is coded: as the settings say, or what meets the bitrate.
+  // Operating point of the segment: from the settings, or to meet the bitrate.
   PatternPoint point_;
   SequenceSettings coding_;
 };

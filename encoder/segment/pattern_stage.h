@@ -12,10 +12,10 @@
 
 namespace fbs {
 
-/// Replaces the motion of a segment by one that suits the patterns that it is drawn from.
+/// Replaces the motion of a segment by one that suits its patterns.
 using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
 
-/// Pictures and their planned motion come in; packets come out, a segment at a time.
+/// Takes pictures and their planned motion, and returns packets, a segment at a time.
 class PatternStage {
  public:
   PatternStage() = default;
@@ -31,7 +31,7 @@ class PatternStage {
   virtual Result<void> add(const Picture& picture) = 0;
   /// The picture added next begins another shot.
   virtual void cut() = 0;
-  /// The next group of them.
+  /// Adds the next group of pictures.
   /// @param states  of its pictures
   virtual void add(std::span<const State> states, std::vector<std::uint8_t> payload) = 0;
 
@@ -39,7 +39,7 @@ class PatternStage {
   /// @param next  pictures of the group after it
   [[nodiscard]] virtual bool segment_ends(std::size_t next) const = 0;
 
-  /// Of the segment so far.
+  /// Pictures of the segment so far.
   [[nodiscard]] virtual std::size_t pictures() const = 0;
 
   /// Patterns that the decoder keeps.
@@ -47,7 +47,7 @@ class PatternStage {
 
   /// Codes the segment and begins another.
   /// @param scene  as the decoder has it before the segment, and after; its setup has store()
-  /// @param other_bytes  that the stream has taken beside segments since the last one
+  /// @param other_bytes  written besides segments since the last one
   /// @param refit  called for segments with several patterns; may be empty
   /// @return packets
   [[nodiscard]] virtual Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,

@@ -1,4 +1,4 @@
-// Pictures kept to be read again: a video is looked at more than once, and memory is bounded.
+// Keeps pictures to be read again: a video is read more than once, and memory is bounded.
 #pragma once
 
 #include <cstdio>

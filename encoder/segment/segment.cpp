@@ -49,7 +49,7 @@ std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::s
 
 namespace {
 
-/// Where the packet that begins with a pattern ends.
+/// End of the packet that begins with a pattern.
 /// @param arrived  end of the patterns that may share it
 std::size_t packet_end(std::size_t begin, std::size_t arrived, std::span<const std::size_t> bytes) {
   std::size_t end = begin, sum = 0;

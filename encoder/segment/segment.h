@@ -13,14 +13,14 @@
 
 namespace fbs {
 
-/// Patterns that a decoder keeps: as many as take little memory.
+/// Number of patterns that a decoder keeps: as many as fit in little memory.
 [[nodiscard]] std::int32_t pattern_store(const VideoFormat& format);
 
 /// A packet to be written.
 using TypedPayload = std::pair<PacketType, std::vector<std::uint8_t>>;
 
 struct Segment {
-  /// A motion packet, and how many pictures it moves.
+  /// A motion packet and its number of pictures.
   struct Group {
     std::size_t pictures;
     std::vector<std::uint8_t> payload;
@@ -39,15 +39,15 @@ struct Segment {
 /// Indices of the patterns that a decoder has when it draws the pictures of a group.
 using AvailablePatterns = std::vector<std::size_t>;
 
-/// Of each group, how many of the segment's patterns are sent before its pictures are drawn: all up to the
-/// first that shows its last picture or one behind it.
+/// For each group, how many of the segment's patterns are sent before its pictures are drawn: all up to the
+/// first that shows its last picture or a later one.
 /// @param shown        picture of each pattern in coding order, counted from the segment's first
-/// @param first_alone  whether the first of several groups is drawn from the first pattern alone, so that a
-///                     viewer need not wait for more
+/// @param first_alone  whether the first of several groups uses the first pattern alone, so that a viewer
+/// need not wait for more
 [[nodiscard]] std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::size_t> shown,
                                                 bool first_alone);
 
-/// A packet of a segment that is yet to be coded.
+/// A packet of a segment, still to be coded.
 struct PlannedPacket {
   PacketType type;    ///< kMotion, kPattern or kBlend
   std::size_t first;  ///< group, or of several patterns the first in coding order
@@ -55,8 +55,7 @@ struct PlannedPacket {
 };
 
 /// The packets of a segment in stream order: before each pattern the motion that gives its state, before each
-/// blend all that it is drawn from. Patterns that no blend separates share a packet, but for the scene's
-/// first.
+/// blend all its patterns. Patterns not separated by a blend share a packet, except the scene's first.
 /// @param bytes  of each pattern
 [[nodiscard]] std::vector<PlannedPacket> in_stream_order(const Segment& segment,
                                                          std::span<const std::size_t> shown,

@@ -9,14 +9,13 @@
 namespace fbs {
 namespace {
 
-// Sizes at which blends are compared and patterns solved for, pixels: larger ones cost time and gain little.
+// Sizes for comparing blends and for solving, pixels: larger ones cost time and gain little.
 constexpr int kCompareWidth = 240, kSolveWidth = 260;
 
-/// Every so many pictures count when patterns are solved for.
+/// Interval of the pictures used in solving for patterns.
 constexpr std::size_t kSolveEvery = 2;
 
-/// Fewer of a long segment or of large pictures are solved for, so that they take no more memory than this,
-/// bytes.
+/// Memory limit of solving, bytes: long segments or large pictures use fewer pictures.
 constexpr std::size_t kSolverBytes = 400e6;
 
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
@@ -27,7 +26,7 @@ int reduction_to(int width, const Picture& picture) {
   return reduction;
 }
 
-/// Calls use(number in the segment, picture, available patterns) for every so many pictures.
+/// Calls use(number in the segment, picture, available patterns) at an interval of pictures.
 template <class Use>
 Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns, std::size_t every,
                               Use&& use) {
@@ -43,7 +42,7 @@ Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns,
   return {};
 }
 
-/// Planes that are solved for together, and at which reduction of the picture's size.
+/// Planes solved for together, and their reduction from the picture's size.
 struct PlaneGroup {
   std::vector<std::size_t> planes;  ///< 0..2
   int reduction;
@@ -51,7 +50,7 @@ struct PlaneGroup {
   [[nodiscard]] static Plane Picture::*member(std::size_t plane) {
     return std::array{&Picture::y, &Picture::u, &Picture::v}[plane];
   }
-  /// Of a plane's own samples.
+  /// Reduction from the plane's own size.
   [[nodiscard]] int plane_reduction(std::size_t plane) const {
     return plane == 0 ? reduction : reduction - 1;
   }
@@ -63,20 +62,20 @@ struct PlaneGroup {
   }
 };
 
-/// Luma and chroma together where chroma is no smaller.
+/// Groups luma and chroma together where chroma is no smaller.
 std::vector<PlaneGroup> plane_groups(int luma_reduction) {
   if (luma_reduction > 0) return {{{0, 1, 2}, luma_reduction}};
   return {{{0}, 0}, {{1, 2}, 1}};
 }
 
-/// The problem of a group, and the planes of its pictures.
+/// The least squares problem of a group, and the planes of its pictures.
 struct GroupProblem {
   PlaneGroup group;
   PatternSolver solver;
   std::vector<SolvedPlanes> targets;
 };
 
-/// Every so many pictures of the segment are solved for.
+/// Interval of the segment's pictures used in solving.
 std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns, glm::ivec2 size,
                         std::span<const GroupProblem> problems) {
   const std::size_t pictures = segment.states.size();
@@ -90,7 +89,7 @@ std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns,
   return std::max(kSolveEvery, (pictures * bytes + kSolverBytes - 1) / kSolverBytes);
 }
 
-/// Adds what a plane has over what it had, at a reduced size, to itself at full size.
+/// Adds the change of a plane at reduced size to the plane at full size.
 void add_change(ReducedPlane change, const ReducedPlane& before, int reduction, Plane& plane) {
   for (std::size_t i = 0; i < change.samples.size(); ++i) change.samples[i] -= before.samples[i];
   const float scale = 1.0F / static_cast<float>(1 << reduction);

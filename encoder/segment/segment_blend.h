@@ -1,5 +1,4 @@
-// How the pictures of a segment are drawn from patterns: modes chosen for given patterns, and patterns solved
-// for given modes.
+// Blends of a segment's pictures: chooses modes for given patterns, and solves for patterns in given modes.
 #pragma once
 
 #include <span>
@@ -11,15 +10,15 @@
 
 namespace fbs {
 
-/// Patterns that can be used in each picture of the segment, by group.
+/// Patterns available in each picture of the segment, by group.
 struct SegmentPatterns {
   BlendScene scene;
   std::vector<AvailablePatterns> available;  ///< of each group
 };
 
-/// What blend modes cost in distortion. Luma only, at a reduced size.
+/// Distortion of blend modes. Luma only, at a reduced size.
 struct SegmentErrors {
-  /// Pictures in a row for which the first stands.
+  /// Consecutive pictures, represented by the first.
   struct Run {
     ModeErrors errors;  ///< of its first picture
     std::size_t pictures;
@@ -35,16 +34,16 @@ struct SegmentErrors {
 /// Pictures that share their errors at most where modes are chosen anew later on.
 inline constexpr std::size_t kDraftShared = 3;
 
-/// @param most  so many pictures at most are a run; never across a cut
+/// @param most  longest run, pictures; never across a cut
 [[nodiscard]] Result<SegmentErrors> mode_errors(Segment& segment, const SegmentPatterns& patterns,
                                                 std::size_t most);
 
-/// Luma error of the segment in its cheapest modes, mean over samples, from every so many pictures.
+/// Luma error of the segment in its cheapest modes, mean over samples, from one of `every` pictures.
 [[nodiscard]] Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every);
 
 /// Pictures that, coded as the last `count` patterns, draw the segment best in the modes of its states. All
 /// planes.
-/// @param count  the others are as they are
+/// @param count  the others stay unchanged
 [[nodiscard]] Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns,
                                                           std::size_t count, const SolverSettings& settings);
 

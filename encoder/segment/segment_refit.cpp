@@ -6,9 +6,9 @@
 namespace fbs {
 namespace {
 
-/// How much more the state of a pattern's picture counts than another's: all that is drawn from the pattern
-/// is fitted to the state in which it was seen. More costs bits of motion; 3 and 30 gain 0.3 % of the rate
-/// less in the face (four clips).
+/// Weight of the state of a pattern's picture relative to others: everything drawn from the pattern depends
+/// on its seen state. More costs bits of motion; 3 and 30 gain 0.3 % of the rate less in the face (four
+/// clips).
 constexpr double kPatternWeight = 10;
 
 constexpr int kFirstSurround = first_of(PartId::kBody);

@@ -1,5 +1,5 @@
-// States fitted to what is shown: once a segment has its patterns, the state of each picture is fitted anew,
-// to the blend instead of pattern 0, and the motion of the segment is planned for those states.
+// Fits states to the blend: once a segment has its patterns, the state of each picture is fitted again, to
+// the blend instead of pattern 0, and the motion of the segment is planned for those states.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -12,11 +12,11 @@
 
 namespace fbs {
 
-/// Each picture is drawn as the decoder draws it and then taken for a pattern seen in the picture's own
-/// state, about which the cost of others follows from the picture's source. A picture that is a pattern keeps
-/// its state, so that the others have something to be fitted to. Body and ground keep the costs that they
-/// had: fitted anew by drawing with each of their numbers changed, they gained 0.6 % in the frame (four
-/// clips) and took longer than all else. Keeps about a kilobyte for each picture.
+/// Draws each picture as the decoder does and treats it as a pattern seen in the picture's own state;
+/// comparison with the source then gives the cost of other states. A picture that is a pattern keeps its
+/// state, as a fixed reference for the others. Body and ground keep their costs: fitting them again, by
+/// drawing with each of their numbers changed, gained 0.6 % in the frame (four clips) and took longer than
+/// everything else. Keeps about a kilobyte per picture.
 class SegmentRefit {
  public:
   /// @param first            pattern 0
@@ -29,9 +29,9 @@ class SegmentRefit {
   /// @param duration  1/90000 s; 0: nominal
   void add(const FaceAnalysis::Observation& picture, std::uint32_t duration);
 
-  /// Replaces the motion of a segment whose pictures have been added: payloads of groups, states of pictures.
-  /// Blend modes stay. Can be run again: each time starts from the motion before the segment.
-  /// @param patterns  that it is drawn from; their seen states are left to the caller
+  /// Replaces the motion of a segment whose pictures have been added: payloads of groups and states of
+  /// pictures. Blend modes stay. Can be run again: each time starts from the motion before the segment.
+  /// @param patterns  of the segment; the caller updates their seen states
   Result<void> run(Segment& segment, const SegmentPatterns& patterns);
 
   /// The motion as after the segment, if run() has replaced it.
@@ -50,7 +50,7 @@ class SegmentRefit {
     std::array<double, kSurroundCount> surround;  ///< of PictureCost::fit: body and ground
     cv::Matx<double, kSurroundCount, kSurroundCount> surround_quadratic;
   };
-  /// A picture of the segment that is fitted anew.
+  /// A picture of the segment that is fitted again.
   struct Shown {
     const Analysed& analysed;
     const Picture& source;

@@ -14,15 +14,15 @@ class SegmentRenderer {
   /// @param patterns  must outlive the object
   explicit SegmentRenderer(const SegmentPatterns& patterns);
 
-  /// The next calls are about pictures of this group.
+  /// Selects the group of the pictures in the next calls.
   void begin_group(std::size_t group);
 
-  /// Draws an area of the picture's luma; what lies outside is undefined.
+  /// Draws an area of the picture's luma; the rest is undefined.
   /// @param state  blend modes included
   /// @return valid until the next call
   [[nodiscard]] Result<const Plane*> draw(const State& state, const SampleArea& area);
 
-  /// Of the state's mouth interior in what draw() shows, mean over what the mouth is blended from, 0..1.
+  /// Opacity of the state's mouth interior in the picture from draw(), mean over the mouth's sources, 0..1.
   [[nodiscard]] double interior_opacity(const State& state) const;
 
  private:

@@ -17,7 +17,7 @@ namespace fbs {
 /// become patterns is its owner's business.
 class SegmentStore {
  public:
-  /// The coders that adapt through the scene, beside that of motion. A value: a copy continues independently.
+  /// The coders that adapt through the scene, besides motion's. A value: a copy continues independently.
   struct Coders {
     PatternPacketWriter patterns;
     BlendEncoder blends;

@@ -12,11 +12,11 @@ namespace {
 constexpr int kLongSide = 64;          // pixels of the reduced picture, about
 constexpr int kBlock = 8, kReach = 8;  // of it: side of a block, and how far a block may have moved
 
-/// Contrast that is noise: added to each sample's variance, squared luma levels.
+/// Contrast of noise, added to each sample's variance, squared luma levels.
 constexpr double kNoise = 4;
 
-/// Of both unexplained shares. From picture to picture of twenty clips 0.16 is the most, from each sixth to
-/// the next 0.35; of 378 cuts between them the least is 0.38.
+/// A cut when both unexplained shares exceed this. From picture to picture of twenty clips 0.16 is the most,
+/// from each sixth to the next 0.35; of 378 cuts between them the least is 0.38.
 constexpr double kCutFrom = 0.32;
 
 /// Between a picture and a plain one: mean difference of a cut, and standard deviation below which a picture
@@ -48,7 +48,7 @@ struct Block {
     }
   }
 
-  /// Squared difference from the block of another picture, with that one's mean removed, too.
+  /// Squared difference from the block of another picture, with its mean removed, too.
   [[nodiscard]] float difference(const cv::Mat1f& picture, int x, int y) const {
     float sum = 0, squares = 0, products = 0;
     for (int r = 0; r < kBlock; ++r) {

@@ -11,14 +11,14 @@ namespace fbs {
 /// the other without their means, so that neither motion nor a change of light is a cut. A cut is where
 /// neither picture can be made of the other: what is merely uncovered or covered is missing in one of them
 /// only. A sudden change from or to a plain picture, such as black, is a cut, too. Fades and dissolves are
-/// none.
+/// not cuts.
 class CutDetector {
  public:
-  /// The next picture; all are of one size.
+  /// Takes the next picture; all have one size.
   /// @return whether it begins another shot; false for the first one
   [[nodiscard]] bool is_cut(const Picture& picture);
 
-  /// How much of a picture's contrast cannot be made of another one's blocks, 0..1.
+  /// Share of a picture's contrast that another one's blocks cannot explain, 0..1.
   /// @param of, by  CV_32F, of one size
   [[nodiscard]] static double unexplained(const cv::Mat1f& of, const cv::Mat1f& by);
 

@@ -13,10 +13,10 @@ constexpr int kFadeSide = 64;  // pixels of the reduced picture, about
 /// one, it is shown with errors as many times as large.
 constexpr double kMuchMore = 1.5;
 
-/// Growth of the contrast over the last pictures that is none.
+/// Growth of the contrast over the last pictures that counts as none.
 constexpr double kStill = 1.03;
 
-/// Correlation with the first picture of what is only lit differently; heads and lips move meanwhile.
+/// Correlation with the first picture if only the light differs; heads and lips move meanwhile.
 constexpr double kAlike = 0.7;
 
 /// Standard deviation, luma levels, below which the first picture shows nothing to compare with.

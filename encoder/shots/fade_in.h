@@ -1,4 +1,4 @@
-// Fades in: a shot that begins dark, and is worth beginning again when its light has come.
+// Fades in: detects a shot that begins dark and should begin again when its light has come.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace fbs {
 
 /// Watches a shot for light that comes up and stays: a fade from black, a lamp, an exposure that settles.
-/// What was coded of the dark pictures is too coarse for the bright ones.
+/// Patterns of the dark pictures are too coarse for the bright ones.
 class FadeIn {
  public:
   /// The shot, or the scene, begins with the next picture.
@@ -19,9 +19,9 @@ class FadeIn {
     rises_ = false;
   }
 
-  /// The next picture; all are of one size.
-  /// @return whether it shows the first picture's scene in much more light, which no longer rises. Then the
-  ///         next is compared with this one.
+  /// Takes the next picture; all have one size.
+  /// @return whether it shows the first picture's scene in much more light, which no longer rises. The next
+  /// is then compared with this one.
   [[nodiscard]] bool has_ended(const Picture& picture);
 
   /// Whether there is much more light than in the first picture, and still more comes.

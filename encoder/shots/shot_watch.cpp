@@ -3,18 +3,18 @@
 namespace fbs {
 namespace {
 
-// Pictures, while nobody is followed: between searches, and between those for small faces too.
+// Pictures between searches while no face is tracked, and between searches that include small faces.
 constexpr std::uint64_t kSearchEvery = 5, kSearchAllEvery = 30;
 
-/// A face that is lost for longer may be another one: whoever is found is followed.
+/// After a longer loss the face may be another one: whoever is found is tracked.
 constexpr double kLostForSeconds = 2;
 
-/// A shot without a face, such as a slide, is carried by the scene before it for so long. A scene of its own
-/// shows it better, but costs the face that comes back 2 or 3 kB. The same for a face lost within a shot, as
-/// in an empty room, did not pay.
+/// The previous scene carries a shot without a face, such as a slide, for this long. A separate scene shows
+/// it better, but costs the returning face 2 or 3 kB. The same for a face lost within a shot, as in an empty
+/// room, did not pay.
 constexpr double kInsertSeconds = 1;
 
-/// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
+/// A face that emerges from the dark is tracked once its light has come, or after this many seconds.
 constexpr double kLongestFade = 3;
 
 }  // namespace

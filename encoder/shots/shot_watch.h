@@ -24,7 +24,7 @@ class ShotWatch {
     bool recognises = false;  ///< but ask the scene first whether it recognises whom it follows
     bool all_sizes = false;   ///< look for small faces, too
   };
-  /// The next picture; all are of one size.
+  /// Takes the next picture; all have one size.
   [[nodiscard]] Step next(const Picture& picture);
 
   /// The picture shows whom the scene follows.

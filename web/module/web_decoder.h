@@ -45,10 +45,10 @@ class WebDecoder {
   /// Draws the picture that next() announced last, with the edit.
   [[nodiscard]] Result<const Picture*> draw();
 
-  /// What the viewer adds to the motion of the stream.
+  /// Sets the viewer's changes to the motion of the stream.
   void edit(const StateEdit& edit) { edit_ = edit; }
 
-  /// Of the picture that next() announced last.
+  /// The stream, at the picture that next() announced last.
   [[nodiscard]] const StreamDecoder& stream() const { return *decoder_; }
   /// With the edit; null without a face.
   struct Face {
@@ -59,7 +59,7 @@ class WebDecoder {
   [[nodiscard]] const Face* face();
 
   [[nodiscard]] WebSound& sound() { return sound_; }
-  /// Bytes that have come, and those of them that are sound.
+  /// Bytes that have arrived, and how many of them are sound.
   [[nodiscard]] std::uint64_t bytes() const { return stream_.size(); }
   [[nodiscard]] std::uint64_t sound_bytes() const { return sound_bytes_; }
 

@@ -20,7 +20,7 @@ class WebSound {
   /// @param bytes  the next ones of the stream
   void add(std::span<const std::uint8_t> bytes) { parts_.add(bytes); }
 
-  /// Of the pictures that have come, with all before them: 1/90000 s.
+  /// End of the pictures that have arrived, with all before them, 1/90000 s.
   [[nodiscard]] std::uint64_t released() const { return parts_.released(); }
 
   /// Hz; 0 as long as no sound has come that can be decoded.
