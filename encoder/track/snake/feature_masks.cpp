@@ -1,6 +1,7 @@
 #include "encoder/track/snake/feature_masks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -59,10 +60,18 @@ FeatureMasks feature_masks(FeatureId id, const Outline& outline, cv::Size patch)
       const cv::Mat brow = line(outline, patch, kBrowWidth);
       return {brow, grown(brow, kSkinRoundBrow) - grown(brow, kBrowEdge)};
     }
-    default:
+    case FeatureId::kUpperLidRight:
+    case FeatureId::kUpperLidLeft:
       // Lashes and eye below the lid's edge, the lid's skin above it.
       return {line(outline, patch, kLidLine, kLashesBelow), line(outline, patch, kLidLine, kLidSkinAbove)};
+    case FeatureId::kLowerLidRight:
+    case FeatureId::kLowerLidLeft:
+    case FeatureId::kPupilRight:
+    case FeatureId::kPupilLeft:
+      break;
   }
+  assert(false && "no snake follows it");
+  return {};
 }
 
 }  // namespace fbs

@@ -14,6 +14,7 @@ struct FeatureMasks {
   cv::Mat outside;  ///< skin around it; empty for inner lips, whose surroundings say nothing
 };
 
+/// @param id       as of kind_of()
 /// @param outline  the curve at rest, pixels of the patch
 [[nodiscard]] FeatureMasks feature_masks(FeatureId id, const std::vector<cv::Point>& outline, cv::Size patch);
 

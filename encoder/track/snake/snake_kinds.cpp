@@ -1,5 +1,7 @@
 #include "encoder/track/snake/snake_kinds.h"
 
+#include <cassert>
+
 namespace fbs {
 namespace {
 
@@ -31,9 +33,17 @@ const SnakeKind& kind_of(FeatureId id) {
     case FeatureId::kBrowRight:
     case FeatureId::kBrowLeft:
       return kBrow;
-    default:
+    case FeatureId::kUpperLidRight:
+    case FeatureId::kUpperLidLeft:
       return kUpperLid;
+    case FeatureId::kLowerLidRight:
+    case FeatureId::kLowerLidLeft:
+    case FeatureId::kPupilRight:
+    case FeatureId::kPupilLeft:
+      break;
   }
+  assert(false && "no snake follows it");
+  return kUpperLid;
 }
 
 }  // namespace fbs

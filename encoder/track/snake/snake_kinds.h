@@ -19,6 +19,7 @@ struct SnakeKind {
   double above, below, aside;  ///< of the patch beyond the feature at rest
 };
 
+/// @param id  of a feature that a snake follows: neither a lower lid nor a pupil (assert)
 [[nodiscard]] const SnakeKind& kind_of(FeatureId id);
 
 [[nodiscard]] constexpr bool is_brow(FeatureId id) {
