@@ -1,0 +1,101 @@
+#include "encoder/scene/scene_ledger.h"
+
+#include <gtest/gtest.h>
+
+#include "encoder/segment/pass_settings.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kFps = 10;
+
+Setup setup() {
+  Setup out = toy_setup();
+  out.format.frame_rate = {kFps, 1};
+  return out;
+}
+
+EncoderSettings settings(double key_interval, bool live) {
+  EncoderSettings out;
+  out.key_interval = key_interval;
+  if (live) out.live.emplace().delay = 0.2;
+  return out;
+}
+
+SceneLedger ledger(const EncoderSettings& settings, bool several) {
+  const RatePlan rate{OperatingPoint::at(50, 32), 0};
+  const CodedState rest = coded_pose(toy_state());
+  return {setup(), rest, rate, settings,
+          several ? face_patterns(settings, rate.point, setup().format, rest) : nullptr};
+}
+
+/// Adds pictures, and ends groups where they end.
+/// @return pictures of each
+std::vector<std::size_t> groups(SceneLedger& scene, int pictures) {
+  std::vector<std::size_t> out;
+  for (int t = 0; t < pictures; ++t) {
+    EXPECT_TRUE(scene.add(noise_picture(160, 128, 1), 0));
+    if (scene.group_ends()) out.push_back(scene.end_group().size());
+  }
+  return out;
+}
+
+TEST(SceneLedger, TheFirstPictureIsAGroupOfItsOwn) {
+  SceneLedger scene = ledger({}, false);
+  EXPECT_EQ(groups(scene, 25), (std::vector<std::size_t>{1, 10, 10}));
+  EXPECT_TRUE(scene.in_group());
+  EXPECT_EQ(scene.end_group().size(), 4U);
+}
+
+TEST(SceneLedger, WithoutAKeyIntervalAScenesSegmentEndsItAndOnePatternNeverDoes) {
+  EXPECT_TRUE(ledger({}, true).scene_ends(1));
+  EXPECT_FALSE(ledger({}, false).scene_ends(1000));
+}
+
+TEST(SceneLedger, ASceneEndsWhenWhatFollowsWouldPassTheKeyInterval) {
+  SceneLedger scene = ledger(settings(3, false), false);
+  groups(scene, 21);
+  EXPECT_FALSE(scene.scene_ends(9));
+  EXPECT_TRUE(scene.scene_ends(10));
+  groups(scene, 1);
+  EXPECT_FALSE(scene.scene_ends(10)) << "never inside a group";
+}
+
+TEST(SceneLedger, ALiveSceneEndsByItsGroupsWhateverFollows) {
+  SceneLedger scene = ledger(settings(1, true), true);
+  groups(scene, 8);
+  EXPECT_FALSE(scene.scene_ends(100));
+  groups(scene, 1);
+  EXPECT_TRUE(scene.scene_ends(0));
+  EXPECT_TRUE(scene.live_scene_ends(9));
+  EXPECT_FALSE(scene.live_scene_ends(8));
+}
+
+TEST(SceneLedger, ARequestHoldsUntilTheSceneHasEnded) {
+  SceneLedger scene = ledger(settings(0, true), false);
+  groups(scene, 3);
+  EXPECT_FALSE(scene.scene_ends(2));
+  scene.request_scene();
+  EXPECT_TRUE(scene.scene_ends(2));
+  scene.end_scene();
+  scene.request_scene();
+  EXPECT_FALSE(scene.scene_ends(2)) << "it has ended already";
+}
+
+TEST(SceneLedger, AnotherSceneSaysWhereInTheStreamItBegins) {
+  SceneLedger scene = ledger({}, false);
+  ASSERT_TRUE(scene.add(noise_picture(160, 128, 1), 0));
+  ASSERT_TRUE(scene.add(noise_picture(160, 128, 1), 123));
+  scene.end_scene();
+  EXPECT_TRUE(scene.scene_ended());
+  fbs::Setup next = setup();
+  scene.begin_again(next);
+  EXPECT_FALSE(scene.scene_ended());
+  EXPECT_EQ(scene.pictures(), 0U);
+  EXPECT_EQ(next.before.pictures, 2U);
+  EXPECT_EQ(next.before.time, 90000U / kFps + 123);
+}
+
+}  // namespace
+}  // namespace fbs

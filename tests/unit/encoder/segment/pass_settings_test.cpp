@@ -1,0 +1,102 @@
+#include "encoder/segment/pass_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace fbs {
+namespace {
+
+constexpr double kEye = 48;
+
+VideoFormat format(int width = 352, int height = 288) {
+  VideoFormat out;
+  out.width = width;
+  out.height = height;
+  out.frame_rate = {25, 1};
+  return out;
+}
+
+EncoderSettings live() {
+  EncoderSettings out;
+  out.live.emplace();
+  return out;
+}
+
+const OperatingPoint kMotion = OperatingPoint::at(50, kEye);
+
+TEST(MotionTarget, OnePatternLeavesTheRateToTheMotion) {
+  EncoderSettings settings;
+  settings.patterns = 1;
+  settings.bitrate = 8;
+  EXPECT_EQ(motion_target(settings, kEye).bitrate_kbps, 8);
+}
+
+TEST(MotionTarget, SeveralPatternsTakeWhatTheMotionLeaves) {
+  EncoderSettings settings;
+  EXPECT_EQ(motion_target(settings, kEye).quality, PatternPoint::at(50).motion_quality);
+  settings.bitrate = 8;
+  const RateTarget target = motion_target(settings, kEye);
+  EXPECT_EQ(target.bitrate_kbps, 0);
+  EXPECT_EQ(target.quality, motion_quality_at(8));
+}
+
+TEST(PassSettings, QualityDecidesWhatIsNotAskedFor) {
+  const PatternPassSettings pass = pass_settings({}, kMotion);
+  EXPECT_EQ(pass.point.quantiser, PatternPoint::at(50).quantiser);
+  EXPECT_EQ(pass.lone_quantiser, kMotion.pattern_quantiser);
+  EXPECT_EQ(pass.lambda, kMotion.lambda);
+  EXPECT_FALSE(pass.quantiser);
+  EXPECT_FALSE(pass.reduced);
+  EXPECT_FALSE(pass.without_face);
+}
+
+TEST(PassSettings, AQuantiserThatIsAskedForHoldsForALonePatternToo) {
+  EncoderSettings settings;
+  settings.pattern_quantiser = 33;
+  const PatternPassSettings pass = pass_settings(settings, kMotion);
+  EXPECT_EQ(pass.quantiser, 33);
+  EXPECT_EQ(pass.lone_quantiser, 33);
+}
+
+TEST(PassSettings, EffortSolvesAndFits) {
+  EncoderSettings settings;
+  for (const int effort : {0, 1, 2, 3}) {
+    settings.effort = effort;
+    const PatternPassSettings pass = pass_settings(settings, kMotion);
+    EXPECT_EQ(pass.solves, effort > 0);
+    EXPECT_EQ(pass.refits, std::min(effort, 2));
+  }
+  settings.track_only = true;
+  EXPECT_EQ(pass_settings(settings, kMotion).refits, 0) << "nothing is fitted to what is shown";
+}
+
+TEST(PassSettings, AShotWithoutAFaceHasMorePatternsAndNothingToFit) {
+  const PatternPassSettings pass = planar_pass_settings({}, kMotion);
+  EXPECT_TRUE(pass.without_face);
+  EXPECT_EQ(pass.refits, 0);
+  EXPECT_EQ(pass.point.per_second, PatternPoint::without_face(50).per_second);
+  EXPECT_EQ(pass.point_at(70).quantiser, PatternPoint::without_face(70).quantiser);
+}
+
+TEST(PassSettings, OnlyALiveStageEndsASegmentWithEachGroup) {
+  const CodedState rest{};
+  for (const auto& make : {&face_patterns, &planar_patterns}) {
+    EXPECT_TRUE(make(live(), kMotion, format(), rest)->segment_ends(5));
+    EXPECT_FALSE(make({}, kMotion, format(), rest)->segment_ends(5));
+    EXPECT_EQ(make(live(), kMotion, format(), rest)->store(), pattern_store(format()));
+  }
+}
+
+TEST(KeyInterval, IsInPicturesAndTenSecondsOfALiveScene) {
+  EncoderSettings settings;
+  EXPECT_EQ(key_interval_of(settings, format()), 0);
+  EXPECT_EQ(key_interval_of(live(), format()), 250);
+  settings.key_interval = 2;
+  EXPECT_EQ(key_interval_of(settings, format()), 50);
+  settings.live.emplace();
+  EXPECT_EQ(key_interval_of(settings, format()), 50);
+}
+
+}  // namespace
+}  // namespace fbs
