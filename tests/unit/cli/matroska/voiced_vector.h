@@ -14,7 +14,7 @@
 namespace fbs::cli {
 
 inline std::vector<std::uint8_t> vector_file(const std::string& name) {
-  std::ifstream file(std::string(FBS_VECTORS) + "/" + name, std::ios::binary);
+  std::ifstream file(FBS_VECTORS "/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

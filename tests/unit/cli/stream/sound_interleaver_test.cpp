@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes vector_file(const std::string& name) {
-  std::ifstream file(std::string(FBS_VECTORS) + "/" + name, std::ios::binary);
+  std::ifstream file(FBS_VECTORS "/" + name, std::ios::binary);
   return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 

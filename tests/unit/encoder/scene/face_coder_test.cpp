@@ -21,7 +21,11 @@ constexpr std::uint64_t kLookahead = 2 * kFps;
 /// A head at rest, of which the analysis has seen every picture.
 class RestingHead {
  public:
-  explicit RestingHead(const EncoderSettings& settings) : coder_(settings, start(settings)) {}
+  explicit RestingHead(const EncoderSettings& settings) : coder_(settings, start(settings)) {
+    std::vector<std::uint8_t> signature;
+    write_signature(signature);
+    reader_.feed(signature);
+  }
 
   void add(int pictures) {
     for (int t = 0; t < pictures; ++t) {
@@ -36,15 +40,9 @@ class RestingHead {
   }
   /// The packets that are ready.
   std::vector<PacketType> taken() {
-    PacketReader reader;
-    std::vector<std::uint8_t> stream;
-    write_signature(stream);
-    const auto bytes = coder_.take();
-    stream.insert(stream.end(), bytes.begin(), bytes.end());
-    reader.feed(stream);
-    reader.close();
+    reader_.feed(coder_.take());
     std::vector<PacketType> out;
-    for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next()) {
+    for (auto read = reader_.next(); read && read->status == ReadStatus::kPacket; read = reader_.next()) {
       out.push_back(read->packet.type);
       if (out.back() == PacketType::kSetup)
         if (const auto setup = decode_setup(read->packet.payload)) before_ = setup->before.pictures;
@@ -80,6 +78,7 @@ class RestingHead {
   Picture picture_ = picture_of(smooth_plane, 160, 128, 1);
   Scene scene_ = toy_scene(picture_);
   std::uint64_t before_ = 0;
+  PacketReader reader_;  ///< of all that has been taken
   FaceCoder coder_;
 };
 
