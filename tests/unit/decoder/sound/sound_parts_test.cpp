@@ -16,7 +16,7 @@ constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 
 /// A stream of several scenes, with frames of 20 ms that have their number in them.
 Bytes stream_with_sound() {
-  std::ifstream file(std::string(FBS_VECTORS) + "/late.fbs", std::ios::binary);
+  std::ifstream file(FBS_VECTORS "/late.fbs", std::ios::binary);
   const Bytes stream(std::istreambuf_iterator<char>(file), {});
   SoundGroup group{0, {}};
   const auto feed = [&](std::int64_t before) -> Result<std::vector<SoundGroup>> {

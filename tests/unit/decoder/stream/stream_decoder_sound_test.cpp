@@ -13,7 +13,7 @@ constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 /// A setup, then this many seconds of sound in the largest frames, and no picture.
 std::vector<std::uint8_t> endless_sound(int seconds) {
   PacketReader reader;
-  reader.feed(read_bytes(std::string(FBS_VECTORS) + "/talk.fbs"));
+  reader.feed(read_bytes(FBS_VECTORS "/talk.fbs"));
   const Packet setup = reader.next()->packet;
   std::vector<std::uint8_t> out;
   PacketWriter writer;
