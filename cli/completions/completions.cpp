@@ -3,8 +3,8 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/help_formatter.h"
-#include "cli/verb.h"
+#include "cli/command_line/help_formatter.h"
+#include "cli/command_line/verb.h"
 
 namespace fbs::cli {
 namespace {

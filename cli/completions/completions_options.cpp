@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <string>
 
+#include "cli/command_line/verb.h"
 #include "cli/completions/completions.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

@@ -8,14 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "cli/display/overlay.h"
 #include "cli/encode/encode_arguments.h"
+#include "cli/encode/overlay.h"
 #include "cli/encode/sound_choice.h"
 #include "cli/encode/sound_track.h"
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
 #include "cli/source/encode_session.h"
 #include "cli/source/source_part.h"
 #include "cli/source/until_stopped.h"

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "cli/evaluate/argument_check.h"
-#include "cli/evaluate/clip_means.h"
-#include "cli/evaluate/data_report.h"
 #include "cli/evaluate/evaluate_arguments.h"
 #include "cli/evaluate/folder_evaluation.h"
+#include "cli/evaluate/rate_distortion/clip_means.h"
+#include "cli/evaluate/report/data_report.h"
 #include "cli/evaluate/report/html_report.h"
 #include "cli/evaluate/report/stills.h"
-#include "cli/evaluate/text_report.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
+#include "cli/evaluate/report/text_report.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
 
 namespace fbs::cli {
 namespace {

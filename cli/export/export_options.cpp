@@ -1,7 +1,7 @@
 // The options of `fbs export`.
 
+#include "cli/command_line/verb.h"
 #include "cli/export/export_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/export/table_output.h"
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene/scene_face.h"
 

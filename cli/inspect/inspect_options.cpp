@@ -1,7 +1,7 @@
 // The options of `fbs inspect`.
 
+#include "cli/command_line/verb.h"
 #include "cli/inspect/inspect_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/display/picture_sources.h"
 #include "cli/inspect/inspect_arguments.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
+#include "cli/stream/picture_sources.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene/scene_face.h"
 #include "decoder/stream/packet_list.h"

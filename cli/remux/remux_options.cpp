@@ -1,7 +1,7 @@
 // The options of `fbs remux`.
 
+#include "cli/command_line/verb.h"
 #include "cli/remux/remux_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

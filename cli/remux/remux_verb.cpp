@@ -4,9 +4,9 @@
 
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/matroska/matroska_module.h"
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/remux/remux_arguments.h"
+#include "cli/stream/matroska_module.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/stream/packet_list.h"
 

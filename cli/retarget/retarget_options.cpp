@@ -1,9 +1,8 @@
 // The options of `fbs retarget`.
 
+#include "cli/command_line/verb.h"
 #include "cli/encode/encode_arguments.h"
-#include "cli/module_verb.h"
 #include "cli/retarget/retarget_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

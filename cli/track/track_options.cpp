@@ -1,9 +1,8 @@
 // The options of `fbs track`.
 
+#include "cli/command_line/verb.h"
 #include "cli/encode/encode_arguments.h"
-#include "cli/module_verb.h"
 #include "cli/track/track_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

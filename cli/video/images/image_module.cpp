@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/video/images/image_sink.h"
 #include "cli/video/images/image_source.h"
 #include "cli/video/images/png.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/files/atomic_file.h"
+#include "cli/files/number_pattern.h"
 #include "cli/video/colour.h"
-#include "cli/video/images/number_pattern.h"
 
 namespace fbs {
 namespace {
