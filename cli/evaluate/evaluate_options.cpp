@@ -2,8 +2,7 @@
 #include <cstdint>
 
 #include "cli/command_line/verb.h"
-#include "cli/encode/encode_arguments.h"
-#include "cli/evaluate/evaluate_arguments.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {

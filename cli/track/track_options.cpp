@@ -1,8 +1,7 @@
 // The options of `fbs track`.
 
 #include "cli/command_line/verb.h"
-#include "cli/encode/encode_arguments.h"
-#include "cli/track/track_arguments.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {

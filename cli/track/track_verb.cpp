@@ -7,10 +7,10 @@
 #include "cli/program/module.h"
 #include "cli/program/outcome.h"
 #include "cli/program/progress.h"
+#include "cli/source/encoder_module.h"
 #include "cli/source/source_part.h"
 #include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
-#include "cli/track/track_arguments.h"
 #include "encoder/encoder.h"
 
 namespace fbs::cli {
