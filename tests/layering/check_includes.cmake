@@ -13,7 +13,7 @@ set(floors
   encoder
   fbs library
   cli/program cli/files cli/video cli/video/y4m cli/video/images cli/video/av cli/video/open cli/stream cli/matroska cli/display cli/source cli/command_line
-  cli/completions cli/inspect cli/remux cli/decode cli/play/sound cli/play cli/encode cli/export cli/track cli/retarget
+  cli/inspect cli/remux cli/decode cli/play/sound cli/play cli/encode cli/export cli/track cli/retarget
   cli/evaluate/run cli/evaluate/peers cli/evaluate/quality cli/evaluate/rate_distortion cli/evaluate/report cli/evaluate
   cli
   web)
@@ -41,7 +41,7 @@ set(foreign
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
   "(matroska|ebml|webm)/@cli/matroska"
-  "CLI/@cli|cli/(command_line|completions)"
+  "CLI/@cli|cli/command_line"
   "SDL@cli/play(/sound)?"
   "tiny_gltf@decoder/export"
   "gst/@gstreamer")

@@ -1,6 +1,7 @@
-#include "cli/completions/completions.h"
-
+// `fbs completions`: a script that teaches a shell the command line.
+#include <cstdio>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "cli/command_line/help_formatter.h"
@@ -8,6 +9,12 @@
 
 namespace fbs::cli {
 namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  source <(fbs completions bash)                            in ~/.bashrc\n"
+    "  source <(fbs completions zsh)                             in ~/.zshrc, after compinit\n"
+    "  fbs completions fish > ~/.config/fish/completions/fbs.fish";
 
 std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -41,8 +48,6 @@ bool takes_file(const CLI::Option& option) {
   const std::string value = value_of(option);
   return value == "FILE" || value == "STREAM" || value == "STREAM|PICTURE" || value == "DIR";
 }
-
-}  // namespace
 
 std::string bash_completions(const CLI::App& app) {
   std::ostringstream names, cases;
@@ -127,6 +132,26 @@ std::string fish_completions(const CLI::App& app) {
       }
   }
   return out.str();
+}
+
+Result<Outcome> print_completions(const CLI::App& app, const std::string& shell) {
+  const std::string script = shell == "bash"  ? bash_completions(app)
+                             : shell == "zsh" ? zsh_completions(app)
+                                              : fish_completions(app);
+  std::fputs(script.c_str(), stdout);
+  return Outcome::kComplete;
+}
+
+}  // namespace
+
+void add_completions(CLI::App& app, Run& run) {
+  const auto [verb, shell] = new_verb<std::string>(
+      app, run, "completions", "Print a script that completes verbs and options in a shell",
+      [&app](const std::string& name) { return print_completions(app, name); });
+  verb->add_option("SHELL", shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->footer(kExamples);
 }
 
 }  // namespace fbs::cli
