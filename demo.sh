@@ -7,7 +7,7 @@ video=${1:+$(realpath "$1")}
 cd "$(dirname "$0")"
 mkdir -p out
 
-scripts/install_packages.sh
+scripts/install_packages.sh packages.txt
 cmake --preset release >/dev/null
 cmake --build --preset release --target fbs talker
 fbs=build/release/fbs
@@ -83,4 +83,4 @@ frame $av1_frame dB")[a];
 printf '\n%-5s %8s %16s %17s\n' "" kbit/s "face PSNR-Y, dB" "frame PSNR-Y, dB"
 printf '%-5s %8s %16s %17s\n' fbs "$fbs_kbps" "$fbs_face" "$fbs_frame" AV1 "$av1_kbps" "$av1_face" "$av1_frame"
 printf '%s\n' "" "out/comparison.png  source, fbs, AV1: picture $((pictures / 2))" "out/comparison.mp4  the same as a video" \
-  "out/fbs.fbs         the stream; play it with: $fbs play out/fbs.fbs" "out/fbs.mp4         the decoded stream"
+  "out/fbs.fbs         the stream" "out/fbs.mp4         the decoded stream"

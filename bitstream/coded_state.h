@@ -77,17 +77,17 @@ using CodedState = std::array<std::int32_t, kParameterCount>;
 /// Step of each number.
 [[nodiscard]] std::int32_t step_of(const QuantiserSteps& steps, std::size_t parameter);
 
-/// The state of `values`: numbers in the units of State, coefficients in head units.
+/// The state with these values: numbers in the units of State, coefficients in head units.
 [[nodiscard]] State state_of_values(const CodedState& values);
 
-/// The state of numbers in steps.
+/// The state with these numbers in steps.
 [[nodiscard]] State state_of(const CodedState& coded, const QuantiserSteps& steps);
 
 /// Limits of the numbers that can be coded, in steps.
 struct CodedLimits {
   CodedState min{};
   CodedState max{};
-  PartMask parts;  ///< that are sent; numbers of the others are zero
+  PartMask parts;  ///< parts that are sent; numbers of the others are zero
 
   CodedLimits(const QuantiserSteps& steps, PartMask sent_parts);
 

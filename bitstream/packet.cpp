@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-/// Whether the check of such a packet is that of the packet alone. SPEC 3.1.
+/// Whether the check of such a packet covers that packet alone. SPEC 3.1.
 bool begins_chain(PacketType type) {
   return type == PacketType::kSetup || type == PacketType::kEnd;
 }
@@ -39,16 +39,17 @@ struct PacketReader::Impl {
   std::size_t position = 0;   // of next(), in `buffer`
   bool closed = false;
   bool begun = false;                 // the signature has been read or is not required any more
-  bool searching = false;             // `position` is that of resync()
+  bool searching = false;             // for a packet behind the damage
   std::uint16_t check = kCrc16Start;  // of the packet before
-  std::optional<Error> error;         // what next() returns until resync() finds a packet
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
   [[nodiscard]] std::uint64_t offset() const { return dropped + position; }
 
   tl::unexpected<Error> refuse(ErrorCode code, const char* text) {
-    error = Error{code, text, offset()};
-    return fail(*error);
+    searching = true;
+    const std::uint64_t at = offset();
+    if (begun) ++position;  // the search begins behind what is damaged; without a signature anywhere
+    return fail(code, text, at);
   }
 
   Result<ReadResult> need_more(const char* text_at_end) {
@@ -58,7 +59,7 @@ struct PacketReader::Impl {
 
   Result<ReadResult> read_signature();
   Result<ReadResult> read_packet();
-  ReadStatus search();
+  Result<ReadResult> search();
 };
 
 // SPEC 3
@@ -102,7 +103,7 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
 
 // SPEC 3.2. A candidate is as short as its length, one byte, can say: so it is tested at once, and bytes that
 // are nothing but candidates take linear time as well.
-ReadStatus PacketReader::Impl::search() {
+Result<ReadResult> PacketReader::Impl::search() {
   for (; position < buffer.size(); ++position) {
     const auto bytes = ahead();
     if (!begins_chain(static_cast<PacketType>(bytes[0]))) continue;
@@ -114,12 +115,20 @@ ReadStatus PacketReader::Impl::search() {
     const std::size_t checked = reader.offset();
     const std::uint16_t stored = reader.u16();
     if (reader.past_end()) {
-      if (!closed) return ReadStatus::kNeedMore;
+      if (!closed) return ReadResult{};
     } else if (crc16(bytes.first(checked)) == stored) {
-      return ReadStatus::kPacket;
+      break;
     }
   }
-  return closed ? ReadStatus::kEnd : ReadStatus::kNeedMore;
+  if (position == buffer.size() && !closed) return ReadResult{};
+  begun = true;
+  searching = false;
+  return read_packet();
+}
+
+PacketReader::PacketReader(std::span<const std::uint8_t> stream) : PacketReader() {
+  feed(stream);
+  close();
 }
 
 PacketReader::PacketReader() : impl_(std::make_unique<Impl>()) {}
@@ -130,7 +139,7 @@ PacketReader& PacketReader::operator=(PacketReader&&) noexcept = default;
 void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
-  // Drop what was read once it is the larger half, so that each byte is moved a bounded number of times.
+  // Drop what was read once it is the larger half, so that each byte moves a bounded number of times.
   if (s.position > s.buffer.size() / 2) {
     s.buffer.erase(s.buffer.begin(), s.buffer.begin() + s.position);
     s.dropped += s.position;
@@ -145,22 +154,11 @@ void PacketReader::close() {
 
 Result<ReadResult> PacketReader::next() {
   Impl& s = *impl_;
-  if (s.error) return fail(*s.error);
+  if (s.searching) return s.search();
   if (!s.begun) {
     auto signature = s.read_signature();
     if (!signature || !s.begun) return signature;
   }
-  return s.read_packet();
-}
-
-Result<ReadResult> PacketReader::resync() {
-  Impl& s = *impl_;
-  if (!s.searching) s.position += s.error && s.begun ? 1 : 0;
-  s.searching = true;
-  if (s.search() == ReadStatus::kNeedMore) return ReadResult{ReadStatus::kNeedMore, {}};
-  s.begun = true;
-  s.searching = false;
-  s.error.reset();
   return s.read_packet();
 }
 

@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxPayload = std::size_t{1} << 24;  ///< bytes
 /// Appends the signature that begins every stream.
 void write_signature(std::vector<std::uint8_t>& stream);
 
-/// Writes packets in stream order: the check of a packet goes on from that of the packet before (SPEC 3.1).
-/// A setup packet or the end packet may follow those of any writer.
+/// Writes packets in stream order: the check of a packet continues from the check of the packet before (SPEC
+/// 3.1). A setup packet or the end packet may follow any writer's packets.
 class PacketWriter {
  public:
   /// Appends the next packet.
@@ -34,14 +34,14 @@ class PacketWriter {
   std::uint16_t check_ = kCrc16Start;  // of the packet before
 };
 
-/// Bytes of a packet with a payload of so many.
+/// Bytes of a packet with this many bytes of payload.
 [[nodiscard]] constexpr std::size_t packet_size(std::size_t payload) {
   std::size_t size = payload + 4;
   for (; payload > 0x7F; payload >>= 7) ++size;
   return size;
 }
 
-/// Longest payload of a setup packet or an end packet that resync() finds. SPEC 3.2.
+/// Longest payload of a setup packet or an end packet that is found behind damage. SPEC 3.2.
 inline constexpr std::size_t kMaxSearchedPayload = 127;  ///< bytes
 
 /// One packet whose check is right. Its payload still has to be parsed.
@@ -54,7 +54,7 @@ struct Packet {
 
 enum class ReadStatus : std::uint8_t {
   kPacket,    ///< a packet was read
-  kNeedMore,  ///< nothing wrong; feed more bytes, or close(), and ask again
+  kNeedMore,  ///< no error; feed more bytes, or close(), and ask again
   kEnd,       ///< closed, and the stream ended after a whole packet
 };
 
@@ -67,16 +67,19 @@ struct ReadResult {
 ///
 ///   reader.feed(bytes);                 // or reader.close() at the end of the input
 ///   for (;;) {
-///     auto read = reader.next();        // or resync() after an error, to continue after the damage
-///     if (!read || read->status != ReadStatus::kPacket) break;
+///     auto read = reader.next();
+///     if (!read) { report(read.error()); continue; }       // goes on behind the damage
+///     if (read->status != ReadStatus::kPacket) break;
 ///     use(read->packet);
 ///   }
 ///
-/// Memory: the bytes that were fed and not yet read; less than the largest packet if all packets are read
-/// before more is fed.
+/// Memory: the bytes fed and not yet read; less than the largest packet if all packets are read before more
+/// is fed.
 class PacketReader {
  public:
   PacketReader();
+  /// Reads a whole stream: feed(), then close().
+  explicit PacketReader(std::span<const std::uint8_t> stream);
   ~PacketReader();
   PacketReader(PacketReader&&) noexcept;
   PacketReader& operator=(PacketReader&&) noexcept;
@@ -89,21 +92,17 @@ class PacketReader {
   /// No more bytes will come.
   void close();
 
-  /// Reads the next packet. After an error it returns the same error again until resync() finds a packet.
+  /// Reads the next packet. An error is reported once. The next call searches past the damage for a setup
+  /// packet or an end packet with the right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream
+  /// that is joined in its middle begins so, with kNotFbs.
   /// @return kNotFbs         the stream does not begin with the signature, or is empty
   ///         kTruncated      closed inside the signature or a packet; offset of that packet
-  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is not
-  ///                         there; offset of the packet
+  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is missing;
+  ///                         offset of the packet
   ///         kTooLarge       payload beyond kMaxPayload; offset of the packet
   [[nodiscard]] Result<ReadResult> next();
 
-  /// After an error of next(): searches past the damage for a setup packet or an end packet with the right
-  /// check and at most kMaxSearchedPayload bytes, and reads it; next() continues after it. May also be called
-  /// first, to join a stream in its middle.
-  /// @return kPacket; kNeedMore (call resync() again after feeding); kEnd when closed and nothing was found
-  [[nodiscard]] Result<ReadResult> resync();
-
-  /// Position of next(), or of the search, in bytes from the start of the stream.
+  /// Where next() or its search is, in bytes from the start of the stream.
   [[nodiscard]] std::uint64_t offset() const;
 
  private:

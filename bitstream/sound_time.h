@@ -1,4 +1,4 @@
-// Times of sound beside those of pictures.
+// Converts times of pictures to times of sound.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 
 namespace fbs {
 
-/// What a decoder has to hear before a place where it begins, 1/kSoundClock s. RFC 7845, section 4.6, of
-/// Opus; Codec 2 needs less.
+/// How much a decoder must decode before the place where it joins, 1/kSoundClock s. RFC 7845, section 4.6,
+/// for Opus; Codec 2 needs less.
 inline constexpr std::int32_t kSoundPreroll = kSoundClock * 80 / 1000;
 
-/// Of a time of pictures. By the reduced fraction, so that any time of a stream fits into 64 bits.
+/// The sound's time for a time of pictures. Uses the reduced fraction, so that any time of a stream fits 64
+/// bits.
 /// @param ticks  1/90000 s, 0..kMaxStreamTime
 /// @return 1/kSoundClock s, rounded down
 [[nodiscard]] constexpr std::int64_t sound_time(std::int64_t ticks) {

@@ -24,30 +24,30 @@ inline constexpr int kMinContrast = 128;
 inline constexpr int kMaxChromaContrast = 2 * kContrastOne;
 inline constexpr int kMaxPatterns = 64;                             ///< patterns that a decoder keeps
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
-inline constexpr int kMaxWaitingPictures = 4096;  ///< whose motion has arrived but not their blend
+inline constexpr int kMaxWaitingPictures = 4096;  ///< pictures whose motion has arrived but not their blend
 inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose states a pattern may still have
 inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
 inline constexpr std::uint64_t kMaxStreamPictures = std::uint64_t{1} << 40;
 inline constexpr std::uint64_t kMaxStreamTime = std::uint64_t{1} << 53;  ///< 1/90000 s: 3000 years
-/// Times that a decoder shows a picture again in the place of lost ones. SPEC 6.2.
+/// How often a decoder repeats a picture in place of lost ones. SPEC 6.2.
 inline constexpr std::uint64_t kMaxHeldPictures = std::uint64_t{1} << 14;
 
-/// A place between two pictures of a stream: what comes before it.
+/// A place between two pictures of a stream: the sums of what comes before it.
 struct StreamPosition {
   std::uint64_t pictures = 0;  ///< 0..kMaxStreamPictures
   std::uint64_t time = 0;      ///< sum of their durations in 1/90000 s, 0..kMaxStreamTime
   friend bool operator==(const StreamPosition&, const StreamPosition&) = default;
 
-  /// Goes on behind a picture.
+  /// Advances past a picture.
   constexpr void add(std::uint32_t duration) {
     ++pictures;
     time += duration;
   }
 };
 
-/// Whether so many pictures can take so long: each has a duration of 1..kMaxDuration.
+/// Whether this many pictures can take this long: each has a duration of 1..kMaxDuration.
 /// @param pictures  at most kMaxStreamPictures
 /// @param time      1/90000 s
 [[nodiscard]] constexpr bool can_last(std::uint64_t pictures, std::uint64_t time) {
@@ -83,7 +83,7 @@ struct YuvColour {
 };
 
 /// Colours of the mouth interior where the pattern shows closed lips: at the upper lip (teeth) and at the
-/// lower lip (dark, tongue), with their mean half way. State::interior is added to their luma.
+/// lower lip (dark, tongue); their mean lies half way. State::interior is added to their luma.
 struct MouthInterior {
   YuvColour upper{70, 126, 138}, lower{45, 126, 138};
   friend bool operator==(const MouthInterior&, const MouthInterior&) = default;
@@ -94,11 +94,11 @@ struct Setup {
   StreamPosition before;  ///< where the scene begins; can_last() is true
   VideoFormat format;
   QuantiserSteps steps;
-  PartMask parts = kAllParts;  ///< of the state that are sent; the pose always
+  PartMask parts = kAllParts;  ///< parts of the state that are sent; always with the pose
   MouthInterior mouth;
-  std::int32_t patterns = 1;  ///< that the decoder keeps, 1..kMaxPatterns; 1: pictures need no blend packets
+  std::int32_t patterns = 1;  ///< kept by the decoder, 1..kMaxPatterns; 1: pictures need no blend packets
   std::int32_t contrast = kContrastOne;  ///< of patterns outside the face, kMinContrast..kContrastOne
-  /// Of patterns' chroma in the face, kContrastOne..kMaxChromaContrast, even.
+  /// Contrast of the patterns' chroma in the face, kContrastOne..kMaxChromaContrast, even.
   std::int32_t chroma_contrast = kContrastOne;
   friend bool operator==(const Setup&, const Setup&) = default;
 };
@@ -112,8 +112,8 @@ struct Geometry {
 };
 
 /// A regular grid of (columns + 1) x (rows + 1) points over the picture, the outermost near its borders. Each
-/// point has the weight of the head's motion and, in the rest, that of the body's; what is left is the
-/// ground's. SPEC 10.1.
+/// point has a weight for the head's motion and, in the remainder, one for the body's; the rest follows the
+/// ground. SPEC 10.1.
 struct SurroundMap {
   std::int32_t columns = 0;  ///< 1..kMaxSurroundCells
   std::int32_t rows = 0;
@@ -131,8 +131,8 @@ struct PatternSyntax {
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
 
-/// Numbers of one part at one picture of a group. Between knots the values are interpolated linearly; not to
-/// be confused with the knots and control points of the B-splines that mark the features of the face.
+/// Numbers of one part at one picture of a group, interpolated linearly between knots. Not a knot or control
+/// point of the B-splines that mark the features of the face.
 struct Knot {
   std::int32_t picture = 0;                        ///< 0 .. pictures of the group - 1
   std::array<std::int32_t, kMaxPartSize> value{};  ///< in steps; the part's numbers, then zeros
@@ -145,10 +145,10 @@ using Track = std::vector<Knot>;
 /// Consecutive pictures.
 struct MotionGroup {
   bool key = false;     ///< coded without reference to earlier groups
-  CodedState anchor{};  ///< state before the first picture: of the last picture of the group before, in a key
+  CodedState anchor{};  ///< state before the first picture: the last picture of the group before, or in a key
                         ///< group the seen state of the first pattern. Not coded, since both sides know it
   std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
-  /// Of each part that is sent: at least one knot, the last in the last picture; of others: none.
+  /// Each part that is sent has at least one knot, the last in the last picture; the others have none.
   std::array<Track, kPartCount> tracks;
   std::vector<std::uint32_t>
       durations;  ///< of each picture, 1..kMaxDuration, 1/90000 s; empty: constant frame rate

@@ -20,11 +20,11 @@ RING = 0.22  # eye distances from the outline to the ring
 SIDE = 0.45  # what depth adds to the distance from the middle: sides are laid out flat
 SIDE_FROM = 1.0  # depth, toward the viewer, behind which they are sides
 LIPS = 0.26  # how far the lower lip and all below are moved down, so that the mouth is open
-LIPS_AT = 1.12  # below this
+LIPS_AT = 1.12  # applies below this
 LIDS = 0.08  # how far all above the eyes is moved up, so that they are wide open
-LIDS_AT = -0.03  # above this
-LOWER_LIDS = 0.05  # how far all below them is moved down
-LOWER_LIDS_AT = 0.0355  # below this
+LIDS_AT = -0.03  # applies above this
+LOWER_LIDS = 0.05  # how far all below the eyes is moved down
+LOWER_LIDS_AT = 0.0355  # applies below this
 
 
 def read_head(path):
@@ -58,7 +58,7 @@ def ring_of(points, outline):
     out = []
     for k in range(len(outline)):
         (ax, ay), (bx, by), (cx, cy) = (points[outline[(k + d) % len(outline)]] for d in (-1, 0, 1))
-        nx, ny = cy - ay, ax - cx  # clockwise in the picture: to the left of the way is outside
+        nx, ny = cy - ay, ax - cx  # clockwise in the picture: outside is to the left of the path
         length = math.hypot(nx, ny)
         out.append((bx + RING * nx / length, by + RING * ny / length))
     return out

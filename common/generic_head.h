@@ -1,7 +1,7 @@
 // The generic head: 105 vertices, their triangles, and how control points move them. Paper section 2.1,
 // Fig. 2.
 //
-// Its source is common/generic_head.gltf (made by common/author_generic_head.py; our own drawing, with the
+// The source is common/generic_head.gltf (made by common/author_generic_head.py; our own drawing, with the
 // published roles of CANDIDE's vertices). common/head_table_tool.cpp turns it into
 // common/generic_head_table.cpp. The tables are integers and part of the format: SPEC.md gives their hash.
 #pragma once
@@ -31,9 +31,9 @@ struct ExpressionPart {
 };
 inline constexpr int kExpressionPartCount = 5;
 
-/// The tables, valid as long as the program runs. No allocation.
+/// The tables, valid for the program's lifetime. No allocation.
 struct GenericHead : WireFrame {
-  std::array<ExpressionPart, kExpressionPartCount> expression;  ///< of any head
+  std::array<ExpressionPart, kExpressionPartCount> expression;  ///< the same for every head
 };
 
 /// WireFrame::atlas. Made by common/author_head_atlas.py.
@@ -52,7 +52,7 @@ extern const std::array<glm::ivec2, kVertexCount + kRingCount> kHeadAtlas;
 ///   5; for each part of the expression: first control, number of controls, the rows
 [[nodiscard]] std::uint64_t generic_head_hash();
 
-/// Of the generic head; closed, first_control and control_count are the same for all wire-frames.
+/// A feature of the generic head; closed, first_control and control_count are the same for all wire-frames.
 [[nodiscard]] inline const Feature& feature(FeatureId id) {
   return generic_head().features[static_cast<std::size_t>(id)];
 }
@@ -62,7 +62,7 @@ extern const std::array<glm::ivec2, kVertexCount + kRingCount> kHeadAtlas;
   return generic_head().skinning_of(vertex);
 }
 
-/// On the generic head.
+/// The vertex of a landmark on the generic head.
 /// @param ibug  0..67
 [[nodiscard]] inline std::size_t vertex_of_landmark(std::size_t ibug) {
   return generic_head().landmark_vertex[ibug];

@@ -1,6 +1,6 @@
-// Reads generic_head.gltf and writes generic_head_table.cpp, which is kept beside it: the target `head_table`
-// of the build runs it, after a change of the head. It copies integers and changes only the axes: the file
-// has y up, z toward the viewer and counter-clockwise fronts; the table y down, z away and clockwise fronts.
+// Reads generic_head.gltf and writes generic_head_table.cpp beside it: build target `head_table`, run after a
+// change of the head. Copies integers and changes only the axes: the file has y up, z toward the viewer and
+// counter-clockwise fronts; the table y down, z away and clockwise fronts.
 #include <tiny_gltf.h>
 
 #include <array>
@@ -22,7 +22,7 @@ using tinygltf::Value;
 constexpr int kVertexCount = 105;
 constexpr int kUnitsPerEyeDistance = 4096;
 
-/// The bytes of one accessor, or nothing when its type is not the one that our script writes.
+/// The bytes of one accessor, or nothing when its type is not the one our script writes.
 const unsigned char* accessor_data(const Model& model, int index, int component_type, int type) {
   const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
   if (accessor.componentType != component_type || accessor.type != type) return nullptr;

@@ -1,4 +1,4 @@
-// Points of the iBUG-68 landmarks that are asked for by name. "right" and "left" are the subject's own.
+// iBUG-68 landmarks that code names. "right" and "left" are the subject's own.
 #pragma once
 
 namespace fbs::ibug {

@@ -1,4 +1,4 @@
-// MD5 (RFC 1321), for test vectors and `fbs decode --md5`: it tells pictures apart, and protects nothing.
+// MD5 (RFC 1321), for test vectors and `fbs decode --md5`: detects differences, offers no security.
 #pragma once
 
 #include <array>

@@ -62,7 +62,7 @@ struct PlaneView {
   PlaneView() = default;
   PlaneView(std::uint8_t* samples, int w, int h, std::ptrdiff_t row_stride)
       : data(samples), width(w), height(h), stride(row_stride) {}
-  PlaneView(Plane& plane)  // NOLINT(google-explicit-constructor): a plane is one in its own memory
+  PlaneView(Plane& plane)  // NOLINT(google-explicit-constructor): a plane views its own memory
       : PlaneView(plane.samples.data(), plane.width, plane.height, plane.width) {}
 
   [[nodiscard]] std::uint8_t* row(int y) const {
@@ -71,7 +71,7 @@ struct PlaneView {
   }
 };
 
-/// The same to read from.
+/// The read-only counterpart.
 struct ConstPlaneView {
   const std::uint8_t* data = nullptr;
   int width = 0;

@@ -28,10 +28,10 @@ struct SquaredError {
   [[nodiscard]] double psnr() const;
 };
 
-/// Over a whole plane; both of the same size.
+/// Over a whole plane; both have the same size.
 [[nodiscard]] SquaredError squared_error(const Plane& a, const Plane& b);
 
-/// Where `mask` (of the same size) is not zero.
+/// Only where `mask` (same size) is not zero.
 [[nodiscard]] SquaredError squared_error(const Plane& a, const Plane& b, const Plane& mask);
 
 }  // namespace fbs

@@ -17,6 +17,7 @@ enum class ErrorCode : std::uint8_t {
   kTooLarge,         ///< a count or dimension beyond its limit in SPEC.md
   kDegenerateInput,  ///< collinear points, an empty range and the like
   kNoFace,           ///< no face where one is needed
+  kTooFewFaces,      ///< some faces, but not the one that a setting asks for
   kIo,               ///< a file could not be read or written
   kInternal,         ///< a broken invariant of our own: always a bug
 };

@@ -14,10 +14,10 @@ namespace fbs {
 enum PoseIndex : std::uint8_t { kPitch, kYaw, kRoll, kShiftX, kShiftY, kLogScale };
 inline constexpr int kPoseCount = 6;
 
-/// Indices into State::light: the terms of what is added to the pattern's luma, in 1/16 grey level. Offset;
-/// gain, per 64 levels above luma 128; slopes, per eye distance to the right of and below the head's origin;
-/// quadratic terms, per squared eye distance from the middle of the face, which is half an eye distance below
-/// the origin.
+/// Indices into State::light: terms added to the pattern's luma, in 1/16 grey level. Offset; gain, per 64
+/// levels above luma 128; slopes, per eye distance to the right of and below the head's origin; quadratic
+/// terms, per squared eye distance from the middle of the face, which is half an eye distance below the
+/// origin.
 enum LightIndex : std::uint8_t {
   kLightOffset,
   kLightGain,
@@ -68,7 +68,7 @@ struct State {
   std::array<std::int32_t, kSimilarityCount> ground{};
   /// Offsets from the adapted, expressionless face, x, y in the head frame, head units.
   std::array<glm::ivec2, kControlCount> control{};
-  std::int32_t picture = 0;  ///< number in the scene: the time from which patterns are far or near
+  std::int32_t picture = 0;  ///< number in the scene: the time by which patterns are near or far
   RegionModes blend{};
 
   friend bool operator==(const State&, const State&) = default;

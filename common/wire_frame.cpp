@@ -13,7 +13,7 @@ constexpr std::size_t kMouthInner = static_cast<std::size_t>(FeatureId::kMouthIn
 constexpr std::size_t kFirstPupil = static_cast<std::size_t>(FeatureId::kPupilRight);
 constexpr std::size_t kRightMouthCorner = 60, kLeftMouthCorner = 64;  // landmarks
 
-/// A WireFrame and what it shows.
+/// A WireFrame and the tables it views.
 struct Kept {
   std::vector<HeadVertex> vertices;
   std::vector<HeadTriangle> triangles;
@@ -61,7 +61,7 @@ bool within(std::int32_t value, std::int32_t low, std::int32_t high) {
   return value >= low && value <= high;
 }
 
-/// What is wrong; null if nothing is.
+/// The first rule broken; null if none.
 const char* fault(const WireFrameTables& t) {
   const std::size_t n = t.positions.size();
   if (n < kMinWireFrameVertices || n > kMaxWireFrameVertices) return "has 70 to 1024 vertices";

@@ -72,7 +72,7 @@ struct SkinningWeight {
   friend bool operator==(const SkinningWeight&, const SkinningWeight&) = default;
 };
 
-/// Views of the tables of one head, which somebody else keeps.
+/// Views of one head's tables, which are owned elsewhere.
 struct WireFrame {
   std::span<const HeadVertex> vertices;
   std::span<const HeadTriangle> triangles;
@@ -82,7 +82,7 @@ struct WireFrame {
   std::span<const std::uint16_t> skinning_begin;  ///< weights of vertex v: [begin[v], begin[v+1])
   std::span<const SkinningWeight> skinning;
   std::span<const std::uint16_t, kLandmarkCount> landmark_vertex;  ///< vertex of each iBUG-68 point
-  /// Where the vertices lie in the atlas, and then the ring (decoder/atlas): one vertex for each of the
+  /// Where the vertices lie in the atlas, followed by the ring (decoder/atlas): one vertex for each of the
   /// outline, farther out. 1/4096 eye distance from the top left corner.
   std::span<const glm::ivec2> atlas;
 
@@ -93,7 +93,7 @@ struct WireFrame {
   /// @param ibug  0..67
   [[nodiscard]] std::size_t vertex_of_landmark(std::size_t ibug) const { return landmark_vertex[ibug]; }
   [[nodiscard]] const Feature& feature(FeatureId id) const { return features[static_cast<std::size_t>(id)]; }
-  /// Right and left.
+  /// Right, then left.
   [[nodiscard]] std::array<std::size_t, 2> pupil_vertices() const {
     return {feature(FeatureId::kPupilRight).vertices.front().vertex,
             feature(FeatureId::kPupilLeft).vertices.front().vertex};
@@ -104,7 +104,7 @@ inline constexpr std::size_t kMinWireFrameVertices = kLandmarkCount + 2;  ///< l
 inline constexpr std::size_t kMaxWireFrameVertices = 1024;
 inline constexpr std::size_t kMaxWireFrameTriangles = 2 * kMaxWireFrameVertices;
 inline constexpr std::size_t kMaxOutline = 256;                           ///< vertices
-inline constexpr std::size_t kMaxFeatureVertices = 64;                    ///< of one feature
+inline constexpr std::size_t kMaxFeatureVertices = 64;                    ///< on one feature
 inline constexpr std::int32_t kMaxCoordinate = 4 * kUnitsPerEyeDistance;  ///< of a vertex, head units
 inline constexpr std::int32_t kMaxAtlasCoordinate = 6 * kUnitsPerEyeDistance - 1;  ///< 0 is the smallest
 /// Sum of the magnitudes of a vertex' skinning weights.
@@ -120,14 +120,14 @@ struct WireFrameTables {
   std::vector<HeadTriangle> triangles;  ///< 1..kMaxWireFrameTriangles; three different corners each
   std::vector<std::uint16_t> outline;   ///< 3..kMaxOutline, all different
   std::vector<std::vector<SkinningWeight>> skinning;  ///< of each vertex; controls ascend; no weight is 0
-  std::vector<glm::ivec2> atlas;  ///< of the vertices and of the ring; 0..kMaxAtlasCoordinate
+  std::vector<glm::ivec2> atlas;                      ///< vertices, then ring; 0..kMaxAtlasCoordinate
   friend bool operator==(const WireFrameTables&, const WireFrameTables&) = default;
 };
 
-/// @return kInvalidArgument  what is said above does not hold
+/// @return kInvalidArgument  a rule above is broken
 [[nodiscard]] Result<std::shared_ptr<const WireFrame>> make_wire_frame(const WireFrameTables& tables);
 
-/// The reverse: what make_wire_frame() would make the same from.
+/// The reverse: the tables from which make_wire_frame() makes the same frame.
 [[nodiscard]] WireFrameTables tables_of(const WireFrame& frame);
 
 }  // namespace fbs

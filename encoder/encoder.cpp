@@ -12,25 +12,10 @@
 #include "encoder/scene/face_scene.h"
 #include "encoder/scene/planar_scene.h"
 #include "encoder/scene/still_scene.h"
-#include "encoder/shots/cut_detector.h"
-#include "encoder/shots/fade_in.h"
+#include "encoder/shots/shot_watch.h"
 
 namespace fbs {
 namespace {
-
-// Pictures, while nobody is followed: between searches, and between those for small faces too.
-constexpr std::uint64_t kSearchEvery = 5, kSearchAllEvery = 30;
-
-/// A face that is lost for longer may be another one: whoever is found is followed.
-constexpr double kLostForSeconds = 2;
-
-/// A shot without a face, such as a slide, is carried by the scene before it for so long. A scene of its own
-/// shows it better, but costs the face that comes back 2 or 3 kB. The same for a face lost within a shot, as
-/// in an empty room, did not pay.
-constexpr double kInsertSeconds = 1;
-
-/// A face that comes out of the dark is followed from where its light has come, or after so many seconds.
-constexpr double kLongestFade = 3;
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -92,18 +77,12 @@ struct Encoder::Impl {
   VideoFormat format;
   EncoderSettings settings;
   FaceFinder finder;
+  ShotWatch shots;
   std::vector<std::uint8_t> ready{};
-  CutDetector cuts{};
-  FadeIn fade_in{};
   std::unique_ptr<SceneEncoder> scene{};
-  bool scene_follows = false;    ///< it is a scene with a face
-  bool face_seen = false;        ///< in any picture
-  bool follows = false;          ///< the shot shows whom the scene follows
-  bool cut_to = false;           ///< the shot began with a cut
-  std::uint64_t shot_begin = 0;  ///< number of its first picture
+  bool face_seen = false;  ///< in any picture
   EncodingReport report{};
   StreamPosition position{};  ///< behind the last picture
-  std::uint64_t lost = 0;     ///< pictures, the last ones, in which the scene's face was not followed
   bool has_ended = false;     ///< the stream has its end packet
   PictureAnalysis nothing{};
 
@@ -112,26 +91,22 @@ struct Encoder::Impl {
     ready.insert(ready.end(), bytes.begin(), bytes.end());
   }
 
-  [[nodiscard]] std::uint64_t in_shot() const { return report.pictures - shot_begin; }
-
   /// Marks of the face to follow, if the picture shows one.
-  /// @return kInvalidArgument when there are faces, but not so many as are asked for
-  [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture) const {
+  /// @return kTooFewFaces when there are faces, but not so many as are asked for
+  [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture, bool all_sizes) const {
     if (settings.marks && report.pictures == 0) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
-    const auto effort =
-        in_shot() % kSearchAllEvery == 0 ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes;
-    const auto faces = finder.find(picture, number + 1, effort);
+    const auto faces = finder.find(
+        picture, number + 1, all_sizes ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes);
     if (faces.empty()) return std::nullopt;
     if (faces.size() > number) return marks_of(faces[number]);
     if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
-    return fail(ErrorCode::kInvalidArgument,
+    return fail(ErrorCode::kTooFewFaces,
                 "no face " + std::to_string(number) + ": picture " + std::to_string(report.pictures) +
                     " shows " + std::to_string(faces.size()) + ", and the largest is face 0");
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
-    fade_in.begin();
     if (scene) {
       if (auto ended = scene->finish(); !ended) return ended;
       take_from_scene();
@@ -141,60 +116,48 @@ struct Encoder::Impl {
                                           : PlanarScene::begin(format, settings, position);
     if (!begun) return fail(begun.error());
     scene = std::move(*begun);
-    scene_follows = marks.has_value();
-    face_seen = face_seen || scene_follows;
-    if (scene_follows) settings.first_pattern.reset();  // later scenes have another first picture
+    shots.begin_scene({marks.has_value(), scene->carries_shots()});
+    if (marks) {
+      face_seen = true;
+      settings.first_pattern.reset();  // later scenes have another first picture
+    }
     ++report.scenes;
     return {};
   }
 
-  [[nodiscard]] std::uint64_t pictures_in(double seconds) const {
-    return static_cast<std::uint64_t>(seconds * fps_of(format));
-  }
-
-  [[nodiscard]] bool lost_for(double seconds) const { return lost >= pictures_in(seconds); }
-
-  /// Whether a scene has to begin, with a face or without.
-  [[nodiscard]] bool must_begin(bool cut) const {
-    if (!scene || (cut && !scene->carries_shots())) return true;
-    return scene_follows && scene->carries_shots() && cut_to && lost_for(kInsertSeconds);
-  }
-
-  /// Ahead of a much better picture than the scene began with.
-  Result<void> begin_again(const Picture& picture) {
-    const auto marks = look_for_face(picture);
-    if (!marks) return fail(marks.error());
-    if (follows && !*marks) return {};  // better dark than lost
-    follows = marks->has_value();
-    return begin_scene(picture, *marks);
-  }
-
   /// Ahead of a picture: sees to it that there is a scene that suits it.
   Result<void> choose_scene(const Picture& picture) {
-    const bool cut = cuts.is_cut(picture);
-    if (cut) {
+    const ShotWatch::Step step = shots.next(picture);
+    if (step.cut) {
       ++report.cuts;
       scene->cut();
-      follows = false;
-      cut_to = true;
-      shot_begin = report.pictures;
-      fade_in.begin();
     }
-    if (fade_in.has_ended(picture)) return begin_again(picture);
-    if (follows && lost_for(kLostForSeconds)) {
-      follows = cut_to = false;
-      shot_begin = report.pictures;
-    }
-    if (follows || in_shot() % kSearchEvery != 0) return {};
-    if (scene && fade_in.is_rising() && in_shot() < pictures_in(kLongestFade)) return {};
-    if (scene && scene->carries_shots() && scene->recognises(picture)) {
-      follows = true;
+    if (!step.searches) return {};
+    if (step.recognises && scene->recognises(picture)) {
+      shots.recognised();
       return {};
     }
-    const auto marks = look_for_face(picture);
+    const auto marks = look_for_face(picture, step.all_sizes);
     if (!marks) return fail(marks.error());
-    follows = marks->has_value();
-    return follows || must_begin(cut) ? begin_scene(picture, *marks) : Result<void>{};
+    return shots.scene_begins(marks->has_value()) ? begin_scene(picture, *marks) : Result<void>{};
+  }
+
+  /// Landmarks of the next picture by another tracker, if it has some.
+  void give_landmarks() {
+    if (!settings.landmarks) return;
+    if (const auto seen = settings.landmarks->find(report.pictures); seen != settings.landmarks->end())
+      scene->give_landmarks(seen->second);
+  }
+
+  /// Counts the picture that the scene has taken.
+  void end_picture(std::uint32_t duration) {
+    const PictureAnalysis& seen = scene->analysis();
+    shots.end_picture(seen.followed);
+    ++report.pictures;
+    position.add(duration > 0 ? duration : nominal_duration(format.frame_rate));
+    if (!seen.followed) ++report.without_face;
+    if (seen.had_landmarks) ++report.with_landmarks;
+    if (seen.from_landmarks) ++report.from_landmarks;
   }
 };
 
@@ -213,7 +176,8 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
       return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
-  auto impl = std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder)});
+  auto impl =
+      std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), ShotWatch(fps_of(format))});
   write_signature(impl->ready);
   return Encoder(std::move(impl));
 }
@@ -223,17 +187,10 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
-  if (i.settings.landmarks)
-    if (const auto seen = i.settings.landmarks->find(i.report.pictures); seen != i.settings.landmarks->end())
-      i.scene->give_landmarks(seen->second);
+  i.give_landmarks();
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();
-  i.lost = i.scene->analysis().followed ? 0 : i.lost + 1;
-  ++i.report.pictures;
-  i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
-  if (i.lost > 0) ++i.report.without_face;
-  if (i.scene->analysis().had_landmarks) ++i.report.with_landmarks;
-  if (i.scene->analysis().from_landmarks) ++i.report.from_landmarks;
+  i.end_picture(duration);
   return {};
 }
 

@@ -39,7 +39,8 @@ class Encoder {
 
   /// @param picture   4:2:0, of the format's size
   /// @param duration  1/90000 s, at most kMaxDuration; 0: that of the frame rate
-  /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then
+  /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then;
+  ///         kTooFewFaces when the first picture with a face shows fewer than EncoderSettings::face asks for
   Result<void> push(const Picture& picture, std::uint32_t duration = 0);
 
   /// Asks for a place where a viewer can join: the present group is the last of its scene. Nothing happens

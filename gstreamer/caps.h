@@ -1,11 +1,9 @@
-/* Media types, and what several elements do alike. */
+/* Media types, and functions shared by several elements. */
 #ifndef FBS_GSTREAMER_CAPS_H
 #define FBS_GSTREAMER_CAPS_H
 
-#include <fbs/fbs.h>
+#include <fbs/packet.h>
 #include <gst/gst.h>
-
-#include "packet.h"
 
 G_BEGIN_DECLS
 
@@ -17,8 +15,8 @@ G_BEGIN_DECLS
 #define GST_FBS_GROUP_CAPS \
   GST_FBS_MEDIA_TYPE ", stream-format = (string) byte-stream, alignment = (string) group"
 
-/** Of alignment "group", with what the setup packet says. */
-GstCaps* gst_fbs_caps_of_setup(const GstFbsSetup* setup);
+/** Sets the caps of a source pad, of alignment "group", unless it has them. */
+void gst_fbs_set_format(GstPad* pad, const fbs_format* format);
 
 /** The bytes of a signature at the beginning of a buffer: 4 or 0. */
 gsize gst_fbs_signature_at(const guint8* data, gsize size);

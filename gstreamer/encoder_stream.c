@@ -1,7 +1,6 @@
 #include "encoder_stream.h"
 
 #include "caps.h"
-#include "packet.h"
 
 void gst_fbs_group_free(GstFbsGroup* group) {
   g_byte_array_unref(group->bytes);
@@ -22,11 +21,6 @@ fbs_status gst_fbs_encoder_stream_open(GstFbsEncoderStream* stream, const fbs_en
   return fbs_encoder_open(&stream->encoder, settings);
 }
 
-/* Whether pictures are shown once the packet has arrived: SPEC 6. */
-static gboolean releases(const GstFbsEncoderStream* stream, guint8 type) {
-  return type == (stream->patterns > 1 ? GST_FBS_BLEND : GST_FBS_MOTION);
-}
-
 static GstFbsGroup* open_group(GstFbsEncoderStream* stream) {
   if (stream->group == NULL) {
     stream->group = g_new0(GstFbsGroup, 1);
@@ -36,23 +30,13 @@ static GstFbsGroup* open_group(GstFbsEncoderStream* stream) {
 }
 
 static void take_packet(GstFbsEncoderStream* stream, const fbs_packet* packet) {
-  const gsize signature = gst_fbs_signature_at(packet->data, packet->size);
-  GstFbsPacket view;
-  GstFbsSetup setup;
-  if (gst_fbs_packet_scan(packet->data + signature, packet->size - signature, &view, NULL) !=
-      GST_FBS_SCAN_PACKET)
-    return; /* the encoder gives out whole packets */
   GstFbsGroup* const group = open_group(stream);
-  if (view.type == GST_FBS_SETUP && gst_fbs_setup_parse(view.payload, view.payload_size, &setup)) {
-    stream->patterns = setup.patterns;
-    group->key = TRUE;
-  }
+  group->key = group->key || packet->type == FBS_PACKET_SETUP;
+  group->end = packet->type == FBS_PACKET_END;
   g_byte_array_append(group->bytes, packet->data, (guint)packet->size);
-  group->end = view.type == GST_FBS_END;
-  if (group->end || releases(stream, view.type)) {
-    group->number = packet->number;
-    g_queue_push_tail(&stream->ready, g_steal_pointer(&stream->group));
-  }
+  if (!group->end && packet->pictures == 0) return;
+  group->number = packet->number;
+  g_queue_push_tail(&stream->ready, g_steal_pointer(&stream->group));
 }
 
 static void pull(GstFbsEncoderStream* stream) {

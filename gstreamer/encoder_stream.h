@@ -10,7 +10,7 @@ G_BEGIN_DECLS
 /** Bytes of one buffer: alignment "group" of caps.h. */
 typedef struct {
   GByteArray* bytes; /**< owned */
-  guint64 number;    /**< of the first picture that they show; of the end packet: pictures in all */
+  guint64 number;    /**< of the first picture shown; for the end packet: number of pictures */
   gboolean key;      /**< begins a scene */
   gboolean end;      /**< the end packet */
 } GstFbsGroup;
@@ -23,7 +23,6 @@ typedef struct {
   guint64 pictures;     /**< pushed to the encoder */
   guint64 time;         /**< the sum of their durations, 1/90000 s */
   guint32 nominal;      /**< duration, 1/90000 s */
-  guint8 patterns;      /**< of the last setup packet */
   GstFbsGroup* group;   /**< not complete yet; or null */
   GQueue ready;         /**< GstFbsGroup */
 } GstFbsEncoderStream;

@@ -14,11 +14,11 @@ G_DECLARE_FINAL_TYPE(GstFbsEnc, gst_fbs_enc, GST, FBS_ENC, GstVideoEncoder)
 struct _GstFbsEnc {
   GstVideoEncoder parent;
 
-  fbs_encoder_settings settings; /**< properties; `format` is that of the caps */
+  fbs_encoder_settings settings; /**< properties; `format` comes from the caps */
   GstVideoCodecState* input;     /**< null until the caps have come */
   GstFbsEncoderStream stream;
-  GQueue frames;        /**< GstVideoCodecFrame whose pictures have been pushed and not been sent, in order */
-  guint64 first_number; /**< of the picture of the first of them, in the stream */
+  GQueue frames;        /**< GstVideoCodecFrame whose pictures were pushed but not yet sent, in order */
+  guint64 first_number; /**< number in the stream of the picture of the first of them */
   GstClockTime origin;  /**< timestamp of the stream's first picture */
   GstClockTime end;     /**< of the last picture pushed */
 };

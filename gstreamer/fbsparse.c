@@ -12,7 +12,6 @@
 
 #include "caps.h"
 #include "elements.h"
-#include "scene_index.h"
 
 GST_DEBUG_CATEGORY_STATIC(fbs_parse_debug);
 #define GST_CAT_DEFAULT fbs_parse_debug
@@ -32,16 +31,25 @@ static GstStaticPadTemplate src_template =
 
 static gboolean index_bytes(GstFbsParse* self, const guint8* data, gsize size) {
   GstBaseParse* const parse = GST_BASE_PARSE(self);
-  GstClockTime duration;
-  GArray* const scenes = gst_fbs_scene_index(data, size, &duration);
-  for (guint k = 0; k < scenes->len; ++k) {
-    const GstFbsSceneEntry* const scene = &g_array_index(scenes, GstFbsSceneEntry, k);
-    gst_base_parse_add_index_entry(parse, scene->offset, scene->time, TRUE, TRUE);
+  fbs_packet_reader* reader = NULL;
+  fbs_packet_info packet;
+  fbs_status status;
+  gboolean has_scene = FALSE;
+  guint64 last = 0, end = 0;
+  if (fbs_packet_reader_open(&reader) != FBS_OK) return FALSE;
+  fbs_packet_reader_feed(reader, data, size);
+  fbs_packet_reader_finish(reader);
+  while ((status = fbs_packet_reader_next(reader, &packet)) != FBS_END && status != FBS_ERROR_NO_MEMORY) {
+    if (status != FBS_OK || packet.fault != NULL) continue;
+    end = packet.shown_until;
+    if (packet.type != FBS_PACKET_SETUP || (has_scene && packet.time <= last)) continue;
+    gst_base_parse_add_index_entry(parse, packet.offset, gst_fbs_ticks_to_time(packet.time), TRUE, TRUE);
+    has_scene = TRUE;
+    last = packet.time;
   }
-  g_array_unref(scenes);
-  if (!GST_CLOCK_TIME_IS_VALID(duration)) return FALSE;
-  gst_base_parse_set_duration(parse, GST_FORMAT_TIME, (gint64)duration, 0);
-  return TRUE;
+  fbs_packet_reader_close(&reader);
+  if (has_scene) gst_base_parse_set_duration(parse, GST_FORMAT_TIME, (gint64)gst_fbs_ticks_to_time(end), 0);
+  return has_scene;
 }
 
 /* Streams are small: all of a file is read once. */
@@ -95,40 +103,24 @@ static void begin_group(GstFbsParse* self) {
 
 /* What follows need not follow what was. */
 static void lose_sync(GstFbsParse* self) {
-  self->synced = FALSE;
-  self->chain = GST_FBS_FIRST_CHECK;
-  if (self->clock != NULL) fbs_decoder_reset(self->clock);
+  fbs_packet_reader_reset(self->packets);
+  self->base = self->fed = 0;
+  self->synced = self->searching = self->finished = self->has_next = FALSE;
   begin_group(self);
 }
 
-static void take_setup(GstFbsParse* self, const GstFbsPacket* packet) {
-  GstFbsSetup setup;
-  if (!gst_fbs_setup_parse(packet->payload, packet->payload_size, &setup)) return;
-  GstPad* const pad = GST_BASE_PARSE_SRC_PAD(self);
-  GstCaps* const caps = gst_fbs_caps_of_setup(&setup);
-  GstCaps* const current = gst_pad_get_current_caps(pad);
-  if (current == NULL || !gst_caps_is_equal(caps, current)) gst_pad_set_caps(pad, caps);
-  if (current != NULL) gst_caps_unref(current);
-  gst_caps_unref(caps);
-  self->has_scene = self->key = TRUE;
+/* The first bytes of the buffer have been passed on, or over. */
+static void forget(GstFbsParse* self, gsize size) {
+  self->base += size;
+  self->fed -= size;
+  begin_group(self);
 }
 
-/* @return whether pictures are shown once the packet has arrived */
-static gboolean take_packet(GstFbsParse* self, const guint8* data, gsize size) {
-  gboolean shows = FALSE;
-  fbs_picture_info info;
-  fbs_status status;
-  fbs_decoder_feed(self->clock, data, size);
-  while ((status = fbs_decoder_next(self->clock, &info)) != FBS_NEED_DATA && status != FBS_END) {
-    if (status != FBS_OK) {
-      GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("%s", fbs_decoder_error(self->clock)));
-      continue;
-    }
-    shows = TRUE;
-    if (!info.held && !GST_CLOCK_TIME_IS_VALID(self->pts)) self->pts = gst_fbs_ticks_to_time(info.time);
-    self->end = gst_fbs_ticks_to_time(info.time + info.duration);
-  }
-  return shows;
+static void take_setup(GstFbsParse* self) {
+  fbs_format format;
+  if (fbs_packet_reader_get_format(self->packets, &format) != FBS_OK) return;
+  gst_fbs_set_format(GST_BASE_PARSE_SRC_PAD(self), &format);
+  self->has_scene = self->key = TRUE;
 }
 
 static GstFlowReturn send_group(GstFbsParse* self, GstBaseParseFrame* frame) {
@@ -138,56 +130,80 @@ static GstFlowReturn send_group(GstFbsParse* self, GstBaseParseFrame* frame) {
     GST_BUFFER_PTS(buffer) = GST_CLOCK_TIME_IS_VALID(self->pts) ? self->pts : self->end;
   GST_BUFFER_DURATION(buffer) = GST_CLOCK_TIME_IS_VALID(self->pts) ? self->end - self->pts : 0;
   if (!self->key) GST_BUFFER_FLAG_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT);
-  begin_group(self);
+  forget(self, size);
   return gst_base_parse_finish_frame(GST_BASE_PARSE(self), frame, (gint)size);
-}
-
-/* Passes over damage, from `at` on: SPEC 3.2. What of the group was before it is of no use. The base class
- * marks the next buffer as discontinuous. */
-static void pass_damage(GstFbsParse* self, const guint8* data, gsize size, gsize at, gint* skip) {
-  if (self->synced)
-    GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("a damaged packet: the rest of its scene is lost"));
-  lose_sync(self);
-  const gsize next = MIN(at + 1, size);
-  *skip = (gint)(next + gst_fbs_find_restart(data + next, size - next));
 }
 
 typedef enum { PACKET_GOES_ON, PACKET_ENDS_GROUP, PACKET_IS_OF_NEXT_GROUP } PacketPlace;
 
-/* A whole packet, whose check is right. */
-static PacketPlace place_packet(GstFbsParse* self, const GstFbsPacket* packet, const guint8* begin) {
-  const gboolean is_setup = packet->type == GST_FBS_SETUP, is_end = packet->type == GST_FBS_END;
-  const gboolean has_packets = self->scanned > GST_FBS_SIGNATURE_SIZE;
+static PacketPlace place_packet(GstFbsParse* self, const fbs_packet_info* packet) {
+  const gboolean is_setup = packet->type == FBS_PACKET_SETUP, is_end = packet->type == FBS_PACKET_END;
+  const gboolean has_packets = self->scanned > FBS_SIGNATURE_SIZE;
   if ((is_setup || is_end) && has_packets && self->has_scene) return PACKET_IS_OF_NEXT_GROUP;
-  if (is_setup) take_setup(self, packet);
+  if (packet->fault != NULL) GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("%s", packet->fault));
+  if (is_setup && packet->fault == NULL) take_setup(self);
   self->synced = TRUE;
-  self->scanned += packet->size;
-  return take_packet(self, begin, packet->size) || is_end ? PACKET_ENDS_GROUP : PACKET_GOES_ON;
+  self->scanned = (gsize)(packet->offset - self->base) + packet->size;
+  if (packet->pictures > 0 || is_end) {
+    if (packet->pictures > 0 && !GST_CLOCK_TIME_IS_VALID(self->pts))
+      self->pts = gst_fbs_ticks_to_time(packet->shown_from);
+    self->end = gst_fbs_ticks_to_time(packet->shown_until);
+  }
+  return packet->pictures > 0 || is_end ? PACKET_ENDS_GROUP : PACKET_GOES_ON;
+}
+
+/* What of the group was before the damage is of no use. The base class marks the next buffer as
+ * discontinuous. */
+static void pass_damage(GstFbsParse* self, fbs_status status) {
+  if (self->synced && status != FBS_ERROR_NOT_FBS)
+    GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("a damaged packet: the rest of its scene is lost"));
+  self->synced = FALSE;
+  self->searching = TRUE;
+  begin_group(self);
+}
+
+static void feed(GstFbsParse* self, const guint8* data, gsize size) {
+  if (size > self->fed) fbs_packet_reader_feed(self->packets, data + self->fed, size - self->fed);
+  self->fed = MAX(self->fed, size);
+  if (!GST_BASE_PARSE_DRAINING(GST_BASE_PARSE(self))) return;
+  fbs_packet_reader_finish(self->packets);
+  self->finished = TRUE;
+}
+
+/* What has been searched through is passed over, but for what may be the beginning of a packet. */
+static gboolean wait_for(GstFbsParse* self, gsize size, gsize wanted, gint* skip) {
+  gst_base_parse_set_min_frame_size(GST_BASE_PARSE(self), (guint)wanted);
+  if (self->searching && size > FBS_MAX_FOUND_PACKET) *skip = (gint)(size - FBS_MAX_FOUND_PACKET);
+  return FALSE;
 }
 
 /* @return TRUE when self->scanned bytes are a group */
 static gboolean scan(GstFbsParse* self, const guint8* data, gsize size, gint* skip) {
-  GstBaseParse* const parse = GST_BASE_PARSE(self);
-  if (self->scanned == 0 && !self->synced) self->scanned = gst_fbs_signature_at(data, size);
+  feed(self, data, size);
   for (;;) {
-    GstFbsPacket packet;
-    gsize needed = 0;
-    guint16 chain = self->chain;
-    const gsize at = self->scanned;
-    const GstFbsScan found = gst_fbs_packet_scan(data + at, size - at, &packet, &needed);
-    if (found == GST_FBS_SCAN_SHORT && !GST_BASE_PARSE_DRAINING(parse)) {
-      gst_base_parse_set_min_frame_size(parse, (guint)(at + needed));
+    fbs_packet_info* const packet = &self->next;
+    const fbs_status status = self->has_next ? FBS_OK : fbs_packet_reader_next(self->packets, packet);
+    if (status == FBS_NEED_DATA) return wait_for(self, size, self->fed + 1, skip);
+    if (status == FBS_END && self->scanned > FBS_SIGNATURE_SIZE) return TRUE;
+    if (status == FBS_END) {
+      *skip = (gint)size;
       return FALSE;
     }
-    if (found == GST_FBS_SCAN_SHORT && at == size && at > GST_FBS_SIGNATURE_SIZE) return TRUE;
-    if (found != GST_FBS_SCAN_PACKET || !gst_fbs_packet_check(&packet, &chain)) {
-      pass_damage(self, data, size, at, skip);
+    if (status != FBS_OK) {
+      pass_damage(self, status);
+      continue;
+    }
+    const gsize at = (gsize)(packet->offset - self->base);
+    self->has_next = TRUE;
+    self->searching = FALSE;
+    if (at + packet->size > size) return wait_for(self, size, at + packet->size, skip);
+    if (at != self->scanned && !(self->scanned == 0 && at == gst_fbs_signature_at(data, size))) {
+      *skip = (gint)at;
       return FALSE;
     }
-    const PacketPlace place = place_packet(self, &packet, data + at);
-    if (place == PACKET_IS_OF_NEXT_GROUP) return TRUE;
-    self->chain = chain;
-    if (place == PACKET_ENDS_GROUP) return TRUE;
+    const PacketPlace place = place_packet(self, packet);
+    self->has_next = place == PACKET_IS_OF_NEXT_GROUP;
+    if (place != PACKET_GOES_ON) return TRUE;
   }
 }
 
@@ -195,18 +211,22 @@ static GstFlowReturn gst_fbs_parse_handle_frame(GstBaseParse* parse, GstBasePars
   GstFbsParse* const self = GST_FBS_PARSE(parse);
   GstMapInfo map;
   if (!self->has_index) index_file(self);
-  if (GST_BUFFER_IS_DISCONT(frame->buffer) && (self->scanned == 0 || frame->offset != self->offset))
-    lose_sync(self);
+  const gboolean is_apart =
+      GST_BUFFER_IS_DISCONT(frame->buffer) && (self->scanned == 0 || frame->offset != self->offset);
+  if (is_apart || (self->finished && !GST_BASE_PARSE_DRAINING(parse))) lose_sync(self);
   self->offset = frame->offset;
   if (!gst_buffer_map(frame->buffer, &map, GST_MAP_READ)) return GST_FLOW_ERROR;
   *skip = 0;
   const gboolean whole = scan(self, map.data, map.size, skip);
   gst_buffer_unmap(frame->buffer, &map);
-  if (!whole) return GST_FLOW_OK;
+  if (!whole) {
+    if (*skip > 0) forget(self, (gsize)*skip);
+    return GST_FLOW_OK;
+  }
   gst_base_parse_set_min_frame_size(parse, SMALLEST_PACKET);
   if (self->has_scene) return send_group(self, frame);
   *skip = (gint)self->scanned; /* shows nothing */
-  begin_group(self);
+  forget(self, self->scanned);
   return GST_FLOW_OK;
 }
 
@@ -226,7 +246,7 @@ static gboolean gst_fbs_parse_sink_event(GstBaseParse* parse, GstEvent* event) {
 
 static gboolean gst_fbs_parse_start(GstBaseParse* parse) {
   GstFbsParse* const self = GST_FBS_PARSE(parse);
-  if (fbs_decoder_open(&self->clock, NULL) != FBS_OK) return FALSE;
+  if (fbs_packet_reader_open(&self->packets) != FBS_OK) return FALSE;
   self->has_index = self->timed = self->has_scene = FALSE;
   self->end = 0;
   lose_sync(self);
@@ -237,7 +257,7 @@ static gboolean gst_fbs_parse_start(GstBaseParse* parse) {
 }
 
 static gboolean gst_fbs_parse_stop(GstBaseParse* parse) {
-  fbs_decoder_close(&GST_FBS_PARSE(parse)->clock);
+  fbs_packet_reader_close(&GST_FBS_PARSE(parse)->packets);
   return TRUE;
 }
 

@@ -3,9 +3,9 @@
 #include "elements.h"
 
 static void find_type(GstTypeFind* find, gpointer unused) {
-  const guint8* const data = gst_type_find_peek(find, 0, GST_FBS_SIGNATURE_SIZE);
+  const guint8* const data = gst_type_find_peek(find, 0, FBS_SIGNATURE_SIZE);
   (void)unused;
-  if (data != NULL && gst_fbs_signature_at(data, GST_FBS_SIGNATURE_SIZE) > 0)
+  if (data != NULL && gst_fbs_signature_at(data, FBS_SIGNATURE_SIZE) > 0)
     gst_type_find_suggest_simple(find, GST_TYPE_FIND_MAXIMUM, GST_FBS_MEDIA_TYPE, NULL, NULL);
 }
 

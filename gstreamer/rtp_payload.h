@@ -4,7 +4,7 @@
 
 #include <fbs/fbs.h>
 
-/** Bytes ahead of those of the group: one, with these bits. */
+/** Bytes before the group's: one, with these bits. */
 #define GST_FBS_RTP_HEADER 1
 #define GST_FBS_RTP_START 0x80 /**< the first of a group */
 #define GST_FBS_RTP_KEY 0x40   /**< the group begins a scene */

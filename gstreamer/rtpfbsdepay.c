@@ -94,18 +94,30 @@ static void lose(GstRtpFbsDepay* self) {
 
 /* ---- groups ---- */
 
+/* Reads the setup packet at the beginning of a scene.
+ * @return FALSE: there is none */
+static gboolean read_setup(const guint8* data, gsize size, fbs_packet_info* setup, fbs_format* format) {
+  fbs_packet_reader* reader = NULL;
+  gboolean found = FALSE;
+  fbs_status status;
+  if (fbs_packet_reader_open(&reader) != FBS_OK) return FALSE;
+  fbs_packet_reader_feed(reader, (const guint8*)FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
+  fbs_packet_reader_feed(reader, data, size);
+  while (!found && (status = fbs_packet_reader_next(reader, setup)) == FBS_OK)
+    found = setup->type == FBS_PACKET_SETUP && setup->fault == NULL &&
+            fbs_packet_reader_get_format(reader, format) == FBS_OK;
+  fbs_packet_reader_close(&reader);
+  return found;
+}
+
 /* @return FALSE: these bytes begin no scene */
 static gboolean set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
-  GstFbsSetup setup;
-  if (!gst_fbs_find_setup(data, size, &setup)) return FALSE;
-  self->restarted = setup.pictures_before < self->number || (setup.pictures_before == 0 && self->begun);
-  self->number = setup.pictures_before;
-  GstPad* const pad = GST_RTP_BASE_DEPAYLOAD_SRCPAD(self);
-  GstCaps* const caps = gst_fbs_caps_of_setup(&setup);
-  GstCaps* const current = gst_pad_get_current_caps(pad);
-  if (current == NULL || !gst_caps_is_equal(caps, current)) gst_pad_set_caps(pad, caps);
-  if (current != NULL) gst_caps_unref(current);
-  gst_caps_unref(caps);
+  fbs_packet_info setup;
+  fbs_format format;
+  if (!read_setup(data, size, &setup, &format)) return FALSE;
+  self->restarted = setup.number < self->number || (setup.number == 0 && self->begun);
+  self->number = setup.number;
+  gst_fbs_set_format(GST_RTP_BASE_DEPAYLOAD_SRCPAD(self), &format);
   return TRUE;
 }
 
@@ -127,7 +139,7 @@ static GstBuffer* whole_group(GstRtpFbsDepay* self) {
   GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(self->group, size));
   self->in_group = FALSE;
   if (!self->begun) {
-    GstBuffer* const signature = gst_buffer_new_memdup(GST_FBS_SIGNATURE, GST_FBS_SIGNATURE_SIZE);
+    GstBuffer* const signature = gst_buffer_new_memdup(FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
     out = gst_buffer_append(signature, out);
   }
   self->begun = TRUE;

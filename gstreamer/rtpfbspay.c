@@ -58,7 +58,7 @@ static GstBuffer* rtp_packet(GstRTPBasePayload* pay, GstBuffer* group, gsize at,
 }
 
 static GstFlowReturn gst_rtp_fbs_pay_handle_buffer(GstRTPBasePayload* pay, GstBuffer* group) {
-  guint8 begin[GST_FBS_SIGNATURE_SIZE + 1] = {0};
+  guint8 begin[FBS_SIGNATURE_SIZE + 1] = {0};
   const gsize looked_at = gst_buffer_extract(group, 0, begin, sizeof begin);
   const gsize signature = gst_fbs_signature_at(begin, looked_at), size = gst_buffer_get_size(group);
   const guint8 key = GST_BUFFER_FLAG_IS_SET(group, GST_BUFFER_FLAG_DELTA_UNIT) ? 0 : GST_FBS_RTP_KEY;

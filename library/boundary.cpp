@@ -20,6 +20,7 @@ fbs_status status_of(ErrorCode code) {
     case ErrorCode::kTooLarge:
       return FBS_ERROR_TOO_LARGE;
     case ErrorCode::kNoFace:
+    case ErrorCode::kTooFewFaces:
       return FBS_ERROR_NO_FACE;
     case ErrorCode::kIo:
       return FBS_ERROR_IO;

@@ -1,4 +1,4 @@
-// Where C++ ends: results and exceptions become statuses and a line of text.
+// The boundary of C++: results and exceptions become statuses and a line of text.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace fbs {
 
 [[nodiscard]] fbs_status status_of(ErrorCode code);
 
-/// What fbs_decoder_error() tells. Takes no memory: there may be none left to tell of.
+/// The text of fbs_decoder_error(). Allocates nothing, since it may have to report a lack of memory.
 class LastError {
  public:
   /// Each sets the text, cut to one short line, and returns the status.
-  /// @param offset  in the stream, bytes; 0 for errors about none
+  /// @param offset  in the stream, bytes; 0 if the error has none
   fbs_status set(fbs_status status, const char* text, std::uint64_t offset = 0);
   fbs_status set(const Error& error) { return set(status_of(error.code), error.text.c_str()); }
   fbs_status set_argument(const char* text) { return set(FBS_ERROR_ARGUMENT, text); }
@@ -31,7 +31,7 @@ class LastError {
   std::uint64_t offset_ = 0;
 };
 
-/// Calls `body`, which returns a status. An exception becomes one.
+/// Calls `body`, which returns a status, and turns exceptions into one.
 template <class Body>
 [[nodiscard]] fbs_status guarded(LastError& error, Body&& body) noexcept {
   try {

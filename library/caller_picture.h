@@ -1,4 +1,4 @@
-// Pictures in memory of a caller, as fbs/fbs.h describes them.
+// Pictures in a caller's memory, as described in fbs/fbs.h.
 #pragma once
 
 #include <array>
@@ -16,6 +16,17 @@ struct PlaneSize {
 [[nodiscard]] inline PlaneSize plane_size(const VideoFormat& format, std::size_t plane) {
   if (plane == 0) return {format.width, format.height};
   return {(format.width + 1) / 2, (format.height + 1) / 2};
+}
+
+[[nodiscard]] inline fbs_format caller_format(const VideoFormat& format) {
+  return {static_cast<uint32_t>(format.width),
+          static_cast<uint32_t>(format.height),
+          format.frame_rate.num,
+          format.frame_rate.den,
+          format.pixel_aspect.num,
+          format.pixel_aspect.den,
+          static_cast<fbs_matrix>(format.matrix),
+          format.range == ColourRange::kFull ? 1 : 0};
 }
 
 /// What is wrong with a picture that is to have the format's size; null: nothing.

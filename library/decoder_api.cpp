@@ -43,7 +43,7 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   [[nodiscard]] PictureView planes_of(const fbs_picture& caller) const;
 
   /// Calls `body` with the face's geometry and the state, if there are any.
-  /// @return what `body` returns
+  /// @return the result of `body`
   template <class Body>
   fbs_status with_face(Body&& body) const;
 
@@ -51,9 +51,9 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   std::unique_ptr<StreamDecoder> stream;  ///< never null
   StreamEntry entry{false};
   bool finished = false;
-  bool broken = false;    ///< an exception has left the stream in a state that nobody knows
-  Picture picture;        ///< given out
-  bool is_drawn = false;  ///< `picture` is that of the stream
+  bool broken = false;    ///< an exception has left the stream in an unknown state
+  Picture picture;        ///< returned to the caller
+  bool is_drawn = false;  ///< `picture` is the stream's
   mutable BlendshapeMeasure blendshapes;
   mutable LastError error;
 };
@@ -205,14 +205,7 @@ fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
   if (out == nullptr) return decoder->error.set_argument(kNull);
   const VideoFormat& format = decoder->stream->format();
   if (decoder->broken || format.width == 0) return FBS_NEED_DATA;
-  *out = {static_cast<uint32_t>(format.width),
-          static_cast<uint32_t>(format.height),
-          format.frame_rate.num,
-          format.frame_rate.den,
-          format.pixel_aspect.num,
-          format.pixel_aspect.den,
-          static_cast<fbs_matrix>(format.matrix),
-          format.range == ColourRange::kFull ? 1 : 0};
+  *out = caller_format(format);
   return FBS_OK;
 }
 

@@ -36,8 +36,8 @@ struct fbs_encoder {  // NOLINT(readability-identifier-naming): the interface is
 
   fbs_encoder(const VideoFormat& f, Encoder e) : format(f), encoder(std::move(e)) {}
 
-  /// Calls `body`, which encodes. Unless it succeeds, the encoding has ended; after an exception what the
-  /// encoder holds may be anything.
+  /// Calls `body`, which encodes. If it fails, the encoding has ended; after an exception the encoder's state
+  /// is undefined.
   template <class Body>
   fbs_status encode(Body&& body);
 
@@ -58,10 +58,7 @@ fbs_status fbs_encoder::encode(Body&& body) {
       return FBS_OK;
     }
     packets.add(encoder.take());
-    const bool no_such_face =
-        done.error().code == ErrorCode::kInvalidArgument;  // arguments have been checked
-    return error.set(no_such_face ? FBS_ERROR_NO_FACE : status_of(done.error().code),
-                     done.error().text.c_str());
+    return error.set(done.error());
   });
 }
 
@@ -134,7 +131,13 @@ fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
     if (!packet) return e.error.set(packet.error());
     if (!*packet) return e.phase == fbs_encoder::Phase::kPushing ? FBS_NEED_DATA : FBS_END;
     const QueuedPacket& p = **packet;
-    *out = {p.bytes.data(), p.bytes.size(), p.key ? 1 : 0, p.first.pictures, p.first.time};
+    *out = {p.bytes.data(),
+            p.bytes.size(),
+            static_cast<int>(p.type),
+            p.type == PacketType::kSetup ? 1 : 0,
+            static_cast<std::uint32_t>(p.pictures),
+            p.first.pictures,
+            p.first.time};
     return FBS_OK;
   });
 }

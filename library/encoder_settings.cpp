@@ -10,7 +10,7 @@ constexpr double kMaxSeconds = 1e8;  ///< three years: products with rates stay 
 constexpr double kMaxKbitPerSecond = 1e6;
 constexpr int kMaxEffort = 2;
 
-/// Also false for what is no number.
+/// Also false for NaN.
 bool within(double value, double max) {
   return value >= 0 && value <= max;
 }
@@ -19,7 +19,7 @@ Result<VideoFormat> video_format(const fbs_format& format) {
   if (format.width < FBS_MIN_SIDE || format.width > FBS_MAX_SIDE || format.height < FBS_MIN_SIDE ||
       format.height > FBS_MAX_SIDE)
     return fail(ErrorCode::kInvalidArgument, "width or height outside 64..8192");
-  int matrix = 0;  // a caller may have any number, which an enumeration cannot
+  int matrix = 0;  // a caller may pass a value outside the enumeration
   static_assert(sizeof matrix == sizeof format.matrix);
   std::memcpy(&matrix, &format.matrix, sizeof matrix);
   if (matrix < FBS_MATRIX_UNSPECIFIED || matrix > FBS_MATRIX_BT709)

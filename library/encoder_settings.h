@@ -1,4 +1,4 @@
-// The settings of fbs/encoder.h as the encoder takes them.
+// Converts the settings of fbs/encoder.h to the encoder's.
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,8 @@ struct EncoderInput {
   EncoderSettings settings;
 };
 
-/// @return kInvalidArgument for what would not survive the conversion; the rest is Encoder::create()'s to
-/// check
+/// @return kInvalidArgument for values that would not survive the conversion; Encoder::create() checks the
+/// rest
 [[nodiscard]] Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings);
 
 }  // namespace fbs

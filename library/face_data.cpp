@@ -16,8 +16,8 @@ constexpr double kOctavesPerUnit = 1.0 / 4096;
 
 using Vertices = std::vector<glm::ivec3>;
 
-/// Areas of the triangles at each vertex, those turned to the viewer and those turned away. Their
-/// parallelograms, 1/64 pixel squared: only the ratio matters.
+/// Areas of the triangles at each vertex, facing the viewer and facing away. Areas of parallelograms, 1/64
+/// pixel squared: only the ratio matters.
 struct VertexAreas {
   std::vector<double> seen, hidden;
 };
@@ -33,14 +33,14 @@ VertexAreas areas_of(const WireFrame& head, const Vertices& vertices) {
   return out;
 }
 
-/// The integer nearest to `value / unit`, if it is one of -limit..limit.
+/// The integer nearest to `value / unit`, if it is within -limit..limit.
 std::optional<std::int32_t> in_units(double value, double unit, std::int32_t limit) {
   const double units = std::round(value / unit);
-  if (!(std::abs(units) <= limit)) return std::nullopt;  // not a number, too
+  if (!(std::abs(units) <= limit)) return std::nullopt;  // false for NaN, too
   return static_cast<std::int32_t>(units);
 }
 
-/// The limits of a part for -1 and 1.
+/// Maps -1 and 1 to the limits of a part.
 std::int32_t share_of(EditPart part, float share) {
   const StateEdit::Limits& limits = StateEdit::limits(part);
   const double clamped = std::clamp(share, -1.0F, 1.0F);

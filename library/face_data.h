@@ -13,18 +13,18 @@ namespace fbs {
 
 [[nodiscard]] fbs_face_state face_state(const State& state);
 
-/// The state that shows what face_state() would describe so: `sent` where they agree, else with the head's
+/// The state that face_state() would describe in this way: `sent` where they agree, else with the head's
 /// regions in motion.
-/// @return nothing when a number is none, or beyond a limit of common/state.h
+/// @return nothing when a value is not a number, or beyond a limit of common/state.h
 [[nodiscard]] std::optional<State> state_of(const fbs_face_state& face, const State& sent);
 
-/// @return nothing when a number is none
+/// @return nothing when a value is not a number
 [[nodiscard]] std::optional<StateEdit> edit_of(const fbs_face_edit& edit);
 
-/// @param out  as many as the wire-frame has
+/// @param out  one for each vertex of the wire-frame
 void write_vertices(const SceneGeometry& face, const State& state, std::span<fbs_vertex> out);
 
-/// Confidence is 0 where the point has no triangle of any area, too.
+/// Confidence is also 0 where the point's triangles have no area.
 void write_landmarks(const SceneGeometry& face, const State& state,
                      std::span<fbs_landmark, kLandmarkCount> out);
 

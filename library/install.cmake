@@ -18,7 +18,7 @@ function(install_pkgconfig file)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file}.pc DESTINATION ${pkgconfig_folder})
 endfunction()
 
-set(headers fbs.h fbs.hpp)
+set(headers fbs.h fbs.hpp packet.h)
 install_library(fbs_shared fbs "")
 install_library(fbs_static fbs_static static-)
 install_pkgconfig(fbs)

@@ -1,4 +1,4 @@
-// Structs of settings whose size a caller tells, so that program and library may be of different versions.
+// Structs of settings whose size the caller gives, so that program and library may differ in version.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-/// Fills a caller's struct, of which it knows so many bytes. Members that only the caller knows become 0.
-/// @param first_size  of the struct in the first version that had it; smaller ones are left alone
+/// Fills a caller's struct of the size given. Members that only the caller knows become 0.
+/// @param first_size  size of the struct in the first version that had it; smaller ones are left alone
 template <class Settings>
 void give_defaults(const Settings& defaults, Settings* out, std::size_t struct_size, std::size_t first_size) {
   if (out == nullptr || struct_size < first_size) return;
@@ -19,7 +19,7 @@ void give_defaults(const Settings& defaults, Settings* out, std::size_t struct_s
 }
 
 /// Reads a caller's struct. Members that only we know keep their values in `settings`, the defaults.
-/// @return false when it is too small, or has a member that only the caller knows and that is not 0
+/// @return false when it is too small, or has a member unknown to us that is not 0
 template <class Settings>
 [[nodiscard]] bool take_settings(const Settings& from, std::size_t first_size, Settings& settings) {
   const std::size_t size = from.struct_size;

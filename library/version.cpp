@@ -1,4 +1,4 @@
-// What fbs/fbs.h says of the library itself.
+// The functions of fbs/fbs.h about the library itself.
 #include <cstring>
 
 #include "bitstream/syntax.h"
@@ -27,7 +27,7 @@ uint32_t fbs_format_version(void) {
 }
 
 const char* fbs_status_text(fbs_status status) {
-  int number = 0;  // a caller may have any, which an enumeration cannot
+  int number = 0;  // a caller may pass any value, an enumeration cannot hold it
   static_assert(sizeof number == sizeof status);
   std::memcpy(&number, &status, sizeof number);
   switch (number) {

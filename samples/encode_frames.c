@@ -1,5 +1,5 @@
-/* encode_frames WIDTH HEIGHT RATE OUT.fbs: encodes pictures that are in memory. Here they are read from
- * standard input, as raw planes; a camera or another decoder would do as well:
+/* encode_frames WIDTH HEIGHT RATE OUT.fbs: encodes pictures in memory. Here they are read from standard
+ * input, as raw planes; a camera or another decoder would do as well:
  *
  *     ffmpeg -i talk.mkv -f rawvideo -pix_fmt yuv420p - | encode_frames 352 288 25 talk.fbs
  *
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Writes what the encoder has. It is often nothing: pictures are collected before they are coded. */
+/* Writes the packets that are ready. Often there are none: pictures are collected before they are coded. */
 static fbs_status write_packets(fbs_encoder* encoder, FILE* out) {
   fbs_packet packet;
   fbs_status status = FBS_OK;

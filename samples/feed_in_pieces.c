@@ -1,6 +1,6 @@
-/* feed_in_pieces STREAM BYTES [PICTURES.yuv]: decodes a stream that arrives in pieces of so many bytes, as
- * from a network, goes on after damage, and prints how many pictures there were and a checksum of them.
- * Writes them as raw planes if a file is named. Needs libfbs. */
+/* feed_in_pieces STREAM BYTES [PICTURES.yuv]: decodes a stream that arrives in pieces of BYTES bytes, as from
+ * a network, continues after damage, and prints the number of pictures and their checksum. Writes them as raw
+ * planes if a file is named. Needs libfbs. */
 #include <fbs/fbs.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static int take_picture(fbs_decoder* decoder, summary* sum, FILE* out) {
   return 1;
 }
 
-/* Returns 0 when a picture cannot be had or written. */
+/* Returns 0 when a picture cannot be decoded or written. */
 static int decode(fbs_decoder* decoder, FILE* file, uint8_t* piece, size_t piece_size, FILE* out,
                   summary* sum) {
   for (;;) {

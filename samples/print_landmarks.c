@@ -1,5 +1,5 @@
 /* print_landmarks STREAM: prints head pose and the 68 iBUG landmarks of each picture. Nothing is drawn, so it
- * is much faster than decoding to pictures. Needs libfbs. */
+ * is much faster than decoding pictures. Needs libfbs. */
 #include <fbs/fbs.h>
 #include <stdio.h>
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# install_packages.sh [LIST...]: installs those packages of the lists in this folder (packages.txt) that are missing. When
-# none is, it needs neither network nor root.
+# install_packages.sh [LIST...]: installs those packages of the lists in this folder that are missing: packages.txt and
+# program_packages.txt unless lists are given. When none is, it needs neither network nor root.
 set -euo pipefail
 cd "$(dirname "$0")"
-[ $# -gt 0 ] || set -- packages.txt
+[ $# -gt 0 ] || set -- packages.txt program_packages.txt
 
 if ! command -v dpkg-query >/dev/null; then
   echo "not a Debian system: assuming that the equivalents of these lists in scripts/ are installed: $*" >&2

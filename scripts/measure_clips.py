@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Prints the table of README.md for a rendered talker and for the clips that you have.
+"""Prints the table of README.md for a rendered talker and for clips of your own (docs/results.md).
 
     scripts/measure_clips.py [FOLDER] [--build DIR] [--quality N] [--seconds S] [--jobs N] [--keep DIR]
 
-Each clip of FOLDER is encoded at one quality, 50 unless given, and compared with x264, x265 and AV1 at the same rate
-(docs/evaluate.md). An interrupted run with --keep goes on where it was. Needs the built program and ffmpeg.
+Encodes each video of FOLDER, in any format that ffmpeg reads, at one quality, 50 unless given, and compares it with x264,
+x265 and AV1 at the same rate (docs/evaluate.md). The face is the inside of the stream's mesh, so landmarks are not needed.
+An interrupted run with --keep continues. Needs the built programs fbs and talker, and ffmpeg with libx264, libx265 and
+libsvtav1 or libaom.
 """
 
 import argparse
@@ -20,7 +22,7 @@ HEADS = ["clip", "kbit/s", "motion", "startup", "face", "face, peers", "frame", 
 
 
 def evaluate(fbs, source, run, *options):
-    """The clips that `fbs evaluate` reports, with their peers. Exits when it fails."""
+    """The clips in the report of `fbs evaluate`, with their peers. Exits on failure."""
     command = [fbs, "evaluate", source, "--peers", "--json", "--keep", run, *options]
     done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE)
     if not done.stdout:
@@ -30,8 +32,7 @@ def evaluate(fbs, source, run, *options):
 
 
 def best_peer(peers, key, kbps):
-    """What the best of the peers reach at this rate, between two of their points by the logarithm of the rate; "-" where none
-    goes so low."""
+    """The best value of the peers at this rate, interpolated over the logarithm of the rate; "-" where none goes so low."""
     envelope = []
     for rate, value in sorted((peer["kbps"], peer[key]) for peer in peers if key in peer):
         if not envelope or value > envelope[-1][1]:
@@ -56,9 +57,9 @@ def main():
     parser.add_argument("folder", nargs="?")
     parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
     parser.add_argument("--quality", default="50")
-    parser.add_argument("--seconds", default=10.0, type=float, help="of the talker")
+    parser.add_argument("--seconds", default=10.0, type=float, help="length of the talker")
     parser.add_argument("--jobs", default="1")
-    parser.add_argument("--keep", type=pathlib.Path, help="folder for what is finished")
+    parser.add_argument("--keep", type=pathlib.Path, help="folder for finished results")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         run = options.keep or pathlib.Path(temporary)

@@ -1,4 +1,4 @@
-// More faces from those there are: each is mirrored, turned, stretched, lit, blurred and partly covered.
+// More faces from existing ones: each is mirrored, turned, stretched, lit, blurred and partly covered.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,22 +9,22 @@
 
 namespace fbs {
 
-/// A patch as the search would see it, and where the landmarks are in it.
+/// A patch as the search would see it, and the landmarks in it.
 struct PatchSample {
   cv::Mat1b patch;  ///< kPatchSide x kPatchSide
   Shape truth;
 };
 
-/// How far off the place is at which the face is thought to be.
+/// Error of the supposed place of a face.
 struct PlaceNoise {
   float shift = 0.12F;  ///< deviation, eye distances
   float scale = 0.12F;  ///< log
 };
 
-/// As it is, about where it is thought to be.
+/// The face unchanged, about its supposed place.
 [[nodiscard]] PatchSample as_it_is(const FacePicture& face, const PlaceNoise& noise, std::mt19937& random);
 
-/// @param place  where the face is thought to be, but for the noise: the patch is about it
+/// @param place  supposed place of the face, without the noise: the patch is centred on it
 [[nodiscard]] PatchSample augmented(const FacePicture& face, const FacePlace& place, const PlaceNoise& noise,
                                     std::mt19937& random);
 

@@ -13,15 +13,16 @@
 namespace fbs {
 namespace {
 
-/// As the last stage looks, and as the first. The latter, and the logarithm of the spread, each make the
-/// strangers' logarithmic loss 3 % smaller; a third look gains nothing, and a ridge of 20 believes twice as
+/// The last stage's resolution, and the first's. The latter, and the logarithm of the spread, each reduce the
+/// strangers' logarithmic loss by 3 %; a third resolution gains nothing, and a ridge of 20 believes twice as
 /// often what is wrong.
 constexpr std::array<Look, kBeliefViews> kBeliefLooks = {{{96, 1.5F, 4}, {48, 2, 5}}};
 constexpr float kScoreRidge = 2;
 
 constexpr int kNear = 6, kOff = 3, kElsewhere = 3, kProposed = 5;  // places for each picture
 
-/// How many are believed, and how many of those are right, at places that the score was not fitted to.
+/// Reports how many are believed, and how many of those are right, at places that the score was not fitted
+/// to.
 void report(const RowMatrix& evidence, const RowMatrix& right, const LinearMap& odds) {
   const Eigen::VectorXf log_odds = (evidence * odds.weights).array() + odds.offset(0);
   for (const float belief : {0.5F, 0.9F}) {
@@ -54,7 +55,7 @@ Outcomes try_search(const LandmarkSearch& search, const std::vector<FacePicture>
     for (int i = 0; i < kOff; ++i) samples.push_back(augmented(face, place, kFarOff, random));
     for (int i = 0; i < kElsewhere; ++i)
       samples.push_back(augmented(face, any_place(face, random), {}, random));
-    // Where the search will be asked to look, right or wrong.
+    // The places that the search will examine, right or wrong.
     for (const FacePlace& proposed : likeliest(places, face.luma, kProposed))
       samples.push_back(augmented(face, proposed, {0.02F, 0.02F}, random));
   }
@@ -99,8 +100,8 @@ BeliefTable train_belief(const std::vector<const Outcomes*>& outcomes) {
       evidence(row, 2) = o->places[i];
     }
   }
-  // Scores of rows that the regression has not seen: the odds are fitted to those. Rows of one picture are
-  // neighbours, so halves hold different people but for one.
+  // Scores of rows that the regression has not seen, to which the odds are fitted. Rows of one picture are
+  // neighbours, so the halves show different people, except for one.
   const auto score = [&](Eigen::Index first, Eigen::Index count, Eigen::Index fitted,
                          Eigen::Index fitted_count) {
     const LinearMap map = fit_ridge(descriptors.middleRows(fitted, fitted_count),

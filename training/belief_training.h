@@ -1,4 +1,4 @@
-// Learns how far the landmarks that a search ends at can be believed.
+// Learns how far the landmarks at the end of a search can be believed.
 #pragma once
 
 #include <random>
@@ -10,15 +10,15 @@
 
 namespace fbs {
 
-/// What the search came to at places of a picture, by a cascade that has not seen the person.
+/// Results of the search at places of a picture, by a cascade that has not seen the person.
 struct Outcomes {
-  RowMatrix descriptors;       ///< a row each: what the views of a BeliefTable see in the end
+  RowMatrix descriptors;       ///< one row each: the views of a BeliefTable at the end
   std::vector<float> spreads;  ///< Agreement::spread
   std::vector<float> places;   ///< PlaceSearch::score
   std::vector<float> error;    ///< of lips or eyes, whichever is worse, eye distances; large without a face
 };
 
-/// A landmark search that is off by more, eye distances, has failed.
+/// A landmark search with a larger error, eye distances, has failed.
 inline constexpr float kWrongFrom = 0.2F;
 
 /// Searches at places near each face, farther off, elsewhere in the picture, and where a face is most likely
@@ -29,7 +29,7 @@ inline constexpr float kWrongFrom = 0.2F;
 
 [[nodiscard]] BeliefTable train_belief(const std::vector<const Outcomes*>& outcomes);
 
-/// Mean distance of some landmarks from where they should be, eye distances of `truth`.
+/// Mean error of some landmarks, eye distances of `truth`.
 [[nodiscard]] float error_of(const Shape& found, const Shape& truth, int first, int end);
 
 }  // namespace fbs

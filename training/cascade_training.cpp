@@ -15,7 +15,7 @@ namespace {
 constexpr Look kLooks[] = {{48, 2, 5}, {64, 2, 5}, {80, 2, 5}, {80, 1.5F, 4}, {96, 1.5F, 4}};
 
 /// In mean variances of an input. 15 takes strangers' lips from 3.4 to 3.6 % (five-fold).
-constexpr float kRidge = 5;
+constexpr float kCascadeRidge = 5;
 
 constexpr Eigen::Index kNumbers = 2 * kLandmarkCount;
 
@@ -44,7 +44,7 @@ Shape mean_shape(const std::vector<PatchSample>& samples) {
   return mean;
 }
 
-/// What is left to the truth, in units of the mean shape.
+/// The remaining distance to the truth, in units of the mean shape.
 Eigen::RowVectorXf missing(const Shape& shape, const Shape& truth, const Shape& mean) {
   const PlaneSimilarity to_mean = PlaneSimilarity::between(shape, mean);
   Eigen::RowVectorXf out(kNumbers);
@@ -76,7 +76,7 @@ LandmarkStage train_stage(const Look& look, const Shape& mean, const std::vector
   const Eigen::MatrixXf covariance = centred.transpose() * centred;
   const Eigen::JacobiSVD<Eigen::MatrixXf> svd(covariance, Eigen::ComputeThinU);
   const RowMatrix modes = svd.matrixU().leftCols(kShapeModes).transpose();
-  const LinearMap map = fit_ridge(descriptors, centred * modes.transpose(), kRidge);
+  const LinearMap map = fit_ridge(descriptors, centred * modes.transpose(), kCascadeRidge);
   LandmarkStage stage{look, quantised(map.weights), to_vector(modes), {}};
   stage.offset = to_vector(mean_move + map.offset * modes);
   return stage;
@@ -98,7 +98,7 @@ DescriptorMap quantised(const Eigen::MatrixXf& weights) {
 LandmarkTable train_cascade(const std::vector<PatchSample>& samples) {
   LandmarkTable table;
   table.mean = mean_shape(samples);
-  // The samples' places are as far off as detectors are: the usual shape is the start.
+  // The samples' places err as much as detectors do, so the usual shape is the start.
   std::vector<Shape> shapes(samples.size(), LandmarkSearch::usual_shape(table.mean));
   for (const Look& look : kLooks) {
     table.stages.push_back(train_stage(look, table.mean, samples, shapes));

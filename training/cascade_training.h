@@ -1,4 +1,4 @@
-// Learns the table of the search for landmarks: stage by stage, each from where the ones before it lead.
+// Learns the table of the landmark search: stage by stage, each from the results of those before it.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,7 @@
 namespace fbs {
 
 /// Stages and mean shape; belief stays empty.
-/// @param samples  whose places are as far off as detectors are: each is learned from once, from the usual
-///                 shape
+/// @param samples  with places that err as much as detectors do: each is used once, from the usual shape
 [[nodiscard]] LandmarkTable train_cascade(const std::vector<PatchSample>& samples);
 
 /// A linear map in the table's form.

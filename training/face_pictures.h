@@ -1,4 +1,4 @@
-// Faces whose landmarks are known: what landmarks are learned from.
+// Faces with known landmarks, from which landmarks are learned.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace fbs {
 
 struct FacePicture {
   std::string name;    ///< of its file
-  std::string person;  ///< pictures of one person are never both learned from and asked about
+  std::string person;  ///< training and testing never share a person
   cv::Mat1b luma;
   Shape landmarks;  ///< pixels; the first pixel's centre is (0.5, 0.5)
 };

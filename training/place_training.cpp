@@ -12,15 +12,15 @@
 namespace fbs {
 namespace {
 
-constexpr float kRidge = 2;
+constexpr float kPlaceRidge = 2;
 constexpr int kRounds = 2;  ///< of learning from mistakes
-/// At most, of a picture in a round: with six, faces unlike most come behind others.
+/// Most mistakes per picture and round: with six, the rarest faces rank lower.
 constexpr int kMistakes = 2;
 
-/// The search's grid is as coarse.
+/// As coarse as the search's grid.
 constexpr PlaceNoise kGridNoise = {0.1F, 0.08F};
 
-/// Whether the face would be seen from a place: neither yes nor no between the two.
+/// Whether a place is between seeing and not seeing the face.
 bool is_aside(const FacePlace& place, const FacePlace& face) {
   const glm::dvec2 d = place.centre - face.centre;
   return std::hypot(d.x, d.y) > 0.4 * face.eye_distance_px ||
@@ -44,7 +44,7 @@ class Samples {
                             {descriptors.row(static_cast<Eigen::Index>(i)).data(), kDescriptorSize});
     });
     const RowMatrix wanted = Eigen::Map<const RowMatrix>(is_face_.data(), count, 1);
-    const LinearMap map = fit_ridge(descriptors, wanted, kRidge);
+    const LinearMap map = fit_ridge(descriptors, wanted, kPlaceRidge);
     return {quantised(map.weights), map.offset(0)};
   }
 

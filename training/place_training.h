@@ -1,4 +1,4 @@
-// Learns what tells places where a face is from others.
+// Learns to tell places with a face from others.
 #pragma once
 
 #include <random>
@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// How often each face is learned from, as it is augmented.
+/// How often each face is used, each time augmented.
 struct FaceCount {
   FacePicture face;
   int times;

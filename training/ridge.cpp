@@ -19,7 +19,7 @@ LinearMap fit_ridge(const RowMatrix& inputs, const RowMatrix& outputs, float rid
 
 LinearMap fit_logistic(const RowMatrix& inputs, const Eigen::VectorXf& right) {
   constexpr int kSteps = 30;
-  constexpr double kPenalty = 1e-3;  // of samples: keeps weights finite where a plane parts all
+  constexpr double kPenalty = 1e-3;  // in samples: keeps weights finite where a plane separates all of them
   const Eigen::Index n = inputs.cols();
   Eigen::MatrixXd x(inputs.rows(), n + 1);
   x << inputs.cast<double>(), Eigen::VectorXd::Ones(inputs.rows());

@@ -1,4 +1,4 @@
-// Linear regression that distrusts what few samples say.
+// Linear regression that distrusts directions with few samples.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Generated talkers with their landmarks. Apart from face_pictures.cpp, since OpenCV has an Event as well.
+// Generated talkers with their landmarks. Separate from face_pictures.cpp, since OpenCV also has an Event.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct DrawnFace {
   Shape landmarks;  ///< pixels; the first pixel's centre is (0.5, 0.5)
 };
 
-/// Each of another seed, light, pose and expression.
+/// Each has another seed, light, pose and expression.
 [[nodiscard]] std::vector<DrawnFace> draw_talkers(int count);
 
 }  // namespace fbs

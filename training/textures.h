@@ -1,4 +1,4 @@
-// Pictures without a face, which must not be taken for one: grain and blobs of all sizes, and text.
+// Pictures without a face, which must not be mistaken for one: grain and blobs of all sizes, and text.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,4 +1,4 @@
-// Learns landmarks.table; README.md says from what.
+// Learns landmarks.table; README.md names its sources.
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
@@ -37,7 +37,7 @@ struct Faces {
   std::vector<cv::Mat1b> textures;
 };
 
-/// Those of a fold, or all others.
+/// The textures of a fold, or all others.
 std::vector<cv::Mat1b> part(const std::vector<cv::Mat1b>& textures, int fold, bool inside) {
   std::vector<cv::Mat1b> out;
   for (std::size_t i = 0; i < textures.size(); ++i)

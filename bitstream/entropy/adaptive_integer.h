@@ -15,14 +15,14 @@ inline constexpr int kMaxExponent = 23;
 inline constexpr std::uint32_t kMaxExponential = (std::uint32_t{2} << kMaxExponent) - 2;
 
 /// Contexts of an Exp-Golomb number: for each place of the unary exponent, and for the highest bit of the
-/// mantissa; lower bits are coded without a context.
+/// mantissa. Lower bits are coded without a context.
 struct ExponentialContexts {
   std::array<AdaptiveBit, kMaxExponent> more;
   std::array<AdaptiveBit, 4> top_bit;  ///< by exponent 1, 2, 3, beyond
 };
 
 /// Exp-Golomb of order 0: value + 1 = 2^exponent + mantissa.
-/// @param value  0..kMaxExponential; also the range of what is read, whatever the bytes are
+/// @param value  0..kMaxExponential; a reader stays in this range whatever the bytes are
 template <class Coder>
 std::uint32_t code_exponential(Coder& coder, ExponentialContexts& contexts, std::uint32_t value) {
   if constexpr (Coder::kReads) value = 0;
@@ -40,14 +40,14 @@ std::uint32_t code_exponential(Coder& coder, ExponentialContexts& contexts, std:
   return (std::uint32_t{1} << exponent) + mantissa - 1;
 }
 
-/// Contexts of a number without a good prediction, such as one of a state coded whole.
+/// Contexts of a number without a good prediction, such as one in a state coded whole.
 struct WideIntegerContexts {
   AdaptiveBit not_zero;
   AdaptiveBit negative;
   ExponentialContexts magnitude;
 };
 
-/// @param value  |value| <= kMaxExponential; what is read may be one larger
+/// @param value  |value| <= kMaxExponential; a reader may return one more
 template <class Coder>
 std::int32_t code_wide_integer(Coder& coder, WideIntegerContexts& contexts, std::int32_t value) {
   if (!coder.bit(contexts.not_zero, value != 0)) return 0;

@@ -1,4 +1,4 @@
-// Counts the bits that a RangeEncoder would write. Same interface; contexts adapt in the same way.
+// Counts the bits that a RangeEncoder would write: same interface, same adaptation of contexts.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Codes one bit with a probability mixed from several contexts. SPEC 2.5.
 //
-// A single context is either specific (few bits to adapt to) or general. A mixer weights the estimates of
-// several, and adapts the weights, which depend on how many bits each context has coded.
+// A single context is either specific, with few bits to learn from, or general. A mixer weights the estimates
+// of several contexts and adapts the weights, which depend on how many bits each context has coded.
 // Method: M. Mahoney, Adaptive Weighing of Context Models for Lossless Data Compression, 2005 (logistic
 // mixing). Differs: integers only, weights by the experience of the contexts, log-odds to base two.
 #pragma once
@@ -17,7 +17,7 @@
 namespace fbs {
 
 inline constexpr int kExperienceLevels = 6;  ///< AdaptiveBit::experience()
-inline constexpr std::int32_t kWeightOne = 1 << 16;
+inline constexpr std::int32_t kMixerWeightOne = 1 << 16;
 
 template <std::size_t N>
 class Mixer {
@@ -53,7 +53,7 @@ class Mixer {
 
  private:
   static constexpr int kRateShift = 22;  // a learning rate of 1/64
-  static constexpr std::int32_t kMaxWeight = 8 * kWeightOne;
+  static constexpr std::int32_t kMaxWeight = 8 * kMixerWeightOne;
 
   using Weights = std::array<std::int32_t, kExperienceLevels>;
   static constexpr std::array<Weights, N> initial() {
@@ -62,13 +62,13 @@ class Mixer {
     constexpr std::array<std::int32_t, kExperienceLevels> kShare = {4, 6, 9, 13, 18, 20};
     for (auto& input : weights) {
       for (std::size_t level = 0; level < kExperienceLevels; ++level) {
-        input[level] = kWeightOne * kShare[level] / (16 * static_cast<std::int32_t>(N));
+        input[level] = kMixerWeightOne * kShare[level] / (16 * static_cast<std::int32_t>(N));
       }
     }
     return weights;
   }
 
-  std::array<Weights, N> weights_ = initial();  // 1/kWeightOne
+  std::array<Weights, N> weights_ = initial();  // 1/kMixerWeightOne
 };
 
 }  // namespace fbs

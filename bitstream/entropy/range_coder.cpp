@@ -17,7 +17,7 @@ std::uint32_t split(std::uint32_t range, std::uint32_t zero) {
 
 }  // namespace
 
-// The bytes so far are a fraction in base 256; one more in the last place.
+// Adds one in the last place: the bytes so far are a fraction in base 256.
 void RangeEncoder::carry() {
   std::size_t i = bytes_.size();
   while (i > 0 && ++bytes_[--i] == 0) {

@@ -1,8 +1,8 @@
 // Binary range coder: encoder and decoder. SPEC 2.2.
 //
 // Method: G. N. N. Martin, Range encoding, 1979, in the carry-propagating form of LZMA. Differs: no leading
-// zero byte; the interval is split with 16-bit probabilities by an exact product; the end has no more bytes
-// than the last interval needs, since the decoder reads zeros past the end.
+// zero byte; the interval is split with 16-bit probabilities by an exact product; the end is as short as the
+// last interval allows, since the decoder reads zeros past the end.
 //
 // RangeEncoder, RangeDecoder and BitCounter (bit_counter.h) have the same interface, so that one template
 // describes the writing, reading and counting of a structure:
@@ -21,12 +21,12 @@
 
 namespace fbs {
 
-/// The decoder reads at most this many bytes of zeros past the end; the encoder makes sure that it needs no
-/// more.
+/// The decoder reads at most this many bytes of zeros past the end; the encoder keeps within that.
 inline constexpr std::size_t kMaxVirtualBytes = 16;
 
-/// The end of the code ends its last element when the decoder has read so many bytes of zeros past it. One
-/// byte after those of the encoder always makes a number of the last interval, and the decoder is four ahead.
+/// In a code with an open end, the last element ends once the decoder has read this many bytes of zeros past
+/// the end. One byte beyond the encoder's always gives a number in the last interval, and the decoder is four
+/// bytes ahead.
 inline constexpr std::size_t kOpenEndBytes = 3;
 
 class RangeEncoder {
@@ -50,11 +50,11 @@ class RangeEncoder {
   /// when all bits were likely. Call once, after all bits.
   [[nodiscard]] std::vector<std::uint8_t> finish();
 
-  /// Ends a code in place of finish(), so that RangeDecoder::past_open_end() becomes true with the bits after
-  /// which written() has changed last.
+  /// Ends a code in place of finish(), so that RangeDecoder::past_open_end() becomes true at the bits after
+  /// which written() last changed.
   [[nodiscard]] std::vector<std::uint8_t> finish_open();
 
-  /// Bytes so far, without those of the end.
+  /// Bytes so far, without the end that finish() adds.
   [[nodiscard]] std::size_t written() const { return bytes_.size(); }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Cost of each part in 1/256 bit; the last entry is that of the durations. The first part includes the
+/// Cost of each part in 1/256 bit; the last entry is the cost of the durations. The first part includes the
 /// header of the group; key flag and end of the code are not counted.
 using PartBitsX256 = std::array<std::uint64_t, kPartCount + 1>;
 
@@ -20,8 +20,8 @@ class MotionBitCounter {
   MotionBitCounter(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
 
   /// Counts the next group.
-  /// @param group  as accepted by MotionEncoder::encode or returned by MotionDecoder::decode; groups lost in
-  ///               between are left out
+  /// @param group  as accepted by MotionEncoder::encode or returned by MotionDecoder::decode; lost groups are
+  ///               left out
   [[nodiscard]] PartBitsX256 count(const MotionGroup& group);
 
  private:

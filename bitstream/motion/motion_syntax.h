@@ -96,8 +96,8 @@ bool code_durations(Coder& coder, MotionMemory& memory, Group& group) {
 }
 
 /// Codes all that follows the key flag.
-/// @param group  its anchor is set, and with a Coder that does not read all else
-/// @param after  is called with the part after each part, and with kPartCount after the durations
+/// @param group  its anchor is set; all else too, with a Coder that does not read
+/// @param after  called with each part after it is coded, and with kPartCount after the durations
 /// @return false when what was read is out of range or ends early
 template <class Coder, class Group, class After>
 bool code_body(Coder& coder, MotionReference& reference, Group& group, After&& after) {

@@ -14,10 +14,10 @@
 
 namespace fbs {
 
-/// What is remembered of the spans before.
+/// Memory of the spans before.
 struct TrackHistory {
   CodedState change{};        ///< of each number, over the last span in which its part moved
-  CodedState older_change{};  ///< over the span before that in which its part moved
+  CodedState older_change{};  ///< over the span before, in which its part also moved
   std::array<std::uint8_t, kPartCount> moves{};  ///< bit k: the part moved k + 1 spans ago
 };
 
@@ -29,7 +29,7 @@ class TrackCoder {
       : coder_(coder), limits_(limits), contexts_(contexts), history_(history) {}
 
   /// The length of a span in pictures.
-  /// @param left   pictures up to the end of the group; what is read may be larger, which is invalid
+  /// @param left   pictures up to the end of the group; a reader may return more, which is invalid
   /// @param first  the span is the part's first in the group
   std::int32_t span(std::size_t part, std::int32_t left, bool first, std::int32_t length);
 

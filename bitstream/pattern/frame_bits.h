@@ -1,7 +1,7 @@
 // The bytes of a pattern's AV1 frame in a range code. SPEC 4.4.
 //
 // The headers of a scene's frames are much alike and have no adaptive code of their own: their bits are coded
-// in contexts, all that follows, which AV1 has compressed, as it is.
+// in contexts. The rest, which AV1 has compressed, is coded as it is.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace fbs {
 
-/// Bits at the start of a frame that have contexts. 16 to 22 bytes are within 2 % of the bytes saved (16
-/// streams, 300 patterns); beyond, data of tiles teaches the contexts noise.
+/// Bytes at the start of a frame that have contexts. 16 to 22 bytes are within 2 % of the best saving (16
+/// streams, 300 patterns); beyond, tile data teaches the contexts noise.
 inline constexpr std::size_t kHeaderBytes = 19;
 
-/// Kinds of frames by their first bits: a hidden frame, one that is shown, one behind a sequence header.
+/// Kinds of frames by their first bits: hidden, shown, or behind a sequence header.
 inline constexpr std::size_t kFrameKinds = 3;
 
 /// By kind, place of the bit, and the bit before it.
@@ -56,10 +56,10 @@ std::uint8_t code_frame_byte(Coder& coder, FrameContexts& contexts, FramePlace& 
   return static_cast<std::uint8_t>(read);
 }
 
-/// Contexts that have seen one frame of each kind, as libaom writes them: in a scene of few patterns each
-/// kind comes but once or twice.
+/// Contexts that have seen one frame of each kind, as libaom writes them: a scene of few patterns has each
+/// kind only once or twice.
 inline FrameContexts initial_frame_contexts() {
-  // Of each bit the more frequent value in the same streams.
+  // The more frequent value of each bit in the same streams.
   constexpr std::array<std::array<std::uint8_t, kHeaderBytes>, kFrameKinds> kExamples = {
       {{0x30, 0x28, 0x02, 0x40, 0x01, 0x00, 0x00, 0x83, 0x4C, 0x50, 0x19, 0x48, 0xA2, 0x45, 0x98, 0x90, 0x07,
         0x80, 0x00},

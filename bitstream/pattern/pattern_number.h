@@ -2,7 +2,7 @@
 // SPEC 4.4.
 //
 // AV1 with look-ahead codes the ends of a span of pictures first, then its middle, then the middles of both
-// halves: a pattern mostly lies half way between two others, near the pattern before it.
+// halves: a pattern usually lies half way between two others, near the pattern before it.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ bool code_number(Coder& coder, NumberContexts& contexts, std::span<const std::in
   for (const std::int32_t n : store) bounds.push_back(std::max(n, first));
   std::sort(bounds.begin(), bounds.end());
   bounds.push_back(end);
-  const auto gap_of = [&](std::int32_t n) {  // the last bound that is not larger
+  const auto gap_of = [&](std::int32_t n) {  // the last bound not larger than n
     return static_cast<std::int32_t>(std::upper_bound(bounds.begin(), bounds.end() - 1, n) - bounds.begin()) -
            1;
   };

@@ -24,7 +24,7 @@ Result<void> check(const PatternSyntax& pattern, const Setup& setup, std::int32_
 }
 
 /// @param open  whether the end of the code ends the last frame
-/// @return nothing when it would end it elsewhere
+/// @return nothing when the end would fall elsewhere
 std::optional<std::vector<std::uint8_t>> written(std::span<const PatternSyntax> patterns, const Setup& setup,
                                                  std::int32_t pictures, bool open, PatternMemory& memory) {
   RangeEncoder encoder;

@@ -10,8 +10,7 @@
 
 namespace fbs {
 
-/// Patterns together in a packet should have no more bytes: readers search for packets of up to 2^20 behind
-/// damage.
+/// Limit for several patterns in one packet: behind damage, readers search for packets of up to 2^20 bytes.
 inline constexpr std::size_t kMaxPatternsTogether = std::size_t{1} << 19;
 
 /// Writes the pattern packets of one scene, in stream order. A value: a copy continues independently.
@@ -21,9 +20,9 @@ class PatternPacketWriter {
   /// @param patterns  1..kMaxPatterns; the first of the scene alone
   /// @param setup     of the scene: parts and steps define which numbers are coded and their limits
   /// @param pictures  of the scene that have a state
-  /// @return kInvalidArgument  another number of patterns, a slot that the setup has not, a picture without a
-  ///                           state or whose state is not kept, a state beyond CodedLimits, no AV1 bytes, a
-  ///                           payload beyond kMaxPayload. The writer is then unchanged.
+  /// @return kInvalidArgument  another number of patterns, a slot that the setup does not have, a picture
+  ///                           without a state or whose state is not kept, a state beyond CodedLimits, no AV1
+  ///                           bytes, a payload beyond kMaxPayload. The writer is then unchanged.
   [[nodiscard]] Result<std::vector<std::uint8_t>> encode(std::span<const PatternSyntax> patterns,
                                                          const Setup& setup, std::int32_t pictures);
 

@@ -75,7 +75,7 @@ bool code_frame(Coder& coder, PatternMemory& memory, Pattern& pattern) {
 }
 
 /// Writes a frame that the end of the code ends.
-/// @return false when it would end the frame elsewhere
+/// @return false when the end would fall elsewhere
 inline bool write_open_frame(RangeEncoder& coder, PatternMemory& memory, const PatternSyntax& pattern) {
   FramePlace place;
   std::size_t written = 0;

@@ -101,7 +101,7 @@ Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes, std::size_
   draco::DecoderBuffer buffer;
   buffer.Init(stream.data(), stream.size());
   draco::PointCloud cloud;
-  draco::PointCloudSequentialDecoder decoder;  // what the start says
+  draco::PointCloudSequentialDecoder decoder;  // gets what the start says
   if (!decoder.Decode(draco::DecoderOptions(), &buffer, &cloud).ok())
     return fail(ErrorCode::kInvalidStream, "Draco cannot decode the geometry");
   return read_points(cloud, count);

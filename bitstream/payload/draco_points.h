@@ -20,7 +20,7 @@ using HeadPoints = std::vector<glm::ivec3>;
 /// @return kInternal  Draco fails, or writes another bitstream version
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_points(const HeadPoints& points);
 
-/// @param count  of the points, which the bytes do not have; with another they may be decoded all the same
+/// @param count  number of points, which the bytes do not say; a wrong number may decode all the same
 /// @return kInvalidStream  Draco cannot decode the bytes
 ///         kUnsupported    this processor has the high byte first, where Draco misreads its own streams
 [[nodiscard]] Result<HeadPoints> decode_points(std::span<const std::uint8_t> bytes, std::size_t count);

@@ -110,7 +110,7 @@ std::optional<std::vector<glm::ivec3>> reconstruct(const ScaledHead& frame, cons
   return positions;
 }
 
-bool in_range(const Geometry& geometry) {
+bool vertices_in_range(const Geometry& geometry) {
   return std::all_of(geometry.positions.begin(), geometry.positions.end(), [](const glm::ivec3& p) {
     const auto inside = [](std::int32_t c) { return c >= -kMaxCoordinate && c <= kMaxCoordinate; };
     return inside(p.x) && inside(p.y) && inside(p.z);
@@ -135,7 +135,7 @@ Result<std::vector<std::uint8_t>> write_payload(const ScaledHead& frame, const H
   return payload;
 }
 
-// SPEC 4.2: residuals in the order of the vertices, each from those before it.
+// SPEC 4.2: residuals in the order of the vertices, each predicted from earlier vertices.
 std::optional<HeadPoints> undo_prediction(const WireFrame& head, const HeadPoints& coded,
                                           Prediction prediction) {
   const EarlierNeighbours neighbours(head);
@@ -154,7 +154,7 @@ std::optional<HeadPoints> undo_prediction(const WireFrame& head, const HeadPoint
 }  // namespace
 
 bool is_flat(const Geometry& geometry) {
-  constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // of the flattest face, some ten times as much
+  constexpr std::int32_t kDepth = kUnitsPerEyeDistance / 64;  // a tenth of the depth of the flattest face
   return std::all_of(geometry.positions.begin(), geometry.positions.end(),
                      [](const glm::ivec3& p) { return std::abs(p.z) < kDepth; });
 }
@@ -165,7 +165,7 @@ Result<CodedGeometry> encode_geometry(const Geometry& geometry, std::int32_t ste
   const WireFrame& head = geometry.wire_frame();
   if (geometry.positions.size() != head.vertices.size())
     return fail(ErrorCode::kInvalidArgument, "geometry has another number of vertices than its wire-frame");
-  if (!in_range(geometry)) return fail(ErrorCode::kInvalidArgument, "a vertex is out of range");
+  if (!vertices_in_range(geometry)) return fail(ErrorCode::kInvalidArgument, "a vertex is out of range");
 
   const ScaledHead frame{
       head, {fitted_scale(geometry, 0), fitted_scale(geometry, 1), fitted_scale(geometry, 2)}, step};

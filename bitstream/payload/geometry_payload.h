@@ -24,17 +24,16 @@ struct CodedGeometry {
 /// Scales the wire-frame to fit by least squares for each axis, quantises the residuals, and codes them
 /// with the prediction that gives the shortest payload.
 /// @param step  size of a residual step, head units, 1..kMaxGeometryStep
-/// @return kInvalidArgument  another number of positions than of vertices, a coordinate beyond
-/// kMaxCoordinate, or step out of range
+/// @return kInvalidArgument  number of positions other than number of vertices, a coordinate beyond
+///                           kMaxCoordinate, or step out of range
 [[nodiscard]] Result<CodedGeometry> encode_geometry(const Geometry& geometry,
                                                     std::int32_t step = kDefaultGeometryStep);
 
-/// Whether a head has no depth: then it is no face but a plane that moves the picture.
+/// Whether a head has no depth: it is then a plane that moves the picture, not a face.
 [[nodiscard]] bool is_flat(const Geometry& geometry);
 
-/// @param own_frame  that of the scene; null: the generic head. A payload for a wire-frame with another
-/// number of
-///                   vertices may be decoded all the same
+/// @param own_frame  the scene's own; null: the generic head. A payload for a wire-frame with another number
+///                   of vertices may decode all the same
 /// @return kTooLarge       more than kMaxGeometryPayload bytes
 ///         kTruncated      the payload ends inside its header
 ///         kInvalidStream  Draco cannot decode the bytes, or a coordinate lies beyond kMaxCoordinate

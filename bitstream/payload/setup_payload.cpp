@@ -57,7 +57,7 @@ Result<void> set_colour(VideoFormat& format, std::uint8_t colour) {
   return {};
 }
 
-// Errors of check_setup are those of a caller; a stream is invalid instead.
+// Errors of check_setup blame the caller; in a stream they mean kInvalidStream.
 Error as_stream_error(Error error) {
   if (error.code == ErrorCode::kInvalidArgument) error.code = ErrorCode::kInvalidStream;
   return error;

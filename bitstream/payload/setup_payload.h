@@ -18,9 +18,9 @@ inline constexpr std::int32_t kMaxStep = 65535;
 /// @return kTooLarge          a side beyond kMaxPictureSize; more than kMaxPatterns; a position beyond
 ///                            kMaxStreamPictures or kMaxStreamTime
 ///         kInvalidArgument   a position that can_last() refuses; a side below kMinPictureSize; a rate of
-///         zero or beyond kMaxPicturesPerSecond; a
-///                            denominator of zero; a step outside 1..kMaxStep; parts without the
-///                            pose or beyond kAllParts; an unknown range or matrix
+///                            zero or beyond kMaxPicturesPerSecond; a denominator of zero; a step outside
+///                            1..kMaxStep; parts without the pose or beyond kAllParts; an unknown range or
+///                            matrix
 [[nodiscard]] Result<void> check_setup(const Setup& setup);
 
 /// @return the payload, 20 to 45 bytes; the errors of check_setup

@@ -10,10 +10,10 @@
 namespace fbs {
 namespace {
 
-/// Of Opus: 2.5, 5, 10, 20, 40, 60, 80, 100 and 120 ms.
+/// Durations of Opus frames: 2.5, 5, 10, 20, 40, 60, 80, 100 and 120 ms.
 constexpr std::array<std::int32_t, 9> kOpusDurations{120, 240, 480, 960, 1920, 2880, 3840, 4800, 5760};
 
-/// Bytes of a frame of Codec 2; 0 of a mode that there is not.
+/// Bytes of a Codec 2 frame; 0 for an unknown mode.
 std::size_t codec2_frame_bytes(std::int32_t mode) {
   const Codec2Mode* const known = find_codec2_mode(mode);
   return known != nullptr ? known->frame_bytes : 0;

@@ -15,14 +15,14 @@ namespace fbs {
 
 /// Bytes; Opus' own limit is 1275 for each of its streams.
 inline constexpr std::size_t kMaxSoundFrame = 1500;
-/// The frames of a packet begin within so much time, 1/kSoundClock s.
+/// All frames of a packet begin within this time, 1/kSoundClock s.
 inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
 
 [[nodiscard]] constexpr bool is_sound(PacketType type) {
   return type == PacketType::kSoundSetup || type == PacketType::kSound;
 }
 
-/// Whether a decoder of this format may get it: what SoundSetup's comments and SPEC 4.9 say.
+/// Whether a decoder of this format accepts it: the rules of SoundSetup's comments and SPEC 4.9.
 [[nodiscard]] bool is_valid(const SoundSetup& setup);
 
 /// @return kInvalidArgument  not is_valid()
@@ -34,8 +34,7 @@ inline constexpr std::int32_t kMaxSoundGroup = kSoundClock;
 [[nodiscard]] Result<std::optional<SoundSetup>> decode_sound_setup(std::span<const std::uint8_t> payload);
 
 /// @return kInvalidArgument  no frame, frames over more than kMaxSoundGroup, a number or a frame out of
-/// range, or a
-///                           frame of Codec 2 that is not of its length
+///                           range, or a Codec 2 frame of another length
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_sound(const SoundGroup& group,
                                                              const SoundSetup& setup);
 

@@ -14,7 +14,7 @@ constexpr int kValues = kFollowOne + 1;
 
 struct Contexts {
   std::array<AdaptiveBit, 8> differs;                              // by which neighbours are equal
-  std::array<std::array<AdaptiveBit, kValues - 2>, kValues> next;  // by prediction, place among the others
+  std::array<std::array<AdaptiveBit, kValues - 2>, kValues> next;  // by prediction and place among the others
 };
 
 // The neighbours of a value that are coded before it; a missing one takes the value of the nearest. SPEC 4.3.
@@ -40,8 +40,8 @@ int predict(const Neighbours& n) {
   return std::clamp(n.left + n.up - n.up_left, low, high);
 }
 
-// Whether the value differs from the prediction; then for each other value in rising order whether it is not
-// that one, the last being implied.
+// Codes whether the value differs from the prediction; if so, asks each other value in rising order, the last
+// being implied.
 template <class Coder>
 int code_value(Coder& coder, Contexts& contexts, const Neighbours& n, int value) {
   const int predicted = predict(n);

@@ -8,8 +8,8 @@
 namespace fbs {
 namespace {
 
-/// Codes tables in the order of SPEC 4.8. While it reads, a number that is out of range becomes the smallest
-/// that is not, and so do all after it.
+/// Codes tables in the order of SPEC 4.8. A reader replaces the first number out of range, and all after it,
+/// by the smallest in range.
 template <class Coder>
 class FrameCoder {
  public:
@@ -30,7 +30,7 @@ class FrameCoder {
     atlas(t.atlas);
   }
   [[nodiscard]] bool in_range() const { return ok_; }
-  /// Whether the bytes that were needed up to the first number out of range, if there is one, were there.
+  /// Whether all bytes were there, up to the first number out of range if there is one.
   [[nodiscard]] bool complete() const { return ok_ ? coder_.ok() : complete_; }
 
  private:
@@ -49,7 +49,7 @@ class FrameCoder {
     if constexpr (Coder::kReads) complete_ = coder_.ok();
   }
 
-  /// A number by its difference to `from`.
+  /// A number as its difference from `from`.
   template <class T>
   void number(WideIntegerContexts& contexts, std::int32_t from, T& value, std::int32_t low,
               std::int32_t high) {

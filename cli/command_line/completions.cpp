@@ -10,7 +10,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompletionsExamples =
     "Examples:\n"
     "  source <(fbs completions bash)                            in ~/.bashrc\n"
     "  source <(fbs completions zsh)                             in ~/.zshrc, after compinit\n"
@@ -20,7 +20,7 @@ std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// Those that --help shows and that have a name with two dashes.
+/// The options that --help shows and that have a name with two dashes.
 std::vector<const CLI::Option*> options_of(const CLI::App& verb) {
   return verb.get_options(
       [](const CLI::Option* o) { return !o->get_lnames().empty() && o->get_group() != kHiddenGroup; });
@@ -32,14 +32,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// In single quotes of a shell.
+/// Quotes text for a shell, in single quotes.
 std::string in_quotes(const std::string& text) {
   std::string out = "'";
   out += replaced(text, "'", "'\\''");
   return out += "'";
 }
 
-/// The first sentence: a menu has a line for each.
+/// The first sentence: a menu has one line per option.
 std::string short_text(const std::string& description) {
   return description.substr(0, description.find_first_of(";:("));
 }
@@ -151,7 +151,7 @@ void add_completions(CLI::App& app, Run& run) {
   verb->add_option("SHELL", shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  verb->footer(kExamples);
+  verb->footer(kCompletionsExamples);
 }
 
 }  // namespace fbs::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -66,6 +67,8 @@ inline auto in_module(const char* module, const char* symbol) {
 inline constexpr const char* kHiddenGroup = "for measurements";
 
 inline constexpr double kMaxSeconds = 1e8;  ///< of options that are times: three years
+inline constexpr std::int64_t kMaxFrames =
+    1'000'000'000;  ///< of options that count pictures: more than a year
 
 /// CLI::Range lets NaN through.
 [[nodiscard]] CLI::Validator number_within(double low, double high);

@@ -6,7 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDecodeExamples =
     "Examples:\n"
     "  fbs decode talk.fbs talk.y4m                    or .mp4, .mkv, frame_%05d.png\n"
     "  fbs decode talk.fbs - | mpv -                   pipe into a player\n"
@@ -44,7 +44,7 @@ void add_decode(CLI::App& app, Run& run) {
       "lost ones; exit code 0: nothing lost; 3: less than a tenth of the pictures, or only the end "
       "is missing; 4: more");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
-  verb->footer(kExamples);
+  verb->footer(kDecodeExamples);
 }
 
 }  // namespace fbs::cli

@@ -36,7 +36,7 @@ bool is_wave_name(const std::string& output) {
 /// Decodes one stream into one output.
 class Decoding {
  public:
-  /// @param stop  null: no signal is awaited
+  /// @param stop  null: ignore signals
   Decoding(const DecodeArguments& arguments, const StopSignal* stop)
       : arguments_(arguments),
         stop_(stop),
@@ -46,23 +46,23 @@ class Decoding {
   Result<Outcome> run();
 
  private:
-  /// The next picture; false at the end of what can be decoded.
+  /// Decodes the next picture; false at the end of what can be decoded.
   Result<bool> next();
   Result<void> open_sink();
-  /// Whether the silence before the current picture can be filled.
+  /// Checks that the silence before the current picture can be filled.
   Result<void> check_silence();
-  /// The sound up to the end of the current picture.
+  /// Writes the sound up to the end of the current picture.
   Result<void> write_sound();
   Result<void> write();
-  /// Of a .wav: the sound alone.
+  /// Writes a .wav: the sound alone.
   Result<void> write_wave();
   Result<void> finish();
   void print_md5() const;
   void print_rate_change() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
   [[nodiscard]] bool is_wave() const { return is_wave_name(arguments_.output); }
-  /// Time 0 of the output in the stream: that of the picture decoded first, or where pictures before it are
-  /// lost, of the first of them, so that sound keeps its place. 1/90000 s.
+  /// Where the output begins in the stream: at the picture decoded first, or where pictures before it are
+  /// lost, at the first of those, so that sound keeps its place. 1/90000 s.
   [[nodiscard]] std::uint64_t begin() const {
     const StreamDecoder& decoder = file_->decoder();
     return arguments_.from > 0 ? decoder.position().time : decoder.start().time;
@@ -75,17 +75,17 @@ class Decoding {
   std::optional<StreamFile> file_;
   std::unique_ptr<VideoSink> sink_;             ///< opened with the first picture
   const ConstantRateSink* constant_ = nullptr;  ///< sink_, for outputs without timestamps
-  std::optional<SinkSound> sound_;              ///< of a sink that takes it
-  std::optional<DecodedSound> samples_;         ///< of a .wav
-  std::unique_ptr<WavSink> wave_;               ///< the same, opened with the first sound
+  std::optional<SinkSound> sound_;              ///< for a sink that takes sound
+  std::optional<DecodedSound> samples_;         ///< for a .wav
+  std::unique_ptr<WavSink> wave_;               ///< likewise, opened with the first sound
   Picture picture_;
   DecodedTime time_;        ///< of the pictures written
-  std::int64_t gaps_ = 0;   ///< of pictures that are missing and not held, 1/90000 s
+  std::int64_t gaps_ = 0;   ///< missing pictures that are not held, 1/90000 s
   std::uint64_t next_ = 0;  ///< time in the stream of the next picture if nothing is missing
 };
 
-/// The longest time without pictures that is filled with silence, 1/90000 s: an hour. Damaged streams say
-/// anything.
+/// The longest time without pictures that is filled with silence, 1/90000 s: an hour. Damaged streams may
+/// claim anything.
 constexpr std::uint64_t kLongestSilence = std::uint64_t{3600} * kTicksPerSecond;
 
 Result<void> check_files(const DecodeArguments& a) {
@@ -106,7 +106,7 @@ Result<void> check_files(const DecodeArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
-/// More than four threads wait for each other.
+/// More than four threads would wait for each other.
 int thread_count(int asked) {
   if (asked > 0) return asked;
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
@@ -132,7 +132,7 @@ Result<Outcome> Decoding::run() {
   if (!arguments_.keep_going && !decoder().announced_pictures())
     return fail(ErrorCode::kTruncated, file_->name() + ": " + missing_end_text(decoder()));
   progress_.finish();
-  if (arguments_.md5)  // while the output can still be taken back
+  if (arguments_.md5)  // while the output can still be withdrawn
     if (auto printed = flush_standard_output(); !printed) return fail(printed.error());
   if (auto finished = finish(); !finished) return fail(finished.error());
   print_rate_change();
@@ -262,7 +262,7 @@ void Decoding::print_rate_change() const {
 }  // namespace
 
 Result<Outcome> run_decode(const DecodeArguments& arguments) {
-  // Standard output has nothing to remove: there a signal ends the program at once.
+  // Standard output leaves nothing to remove: a signal ends the program at once.
   std::optional<StopSignal> stop;
   if (arguments.output != "-") stop.emplace(nullptr);
   auto decoded = Decoding(arguments, stop ? &*stop : nullptr).run();

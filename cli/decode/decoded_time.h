@@ -10,9 +10,9 @@
 
 namespace fbs::cli {
 
-/// Time of each picture from the durations before it. Those of the frame rate are counted, so that their
-/// rounding to 1/90000 s does not add up. An encoder makes it good from time to time, by one duration that is
-/// longer or shorter: this leads back to the time that has been counted, and counts as another of the frame
+/// Time of each picture from the durations before it. Counts durations of the frame rate, so that their
+/// rounding to 1/90000 s does not add up. From time to time an encoder makes up for the rounding by a
+/// duration that is longer or shorter: it leads back to the counted time, and counts as another of the frame
 /// rate.
 class DecodedTime {
  public:
@@ -33,13 +33,13 @@ class DecodedTime {
   }
 
  private:
-  static constexpr std::int64_t kRounding = 2;  ///< of the times of two pictures in the source
+  static constexpr std::int64_t kRounding = 2;  ///< in the times of two pictures of the source
 
   Rational rate_{25, 1};
   std::uint32_t nominal_ = 0;
   std::int64_t stream_ = 0;     ///< sum of the durations
   std::int64_t regular_ = 0;    ///< pictures of nominal duration
-  std::int64_t irregular_ = 0;  ///< what the others add to them, 1/90000 s
+  std::int64_t irregular_ = 0;  ///< what the other pictures add, 1/90000 s
 };
 
 }  // namespace fbs::cli

@@ -8,10 +8,10 @@
 namespace fbs::cli {
 namespace {
 
-constexpr int kTranscodedBitrate = 24000;  // bit/s: of what Codec 2 has left, nothing is lost
+constexpr int kTranscodedBitrate = 24000;  // bit/s: enough to lose nothing of what Codec 2 has left
 
-/// The setup for a decoder that begins at a later time, with the first frame it needs: its skip is what it
-/// hears only to get there.
+/// The setup for a decoder that joins at a later time, with the first frame it needs: its skip covers the
+/// frames decoded only to get there.
 SoundSetup joined(SoundSetup setup, std::span<const SoundPart> known, std::int64_t begin) {
   if (begin <= 0) return setup;
   const std::int64_t covers = (begin + setup.skip) / setup.duration,
@@ -41,7 +41,7 @@ Result<SinkSound> SinkSound::create(const SoundSetup& setup, std::span<const Sou
 
 Result<void> SinkSound::add(SoundPart part) {
   if (transcoder_) return transcoder_->decoded.add(std::move(part));
-  if (waiting_size_ + memory_of(part.group) > kMaxSoundAhead) return {};  // far ahead of its pictures
+  if (waiting_size_ + memory_of(part.group) > kMaxSoundAhead) return {};  // too far ahead of its pictures
   std::int64_t frame = part.group.first;
   for (std::vector<std::uint8_t>& bytes : part.group.frames) {
     const std::int64_t time = frame_time(part.setup, frame++) - begin_;

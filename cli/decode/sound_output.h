@@ -19,10 +19,10 @@ namespace fbs::cli {
 
 // Times are in 1/kSoundClock s of the stream.
 
-/// Sound into a sink of video: Opus as it is; Codec 2, which containers do not know, becomes Opus.
+/// Sound for a video sink: Opus is copied; Codec 2, which containers do not know, becomes Opus.
 class SinkSound {
  public:
-  /// @param known  parts that have come already
+  /// @param known  parts that have arrived
   /// @param begin  time 0 of the sink
   static Result<SinkSound> create(const SoundSetup& setup, std::span<const SoundPart> known,
                                   std::int64_t begin);
@@ -30,21 +30,21 @@ class SinkSound {
   /// For SinkOptions.
   [[nodiscard]] const SoundSetup& setup() const { return setup_; }
 
-  /// Whether silence in the stream costs time and memory: of Opus, gaps are left as they are.
+  /// Whether silence in the stream costs time and memory; gaps in Opus are left as they are.
   [[nodiscard]] bool fills_gaps() const { return transcoder_.has_value(); }
 
-  /// What is too far ahead of its pictures, kMaxSoundAhead, is left out.
+  /// Leaves out a part too far ahead of its pictures (kMaxSoundAhead).
   Result<void> add(SoundPart part);
-  /// Writes what is heard before a time.
+  /// Writes the sound before a time.
   Result<void> write(std::int64_t end, VideoSink& sink);
-  /// The last pictures have been written.
+  /// Call when the last pictures have been written.
   Result<void> finish(VideoSink& sink);
 
  private:
   struct Transcoder {
     DecodedSound decoded;
     std::unique_ptr<SoundEncoder> encoder;
-    std::int64_t frames = 0;  ///< coded
+    std::int64_t frames = 0;  ///< coded so far
   };
   using Frame = std::pair<std::int64_t, std::vector<std::uint8_t>>;  ///< time in the sink, bytes
 
@@ -56,8 +56,8 @@ class SinkSound {
   SoundSetup setup_;
   std::int64_t begin_;
   std::deque<Frame> waiting_;
-  std::size_t waiting_size_ = 0;          ///< memory_of() them
-  std::optional<Transcoder> transcoder_;  ///< of Codec 2
+  std::size_t waiting_size_ = 0;          ///< memory_of() waiting_
+  std::optional<Transcoder> transcoder_;  ///< for Codec 2
 };
 
 }  // namespace fbs::cli

@@ -8,7 +8,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr int kWantedHeight = 576;  // pixels; fits on every screen with room to spare
+constexpr int kWantedHeight = 576;  // pixels; fits every screen with room to spare
 constexpr int kMaxZoom = 4;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A picture as an image for the eye.
+// A picture as an image for the viewer.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace fbs::cli {
 
-/// By how much small pictures are enlarged, so that details are seen.
+/// Factor by which small pictures are enlarged to show details.
 [[nodiscard]] int display_zoom(const VideoFormat& format);
 
 /// The picture in BGR, enlarged by display_zoom().

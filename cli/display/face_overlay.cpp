@@ -13,7 +13,7 @@ constexpr int kShift = 4;        // OpenCV draws with positions in 1/16 pixel
 constexpr int kSampleShift = 6;  // vertices are in 1/64
 
 const cv::Scalar kMeshColour(90, 200, 90), kSnakeColour(40, 60, 255);
-constexpr int kWide = 400;  // pixels of an image on which contours are drawn thicker
+constexpr int kWide = 400;  // pixels of an image from which contours are drawn thicker
 
 /// The centre of the first pixel is at 32/64 in the picture and at 0 in OpenCV.
 cv::Point fixed(const glm::ivec3& p, int zoom) {
@@ -29,7 +29,7 @@ struct FarTriangle {
   Corners corners;
 };
 
-/// Those that face the viewer, the farthest first.
+/// Triangles that face the viewer, farthest first.
 std::vector<FarTriangle> seen_triangles(const WireFrame& head, const ScreenVertices& vertices, int zoom) {
   std::vector<FarTriangle> out;
   for (const HeadTriangle& t : head.triangles) {
@@ -45,7 +45,7 @@ std::vector<FarTriangle> seen_triangles(const WireFrame& head, const ScreenVerti
 
 using Marks = std::initializer_list<std::uint8_t>;  // iBUG-68
 
-/// Through the points, smoothly: cubic pieces of Catmull and Rom, 1974.
+/// A smooth curve through the points: cubic pieces of Catmull and Rom, 1974.
 std::vector<cv::Point> smooth(const std::vector<cv::Point>& points, bool closed) {
   constexpr int kPieces = 6;
   const int n = static_cast<int>(points.size());
@@ -79,7 +79,7 @@ void draw_curve(cv::Mat& image, const WireFrame& head, const ScreenVertices& ver
 void draw_wire_frame(cv::Mat& image, const WireFrame& head, const ScreenVertices& vertices, int zoom) {
   cv::Mat lines(image.size(), CV_8UC1, cv::Scalar(0));
   for (const FarTriangle& t : seen_triangles(head, vertices, zoom)) {
-    // What is nearer wipes out what lies behind it.
+    // A nearer triangle erases what lies behind it.
     cv::fillConvexPoly(lines, t.corners.data(), 3, cv::Scalar(0), cv::LINE_8, kShift);
     for (std::size_t i = 0; i < 3; ++i)
       cv::line(lines, t.corners[i], t.corners[(i + 1) % 3], cv::Scalar(255), 1, cv::LINE_AA, kShift);

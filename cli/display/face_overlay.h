@@ -13,7 +13,7 @@ namespace fbs::cli {
 using ScreenVertices = std::vector<glm::ivec3>;
 
 /// Draws the edges of the mesh that no nearer triangle hides (painter's algorithm: Newell, Newell and Sancha
-/// 1972, without their splitting, which a face does not need).
+/// 1972, without splitting, which a face does not need).
 /// @param image  BGR, `zoom` times as large as the picture
 void draw_wire_frame(cv::Mat& image, const WireFrame& head, const ScreenVertices& vertices, int zoom);
 

@@ -14,16 +14,16 @@ namespace {
 constexpr int kMargin = 10;
 constexpr int kLine = 19;      ///< from one line of text to the next
 constexpr int kBaseline = 14;  ///< of text in its line
-constexpr int kBarLeft = 82;   ///< beside the longest name of a region
+constexpr int kBarLeft = 82;   ///< to the right of the longest region name
 constexpr int kBarHeight = 13;
 constexpr int kChipWidth = 27, kChipHeight = 15;
-constexpr int kChipText = -2;  ///< from the top of a chip to that of its line of text
+constexpr int kChipText = -2;  ///< from the top of a chip to the top of its line of text
 constexpr int kChipStep = 31;  ///< from one chip of the store to the next
 constexpr int kTextGap = 3;    ///< from a chip to its percentage
 constexpr int kEntryGap = 8;   ///< from one weight to the next
 constexpr int kHatchStep = 6;
 constexpr int kHeadLines = 2;   ///< picture, patterns
-constexpr int kEntryLines = 2;  ///< of a region: enough for the most that a mode gives; regions stay in place
+constexpr int kEntryLines = 2;  ///< per region: enough for the largest blend; regions stay in place
 constexpr int kRegionHeight = (1 + kEntryLines) * kLine + 4;
 
 constexpr int kChipsPerLine = (kLegendWidth - 2 * kMargin) / kChipStep;
@@ -64,7 +64,7 @@ void hatch(cv::Mat area) {
     cv::line(area, {x, area.rows}, {x + area.rows, 0}, kDark, 1, cv::LINE_AA);
 }
 
-/// The number of a pattern on its colour.
+/// A pattern's number on its colour.
 void draw_chip(cv::Mat& image, std::size_t number, cv::Point top_left) {
   const cv::Scalar colour = colour_of(number);
   const cv::Rect chip(top_left, cv::Size(kChipWidth, kChipHeight));
@@ -106,7 +106,7 @@ std::string weight_text(const PatternWeight& w) {
   return (percent == 0 ? "<1" : std::to_string(percent)) + (w.still ? "% still" : "%");
 }
 
-/// Weights one after another, in as many lines as they need.
+/// Draws weights one after another, in as many lines as they need.
 void draw_weights(cv::Mat& image, const std::vector<PatternWeight>& weights, cv::Point at) {
   for (const PatternWeight& w : weights) {
     const std::string text = weight_text(w);

@@ -10,15 +10,15 @@
 namespace fbs::cli {
 namespace {
 
-/// Share of the colour; the picture's brightness has the rest. Set by eye: colours can be told apart on skin
-/// and on dark hair, and the face can still be read.
+/// Share of the colour; the rest is the picture's brightness. Set by eye: colours can be told apart on skin
+/// and on dark hair, and the face stays readable.
 constexpr double kTintOpacity = 0.45;
 
 cv::Mat tinted(const cv::Mat& image, RgbImage& tint) {
   const cv::Mat colours(tint.height, tint.width, CV_8UC3, tint.samples.data());
   cv::Mat large, grey, out;
   cv::resize(colours, large, image.size(), 0, 0, cv::INTER_LINEAR);
-  // Colours of the picture would be taken for those of patterns.
+  // The picture's own colours could be mistaken for patterns'.
   cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   cv::cvtColor(grey, grey, cv::COLOR_GRAY2BGR);
   cv::addWeighted(large, kTintOpacity, grey, 1 - kTintOpacity, 0, out);

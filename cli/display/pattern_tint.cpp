@@ -8,15 +8,15 @@
 namespace fbs::cli {
 namespace {
 
-// 0xRRGGBB. Each is as far as possible in CIELAB from all before it, so that few patterns get colours that
-// differ most: of the first 8 none are closer than 67, of all none closer than 32. Lightness is at least 52
-// and chroma at least 40, since dark or grey colours do not tint.
+// 0xRRGGBB. Each is as far as possible in CIELAB from all before it, so that a few patterns get the most
+// distinct colours: none of the first 8 are closer than 67, none of all closer than 32. Lightness is at least
+// 52 and chroma at least 40, since dark or grey colours do not tint.
 constexpr std::array<std::uint32_t, kPatternColourCount> kColours = {
     0xee88bb, 0x00ff00, 0xffbb00, 0x00ffff, 0xcc11ff, 0xff0022, 0x559933, 0x0088ff,
     0xbb6633, 0xccee00, 0xff11bb, 0x00ff99, 0xeeee99, 0x00aadd, 0xee2266, 0xcc77ff,
     0xff7700, 0x998811, 0x009977, 0x00bb11, 0xbbaaff, 0xaaff77, 0xffbb88, 0x99eeaa};
 
-/// A mouth that was seen wider open than any: the interior covers what has opened since.
+/// A mouth seen wider open than any other, so that no mouth interior is drawn over it.
 constexpr std::int32_t kWidestGap = std::numeric_limits<std::int32_t>::max() / 2;
 
 Picture plain_picture(const Bgr& colour, const VideoFormat& format) {
@@ -30,7 +30,7 @@ Picture plain_picture(const Bgr& colour, const VideoFormat& format) {
   return out;
 }
 
-/// A pattern of one colour that was seen as this one is, but not lit.
+/// A pattern of one colour with the position of this one, but without light.
 Pattern painted(const Pattern& pattern, const Bgr& colour, const Scene& scene) {
   State unlit = pattern.seen;
   unlit.light = {};

@@ -1,4 +1,4 @@
-// Where the patterns of a picture show: each painted in a colour of its own.
+// Where the patterns of a picture show: each painted in its own colour.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ namespace fbs::cli {
 /// Blue, green, red.
 using Bgr = std::array<std::uint8_t, 3>;
 
-/// The same for a pattern throughout a stream. Colours come again after kPatternColourCount patterns.
+/// The colour of a pattern throughout a stream; colours repeat after kPatternColourCount patterns.
 /// @param number  of the pattern in the stream
 [[nodiscard]] Bgr pattern_colour(std::size_t number);
 inline constexpr std::size_t kPatternColourCount = 24;
 
-/// Draws the picture of `state` in BGR as if each pattern had one colour all over: colours of patterns mix as
-/// their samples do. Light and mouth interior, which are of no pattern, are left out.
+/// Draws the picture of `state` in BGR as if each pattern were of one colour: colours mix as the patterns'
+/// samples do. Light and mouth interior, which belong to no pattern, are left out.
 /// @param in_slot  number in the stream of each pattern of the scene
 [[nodiscard]] Result<RgbImage> pattern_tint(const Scene& scene, const State& state,
                                             std::span<const std::size_t> in_slot);

@@ -1,4 +1,4 @@
-// Text for the viewer, on a dark ground.
+// Text for the viewer, on a dark background.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,10 +8,10 @@
 namespace fbs::cli {
 
 struct PanelLine {
-  std::string left, right;  ///< two columns; all lines of a panel share where the second begins
+  std::string left, right;  ///< two columns; in all lines of a panel the second begins at the same place
 };
 
-/// In BGR, as large as the text needs. ASCII only: it is all that OpenCV's letters have.
+/// In BGR, sized to the text. ASCII only: OpenCV's fonts have nothing else.
 [[nodiscard]] cv::Mat text_panel(std::span<const PanelLine> lines);
 
 }  // namespace fbs::cli

@@ -7,9 +7,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1'000'000'000;  // more than a year
-
-constexpr const char* kExamples =
+constexpr const char* kEncodeExamples =
     "Examples:\n"
     "  fbs encode talk.mkv talk.fbs                    print size, bitrate and PSNR when done\n"
     "  fbs encode talk.mkv talk.fbs --quality 70       higher quality, larger file\n"
@@ -142,7 +140,7 @@ void add_encode(CLI::App& app, Run& run) {
                  "Encode a video without a face, too, instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
   add_experiments(*verb, a);
-  verb->footer(kExamples);
+  verb->footer(kEncodeExamples);
 }
 
 }  // namespace fbs::cli

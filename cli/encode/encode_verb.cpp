@@ -25,7 +25,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kStopNotice = "fbs: finishing the stream; a second signal ends at once";
+constexpr const char* kFinishingStream = "fbs: finishing the stream; a second signal ends at once";
 constexpr double kLeastBitrate = 0.5;   // kbit/s of the pictures, beside sound
 constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
 
@@ -218,6 +218,6 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
 FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
                                       fbs::Result<fbs::cli::Outcome>& result) {
   result =
-      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kStopNotice, "nothing written",
+      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kFinishingStream, "nothing written",
                               [&](const fbs::StopSignal& stop) { return fbs::cli::encode(arguments, stop); });
 }

@@ -1,4 +1,4 @@
-// A video of the source with mesh and snakes drawn on it, for visual inspection.
+// A video of the source with mesh and snakes drawn over it, for visual inspection.
 #pragma once
 
 #include <memory>

@@ -23,10 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Peers are coded at ever higher rates until they take this much more than the best stream of fbs.
+/// Peers are coded at increasing rates until they exceed fbs's best stream by this factor.
 constexpr double kRateToCover = 1.25;
 
-/// One source while it is evaluated.
+/// The evaluation of one source.
 class ClipEvaluation {
  public:
   ClipEvaluation(const EvaluateArguments& arguments, const Tools& tools, const RunFolder& run,
@@ -55,7 +55,7 @@ class ClipEvaluation {
   Result<void> measure_streams();
   Result<void> measure_peers();
   /// From the lowest rate up, until fbs's rates are covered.
-  /// Sizes and rates of those that are asked for.
+  /// Sizes and rates that were asked for.
   [[nodiscard]] std::vector<PeerVariant> wanted_variants() const;
   Result<void> climb(const PeerCodec& codec, const PeerVariant& variant, double enough_kbps);
   Result<RdPoint> peer_point(const PeerCodec& codec, const PeerVariant& variant, int crf);
@@ -69,12 +69,12 @@ class ClipEvaluation {
   const StopSignal& stop_;
   const PartLimits limits_{arguments_.frames, {}};
   ClipReport clip_;
-  json key_;  ///< of everything that is made of the source
+  json key_;  ///< of everything made from the source
   FaceRegions regions_;
   bool warned_ = false;
 };
 
-/// What can be read once only.
+/// Whether a source can be read only once.
 bool is_pipe(const std::string& name) {
   std::error_code error;
   return name == "-" || fs::is_fifo(name, error);
@@ -208,7 +208,7 @@ Result<void> ClipEvaluation::take_regions(std::vector<StreamTrack>& tracks) {
                                                    std::to_string(regions_.outlines.size()) +
                                                    " pictures, more than " + clip_.source);
   } else {
-    // Of streams that are given the first; else that of the highest quality.
+    // The first of given streams; else the one of the highest quality.
     std::size_t best = 0;
     if (arguments_.streams.empty())
       for (std::size_t i = 1; i < tracks.size(); ++i)

@@ -13,7 +13,7 @@
 
 namespace fbs::cli {
 
-/// What ffmpeg can do for us.
+/// What the installed ffmpeg can do.
 struct Tools {
   std::vector<PeerCodec> peers;  ///< empty unless asked for
   bool vmaf = false;
@@ -22,7 +22,7 @@ struct Tools {
 /// @return kUnsupported when peers are asked for and ffmpeg has none of them
 Result<Tools> find_tools(const EvaluateArguments& arguments);
 
-/// What the run folder has of it is not done again.
+/// Results already in the run folder are reused.
 /// @param source  a video; `-` is copied to the run folder first
 /// @return errors name the file; kIo when the signal came
 Result<ClipReport> evaluate_clip(const EvaluateArguments& arguments, const std::string& source,

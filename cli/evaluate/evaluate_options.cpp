@@ -7,9 +7,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1'000'000'000;  // as of encode
-
-constexpr const char* kExamples =
+constexpr const char* kEvaluateExamples =
     "Examples:\n"
     "  fbs evaluate talk.mkv                           encode at five qualities, compare with the source\n"
     "  fbs evaluate talk.mkv talk.fbs                  measure a stream\n"
@@ -71,7 +69,7 @@ void add_evaluate(CLI::App& app, Run& run) {
       ->check(CLI::Range(1, 64));
   verb->add_flag("--json", a.json, "Print JSON");
   verb->add_flag("--quiet", a.quiet, "Print no progress");
-  verb->footer(kExamples);
+  verb->footer(kEvaluateExamples);
 }
 
 }  // namespace fbs::cli

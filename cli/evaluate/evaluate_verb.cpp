@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStopNotice = "fbs: stopping; a second signal ends at once";
+constexpr const char* kStoppingEvaluation = "fbs: stopping; a second signal ends at once";
 
 Result<void> refuse(const std::string& text) {
   return fail(ErrorCode::kInvalidArgument, text);
@@ -64,7 +64,7 @@ Result<void> check_outputs(const EvaluateArguments& a, const std::vector<std::st
 }
 
 /// @param clips  videos in the folder; empty where the source is a video itself
-/// @return kInvalidArgument for an option that would do nothing, and for an output that is an input
+/// @return kInvalidArgument for an option without effect, and for an output that is an input
 Result<void> check_arguments(const EvaluateArguments& a, const std::vector<std::string>& clips) {
   if (a.source.starts_with("camera:"))
     return refuse(a.source + ": a camera does not show the same twice; record it first");
@@ -77,7 +77,7 @@ Result<void> check_arguments(const EvaluateArguments& a, const std::vector<std::
   return check_outputs(a, clips);
 }
 
-/// Where what is finished is kept; empty: nowhere.
+/// Folder for finished results; empty: none.
 std::string kept_folder(const EvaluateArguments& arguments) {
   if (!arguments.keep.empty() || arguments.html.empty()) return arguments.keep;
   return fs::path(arguments.html).replace_extension(".fbs-run").string();
@@ -152,7 +152,7 @@ Result<Outcome> evaluate(const EvaluateArguments& arguments, const StopSignal& s
 
 /// Evaluates until the end or a signal.
 Result<Outcome> evaluate_until_stopped(const EvaluateArguments& arguments) {
-  const StopSignal stop(arguments.quiet ? nullptr : kStopNotice);
+  const StopSignal stop(arguments.quiet ? nullptr : kStoppingEvaluation);
   auto outcome = evaluate(arguments, stop);
   if (!stop.raised() || outcome) return outcome;
   const std::string kept = kept_folder(arguments);

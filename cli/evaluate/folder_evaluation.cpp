@@ -34,7 +34,7 @@ Result<ClipReport> evaluate_one(const EvaluateArguments& arguments, const std::s
     auto folder = RunFolder::open(run.path(fs::path(clip).filename().string()));
     if (!folder) return fail(folder.error());
     return evaluate_clip(arguments, clip, tools, *folder, stop);
-  } catch (const std::exception& problem) {  // out of memory, say: the program would end here, in a thread
+  } catch (const std::exception& problem) {  // such as out of memory: in a thread it would end the program
     return fail(ErrorCode::kInternal, clip + ": " + problem.what());
   }
 }
@@ -54,7 +54,7 @@ Result<FolderReport> evaluate_folder(const EvaluateArguments& arguments,
                                      const std::vector<std::string>& clips, const Tools& tools,
                                      const RunFolder& run, const StopSignal& stop) {
   EvaluateArguments each = arguments;
-  each.quiet = true;  // one bar for each at the same time would be unreadable
+  each.quiet = true;  // several bars at the same time would be unreadable
   std::vector<std::optional<Result<ClipReport>>> results(clips.size());
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {

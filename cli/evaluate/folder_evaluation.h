@@ -8,7 +8,7 @@
 
 namespace fbs::cli {
 
-/// The videos in a folder by their suffix, in order of name; none where `path` is no folder, or one of
+/// The videos in a folder, chosen by suffix and sorted by name; none where `path` is not a folder, or one of
 /// images.
 [[nodiscard]] std::vector<std::string> clips_in(const std::string& path);
 
@@ -17,8 +17,8 @@ struct FolderReport {
   std::vector<std::string> failed;  ///< a line for each of the others
 };
 
-/// A clip that fails does not stop the others. Each has a folder of its name in the run folder.
-/// @param clips  of clips_in()
+/// Continues after a clip that fails. Each clip has a folder of its name in the run folder.
+/// @param clips  from clips_in()
 /// @return kIo when the signal came
 Result<FolderReport> evaluate_folder(const EvaluateArguments& arguments,
                                      const std::vector<std::string>& clips, const Tools& tools,

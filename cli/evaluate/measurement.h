@@ -1,4 +1,4 @@
-// Measures the pictures of a stream against those of its source.
+// Compares the pictures of a stream with its source.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace fbs::cli {
 
-/// What all streams of a source are measured with.
+/// The setting that all streams of a source share.
 struct MeasurementSetting {
   std::string source;
   PartLimits limits;
@@ -23,7 +23,7 @@ struct MeasurementSetting {
   const StopSignal* stop = nullptr;
 };
 
-/// Fills `point.pictures` and `point.vmaf`. A source that is cut off is measured as far as it goes.
+/// Fills `point.pictures` and `point.vmaf`. A truncated source is measured as far as it goes.
 /// @param log  name of a file that ffmpeg may write
 /// @return the source, read to its end; kInvalidArgument when size or number of the pictures differ from its
 /// own

@@ -16,7 +16,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kExportExamples =
     "Examples:\n"
     "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
     "  fbs export talk.fbs head.gltf --draco           the same as text, its mesh compressed\n"
@@ -60,7 +60,7 @@ Result<Output> output_of(const ExportArguments& a) {
   return out;
 }
 
-/// Calls `take(decoder)` with every picture.
+/// Calls `take(decoder)` for every picture.
 template <class Take>
 Result<void> for_each_picture(StreamFile& file, const Take& take) {
   for (;;) {
@@ -71,7 +71,7 @@ Result<void> for_each_picture(StreamFile& file, const Take& take) {
   }
 }
 
-/// A stream does not say how sure its encoder was: a face is believed.
+/// A stream does not say how sure its encoder was, so every face is believed.
 FaceRow row_of(const StreamDecoder& decoder, FaceMeasure& measure) {
   FaceRow row;
   row.frame = decoder.position().pictures - decoder.start().pictures;
@@ -113,7 +113,7 @@ Result<HeadRecording> record(StreamFile& file) {
   return recording;
 }
 
-/// What a user may not expect of the model.
+/// Notes on what a user may not expect of the model.
 void print_notes(const std::string& output, const HeadRecording& recording) {
   const std::size_t heads = recording.heads().size();
   if (heads > 1)
@@ -180,7 +180,7 @@ void add_export(CLI::App& app, Run& run) {
       ->check(CLI::IsMember({"csv", "json"}))
       ->type_name("csv|json");
   verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
-  verb->footer(kExamples);
+  verb->footer(kExportExamples);
 }
 
 }  // namespace fbs::cli

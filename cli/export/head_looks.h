@@ -10,7 +10,7 @@
 namespace fbs::cli {
 
 /// Loads OpenImageIO.
-/// @return of each head of the recording
+/// @return one for each head of the recording
 [[nodiscard]] Result<std::vector<HeadLook>> make_head_looks(const HeadRecording& recording);
 
 }  // namespace fbs::cli

@@ -1,4 +1,4 @@
-// The interface of the module fbs_model, which writes and reads glTF models: it needs tinygltf.
+// The interface of the module fbs_model, which writes and reads glTF models with tinygltf.
 #pragma once
 
 #include <memory>

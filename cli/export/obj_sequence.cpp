@@ -21,7 +21,7 @@ class FileSet {
     if (file->replaced_leftover() && files_.empty()) print_replaced_leftover(name);
     if (auto written = file->write(bytes); !written) return written;
     if (auto closed = file->close(); !closed) return closed;
-    if (!files_.empty()) file->unlock();  // the first keeps other processes away from the set
+    if (!files_.empty()) file->unlock();  // the first keeps other processes away from the whole set
     files_.push_back(std::move(*file));
     return {};
   }
@@ -72,7 +72,7 @@ class StateCursor {
   explicit StateCursor(const HeadRecording& recording)
       : recording_(recording), next_(recording.heads().size()) {}
 
-  /// @return index of the head that has a state at `time`; heads().size(): none has
+  /// @return index of the head with a state at `time`; heads().size(): none
   std::size_t at(std::uint64_t time, const State*& state) {
     for (std::size_t h = 0; h < next_.size(); ++h) {
       const auto& states = recording_.heads()[h].states;

@@ -14,7 +14,7 @@ namespace fbs::cli {
 [[nodiscard]] Result<NumberPattern> obj_pattern(const std::string& output);
 
 /// Writes the meshes, and for `folder/head_%05d.obj` the materials `folder/head.mtl` and the textures
-/// `folder/head.png`, `folder/head_1.png` ... of the heads. No file has its name before all are complete.
+/// `folder/head.png`, `folder/head_1.png` ... of the heads. No file gets its name before all are complete.
 /// @return kNoFace when the recording has no head
 [[nodiscard]] Result<void> write_obj_sequence(const HeadRecording& recording, const NumberPattern& pattern);
 

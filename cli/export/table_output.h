@@ -13,8 +13,8 @@ namespace fbs::cli {
 /// The format of a table.
 /// @param output  name of the file, which ends in .csv or .json, or `-`
 /// @param format  --format: "csv", "json" or, if it was not given, empty
-/// @return nullopt for names of anything else; CSV for `-` without a format; kInvalidArgument where the name
-///         says one format and `format` another
+/// @return nullopt for a name that is no table's; CSV for `-` without a format; kInvalidArgument where the
+/// name says one format and `format` another
 [[nodiscard]] Result<std::optional<TableFormat>> table_format(const std::string& output,
                                                               const std::string& format);
 
@@ -25,7 +25,7 @@ class TableOutput {
 
   Result<void> begin(const VideoFormat& video) { return write(table_.begin(video)); }
   Result<void> add(const FaceRow& row) { return write(table_.row(row)); }
-  /// Completes the table. Once, last.
+  /// Completes the table. Call once, last.
   Result<void> finish();
 
  private:

@@ -8,13 +8,13 @@
 namespace fbs {
 namespace {
 
-constexpr int kMaxDigits = 18;  // of any std::int64_t
+constexpr int kMaxDigits = 18;  // enough for any std::int64_t
+
+}  // namespace
 
 bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
-
-}  // namespace
 
 std::string NumberPattern::name(std::int64_t number) const {
   assert(number >= 0);
@@ -30,7 +30,7 @@ std::optional<std::int64_t> NumberPattern::number(std::string_view name) const {
   if (text.size() > kMaxDigits || !std::all_of(text.begin(), text.end(), is_digit)) return std::nullopt;
   std::int64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
-  if (this->name(value) != name) return std::nullopt;  // 007 is not made by %d
+  if (this->name(value) != name) return std::nullopt;  // %d does not make 007
   return value;
 }
 

@@ -8,6 +8,9 @@
 
 namespace fbs {
 
+/// '0' to '9'.
+[[nodiscard]] bool is_digit(char c);
+
 /// `before` + the number, padded with zeros to `digits` + `after`. Only %d and %0Nd are supported.
 struct NumberPattern {
   std::string before;

@@ -1,4 +1,4 @@
-// fbs inspect: what a stream contains and the size of each part.
+// fbs inspect: the content of a stream and the size of each part.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kInspectExamples =
     "Examples:\n"
     "  fbs inspect talk.fbs                            size of each part\n"
     "  fbs inspect talk.fbs --json\n"
@@ -46,7 +46,7 @@ struct Summary {
   QuantiserSteps steps;
   std::uint64_t pictures = 0;
   double seconds = 0;
-  std::vector<PatternSummary> patterns;  ///< in the order they came
+  std::vector<PatternSummary> patterns;  ///< in order of arrival
   std::vector<SceneEntry> scenes;
   bool ended = false;  ///< has an end packet
   bool face = false;
@@ -198,7 +198,7 @@ void print_packets(const std::string& name, const std::vector<PacketEntry>& pack
 Result<Outcome> inspect_packets(StreamFile& file, std::span<const std::uint8_t> bytes, bool json) {
   const std::vector<PacketEntry> packets = list_packets(bytes);
   if (std::ranges::none_of(packets, is_packet)) {
-    const auto status = file.next();  // says what is wrong; an empty stream has no packets either
+    const auto status = file.next();  // reports errors; an empty stream has no packets either
     return status ? fail(ErrorCode::kTruncated, file.name() + ": contains no packets") : fail(status.error());
   }
   if (json) {
@@ -257,7 +257,7 @@ void add_inspect(CLI::App& app, Run& run) {
                  "List every packet, also of a damaged stream: place, type, time of the first picture that "
                  "it concerns, bytes, and what is wrong; exit code 3: something is");
   verb->add_flag("--json", a.json, "Print JSON");
-  verb->footer(kExamples);
+  verb->footer(kInspectExamples);
 }
 
 }  // namespace fbs::cli

@@ -1,4 +1,4 @@
-// Which patterns a stream has, and how much of its pictures each of them draws.
+// The patterns of a stream, and their shares in its pictures.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class PatternUse {
   /// Adds the current picture of the decoder.
   void add_picture();
 
-  /// Fraction of the region, over all pictures that have it, that the pattern draws.
+  /// Share of the pattern in the region, over all pictures that have it.
   /// @param pattern  index into the decoder's records
   [[nodiscard]] double share(std::size_t pattern, Region region) const;
 
@@ -29,7 +29,7 @@ class PatternUse {
  private:
   const StreamDecoder& decoder_;
   std::vector<std::array<std::int64_t, kRegionCount>> weights_;  ///< of each pattern
-  std::array<std::int64_t, kRegionCount> pictures_{};            ///< that have the region
+  std::array<std::int64_t, kRegionCount> pictures_{};            ///< pictures that have the region
   std::vector<double> times_;                                    ///< of each picture, seconds
   double end_ = 0;
 };

@@ -5,7 +5,7 @@
 
 #include "bitstream/packet.h"
 #include "bitstream/payload/setup_payload.h"
-#include "decoder/stream/packet_list.h"
+#include "decoder/stream/packet_times.h"
 
 namespace fbs::cli {
 namespace {
@@ -17,21 +17,23 @@ class BlockDivision {
   Result<void> take(const Packet& packet) {
     if (packet.type == PacketType::kSetup)
       if (auto begun = begin_scene(packet); !begun) return begun;
-    const std::uint64_t before = lister_.released(), pictures = lister_.released_pictures();
-    lister_.take(packet);
-    const std::uint64_t after = lister_.released(), end = packet.offset + packet.size;
+    const StreamPosition before = times_.released();
+    (void)times_.take(packet);
+    const StreamPosition after = times_.released();
+    const std::uint64_t end = packet.offset + packet.size;
     const bool jumps = packet.type == PacketType::kSetup || packet.type == PacketType::kEnd;
-    if (after > before && !jumps) {
-      add(before, after, end);
+    if (after.time > before.time && !jumps) {
+      add(before.time, after.time, end);
       const std::uint64_t nominal = nominal_duration(out_.setup.format.frame_rate);
-      if (after - before != (lister_.released_pictures() - pictures) * nominal) out_.constant_rate = false;
+      if (after.time - before.time != (after.pictures - before.pictures) * nominal)
+        out_.constant_rate = false;
     } else if (packet.type == PacketType::kEnd) {
       append(end);
     }
     return {};
   }
 
-  void lose() { lister_.lose(); }
+  void lose() { times_.lose(); }
 
   Result<StreamBlocks> finish() {
     if (!has_setup_)
@@ -61,19 +63,19 @@ class BlockDivision {
     pending_ = static_cast<std::size_t>(end);
   }
 
-  /// Puts what waits, up to `end`, into the last block, if there is one.
+  /// Appends waiting packets, up to `end`, to the last block, if there is one.
   void append(std::uint64_t end) {
     if (out_.blocks.empty()) return;
     StreamBlock& last = out_.blocks.back();
     last.end = pending_ = static_cast<std::size_t>(end);
     last.duration =
-        std::max(last.duration, lister_.released() - last.time);  // pictures held at an end packet
+        std::max(last.duration, times_.released().time - last.time);  // pictures held at an end packet
   }
 
   std::span<const std::uint8_t> stream_;
-  PacketLister lister_;
+  PacketTimes times_;
   StreamBlocks out_;
-  std::size_t pending_ = kSignature.size();  // first byte that is in no block
+  std::size_t pending_ = kSignature.size();  // first byte not yet in a block
   bool has_setup_ = false;
 };
 
@@ -82,15 +84,11 @@ class BlockDivision {
 Result<StreamBlocks> divide_stream(std::span<const std::uint8_t> stream) {
   if (stream.size() < kSignature.size() || !std::ranges::equal(stream.first(kSignature.size()), kSignature))
     return fail(ErrorCode::kNotFbs, "is not an fbs stream");
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   BlockDivision division(stream);
-  bool damaged = false;
   for (;;) {
-    const auto read = damaged ? reader.resync() : reader.next();
-    damaged = !read;
-    if (damaged) {
+    const auto read = reader.next();
+    if (!read) {
       division.lose();
       continue;
     }

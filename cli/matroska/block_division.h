@@ -10,7 +10,7 @@
 
 namespace fbs::cli {
 
-/// Packets that are read together: those that release some pictures, and what these need.
+/// Packets that are read together: those that release some pictures, and those they need.
 struct StreamBlock {
   std::uint64_t time = 0, duration = 0;  ///< of its pictures, 1/90000 s
   bool key = false;                      ///< begins with a setup packet

@@ -21,14 +21,14 @@ using webm::Status;
 
 constexpr std::string_view kOpusHead = "OpusHead";
 constexpr std::size_t kOpusHeadBytes = 19;
-constexpr int kStop = 1;  // what the callback returns instead of one of libwebm's codes
+constexpr int kStop = 1;  // returned by the callback in place of one of libwebm's codes
 
 /// Collects the blocks of two tracks.
 class Collector final : public webm::Callback {
  public:
   explicit Collector(std::uint64_t size) : size_(size) {}
 
-  /// Nothing is allocated for what the file cannot have.
+  /// Rejects before allocating what the file cannot contain.
   Status OnElementBegin(const webm::ElementMetadata& element, webm::Action* action) override {
     *action = webm::Action::kRead;
     if (element.size == webm::kUnknownElementSize) return go_on();

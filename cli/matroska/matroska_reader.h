@@ -1,4 +1,4 @@
-// Reads Matroska files that have a stream.
+// Reads Matroska files with a stream.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 namespace fbs::cli {
 
 struct ReadMatroska {
-  MatroskaContent content;            ///< without sizes and durations, which the stream knows
+  MatroskaContent content;            ///< without sizes and durations, which the stream has
   std::vector<std::string> left_out;  ///< codec IDs of tracks that are not read
 };
 
-/// Takes the first video track of codec ID V_FBS, and the first of A_OPUS. Files of other writers are read as
-/// well: with lacing, with other units of time, and without cues.
+/// Takes the first video track with codec ID V_FBS, and the first with A_OPUS. Also reads files of other
+/// writers: with lacing, with other units of time, and without cues.
 /// @return kUnsupported    no V_FBS track, or one that is encrypted or compressed
 ///         kTruncated      an element is longer than the file
 ///         kInvalidStream  damaged

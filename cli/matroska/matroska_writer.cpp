@@ -42,7 +42,7 @@ constexpr std::uint64_t kSeekHeadSpace = 100;
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr int kSegmentSizeBytes = 8;
 
-/// What libmatroska writes to.
+/// Output of libmatroska in memory.
 class Memory final : public libebml::IOCallback {
  public:
   uint32 read(void* /*buffer*/, std::size_t /*size*/) override { return 0; }

@@ -10,10 +10,10 @@
 
 namespace fbs::cli {
 
-/// Unit of times in a file, ns. A cluster cannot last longer than 32767 of them.
+/// Unit of times in a file, ns. A cluster lasts at most 32767 of them.
 inline constexpr std::int64_t kMatroskaTick = 100'000;
 
-/// The same bytes for the same content. Clusters begin with each key block of the video, which the cues list.
+/// The same content gives the same bytes. Clusters begin at each key block of the video, which the cues list.
 /// @param application  WritingApp
 /// @return kInternal when libmatroska fails
 Result<std::vector<std::uint8_t>> write_matroska(const MatroskaContent& content,

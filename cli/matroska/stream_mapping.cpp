@@ -19,7 +19,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Blocks may be this far from their place: Matroska's usual times are whole milliseconds. 1/kSoundClock s.
+/// Largest deviation of blocks from their place: Matroska's usual times are whole milliseconds. 1/kSoundClock
+/// s.
 constexpr std::int64_t kTolerance = kSoundClock * 12 / 10000;
 
 /// @param ticks  1/90000 s, up to kMaxMatroskaTime
@@ -35,7 +36,7 @@ std::int64_t sound_of_ns(std::int64_t ns) {
   return (ns * 6 + (ns < 0 ? -62'500 : 62'500)) / 125'000;
 }
 
-/// One packet in so many may be of another length: damaged, and lost.
+/// One packet in this many may have another length: damaged, and lost.
 constexpr std::size_t kMostOthers = 10;
 
 struct Frame {
@@ -43,9 +44,9 @@ struct Frame {
   Bytes bytes;
 };
 
-/// A stream whose sound is apart.
+/// A stream with its sound taken apart.
 struct Parted {
-  Bytes pictures;  ///< a stream as well
+  Bytes pictures;  ///< also a stream
   std::optional<SoundSetup> setup;
   std::vector<Frame> frames;
 };
@@ -68,9 +69,7 @@ Result<void> take_sound(const Packet& packet, Parted& out) {
 
 /// @return an error for a damaged stream, and for sound of another kind than Opus
 Result<Parted> part(std::span<const std::uint8_t> stream) {
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   Parted out;
   write_signature(out.pictures);
   PacketWriter writer;
@@ -125,7 +124,7 @@ Bytes bytes_of(const MatroskaVideo& video) {
   return out;
 }
 
-/// Time of the stream at the time 0 of the file, ns. Files are counted from their own first picture.
+/// Time in the stream at time 0 of the file, ns. Files count from their own first picture.
 Result<std::int64_t> time_of_file(const MatroskaVideo& video, std::span<const std::uint8_t> stream) {
   PacketReader reader;
   reader.feed(stream);
@@ -158,7 +157,7 @@ Result<MatroskaSound> sound_of(const Parted& parted, const MatroskaVideo& video)
   return out;
 }
 
-/// The frames of a track by their numbers; a short gap has empty ones.
+/// The frames of a track by number; a short gap has empty ones.
 struct NumberedSound {
   SoundSetup setup;
   std::vector<Frame> frames;
@@ -194,7 +193,7 @@ Result<NumberedSound> numbered(const MatroskaSound& sound, std::int64_t shift) {
   return out;
 }
 
-/// Gives numbered sound to an interleaver.
+/// Feeds numbered sound to an interleaver.
 class NumberedFeed {
  public:
   explicit NumberedFeed(NumberedSound sound) : sound_(std::move(sound)) {}
@@ -217,7 +216,7 @@ class NumberedFeed {
   std::size_t next_ = 0;
 };
 
-/// @return nothing where the sound would not come back as it was
+/// @return nothing if the sound would not come back unchanged
 std::optional<MatroskaContent> with_sound_apart(std::span<const std::uint8_t> stream) {
   const auto parted = part(stream);
   if (!parted || !parted->setup) return std::nullopt;
@@ -235,13 +234,10 @@ std::optional<MatroskaContent> with_sound_apart(std::span<const std::uint8_t> st
 
 bool has_sound_inside(const MatroskaVideo& video) {
   const Bytes stream = bytes_of(video);
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
-  for (bool damaged = false;;) {
-    const auto read = damaged ? reader.resync() : reader.next();
-    damaged = !read;
-    if (damaged) continue;
+  PacketReader reader(stream);
+  for (;;) {
+    const auto read = reader.next();
+    if (!read) continue;
     if (read->status != ReadStatus::kPacket) return false;
     if (is_sound(read->packet.type)) return true;
   }

@@ -1,5 +1,4 @@
-// The keys of the player. One table says what each does, in the player, in --help and in the help in the
-// window.
+// The keys of the player. One table defines them for the player, for --help and for the help in the window.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@ namespace fbs::cli {
 
 enum class Action : std::uint8_t {
   kPause,
-  kStep,  ///< pictures; amount -1 or 1
+  kStep,  ///< in pictures; amount -1 or 1
   kSeek,  ///< amount in seconds
   kRestart,
   kLoop,
@@ -32,7 +31,7 @@ enum class Action : std::uint8_t {
   kSmile,
   kLids,
   kReset,
-  kPattern,      ///< amount: from 1
+  kPattern,      ///< amount: pattern, from 1
   kNextPattern,  ///< amount -1 or 1
   kOwnBlend,
   kHelp,
@@ -40,23 +39,23 @@ enum class Action : std::uint8_t {
   kQuit,
 };
 
-/// A key by SDL's name for it, letters small, with "Ctrl+" and then "Shift+" before it where those are held.
+/// A key by SDL's name, in small letters, after "Ctrl+" and then "Shift+" where those are held.
 struct Key {
   std::string_view name;
   int amount = 0;
 };
 
-/// What one action, or two opposite ones, are called.
+/// Name of one action, or of two opposite ones.
 struct KeyLine {
   Action action;
   std::span<const Key> keys;
   std::string_view text;
 
-  /// Names of the keys, with blanks between them.
+  /// Names of the keys, separated by blanks.
   [[nodiscard]] std::string names() const;
 };
 
-/// In the order in which help lists them.
+/// In the order of the help.
 [[nodiscard]] std::span<const KeyLine> key_lines();
 
 struct KeyPress {
@@ -65,16 +64,16 @@ struct KeyPress {
   friend bool operator==(const KeyPress&, const KeyPress&) = default;
 };
 /// @param name  as in Key
-/// @return nothing for a key that does nothing
+/// @return nothing for a key without effect
 [[nodiscard]] std::optional<KeyPress> find_key(std::string_view name);
 
-/// What the mouse does, a line each, first what is done with it.
+/// The mouse in one line per action: gesture, then effect.
 struct MouseLine {
   std::string_view name, text;
 };
 [[nodiscard]] std::span<const MouseLine> mouse_lines();
 
-/// Keys and mouse as a table of two columns, without a newline at its end.
+/// Keys and mouse as a table of two columns, without a final newline.
 [[nodiscard]] std::string key_help();
 
 }  // namespace fbs::cli

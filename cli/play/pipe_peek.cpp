@@ -10,7 +10,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::size_t kMost = 1 << 16;  ///< what a pipe holds
+constexpr std::size_t kMost = 1 << 16;  ///< capacity of a pipe
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> PipePeek::bytes() const {
   if (count > 0) count = ::read(copy_[0], out.data(), static_cast<std::size_t>(count));
 #endif
   if (count < 0)
-    count = ::recv(source_, out.data(), kMost, MSG_PEEK | MSG_DONTWAIT);  // fails where it is no socket
+    count = ::recv(source_, out.data(), kMost, MSG_PEEK | MSG_DONTWAIT);  // fails if it is not a socket
   out.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   return out;
 }

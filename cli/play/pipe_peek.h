@@ -1,4 +1,4 @@
-// What has come in a pipe and has not been read.
+// Looks at the unread bytes of a pipe.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace fbs::cli {
 
-/// Looks at the bytes that whoever reads the same pipe, FIFO or socket will get next, and leaves them there.
+/// Looks at the next bytes for any reader of the same pipe, FIFO or socket, without taking them.
 class PipePeek {
  public:
   /// @param name  of the pipe, or `-`: standard input
@@ -16,12 +16,12 @@ class PipePeek {
   PipePeek& operator=(const PipePeek&) = delete;
   ~PipePeek();
 
-  /// The bytes that are there now, in order; at most 64 KiB. None where the system cannot tell.
+  /// The bytes there now, in order; at most 64 KiB. None where the system cannot tell.
   [[nodiscard]] std::vector<std::uint8_t> bytes() const;
 
  private:
   int source_;           ///< file descriptor; -1: none
-  int copy_[2]{-1, -1};  ///< a pipe of our own: where tee(2) copies to
+  int copy_[2]{-1, -1};  ///< our own pipe, to which tee(2) copies
 };
 
 }  // namespace fbs::cli

@@ -7,8 +7,8 @@ namespace fbs::cli {
 
 struct PlayArguments {
   std::string input;
-  std::string source;   ///< video to be shown beside the stream; none when empty
-  std::string record;   ///< output for what is seen; none when empty
+  std::string source;   ///< video to show beside the stream; empty: none
+  std::string record;   ///< output for what is shown; empty: none
   double from = 0;      ///< seconds; where to begin
   bool loop = false;    ///< begin again at the end
   bool paused = false;  ///< show the first picture and wait

@@ -7,7 +7,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kPlayExamples =
     "Examples:\n"
     "  fbs play talk.fbs\n"
     "  fbs play talk.fbs --from 90                     begin at 1:30\n"
@@ -31,7 +31,7 @@ void add_play(CLI::App& app, Run& run) {
       "--record", a.record,
       "Save what is seen and heard, at the size of the picture and at the speed of the stream: .mp4, .mkv; "
       "without sound: .y4m, frame_%05d.png; while paused, a picture for each change");
-  verb->footer("Keys and mouse:\n" + key_help() + "\n\n" + kExamples);
+  verb->footer("Keys and mouse:\n" + key_help() + "\n\n" + kPlayExamples);
 }
 
 }  // namespace fbs::cli

@@ -23,7 +23,7 @@ Result<void> check_files(const PlayArguments& a) {
 Result<Outcome> play(const PlayArguments& arguments) {
   if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   Player player(arguments);
-  // One picture is decoded first, so that a bad stream gives an error and no window.
+  // Decode one picture first, so that a bad stream gives an error and no window.
   if (auto opened = player.open(); !opened) return fail(opened.error());
   if (auto played = player.run(); !played) return fail(played.error());
   return Outcome::kComplete;

@@ -21,8 +21,7 @@ Playback::Time Playback::wall_time(std::uint64_t stream) const {
 
 void Playback::take(std::uint64_t begin, std::uint32_t duration, Time now) {
   ended_ = false;
-  // A picture that begins behind the end of the last leaves a gap where pictures are lost: it is not waited
-  // for.
+  // A picture that begins after the end of the last one leaves a gap of lost pictures: do not wait for it.
   const bool gap = anchor_ && begin > end_;
   const bool slows_down = anchor_ && !follows_ && now > wall_time(begin) + kMostLate;
   if (!anchor_ || paused_ || gap || slows_down) anchor_ = Anchor{begin, now};

@@ -11,10 +11,10 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kIdle{50};  ///< between looks at the clock where nothing is due
-constexpr int kMostThreads = 4;                 ///< more wait for each other
+constexpr std::chrono::milliseconds kIdle{50};  ///< between looks at the clock when nothing is due
+constexpr int kMostThreads = 4;                 ///< more would wait for each other
 
-/// A drag over the height of the picture, in 2^-16 turns: a quarter turn.
+/// Turn for a drag over the height of the picture, in 2^-16 turns: a quarter turn.
 constexpr double kTurnOfDrag = 65536.0 / 4;
 
 std::int32_t turn(double share) {
@@ -54,7 +54,7 @@ Result<void> Player::open() {
     shows_source_ = true;
   }
   if (auto opened = open_sound(); !opened) return opened;
-  // Before the window: an output that cannot be is an error without one.
+  // Before the window: an impossible output is an error without one.
   if (auto begun = begin_recording(); !begun) return begun;
   if (auto drawn = stage_.draw(decoder()); !drawn) return drawn;
   const auto first = image();
@@ -71,7 +71,7 @@ Result<void> Player::open_stream() {
   if (!file) return fail(file.error());
   file_.emplace(std::move(*file));
   file_->keep_bytes();
-  // A file is read as a whole, which tells its length; a pipe only as far as it is played.
+  // A file is read as a whole, which gives its length; a pipe only as far as it is played.
   std::error_code ignored;
   const bool whole = std::filesystem::is_regular_file(arguments_.input, ignored);
   if (whole || first_time() > 0)
@@ -117,7 +117,7 @@ Result<void> Player::run() {
     interrupted_ = Window::has_events();
     return !interrupted_;
   });
-  playback_.jump();  // the time that the window took to open does not count
+  playback_.jump();  // the time spent opening the window does not count
   playback_.take(decoder().position().time, decoder().duration(), Playback::Clock::now());
   if (auto drawn = draw(); !drawn) return drawn;
   while (!quits_) {
@@ -125,7 +125,7 @@ Result<void> Player::run() {
     update_sound();
     if (!quits_ && drawn_ && (wanted_ || playback_.is_due(Playback::Clock::now())))
       if (auto gone = advance(); !gone) return gone;
-    if (decoder().pictures() == 0) continue;  // of the time that has been gone to
+    if (decoder().pictures() == 0) continue;  // still before the requested time
     if (!drawn_)
       if (auto drawn = draw(); !drawn) return drawn;
     if (!shown_)
@@ -154,11 +154,11 @@ Result<void> Player::advance() {
     playback_.take(begin, decoder().duration(), now);
     recorded_ = false;
     read_sound();
-    // What is recorded leaves out no picture.
+    // A recording leaves out no picture.
     if (wanted || recording_ || !playback_.is_late(now)) drawn_ = false;
     return {};
   }
-  // A time past the end of a pipe, whose length was not known, shows its last picture.
+  // A time past the end of a pipe of unknown length shows its last picture.
   const bool past_end = !status && status.error().code == ErrorCode::kInvalidArgument;
   if (!status && !past_end) return fail(status.error());
   if (decoder().pictures() == 0)
@@ -174,7 +174,7 @@ void Player::end_stream() {
   shown_ = false;
   length_ = decoder().position().time + decoder().duration();
   if (!std::exchange(reported_, true)) losses_.finish(*file_);
-  // Who steps wants to see the end.
+  // Loop only while playing: a viewer who steps wants to see the end.
   if (loops_ && !playback_.paused()) go_to(first_time());
 }
 
@@ -200,7 +200,7 @@ void Player::step(int pictures) {
 Result<void> Player::take_events() {
   for (const WindowEvent& event : window_->events(patience())) {
     take(event);
-    // Keys that come at once have their effect one after the other, and what is recorded shows each.
+    // Simultaneous keys take effect one after another, and a recording shows each.
     if (wanted_ && !quits_)
       if (auto gone = advance(); !gone) return gone;
     if (!drawn_ && recording_ && decoder().pictures() > 0)

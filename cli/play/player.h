@@ -1,4 +1,4 @@
-// Plays a stream in a window, as keys and mouse say.
+// Plays a stream in a window, controlled by keys and mouse.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace fbs::cli {
 
-/// One stream in one window. Goes on after damage, and says at its end on standard error what was lost.
+/// One stream in one window. Continues after damage, and reports losses on standard error at the end.
 class Player {
  public:
   /// @param arguments  must outlive the object
@@ -36,56 +36,56 @@ class Player {
 
  private:
   Result<void> open_stream();
-  /// Finds out what sound there is.
+  /// Looks for sound.
   Result<void> open_sound();
-  /// For the sound that there is. Where there is none, pictures go on in silence.
+  /// Opens the sound device; without one, pictures continue in silence.
   void open_device();
-  /// A decoder begins with every go_to().
+  /// Creates the decoder; every go_to() needs a new one.
   void prepare_decoder();
   Result<void> begin_recording();
   [[nodiscard]] std::uint64_t first_time() const { return ticks(arguments_.from); }
 
-  /// Goes on to the next picture, at the end to the first if the stream is looped, when it is time or when it
-  /// is wanted. Nothing happens if the user does something while bytes are waited for.
+  /// Advances to the next picture when it is due or wanted; at the end of a looped stream to the first. Does
+  /// nothing if the user acts while it waits for bytes.
   Result<void> advance();
   void end_stream();
-  /// Keeps sound and pictures together, whatever has been done since the last call.
+  /// Keeps sound and pictures together, whatever has happened since the last call.
   void update_sound();
-  /// What follows is another time, or waits: nothing of what has been decoded is to be heard.
+  /// Stops the sound before a jump or a wait: nothing decoded so far is to be heard.
   void stop_sound();
-  /// Up to here what has not come will not come: sound comes before its pictures. 1/kSoundClock s.
+  /// End of the sound that has arrived or is lost, since sound comes before its pictures. 1/kSoundClock s.
   [[nodiscard]] std::int64_t sound_come() const;
-  /// Takes the sound of what has been read.
+  /// Takes the sound from the bytes read.
   void read_sound();
   [[nodiscard]] SoundSpan sound_of_picture() const;
-  /// Where tests ask for it: number and time of the picture that has been shown, and what is heard then.
+  /// For tests that ask for it: logs number and time of the picture shown, and the sound heard with it.
   void log_times();
   void take_sound_key(const KeyPress& press);
-  /// Wants the picture of that time.
+  /// Requests the picture of a time.
   void go_to(std::uint64_t time);
-  /// Wants the picture before or behind.
+  /// Requests the picture before or after.
   void step(int pictures);
 
-  /// Takes what has been done in the window.
+  /// Handles what the user has done in the window.
   Result<void> take_events();
   void take(const WindowEvent& event);
   void take_key(const KeyPress& press);
-  /// Of the keys that change when what is shown.
+  /// Handles keys that control playback.
   void take_playing_key(const KeyPress& press);
-  /// Of those that change the window and not the picture.
+  /// Handles keys that change the window but not the picture.
   void take_window_key(const KeyPress& press);
-  /// Of those that change the picture.
+  /// Handles keys that change the picture.
   void take_picture_key(const KeyPress& press);
   [[nodiscard]] std::chrono::milliseconds patience() const;
 
-  /// Draws the current picture and shows it; records it if it is another or has changed.
+  /// Draws the current picture and shows it; records it if it is new or has changed.
   Result<void> draw();
   Result<void> show();
   [[nodiscard]] Result<cv::Mat> image();
   [[nodiscard]] Size content_of(const cv::Mat& image) const;
   [[nodiscard]] std::vector<Panel> panels() const;
   [[nodiscard]] std::vector<std::string> info() const;
-  /// What of the sound is not as in the stream.
+  /// How the sound differs from the stream's; empty if not.
   [[nodiscard]] std::string sound_text() const;
   [[nodiscard]] double progress() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
@@ -94,12 +94,12 @@ class Player {
   const PlayArguments& arguments_;
   std::optional<StreamFile> file_;
   LossReport losses_;
-  std::uint64_t next_ = 0;               ///< time behind the current picture, 1/90000 s
-  std::optional<std::uint64_t> length_;  ///< of the stream, 1/90000 s, when it is known
+  std::uint64_t next_ = 0;               ///< end time of the current picture, 1/90000 s
+  std::optional<std::uint64_t> length_;  ///< of the stream, 1/90000 s, once known
   Playback playback_;
   SoundParts parts_;
   std::size_t parts_read_ = 0;          ///< bytes of the stream
-  std::optional<PipePeek> peek_;        ///< if it is no file
+  std::optional<PipePeek> peek_;        ///< unless it is a file
   std::optional<SoundPlayback> sound_;  ///< if there is any, and it is wanted
   std::optional<SoundDevice> device_;   ///< of sound_
   std::ofstream times_;                 ///< log_times()
@@ -111,11 +111,11 @@ class Player {
   bool loops_ = false, shows_source_ = false, shows_info_ = true, shows_help_ = false;
   bool quits_ = false;
   bool wanted_ = false;       ///< the next picture, whatever the time
-  bool interrupted_ = false;  ///< bytes were waited for when the user did something
-  bool reported_ = false;     ///< what was lost
-  bool recorded_ = false;     ///< the current picture
-  bool drawn_ = true;         ///< the current picture, as it is to be
-  bool shown_ = true;         ///< the window shows that
+  bool interrupted_ = false;  ///< the user acted while bytes were waited for
+  bool reported_ = false;     ///< losses have been reported
+  bool recorded_ = false;     ///< the current picture is recorded
+  bool drawn_ = true;         ///< the current picture is drawn in its present form
+  bool shown_ = true;         ///< the window shows it
 };
 
 }  // namespace fbs::cli

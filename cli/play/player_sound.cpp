@@ -1,4 +1,4 @@
-// The sound of the player, and how pictures keep to it.
+// The player's sound, and how pictures keep in step with it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -47,8 +47,8 @@ void Player::read_sound() {
   if (kept.size() > parts_read_) parts_.add(kept.subspan(parts_read_));
   parts_read_ = std::max(parts_read_, kept.size());
   if (!peek_ || length_) return;
-  // Of a pipe no more is read than pictures need. The sound of the next ones must not wait for them, or it
-  // would stop wherever a group ends.
+  // A pipe is read only as far as pictures need. The sound of the next ones must not wait for them, or it
+  // would stop at the end of every group.
   const std::vector<std::uint8_t> coming = peek_->bytes();
   const std::size_t known = parts_read_ - kept.size();
   if (coming.size() <= known) return;
@@ -63,10 +63,10 @@ void Player::stop_sound() {
 }
 
 std::int64_t Player::sound_come() const {
-  if (length_) return std::numeric_limits<std::int64_t>::max();  // all has been read
+  if (length_) return std::numeric_limits<std::int64_t>::max();  // everything has been read
   const Rational rate = decoder().format().frame_rate;
   const std::uint64_t released = parts_.released();
-  // Pictures that are held for lost ones are shown though nothing has released them.
+  // Pictures held for lost ones are shown although nothing has released them.
   std::int64_t come = sound_time(position_behind(decoder()), rate);
   come = std::max(come, sound_time({released / nominal_duration(rate), released}, rate));
   return parts_.all().empty() ? come : std::max(come, end_of(parts_.all().back()));
@@ -77,7 +77,7 @@ void Player::update_sound() {
   const Rational rate = decoder().format().frame_rate;
   const StreamPosition& begin = decoder().position();
   const bool starts = !sound_->started();
-  if (starts && !(drawn_ && shown_)) return;  // not before its picture is seen
+  if (starts && !(drawn_ && shown_)) return;  // not before its picture is visible
   read_sound();
   if (starts) sound_->start(sound_time(begin, rate));
   sound_->fill(sound_come());

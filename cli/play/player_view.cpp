@@ -13,7 +13,7 @@
 namespace fbs::cli {
 namespace {
 
-/// The source as high as the picture, on its left.
+/// The source, scaled to the picture's height, on its left.
 cv::Mat beside(const cv::Mat& source, const cv::Mat& picture, int height) {
   cv::Mat left;
   const double factor = static_cast<double>(height) / source.rows;
@@ -39,7 +39,7 @@ Result<void> Player::draw() {
   drawn_ = true;
   shown_ = false;
   playback_.drawn(Playback::Clock::now());
-  // While the stream plays, what is changed is seen in the next picture.
+  // While the stream plays, changes become visible in the next picture.
   if (!recording_ || (std::exchange(recorded_, true) && playback_.is_running())) return {};
   const auto picture = stage_.file_picture(decoder());
   if (!picture) return fail(picture.error());
@@ -87,7 +87,7 @@ std::vector<Panel> Player::panels() const {
 
 std::vector<std::string> Player::info() const {
   const std::uint64_t begin = decoder().position().time, end = begin + decoder().duration();
-  // The first second has to carry what comes before the first picture.
+  // The first second also covers what precedes the first picture.
   const std::uint64_t time = std::max<std::uint64_t>(end, kTicksPerSecond);
   const double rate =
       8e-3 * static_cast<double>(file_->bytes_decoded()) * kTicksPerSecond / static_cast<double>(time);

@@ -12,17 +12,17 @@
 
 namespace fbs::cli {
 
-/// Writes pictures one after another as long as each lasts in the stream, however long it was looked at, and
+/// Writes pictures in sequence, each as long as it lasts in the stream, however long it was on screen, with
 /// the sound that belongs to each.
 class Recording {
  public:
-  /// @param sound  none: it has none, or `name` is of a format without sound
+  /// @param sound  none: there is none, or the format of `name` has no sound
   static Result<Recording> open(const std::string& name, const VideoFormat& format,
                                 std::optional<RecordedSound> sound);
 
   /// @param duration  1/90000 s
   Result<void> write(const Picture& picture, std::uint32_t duration, const SoundSpan& sound);
-  /// Gives the file its name. Call it once, last.
+  /// Gives the file its name. Call once, last.
   Result<void> finish();
 
  private:

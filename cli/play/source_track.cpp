@@ -37,7 +37,7 @@ Result<void> SourceTrack::go_to(std::int64_t time) {
   while (!ended_) {
     if (!next_) {
       auto read = source_->next();
-      // A source that is cut off ends there: the stream goes on.
+      // A truncated source ends there: the stream continues.
       if (!read && !shown_) return fail(read.error());
       ended_ = !read || !*read;
       if (ended_) return {};

@@ -11,14 +11,13 @@
 
 namespace fbs::cli {
 
-/// Pictures of a video by their times. Going back opens it again.
+/// Pictures of a video by time. Going back reopens it.
 class SourceTrack {
  public:
-  /// @param name  anything open_video_source() opens twice: no camera, no standard input
+  /// @param name  anything that open_video_source() opens twice: no camera, no standard input
   static Result<SourceTrack> open(const std::string& name);
 
-  /// The picture that is shown at `time`, in BGR: the last that begins until then, with half a picture's
-  /// tolerance.
+  /// The picture shown at `time`, in BGR: the last that begins until then, with half a picture's tolerance.
   /// @param time  1/90000 s from the start of the source
   Result<cv::Mat> picture_at(std::uint64_t time);
 

@@ -1,4 +1,4 @@
-// The picture of the player: what the stream says, what the viewer changes, and what is drawn over it.
+// The player's picture: the stream's, with the viewer's changes and overlays.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace fbs::cli {
 
-/// What is drawn over the picture.
+/// Overlays over the picture.
 struct Overlays {
   bool wire = false;
   bool snakes = false;
@@ -23,31 +23,31 @@ struct Overlays {
 class Stage {
  public:
   StateEdit edit;
-  /// Draws all from this pattern of the scene; none: as the state says.
+  /// Draws everything from this pattern of the scene; none: as the state says.
   std::optional<std::size_t> pattern;
   Overlays overlays;
 
   /// Draws the face as edited. Must follow every change of `edit`, `pattern` and the decoder's picture.
   Result<void> draw(StreamDecoder& decoder);
 
-  /// Goes to another pattern of the scene, from the last to the first and back.
+  /// Selects another pattern of the scene, cyclically.
   void choose_next(const StreamDecoder& decoder, int step);
 
-  /// As it was drawn, without what is over it.
+  /// The picture as drawn, without overlays.
   [[nodiscard]] const Picture& picture() const { return picture_; }
 
-  /// For the screen: enlarged by display_zoom(), with everything over it, the legend of the patterns too.
+  /// For the screen: enlarged by display_zoom(), with all overlays and the legend of the patterns.
   [[nodiscard]] Result<cv::Mat> screen_image(const StreamDecoder& decoder) const;
 
-  /// For a file: at the size of the picture, with everything over it but the legend. Sample for sample what
-  /// the decoder has drawn where nothing is over it.
+  /// For a file: at the picture's size, with all overlays except the legend. Without overlays, sample for
+  /// sample what the decoder has drawn.
   [[nodiscard]] Result<Picture> file_picture(const StreamDecoder& decoder) const;
 
  private:
   void draw_lines(cv::Mat& image, const StreamDecoder& decoder, int zoom) const;
 
   Picture picture_;
-  State state_;  ///< that it shows
+  State state_;  ///< state of picture_
 };
 
 }  // namespace fbs::cli

@@ -9,7 +9,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr int kTitleBar = 32;  ///< pixels kept free for what a window manager puts round the window
+constexpr int kTitleBar = 32;  ///< pixels left free for the window manager's frame
 constexpr Size kSmallest{160, 120};
 constexpr std::uint8_t kPanelOpacity = 215;
 
@@ -24,7 +24,7 @@ Error no_window(std::string reason = SDL_GetError()) {
   return {ErrorCode::kIo, "cannot open a window: " + reason};
 }
 
-/// SDL would go on to drivers that show nothing, after libraries have printed why others do not work.
+/// Prevents SDL from falling back to drivers that show nothing, after libraries have printed why others fail.
 Result<void> choose_driver() {
   if (is_set("SDL_VIDEODRIVER")) return {};
   std::string drivers;
@@ -174,7 +174,7 @@ bool Window::set_full_screen(bool full) {
   if (full == full_screen()) return full;
   SDL_Window* const window = handles_->window;
   Box& before = before_full_screen_;
-  // SDL leaves the size of the screen to the window manager. Where there is none the window takes it itself.
+  // SDL leaves the size to the window manager. Without one, the window sets it itself.
   if (full) {
     SDL_GetWindowPosition(window, &before.x, &before.y);
     SDL_GetWindowSize(window, &before.width, &before.height);

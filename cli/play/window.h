@@ -16,7 +16,7 @@ union SDL_Event;
 
 namespace fbs::cli {
 
-/// What the user does.
+/// An action of the user.
 struct WindowEvent {
   enum class Kind : std::uint8_t {
     kKey,     ///< `key`
@@ -28,33 +28,33 @@ struct WindowEvent {
   };
   Kind kind{};
   std::string key;      ///< as in key_map.h
-  double x = 0, y = 0;  ///< of a drag: shares of the height of the picture on the screen
+  double x = 0, y = 0;  ///< of a drag: shares of the picture's height on the screen
 };
 
 /// An image over the picture.
 struct Panel {
   enum class Place : std::uint8_t { kMiddle, kBottomLeft };
-  cv::Mat image;  ///< BGR; made smaller where the window is
+  cv::Mat image;  ///< BGR; reduced if the window is
   Place place = Place::kMiddle;
 };
 
-/// At most one exists at a time. Texts of errors begin "cannot open a window".
+/// At most one exists at a time. Error texts begin "cannot open a window".
 class Window {
  public:
   /// @param content  size of what will be shown, in square pixels
   static Result<Window> open(const std::string& title, Size content);
 
-  /// What has been done since the last call; waits for something for so long.
+  /// Events since the last call; waits up to `patience` for one.
   std::vector<WindowEvent> events(std::chrono::milliseconds patience);
-  /// Whether events() would return any. Waits for nothing.
+  /// Whether events() would return any. Does not wait.
   [[nodiscard]] static bool has_events();
 
   /// Shows an image with the panels over it.
-  /// @param content   its size in square pixels; when it changes, a window that is not full screen does too
-  /// @param progress  where the time bar ends, 0..1; negative: there is none
+  /// @param content   its size in square pixels; when it changes, so does a window that is not full screen
+  /// @param progress  where the time bar ends, 0..1; negative: no bar
   Result<void> show(const cv::Mat& image, Size content, std::span<const Panel> panels, double progress);
 
-  /// @return whether it fills the screen then
+  /// @return whether it then fills the screen
   bool set_full_screen(bool full);
   [[nodiscard]] bool full_screen() const;
 
@@ -77,8 +77,8 @@ class Window {
 
   std::unique_ptr<Handles, Close> handles_;
   Size content_;
-  Box before_full_screen_;  ///< where the window was
-  bool on_bar_ = false;     ///< the button went down there, and is still down
+  Box before_full_screen_;  ///< the window's position then
+  bool on_bar_ = false;     ///< the button was pressed on the bar and is still down
 };
 
 }  // namespace fbs::cli

@@ -33,6 +33,7 @@ void report(const std::string& line) {
 const char* name_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::kInvalidArgument:
+    case ErrorCode::kTooFewFaces:  // of the option --face
       return "argument";
     case ErrorCode::kNotFbs:
       return "not_fbs";

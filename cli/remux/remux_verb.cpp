@@ -1,4 +1,4 @@
-// fbs remux: a stream into a Matroska file, and out of it.
+// fbs remux: puts a stream into a Matroska file, and takes it out.
 #include <array>
 #include <cstdio>
 
@@ -13,7 +13,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRemuxExamples =
     "Examples:\n"
     "  fbs remux talk.fbs talk.mkv                     Matroska, with the sound as a track of its own\n"
     "  fbs remux talk.mkv talk.fbs                     and back: the same bytes\n"
@@ -40,7 +40,7 @@ Result<void> check_files(const RemuxArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
-/// What is in the way of a use of the file elsewhere, in words.
+/// Notes on what may hinder using the file elsewhere.
 void print_notes(const RemuxArguments& a, const StreamFile& file, const Bytes& stream,
                  const MatroskaFile* made) {
   const auto say = [&](const std::string& name, const std::string& text) {
@@ -113,7 +113,7 @@ void add_remux(CLI::App& app, Run& run) {
   verb->add_option("OUTPUT", a.output, "Matroska file (.mkv) or stream (.fbs, or - for standard output)")
       ->required();
   verb->add_flag("--quiet", a.quiet, "Print nothing but errors");
-  verb->footer(kExamples);
+  verb->footer(kRemuxExamples);
 }
 
 }  // namespace fbs::cli

@@ -6,7 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRetargetExamples =
     "Examples:\n"
     "  fbs retarget --motion anna.fbs --face bert.fbs out.fbs       Bert does what Anna does\n"
     "  fbs retarget --motion anna.fbs --face photo.jpg out.fbs      so does a photograph\n"
@@ -31,7 +31,7 @@ void add_retarget(CLI::App& app, Run& run) {
       ->check(CLI::Range(0, 100));
   verb->add_flag("--no-sound", a.no_sound, "Leave out the sound, which is that of --motion");
   verb->add_flag("--quiet", a.quiet, "Print no summary");
-  verb->footer(kExamples);
+  verb->footer(kRetargetExamples);
 }
 
 }  // namespace fbs::cli

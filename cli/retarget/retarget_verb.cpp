@@ -73,7 +73,7 @@ Result<FaceStream> read_face(const RetargetArguments& arguments) {
   return on_wire_frame(std::move(*face), std::move(*frame));
 }
 
-/// The result with the sound of the motion, whose times it has. Frames go over as they are.
+/// Adds the sound of the motion, whose times the result has. Frames are copied.
 Result<Bytes> with_sound(Bytes stream, std::span<const std::uint8_t> motion) {
   SoundParts sound;
   sound.add(motion);

@@ -31,8 +31,8 @@ struct EncodeArguments {
   std::string marks;                    ///< file; empty: automatic
   std::string landmarks;                ///< file; empty: none
   std::string overlay;                  ///< video of the source with mesh and snakes drawn on it; empty: none
-  std::optional<std::int64_t> frames;   ///< encode at most so many pictures
-  std::optional<double> duration;       ///< encode at most so many seconds of the source
+  std::optional<std::int64_t> frames;   ///< encode at most this many pictures
+  std::optional<double> duration;       ///< encode at most this many seconds of the source
   std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
   bool quiet = false;
 };
@@ -42,45 +42,45 @@ struct TrackArguments {
   std::string format;  ///< of the table: "csv", "json"; empty: by the name of the output
   int face = 0;
   std::string marks;                    ///< file; empty: automatic
-  std::optional<std::int64_t> frames;   ///< track at most so many pictures
-  std::optional<double> duration;       ///< track at most so many seconds of the source
+  std::optional<std::int64_t> frames;   ///< track at most this many pictures
+  std::optional<double> duration;       ///< track at most this many seconds of the source
   std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
   bool quiet = false;
 };
 
-inline constexpr int kPictureQuality = 70;  ///< of a picture that gets a motion: it is sent once
+inline constexpr int kPictureQuality = 70;  ///< high: it is sent once
 
 struct RetargetArguments {
   std::string motion;          ///< stream
   std::string face;            ///< stream, or a picture
   std::string output;          ///< stream
-  std::string wire_frame;      ///< glTF; empty: that of the face
+  std::string wire_frame;      ///< glTF; empty: the face's
   std::optional<int> quality;  ///< of the picture, 0..100; nothing: kPictureQuality
-  bool no_sound = false;       ///< leave that of the motion out
+  bool no_sound = false;       ///< leave out the sound of the motion
   bool quiet = false;
 };
 
-/// Of --quality when it is not given: from the lowest rate of a recognisable face to where other codecs win.
+/// Default of --quality: from the lowest rate of a recognisable face to where other codecs win.
 inline constexpr int kDefaultQualities[] = {20, 35, 50, 65, 80};
 
 struct EvaluateArguments {
   std::string source;                ///< a video, or a folder of them
   std::vector<std::string> streams;  ///< empty: encode the source
-  std::vector<int> qualities;        ///< to encode with when there is no stream; empty: kDefaultQualities
+  std::vector<int> qualities;        ///< used without streams; empty: kDefaultQualities
   bool live = false;                 ///< encode as live pictures are
   bool allow_no_face = false;
-  std::optional<std::int64_t> frames;    ///< encode and measure at most so many pictures of the source
-  bool peers = false;                    ///< code with other codecs, too
+  std::optional<std::int64_t> frames;    ///< encode and measure at most this many pictures of the source
+  bool peers = false;                    ///< compare with other codecs, too
   std::vector<std::string> peer_codecs;  ///< their names, in small letters; empty: all that ffmpeg has
   std::vector<int> peer_sizes;           ///< divisors of the size; empty: all
   std::vector<int> peer_rates;           ///< divisors of the picture rate; empty: all
-  std::string region;  ///< table of landmarks, or a stream, that says where the face is; empty: the streams
-                       ///< that are measured do
-  std::string csv;     ///< file for the values of each picture; empty: none
-  std::string html;    ///< file for the report; empty: none
-  std::string stills;  ///< folder for pictures; empty: none
-  std::string keep;    ///< folder for what is finished; empty: beside the report, else a temporary one
-  std::optional<int> jobs;  ///< videos of a folder at the same time
+  std::string
+      region;        ///< table of landmarks, or a stream, that gives the face; empty: the measured streams do
+  std::string csv;   ///< file for the values of each picture; empty: none
+  std::string html;  ///< file for the report; empty: none
+  std::string stills;       ///< folder for pictures; empty: none
+  std::string keep;         ///< folder for finished results; empty: beside the report, else a temporary one
+  std::optional<int> jobs;  ///< videos of a folder evaluated at the same time
   bool json = false;
   bool quiet = false;
 };

@@ -1,4 +1,4 @@
-// The interface of the module fbs_matroska: it needs libmatroska, which writes, and libwebm, which reads.
+// The interface of the module fbs_matroska, which needs libmatroska to write and libwebm to read.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ inline constexpr const char* kStreamOfMatroskaSymbol = "fbs_stream_of_matroska";
 
 struct MatroskaFile {
   std::vector<std::uint8_t> bytes;
-  bool sound_track = false;   ///< its sound is a track of its own
-  bool sound_inside = false;  ///< its sound is within the video track
+  bool sound_track = false;   ///< sound has its own track
+  bool sound_inside = false;  ///< sound is within the video track
 };
 
 struct MatroskaStream {
@@ -25,7 +25,7 @@ struct MatroskaStream {
   std::vector<std::string> left_out;  ///< codec IDs of tracks that are not in it
 };
 
-/// A file out of which fbs_stream_of_matroska() makes the same stream again: that has been tried.
+/// Makes a file from which fbs_stream_of_matroska() restores the same stream, which has been verified.
 /// @param application  WritingApp of the file
 using StreamToMatroska = void(std::span<const std::uint8_t> stream, const std::string& application,
                               Result<MatroskaFile>& file);

@@ -33,11 +33,11 @@ Result<std::vector<std::uint8_t>> SoundInterleaver::add(std::span<const std::uin
 
 Result<void> SoundInterleaver::take(const Packet& packet, std::vector<std::uint8_t>& out) {
   if (is_sound(packet.type)) return fail(ErrorCode::kInvalidArgument, "the stream has sound already");
-  const std::uint64_t before = lister_.released();
-  lister_.take(packet);
+  const std::uint64_t before = times_.released().time;
+  (void)times_.take(packet);  // what is wrong is left to who decodes it
   const bool ends = packet.type == PacketType::kEnd;
-  if (lister_.released() > before || ends)
-    if (auto added = add_sound(sound_time(static_cast<std::int64_t>(lister_.released())), out); !added)
+  if (times_.released().time > before || ends)
+    if (auto added = add_sound(sound_time(static_cast<std::int64_t>(times_.released().time)), out); !added)
       return added;
   writer_.write(out, packet.type, packet.payload);
   if (packet.type != PacketType::kSetup) return {};

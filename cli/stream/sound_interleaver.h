@@ -9,7 +9,7 @@
 #include "bitstream/packet.h"
 #include "bitstream/sound_syntax.h"
 #include "common/result.h"
-#include "decoder/stream/packet_list.h"
+#include "decoder/stream/packet_times.h"
 
 namespace fbs::cli {
 
@@ -36,7 +36,7 @@ class SoundInterleaver {
   SoundSetup setup_;
   SoundFeed feed_;
   PacketReader reader_;
-  PacketLister lister_;
+  PacketTimes times_;
   PacketWriter writer_;
   bool begun_ = false;
 };

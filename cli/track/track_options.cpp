@@ -6,9 +6,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1'000'000'000;  // more than a year
-
-constexpr const char* kExamples =
+constexpr const char* kTrackExamples =
     "Examples:\n"
     "  fbs track talk.mkv talk.csv                     head pose, 68 landmarks, gaze, expression\n"
     "  fbs track talk.mkv talk.json --face 1           of the second largest face\n"
@@ -43,7 +41,7 @@ void add_track(CLI::App& app, Run& run) {
   verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
-  verb->footer(kExamples);
+  verb->footer(kTrackExamples);
 }
 
 }  // namespace fbs::cli

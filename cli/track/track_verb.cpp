@@ -1,4 +1,4 @@
-// fbs track: what the encoder's analysis sees in a video, as a table.
+// fbs track: the encoder's analysis of a video as a table.
 #include <array>
 #include <cstdio>
 
@@ -16,13 +16,13 @@
 namespace fbs::cli {
 namespace {
 
-constexpr const char* kStopNotice = "fbs: finishing the table; a second signal ends at once";
+constexpr const char* kFinishingTable = "fbs: finishing the table; a second signal ends at once";
 
-/// The analysis compares pictures with the first pattern as decoded. One that is nearly the source itself
+/// The analysis compares pictures with the first pattern as decoded. A pattern nearly equal to the source
 /// costs nothing here, since no stream is kept.
 constexpr int kQuality = 100;
 
-/// One pattern: then the encoder codes each second's motion, which is little work, and forgets it.
+/// One pattern: the encoder then codes each second's motion, which is little work, and forgets it.
 Result<EncoderSettings> settings_of(const TrackArguments& arguments) {
   EncoderSettings settings;
   settings.quality = kQuality;
@@ -122,6 +122,6 @@ Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
 FBS_MODULE_EXPORT void fbs_run_track(const fbs::cli::TrackArguments& arguments,
                                      fbs::Result<fbs::cli::Outcome>& result) {
   result =
-      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kStopNotice, "no table written",
+      fbs::cli::until_stopped(arguments.quiet, fbs::cli::kFinishingTable, "no table written",
                               [&](const fbs::StopSignal& stop) { return fbs::cli::track(arguments, stop); });
 }

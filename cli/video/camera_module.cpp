@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDefaultRate = 30;  // pictures per second, for cameras that do not report theirs
 
-/// Converts the BGR of OpenCV to limited-range BT.601. Pictures get the time of their arrival.
+/// Converts OpenCV's BGR to limited-range BT.601. Pictures get their time of arrival.
 class CameraSource final : public VideoSource {
  public:
   explicit CameraSource(std::string name) : name_(std::move(name)) {}

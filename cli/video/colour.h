@@ -1,4 +1,4 @@
-// Between the video's own YCbCr 4:2:0 and RGB, for image files and the screen.
+// Converts between the video's own YCbCr 4:2:0 and RGB, for image files and the screen.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct RgbImage {
 enum class ChannelOrder : std::uint8_t { kRgb, kBgr };
 
 /// Converts with the range and matrix of the format (ITU-R BT.601 or BT.709, 16.16 fixed point).
-/// ColourMatrix::kUnspecified is taken as BT.601, as ffmpeg does. Each chroma sample serves its four pixels
-/// unfiltered, so that picture_from_rgb gives back what was there wherever RGB could hold it.
+/// ColourMatrix::kUnspecified counts as BT.601, as in ffmpeg. Each chroma sample serves its four pixels
+/// unfiltered, so that picture_from_rgb restores the picture wherever RGB could hold it.
 /// @param order  kBgr suits OpenCV
 RgbImage rgb_from_picture(const Picture& picture, ColourRange range, ColourMatrix matrix,
                           ChannelOrder order = ChannelOrder::kRgb);

@@ -1,4 +1,4 @@
-// Pictures with times of their own, written at a constant rate: held or dropped to keep the speed.
+// Writes pictures with their own times at a constant rate: holds or drops pictures to keep the speed.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// What a constant rate costs, in pictures.
+/// Effect of a constant rate, in pictures.
 struct RateChange {
   std::int64_t repeated = 0;
   std::int64_t dropped = 0;
@@ -16,19 +16,19 @@ struct RateChange {
 };
 
 /// Assigns pictures to the slots of a constant rate. A picture takes the next free slot while that is less
-/// than 3/4 of a period from its time, so that jitter changes nothing. One that is later takes the nearest
-/// slot, and those before it repeat the picture before; one that is earlier is dropped.
+/// than 3/4 of a period from its time, so that jitter changes nothing. A later picture takes the nearest
+/// slot, and the slots before it repeat the previous picture; an earlier one is dropped.
 class ConstantRate {
  public:
   /// @param rate  slots per second, a plausible_rate
   explicit ConstantRate(Rational rate) : rate_(rate) {}
 
   struct Step {
-    std::int64_t repeats = 0;  ///< slots that the picture before fills first
+    std::int64_t repeats = 0;  ///< slots first filled by the previous picture
     bool kept = true;          ///< whether the picture itself has a slot
   };
 
-  /// @param pts  1/90000 s, above the one before; the first picture has slot 0 whatever its time
+  /// @param pts  1/90000 s, rising; the first picture has slot 0 whatever its time
   Step next(std::int64_t pts);
 
   [[nodiscard]] const RateChange& change() const { return change_; }
@@ -40,17 +40,17 @@ class ConstantRate {
   RateChange change_;
 };
 
-/// Writes into a sink without timestamps. The last picture is written once: how long it lasts is not known.
+/// Writes into a sink without timestamps. The last picture is written once: its duration is unknown.
 class ConstantRateSink final : public VideoSink {
  public:
-  /// @param hold  false: each picture is written once, and change() says what that does to the times
+  /// @param hold  false: each picture is written once, and change() gives the effect on the times
   ConstantRateSink(std::unique_ptr<VideoSink> sink, Rational rate, bool hold);
 
   Result<void> write(const Picture& picture, std::int64_t pts) override;
   [[nodiscard]] bool replaced_leftover() const override { return sink_->replaced_leftover(); }
   Result<void> finish() override { return sink_->finish(); }
 
-  /// Pictures so far that were, or without `hold` would have been, repeated and dropped.
+  /// Pictures so far that were repeated and dropped, or would have been without `hold`.
   [[nodiscard]] const RateChange& change() const { return slots_.change(); }
 
  private:

@@ -1,4 +1,4 @@
-// The identification header of Opus, which MP4 and Matroska keep as the setup of a track.
+// The identification header of Opus, stored in MP4 and Matroska as the setup of a track.
 #pragma once
 
 #include <array>

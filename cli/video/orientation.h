@@ -17,12 +17,12 @@ struct Orientation {
   friend bool operator==(const Orientation&, const Orientation&) = default;
 };
 
-/// Reads a display matrix as containers hold it: 3x3, rows (a b u) (c d v) (x y w), a..d in 16.16; a stored
+/// Reads a display matrix as stored in containers: 3x3, rows (a b u) (c d v) (x y w), a..d in 16.16; a stored
 /// point (p, q) is shown at (a p + c q, b p + d q). Angles other than quarter turns count as upright.
 Orientation orientation_from_matrix(const std::array<std::int32_t, 9>& matrix);
 
-/// The picture as it is to be shown. With odd sides chroma may shift by half a sample, since 4:2:0 pairs
-/// pixels from the top left.
+/// The picture as displayed. With odd sides chroma may shift by half a sample, since 4:2:0 pairs pixels from
+/// the top left.
 Picture oriented(Picture picture, Orientation orientation);
 
 }  // namespace fbs

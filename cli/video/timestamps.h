@@ -8,9 +8,9 @@
 namespace fbs {
 
 inline constexpr std::uint32_t kMaxRatePart =
-    1000000;  ///< of either part of a frame rate: keeps times in 64 bits
+    1000000;  ///< limit of either part of a frame rate: keeps times in 64 bits
 
-/// Whether a frame rate is one that sources may have: 1/100 to 1000 pictures per second.
+/// Whether sources may have this frame rate: 1/100 to 1000 pictures per second.
 [[nodiscard]] constexpr bool plausible_rate(Rational rate) {
   if (rate.num == 0 || rate.den == 0 || rate.num > kMaxRatePart || rate.den > kMaxRatePart) return false;
   return rate.num <= 1000 * rate.den && 100 * rate.num >= rate.den;

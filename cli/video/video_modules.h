@@ -18,7 +18,7 @@ inline constexpr const char* kCameraModule = "fbs_camera";  ///< OpenCV: cameras
 
 inline constexpr const char* kOpenSourceSymbol = "fbs_open_source";
 inline constexpr const char* kOpenSinkSymbol = "fbs_open_sink";
-inline constexpr const char* kOpenSoundSourceSymbol = "fbs_open_sound_source";  ///< of kAvModule
+inline constexpr const char* kOpenSoundSourceSymbol = "fbs_open_sound_source";  ///< in kAvModule
 
 /// Sets `source`: a function with C linkage cannot return it.
 using OpenSourceFunction = void(const std::string& input, const SourceOptions& options,
@@ -30,11 +30,11 @@ using OpenSoundSourceFunction = void(const std::string& input, const SoundSource
 using OpenSinkFunction = void(const std::string& output, const VideoFormat& format,
                               const SinkOptions& options, Result<std::unique_ptr<VideoSink>>& sink);
 
-/// Of kImageModule: an image as a PNG file in memory.
+/// In kImageModule: encodes an image as a PNG file in memory.
 inline constexpr const char* kEncodePngSymbol = "fbs_encode_png";
 using EncodePngFunction = void(const RgbImage& image, Result<std::vector<std::uint8_t>>& png);
 
-/// Of kImageModule: one image as a picture of a video.
+/// In kImageModule: reads one image as a picture of a video.
 inline constexpr const char* kReadImageSymbol = "fbs_read_image";
 using ReadImageFunction = void(const std::string& name, const VideoFormat& format, Result<Picture>& picture);
 

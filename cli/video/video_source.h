@@ -1,4 +1,4 @@
-// One interface to the sources of pictures: files, image sequences, pipes and cameras.
+// One interface to all sources of pictures: files, image sequences, pipes and cameras.
 #pragma once
 
 #include <chrono>
@@ -29,17 +29,17 @@ class VideoSource {
   /// For variable frame rates, frame_rate is the mean and pts gives the times.
   [[nodiscard]] virtual const VideoFormat& format() const = 0;
 
-  /// The next picture, with a pts above the one before; nullopt at the clean end, and again if asked again.
-  /// After the last picture that could be read: ErrorCode::kTruncated when the source is cut off,
-  /// kInvalidStream when it is damaged, kIo when it cannot be read further; kUnsupported when the picture
-  /// size changes. After an error the source must not be used further.
+  /// The next picture, with a rising pts; nullopt at the clean end, also when called again. After the last
+  /// readable picture: ErrorCode::kTruncated when the source is cut off, kInvalidStream when it is damaged,
+  /// kIo when reading fails; kUnsupported when the picture size changes. After an error the source must not
+  /// be used further.
   virtual Result<std::optional<TimedPicture>> next() = 0;
 
-  /// Whether next() finds input, or its end, without waiting for it; true where that is not known.
-  /// @param patience  to wait for it here
+  /// Whether next() finds input, or its end, without waiting; true if unknown.
+  /// @param patience  how long to wait here
   [[nodiscard]] virtual bool is_ready(std::chrono::milliseconds /*patience*/) const { return true; }
 
-  /// Whether each picture lasts as long as format().frame_rate says; pts need not be looked at.
+  /// Whether each picture lasts as format().frame_rate says; pts can be ignored.
   [[nodiscard]] virtual bool has_constant_rate() const { return false; }
 
   /// Number of pictures according to the container, for progress bars; nullopt when it does not say.
@@ -50,10 +50,9 @@ class VideoSource {
 };
 
 struct SourceOptions {
-  Rational sequence_rate{25, 1};  ///< pictures per second of image sequences
-  int decoder_threads = 1;        ///< at least 1
-  const StopSignal* stop =
-      nullptr;  ///< must outlive the source; a read that waits ends with an error when it comes
+  Rational sequence_rate{25, 1};     ///< pictures per second of image sequences
+  int decoder_threads = 1;           ///< at least 1
+  const StopSignal* stop = nullptr;  ///< must outlive the source; interrupts a read that waits, with an error
 };
 
 }  // namespace fbs

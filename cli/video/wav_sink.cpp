@@ -14,7 +14,7 @@ constexpr std::uint64_t kHeaderBytes = 44;
 constexpr int kSampleBytes = 2;
 constexpr int kPcm = 1;  // WAVE_FORMAT_PCM
 
-/// Little-endian, as everything in RIFF.
+/// Little-endian, like everything in RIFF.
 class HeaderBytes {
  public:
   void text(std::string_view name) { bytes_.insert(bytes_.end(), name.begin(), name.end()); }

@@ -25,10 +25,10 @@ class WavSink {
   /// @param samples  interleaved, whole sample frames
   Result<void> write(std::span<const std::int16_t> samples);
 
-  /// Completes the header and gives the file its name. Call it once, last.
+  /// Completes the header and gives the file its name. Call once, last.
   Result<void> finish();
 
-  /// Whether an unfinished file of an earlier run was in the way and has been replaced.
+  /// Whether an unfinished file of an earlier run was replaced.
   [[nodiscard]] bool replaced_leftover() const { return file_.replaced_leftover(); }
 
  private:

@@ -7,8 +7,8 @@
 namespace fbs {
 namespace {
 
-/// Below this determinant (Q14) of the upper-left 2 x 2 rotation the head is seen too much from the side for
-/// its plane to be inverted.
+/// Below this determinant (Q14) of the upper-left 2 x 2 rotation, the head is seen too far from the side to
+/// invert its plane.
 constexpr std::int64_t kMinDeterminant = 1 << 11;
 
 constexpr std::int64_t kMaxFactor = 1 << 20;  // Q16: sixteen times

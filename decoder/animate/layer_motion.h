@@ -1,4 +1,4 @@
-// Displacement of what moves with head, body and ground between two states. SPEC 10.1. Integers only.
+// Displacement between two states of points that move with head, body or ground. SPEC 10.1. Integers only.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class HeadPlane {
  public:
   HeadPlane(const HeadPose& from, const HeadPose& to);
 
-  /// 1/64 pixel; zero when the head is seen too much from the side in `from`: the plane cannot be inverted.
+  /// 1/64 pixel; zero when `from` shows the head too far from the side to invert its plane.
   /// @param p  in pose `from`, 1/64 pixel
   [[nodiscard]] glm::ivec2 displacement(glm::ivec2 p) const;
 
@@ -25,9 +25,9 @@ class HeadPlane {
   std::int64_t matrix_[2][2] = {};  ///< Q16
 };
 
-inline constexpr int kFromHeadOneLog2 = 8;  ///< distances from the head count 1/256 eye distance
+inline constexpr int kFromHeadOneLog2 = 8;  ///< distances from the head are in 1/256 eye distance
 
-/// Displacement of a point of body or ground, 1/64 pixel.
+/// Displacement of a body or ground point, 1/64 pixel.
 /// @param from, to    similarities, as State::body and State::ground
 /// @param from_head   the point relative to the head's origin, 1/256 eye distance
 [[nodiscard]] glm::ivec2 similarity_displacement(const std::array<std::int32_t, kSimilarityCount>& from,

@@ -10,7 +10,7 @@
 namespace fbs {
 namespace {
 
-/// The ring lies this much farther from the head's axis than the outline in the rest pose, in 1/256: room for
+/// In the rest pose the ring lies this much farther from the head's axis than the outline, in 1/256: room for
 /// the jaw to move in, small enough to stay on the neck. Set by eye on the ten clips.
 constexpr std::int32_t kRingExtension = 36;
 constexpr std::int32_t kRingExtensionOne = 256;
@@ -19,7 +19,7 @@ constexpr std::int32_t kRingExtensionOne = 256;
 /// moved over it.
 constexpr std::int32_t kRingDepth = kUnitsPerEyeDistance / 2;
 
-/// ScreenMesh::areas. The ring folds wherever the head moves over it, which hides nothing: it does not count.
+/// ScreenMesh::areas. The ring does not count: it folds wherever the head moves over it, which hides nothing.
 std::vector<std::int64_t> vertex_areas(const WireFrame& head, const std::vector<glm::ivec3>& screen) {
   std::vector<std::int64_t> out(screen.size());
   for (const HeadTriangle& t : head.triangles) {

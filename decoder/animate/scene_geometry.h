@@ -15,16 +15,16 @@
 
 namespace fbs {
 
-/// What is fixed for a scene with a face: the adapted head and the surround.
+/// The fixed part of a scene with a face: adapted head and surround.
 class SceneGeometry {
  public:
-  /// @param rest  the rest state: the surround's grid is regular in it. The first pattern's.
+  /// @param rest  the rest state, in which the surround's grid is regular: the first pattern's
   SceneGeometry(const Setup& setup, const Geometry& geometry, SurroundMap map, const State& rest);
 
-  /// Where everything is drawn in `state`.
+  /// Screen positions of the mesh in `state`.
   [[nodiscard]] ScreenMesh screen_mesh(const State& state) const;
 
-  /// Where a pattern seen in `seen`, any state of the scene, holds what is drawn.
+  /// Positions of the mesh in a pattern seen in `seen`, any state of the scene.
   [[nodiscard]] TextureMesh texture_mesh(const State& seen) const;
 
   /// Screen positions of the vertices of the wire-frame alone (1/64 pixel; z in head units).
@@ -35,17 +35,16 @@ class SceneGeometry {
 
   [[nodiscard]] const HeadMesh& head_mesh() const { return own_mesh_ ? *own_mesh_ : generic_head_mesh(); }
 
-  /// Of a head that is no plane.
+  /// Layout of the head's atlas; not if the head is a plane.
   [[nodiscard]] const AtlasLayout& atlas_layout() const {
     return own_layout_ ? *own_layout_ : generic_atlas_layout(rest_scale_);
   }
 
-  /// Whether the head is flat: a plane that moves the picture, not a face. Nothing of it is drawn; its
-  /// vertices are points of the surround, behind the grid's.
+  /// Whether the head is flat: a plane that moves the picture, not a face. It is not drawn; its vertices are
+  /// points of the surround, after the grid's.
   [[nodiscard]] bool is_plane() const { return is_plane_; }
 
-  /// The triangles of the surround, in the order in which they are drawn: halves of the cells, and then the
-  /// head's if it is a plane.
+  /// Triangles of the surround in drawing order: halves of the cells, then the head's if it is a plane.
   [[nodiscard]] const std::vector<MeshTriangle>& surround_triangles() const { return surround_triangles_; }
 
   /// Samples per eye distance in the rest state, Q16.
@@ -64,8 +63,8 @@ class SceneGeometry {
   bool is_plane_;
   std::vector<MeshTriangle> surround_triangles_;
   std::int64_t rest_scale_;
-  std::shared_ptr<const HeadMesh> own_mesh_;       ///< null: that of the generic head
-  std::shared_ptr<const AtlasLayout> own_layout_;  ///< the same
+  std::shared_ptr<const HeadMesh> own_mesh_;       ///< null: the generic head's
+  std::shared_ptr<const AtlasLayout> own_layout_;  ///< null: the generic head's
 };
 
 }  // namespace fbs

@@ -9,13 +9,13 @@
 namespace fbs {
 namespace {
 
-/// The grid begins this far inside the picture: the outermost samples of many videos are dark, and would be a
-/// line across it wherever the border moves inwards.
+/// The grid begins this far inside the picture: the outermost samples of many videos are dark, and would be
+/// seen as a line wherever the border moves inwards.
 constexpr std::int64_t kInset = to_screen(2);
 
 constexpr std::int64_t kMaxFromHead = 64 << kFromHeadOneLog2;  // sixty-four eye distances
 
-constexpr int kCellOneLog2 = 8;  // positions in a cell count 1/256 of it
+constexpr int kCellOneLog2 = 8;  // positions in a cell are in 1/256 of it
 constexpr int kCellOne = 1 << kCellOneLog2;
 
 /// Coordinate of a grid column or row in the rest state, 1/64 pixel.

@@ -18,17 +18,16 @@ namespace fbs {
 [[nodiscard]] SurroundMap still_surround();
 
 /// The grid of a SurroundMap, which begins a little inside the picture, with a margin: one more column and
-/// row on each side, half a picture away. A point of the margin is displaced as the nearest one of the border
-/// is.
+/// row on each side, half a picture away. A margin point moves with the nearest border point.
 class Surround {
  public:
-  /// @param rest  the rest state: the one in which the grid is regular, that of the first pattern
+  /// @param rest  the rest state, in which the grid is regular: the first pattern's
   Surround(const VideoFormat& format, SurroundMap map, const State& rest);
 
   /// Positions of the grid points, margin included, row by row, 1/64 pixel.
   void project(const State& state, std::vector<glm::ivec2>& out) const;
 
-  /// A fixed place on the grid: one that some cell carries.
+  /// A fixed place on the grid, carried by some cell.
   struct Place {
     glm::ivec2 rest;              ///< in the rest state, 1/64 pixel
     std::array<int, 4> corner{};  ///< grid points of the cell: row by row
@@ -40,7 +39,7 @@ class Surround {
 
   /// A cell's corners, clockwise from the top left one.
   using Cell = std::array<int, 4>;
-  /// In the order in which they are drawn: ground, body, head.
+  /// Cells in drawing order: ground, body, head.
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
   /// The halves of the cells, in the same order.
@@ -48,19 +47,19 @@ class Surround {
 
   /// Shares of the regions at each grid point, margin included.
   [[nodiscard]] const std::vector<RegionShares>& shares() const { return shares_; }
-  /// The same at a fixed place: mean of the cell's corners.
+  /// The same at a fixed place: the mean of the cell's corners.
   [[nodiscard]] RegionShares shares_at(const Place& place) const;
 
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
   [[nodiscard]] const SurroundMap& map() const { return map_; }
 
  private:
-  /// A grid point in the rest state, and what displaces it.
+  /// A grid point in the rest state, and the motion it follows.
   struct Point {
     glm::ivec2 rest;          ///< 1/64 pixel
-    glm::ivec2 from_head;     ///< of its base, relative to the head's origin, 1/256 eye distance
-    std::int32_t head, body;  ///< shares, of kFollowOne
-    int base;                 ///< itself; in the margin, the border point that it follows
+    glm::ivec2 from_head;     ///< base relative to the head's origin, 1/256 eye distance
+    std::int32_t head, body;  ///< shares in 1/kFollowOne
+    int base;                 ///< the point itself; in the margin, the border point it follows
   };
 
   void place_points(const VideoFormat& format);

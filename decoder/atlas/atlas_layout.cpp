@@ -45,21 +45,21 @@ std::int64_t cross(glm::ivec2 a, glm::ivec2 b) {
   return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
 }
 
-/// Whether some sample of a block can be read when the head is drawn: whether it lies in one of the head's
+/// Whether drawing the head may read any sample of a block: whether the block lies in one of the head's
 /// triangles or a little beside it.
 /// @param triangles  of the HeadMesh
 bool is_read(glm::ivec2 block, const AtlasLayout& layout, std::span<const MeshTriangle> triangles) {
-  constexpr int kBeside = 3 << kScreenOneLog2;  // bilinear samples, of chroma, and what gradients round
+  constexpr int kBeside = 3 << kScreenOneLog2;  // bilinear and chroma samples, and rounding of gradients
   constexpr int kSize = kBlockSize << kScreenOneLog2;
   const glm::ivec2 first = block * kSize - kBeside, last = (block + 1) * kSize + kBeside;
   return std::any_of(triangles.begin(), triangles.end(), [&](const MeshTriangle& t) {
     std::array<glm::ivec2, 3> p{layout.points[t[0]], layout.points[t[1]], layout.points[t[2]]};
-    // Texture is read from a triangle that is turned over in the atlas as from any other.
+    // Triangles that are turned over in the atlas are read like any other.
     if (cross(p[1] - p[0], p[2] - p[0]) < 0) std::swap(p[1], p[2]);
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
     if (left > last.x || right < first.x || top > last.y || bottom < first.y) return false;
-    for (std::size_t k = 0; k < p.size(); ++k) {  // no edge has the whole block on its outer side
+    for (std::size_t k = 0; k < p.size(); ++k) {  // the whole block on the outer side of an edge?
       const glm::ivec2 along = p[(k + 1) % p.size()] - p[k];
       const glm::ivec2 corner(along.y < 0 ? last.x : first.x, along.x > 0 ? last.y : first.y);
       const glm::ivec2 to = corner - p[k];

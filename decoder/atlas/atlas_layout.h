@@ -1,5 +1,5 @@
-// The head laid out flat, so that no triangle hides another and all have room, also lips and lids that are
-// closed: where textures of all patterns can be blended. SPEC 10.12. Integers only.
+// The head laid out flat, so that no triangle hides another and all have room, even closed lips and lids:
+// here the textures of all patterns can be blended. SPEC 10.12. Integers only.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +16,20 @@ namespace fbs {
 /// The atlas at one size.
 struct AtlasLayout {
   int width, height;  ///< luma samples; whole blocks
-  /// Where the vertices of the HeadMesh lie, and then the skirt: one more for each of the ring, beyond it, so
-  /// that what the ring shows can be read up to its edge. 1/64 luma sample.
+  /// Positions of the vertices of the HeadMesh, then of the skirt: one more for each of the ring, beyond it,
+  /// so that the ring's texture can be read up to its edge. 1/64 luma sample.
   std::vector<glm::ivec2> points;
   /// Corners of the triangles: the HeadMesh's, then the skirt's. Clockwise.
   std::vector<MeshTriangle> triangles;
-  NodeCover cover;                     ///< of all nodes; those outside have the place of the nearest point
-  std::vector<glm::ivec2> blocks;      ///< column and row of those of which the head shows something
+  NodeCover cover;                     ///< all nodes; those outside are placed at the nearest point
+  std::vector<glm::ivec2> blocks;      ///< column and row of the blocks that show some of the head
   std::size_t head_count;              ///< vertices of the wire-frame
   std::vector<std::uint16_t> outline;  ///< of the wire-frame
 
   /// @param eye_distance  samples
   AtlasLayout(const WireFrame& head, int eye_distance);
 
-  /// Adds the points of the skirt to those of the vertices of the HeadMesh, in the atlas or in a pattern.
+  /// Appends the points of the skirt to the vertices of the HeadMesh, in the atlas or in a pattern.
   void add_skirt(std::vector<glm::ivec2>& at) const;
 };
 
@@ -37,12 +37,12 @@ struct AtlasLayout {
 /// @param scale  samples of the picture per eye distance in the rest state, Q16
 [[nodiscard]] int atlas_eye_distance(std::int64_t scale);
 
-/// That of the generic head, which lives as long as the program.
+/// The generic head's layout, valid for the program's lifetime.
 /// @param scale  as above
 [[nodiscard]] const AtlasLayout& generic_atlas_layout(std::int64_t scale);
 
-/// The point of the skirt beyond one of the ring.
-/// @param outline, ring  the vertex of the outline and the one of the ring that belongs to it
+/// The skirt's point beyond a point of the ring.
+/// @param outline, ring  a vertex of the outline and its vertex of the ring
 [[nodiscard]] glm::ivec2 skirt_point(glm::ivec2 outline, glm::ivec2 ring);
 
 }  // namespace fbs

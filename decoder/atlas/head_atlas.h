@@ -1,4 +1,4 @@
-// What a pattern shows of the head, brought into the atlas once. SPEC 10.12. Integers only.
+// The head as a pattern shows it, drawn into the atlas once. SPEC 10.12. Integers only.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ namespace fbs {
 /// A picture of the layout's size; samples that no triangle covers are undefined.
 using HeadAtlas = Picture;
 
-/// Draws what a pattern shows into an atlas, without its light.
+/// Draws a pattern's head into an atlas, without its light.
 /// @param planes     Y, U, V of the pattern
-/// @param positions  of the vertices of the HeadMesh in it, 1/64 luma sample
-/// @param light      that falls on them there; empty: none
+/// @param positions  of the HeadMesh's vertices in the pattern, 1/64 luma sample
+/// @param light      on the vertices in the pattern; empty: none
 void draw_atlas(const AtlasLayout& layout, const std::array<ConstPlaneView, 3>& planes,
                 std::span<const glm::ivec2> positions, const std::vector<VertexLight>& light, HeadAtlas& out);
 

@@ -13,7 +13,7 @@ bool shows(const PointWeights& weights, std::size_t source) {
   return false;
 }
 
-/// Brings weights to a sum of kMeshWeightOne.
+/// Scales weights to a sum of kMeshWeightOne.
 /// @param sum  of the weights, not zero
 void add_row(std::span<const std::int64_t> weights, std::int64_t sum, std::vector<std::int32_t>& out) {
   out.resize(out.size() + weights.size());
@@ -47,7 +47,7 @@ HeadWeights head_weights(const MeshBlend& blend, const WireFrame& head) {
     out.screen.weights.push_back(static_cast<std::int32_t>(sum));
     for (const std::size_t s : out.still) out.screen.weights.push_back(blend.head.at(v)[s]);
     if (weights.empty()) continue;
-    if (sum == 0 && v >= head_count) {  // as at the outline, so that the ring fades to what is still
+    if (sum == 0 && v >= head_count) {  // as at the outline, so that the ring fades into the still sources
       const auto same = out.atlas.at(head.outline[v - head_count]);
       weights.assign(same.begin(), same.end());
       sum = kMeshWeightOne;
@@ -55,7 +55,7 @@ HeadWeights head_weights(const MeshBlend& blend, const WireFrame& head) {
       weights = all;
       sum = std::accumulate(all.begin(), all.end(), std::int64_t{0});
     }
-    // A source that only the ring shows may be the only one.
+    // If only the ring shows a source, there may be no other.
     if (sum == 0) weights.front() = sum = 1;
     add_row(weights, sum, out.atlas.weights);
   }

@@ -13,7 +13,7 @@ namespace fbs {
 struct HeadWeights {
   std::vector<std::size_t> warped, still;  ///< numbers of the sources that show at some vertex
   PointWeights atlas;   ///< of `warped`, at the vertices of the HeadMesh; each row sums to kMeshWeightOne
-  PointWeights screen;  ///< of the atlas, and then of `still`
+  PointWeights screen;  ///< of the atlas, then of `still`
 };
 
 /// @param head  the wire-frame

@@ -31,19 +31,19 @@ RegionWeights region_weights(const PictureBlend& blend, std::span<const BlendSou
   return out;
 }
 
-/// A source shows a vertex as well as any other from 1 / kEnoughArea of the area on at which it is drawn. 1
-/// and 4 gain 1 % of the rate less in the face (five clips).
+/// A source counts as fully visible at a vertex from 1 / kEnoughArea of the drawn area on. 1 and 4 save 1 %
+/// less of the rate in the face (five clips).
 constexpr int kEnoughArea = 2;
 constexpr std::int32_t kVisibleOne = 256;
 
 /// @param seen   area at a vertex in a pattern
-/// @param drawn  area at it in the picture
+/// @param drawn  area at the same vertex in the picture
 std::int32_t visibility(std::int64_t seen, std::int64_t drawn) {
   if (drawn == 0 || kEnoughArea * seen >= drawn) return kVisibleOne;
   return static_cast<std::int32_t>(kEnoughArea * kVisibleOne * seen / drawn);
 }
 
-/// Takes weight from sources that hardly show the point, unless none does.
+/// Takes weight from sources in which the point is hardly visible, unless it is so in all.
 void keep_visible(std::span<std::int32_t> weights, std::span<const std::int32_t> visible) {
   std::int64_t sum = 0;
   for (std::size_t s = 0; s < weights.size(); ++s) sum += std::int64_t{weights[s]} * visible[s];

@@ -1,4 +1,4 @@
-// The blend of a picture brought to the points of its mesh. SPEC 11.5. Integers only.
+// The blend of a picture at the points of its mesh. SPEC 11.5. Integers only.
 #pragma once
 
 #include <array>
@@ -17,21 +17,21 @@ static_assert(kMeshWeightOne == kShareOne * kBlendOne);
 /// Weights of the sources in each region, in 1/kBlendOne.
 using RegionWeights = std::array<std::vector<std::int32_t>, kRegionCount>;
 
-/// The sources of a picture, and what they weigh.
+/// The sources of a picture and their weights.
 struct MeshBlend {
-  std::vector<BlendSource> sources;  ///< all that some region uses; at most kRegionCount * kMaxRegionSources
+  std::vector<BlendSource> sources;  ///< those used by any region; at most kRegionCount * kMaxRegionSources
   RegionWeights regions;
   PointWeights head;  ///< vertices of the HeadMesh; empty in a scene without a face
 };
 
-/// Without weights of the head.
+/// Leaves the weights of the head empty.
 [[nodiscard]] MeshBlend blend_regions(const PictureBlend& blend);
 
-/// Of points, by their shares of the regions.
+/// Weights at points, from the points' shares of the regions.
 [[nodiscard]] PointWeights point_weights(const RegionWeights& regions, std::span<const RegionShares> shares);
 
-/// @param textures  of each pattern: how much of the head it shows
-/// @param mesh      to be drawn
+/// @param textures  one for each pattern: how much of the head it shows
+/// @param mesh      the mesh to be drawn
 [[nodiscard]] MeshBlend blend_mesh(const PictureBlend& blend, const SceneGeometry& geometry,
                                    std::span<const TextureMesh* const> textures, const ScreenMesh& mesh);
 

@@ -11,21 +11,21 @@
 namespace fbs {
 namespace {
 
-constexpr int kOneLog2 = 16;  // of weights before they are rounded
+constexpr int kOneLog2 = 16;  // for weights before they are rounded
 constexpr std::int64_t kOne = std::int64_t{1} << kOneLog2;
 
 constexpr std::int64_t kExponent = 307;  // weights fall with this power of 1 + the squared distance, 1/256
 
-/// How the weights of a region follow from distances.
+/// How weights follow from distances in one region.
 struct Law {
-  std::int64_t state_share;  ///< of the weights by state in kByState, 1/64; the rest is by time
-  std::size_t sources;       ///< at most
+  std::int64_t state_share;  ///< share of the weights by state in kByState, 1/64; the rest is by time
+  std::size_t sources;       ///< maximum number
 };
 // More sources average out the coding noise of patterns, but take time to draw.
 constexpr std::array<Law, kRegionCount> kLaw = {
     {{48, 5}, {64, 3}, {64, 3}, {48, 4}, {48, 3}, {48, 3}, {0, 2}}};
 
-/// Relative weights of squared distances, the nearest having the most.
+/// Relative weights from squared distances; the nearest weighs most.
 std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
   constexpr int kDigits = 12, kOctaves = 13;
   const auto exponent = [](std::int64_t d) {
@@ -41,7 +41,8 @@ std::vector<std::int64_t> fall_off(std::span<const std::int64_t> distances) {
   return out;
 }
 
-/// Keeps the largest, each less the largest of the others, so that none appears or vanishes at once.
+/// Keeps the largest, each reduced by the largest of the others, so that no source appears or vanishes at
+/// once.
 void keep_largest(std::vector<std::int64_t>& weights, std::size_t count) {
   if (weights.size() <= count) return;
   std::vector<std::size_t> order(weights.size());
@@ -54,7 +55,7 @@ void keep_largest(std::vector<std::int64_t>& weights, std::size_t count) {
   weights[first] = std::max<std::int64_t>(weights[first], 1);
 }
 
-/// Sum of sources with weights of any scale; the same source may come twice.
+/// Sum of sources with weights of any scale; a source may be added twice.
 class Mix {
  public:
   void add(BlendSource source, std::int64_t weight) {
@@ -66,7 +67,7 @@ class Mix {
     else
       items_.push_back({source, weight});
   }
-  /// Rounded to kBlendOne in all; the largest takes what rounding leaves.
+  /// Rounds to a sum of kBlendOne; the largest takes the rounding error.
   [[nodiscard]] RegionBlend rounded() {
     std::sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
       return 2 * a.source.pattern + a.source.still < 2 * b.source.pattern + b.source.still;
@@ -129,7 +130,7 @@ std::vector<std::int64_t> BlendWeights::distances(Region region) const {
   return out;
 }
 
-/// Sum to about kOne.
+/// The weights sum to about kOne.
 BlendWeights::Weights BlendWeights::by_state(Region region) const {
   Weights weights = fall_off(distances(region));
   const std::int64_t sum = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});

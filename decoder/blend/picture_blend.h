@@ -1,5 +1,4 @@
-// Which patterns a picture is blended from, and how much of each shows in each region. SPEC 11. Integers
-// only.
+// Which patterns a picture is blended from, and their weights in each region. SPEC 11. Integers only.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace fbs {
 
-/// A texture: a pattern, warped from its seen state to the picture's or shown as it is.
+/// A texture: a pattern, warped from its seen state to the picture's, or shown unwarped.
 struct BlendSource {
   std::uint8_t pattern = 0;  ///< index into the patterns
   bool still = false;        ///< not warped
@@ -29,17 +28,17 @@ struct WeightedSource {
 using RegionBlend = std::vector<WeightedSource>;
 inline constexpr std::size_t kMaxRegionSources = 8;
 
-/// Of each region.
+/// The blend of each region.
 using PictureBlend = std::array<RegionBlend, kRegionCount>;
 
-/// Patterns as seen from one picture: what their weights are derived from. SPEC 11.3.
+/// Patterns as seen from one picture, for deriving their weights. SPEC 11.3.
 class BlendWeights {
  public:
   /// @param seen     state of each pattern, with its number; not empty
   /// @param picture  state to be drawn
   BlendWeights(std::span<const State* const> seen, const State& picture);
 
-  /// @param mode  kBlendModeCount values; one that names a pattern beyond the last takes the farthest
+  /// @param mode  below kBlendModeCount; a mode that names a pattern beyond the last takes the farthest
   [[nodiscard]] RegionBlend blend(Region region, BlendMode mode) const;
 
  private:
@@ -51,10 +50,10 @@ class BlendWeights {
   const State& picture_;
   std::int32_t spacing_ = 1;
   std::size_t before_ = 0, after_ = 0;  ///< patterns next to the picture in time; equal at the ends
-  std::int64_t share_after_ = 0;        ///< of the one after in a cross-fade, 0..2^16
+  std::int64_t share_after_ = 0;        ///< of pattern after_ in a cross-fade, 0..2^16
 };
 
-/// Of all regions, by the modes of the state.
+/// Blends of all regions, by the modes of the state.
 [[nodiscard]] PictureBlend blend_picture(std::span<const State* const> seen, const State& picture);
 
 }  // namespace fbs

@@ -6,8 +6,8 @@
 
 namespace fbs {
 
-/// Shares of `whole` in proportion to parts, rounded; the first of the largest takes what rounding leaves.
-/// @param part  gives part k, not negative, which is asked for before out[k] is written
+/// Shares of `whole` in proportion to parts, rounded; the first of the largest takes the rounding error.
+/// @param part  gives part k, not negative; called before out[k] is written
 /// @param sum   of the parts, not zero
 template <class Part>
 void share_out(Part&& part, std::int64_t sum, std::int32_t whole, std::span<std::int32_t> out) {

@@ -10,11 +10,11 @@
 namespace fbs {
 namespace {
 
-/// What counts as a distance of one for a region; 0: does not count.
+/// Differences that count as a distance of one in a region; 0: ignored.
 struct Metric {
   std::int32_t turn;               ///< pitch and yaw, 2^-16 of a rotation; roll counts half
   std::int32_t body;               ///< head units
-  std::int32_t mouth, brows, eye;  ///< control points, head units; of the eye: lids and pupil
+  std::int32_t mouth, brows, eye;  ///< control points, head units; `eye`: lids and pupil
   std::int32_t time;               ///< weight of the squared distance in time, 1/256
 };
 
@@ -38,7 +38,7 @@ std::int64_t squared(std::int64_t difference, std::int32_t one) {
   return d * d;
 }
 
-/// Controls that a region may look at, in the order of the stream.
+/// Controls that a region may compare, in the order of the stream.
 struct ControlRange {
   FeatureId first, last;
 };

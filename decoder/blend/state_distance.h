@@ -8,10 +8,10 @@
 
 namespace fbs {
 
-inline constexpr std::int64_t kDistanceOne = 1 << 16;  ///< squared distances count 2^-16
+inline constexpr std::int64_t kDistanceOne = 1 << 16;  ///< squared distances are in 2^-16
 
-/// Squared distance, for what a region looks like. Shift and scale of the head do not count: they change
-/// where it is, not how it looks.
+/// Squared distance in the look of a region. Shift and scale of the head do not count: they change where it
+/// is, not how it looks.
 /// @param spacing  mean number of pictures from one pattern to the next, at least 1
 [[nodiscard]] std::int64_t state_distance(Region region, const State& pattern, const State& picture,
                                           std::int32_t spacing);

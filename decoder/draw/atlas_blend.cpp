@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-/// At each point of the skirt the weights are those of the ring's.
+/// Points of the skirt take the weights of the ring's.
 PointWeights with_skirt(const PointWeights& head, std::size_t head_count) {
   PointWeights out = head;
   const auto ring = static_cast<std::ptrdiff_t>(head_count * head.sources);
@@ -15,7 +15,7 @@ PointWeights with_skirt(const PointWeights& head, std::size_t head_count) {
   return out;
 }
 
-/// What an atlas shows in a block.
+/// The samples of an atlas in a block.
 BlockSamples3 block_of(const HeadAtlas& atlas, glm::ivec2 block) {
   const std::array<const Plane*, 3> planes{&atlas.y, &atlas.u, &atlas.v};
   BlockSamples3 out{};

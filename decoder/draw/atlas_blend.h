@@ -1,4 +1,4 @@
-// What all sources show of the head, blended in the atlas. SPEC 10.12 and 11.6. Integers only.
+// The head as all sources show it, blended in the atlas. SPEC 10.12 and 11.6. Integers only.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace fbs {
 
-/// The texture of the head of one picture. Keeps nothing of the picture before.
+/// The texture of the head in one picture. Keeps nothing between pictures.
 class AtlasBlend {
  public:
-  /// Makes ready for a picture.
+  /// Prepares for a picture.
   void begin(const HeadWeights& weights, const AtlasLayout& layout);
 
-  /// Draws what the warped sources show in the blocks of some rows, which may be done by several threads at
-  /// once. Nothing if there are no such sources.
+  /// Draws the warped sources in the blocks of some rows; several threads may do so at once. Does nothing
+  /// without warped sources.
   /// @param first, last  rows of blocks, the last one not included
   /// @param scratch      memory of the thread
   void draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch);

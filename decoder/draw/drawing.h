@@ -1,4 +1,4 @@
-// All that one picture is drawn from.
+// Everything that one picture is drawn from.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace fbs {
 
-/// A pattern, and where it holds what is drawn.
+/// A pattern, and the positions of the mesh in it.
 struct DrawnSource {
   std::array<ConstPlaneView, 3> planes;   ///< Y, U, V
-  const TextureMesh* texture = nullptr;   ///< null: the pattern is shown as it is, not warped
-  const PaddedPicture* padded = nullptr;  ///< of what is warped
-  const HeadAtlas* atlas = nullptr;       ///< of what is warped, unless the scene's head is a plane
+  const TextureMesh* texture = nullptr;   ///< null: the pattern is shown unwarped
+  const PaddedPicture* padded = nullptr;  ///< if warped
+  const HeadAtlas* atlas = nullptr;       ///< if warped, unless the scene's head is a plane
 };
 
 struct Drawing {
@@ -29,14 +29,14 @@ struct Drawing {
   std::vector<DrawnSource> sources;         ///< blend.sources
   std::array<InteriorColours, 3> interior;  ///< of each plane
   std::array<PlaneView, 3> target;          ///< Y, U, V
-  SampleArea luma_area, chroma_area;        ///< of the target that is drawn; what lies outside is undefined
+  SampleArea luma_area, chroma_area;        ///< parts of the target that are drawn; the rest is undefined
 
   [[nodiscard]] const SampleArea& area(PlaneScale scale) const {
     return scale == PlaneScale::kLuma ? luma_area : chroma_area;
   }
 };
 
-/// Those of Y, U, V that have the scale.
+/// The planes of Y, U, V that have the scale.
 template <class T>
 [[nodiscard]] std::span<T> planes_of_scale(std::array<T, 3>& planes, PlaneScale scale) {
   return scale == PlaneScale::kLuma ? std::span<T>(planes).first(1) : std::span<T>(planes).last(2);

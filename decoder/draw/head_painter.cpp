@@ -9,7 +9,7 @@ namespace fbs {
 
 static_assert(kMeshWeightOne == kWeightOne);
 static_assert(kMaxTriangleSources ==
-              kRegionCount * kMaxRegionSources);  // the atlas counts for one that is warped
+              kRegionCount * kMaxRegionSources);  // the atlas counts for one warped source
 
 namespace {
 
@@ -26,8 +26,8 @@ SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleAr
           std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
-/// How much of the mouth's interior shows: as far as the lips have parted since the patterns were seen. The
-/// mean over the warped sources of the mouth.
+/// Opacity of the mouth's interior, which grows with the parting of the lips since the patterns were seen:
+/// the mean over the warped sources of the mouth.
 std::int32_t blended_opacity(const Drawing& d) {
   const auto& weights = d.blend.regions[static_cast<std::size_t>(Region::kMouth)];
   std::int32_t sum = 0, of_all = 0;
@@ -40,7 +40,7 @@ std::int32_t blended_opacity(const Drawing& d) {
   return of_all == 0 ? 0 : (sum + of_all / 2) / of_all;
 }
 
-/// Something of each corner of a triangle.
+/// A value for each corner of a triangle.
 template <class At>
 auto at_corners(const HeadTriangle& triangle, At&& at) {
   return std::array{at(triangle[0]), at(triangle[1]), at(triangle[2])};

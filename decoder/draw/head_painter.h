@@ -14,7 +14,7 @@
 
 namespace fbs {
 
-/// What the triangles of the head are drawn from.
+/// Textures of the head's triangles.
 struct HeadTexture {
   const SceneGeometry& geometry;
   const AtlasLayout& layout;
@@ -38,7 +38,7 @@ class HeadPainter {
   PlaneScale scale_;
   RasterTarget target_;
   std::int32_t opacity_;                ///< of the mouth's interior
-  std::vector<TextureSource> sources_;  ///< of a triangle
+  std::vector<TextureSource> sources_;  ///< of one triangle
 };
 
 }  // namespace fbs

@@ -59,7 +59,7 @@ PictureBlend blend_of_state(const Scene& scene, const State& state) {
   return blend_picture(seen, state);
 }
 
-/// Gives the picture the size of the scene's.
+/// Resizes the picture to the scene's size.
 void fit(Picture& out, const Scene& scene) {
   const Picture& pattern = scene.patterns.front().picture;
   if (out.width() != pattern.width() || out.height() != pattern.height())
@@ -137,7 +137,7 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const AtlasLayout* const layout = has_head ? &scene.geometry->atlas_layout() : nullptr;
   if (has_head) atlas_.begin(weights, *layout);
   const int atlas_rows = has_head ? layout->cover.grid().block_rows : 0;
-  // Rows of the atlas and of the surround, and then the head over it.
+  // Rows of the atlas and of the surround first, then the head over them.
   const SurroundDrawing surround{drawing, grid, field_, weights_};
   const BlockRows rows = block_rows(drawing);
   workers_->run(atlas_rows + rows.last - rows.first, [&](int k, int worker) {

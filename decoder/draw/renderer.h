@@ -1,4 +1,4 @@
-// A picture is a function of (scene, state): this is the function. SPEC 10.
+// A picture is a function of (scene, state): this function. SPEC 10.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace fbs {
 
-/// Draws pictures of a scene. Keeps scratch memory only: what it draws depends on its arguments alone,
-/// whatever the number of threads.
+/// Draws pictures of a scene. Keeps scratch memory only: the result depends on the arguments alone, whatever
+/// the number of threads.
 class Renderer {
  public:
   /// @param threads  that share each picture; 1: the caller's alone
   explicit Renderer(int threads = 1);
 
-  /// Draws the picture of `state` into `out`, whose planes have the sizes of the pattern's.
+  /// Draws the picture of `state` into `out`, whose planes have the pattern's sizes.
   /// @return kInvalidArgument, and `out` untouched, when the scene has no pattern, when its pattern's texture
   ///         mesh is not one of the scene's geometry, or when `out` has another size
   [[nodiscard]] Result<void> render(const Scene& scene, const State& state, const PictureView& out);
 
-  /// The same into a picture, which takes the pattern's size.
+  /// The same into a picture, which is resized to the pattern's size.
   [[nodiscard]] Result<void> render(const Scene& scene, const State& state, Picture& out);
 
   /// Draws the picture of `state` from one pattern alone, warped everywhere, whatever the modes of the state.
@@ -39,7 +39,7 @@ class Renderer {
   [[nodiscard]] Result<void> render_from(std::size_t pattern, const Scene& scene, const State& state,
                                          Picture& out);
 
-  /// Draws an area of the picture's luma; what lies outside is undefined.
+  /// Draws an area of the picture's luma; the rest is undefined.
   [[nodiscard]] Result<void> render_luma(const Scene& scene, const State& state, const SampleArea& area,
                                          const PlaneView& out);
 
@@ -48,10 +48,10 @@ class Renderer {
   void draw(const Scene& scene, const State& state, const PictureBlend& regions, const Targets& targets,
             const SampleArea& luma, const SampleArea& chroma);
 
-  /// Makes cover_, weights_ and field_.
+  /// Computes cover_, weights_ and field_.
   void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
 
-  /// Of a thread.
+  /// Scratch memory of a thread.
   struct Scratch {
     SurroundPainter surround;
     std::vector<BlendedSource> atlas;
@@ -64,7 +64,7 @@ class Renderer {
   AtlasBlend atlas_;
   DepthPlane luma_depth_, chroma_depth_;
   std::unique_ptr<Workers> workers_;
-  std::vector<Scratch> scratch_;  ///< of each
+  std::vector<Scratch> scratch_;  ///< one for each thread
 };
 
 }  // namespace fbs

@@ -22,7 +22,7 @@ SampleBlock own_samples(const ConstPlaneView& plane, glm::ivec2 first) {
   return {plane.data + first.y * plane.stride + first.x, plane.stride};
 }
 
-/// Copies what of a square lies in a plane.
+/// Copies the part of a square that lies in a plane.
 void copy_own(const ConstPlaneView& plane, glm::ivec2 first, int size, std::uint8_t* out) {
   const glm::ivec2 inside = size_inside(first, size, plane);
   if (inside.x > 0) copy_samples(own_samples(plane, first), inside, out, WarpedBlock::kStride);
@@ -45,7 +45,7 @@ BlockSamples3 still_block(const ShownSource& shown) {
   return out;
 }
 
-/// @param k  0..3, row by row
+/// @param k  patch, 0..3, row by row
 /// @param s  place of the source in the rows
 PatchNodes patch_nodes(const BlockNodes& nodes, int k, std::size_t s) {
   const auto at = [&](int column, int line) {

@@ -1,5 +1,5 @@
-// Draws what is round the face, and in scenes without one the picture: patches of all sources, blended.
-// SPEC 10.3 and 11.6.
+// Draws the surround of the face, or the whole picture in a scene without one: patches of all sources,
+// blended. SPEC 10.3 and 11.6.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-/// Of one picture. `field` and `weights` are those of the drawing's sources.
+/// The surround of one picture. `field` and `weights` belong to the drawing's sources.
 struct SurroundDrawing {
   const Drawing& drawing;
   const NodeGrid& grid;
@@ -35,7 +35,7 @@ class SurroundPainter {
   void draw_block(const SurroundDrawing& surround, glm::ivec2 block);
 
   std::vector<BlendedSource> blended_;  ///< of a block
-  std::vector<BlockMemory> memory_;     ///< of each of them
+  std::vector<BlockMemory> memory_;     ///< of each of blended_
 };
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// Threads that share the parts of one picture.
+// Threads that share the work on one picture.
 #pragma once
 
 #include <condition_variable>
@@ -12,7 +12,7 @@ namespace fbs {
 
 class Workers {
  public:
-  /// @param count  threads, at least 1: that which calls run(), and as many more as the system will begin
+  /// @param count  threads, at least 1: the one that calls run(), and others as far as the system permits
   explicit Workers(int count = 1);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -21,8 +21,7 @@ class Workers {
   [[nodiscard]] int count() const { return 1 + static_cast<int>(threads_.size()); }
 
   /// Calls job(k, worker) once for each k in 0..jobs - 1, in any order, and returns when all are done. Jobs
-  /// that run at the same time have different workers, 0..count() - 1. What a job throws is thrown here,
-  /// once.
+  /// that run at the same time have different workers, 0..count() - 1. Rethrows one exception if jobs throw.
   using Job = std::function<void(int k, int worker)>;
   void run(int jobs, const Job& job);
 
@@ -33,11 +32,11 @@ class Workers {
   std::vector<std::thread> threads_;
   std::mutex mutex_;
   std::condition_variable begun_, ended_;
-  // Of the call that runs; all under the mutex.
+  // The current call; all under the mutex.
   const Job* job_ = nullptr;
   int jobs_ = 0, next_ = 0;
-  int working_ = 0;    ///< threads that have not finished it
-  unsigned call_ = 0;  ///< its number
+  int working_ = 0;    ///< threads that have not finished the call
+  unsigned call_ = 0;  ///< number of the call
   std::exception_ptr fault_;
   bool stops_ = false;
 };

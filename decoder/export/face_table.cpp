@@ -13,7 +13,7 @@ namespace fbs {
 namespace {
 
 constexpr double kDegreesPerTurn = 360;
-constexpr int kPixelDigits = 3, kTimeDigits = 6, kWeightDigits = 4;  ///< behind the decimal point
+constexpr int kPixelDigits = 3, kTimeDigits = 6, kWeightDigits = 4;  ///< after the decimal point
 
 std::string number(double v, int digits) {
   std::array<char, 48> text{};
@@ -22,7 +22,7 @@ std::string number(double v, int digits) {
   return out.find_first_of("123456789") == std::string::npos && out.front() == '-' ? out.substr(1) : out;
 }
 
-/// A face's numbers in the order of the columns, and what they are called in CSV.
+/// A number of a face in the order of the columns, and its name in CSV.
 struct Column {
   std::string name;
   std::string value;
@@ -61,7 +61,7 @@ std::vector<Column> blendshape_columns(const FaceNumbers& face) {
   return out;
 }
 
-/// Of the time and how far the row is to be believed.
+/// Columns for the time and for how far the row can be trusted.
 std::vector<Column> trust_columns(const FaceRow& row) {
   return {{"timestamp", number(row.seconds, kTimeDigits)},
           {"confidence", number(row.confidence, kWeightDigits)},
@@ -78,7 +78,7 @@ void append_csv(std::string& line, const std::vector<Column>& columns, std::stri
   for (const Column& c : columns) line.append(",").append(c.*what);
 }
 
-/// A line of CSV: the columns that programs know by their place come first.
+/// A line of CSV: the columns that programs find by their place come first.
 std::string csv_line(const FaceRow& row, std::string Column::*what, std::string first) {
   FaceNumbers face = row.face ? *row.face : no_numbers();
   const bool lacks = !row.face && what == &Column::value;

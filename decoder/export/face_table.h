@@ -13,8 +13,7 @@
 
 namespace fbs {
 
-/// What a table says of a face. Angles and axes are those of HeadPose (SPEC 8.1): x right, y down, z away
-/// from the viewer.
+/// The numbers of a face. Angles and axes as in HeadPose (SPEC 8.1): x right, y down, z away from the viewer.
 struct FaceNumbers {
   std::array<double, 3> rotation_deg{};  ///< pitch, yaw, roll
   glm::dvec2 translation_px{};           ///< of the head's origin, from the picture's upper left corner
@@ -24,7 +23,7 @@ struct FaceNumbers {
   std::vector<double> blendshapes;  ///< weights of blendshape_names()
 };
 
-/// Makes the numbers of states; keeps what depends on the head alone.
+/// Computes the numbers of states; caches what depends on the head alone.
 class FaceMeasure {
  public:
   [[nodiscard]] FaceNumbers operator()(const Geometry& head, const State& state);
@@ -43,12 +42,12 @@ struct FaceRow {
 
 enum class TableFormat : std::uint8_t { kCsv, kJson };
 
-/// A table piece by piece: begin, rows, end.
+/// Writes a table piece by piece: begin, rows, end.
 class FaceTable {
  public:
   explicit FaceTable(TableFormat format) : format_(format) {}
 
-  /// The header line, or what comes before the list of frames.
+  /// The header line, or the text before the list of frames.
   [[nodiscard]] std::string begin(const VideoFormat& video) const;
   [[nodiscard]] std::string row(const FaceRow& row);
   [[nodiscard]] std::string end() const;

@@ -9,10 +9,10 @@
 namespace fbs {
 namespace {
 
-// Tolerances: what a unit of the state's integers makes, so that rounding in the stream's own interpolation
-// does not count.
+// Tolerances: the effect of one unit of the state's integers, so that rounding in the stream's own
+// interpolation does not count.
 constexpr double kTranslationTolerance = 1.0 / (1 << kScreenOneLog2);  ///< pixels
-constexpr double kRotationTolerance = 1e-4;  ///< of a quaternion's numbers: two units of 2^-16 turn
+constexpr double kRotationTolerance = 1e-4;  ///< of a quaternion's components: two units of 2^-16 turn
 constexpr double kScaleTolerance = 2e-4;     ///< relative: 2^-12 octave
 
 double seconds(std::uint64_t ticks) {
@@ -31,7 +31,7 @@ struct Curve {
   }
 };
 
-/// A channel with those keyframes of the curve that count.
+/// A channel with the keyframes of the curve that matter.
 /// @param type  TINYGLTF_TYPE_... of the values
 void add_channel(GltfBuffer& buffer, const Curve& curve, int node, const char* path, int type,
                  const char* interpolation, tinygltf::Animation& animation) {
@@ -39,7 +39,7 @@ void add_channel(GltfBuffer& buffer, const Curve& curve, int node, const char* p
   const std::size_t size = curve.tolerance.size();
   for (const std::size_t key : find_keyframes(curve.times, curve.values, curve.tolerance)) {
     const auto time = static_cast<float>(curve.times[key]);
-    if (!times.empty() && time <= times.back()) continue;  // hours into a recording floats are that coarse
+    if (!times.empty() && time <= times.back()) continue;  // floats hours into a recording are this coarse
     times.push_back(time);
     for (std::size_t i = 0; i < size; ++i) values.push_back(static_cast<float>(curve.values[key * size + i]));
   }
@@ -55,8 +55,7 @@ void add_channel(GltfBuffer& buffer, const Curve& curve, int node, const char* p
   animation.channels.push_back(channel);
 }
 
-/// Of two quaternions for the same rotation the one nearer to `before`, so that interpolation goes the short
-/// way.
+/// The one nearer to `before` of a rotation's two quaternions, so that interpolation goes the short way.
 glm::dquat nearer(const glm::dquat& q, const glm::dquat& before) {
   return glm::dot(q, before) < 0 ? -q : q;
 }
@@ -92,7 +91,7 @@ void animate_head(GltfBuffer& buffer, const RecordedHead& head, const HeadMorphs
 void animate_visibility(GltfBuffer& buffer, const HeadRecording& recording, std::size_t head, int node,
                         tinygltf::Animation& animation) {
   Curve shown;
-  shown.tolerance.assign(3, -1);  // steps: every keyframe counts
+  shown.tolerance.assign(3, -1);  // steps: keep every keyframe
   const auto add = [&](std::uint64_t time, bool visible) {
     const double scale = visible ? 1 : 0;
     shown.add(seconds(time), {scale, scale, scale});

@@ -1,4 +1,4 @@
-// The binary part of a glTF model: bytes, views of them, and accessors that say what they are.
+// The binary part of a glTF model: bytes, views of them, and the accessors that describe them.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace fbs {
 
-/// Appends to buffer 0 of a model. All functions return the index of what they have added.
+/// Appends to buffer 0 of a model. All functions return the index of the accessor or view added.
 class GltfBuffer {
  public:
-  /// @param model  must outlive the object; its first buffer is made
+  /// @param model  must outlive the object; its first buffer is created
   explicit GltfBuffer(tinygltf::Model& model);
 
   /// @param target  TINYGLTF_TARGET_...; 0: none, as for images and animations
@@ -25,19 +25,19 @@ class GltfBuffer {
   int add_vectors(std::span<const glm::vec2> values);
   /// Corners of triangles.
   int add_indices(std::span<const std::uint16_t> corners);
-  /// The same without bytes: an extension holds them.
+  /// The same without bytes, which an extension holds.
   int add_absent(std::size_t count, int component_type, int type);
 
-  /// Displacements of at most 65535 vertices, stored sparsely where that takes fewer bytes; all zero: without
-  /// any.
+  /// Displacements of at most 65535 vertices, stored sparsely where that takes fewer bytes; if all are zero,
+  /// without data.
   int add_displacements(std::span<const glm::vec3> values);
   /// Minimum and maximum of each coordinate.
   void set_bounds(int accessor, std::span<const glm::vec3> values);
 
-  /// Adds what the sparse displacements share. Once, last.
+  /// Adds the data that sparse displacements share. Call once, last.
   void finish_displacements();
 
-  /// Times or values of an animation, one after the other.
+  /// Times or values of an animation, concatenated.
   /// @param type  TINYGLTF_TYPE_...
   int add_animated(std::span<const float> values, int type, bool bounds);
 

@@ -19,7 +19,7 @@ void use_extension(tinygltf::Model& model, const char* name, bool required) {
       list->emplace_back(name);
 }
 
-/// Its colours are those of the picture, whatever light a viewer has.
+/// A material with the picture's own colours, whatever light a viewer has.
 int add_material(tinygltf::Model& model, const std::string& name, int texture) {
   tinygltf::Material material;
   material.name = name;
@@ -54,7 +54,7 @@ std::vector<glm::vec3> floats_of(const std::vector<glm::dvec3>& v) {
   return {v.begin(), v.end()};
 }
 
-/// IEC 61966-2-1, as colours of vertices are linear.
+/// IEC 61966-2-1; vertex colours are linear.
 float linear(std::uint8_t srgb) {
   const double v = srgb / 255.0;
   return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
@@ -63,7 +63,7 @@ float linear(std::uint8_t srgb) {
 std::vector<std::map<std::string, int>> add_targets(GltfBuffer& buffer, const HeadMorphs& morphs,
                                                     const std::vector<std::uint16_t>& vertices) {
   std::vector<std::map<std::string, int>> out;
-  int still = -1;  // one accessor for all that move nothing here
+  int still = -1;  // one accessor for all targets that move nothing here
   for (const MorphTarget& target : morphs.targets()) {
     std::vector<glm::vec3> moved;
     moved.reserve(vertices.size());
@@ -76,7 +76,7 @@ std::vector<std::map<std::string, int>> add_targets(GltfBuffer& buffer, const He
   return out;
 }
 
-/// Puts the attributes of a primitive and its indices into Draco's bitstream.
+/// Encodes the attributes of a primitive and its indices with Draco.
 Result<void> compress(tinygltf::Model& model, GltfBuffer& buffer, const MeshAttributes& mesh,
                       const std::vector<std::uint16_t>& corners, tinygltf::Primitive& primitive) {
   auto draco = encode_draco_mesh(mesh, corners, 1.0 / kUnitsPerEyeDistance);
@@ -121,7 +121,7 @@ Result<tinygltf::Primitive> face_primitive(tinygltf::Model& model, GltfBuffer& b
 }
 
 /// The triangles between the lips with vertices of their own, whose colours run from the upper lip's to the
-/// lower's as the decoder's do.
+/// lower's as in the decoder.
 tinygltf::Primitive mouth_primitive(GltfBuffer& buffer, const RecordedHead& head, const HeadLook& look,
                                     const HeadMorphs& morphs, const std::vector<std::uint16_t>& corners) {
   std::vector<std::uint16_t> vertices(corners);

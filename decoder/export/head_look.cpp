@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-constexpr int kMargin = 2;  ///< samples; bilinear filters look one farther
+constexpr int kMargin = 2;  ///< samples; bilinear filters read one farther
 
 }  // namespace
 

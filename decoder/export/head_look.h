@@ -1,4 +1,4 @@
-// How a recorded head looks: the part of its pattern that its model shows, and the inside of its mouth.
+// The look of a recorded head: the part of the pattern that its model shows, and the inside of its mouth.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// Samples of a pattern.
+/// An area of a pattern, samples.
 struct TextureArea {
   int left = 0, top = 0;
   int width = 0, height = 0;  ///< at least 1
@@ -18,25 +18,25 @@ struct TextureArea {
 
 using Srgb = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
-/// What only a program that knows image files can make.
+/// The part of a look that needs a program that knows image files.
 struct HeadLook {
   std::vector<std::uint8_t> png;             ///< of texture_area()
   std::array<Srgb, kInteriorCount> mouth{};  ///< mouth_colours()
 };
 
-/// Colours between parted lips at the upper lip, half way and at the lower lip: the decoder's own, with the
-/// light that the recording adds to them on average, where the mouth is open.
+/// Colours between parted lips at the upper lip, half way and at the lower lip: the decoder's own, plus the
+/// light that the recording adds on average where the mouth is open.
 [[nodiscard]] std::array<YuvColour, kInteriorCount> mouth_colours(const RecordedHead& head);
 
-/// The face in the pattern and a margin for filters. It lies in the picture.
+/// The face in the pattern, with a margin for filters; within the picture.
 [[nodiscard]] TextureArea texture_area(const RecordedHead& head);
 
-/// Where the vertices lie in the area, 0..1 from its upper left corner: the projected vertices of the
-/// pattern.
+/// Texture coordinates of the vertices, 0..1 from the area's upper left corner: the vertices as projected in
+/// the pattern.
 [[nodiscard]] std::vector<glm::dvec2> texture_coordinates(const RecordedHead& head, const TextureArea& area);
 
-/// Whether the pattern itself shows the inside of the mouth, by as much as makes the decoder's own interior
-/// opaque. Otherwise the triangles between the lips have no area in it.
+/// Whether the pattern itself shows the inside of the mouth, parted far enough to make the decoder's own
+/// interior opaque. Otherwise the triangles between the lips have no area in the texture.
 [[nodiscard]] bool pattern_shows_mouth(const RecordedHead& head);
 
 /// Triangles of the model, counter-clockwise seen from the front.

@@ -12,8 +12,8 @@
 namespace fbs {
 namespace {
 
-constexpr double kUnit = 1.0 / kUnitsPerEyeDistance;  ///< of the head, eye distances
-constexpr double kPupilStep = 0.1;                    ///< of pupilRightDown at a weight of one, eye distances
+constexpr double kUnit = 1.0 / kUnitsPerEyeDistance;  ///< head unit, in eye distances
+constexpr double kPupilStep = 0.1;                    ///< pupilRightDown at a weight of one, eye distances
 
 double radians(std::int32_t turn_2_16) {
   return turn_2_16 * (2 * std::numbers::pi / 65536);
@@ -30,7 +30,7 @@ double size_of(const MorphTarget& target) {
 
 ModelPose model_pose(const State& state) {
   const HeadPose pose = head_pose(state);
-  // Turning the axes by half a turn about x reverses turns about y and z.
+  // Half a turn of the axes about x reverses turns about y and z.
   const glm::dquat pitch = glm::angleAxis(radians(pose.pitch), glm::dvec3(1, 0, 0));
   const glm::dquat yaw = glm::angleAxis(-radians(pose.yaw), glm::dvec3(0, 1, 0));
   const glm::dquat roll = glm::angleAxis(-radians(pose.roll), glm::dvec3(0, 0, 1));

@@ -16,7 +16,7 @@ namespace fbs {
   return {p.x, -p.y, -p.z};
 }
 
-/// Places the head's vertices, in eye distances and model axes, in the picture, in pixels and model axes with
+/// Maps the head's vertices, in eye distances and model axes, to the picture, in pixels and model axes with
 /// the origin in its upper left corner: scale, then rotation, then translation.
 struct ModelPose {
   glm::dquat rotation;
@@ -28,28 +28,27 @@ struct ModelPose {
 /// Vertices of the adapted head, eye distances, model axes.
 [[nodiscard]] std::vector<glm::dvec3> model_vertices(const Geometry& geometry);
 
-/// Of length one, from the triangles at each vertex weighted by their areas; towards the viewer where there
-/// are none.
+/// Unit normals from the triangles at each vertex, weighted by area; towards the viewer where there are none.
 [[nodiscard]] std::vector<glm::vec3> vertex_normals(const std::vector<glm::dvec3>& vertices,
                                                     std::span<const std::uint16_t> corners);
 
-/// A shape of a model: what it adds to the vertices at a weight of one, eye distances, model axes.
+/// A shape of a model: displacement of the vertices at a weight of one, eye distances, model axes.
 struct MorphTarget {
   std::string name;
   std::vector<glm::dvec3> displacements;  ///< of each vertex
 };
 
-/// The expression of a head as morph targets and their weights. To those of ExpressionTargets it adds what
-/// keeps each pupil between its lids (SPEC 8.6), which is not linear in the control points: a target that
-/// moves only that vertex, pupilRightDown and pupilLeftDown.
+/// The expression of a head as morph targets and their weights. Adds two to ExpressionTargets, pupilRightDown
+/// and pupilLeftDown: each moves only the pupil's vertex and keeps it between its lids (SPEC 8.6), which is
+/// not linear in the control points.
 class HeadMorphs {
  public:
   explicit HeadMorphs(const Geometry& geometry);
 
   [[nodiscard]] const std::vector<MorphTarget>& targets() const { return targets_; }
-  /// @return of each target: with them the model's vertices are those of deform(), to one head unit
+  /// @return one for each target: with them the model's vertices match deform() to one head unit
   [[nodiscard]] std::vector<double> weights(const State& state) const;
-  /// What moves no vertex by more than one head unit, for each target.
+  /// For each target, the largest weight that moves no vertex by more than one head unit.
   [[nodiscard]] std::vector<double> tolerances() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a stream says of its heads, gathered picture by picture, for models with animation.
+// The heads of a stream, gathered picture by picture, for models with animation.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace fbs {
 
-/// A head at the time of a picture.
+/// The state of a head at the time of a picture.
 struct RecordedState {
   std::uint64_t time = 0;  ///< 1/90000 s from the first picture of the recording
   State state;
 };
 
-/// A person, or the same one whose head was measured again.
+/// A person, or the same person whose head was measured again.
 struct RecordedHead {
   Geometry geometry;
-  Picture pattern;                    ///< the first in which it is shown
+  Picture pattern;                    ///< the first that shows it
   State seen;                         ///< of `pattern`
   MouthInterior mouth;                ///< colours between parted lips
   std::vector<RecordedState> states;  ///< times ascend; at least one
 };
 
-/// A time for which one head, or none, is shown.
+/// A period in which one head, or none, is shown.
 struct ShownHead {
   static constexpr std::size_t kNone = SIZE_MAX;
-  std::uint64_t begin = 0;   ///< as RecordedState::time; until the next one's, or the end
+  std::uint64_t begin = 0;   ///< as RecordedState::time; until the next begins, or the end
   std::size_t head = kNone;  ///< index into HeadRecording::heads()
 };
 
-/// Scenes whose heads are equal, as after a key interval or a cut within a conversation, share one head: it
+/// Scenes with equal heads, as after a key interval or a cut within a conversation, share one head, which
 /// keeps its first pattern.
 class HeadRecording {
  public:
@@ -42,17 +42,18 @@ class HeadRecording {
   /// @param duration  1/90000 s
   void add(const Scene& scene, const State& state, std::uint64_t time, std::uint32_t duration);
 
-  /// In the order in which they appear; empty if no scene has a face.
+  /// Heads in order of appearance; empty if no scene has a face.
   [[nodiscard]] const std::vector<RecordedHead>& heads() const { return heads_; }
-  /// What is shown when, from time 0 on; neighbours differ.
+  /// Which head is shown when, from time 0 on; neighbours differ.
   [[nodiscard]] const std::vector<ShownHead>& shown() const { return shown_; }
-  /// Of all pictures, 1/90000 s from the first one.
+  /// Times of all pictures, 1/90000 s from the first one.
   [[nodiscard]] const std::vector<std::uint64_t>& times() const { return times_; }
   /// 1/90000 s, from the first picture to the end of the last one.
   [[nodiscard]] std::uint64_t duration() const { return end_ - first_; }
-  /// Pixels per eye distance of the first head in its first state: the size of models. Not without heads.
+  /// Pixels per eye distance of the first head in its first state: sets the size of models. Not without
+  /// heads.
   [[nodiscard]] double first_scale() const;
-  /// Of the first picture.
+  /// Format of the first picture.
   [[nodiscard]] const VideoFormat& format() const { return format_; }
 
  private:

@@ -6,7 +6,7 @@
 namespace fbs {
 namespace {
 
-/// The slopes of lines from a keyframe that pass within the tolerance of all values since.
+/// Slopes of the lines from a keyframe that pass within the tolerance of all values since.
 class Door {
  public:
   explicit Door(std::span<const double> tolerance)

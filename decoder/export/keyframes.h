@@ -1,4 +1,4 @@
-// Values over time as keyframes, without those that linear interpolation gives anyway.
+// Values over time as keyframes, without those that linear interpolation reproduces.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace fbs {
 
-/// Finds the keyframes of a curve in one pass: a run goes on as long as a line from its first value to the
-/// last one stays within the tolerance of all between (the "swinging door" of data historians, Bristol 1990).
+/// Finds the keyframes of a curve in one pass: a run continues as long as a line from its first value to its
+/// last stays within the tolerance of all between (the "swinging door" of data historians, Bristol 1990).
 /// @param times      s, ascending
-/// @param values     `size` numbers for each time, one after the other
-/// @param tolerance  of each of the `size` numbers; 0: exactly
+/// @param values     `size` numbers for each time, concatenated
+/// @param tolerance  for each of the `size` numbers; 0: exact
 /// @return indices of times, ascending; the first and the last are among them
 [[nodiscard]] std::vector<std::size_t> find_keyframes(std::span<const double> times,
                                                       std::span<const double> values,

@@ -61,7 +61,7 @@ std::string obj_of(const RecordedHead& head, const State& state, double scale_of
 }
 
 std::string mtl_of(const HeadLook& look, std::string_view texture, std::string_view material) {
-  // One colour: OBJ has none for vertices that all programs read.
+  // One colour: OBJ has no vertex colours that all programs read.
   std::array<double, 3> mouth{};
   for (std::size_t c = 0; c < mouth.size(); ++c) mouth[c] = look.mouth[kInteriorMiddle][c] / 255.0;
   std::string out = "newmtl " + name(material, "_face") + "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd " +

@@ -9,8 +9,8 @@
 
 namespace fbs {
 
-/// Vertices of the head in metres as write_gltf() places them, with texture coordinates and normals; the
-/// inside of the mouth has a material of its own.
+/// Vertices of the head in metres, placed as write_gltf() does, with texture coordinates and normals; the
+/// inside of the mouth has its own material.
 /// @param scale_of_first  pixels per eye distance in the recording's first state: fixes the size of a pixel
 /// @param format          of the recording
 /// @param library         file name of the materials

@@ -1,4 +1,4 @@
-// The picture in the space of models: metres, y up, z towards the viewer, the origin in its middle.
+// The picture in model space: metres, y up, z towards the viewer, origin in its middle.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace fbs {
 
-/// Distance of the eyes in the model: that of people on average, m.
+/// Distance of the eyes in the model: the human average, m.
 inline constexpr double kEyeDistanceMetres = 0.063;
 
 struct PictureFrame {
@@ -23,7 +23,7 @@ struct PictureFrame {
   }
 
   [[nodiscard]] glm::dvec3 scale() const { return {pixel * aspect, pixel, pixel}; }
-  /// Of the picture's upper left corner, m.
+  /// The picture's upper left corner, m.
   [[nodiscard]] glm::dvec3 corner() const { return {-width / 2 * pixel * aspect, height / 2 * pixel, 0}; }
 
   /// @param p  pixels from the upper left corner, y up

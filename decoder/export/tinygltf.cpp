@@ -1,4 +1,4 @@
 // tinygltf, compiled here and hidden from the dynamic linker: Debian's libdraco holds another version under
-// the same names, which would take the place of a shared library's.
+// the same names, which would replace this one in a shared library.
 #define TINYGLTF_IMPLEMENTATION
 #include "decoder/export/tinygltf.h"

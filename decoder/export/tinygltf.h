@@ -1,7 +1,7 @@
-// tinygltf for models in memory: include this and not its own header, since the options must be the same
+// tinygltf for models in memory. Include this instead of its own header: the options must be the same
 // everywhere.
 #pragma once
 
-#define TINYGLTF_NO_STB_IMAGE  // images come and go as PNG files in memory
+#define TINYGLTF_NO_STB_IMAGE  // images are PNG files in memory
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>

@@ -47,7 +47,7 @@ const T* item(const std::vector<T>& items, int index) {
              : nullptr;
 }
 
-/// The elements of an accessor, one after the other.
+/// The elements of an accessor in order.
 class Elements {
  public:
   static std::optional<Elements> of(const Model& model, int accessor, int type) {
@@ -90,7 +90,7 @@ class Elements {
   int component_type_;
 };
 
-/// Head frame; a coordinate out of range becomes one that make_wire_frame() refuses.
+/// Converts to the head frame; make_wire_frame() refuses what becomes of a coordinate out of range.
 glm::ivec3 head_units(const std::array<float, 3>& p) {
   const auto units = [](float value) {
     const float u = value * static_cast<float>(kUnitsPerEyeDistance);
@@ -130,13 +130,13 @@ Result<void> read_mesh(const Model& model, const tinygltf::Primitive& primitive,
   return {};
 }
 
-/// Null where there is no such member.
+/// Null without such a member.
 const Value& member(const Value& object, const char* key) {
   static const Value nothing;
   return object.IsObject() ? object.Get(key) : nothing;
 }
 
-/// Reads whole numbers out of extras, and remembers whether all were there and in range.
+/// Reads whole numbers out of extras, and records whether all were present and in range.
 class Extras {
  public:
   template <class T>
@@ -170,7 +170,7 @@ class Extras {
     return value.IsArray() ? value.Get<Value::Array>() : nothing;
   }
 
-  /// Whether all that was read since the last question was there.
+  /// Whether everything read since the last call was there.
   bool good() { return std::exchange(good_, true); }
 
  private:

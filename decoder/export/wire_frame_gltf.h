@@ -1,4 +1,4 @@
-// Reads a wire-frame out of a glTF file, as common/generic_head.gltf describes one: docs/wire-frames.md.
+// Reads a wire-frame from a glTF file like common/generic_head.gltf: docs/wire-frames.md.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 namespace fbs {
 
 /// The first primitive of the first mesh, in eye distances, y up and z toward the viewer; `extras` of the
-/// mesh says what its vertices are.
+/// mesh gives the meaning of its vertices.
 /// @param name  .glb is binary, anything else is JSON
 /// @return kIo               the file cannot be read, or is not glTF
 ///         kInvalidArgument  it has no mesh with triangles, or no such extras, or make_wire_frame() refuses

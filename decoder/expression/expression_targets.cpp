@@ -8,18 +8,19 @@
 namespace fbs {
 namespace {
 
-/// The inner lips say whether a mouth is open, which the outer ones, drawn out by a beard or a shadow, should
-/// not overrule.
+/// The inner lips say whether a mouth is open; the outer ones, drawn out by a beard or a shadow, must not
+/// overrule them.
 constexpr double kInnerLipMetric = 4;
 
-/// Of a control point itself, so that no direction has a length of nothing; a vertex on its feature has about
-/// one.
+/// Metric of a control point itself, so that no direction has length zero; a vertex on the control's feature
+/// weighs about one.
 constexpr double kControlMetric = 1e-3;
 
-/// Largest offset of a control point in a detail at a weight of one, head units.
+/// Largest control point offset in a detail at a weight of one, head units.
 constexpr double kDetailSize = kUnitsPerEyeDistance / 16.0;
 
-/// What is left of a vector of length one in directions that are used already; below this it is rounding.
+/// A unit vector with less than this left outside the directions already used depends on them: the rest is
+/// rounding.
 constexpr double kDependent = 1e-6;
 
 /// @param a, b  x0, y0, x1 ...
@@ -32,7 +33,7 @@ double product(const std::vector<std::vector<double>>& metric, const std::vector
   return sum;
 }
 
-/// What the vertices on the features say of two control points: the product of their displacements.
+/// Metric of two control points: the product of their displacements of the vertices on the features.
 std::vector<std::vector<double>> vertex_metric(const WireFrame& head, std::size_t first, std::size_t count) {
   std::vector<std::vector<double>> metric(count, std::vector<double>(count));
   for (std::size_t i = 0; i < count; ++i) metric[i][i] = kControlMetric;
@@ -63,8 +64,8 @@ ControlOffsets offsets_of(const std::vector<double>& numbers, std::size_t first)
   return out;
 }
 
-/// Gram-Schmidt: takes the directions away from `v`, twice against rounding.
-/// @return its coordinates in them, and the length of what is left
+/// Gram-Schmidt: removes the directions from `v`, twice to limit rounding.
+/// @return coordinates of `v` in the directions, and the length of the remainder
 std::vector<double> orthogonalise(const std::vector<std::vector<double>>& metric,
                                   const std::vector<std::vector<double>>& directions,
                                   std::vector<double>& v) {
@@ -83,7 +84,7 @@ void scale_by(std::vector<double>& v, double factor) {
   for (double& x : v) x *= factor;
 }
 
-/// Of a detail at a weight of one in units of its orthonormal direction.
+/// Scale of a detail at a weight of one, in units of its orthonormal direction.
 double detail_scale(const std::vector<double>& direction) {
   double largest = 0;
   for (const double x : direction) largest = std::max(largest, std::abs(x));

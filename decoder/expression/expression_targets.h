@@ -1,8 +1,8 @@
 // The expression of a state as weights of named shapes ("blendshapes"), for animation programs.
 //
-// The shapes together reach every expression that a stream can code, and the weights give the control points
-// of the state exactly. Names are those of ARKit's ARFaceAnchor.BlendShapeLocation where a shape means the
-// same movement; left and right are the subject's own.
+// Together the shapes reach every expression that a stream can code, and the weights give the control points
+// of the state exactly. Names are from ARKit's ARFaceAnchor.BlendShapeLocation where a shape means the same
+// movement; left and right are the subject's own.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ using ControlOffsets = std::array<glm::dvec2, kControlCount>;
 
 struct ExpressionTarget {
   std::string name;
-  bool detail = false;       ///< without a meaning of its own: what the named shapes leave over
+  bool detail = false;       ///< without a meaning of its own: part of what the named shapes leave over
   ControlOffsets offsets{};  ///< at a weight of one
 };
 
@@ -32,12 +32,12 @@ struct ExpressionTarget {
 ///
 /// A named movement at a weight of one is as large as people make it: the jaw opens by 0.6 eye distances, an
 /// eyelid closes the eye, the pupil turns by 30 degrees. Weights are 0 in the adapted, expressionless face.
-/// Those of shapes that have an opposite (mouthSmile and mouthFrown, eyeBlink and eyeWide, eyeLookIn and
+/// Weights of shapes with an opposite (mouthSmile and mouthFrown, eyeBlink and eyeWide, eyeLookIn and
 /// eyeLookOut ...) are never negative; jawOpen, mouthUpperUp, browInnerUpAsymmetry, eyeSquint and the details
 /// may be.
 class ExpressionTargets {
  public:
-  /// @param head  decides how far an eyelid has to go to close the eye
+  /// @param head  determines how far an eyelid goes to close the eye
   explicit ExpressionTargets(const Geometry& head);
 
   /// The named shapes first, then the details.
@@ -45,12 +45,13 @@ class ExpressionTargets {
   /// Number of shapes that have a meaning.
   [[nodiscard]] std::size_t named_count() const { return named_count_; }
 
-  /// @return of each target; the offsets at these weights sum to the state's to within rounding of doubles
+  /// @return one for each target; the offsets at these weights sum to the state's to within rounding of
+  /// doubles
   [[nodiscard]] std::vector<double> weights(const State& state) const;
 
  private:
-  /// Directions of a part of the face that are orthonormal in its metric. The first ones span the movements
-  /// with a name, the others the rest.
+  /// Directions of a part of the face, orthonormal in its metric. The first ones span the named movements,
+  /// the others the rest.
   struct Part {
     std::size_t first = 0;                         ///< control point
     std::vector<std::vector<double>> metric;       ///< of its control points, in x and in y
@@ -58,7 +59,7 @@ class ExpressionTargets {
     std::vector<std::vector<double>>
         triangle;  ///< row k: movement k in the first k + 1 orthonormal directions
   };
-  /// What the part's movements amount to, and then its details.
+  /// Amounts of the part's movements, then of its details.
   [[nodiscard]] static std::vector<double> coefficients(const Part& part, const State& state);
   static Part make_part(const WireFrame& head, const ExpressionPart& expression,
                         std::span<const ControlOffsets> movements);
@@ -71,18 +72,18 @@ class ExpressionTargets {
 /// Names of the named shapes, in the order of ExpressionTargets.
 [[nodiscard]] const std::vector<std::string>& blendshape_names();
 
-/// Weights of the named shapes alone, of states of one head after another; keeps what depends on the head.
+/// Weights of the named shapes alone, for states of one head after another; caches what depends on the head.
 class BlendshapeMeasure {
  public:
   /// @return as many as blendshape_names()
   [[nodiscard]] std::vector<double> operator()(const Geometry& head, const State& state);
 
  private:
-  std::optional<Geometry> head_;  ///< that targets_ are for
+  std::optional<Geometry> head_;  ///< head of targets_
   std::optional<ExpressionTargets> targets_;
 };
 
-/// How far the shape moves a vertex at a weight of one, head units; z is zero.
+/// Displacement of a vertex by the shape at a weight of one, head units; z is zero.
 [[nodiscard]] glm::dvec2 displacement(const ExpressionTarget& target, const WireFrame& head,
                                       std::size_t vertex);
 

@@ -18,14 +18,14 @@ constexpr double kMouthShift = 0.2 * kEye;
 constexpr double kBrowRise = 0.2 * kEye;
 const double kGazeReach = kEyeballRadius * std::numbers::pi / 6;
 
-/// Share of a control point of its feature in a movement.
+/// How much of a movement a control point takes.
 struct Share {
   FeatureId feature;
-  std::size_t control;  ///< of the feature
+  std::size_t control;  ///< within its feature
   double amount;
 };
 
-/// The same displacement of several control points.
+/// One displacement applied to several control points.
 ControlOffsets moved(glm::dvec2 by, std::initializer_list<Share> shares) {
   ControlOffsets out{};
   for (const Share& s : shares) out[feature(s.feature).first_control + s.control] += s.amount * by;
@@ -78,7 +78,7 @@ double mean_y(const Geometry& head, FeatureId id) {
   return sum / static_cast<double>(vertices.size());
 }
 
-/// Both control points of a lid move by what brings its vertices `reach` down.
+/// Moves both control points of a lid so that its vertices move down by `reach`.
 ControlOffsets lid_movement(const WireFrame& head, FeatureId lid, double reach) {
   const Feature& f = head.feature(lid);
   double response = 0;
@@ -89,7 +89,7 @@ ControlOffsets lid_movement(const WireFrame& head, FeatureId lid, double reach) 
   return moved({0, reach / response}, {{lid, 0, 1}, {lid, 1, 1}});
 }
 
-/// An eye whose lids touch in the adapted head still has lids that can move.
+/// Opening of an eye; positive even if the lids touch in the adapted head, since they can still move.
 double eye_opening(const Geometry& head, FeatureId upper, FeatureId lower) {
   return std::max(mean_y(head, lower) - mean_y(head, upper), 0.05 * kEye);
 }
@@ -103,13 +103,13 @@ std::vector<ControlOffsets> gaze_movements() {
   return out;
 }
 
-constexpr double kWide = 0.5;  ///< eyeWide raises the lid by so much of what eyeBlink lowers it by
+constexpr double kWide = 0.5;  ///< eyeWide raises the lid by this share of what eyeBlink lowers it
 
 double positive(double v) {
   return std::max(v, 0.0);
 }
 
-/// A smile pulls the corner up and out at once; what is left of the outward movement stretches or puckers.
+/// A smile pulls the corner up and out at once; the remaining outward movement stretches or puckers.
 std::vector<double> mouth_weights(const std::vector<double>& a) {
   const double smile_right = positive(a[kCornerUpRight]), smile_left = positive(a[kCornerUpLeft]);
   const double out_right = a[kCornerOutRight] - smile_right, out_left = a[kCornerOutLeft] - smile_left;
@@ -128,7 +128,7 @@ std::vector<double> mouth_weights(const std::vector<double>& a) {
           positive(a[kMouthLeft])};
 }
 
-/// A brow is down as far as its higher end; what is left raises the ends.
+/// The higher end tells how far a brow is down; the remainder raises the ends.
 std::vector<double> brow_weights(const std::vector<double>& a) {
   const double down_right = positive(-std::min(a[kInnerUpRight], a[kOuterUpRight]));
   const double down_left = positive(-std::min(a[kInnerUpLeft], a[kOuterUpLeft]));

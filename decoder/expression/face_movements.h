@@ -13,7 +13,7 @@ namespace fbs {
 
 using ControlOffsets = std::array<glm::dvec2, kControlCount>;
 
-/// Movements that are independent of each other, of one part of the face.
+/// Independent movements of one part of the face.
 enum MouthMovement : std::uint8_t {
   kJawOpen,
   kUpperLipUpRight,
@@ -29,7 +29,7 @@ enum BrowMovement : std::uint8_t { kInnerUpRight, kOuterUpRight, kInnerUpLeft, k
 enum SideMovement : std::uint8_t { kRightSide, kLeftSide, kSideMovements };  ///< of the lids
 enum GazeMovement : std::uint8_t { kPupilRightX, kPupilRightY, kPupilLeftX, kPupilLeftY, kGazeMovements };
 
-/// Of the parts of GenericHead::expression, in their order; indices are those of the enumerations.
+/// Movements of the parts of GenericHead::expression, in their order; indices are the enumerations'.
 [[nodiscard]] std::array<std::vector<ControlOffsets>, kExpressionPartCount> face_movements(
     const Geometry& head);
 
@@ -40,15 +40,15 @@ inline constexpr double kEyeballRadius = 12.0 / 63 * kUnitsPerEyeDistance;
 /// Weight of a vertex in the movement of one control point.
 [[nodiscard]] double skinning_weight(const WireFrame& head, std::size_t vertex, std::size_t control);
 
-/// Shapes of a weight of one, made of the movements, and the weights that go with amounts of the movements.
+/// A shape with a weight of one, made of movements, and the amounts that make it up.
 struct NamedShape {
   std::string_view name;
-  std::vector<double> amounts;  ///< of each movement of the part
+  std::vector<double> amounts;  ///< for each movement of the part
 };
 [[nodiscard]] const std::array<std::vector<NamedShape>, kExpressionPartCount>& named_shapes();
 
 /// Weights of the named shapes of a part.
-/// @param amounts  of each movement of the part
+/// @param amounts  for each movement of the part
 [[nodiscard]] std::vector<double> shape_weights(std::size_t part, const std::vector<double>& amounts);
 
 }  // namespace fbs

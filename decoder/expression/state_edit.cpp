@@ -24,29 +24,33 @@ constexpr std::array<StateEdit::Limits, kEditPartCount> kLimits = {{
     {-kSkinningOne / 4, kSkinningOne, kSkinningOne / 4},
 }};
 
-/// How far a control point goes of what a part asks for, in 1/100.
-struct Share {
+/// How far a control point follows a part's edit, in 1/100.
+struct ControlShift {
   std::uint8_t control;  ///< within its feature
   std::int8_t x, y;
 };
 
-// Inner lips ride on outer ones: what moves both is said of the outer ones alone, and lips keep their
-// thickness. Most of an opening is the jaw's. Set by eye.
-constexpr std::array kOuterOpening = {Share{0, 12, 30}, Share{1, 4, -2},   Share{2, 0, -14}, Share{3, 0, -14},
-                                      Share{4, -4, -2}, Share{5, -12, 30}, Share{6, 0, 84},  Share{7, 0, 90},
-                                      Share{8, 0, 90},  Share{9, 0, 84}};
-constexpr std::array kInnerOpening = {Share{5, 16, 6}, Share{7, -16, 6}};
-constexpr std::array kOuterSmile = {Share{0, -100, -70}, Share{1, -50, -28}, Share{4, 50, -28},
-                                    Share{5, 100, -70},  Share{6, 50, -28},  Share{9, -50, -28}};
-constexpr std::array kBrow = {Share{0, 0, -100}, Share{1, 0, -100}, Share{2, 0, -100}, Share{3, 0, -100}};
+// Inner lips ride on the outer ones: a movement of both is given for the outer ones alone, and the lips keep
+// their thickness. Most of an opening is the jaw's. Set by eye.
+constexpr std::array kOuterOpening = {
+    ControlShift{0, 12, 30}, ControlShift{1, 4, -2},   ControlShift{2, 0, -14}, ControlShift{3, 0, -14},
+    ControlShift{4, -4, -2}, ControlShift{5, -12, 30}, ControlShift{6, 0, 84},  ControlShift{7, 0, 90},
+    ControlShift{8, 0, 90},  ControlShift{9, 0, 84}};
+constexpr std::array kInnerOpening = {ControlShift{5, 16, 6}, ControlShift{7, -16, 6}};
+constexpr std::array kOuterSmile = {ControlShift{0, -100, -70}, ControlShift{1, -50, -28},
+                                    ControlShift{4, 50, -28},   ControlShift{5, 100, -70},
+                                    ControlShift{6, 50, -28},   ControlShift{9, -50, -28}};
+constexpr std::array kBrow = {ControlShift{0, 0, -100}, ControlShift{1, 0, -100}, ControlShift{2, 0, -100},
+                              ControlShift{3, 0, -100}};
 
-void move(State& state, FeatureId id, std::span<const Share> shares, std::int32_t offset) {
+void move(State& state, FeatureId id, std::span<const ControlShift> shares, std::int32_t offset) {
   const std::size_t first = feature(id).first_control;
-  for (const Share& s : shares) state.control[first + s.control] += glm::ivec2(s.x, s.y) * offset / 100;
+  for (const ControlShift& s : shares)
+    state.control[first + s.control] += glm::ivec2(s.x, s.y) * offset / 100;
 }
 
 void move_mouth(State& state, const Geometry& head, std::int32_t wanted) {
-  // The gap of the state itself is left as it is, however wide.
+  // The state's own gap is left alone, however wide.
   const std::int32_t gap = mouth_gap(head, state);
   const std::int32_t highest = std::max(0, kLimits[static_cast<std::size_t>(EditPart::kMouth)].high - gap);
   const std::int32_t lowest = -std::max(0, gap);
@@ -55,7 +59,7 @@ void move_mouth(State& state, const Geometry& head, std::int32_t wanted) {
   move(state, FeatureId::kMouthOuter, kOuterOpening, offset);
 }
 
-/// Of the weights of the controls at a vertex.
+/// Sum of the weights of the controls at a vertex.
 std::int32_t weight_sum(const WireFrame& head, std::size_t vertex) {
   std::int32_t sum = 0;
   for (const SkinningWeight& s : head.skinning_of(vertex)) sum += s.weight;
@@ -64,17 +68,17 @@ std::int32_t weight_sum(const WireFrame& head, std::size_t vertex) {
 
 struct Eye {
   FeatureId upper, lower;
-  std::array<std::uint8_t, 2> upper_marks, lower_marks;  ///< iBUG-68, those that meet beside each other
+  std::array<std::uint8_t, 2> upper_marks, lower_marks;  ///< iBUG-68; index k of both lie above one another
 };
 constexpr std::array kEyes = {Eye{FeatureId::kUpperLidRight, FeatureId::kLowerLidRight, {37, 38}, {41, 40}},
                               Eye{FeatureId::kUpperLidLeft, FeatureId::kLowerLidLeft, {43, 44}, {47, 46}}};
 
-/// @param share  of kSkinningOne
+/// @param share  in 1/kSkinningOne
 void shut(State& state, const Eye& eye, const Geometry& head, std::int32_t share) {
-  constexpr std::int64_t kUpperPart = 85;  // percent of the way, which the upper lid goes
+  constexpr std::int64_t kUpperPart = 85;  // percent of the way that the upper lid goes
   const auto vertices = deform(head, state);
   const auto y = [&](std::uint8_t mark) { return vertices[head.wire_frame().vertex_of_landmark(mark)].y; };
-  // Both controls of a lid move alike, by the smaller gap, so that the lids meet there and do not cross.
+  // Both controls of a lid move by the smaller gap, so that the lids meet there and do not cross.
   const std::int64_t gap = std::max(0, std::min(y(eye.lower_marks[0]) - y(eye.upper_marks[0]),
                                                 y(eye.lower_marks[1]) - y(eye.upper_marks[1])));
   const auto move_lid = [&](FeatureId id, std::uint8_t mark, std::int64_t percent) {

@@ -1,4 +1,4 @@
-// What the viewer adds to the motion of a stream: the head turned, the face moved. "Motions and deformations
+// The viewer's additions to the motion of a stream: a turned head, a moved face. "Motions and deformations
 // coming through keyboard", paper, Fig. 4.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace fbs {
 
-/// Its values are offsets; 0 changes nothing.
+/// Values are offsets; 0 changes nothing.
 enum class EditPart : std::uint8_t {
   kYaw,    ///< 2^-16 turn
   kPitch,  ///< 2^-16 turn
@@ -19,20 +19,20 @@ enum class EditPart : std::uint8_t {
   kBrows,  ///< head units; positive: raised
   kMouth,  ///< head units between the inner lips; positive: opened
   kSmile,  ///< head units at the corners; positive: out and up
-  kLids,   ///< of kSkinningOne, the share of the opening that is shut; negative: opened wider
+  kLids,   ///< share of the opening that is shut, in 1/kSkinningOne; negative: opened wider
 };
 inline constexpr std::size_t kEditPartCount = 7;
 
-/// The offsets, and how they are laid upon a state. Limits were set by eye on four clips: at any of them the
-/// mouth is whole, the lids meet, and the outline of the head is not torn from the hair.
+/// The offsets, applied on top of a state. Limits were set by eye on four clips: at any of them the mouth is
+/// whole, the lids meet, and the outline of the head does not tear from the hair.
 class StateEdit {
  public:
   struct Limits {
-    std::int32_t low, high, step;  ///< step: of one press of a key
+    std::int32_t low, high, step;  ///< step: for one press of a key
   };
   [[nodiscard]] static const Limits& limits(EditPart part);
 
-  /// Adds so many steps, within the limits.
+  /// Adds this many steps, within the limits.
   void step(EditPart part, int steps) { add(part, steps * limits(part).step); }
   /// The same in units of the part.
   void add(EditPart part, std::int32_t offset);
@@ -41,9 +41,9 @@ class StateEdit {
   [[nodiscard]] std::int32_t value(EditPart part) const { return values_[static_cast<std::size_t>(part)]; }
   [[nodiscard]] bool any() const { return values_ != Values{}; }
 
-  /// The state to be drawn. Every value is within the limits of common/state.h. Lips open as far as the limit
-  /// of kMouth and no farther together with what the state says, and lids never cross. Regions of the head
-  /// that the state shows without motion are warped: they would not follow otherwise.
+  /// The state to be drawn, with every value within the limits of common/state.h. The lips open no farther
+  /// than kMouth's limit, the state's own gap included, and lids never cross. Regions of the head that the
+  /// state shows without motion are warped: otherwise they would not follow.
   /// @param head  adapted head of the scene
   [[nodiscard]] State applied(const State& state, const Geometry& head) const;
 
@@ -52,8 +52,8 @@ class StateEdit {
   Values values_{};
 };
 
-/// Warps those regions of the head that the state shows without motion: they would not follow a change of
-/// pose or control points.
+/// Warps the regions of the head that the state shows without motion: otherwise they would not follow a
+/// change of pose or control points.
 void set_in_motion(State& state);
 
 }  // namespace fbs

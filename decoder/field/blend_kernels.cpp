@@ -33,19 +33,19 @@ void blend_chroma(std::span<const BlendedSource> sources, NodeSteps steps,
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What each of the three nodes of a line of a block has of the weight at a sample, in eighths.
+/// Shares of the three nodes of a line of a block in the weight at a sample, in eighths.
 struct Ramps {
   alignas(32) std::uint16_t of[3][16];
 };
 constexpr Ramps kLumaRamps = {{{8, 7, 6, 5, 4, 3, 2, 1},
                                {0, 1, 2, 3, 4, 5, 6, 7, 8, 7, 6, 5, 4, 3, 2, 1},
                                {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7}}};
-/// Of U and V.
+/// For U and V.
 constexpr Ramps kChromaRamps = {{{8, 6, 4, 2, 0, 0, 0, 0, 8, 6, 4, 2, 0, 0, 0, 0},
                                  {0, 2, 4, 6, 8, 6, 4, 2, 0, 2, 4, 6, 8, 6, 4, 2},
                                  {0, 0, 0, 0, 0, 2, 4, 6, 0, 0, 0, 0, 0, 2, 4, 6}}};
 
-/// Some columns of a block, those of a vector.
+/// Some columns of a block: one vector.
 template <class D>
 class Columns {
  public:
@@ -70,8 +70,8 @@ class Columns {
 
 /// Blends the rows of two patches, one above the other.
 /// @param kRows  of a patch
-/// @param load   of a source and the number of a row of the block
-/// @param store  takes samples and the number of their row
+/// @param load   loads a row of the block from a source
+/// @param store  stores samples of a row, given its number
 template <int kRows, class D, class Load, class Store>
 HWY_INLINE void blend_columns(D d, std::span<const BlendedSource> sources, NodeSteps steps,
                               const Columns<D>& columns, Load&& load, Store&& store) {

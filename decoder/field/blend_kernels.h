@@ -1,4 +1,4 @@
-// Blocks blended from what their sources show. SPEC 11.6. Vector code for every kind of processor that
+// Blends blocks from the samples of their sources. SPEC 11.6. Vector code for every kind of processor that
 // Highway knows, chosen at run time; blend_kernels_plain.h defines the results. Integers only.
 #pragma once
 
@@ -21,26 +21,26 @@ inline constexpr int kChromaBlockSize = kBlockSize / 2;
   return plane == 0 ? kBlockSize : kChromaBlockSize;
 }
 
-/// What of a square of samples lies in a plane of some kind.
+/// The part of a square of samples that lies in a plane.
 template <class View>
 [[nodiscard]] glm::ivec2 size_inside(glm::ivec2 first, int size, const View& plane) {
   return {std::clamp(plane.width - first.x, 0, size), std::clamp(plane.height - first.y, 0, size)};
 }
 
-/// Samples in anybody's memory.
+/// Samples in memory of any owner.
 struct SampleBlock {
   const std::uint8_t* samples;
   std::ptrdiff_t stride;
 };
 
-/// What a source shows in a block.
+/// The samples of a source in a block.
 struct BlendedSource {
-  std::array<SampleBlock, 3> planes;  ///< Y, U, V; the last two of one stride
-  /// At the block's upper left node. With those of the other sources they sum to kNodeWeightOne at each node.
+  std::array<SampleBlock, 3> planes;  ///< Y, U, V; U and V have one stride
+  /// At the block's upper left node. The weights of all sources sum to kNodeWeightOne at each node.
   const std::uint16_t* weight;
 };
 
-/// From the weight at a node to those at the next.
+/// Distance from the weight at a node to those at the next.
 struct NodeSteps {
   std::ptrdiff_t column, line;
 };
@@ -56,7 +56,7 @@ void blend_chroma_block(std::span<const BlendedSource> sources, NodeSteps steps,
 /// Copies some samples of a block.
 void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptrdiff_t stride);
 
-/// Blends what of a block lies in a picture.
+/// Blends the part of a block that lies in a picture.
 /// @param sources  at least one
 /// @param block    its column and row
 /// @param target   Y, U, V; planes without samples are left out

@@ -1,4 +1,4 @@
-// What the kernels of blend_kernels.h compute, one sample after the other.
+// The definition of blend_kernels.h, one sample after another.
 #pragma once
 
 #include "decoder/field/blend_kernels.h"

@@ -20,7 +20,7 @@ struct Place {
   }
 };
 
-/// Displacement of a chroma sample, in 1/64 of it.
+/// Displacement of a chroma sample, in 1/64 chroma sample.
 glm::ivec2 chroma_displacement(glm::ivec2 luma) {
   return {luma.x >> 1, luma.y >> 1};
 }

@@ -1,4 +1,4 @@
-// What a displaced texture shows in a square of the picture. SPEC 10.3. Integers only.
+// Samples of a displaced texture in a square of the picture. SPEC 10.3. Integers only.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@ namespace fbs {
 using BlockSamples3 = std::array<SampleBlock, 3>;
 using BlockMemory = std::array<WarpedBlock, 3>;
 
-/// Shows a block that is displaced as a whole.
+/// The samples of a block that is displaced as a whole.
 /// @param block   its column and row
 /// @param by      1/64 luma sample
-/// @param memory  for planes of which the samples lie between those of the texture
+/// @param memory  for planes sampled between the samples of the texture
 [[nodiscard]] BlockSamples3 displaced_block(const PaddedPicture& texture, glm::ivec2 block, glm::ivec2 by,
                                             bool has_chroma, BlockMemory& memory);
 
 /// Draws a patch that is displaced as a whole.
 /// @param patch  its column and row
-/// @param out    where its upper left sample comes in each plane
+/// @param out    position of the patch's upper left sample in each plane
 void draw_even_patch(const PaddedPicture& texture, glm::ivec2 patch, glm::ivec2 by, bool has_chroma,
                      const std::array<std::uint8_t*, 3>& out);
 

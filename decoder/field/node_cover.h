@@ -1,4 +1,4 @@
-// In which triangle of a mesh each node lies. SPEC 10.3. Integers only.
+// Finds the mesh triangle that each node lies in. SPEC 10.3. Integers only.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@ namespace fbs {
 
 inline constexpr int kCornerShareOneLog2 = 14;
 
-/// The place of a node in the triangle that it belongs to.
+/// The place of a node in its triangle.
 struct NodePlace {
   MeshTriangle corner{};  ///< points of the mesh; corner[0] < 0: no triangle covers the node
-  /// Of corners 1 and 2, in 2^-kCornerShareOneLog2; corner 0 has what they leave.
+  /// Shares of corners 1 and 2, in 2^-kCornerShareOneLog2; corner 0 has the rest.
   std::array<std::int32_t, 2> share{};
 
   [[nodiscard]] bool is_covered() const { return corner[0] >= 0; }
 
-  /// The value at the node of a quantity that is linear over the triangle.
+  /// The value at the node of a quantity linear over the triangle.
   [[nodiscard]] std::int32_t mean(std::int32_t v0, std::int32_t v1, std::int32_t v2) const {
     constexpr std::int64_t kHalf = std::int64_t{1} << (kCornerShareOneLog2 - 1);
     const std::int64_t more = (std::int64_t{v1} - v0) * share[0] + (std::int64_t{v2} - v0) * share[1];
@@ -34,12 +34,12 @@ struct NodePlace {
 class NodeCover {
  public:
   /// Finds the last triangle that covers each node.
-  /// @param triangles  in the order in which they are drawn
+  /// @param triangles  in drawing order
   /// @param points     of the mesh, 1/64 luma sample
   void find(const NodeGrid& grid, std::span<const MeshTriangle> triangles,
             std::span<const glm::ivec2> points);
 
-  /// Puts each node that no triangle covers at the nearest point, the first of several.
+  /// Places each node that no triangle covers at the nearest point, the first of several.
   void take_nearest(std::span<const glm::ivec2> points);
 
   [[nodiscard]] const NodeGrid& grid() const { return grid_; }

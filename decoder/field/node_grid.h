@@ -12,7 +12,7 @@ inline constexpr int kPatchSize = 8;  ///< luma samples from one node to the nex
 /// Patches are drawn four at a time, in blocks of 2 x 2.
 inline constexpr int kBlockSize = 2 * kPatchSize;  ///< luma samples
 
-/// The nodes of a picture: those of all its blocks, row by row.
+/// The nodes of all blocks of a picture, row by row.
 struct NodeGrid {
   int block_columns = 0, block_rows = 0;
 
@@ -32,7 +32,7 @@ struct NodeGrid {
     return 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
                 static_cast<std::size_t>(column));
   }
-  /// Where node (0, 0) is and how far the next ones are, 1/64 luma sample.
+  /// Position of node (0, 0) and distance to the next, 1/64 luma sample.
   static constexpr int kFirst = 32, kStepLog2 = 9;
   [[nodiscard]] static int place(int i) { return (i << kStepLog2) + kFirst; }
 

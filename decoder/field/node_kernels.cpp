@@ -38,7 +38,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Sources = hn::CappedTag<std::int32_t, kRowStep>;
 using Values = hn::Vec<Sources>;
 
-/// NodePlace::mean() of small numbers.
+/// NodePlace::mean() for small numbers.
 class Mean {
  public:
   /// @param rows  of the points  @param size  of a row
@@ -64,8 +64,8 @@ void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const
            std::size_t row, std::uint16_t* out) {
   constexpr int kToNodeLog2 = 4;
   static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
-  // A weight and, after it, from which end of the row it comes: the largest is that of the first of equal
-  // ones.
+  // A weight with its place from the end of the row in the low bits: the first of equal weights is the
+  // largest.
   constexpr int kPlaceLog2 = 8;
   constexpr std::int32_t kLastPlace = (1 << kPlaceLog2) - 1;
   alignas(32) static constexpr std::int32_t kPlaces[kRowStep] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -119,9 +119,9 @@ void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimit
   }
 }
 
-/// What a patch does along one axis.
+/// The motion of a patch along one axis.
 struct Along {
-  Values any;    ///< zero: it does not move
+  Values any;    ///< zero: no motion
   Values range;  ///< between the largest and the smallest displacement
   Values mean;
 };
@@ -134,13 +134,13 @@ HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
       hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(d, 2)))};
 }
 
-/// Of hn::Lanes(Sources) sources from place s of the rows on, which is place `to` of what is found.
+/// Finds the motions of hn::Lanes(Sources) sources from place s of the rows on, at place `to` of the result.
 HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
   const Sources d;
   const Values still = hn::Set(d, kStill), even = hn::Set(d, kEven), bent = hn::Set(d, kBent),
                even_enough = hn::Set(d, kEvenEnough);
   Values kinds = hn::Zero(d),
-         other = hn::Zero(d);  // of the patches: the largest; what differs from the first
+         other = hn::Zero(d);  // over the patches: the largest; difference from the first
   Values first_x = other, first_y = other;
   const auto at = [&](int column, int line, std::size_t axis) HWY_ATTR {
     return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s);

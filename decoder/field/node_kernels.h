@@ -1,6 +1,5 @@
-// The inner loops over nodes: weights and displacements of all sources, and how blocks are drawn from them.
-// SPEC 10.3 and 11.5. Vector code as in blend_kernels.h; node_kernels_plain.h defines the results. Integers
-// only.
+// The inner loops over nodes: weights and displacements of all sources, and the motions of blocks. SPEC 10.3
+// and 11.5. Vector code as in blend_kernels.h; node_kernels_plain.h defines the results. Integers only.
 #pragma once
 
 #include <array>
@@ -15,12 +14,12 @@
 
 namespace fbs {
 
-/// Weights of the sources at nodes, in 2^-8, from those at the points of the mesh, in 2^-12. The first of the
-/// largest takes what rounding leaves.
-/// @param corners  rows of the points
-/// @param outside  row of nodes that no triangle covers
+/// Weights of the sources at nodes, in 2^-8, from the weights at the points of the mesh, in 2^-12. The first
+/// of the largest takes the rounding error.
+/// @param corners  rows of weights, one for each point
+/// @param outside  row for nodes that no triangle covers
 /// @param row      size of a row
-/// @param out      rows of the nodes
+/// @param out      rows of weights, one for each node
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
                  std::size_t row, std::uint16_t* out);
 
@@ -32,14 +31,14 @@ struct NodeLimits {
 /// displace_nodes() takes displacements smaller than this.
 inline constexpr std::int32_t kMaxShortDisplacement = 1 << 15;
 
-/// Displacements of the sources at nodes from those at the points of the mesh, 1/64 luma sample. Those in x
-/// are a row, behind which comes that of those in y.
-/// @param moved  rows of the points
-/// @param out    rows of the nodes
+/// Displacements of the sources at nodes from the displacements at the points of the mesh, 1/64 luma sample.
+/// A row of x is followed by a row of y.
+/// @param moved  rows, one for each point
+/// @param out    rows, one for each node
 void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
                     std::size_t row, std::int32_t* out);
 
-/// The rows of a block's upper left node, and how far the next ones are.
+/// The rows of a block's upper left node, and the distance to the next ones.
 struct BlockNodes {
   const std::uint16_t* weight;
   const std::int32_t* displacement;  ///< null: no source moves
@@ -54,30 +53,31 @@ struct BlockNodes {
   }
 };
 
-/// Differences within a patch that nobody sees, 1/64 luma sample.
+/// Invisible differences of displacement within a patch, 1/64 luma sample.
 inline constexpr std::int32_t kEvenEnough = 16;
 
 /// How a texture is displaced in a patch or block.
 enum MotionKind : std::int32_t {
-  kStill,  ///< it shows its own samples
+  kStill,  ///< samples stay in place
   kEven,   ///< all samples are displaced alike
-  kBent,   ///< linearly between the nodes; of a block: patch by patch
+  kBent,   ///< displaced linearly between the nodes; a block: patch by patch
 };
 
-/// What kRowStep sources show in a block.
+/// Motions of kRowStep sources in a block.
 struct BlockMotions {
   using Row = std::array<std::int32_t, kRowStep>;
-  std::uint32_t shown;                  ///< a bit for each source that has weight; the rest is of these only
+  std::uint32_t shown;                  ///< a bit for each source with weight; the rest is valid for these
+                                        ///< only
   alignas(32) Row whole;                ///< kind of the block. If kStill, the others are undefined
-  alignas(32) std::array<Row, 4> kind;  ///< of its patches, row by row
-  alignas(32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of their displacement, if kEven
+  alignas(32) std::array<Row, 4> kind;  ///< kind of each patch, row by row
+  alignas(32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of each patch's displacement, if kEven
 };
 
-/// @param first  the first of the sources, a multiple of kRowStep
+/// @param first  the first source, a multiple of kRowStep
 void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out);
 
-/// Calls show(first, place, motions) for each source that has weight in a block, which is source first +
-/// place and has that place in `motions`.
+/// Calls show(first, place, motions) for each source with weight in a block: source first + place, at that
+/// place in `motions`.
 template <class Show>
 void for_each_shown(const BlockNodes& nodes, Show&& show) {
   BlockMotions motions;

@@ -1,4 +1,4 @@
-// What the kernels of node_kernels.h compute, one source after the other.
+// The definition of node_kernels.h, one source after another.
 #pragma once
 
 #include "decoder/field/node_kernels.h"

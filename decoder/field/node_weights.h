@@ -1,4 +1,4 @@
-// How much each source weighs at each node. SPEC 11.5. Integers only.
+// Weight of each source at each node. SPEC 11.5. Integers only.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace fbs {
 
 inline constexpr std::int32_t kNodeWeightOne = kBlendOne;
 
-/// Weights of the sources at the nodes, in 1/kNodeWeightOne. Those of one node lie together.
+/// Weights of the sources at the nodes, in 1/kNodeWeightOne. A node's weights are contiguous.
 class NodeWeights {
  public:
   /// @param corners  weights at the points of the mesh
-  /// @param outside  those of nodes that no triangle covers, in 1/kNodeWeightOne
+  /// @param outside  weights at nodes that no triangle covers, in 1/kNodeWeightOne
   void set(const NodeCover& cover, const PointWeights& corners, std::span<const std::int32_t> outside);
   /// The same weights at all nodes.
   void set(const NodeGrid& grid, std::span<const std::int32_t> weights);
 
   [[nodiscard]] std::size_t row() const { return row_; }  ///< from one node to the next
-  /// Of all sources.
+  /// The weights of all sources.
   [[nodiscard]] const std::uint16_t* at(std::size_t node) const { return weights_.data() + node * row_; }
 
  private:

@@ -1,4 +1,4 @@
-// Patterns as displaced patches read them: with a border all round. SPEC 10.3. Integers only.
+// Patterns with a border all round, as displaced patches need them. SPEC 10.3. Integers only.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@ namespace fbs {
 /// A displaced patch may lie this far outside a picture, luma samples.
 inline constexpr int kMaxOutside = 24;
 
-/// Samples that can be read beyond each side of a plane: kMaxOutside, half a step of rounding, the neighbour
-/// that bilinear sampling takes, and what vectors read and do not use.
+/// Readable samples beyond each side of a plane: kMaxOutside, half a step of rounding, the neighbour for
+/// bilinear sampling, and samples that vectors read but do not use.
 inline constexpr int kPadding = 32;
 
-/// Samples of the border that are not believed: in many videos they are dark.
+/// Border samples that are not trusted: in many videos they are dark.
 inline constexpr int kLumaInset = 2, kChromaInset = 1;
 
-/// A plane with kPadding samples round it. They, and the outermost ones of the plane itself, repeat what lies
-/// a little inside its border.
+/// A plane with kPadding samples around it. The padding and the outermost samples of the plane itself repeat
+/// the samples a little inside its border.
 class PaddedPlane {
  public:
-  /// @param inset  samples of the border that are not believed
+  /// @param inset  border samples that are not trusted
   PaddedPlane(const ConstPlaneView& plane, int inset);
 
   /// @param x, y  -kPadding .. size of the plane + kPadding - 1

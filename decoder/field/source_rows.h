@@ -1,5 +1,4 @@
-// Tables with a row for each node, in which each source has a place: what kernels do to eight sources at
-// once.
+// Tables with a row for each node and a place in it for each source: kernels process eight sources at once.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +6,7 @@
 namespace fbs {
 
 inline constexpr std::size_t kRowStep =
-    8;  ///< rows have a multiple of this; places without a source are zero
+    8;  ///< row size is a multiple of this; places without a source are zero
 
 [[nodiscard]] constexpr std::size_t row_size(std::size_t sources) {
   return (sources + kRowStep - 1) / kRowStep * kRowStep;

@@ -41,16 +41,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kOne = 1 << kFractionOneLog2;
 
-/// Between the upper and the lower samples, each already between left and right.
+/// Interpolates between upper and lower samples, each already interpolated from left to right.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V between(D d, V top, V bottom, V fraction) {
-  // The product is rounded to the nearest and halved twice less than it seems: Q15 times 2^9.
+  // Difference times fraction, 1/64, rounded to nearest: Q15 of a product with 2^9.
   const V more = hn::MulFixedPoint15(hn::Sub(bottom, top), hn::ShiftLeft<15 - kFractionOneLog2>(fraction));
   return hn::ShiftRight<kFractionOneLog2>(hn::Add(hn::Add(top, more), hn::Set(d, kOne / 2)));
 }
 
-/// @param load   of a row and 0 or 1, which is added to the columns
-/// @param store  takes samples and the number of their row
+/// @param load   loads a row; 0 or 1 is added to the columns
+/// @param store  stores samples of a row, given its number
 template <class D, class Load, class Store>
 HWY_INLINE void even_columns(D d, glm::ivec2 fraction, int rows, Load&& load, Store&& store) {
   using V = hn::Vec<D>;
@@ -108,11 +108,10 @@ void even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fr
         });
 }
 
-// A bent patch is drawn in vectors that hold one row of luma, or two; of chroma two rows of each plane, of
-// one or of both. What a vector shows lies in a few rows of the texture, from each of which bytes are looked
-// up.
+// A bent patch is drawn in vectors of one or two rows of luma; for chroma, of two rows of one plane or of
+// both. The samples of a vector come from a few rows of the texture, whose bytes are looked up in tables.
 
-/// Where the samples of a vector are in a patch.
+/// Positions of a vector's samples in a patch.
 struct PatchLanes {
   alignas(32) std::int16_t column[16], row[16];  ///< luma samples
   alignas(32) std::int16_t place[16];            ///< 64 for each sample from the patch's first column
@@ -127,12 +126,12 @@ constexpr PatchLanes kChromaLanes = {{0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 4, 6, 0, 2, 
                                      {0, 64, 128, 192, 0, 64, 128, 192, 0, 64, 128, 192, 0, 64, 128, 192},
                                      {0, 0, 0, 0, 8, 8, 8, 8, 0, 0, 0, 0, 8, 8, 8, 8}};
 
-/// One coordinate of the displacements of a patch, in short numbers.
+/// One coordinate of a patch's displacements, in 16 bits.
 struct ShortDisplacement {
-  std::int32_t first;  ///< that they count from, luma samples: a multiple of what a sample of the plane is
-  std::int16_t upper_left;  ///< 1/64 luma sample; from first on
+  std::int32_t first;       ///< origin, luma samples: a multiple of the plane's sample spacing
+  std::int16_t upper_left;  ///< 1/64 luma sample, relative to `first`
   std::int16_t across, down, twist;
-  std::int32_t range;  ///< between the least and the largest
+  std::int32_t range;  ///< difference of least and largest
 
   /// @param step_log2  log2 of luma samples per sample
   ShortDisplacement(const PatchNodes& nodes, int glm::ivec2::*axis, int step_log2) {
@@ -147,8 +146,8 @@ struct ShortDisplacement {
   }
 };
 
-/// The displacements of a vector's samples, from ShortDisplacement::first on. Sums are less than 2^15: the
-/// range is less than 2^9, and weights sum to 64.
+/// The displacements of a vector's samples, relative to ShortDisplacement::first. Sums are less than 2^15:
+/// the range is less than 2^9, and weights sum to 64.
 /// @param kStepLog2  log2 of luma samples per sample
 template <int kStepLog2, class D>
 class Displacements {
@@ -163,7 +162,7 @@ class Displacements {
                    hn::Set(d, kOne / 2));
     step_ = hn::Mul(per_row, hn::Set(d, static_cast<std::int16_t>(rows_per_step << kStepLog2)));
   }
-  /// Of the next rows, in 1/64 sample of the plane.
+  /// Displacements of the next rows, in 1/64 sample of the plane.
   HWY_INLINE V next() {
     const V out = hn::Add(upper_left_, hn::ShiftRight<kFractionOneLog2>(sum_));
     sum_ = hn::Add(sum_, step_);
@@ -176,9 +175,9 @@ class Displacements {
 };
 
 /// Draws the vectors of a patch, one below the other.
-/// @param kSpan  samples of one row lie in so many rows of the texture and one more
-/// @param load   bytes of the rows from one on, as PatchLanes' table says
-/// @param store  takes the samples of some rows and the number of the first
+/// @param kSpan  samples of one row come from this many rows of the texture and one more
+/// @param load   loads the bytes of the rows from a given one on, in the order of PatchLanes' table
+/// @param store  stores the samples of some rows, given the number of the first
 template <int kSpan, int kStepLog2, class D, class Load, class Store>
 HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, int rows, int rows_per_step,
                           const ShortDisplacement& by_x, const ShortDisplacement& by_y, Load&& load,
@@ -193,7 +192,7 @@ HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, 
           mask = hn::Set(d, kOne - 1), one = hn::Set(d, kOne);
   for (int row = 0; row < rows; row += rows_per_step) {
     const V across = hn::Add(place, x.next()), down = y.next();
-    // Each lane has the place of its left sample in the low byte, of its right one in the high byte.
+    // Each lane has the position of its left sample in the low byte, of its right one in the high byte.
     const V left = hn::Add(hn::ShiftRight<kFractionOneLog2>(across), first);
     const auto pair = hn::BitCast(table, hn::Add(hn::Or(left, hn::ShiftLeft<8>(left)), hn::Set(d, 256)));
     const auto look_up = [&](int below) HWY_ATTR {
@@ -219,7 +218,7 @@ HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, 
   }
 }
 
-/// Most differences of displacements across a patch that this can draw: sixteen bytes hold what a row shows.
+/// Largest difference of displacements across a patch: the samples of a row must come from sixteen bytes.
 constexpr std::int32_t kMaxAcross = 384;
 
 template <int kSpan, class D>
@@ -298,7 +297,7 @@ HWY_INLINE void bent_chroma_rows(D d, const ChromaSamples& from, std::ptrdiff_t 
 void bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
                  const ChromaOut& out) {
   const ShortDisplacement x(nodes, &glm::ivec2::x, 1), y(nodes, &glm::ivec2::y, 1);
-  // A halved difference may be one half more than half the difference.
+  // A halved difference may be rounded up by one half.
   if (x.range < kMaxAcross && y.range < 2 * kOne)
     bent_chroma_rows<1>(hn::CappedTag<std::int16_t, 16>(), from, stride, x, y, out);
   else

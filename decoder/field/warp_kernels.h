@@ -12,16 +12,17 @@
 
 namespace fbs {
 
-inline constexpr int kFractionOneLog2 = 6;  ///< of places between samples
+inline constexpr int kFractionOneLog2 = 6;  ///< for positions between samples
 
-/// The same place in U and V, which have one stride.
+/// The same position in U and V, which have one stride.
 using ChromaSamples = std::array<const std::uint8_t*, 2>;
 using ChromaOut = std::array<std::uint8_t*, 2>;
 
-/// Luma samples between those of a texture, all by the same fraction. Rows of the output are WarpedBlock's.
+/// Luma samples interpolated in a texture, all by the same fraction. Rows of the output are
+/// WarpedBlock's.
 /// @param from      the upper left sample; one more column and row than the area are read
 /// @param fraction  0..63 in x and y
-/// @param size      of a square of samples: that of a block or a patch
+/// @param size      of the square of samples: a block's or a patch's
 void warp_even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
                     std::uint8_t* out);
 
@@ -39,7 +40,7 @@ using PatchNodes = std::array<glm::ivec2, 4>;
 void warp_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
                     std::uint8_t* out);
 
-/// The 4 x 4 samples of it in both chroma planes.
+/// The 4 x 4 samples of the patch in both chroma planes.
 /// @param from  eight columns are read from each place on
 void warp_bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
                       const ChromaOut& out);

@@ -3,15 +3,15 @@
 namespace fbs::plain {
 namespace {
 
-constexpr int kOne = 1 << kFractionOneLog2;
+constexpr int kFractionOne = 1 << kFractionOneLog2;
 
 int nearest(int value) {
-  return (value + kOne / 2) >> kFractionOneLog2;
+  return (value + kFractionOne / 2) >> kFractionOneLog2;
 }
 
 std::uint8_t bilinear(const std::uint8_t* at, std::ptrdiff_t stride, int p, int q) {
-  const int top = at[0] * (kOne - p) + at[1] * p;
-  const int bottom = at[stride] * (kOne - p) + at[stride + 1] * p;
+  const int top = at[0] * (kFractionOne - p) + at[1] * p;
+  const int bottom = at[stride] * (kFractionOne - p) + at[stride + 1] * p;
   return static_cast<std::uint8_t>(nearest(top + nearest((bottom - top) * q)));
 }
 
@@ -31,7 +31,7 @@ void warp_bent(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes
       const int dy = displacement(nodes, &glm::ivec2::y, x * step, y * step) >> (step - 1);
       const int column = x + (dx >> kFractionOneLog2), row = y + (dy >> kFractionOneLog2);
       out[y * WarpedBlock::kStride + x] =
-          bilinear(from + row * stride + column, stride, dx & (kOne - 1), dy & (kOne - 1));
+          bilinear(from + row * stride + column, stride, dx & (kFractionOne - 1), dy & (kFractionOne - 1));
     }
   }
 }

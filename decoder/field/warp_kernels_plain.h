@@ -1,4 +1,4 @@
-// What the kernels of warp_kernels.h compute, one sample after the other.
+// The definition of warp_kernels.h, one sample after another.
 #pragma once
 
 #include "decoder/field/warp_kernels.h"

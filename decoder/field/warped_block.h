@@ -1,4 +1,4 @@
-// Memory for what a source shows in a block.
+// Memory for the samples of a source in a block.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// In one plane. Wider than the block: patches are written whole vectors at a time, from left to right.
+/// One plane. Wider than the block: patches are written in whole vectors, from left to right.
 struct WarpedBlock {
   static constexpr std::ptrdiff_t kStride = 32;
   alignas(32) std::array<std::uint8_t, kStride * kBlockSize> samples;

@@ -12,18 +12,18 @@
 
 namespace fbs {
 
-/// What the light adds to luma at a vertex, 1/16 grey level.
+/// Light at a vertex: additions to luma, 1/16 grey level.
 struct VertexLight {
-  std::int32_t offset = 0;  ///< whatever the luma
-  std::int32_t gain = 0;    ///< to luma 64 levels brighter than 128
+  std::int32_t offset = 0;  ///< regardless of the luma
+  std::int32_t gain = 0;    ///< for luma 64 levels brighter than 128
   friend bool operator==(const VertexLight&, const VertexLight&) = default;
 };
 
-/// At a point of the adapted head before control points displace it, head units.
+/// Light at a point of the adapted head before control points displace it, head units.
 [[nodiscard]] VertexLight light_at(glm::ivec3 point, const std::array<std::int32_t, kLightCount>& light);
 
-/// At each vertex of a HeadMesh; empty when there is no light. Zero on the ring: light ends there.
-/// @param ring  number of its vertices
+/// Light at each vertex of a HeadMesh; empty when there is none. Zero on the ring: light ends there.
+/// @param ring  number of the ring's vertices
 [[nodiscard]] std::vector<VertexLight> vertex_lights(std::span<const glm::ivec3> positions, std::size_t ring,
                                                      const std::array<std::int32_t, kLightCount>& light);
 

@@ -52,7 +52,7 @@ std::int32_t log2_fixed(std::uint64_t x) {
   std::uint64_t mantissa =
       whole > kMantissaLog2 ? x >> (whole - kMantissaLog2) : x << (kMantissaLog2 - whole);
   std::int32_t digits = whole;
-  for (int i = 0; i < kDigits; ++i) {  // squaring yields one binary digit after the other
+  for (int i = 0; i < kDigits; ++i) {  // squaring yields one binary digit after another
     mantissa = mantissa * mantissa >> kMantissaLog2;
     const bool two = mantissa >> (kMantissaLog2 + 1) != 0;
     if (two) mantissa >>= 1;

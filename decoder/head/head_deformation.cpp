@@ -12,8 +12,8 @@ namespace {
 constexpr int kSkinningOneLog2 = 12;
 static_assert(kSkinningOne == 1 << kSkinningOneLog2);
 
-/// Keeps the pupil's vertex between the lids, a quarter of the gap from either: a closing eye would fold its
-/// triangles otherwise.
+/// Keeps the pupil's vertex between the lids, a quarter of the gap from either: otherwise a closing eye would
+/// fold its triangles.
 void keep_between_lids(const WireFrame& head, std::vector<glm::ivec3>& vertices, FeatureId upper_lid,
                        FeatureId lower_lid, FeatureId pupil) {
   const auto y_of = [&](const FeatureVertex& v) { return vertices[v.vertex].y; };

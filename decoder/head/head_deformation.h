@@ -9,11 +9,11 @@
 
 namespace fbs {
 
-/// Vertices of the head in the head frame once the control points have displaced them, head units. The pupils
-/// stay between the lids.
+/// Vertices of the head after displacement by the control points, head units. The pupils stay between the
+/// lids.
 [[nodiscard]] std::vector<glm::ivec3> deform(const Geometry& neutral, const State& state);
 
-/// The same on the screen: as HeadProjection gives.
+/// The same on the screen, by HeadProjection.
 [[nodiscard]] std::vector<glm::ivec3> project_vertices(const Geometry& neutral, const State& state);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// The triangles of the head and of the ring round it. SPEC 8.7.
+// The triangles of the head and of the ring around it. SPEC 8.7.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ namespace fbs {
 /// Corners of a triangle of any mesh, clockwise; indices of points.
 using MeshTriangle = std::array<std::int32_t, 3>;
 
-/// The vertices of a wire-frame and the ring round them: one vertex per outline vertex, farther out, that
-/// moves with the surround under it. Between the two the jaw can move against the neck without tearing the
+/// The vertices of a wire-frame and the ring around them: one vertex per outline vertex, farther out, that
+/// moves with the surround under it. The band between lets the jaw move against the neck without tearing the
 /// picture.
 struct HeadMesh {
   std::vector<HeadTriangle> triangles;  ///< clockwise in the picture seen from the front
-  std::size_t head_count = 0;           ///< vertices of the wire-frame; those of the ring follow
-  std::size_t vertex_count = 0;         ///< of both
+  std::size_t head_count = 0;           ///< vertices of the wire-frame; the ring's follow
+  std::size_t vertex_count = 0;         ///< with the ring's
 
   explicit HeadMesh(const WireFrame& head);
 };
 
-/// Of the generic head.
+/// The generic head's mesh.
 [[nodiscard]] const HeadMesh& generic_head_mesh();
 
 }  // namespace fbs

@@ -11,10 +11,10 @@
 
 namespace fbs {
 
-inline constexpr int kHeadOneLog2 = 12;  ///< head units count 2^-12 eye distance
+inline constexpr int kHeadOneLog2 = 12;  ///< head units are 2^-12 eye distance
 static_assert(kUnitsPerEyeDistance == 1 << kHeadOneLog2);
 
-inline constexpr int kScreenOneLog2 = 6;             ///< screen positions count 1/64 pixel
+inline constexpr int kScreenOneLog2 = 6;             ///< screen positions are in 1/64 pixel
 inline constexpr std::int32_t kMaxScreen = 1 << 21;  ///< screen positions are clamped to +- this
 
 [[nodiscard]] constexpr std::int64_t to_screen(std::int64_t pixels) {

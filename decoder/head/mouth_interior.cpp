@@ -11,8 +11,8 @@ namespace {
 // lip.
 constexpr std::size_t kRightCorner = 60, kUpperMiddle = 62, kLeftCorner = 64, kLowerMiddle = 66;
 
-/// Lips that part by this much more than in the pattern show nothing of it between them, head units. A
-/// sixteenth of the eye distance; set by eye on the ten clips.
+/// Lips that part by this much more than in the pattern, head units, show nothing of the pattern between
+/// them. A sixteenth of the eye distance; set by eye on the ten clips.
 constexpr std::int32_t kOpaqueGap = kUnitsPerEyeDistance / 16;
 static_assert(kOpaqueGap == kInteriorOpaque, "one head unit of gap is one step of opacity");
 

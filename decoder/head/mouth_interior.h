@@ -1,4 +1,4 @@
-// What shows between parted lips: where, how much of it, and in which colours. SPEC 10.10. Integers only.
+// The inside of the mouth between parted lips: place, opacity and colours. SPEC 10.10. Integers only.
 #pragma once
 
 #include <array>
@@ -12,11 +12,12 @@
 
 namespace fbs {
 
-inline constexpr std::int32_t kInteriorOpaque = 256;  ///< opacity: nothing of the pattern shows through
-inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0 upper lip, this lower lip
+inline constexpr std::int32_t kInteriorOpaque = 256;  ///< opacity: the pattern is hidden
+inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0 at the upper lip, this at the
+                                                      ///< lower
 
-/// Whether the vertex lies on the inner lips; one of the ring does not. A triangle of three such vertices is
-/// mouth interior.
+/// Whether the vertex lies on the inner lips; never on the ring. A triangle of three such vertices is mouth
+/// interior.
 [[nodiscard]] bool is_inner_lip(const WireFrame& head, std::size_t vertex);
 
 /// 0 at the upper inner lip, half of kMouthRampEnd at the corners, kMouthRampEnd at the lower inner lip.
@@ -26,15 +27,15 @@ inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0
 /// @param corners  vertices of a HeadMesh
 [[nodiscard]] bool is_mouth(const WireFrame& head, const HeadTriangle& corners);
 
-/// Between the middles of the inner lips of a head as deform() returns it, head units.
+/// Distance between the middles of the inner lips of a head as deform() returns it, head units.
 [[nodiscard]] std::int32_t mouth_gap(const WireFrame& head, std::span<const glm::ivec3> vertices);
 
-/// The same of an adapted head in a state.
+/// The same for an adapted head in a state.
 [[nodiscard]] std::int32_t mouth_gap(const Geometry& neutral, const State& state);
 
-/// Opacity of the interior over what the pattern shows between the lips: 0..kInteriorOpaque, reached once the
-/// lips have parted by a sixteenth of the eye distance more than in the pattern.
-/// @param gap, gap_seen  mouth_gap() of the picture and of the pattern's seen state
+/// Opacity of the interior over the pattern between the lips: 0..kInteriorOpaque, reached once the lips have
+/// parted by a sixteenth of the eye distance more than in the pattern.
+/// @param gap, gap_seen  mouth_gap() in the picture and in the pattern's seen state
 [[nodiscard]] std::int32_t interior_opacity(std::int32_t gap, std::int32_t gap_seen);
 
 /// One component of the setup's colours at the upper lip, half way and at the lower lip, 1/16 grey level.
@@ -44,7 +45,8 @@ inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0
 /// The values of one plane at the upper lip, half way and at the lower lip.
 using InteriorColours = std::array<std::uint8_t, kInteriorCount>;
 
-/// Of the Y, U and V planes: interior_base(), in luma with the state's offsets added, rounded to grey levels.
+/// Colours in the Y, U and V planes: interior_base(), in luma with the state's offsets added, rounded to grey
+/// levels.
 /// @param added_luma  State::interior, 1/16 grey level
 [[nodiscard]] std::array<InteriorColours, 3> interior_colours(
     const MouthInterior& mouth, const std::array<std::int32_t, kInteriorCount>& added_luma);

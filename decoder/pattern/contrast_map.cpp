@@ -8,15 +8,15 @@
 namespace fbs {
 namespace {
 
-constexpr int kMiddle = 128, kShareOne = 255, kInverseOneLog2 = 16;
+constexpr int kMiddle = 128, kFaceShareOne = 255, kInverseOneLog2 = 16;
 
-using Contrasts = std::array<std::int32_t, kShareOne + 1>;
+using Contrasts = std::array<std::int32_t, kFaceShareOne + 1>;
 
 /// For each share of the face.
 Contrasts contrasts(std::int32_t face, std::int32_t surround) {
   Contrasts out{};
-  for (int share = 0; share <= kShareOne; ++share)
-    out[share] = surround + ((face - surround) * share + kShareOne / 2) / kShareOne;
+  for (int share = 0; share <= kFaceShareOne; ++share)
+    out[share] = surround + ((face - surround) * share + kFaceShareOne / 2) / kFaceShareOne;
   return out;
 }
 
@@ -29,7 +29,7 @@ Contrasts inverse(Contrasts contrast) {
 /// Shares of the face: two constant textures blended over the head and the ring round it.
 Plane draw_shares(int width, int height, PlaneScale scale, const HeadMesh& head, const TextureMesh& texture) {
   Plane out(width, height), unused = out;
-  const Plane face(1, 1, kShareOne), surround(1, 1, 0);
+  const Plane face(1, 1, kFaceShareOne), surround(1, 1, 0);
   const std::array<ConstPlaneView, 2> face_planes{face, face}, surround_planes{surround, surround};
   const std::array<PlaneView, 2> target_planes{out, unused};
   const std::size_t count = plane_count(scale);
@@ -48,8 +48,8 @@ Plane draw_shares(int width, int height, PlaneScale scale, const HeadMesh& head,
   return out;
 }
 
-/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside the face or outside
-/// it: for those there are tables.
+/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside or outside the
+/// face: tables cover those.
 template <class Change>
 void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contrast, Change&& change) {
   const auto changed = [&](int v, int share) {
@@ -58,12 +58,12 @@ void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contras
   std::array<std::uint8_t, 256> outside, inside;
   for (int v = 0; v < 256; ++v) {
     outside[v] = changed(v, 0);
-    inside[v] = changed(v, kShareOne);
+    inside[v] = changed(v, kFaceShareOne);
   }
   for (std::size_t i = 0; i < plane.samples.size(); ++i) {
     std::uint8_t& v = plane.samples[i];
     const std::uint8_t share = shares.samples[i];
-    v = share == 0 ? outside[v] : share == kShareOne ? inside[v] : changed(v, share);
+    v = share == 0 ? outside[v] : share == kFaceShareOne ? inside[v] : changed(v, share);
   }
 }
 

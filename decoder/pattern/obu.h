@@ -22,7 +22,7 @@ enum class ObuType : std::uint8_t {
   kPadding = 15,
 };
 
-/// A view of one unit; lives as long as the bytes that were read.
+/// A view of one unit; valid as long as the bytes that were read.
 struct Obu {
   ObuType type = ObuType::kPadding;
   bool has_extension = false;  ///< it belongs to a temporal or spatial layer
@@ -36,8 +36,8 @@ class ObuReader {
 
   [[nodiscard]] bool done() const { return left_.empty(); }
 
-  /// The next unit, not when done(). A unit without a size field reaches to the end of the bytes.
-  /// @return kInvalidStream when the unit is malformed or longer than the bytes; the reader is then of no use
+  /// The next unit, not when done(). A unit without a size field extends to the end of the bytes.
+  /// @return kInvalidStream when the unit is malformed or longer than the bytes; the reader is then unusable
   Result<Obu> next();
 
  private:

@@ -32,7 +32,7 @@ Picture picture_of(const Dav1dPicture& from) {
   return out;
 }
 
-/// Anything but one frame would leave pictures inside dav1d, or none to take out.
+/// Rejects anything but one frame: it would leave pictures inside dav1d, or none to take out.
 Result<void> check_one_frame(std::span<const std::uint8_t> av1) {
   bool sequence = false, frame = false;
   for (ObuReader reader(av1); !reader.done();) {
@@ -56,7 +56,7 @@ struct PictureGuard {
   ~PictureGuard() { dav1d_picture_unref(&picture); }
 };
 
-/// Unreferences what dav1d has not taken.
+/// Unreferences data that dav1d has not taken.
 struct DataGuard {
   Dav1dData data{};
   DataGuard() = default;
@@ -65,7 +65,7 @@ struct DataGuard {
   ~DataGuard() { dav1d_data_unref(&data); }
 };
 
-/// Gives dav1d all of `av1` and takes out all that comes.
+/// Feeds dav1d all of `av1` and takes out every picture.
 /// @param picture  the last picture
 /// @return the number of pictures
 Result<int> feed(Dav1dContext* dav1d, std::span<const std::uint8_t> av1, Dav1dPicture& picture) {

@@ -15,7 +15,7 @@ constexpr int reduced_size(int full) {
   return (full + 1) / 2;
 }
 
-/// A coded frame's picture, and what an encoder wants to know about the frame.
+/// A coded frame's picture, and facts about the frame for the encoder.
 struct DecodedFrame {
   Picture picture;         ///< of the stream's size
   bool reduced = false;    ///< it was coded at reduced size
@@ -27,18 +27,16 @@ struct DecodedFrame {
 class PatternDecoder {
  public:
   /// @param width, height  pixels, of the stream. A frame has this size or the reduced one; any other is an
-  ///                       error, and no more memory than for frames of this size is taken
+  ///                       error, and takes no more memory than frames of this size
   static Result<PatternDecoder> create(int width, int height);
 
-  /// @param av1  one frame OBU with all tiles, before it at most one sequence header; the last OBU may go
-  ///             without a size field
+  /// @param av1  one frame OBU with all tiles, before it at most one sequence header; the last OBU may have
+  ///             no size field
   /// @return the picture whether the frame is shown or hidden, enlarged when it is reduced; kInvalidStream
-  /// when
-  ///         `av1` has other OBUs, or the frame is not 8-bit 4:2:0 of one of the two sizes or cannot be
-  ///         decoded
+  /// when `av1` has other OBUs, or the frame is not 8-bit 4:2:0 of one of the two sizes or cannot be decoded
   Result<Picture> decode(std::span<const std::uint8_t> av1);
 
-  /// The same with what else is known of the frame.
+  /// The same with facts about the frame.
   Result<DecodedFrame> decode_frame(std::span<const std::uint8_t> av1);
 
  private:

@@ -7,12 +7,12 @@
 namespace fbs {
 namespace {
 
-constexpr int kReach = 3;  // samples that a filter reads beyond the nearest one, at most
+constexpr int kReach = 3;  // the most samples that a filter reads beyond the nearest one
 
-// Sums of one direction are kept of samples around zero, where they fit 16 bits.
-constexpr int kMiddle = 128;
+// Sums in one direction are taken around zero, where they fit 16 bits.
+constexpr int kMiddleGrey = 128;
 
-/// Sums of a column's reduced samples for one full row, for each column.
+/// One vertical filter sum of reduced samples per column, for one full row.
 /// @param to  reduced.width sums, with room for kReach before and after, which are filled from the border
 void filter_columns(const Plane& reduced, int y, std::int16_t* to) {
   const int nearest = y / 2, step = y % 2 == 0 ? -1 : 1;
@@ -20,7 +20,7 @@ void filter_columns(const Plane& reduced, int y, std::int16_t* to) {
   for (int k = 0; k < std::ssize(rows); ++k)
     rows[k] = reduced.row(std::clamp(nearest + step * (k - kUpscaleNearestTap), 0, reduced.height - 1));
   for (int x = 0; x < reduced.width; ++x) {
-    int sum = -(kMiddle << kUpscaleTapsLog2);
+    int sum = -(kMiddleGrey << kUpscaleTapsLog2);
     for (std::size_t k = 0; k < rows.size(); ++k) sum += kUpscaleTaps[k] * rows[k][x];
     to[x] = static_cast<std::int16_t>(sum);
   }
@@ -30,7 +30,7 @@ void filter_columns(const Plane& reduced, int y, std::int16_t* to) {
 
 std::uint8_t sample_of(const std::int16_t* nearest, std::ptrdiff_t step) {
   constexpr int kShift = 2 * kUpscaleTapsLog2;
-  int sum = (kMiddle << kShift) + (1 << (kShift - 1));
+  int sum = (kMiddleGrey << kShift) + (1 << (kShift - 1));
   for (std::ptrdiff_t k = 0; k < std::ssize(kUpscaleTaps); ++k)
     sum += kUpscaleTaps[k] * nearest[step * (k - kUpscaleNearestTap)];
   return static_cast<std::uint8_t>(std::clamp(sum >> kShift, 0, 255));

@@ -1,4 +1,4 @@
-// Weights of the sources of a blend, and sums of samples by them. SPEC 11.6. Integers only.
+// Weights of a blend's sources, and weighted sums of samples. SPEC 11.6. Integers only.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace fbs {
 inline constexpr int kWeightOneLog2 = 12;
 inline constexpr int kWeightOne = 1 << kWeightOneLog2;  ///< weights in a blend sum to this
 
-/// Weights in units of 2^-8 are enough for many blends; their sums fit into sixteen bits.
+/// Weights in units of 2^-8 suffice for many blends; their sums fit 16 bits.
 inline constexpr int kCoarseOneLog2 = 8;
 inline constexpr int kCoarseOne = 1 << kCoarseOneLog2;
 inline constexpr int kCoarseStep = kWeightOne / kCoarseOne;
@@ -28,7 +28,7 @@ class LinearWeight {
     steps_ = {WideLanes{0, 1, 2, 3} * step, WideLanes{4, 5, 6, 7} * step};
   }
 
-  /// The weights of a block's samples, clamped to 0..left; takes them off `left`.
+  /// The weights of a block's samples, clamped to 0..left; subtracts them from `left`.
   [[nodiscard]] Lanes take(const RowBlock<kScale>& block, Lanes& left) const {
     const SignedLanes weight = is_tame_ ? at(block) : at_plain(block),
                       most = reinterpret_cast<SignedLanes>(left);
@@ -43,7 +43,7 @@ class LinearWeight {
     const auto first = static_cast<std::uint32_t>(block.along(gradient_).first);
     const auto low = reinterpret_cast<SignedLanes>(steps_[0] + first),
                high = reinterpret_cast<SignedLanes>(steps_[1] + first);
-    constexpr int kA = 1 - kLowPart;  // where the upper half of the first sum is
+    constexpr int kA = 1 - kLowPart;  // place of the upper half of the first sum
     return __builtin_shufflevector(low, high, kA, kA + 2, kA + 4, kA + 6, kA + 8, kA + 10, kA + 12, kA + 14);
   }
   [[nodiscard, gnu::noinline]] SignedLanes at_plain(const RowBlock<kScale>& block) const {
@@ -56,15 +56,15 @@ class LinearWeight {
   }
 
   Gradient gradient_;
-  bool is_tame_;  ///< whether it stays within what WideLanes can hold
+  bool is_tame_;  ///< whether it stays within the range of WideLanes
   std::array<WideLanes, 2> steps_;
 };
 
-/// Sum of samples by weights of 2^-12. Sixteen bits do not hold it: one part has the products with the
-/// weights rounded down to 2^-8, the other all products modulo 2^16. What rounding takes is their difference.
+/// Weighted sum of samples with weights of 2^-12, which does not fit 16 bits: one part sums products with the
+/// weights rounded down to 2^-8, the other all products modulo 2^16. Their difference is the rounding error.
 class WeightedSum {
  public:
-  static constexpr int kMaxAdded = 16;  ///< what carry() leaves and as many differences fit into sixteen bits
+  static constexpr int kMaxAdded = 16;  ///< the remainder of carry() and this many differences fit 16 bits
 
   void add(Lanes samples, Lanes weight) {
     coarse_ += samples * (weight >> kLowBits);

@@ -16,12 +16,12 @@ std::uint8_t lit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
   return static_cast<std::uint8_t>(std::clamp((sum + (1 << 11)) >> 12, 0, 255));
 }
 
-/// The luma that a light has made this.
+/// The luma from which a light has made this.
 std::uint8_t unlit(std::int32_t luma, std::int32_t offset, std::int32_t gain) {
   constexpr std::int32_t kOne = 1 << 18, kLeast = 1 << 16;
   const std::int64_t factor = std::max(kOne + gain, kLeast);
   const std::int64_t sum = (std::int64_t{luma - 128} << 18) - (std::int64_t{offset} << 6);
-  constexpr std::int64_t kAbove = 1 << 11;  // so that the quotient is of positive numbers
+  constexpr std::int64_t kAbove = 1 << 11;  // makes the dividend positive
   const std::int64_t before = (sum + factor / 2 + kAbove * factor) / factor - kAbove;
   return static_cast<std::uint8_t>(std::clamp<std::int64_t>(128 + before, 0, 255));
 }
@@ -38,12 +38,12 @@ bool is_within(const LinearRow& row, std::int64_t limit) {
   return within(row.first) && within(row.at(kLaneCount - 1));
 }
 
-/// Whether they need not be clamped, nor overflow.
+/// Whether all lanes need no clamp and do not overflow.
 bool within_max_light(const LinearRow& row) {
   return is_within(row, kMaxLightRow);
 }
 
-/// Whether they fit into sixteen bits. Usual gains do: up to 1/8 above and below one.
+/// Whether all lanes fit 16 bits. Usual gains do: up to 1/8 above and below one.
 bool is_low(const LinearRow& gain) {
   return is_within(gain, std::int64_t{std::numeric_limits<std::int16_t>::max()} << 8);
 }

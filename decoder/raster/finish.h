@@ -1,5 +1,5 @@
-// What happens to the samples of a source between pattern and picture: light and mouth interior.
-// SPEC 10.10, 10.11. Integers only.
+// Finishes the samples of a source between pattern and picture: light and mouth interior. SPEC 10.10, 10.11.
+// Integers only.
 #pragma once
 
 #include <array>
@@ -11,37 +11,37 @@
 
 namespace fbs {
 
-/// What is added to luma, linear over the triangle.
+/// Addition to luma, linear over the triangle.
 struct Light {
   std::array<std::int32_t, 3> offset{}, gain{};  ///< at the corners, as VertexLight
 };
 
-/// Colours mixed over the samples, from the upper to the lower lip.
+/// Colours mixed into the samples, from the upper to the lower lip.
 struct InteriorMix {
   std::array<std::int32_t, 3> ramp;  ///< at the corners, 0..256; linear over the triangle
   std::int32_t opacity = 0;          ///< 0..256
-  /// Of each plane where the ramp is 0, 128 and 256.
+  /// Colours of each plane where the ramp is 0, 128 and 256.
   std::span<const std::array<std::uint8_t, kInteriorCount>> colours;
 };
 
-/// Null: not done. In this order.
+/// Steps in order; null: left out.
 struct Finish {
-  const Light* light_before = nullptr;    ///< that has fallen on luma, and is taken back
-  const Light* light = nullptr;           ///< on luma
-  const InteriorMix* interior = nullptr;  ///< then mixed over all planes
+  const Light* light_before = nullptr;    ///< light in the texture's luma, removed
+  const Light* light = nullptr;           ///< light added to luma
+  const InteriorMix* interior = nullptr;  ///< mixed into all planes last
 };
 
-inline constexpr int kLightOneLog2 = 16;  ///< light along a run counts 2^-16 of 1/16 grey level
+inline constexpr int kLightOneLog2 = 16;  ///< light along a run is in 2^-16 of 1/16 grey level
 
 /// Adds light to luma in place. Offset and gain are clamped to +-kMaxLight: slivers, whose gradients are
-/// clamped, go beyond what their corners have.
+/// clamped, exceed the values at their corners.
 /// @param offset, gain  as VertexLight, Q16
 void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count);
 
 /// The inverse: luma before this light fell on it.
 void take_back_light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gain, int count);
 
-/// Mixes colours over samples in place.
+/// Mixes colours into samples in place.
 /// @param colours  where the ramp is 0, 128 and 256
 /// @param opacity  0..256
 /// @param ramp     place between upper and lower lip, 0..256 in Q16; clamped
@@ -57,7 +57,7 @@ class LightPainter {
 
  private:
   Gradient offset_, gain_;
-  std::array<SignedWideLanes, 2> offset_lanes_, gain_lanes_;  ///< what the lanes add to the first sample's
+  std::array<SignedWideLanes, 2> offset_lanes_, gain_lanes_;  ///< what each lane adds to the first sample's
 };
 
 /// mix_interior_row() for a block of a triangle.

@@ -1,5 +1,5 @@
-// Eight samples at once: vectors of GCC and Clang, which need no library and exist on every machine's
-// baseline (SSE2, NEON, WebAssembly). Emscripten's library has no std::bit_cast yet. Integers only.
+// Eight samples at once: vectors of GCC and Clang, which need no library and map to every machine's baseline
+// (SSE2, NEON, WebAssembly). Emscripten's library has no std::bit_cast yet. Integers only.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ using SignedWideLanes = std::int32_t __attribute__((vector_size(2 * kLaneCount))
 /// The same with a sign.
 using SignedLanes = std::int16_t __attribute__((vector_size(2 * kLaneCount)));
 
-/// The place, of the two parts of a lane, of that which counts less.
+/// Which of the two parts of a lane is the less significant.
 inline constexpr int kLowPart = std::endian::native == std::endian::little ? 0 : 1;
 
 /// Eight samples.
@@ -31,14 +31,14 @@ inline constexpr int kLowPart = std::endian::native == std::endian::little ? 0 :
   std::uint64_t word = 0;
   std::memcpy(&word, samples, sizeof word);
   const auto bytes = reinterpret_cast<Bytes>(Words{word, 0});
-  // One instruction, which compilers do not make of __builtin_convertvector().
+  // One instruction, which compilers do not generate for __builtin_convertvector().
   constexpr int kA = 16 * kLowPart, kB = 16 - kA;
   return reinterpret_cast<Lanes>(__builtin_shufflevector(bytes, Bytes{}, kA, kB, kA + 1, kB + 1, kA + 2,
                                                          kB + 2, kA + 3, kB + 3, kA + 4, kB + 4, kA + 5,
                                                          kB + 5, kA + 6, kB + 6, kA + 7, kB + 7));
 }
 
-/// @param pair  gives, for each lane, the address of two samples; the first will be the low byte of the lane
+/// @param pair  gives, for each lane, the address of two samples; the first becomes the low byte of the lane
 template <class Pair>
 [[nodiscard]] inline Lanes load_pairs(Pair&& pair) {
   const auto load = [&](int lane) {
@@ -61,8 +61,8 @@ inline void store_lanes(Lanes lanes, std::uint8_t* samples) {
   std::memcpy(samples, &bytes, sizeof bytes);
 }
 
-/// Stores the first lanes only; the samples behind them, which must be there, keep their values. Without a
-/// branch: counts are hard to predict.
+/// Stores the first lanes only; the samples after them, which must exist, keep their values. Branch-free:
+/// counts are hard to predict.
 /// @param count  1..kLaneCount
 inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
   const int others = 8 * (kLaneCount - count);
@@ -74,7 +74,7 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
 }
 
 [[nodiscard]] inline std::array<SignedWideLanes, 2> widen(Lanes lanes) {
-  // The zeros in this order: compilers make one instruction of an interleave.
+  // In this order of zeros compilers emit one interleave instruction.
   constexpr int kA = 8 * kLowPart, kB = 8 - kA;
   return {reinterpret_cast<SignedWideLanes>(__builtin_shufflevector(lanes, Lanes{}, kA, kB, kA + 1, kB + 1,
                                                                     kA + 2, kB + 2, kA + 3, kB + 3)),
@@ -103,13 +103,13 @@ inline void store_first_lanes(Lanes lanes, std::uint8_t* samples, int count) {
   const auto x = __builtin_bit_cast(Array, a), y = __builtin_bit_cast(Array, b);
   Array out;
 #ifndef __clang__
-#pragma GCC unroll 1  // left whole, the loop becomes one instruction (PMULHUW)
+#pragma GCC unroll 1  // not unrolled, the loop becomes one instruction (PMULHUW)
 #endif
   for (int i = 0; i < kLaneCount; ++i) out[i] = static_cast<std::uint16_t>(std::uint32_t{x[i]} * y[i] >> 16);
   return __builtin_bit_cast(Lanes, out);
 }
 
-/// All bits of each product.
+/// The full products.
 [[nodiscard, gnu::always_inline]] inline std::array<SignedWideLanes, 2> multiply_wide(SignedLanes a,
                                                                                       SignedLanes b) {
   using Array = std::array<std::int16_t, kLaneCount>;

@@ -1,16 +1,15 @@
-// What is linear along a run of samples.
+// A value that is linear along a run of samples.
 #pragma once
 
 #include <cstdint>
 
 namespace fbs {
 
-/// A value that changes linearly along a run.
 struct LinearRow {
   std::int64_t first;  ///< at the first sample
   std::int64_t step;   ///< per sample
   [[nodiscard]] std::int64_t at(std::int64_t sample) const { return first + sample * step; }
-  /// The same from a later sample on.
+  /// The same run from a later sample on.
   [[nodiscard]] LinearRow from(std::int64_t sample) const { return {at(sample), step}; }
 };
 

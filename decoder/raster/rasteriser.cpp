@@ -21,7 +21,7 @@ bool is_finished(const TextureSource& s) {
   return s.finish.light != nullptr || s.finish.light_before != nullptr || s.finish.interior != nullptr;
 }
 
-/// The samples of one source: everything that is linear over the triangle but depth.
+/// The samples of one source: everything linear over the triangle except depth.
 /// @param kFinished  whether there may be light or interior
 template <PlaneScale kScale, bool kFinished>
 class SourcePainter {
@@ -60,7 +60,7 @@ class SourcePainter {
   [[no_unique_address]] std::conditional_t<kFinished, Painters, Nothing> finish_;
 };
 
-/// One of each source of a triangle; memory that is not used is not touched.
+/// One object for each source of a triangle; unused memory is not touched.
 template <class T>
 class SourceArray {
   static_assert(std::is_trivially_destructible_v<T>);
@@ -93,7 +93,7 @@ bool all_constant_and_coarse(std::span<const TextureSource> sources) {
   });
 }
 
-/// Weights that are the same all over the triangle, 2^-8.
+/// Weights constant over the triangle, 2^-8.
 template <PlaneScale kScale, bool kFinished>
 class CoarseBlend {
  public:
@@ -124,7 +124,7 @@ class CoarseBlend {
   std::array<std::uint16_t, kMaxTriangleSources> weights_;
 };
 
-/// Weights that are linear over the triangle. SPEC 11.6.
+/// Weights linear over the triangle. SPEC 11.6.
 template <PlaneScale kScale, bool kFinished>
 class LinearBlend {
  public:

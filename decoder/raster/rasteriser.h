@@ -22,23 +22,23 @@ struct TextureSource {
   std::span<const ConstPlaneView> planes;  ///< all of one size; as many as the scale has: plane_count()
   std::array<glm::ivec2, 3> corners;       ///< of the triangle in them, 1/64 luma pixel, as ScreenVertex::at
   Finish finish;
-  /// Of the source in a blend, at the corners, 0..kWeightOne; linear over the triangle. The last source has
-  /// what the others leave, whatever its own weight.
+  /// Weight of the source in a blend, at the corners, 0..kWeightOne; linear over the triangle. The last
+  /// source gets the remainder, whatever its own weight.
   std::array<std::int32_t, 3> weight{};
 };
 
-/// Where they go.
+/// Where the samples go.
 struct RasterTarget {
   PlaneScale scale;
   std::span<const PlaneView> planes;  ///< all of one size; plane_count(scale)
   SampleArea area;                    ///< within the planes: the samples that may be drawn
-  DepthPlane* depth = nullptr;  ///< of the planes' size: only samples that are nearer are drawn; null: all
+  DepthPlane* depth = nullptr;        ///< same size as the planes: only nearer samples are drawn; null: all
 };
 
-/// Draws the part of each plane of the sources that the triangle shows into the target's plane. Samples in
-/// the target's area whose centre is inside the triangle (top-left rule) are drawn. A triangle that is
-/// anticlockwise on the screen or has no area is not drawn.
-/// @param sources  1..kMaxTriangleSources. Light falls on luma only
+/// Draws the triangle's part of each source plane into the target's plane: the samples in the target's area
+/// whose centre is inside the triangle (top-left rule). A triangle that is anticlockwise on the screen or has
+/// no area is not drawn.
+/// @param sources  1..kMaxTriangleSources. Light affects luma only
 void draw_triangle(const ScreenTriangle& triangle, std::span<const TextureSource> sources,
                    const RasterTarget& target);
 

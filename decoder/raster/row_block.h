@@ -1,4 +1,4 @@
-// A few neighbouring samples of a row, which are painted together.
+// A few neighbouring samples of a row, painted together.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Which samples of a row are drawn: those that a triangle covers and, of them, those that are nearer than
-// what is there. SPEC 10.6 and 10.9. Integers only.
+// The samples of a row that are drawn: covered by a triangle, and nearer than the samples already there. SPEC
+// 10.6 and 10.9. Integers only.
 #pragma once
 
 #include <algorithm>
@@ -41,15 +41,15 @@ struct RowRun {
   return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-/// Depth of what has been drawn so far, per sample of a plane.
+/// Depth of the samples drawn so far.
 struct DepthPlane {
   static constexpr std::size_t kReadBeyond =
-      8;  ///< vectors may read and write so many behind the last sample
+      8;  ///< vectors may read and write this many beyond the last sample
 
   int width = 0;
   std::vector<std::int32_t> depth;
 
-  /// Makes everything in `area` infinitely far; the rest is left undefined.
+  /// Makes everything in `area` infinitely far; the rest stays undefined.
   void reset(int width, int height, const SampleArea& area);
   [[nodiscard]] std::int32_t* row(int y) { return depth.data() + static_cast<std::ptrdiff_t>(y) * width; }
 };
@@ -63,8 +63,8 @@ struct DepthRow {
 inline constexpr std::int64_t kMinDepth = std::numeric_limits<std::int32_t>::min();
 inline constexpr std::int64_t kMaxDepth = std::numeric_limits<std::int32_t>::max() - 1;
 
-/// Calls draw(RowRun) for each run of samples that are nearer than what is there, once their depth is noted.
-/// Depths are clamped to kMinDepth..kMaxDepth.
+/// Calls draw(RowRun) for each run of samples nearer than the depth recorded, after recording theirs. Depths
+/// are clamped to kMinDepth..kMaxDepth.
 /// @param nearest  depth of the row's samples, from its first on
 template <class Draw>
 void for_each_nearer_clamped(std::int32_t* nearest, RowRun run, DepthRow z, Draw&& draw) {
@@ -82,7 +82,7 @@ void for_each_nearer_clamped(std::int32_t* nearest, RowRun run, DepthRow z, Draw
   if (begin >= 0) draw(RowRun{begin, run.last});
 }
 
-/// The same for a run along which the depth does not leave its limits.
+/// The same for a run whose depth stays within its limits.
 template <class Draw>
 void for_each_nearer_inside(std::int32_t* nearest, RowRun run, DepthRow z, Draw&& draw) {
   int x = run.first;

@@ -1,4 +1,4 @@
-// The runs of a triangle from row to row, without a division in each. SPEC 10.6. Integers only.
+// The runs of a triangle from row to row, without a division for each. SPEC 10.6. Integers only.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// Gives what covered_run() gives.
+/// Same result as covered_run().
 class RunWalker {
  public:
   /// @param triangle  faces the viewer
@@ -18,7 +18,7 @@ class RunWalker {
     for (std::size_t k = 0; k < borders_.size(); ++k) borders_[k] = Border(triangle.edges()[k], row);
   }
 
-  /// The run of the row; then goes to the next row.
+  /// The run of the current row; then advances to the next row.
   [[nodiscard]] RowRun next() {
     std::int64_t first = area_.x0, last = area_.x1 - 1;
     for (Border& b : borders_) {
@@ -35,7 +35,7 @@ class RunWalker {
   }
 
  private:
-  /// An edge: where it cuts the row, as quotient and remainder.
+  /// An edge: where it crosses the row, as quotient and remainder.
   struct Border {
     int side = 0;  ///< sign of Edge::a
     std::int64_t quotient = 0, remainder = 0, divisor = 1;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kMaxShort = 1 << 30;
 
-/// The quantity in a box; false if it has been clamped, or leaves 32 bits there.
+/// Shortens the quantity in a box; false if it was clamped, or exceeds 32 bits there.
 bool shorten(const Gradient& g, const TriangleSetup& setup, const SampleArea& box, std::int64_t more,
              ShortGradient& out) {
   if (!g.exact()) return false;
@@ -27,7 +27,7 @@ SampleArea box_of(const ScreenTriangle& t, const TriangleSetup& setup, const Sam
           std::min(area.x1, (right >> bits) + 1), std::min(area.y1, setup.last_row() + 1)};
 }
 
-/// Whether a kernel can read all that the triangle shows, and what rounding may show beyond it.
+/// Whether a kernel can read everything that the triangle shows, with the margin that rounding needs.
 bool is_inside(const TextureSource& source, int position_bits) {
   const ConstPlaneView& plane = source.planes.front();
   const auto& c = source.corners;
@@ -47,7 +47,7 @@ bool is_plain(const Finish& finish) {
   return finish.light_before == nullptr && finish.interior == nullptr;
 }
 
-/// Whether the samples of a source are those of the picture in the same place.
+/// Whether a source shows the picture's own samples in place.
 bool is_still(const TextureSource& source, const ScreenTriangle& t, const RasterTarget& target) {
   const ConstPlaneView& plane = source.planes.front();
   return source.corners == std::array{t[0].at, t[1].at, t[2].at} && is_plain(source.finish) &&
@@ -73,7 +73,7 @@ std::optional<ShortTriangle> shorten(const TriangleSetup& setup, const ScreenTri
   const auto& c = source.corners;
   ShortTriangle out{RunWalker(setup, box.y0, box),  box, {}, {}, {}, {}, {},
                     source.finish.light != nullptr, {}};
-  constexpr std::int64_t kHalf = 1 << 15;  // from places whose integers are between samples to centres
+  constexpr std::int64_t kHalf = 1 << 15;  // from positions whose integers are between samples to centres
   const auto quantity = [&](const std::array<std::int32_t, 3>& value, int bits, std::int64_t more,
                             ShortGradient& to) {
     return shorten(setup.gradient(value, bits), setup, box, more, to);

@@ -1,5 +1,5 @@
-// A triangle drawn from a texture of which all quantities fit into 32 bits, as nearly all do: what the
-// kernels of triangle_kernels.h draw. Integers only.
+// A textured triangle whose quantities all fit 32 bits, as nearly all do, for the kernels of
+// triangle_kernels.h. Integers only.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace fbs {
 
-/// The texture, and with it still sources: the samples of a picture where they are.
+/// The texture plus still sources, which show the samples of a picture in place.
 inline constexpr std::size_t kMaxShortSources = 3;
 
 /// A quantity that is linear over the triangle.
@@ -24,23 +24,22 @@ struct ShortGradient {
 
 struct ShortTriangle {
   RunWalker runs;      ///< from the first row of the box on
-  SampleArea box;      ///< all samples are in it; not empty
-  ShortGradient u, v;  ///< places in the texture, 2^-16 sample; all lie within it
+  SampleArea box;      ///< contains all samples; not empty
+  ShortGradient u, v;  ///< positions in the texture, 2^-16 sample; all lie within it
   ShortGradient depth;
-  ShortGradient offset, gain;  ///< of the light, as light_row() has it
+  ShortGradient offset, gain;  ///< of the light, as in light_row()
   bool has_light = false;
-  /// Of the texture and of what is blended with it but the last, which has what they leave; in 2^-16 of
-  /// 1 / kWeightOne.
+  /// Weights of the texture and of the sources blended with it, except the last, which gets the remainder; in
+  /// 2^-16 of 1 / kWeightOne.
   std::array<ShortGradient, kMaxShortSources - 1> weight;
 };
 
-/// Columns beyond the left one of each place that a kernel may read, and rows below it.
+/// Columns to the right of each position that a kernel may read, and rows below it.
 inline constexpr int kReadColumns = 16, kReadRows = 4;
 
 /// @param sources  the texture first. 1..kMaxTriangleSources
 /// @return none where the triangle is too large, its texture lies at the border, or there is more to draw
-/// than
-///         the above: draw_triangle() does so by other means
+/// than the above: draw_triangle() then does it by other means
 [[nodiscard]] std::optional<ShortTriangle> shorten(const TriangleSetup& setup, const ScreenTriangle& triangle,
                                                    std::span<const TextureSource> sources,
                                                    const RasterTarget& target);

@@ -18,15 +18,15 @@ struct TextureRow {
   LinearRow u, v;
 };
 
-/// Bilinear, to 1/256 sample, one sample after the other. Positions outside the texture repeat its border.
+/// Bilinear, to 1/256 sample, one sample after another. Positions outside the texture repeat its border.
 void sample_row(const ConstPlaneView& texture, const TextureRow& at, std::uint8_t* out, int count);
 
-/// Takes blocks of a triangle from a texture, as sample_row() does.
+/// Samples a texture for blocks of a triangle, as sample_row() does.
 template <PlaneScale kScale>
 class TextureSampler {
  public:
   /// @param textures  planes of one size
-  /// @param corners   of the triangle in them, 1/64 luma pixel
+  /// @param corners   of the triangle in the planes, 1/64 luma pixel
   TextureSampler(const TriangleSetup& setup, const ScreenTriangle& t,
                  std::span<const ConstPlaneView> textures, const std::array<glm::ivec2, 3>& corners)
       : textures_(textures),
@@ -34,8 +34,7 @@ class TextureSampler {
         is_in_place_(corners == std::array{t[0].at, t[1].at, t[2].at}) {
     u_ = setup.gradient({corners[0].x, corners[1].x, corners[2].x}, static_cast<int>(kScale));
     v_ = setup.gradient({corners[0].y, corners[1].y, corners[2].y}, static_cast<int>(kScale));
-    // Texture coordinates of a sample's centre have a half of a sample that its position in the plane has
-    // not.
+    // Texture coordinates of a sample's centre include half a sample, unlike its position in the plane.
     u_.origin -= kOne / 2;
     v_.origin -= kOne / 2;
     u_lanes_ = multiples(u_.dx);
@@ -52,12 +51,12 @@ class TextureSampler {
   }
 
  private:
-  /// Not inline: what most blocks need stays small.
+  /// Not inline: keeps the common path small.
   [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_other(const TextureRow& at, int count) const {
     return is_inside(at) ? sample_bent(at) : sample_edge(at, count);
   }
 
-  /// A block of which some sample, drawn or not, lies at the border of the texture or beyond.
+  /// A block that needs samples at the border of the texture or beyond.
   [[nodiscard, gnu::noinline]] BlockSamples<kScale> sample_edge(const TextureRow& from, int count) const {
     const int width = textures_.front().width, height = textures_.front().height;
     const TextureRow at = {kept_inside(from.u, count, width), kept_inside(from.v, count, height)};
@@ -69,7 +68,7 @@ class TextureSampler {
     return sample_plain(at, count);
   }
 
-  /// Positions all beyond one border of a texture: on the border.
+  /// Positions all beyond one border of a texture are moved onto it.
   static LinearRow kept_inside(const LinearRow& row, int count, int size) {
     const std::int64_t last = (size - 1) * kOne, end = row.at(count - 1);
     if (row.first <= 0 && end <= 0) return {0, 0};
@@ -84,25 +83,25 @@ class TextureSampler {
     return static_cast<std::uint64_t>(value) < static_cast<std::uint64_t>(end);
   }
 
-  /// Whether the samples come from neighbouring columns of the same two rows.
+  /// Whether the samples come from consecutive columns of the same two rows.
   [[nodiscard]] bool is_straight(const TextureRow& at, int count) const {
-    // The whole parts of the positions are those of the first sample plus 1 each in u, plus 0 in v.
+    // Whole parts of the positions: the first sample's plus 1 each in u, plus 0 in v.
     const auto keeps_step = [&](const LinearRow& row, std::int64_t step) {
       return below((row.first & (kOne - 1)) + (count - 1) * (row.step - step), kOne);
     };
     return keeps_step(at.u, kOne) && keeps_step(at.v, 0);
   }
-  /// Whether kLaneCount samples and one more of the first columns can be read from there, and the row below.
+  /// Whether kLaneCount + 1 samples can be read from the first column on, and the row below.
   [[nodiscard]] bool is_straight_inside(const TextureRow& at) const {
     return below(at.u.first >> 16, straight_columns_) &&
            below(at.v.first >> 16, textures_.front().height - 1);
   }
-  /// Whether memory can be read from there on: samples behind the row are those of the next.
+  /// Whether memory can be read from there on: the next row's samples follow the row's.
   [[nodiscard]] bool can_read(std::int64_t x, std::int64_t y, int samples) const {
     const std::int64_t width = textures_.front().width, height = textures_.front().height;
     return x >= 0 && below(y, height) && x + samples <= width * (height - y);
   }
-  /// Whether kLaneCount samples lie inside the texture, and all that is mixed to them.
+  /// Whether kLaneCount samples lie inside the texture, with everything mixed into them.
   [[nodiscard]] bool is_inside(const TextureRow& at) const {
     const std::int64_t end_u = (textures_.front().width - 1) * kOne,
                        end_v = (textures_.front().height - 1) * kOne;
@@ -115,17 +114,17 @@ class TextureSampler {
   }
 
   /// @param fx  share of the right samples, 1/256, 0..255
-  /// @param fy  of the lower samples, the same
+  /// @param fy  share of the lower samples, likewise
   static Lanes bilinear(Lanes top_left, Lanes top_right, Lanes bottom_left, Lanes bottom_right, Lanes fx,
                         Lanes fy) {
     const Lanes gx = 256 - fx;
     const Lanes top = top_left * gx + top_right * fx, bottom = bottom_left * gx + bottom_right * fx;
-    // What fy makes of bottom - top, modulo 2^16: where top is larger, 2^16 were added to the difference.
+    // fy * (bottom - top) modulo 2^16: where top is larger, the difference has 2^16 too much.
     const Lanes share = fy << 8, too_much = bottom < top ? share : Lanes{};
     return (top + multiply_high(bottom - top, share) - too_much + 128) >> 8;
   }
 
-  /// Triangles go down a texture a few samples at a time, which hardware does not foresee. Eight rows ahead
+  /// Triangles go down a texture a few samples at a time, which hardware prefetchers miss. Eight rows ahead
   /// is a third of the height of most triangles; man_glasses_720x1280 decodes in 3/4 of the time.
   static void prefetch_below(const std::uint8_t* samples, std::ptrdiff_t stride) {
     __builtin_prefetch(samples + 8 * stride);
@@ -141,7 +140,7 @@ class TextureSampler {
     return out;
   }
 
-  /// @param has_below  whether there is a row below; else the border is repeated
+  /// @param has_below  whether there is a row below; else the border repeats
   [[nodiscard]] Samples sample_straight(const TextureRow& at, Lanes v_lanes, bool has_below) const {
     const Lanes fx = fraction(at.u, u_lanes_), fy = fraction(at.v, v_lanes);
     Samples out;
@@ -181,10 +180,10 @@ class TextureSampler {
   }
 
   std::span<const ConstPlaneView> textures_;
-  int straight_columns_;  ///< from which kLaneCount samples and one more can be read
-  bool is_in_place_;      ///< the texture lies where it is drawn: its samples are those of the plane
+  int straight_columns_;  ///< up to here kLaneCount + 1 samples can be read
+  bool is_in_place_;      ///< the texture lies where it is drawn: samples match the plane's
   Gradient u_, v_;
-  Lanes u_lanes_, v_lanes_;  ///< what the lanes add to the first position, modulo a sample
+  Lanes u_lanes_, v_lanes_;  ///< what each lane adds to the first position, modulo a sample
 };
 
 }  // namespace fbs

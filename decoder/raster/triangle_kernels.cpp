@@ -30,7 +30,7 @@ void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const Textur
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The samples that are drawn together.
+/// Samples drawn together.
 using Wide = hn::CappedTag<std::int32_t, 8>;
 using Numbers = hn::Vec<Wide>;
 using Short = hn::Rebind<std::int16_t, Wide>;
@@ -43,7 +43,7 @@ alignas(32) constexpr std::int32_t kNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 /// Some samples of a row.
 struct Step {
   int row, column;  ///< of the target
-  int count;        ///< that are drawn, 1..kLanes
+  int count;        ///< drawn samples, 1..kLanes
 };
 
 /// A quantity at the beginning of rows.
@@ -80,10 +80,10 @@ struct RowStarts {
   }
 };
 
-/// Where the samples of a step lie in a texture.
+/// Positions of a step's samples in a texture.
 struct Places {
-  const std::int32_t column, row;  ///< of the least
-  hn::Vec<Short> columns, rows;    ///< from them on
+  const std::int32_t column, row;  ///< the least
+  hn::Vec<Short> columns, rows;    ///< relative to it
   hn::Vec<Unsigned> right, down;   ///< fractions, 1/256
 };
 
@@ -109,8 +109,8 @@ struct Pairs {
   hn::Vec<Unsigned> top, bottom;
 };
 
-/// Looks bytes up in a few rows.
-/// @param kSpan  rows that the places lie in, less one
+/// Looks up bytes in a few rows.
+/// @param kSpan  rows that the positions lie in, less one
 template <int kSpan>
 HWY_INLINE Pairs pairs_by_table(const ConstPlaneView& texture, const Places& at) {
   const Short s;
@@ -135,7 +135,7 @@ HWY_INLINE Pairs pairs_by_table(const ConstPlaneView& texture, const Places& at)
   return {top, bottom};
 }
 
-/// Loads them one by one. (Gathers take longer: x86 processors since 2023 make them slow on purpose.)
+/// Loads pairs one by one. (Gathers take longer: x86 processors since 2023 make them slow on purpose.)
 HWY_INLINE Pairs pairs_one_by_one(const ConstPlaneView& texture, const Places& at) {
   const Wide d;
   alignas(32) std::int32_t offset[8];
@@ -172,8 +172,7 @@ HWY_INLINE hn::Vec<Unsigned> bilinear(const Pairs& pairs, const Places& at) {
     return hn::Add(hn::Mul(hn::And(pair, hn::Set(u, 255)), left), hn::Mul(hn::ShiftRight<8>(pair), at.right));
   };
   const auto top = across(pairs.top), bottom = across(pairs.bottom);
-  // What is below's share of bottom - top, modulo 2^16: where top is larger, 2^16 were added to the
-  // difference.
+  // (bottom - top) times the lower share, modulo 2^16: where top is larger, the difference has 2^16 too much.
   const auto too_much = hn::IfThenElseZero(hn::Lt(bottom, top), share);
   const auto more = hn::Sub(hn::MulHigh(hn::Sub(bottom, top), share), too_much);
   return hn::ShiftRight<8>(hn::Add(hn::Add(top, more), hn::Set(u, 128)));
@@ -192,8 +191,8 @@ HWY_INLINE hn::Vec<Unsigned> lit(hn::Vec<Unsigned> luma, const RowStarts& start,
   return hn::BitCast(Unsigned(), hn::DemoteTo(Short(), after));
 }
 
-/// Which samples of a step are drawn: those nearer than what is there, whose depth is noted.
-/// @param any  whether there are such
+/// Which samples of a step are drawn: those nearer than the depth recorded, which is updated.
+/// @param any  whether there are any
 /// @return 255 for each, otherwise 0
 HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, int x, int count,
                                  Numbers number, bool& any) {
@@ -206,7 +205,7 @@ HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, in
   return hn::BitCast(Bytes(), hn::DemoteTo(narrow, hn::VecFromMask(d, is_nearer)));
 }
 
-/// Samples of a plane where they are drawn; those beyond its last column are zero.
+/// Samples of a plane in place; zero beyond its last column.
 HWY_INLINE Numbers in_place(const ConstPlaneView& plane, const Step& step) {
   const Wide d;
   const Bytes b;
@@ -217,7 +216,7 @@ HWY_INLINE Numbers in_place(const ConstPlaneView& plane, const Step& step) {
   return hn::PromoteTo(d, hn::LoadU(b, memory));
 }
 
-/// Blends what the texture shows with the other sources.
+/// Blends the texture with the other sources.
 HWY_INLINE hn::Vec<Unsigned> blended(hn::Vec<Unsigned> texture, std::span<const TextureSource> sources,
                                      std::size_t plane, const RowStarts& start, int x, Numbers number,
                                      const Step& step) {
@@ -251,7 +250,7 @@ HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const Pla
   }
 }
 
-/// How a triangle's samples are found: by a table of so many rows and one, or one by one.
+/// How a triangle's samples are looked up: in a table of this many rows and one more, or one by one.
 enum Lookup : int { kOneByOne = -1, kTwoRows = 1, kFourRows = 3 };
 
 template <int kLookup>
@@ -295,7 +294,7 @@ void draw_rows(const ShortTriangle& t, std::span<const TextureSource> sources,
   }
 }
 
-/// By how much places may differ in a step for a lookup.
+/// Whether the positions of a step are close enough for a lookup.
 bool fits(std::int32_t per_sample, int columns) {
   return std::abs(std::int64_t{per_sample}) * (kLanes - 1) <= std::int64_t{columns} << 16;
 }
@@ -303,7 +302,7 @@ bool fits(std::int32_t per_sample, int columns) {
 template <PlaneScale kScale>
 void draw_scale(const ShortTriangle& t, std::span<const TextureSource> sources,
                 std::span<const PlaneView> target, DepthPlane& depth) {
-  constexpr int kMostColumns = kReadColumns - 3;  // and one that fractions add, and the right neighbour
+  constexpr int kMostColumns = kReadColumns - 3;  // minus one that fractions add, and the right neighbour
   if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kTwoRows))
     draw_rows<kScale, kTwoRows>(t, sources, target, depth);
   else if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kFourRows))

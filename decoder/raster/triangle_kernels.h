@@ -6,9 +6,9 @@
 
 namespace fbs {
 
-/// Draws the samples that are nearer than what is there.
-/// @param sources  those that the triangle was made from
-/// @param target   a plane of luma, two of chroma; light falls on luma
+/// Draws the samples that are nearer than the depth recorded.
+/// @param sources  those the triangle was made from
+/// @param target   a plane of luma, or two of chroma; light affects luma only
 /// @param depth    of the target's planes
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
                          std::span<const TextureSource> sources, std::span<const PlaneView> target,

@@ -14,7 +14,7 @@ LinearRow along(const ShortGradient& g, int row) {
   return {g.first + std::int64_t{g.dy} * row, g.dx};
 }
 
-/// What the sources show of one plane at a sample.
+/// A sample of each source in one plane.
 struct Sample {
   const ShortTriangle& t;
   std::span<const TextureSource> sources;

@@ -1,4 +1,4 @@
-// What the kernels of triangle_kernels.h compute, one sample after the other.
+// The definition of triangle_kernels.h, one sample after another.
 #pragma once
 
 #include "decoder/raster/short_triangle.h"

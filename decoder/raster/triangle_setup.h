@@ -1,4 +1,4 @@
-// A triangle made ready for its rows: edges and gradients. SPEC 10.5 to 10.7. Integers only.
+// A triangle prepared for rasterising: edges and gradients. SPEC 10.5 to 10.7. Integers only.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Gradient {
   [[nodiscard]] std::int64_t at(FromCorner p, int position_bits) const {
     return origin + ((dx * p.x + dy * p.y) >> position_bits);
   }
-  /// Whether it cannot have been clamped.
+  /// Whether it was certainly not clamped.
   [[nodiscard]] bool exact() const {
     return dx > -kMaxGradient && dx < kMaxGradient && dy > -kMaxGradient && dy < kMaxGradient;
   }
@@ -62,10 +62,10 @@ class TriangleSetup {
  public:
   TriangleSetup(const ScreenTriangle& triangle, PlaneScale scale);
 
-  /// Whether the triangle is clockwise in the picture; only then has it edges and gradients.
+  /// Whether the triangle is clockwise in the picture; only then does it have edges and gradients.
   [[nodiscard]] bool faces_viewer() const { return area_ > 0; }
 
-  /// @param value       at the corners, in units of which `1 << value_bits` make 1
+  /// @param value       at the corners, in units of 1 / (1 << value_bits)
   /// @param value_bits  0..16
   [[nodiscard]] Gradient gradient(const std::array<std::int32_t, 3>& value, int value_bits) const;
 
@@ -80,7 +80,7 @@ class TriangleSetup {
   }
 
  private:
-  FromCorner first_sample_;         // of sample 0 of row 0
+  FromCorner first_sample_;         // centre of sample 0 of row 0
   std::int64_t ax_, ay_, bx_, by_;  // from corner 0 to corners 1 and 2
   std::int64_t area_;               // twice the triangle's, 1/64 pixel squared
   int position_bits_;

@@ -1,4 +1,4 @@
-// What the pictures of a stream are drawn from, from one setup packet to the next.
+// What the pictures between two setup packets are drawn from.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-/// A decoded picture of the person, and all that is needed to draw from it.
+/// A decoded picture of the person, and everything needed to draw from it.
 struct Pattern {
   Picture picture;
   State seen;                           ///< the state it was seen in
@@ -23,15 +23,15 @@ struct Pattern {
   void set_geometry(const SceneGeometry& geometry);
 };
 
-/// @param geometry  that of the scene; none: a scene without a face
+/// @param geometry  the scene's; none: a scene without a face
 [[nodiscard]] Pattern make_pattern(Picture picture, const State& seen,
                                    const std::optional<SceneGeometry>& geometry);
 
-/// The same from a picture as coded, whose contrast is that of the setup.
+/// The same from a coded picture, which has the setup's contrast.
 [[nodiscard]] Pattern make_coded_pattern(Picture coded, const State& seen,
                                          const std::optional<SceneGeometry>& geometry, const Setup& setup);
 
-/// All that pictures share until the next setup packet.
+/// What pictures share until the next setup packet.
 struct Scene {
   Setup setup;
   std::optional<SceneGeometry> geometry;  ///< absent: patterns are shown as they are

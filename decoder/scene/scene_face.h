@@ -6,7 +6,7 @@
 
 namespace fbs {
 
-/// The geometry of the scene's face; null where it has none, or a flat one that only moves the picture.
+/// The geometry of the scene's face; null where it has no face or only a flat head that moves the picture.
 [[nodiscard]] inline const SceneGeometry* face_of(const Scene& scene) {
   return scene.geometry && !is_flat(scene.geometry->geometry()) ? &*scene.geometry : nullptr;
 }

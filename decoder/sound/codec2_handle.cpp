@@ -3,7 +3,7 @@
 namespace fbs {
 namespace {
 
-/// libcodec2's name of a mode; -1 when it has none.
+/// libcodec2's number for a mode; -1 when it has none.
 int id_of(const Codec2Mode& mode) {
   switch (mode.bitrate) {
     case 3200:

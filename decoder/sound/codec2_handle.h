@@ -1,4 +1,4 @@
-// A coder and decoder of libcodec2.
+// A coder or decoder of libcodec2.
 #pragma once
 
 #include <codec2/codec2.h>

@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-// What is lost is concealed by the last frame once more, fainter and fainter; silence after 100 ms.
+// Losses are concealed by repeating the last frame, ever fainter; silence after 100 ms.
 constexpr std::int32_t kFadeSamples = kCodec2Rate / 10;
 
 class Codec2Sound final : public SoundDecoder {
@@ -34,7 +34,7 @@ class Codec2Sound final : public SoundDecoder {
   }
 
   void reset() override {
-    // It allocates a few kilobytes; when there are none, the old state goes on.
+    // This allocates a few kilobytes; if that fails, the old state continues.
     if (Codec2Handle fresh = create_codec2(mode_); fresh) handle_ = std::move(fresh);
     last_.clear();
     faded_ = 0;

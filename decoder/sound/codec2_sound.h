@@ -7,7 +7,7 @@
 
 namespace fbs {
 
-/// @return errors as those of SoundDecoder::create
+/// @return errors of SoundDecoder::create
 Result<std::unique_ptr<SoundDecoder>> create_codec2_sound(const SoundSetup& setup);
 
 }  // namespace fbs

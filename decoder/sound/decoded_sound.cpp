@@ -8,7 +8,7 @@
 namespace fbs {
 namespace {
 
-/// A longer gap is not concealed: the decoder begins anew behind it.
+/// A longer gap is not concealed: the decoder restarts after it.
 constexpr std::int64_t kLongGap = kSoundClock;
 
 }  // namespace
@@ -37,7 +37,7 @@ void DecodedSound::decode(std::int64_t end) {
     waiting_size_ -= memory_of(part.group);
     if (begin_of(part) > read_ + kLongGap) reader_.reset();
     read_ = end_of(part);
-    // add() has seen that there is a decoder; what is wrong with a frame is concealed.
+    // add() has checked that there is a decoder; a faulty frame is concealed.
     if (!reader_.set(part.setup) || !reader_.add(std::move(part.group))) continue;
     for (;;) {
       const auto more = reader_.next(piece);
@@ -48,7 +48,7 @@ void DecodedSound::decode(std::int64_t end) {
 }
 
 void DecodedSound::append(const SoundPiece& piece) {
-  if (piece.sample_rate != sample_rate_ || piece.channels != channels_) return;  // no file can change
+  if (piece.sample_rate != sample_rate_ || piece.channels != channels_) return;  // files cannot change it
   const std::int64_t given = taken_ + static_cast<std::int64_t>(samples_.size()) / channels_,
                      first = place_of(piece.time),
                      end = first + static_cast<std::int64_t>(piece.samples.size()) / channels_;

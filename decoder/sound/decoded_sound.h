@@ -14,20 +14,20 @@ namespace fbs {
 
 // Times are in 1/kSoundClock s of the stream.
 
-/// The sound of a stream as samples without gaps. Sound comes before its pictures; it is decoded with them,
-/// and what is after the last picture is not. Memory is that of kMaxSoundAhead and of two seconds of samples,
-/// whatever times the stream says.
+/// The sound of a stream as samples without gaps. Sound comes before its pictures and is decoded with them;
+/// sound after the last picture is not. Memory is limited to kMaxSoundAhead and two seconds of samples,
+/// whatever times the stream claims.
 class DecodedSound {
  public:
-  /// @param begin  time of the first sample: what is before is left out
+  /// @param begin  time of the first sample: earlier sound is left out
   explicit DecodedSound(std::int64_t begin) : begin_(begin) {}
 
-  /// A part that is too far ahead of what has been taken (kMaxSoundAhead) is left out.
+  /// A part too far ahead of the samples taken (kMaxSoundAhead) is left out.
   /// @return errors of SoundDecoder::create
   Result<void> add(SoundPart part);
 
   /// The next samples before a time, at most a second; silence where there is no sound. Not before add().
-  /// @return empty when all before it have been taken
+  /// @return empty when all samples before it have been taken
   [[nodiscard]] std::vector<std::int16_t> take(std::int64_t end);
 
   [[nodiscard]] int sample_rate() const { return sample_rate_; }  ///< 0 before add()
@@ -46,13 +46,13 @@ class DecodedSound {
 
   std::int64_t begin_;
   int sample_rate_ = 0, channels_ = 1;
-  std::deque<SoundPart> waiting_;         ///< have not been decoded
-  std::size_t waiting_size_ = 0;          ///< memory_of() them
-  std::optional<SoundSetup> last_setup_;  ///< that add() has seen
+  std::deque<SoundPart> waiting_;         ///< parts not yet decoded
+  std::size_t waiting_size_ = 0;          ///< memory_of() waiting_
+  std::optional<SoundSetup> last_setup_;  ///< the last one given to add()
   SoundReader reader_;
-  std::int64_t read_ = 0;              ///< end of the last part that was decoded
-  std::int64_t taken_ = 0;             ///< samples of each channel
-  std::vector<std::int16_t> samples_;  ///< that follow
+  std::int64_t read_ = 0;              ///< end of the last part decoded
+  std::int64_t taken_ = 0;             ///< samples per channel
+  std::vector<std::int16_t> samples_;  ///< the samples after taken_
 };
 
 }  // namespace fbs

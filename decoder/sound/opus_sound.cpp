@@ -49,7 +49,7 @@ class OpusSound final : public SoundDecoder {
 
   Handle handle_;
   int channels_;
-  std::int32_t duration_;  // 1/kSoundClock s: samples
+  std::int32_t duration_;  // 1/kSoundClock s, which is one sample
 };
 
 }  // namespace

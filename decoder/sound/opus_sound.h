@@ -7,10 +7,10 @@
 
 namespace fbs {
 
-/// The shortest frame of Opus and the longest packet, samples at 48 kHz: 2.5 and 120 ms.
+/// The shortest Opus frame and the longest packet, samples at 48 kHz: 2.5 and 120 ms.
 inline constexpr std::int32_t kMinOpusDuration = 120, kMaxOpusDuration = 5760;
 
-/// @return errors as those of SoundDecoder::create
+/// @return errors of SoundDecoder::create
 Result<std::unique_ptr<SoundDecoder>> create_opus_sound(const SoundSetup& setup);
 
 }  // namespace fbs

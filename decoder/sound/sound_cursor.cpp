@@ -19,7 +19,7 @@ void SoundCursor::seek(std::int64_t time) {
 void SoundCursor::decode(std::int64_t end) {
   const auto& all = parts_.all();
   for (; next_ < all.size() && begin_of(all[next_]) < end; ++next_)
-    // A codec that is not known, or another rate than that of the beginning, is not heard.
+    // A codec that is unknown, or has another rate than the first, is not heard.
     static_cast<void>(sound_.add(all[next_]));
 }
 
@@ -32,7 +32,7 @@ std::vector<std::int16_t> SoundCursor::take(std::int64_t end) {
   if (sound_.sample_rate() == sample_rate_ && sound_.channels() == channels_)
     for (auto samples = sound_.take(end); !samples.empty(); samples = sound_.take(end))
       out.insert(out.end(), samples.begin(), samples.end());
-  // Before the first part of all, silence has been given that the decoder does not know of.
+  // Before the first part, the silence given is unknown to the decoder.
   if (out.size() > count) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(count));
   out.resize(count);
   return out;

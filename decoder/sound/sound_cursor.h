@@ -1,4 +1,4 @@
-// A place in the sound of a stream, from which samples are taken one after another.
+// A position in the sound of a stream, from which samples are taken in order.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace fbs {
 
-/// Decodes the sound of a stream from any time on, as far as it is asked for. What is wrong in it is silence.
+/// Decodes the sound of a stream from any time on, as far as requested. Faults in it become silence.
 class SoundCursor {
  public:
   /// @param parts  must outlive the object; may grow
   SoundCursor(const SoundParts& parts, int sample_rate, int channels)
       : parts_(parts), sample_rate_(sample_rate), channels_(channels), sound_(0) {}
 
-  /// @param time  1/kSoundClock s, of the next sample; not negative
+  /// @param time  of the next sample, 1/kSoundClock s; not negative
   void seek(std::int64_t time);
 
-  /// The samples before a time that have not been taken, channels interleaved. Parts that have not come yet
+  /// The samples before a time that have not been taken, channels interleaved. Parts that have not arrived
   /// are silence.
   [[nodiscard]] std::vector<std::int16_t> take(std::int64_t end);
 
@@ -28,15 +28,15 @@ class SoundCursor {
   [[nodiscard]] std::int64_t time() const { return begin_ + taken_ * kSoundClock / sample_rate_; }
 
  private:
-  /// Decodes what begins before a time.
+  /// Decodes the parts that begin before a time.
   void decode(std::int64_t end);
 
   const SoundParts& parts_;
   int sample_rate_, channels_;
   DecodedSound sound_;
-  std::size_t next_ = 0;    ///< part
+  std::size_t next_ = 0;    ///< index of a part
   std::int64_t begin_ = 0;  ///< of the last seek()
-  std::int64_t taken_ = 0;  ///< samples of each channel since then
+  std::int64_t taken_ = 0;  ///< samples per channel since then
 };
 
 }  // namespace fbs

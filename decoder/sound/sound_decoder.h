@@ -12,10 +12,10 @@
 
 namespace fbs {
 
-/// The largest packet of Opus: 48 frames of 1275 bytes and their lengths. RFC 7845, section 6.
+/// The largest Opus packet: 48 frames of 1275 bytes and their lengths. RFC 7845, section 6.
 inline constexpr std::size_t kMaxSoundFrameBytes = 61298;
 
-/// One codec's decoder. Samples are of 16 bits, channels interleaved.
+/// The decoder of one codec. Samples have 16 bits, channels interleaved.
 class SoundDecoder {
  public:
   SoundDecoder() = default;
@@ -23,22 +23,21 @@ class SoundDecoder {
   SoundDecoder& operator=(const SoundDecoder&) = delete;
   virtual ~SoundDecoder() = default;
 
-  /// @return kUnsupported when the codec, its mode or the number of channels is none that this decoder knows;
-  ///         kInvalidStream when the duration is none of the codec's, or the skip is out of 0..kMaxSoundSkip
+  /// @return kUnsupported when this decoder does not know the codec, its mode or the number of channels;
+  /// kInvalidStream when the codec has no such duration, or the skip is out of 0..kMaxSoundSkip
   static Result<std::unique_ptr<SoundDecoder>> create(const SoundSetup& setup);
 
-  [[nodiscard]] virtual int sample_rate() const = 0;            ///< 48000 of Opus, 8000 of Codec 2
+  [[nodiscard]] virtual int sample_rate() const = 0;            ///< 48000 for Opus, 8000 for Codec 2
   [[nodiscard]] virtual int channels() const = 0;               ///< 1 or 2
-  [[nodiscard]] virtual std::size_t frame_samples() const = 0;  ///< of each channel of a frame
+  [[nodiscard]] virtual std::size_t frame_samples() const = 0;  ///< per channel and frame
 
   /// Appends exactly frame_samples() * channels() samples.
-  /// @param frame  empty when it is lost: what came before is continued, and fades
-  /// @return kInvalidStream when it is no frame of this codec or one of another duration; `out` and what is
-  /// decoded
-  ///         next are then as without the call, as far as the codec tells before it decodes
+  /// @param frame  empty when lost: the sound before is continued, and fades
+  /// @return kInvalidStream when it is not a frame of this codec or has another duration; `out` and later
+  /// frames are then as without the call, as far as the codec can tell before it decodes
   virtual Result<void> decode(std::span<const std::uint8_t> frame, std::vector<std::int16_t>& out) = 0;
 
-  /// Forgets what came before: the next frame is from elsewhere.
+  /// Forgets the past: the next frame is from elsewhere.
   virtual void reset() = 0;
 };
 

@@ -8,37 +8,26 @@
 namespace fbs {
 
 void SoundParts::add(std::span<const std::uint8_t> bytes) {
-  reader_.feed(bytes);
+  packets_.feed(bytes);
   for (;;) {
-    const auto read = damaged_ ? reader_.resync() : reader_.next();
+    const auto read = packets_.next();
     if (!read) {
-      if (damaged_ || read.error().code == ErrorCode::kNotFbs) return;
-      damaged_ = lost_ = true;
-      if (lister_) lister_->lose();
+      reader_.lose();
+      if (pictures_) pictures_->lose();
       continue;
     }
     if (read->status != ReadStatus::kPacket) return;
-    damaged_ = false;
-    if (lister_) lister_->take(read->packet);
+    if (pictures_) (void)pictures_->take(read->packet);
     take(read->packet);
   }
 }
 
 void SoundParts::take(const Packet& packet) {
-  if (packet.type == PacketType::kSetup) {
-    setup_.reset();
-    lost_ = false;
-  }
-  if (lost_) return;
-  if (packet.type == PacketType::kSoundSetup) {
-    const auto setup = decode_sound_setup(packet.payload);
-    setup_ = setup ? *setup : std::nullopt;
-  }
-  if (packet.type != PacketType::kSound || !setup_) return;
-  auto group = decode_sound(packet.payload, *setup_);
-  if (!group || group->first < next_) return;
-  next_ = group->first + static_cast<std::int64_t>(group->frames.size());
-  parts_.push_back({*setup_, std::move(*group)});
+  if (packet.type != PacketType::kSetup && !is_sound(packet.type)) return;
+  auto syntax = reader_.read(packet);
+  if (!syntax) return;
+  if (auto* const group = std::get_if<SoundGroup>(&*syntax))
+    parts_.push_back({*reader_.sound_setup(), std::move(*group)});
 }
 
 std::int64_t begin_of(const SoundPart& part) {

@@ -71,7 +71,7 @@ void SoundReader::reset() {
   concealed_ = 0;
 }
 
-/// A frame's worth at most of what lacks before `end`.
+/// Fills at most a frame's worth of the gap before `end`.
 Result<bool> SoundReader::fill(std::int64_t end, SoundPiece& piece) {
   const std::int64_t time = given_;
   const auto concealed = conceal(piece.samples);
@@ -105,7 +105,7 @@ Result<void> SoundReader::conceal(std::vector<std::int16_t>& out) {
   return decoded;
 }
 
-/// Leaves of a frame's samples, which begin at `time`, those from `given_` to before `end`.
+/// Trims a frame's samples, which begin at `time`, to those from `given_` to before `end`.
 /// @return whether any are left
 bool SoundReader::give(std::int64_t time, std::int64_t end, SoundPiece& piece) {
   const std::int64_t ticks = kSoundClock / decoder_->sample_rate();

@@ -63,14 +63,11 @@ class Indexer {
 }  // namespace
 
 std::vector<SceneEntry> index_scenes(std::span<const std::uint8_t> stream) {
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   Indexer indexer;
-  for (bool damaged = false;;) {
-    const auto read = damaged ? reader.resync() : reader.next();
-    damaged = !read;
-    if (damaged) continue;
+  for (;;) {
+    const auto read = reader.next();
+    if (!read) continue;
     if (read->status != ReadStatus::kPacket) return indexer.finish(stream.size());
     indexer.take(read->packet);
   }

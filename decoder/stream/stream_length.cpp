@@ -7,15 +7,12 @@
 namespace fbs {
 
 std::optional<std::uint64_t> stream_length(std::span<const std::uint8_t> stream) {
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   std::optional<Setup> last;
   std::optional<std::uint64_t> pictures;
-  for (bool damaged = false;;) {
-    const auto read = damaged ? reader.resync() : reader.next();
-    damaged = !read;
-    if (damaged) continue;
+  for (;;) {
+    const auto read = reader.next();
+    if (!read) continue;
     if (read->status != ReadStatus::kPacket) break;
     if (read->packet.type == PacketType::kSetup)
       if (const auto setup = decode_setup(read->packet.payload)) last = *setup;

@@ -1,10 +1,9 @@
-// Included before Highway by files with kernels: they are written for vectors whose size is known, of 16
-// bytes or
-// 32. Processors with vectors of any size (SVE, RISC-V) take the smaller set that they also have.
+// Included before Highway by files with kernels, which need vectors of a known size, 16 or 32 bytes.
+// Processors with vectors of any size (SVE, RISC-V) use the smaller set that they also have.
 #pragma once
 
 #ifdef __AVX512F__
-#define HWY_WANT_AVX3_DL  // Highway 1.0.3 refuses to compile for such a processor alone without it
+#define HWY_WANT_AVX3_DL  // Highway 1.0.3 does not compile for such a processor alone without it
 #endif
 
 #undef HWY_DISABLED_TARGETS

@@ -1,5 +1,5 @@
-// Rows of eight samples of U and V as one row of sixteen, which one vector holds, or two. Compiled for each
-// kind of processor, as Highway's own headers of this name are.
+// Rows of eight samples of U and V as one row of sixteen, in one vector or two. Compiled for each kind of
+// processor, like Highway's own headers of this name.
 #if defined(FBS_DECODER_VECTORS_TWO_PLANES_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FBS_DECODER_VECTORS_TWO_PLANES_H_
 #undef FBS_DECODER_VECTORS_TWO_PLANES_H_
@@ -18,9 +18,9 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// Samples of the common row.
+/// Loads samples of the common row.
 /// @param d     of 8 or 16 lanes
-/// @param x     the first of them, 0 or 8
+/// @param x     first sample, 0 or 8
 /// @param u, v  eight samples each
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::Rebind<std::uint8_t, D>> load_two(

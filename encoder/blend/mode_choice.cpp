@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-// Bits of the adaptive code, about, as measured on the ten clips.
+// Approximate bits of the adaptive code, measured on the ten clips.
 constexpr double kStayBits = 0.06, kChangeBits = 8;
 
 std::vector<BlendMode> cheapest(std::span<const ModeErrors> errors, std::size_t region, double lambda,

@@ -1,4 +1,4 @@
-// Which blend mode each region has in each picture: chosen by rate-distortion cost.
+// Chooses the blend mode of each region in each picture by rate-distortion cost.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace fbs {
 /// The cheapest sequence of modes of each region (Viterbi, 1967).
 /// @param errors  of consecutive pictures
 /// @param lambda  squared luma levels that a bit is worth
-/// @param before  modes of the picture before; those that a scene begins with
+/// @param before  modes of the picture before, or a scene's initial ones
 [[nodiscard]] std::vector<RegionModes> cheapest_modes(std::span<const ModeErrors> errors, double lambda,
                                                       const RegionModes& before = {});
 

@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-/// The region that has most of a triangle.
+/// The region with the largest share of a triangle.
 Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {
   const auto& shares = t.head ? geometry.head_shares() : geometry.surround().shares();
   std::array<int, kRegionCount> sum{};
@@ -27,7 +27,7 @@ std::array<std::vector<SurfaceRun>, kRegionCount> runs_by_region(const VisibleSu
 
 using Samples = std::vector<std::int16_t>;
 
-double dot(const Samples& a, const Samples& b) {
+double error_product(const Samples& a, const Samples& b) {
   std::int64_t sum = 0;
   constexpr std::size_t kPiece = 4096;  // products of errors up to 255 stay within 32 bits
   for (std::size_t begin = 0; begin < a.size(); begin += kPiece) {
@@ -39,7 +39,7 @@ double dot(const Samples& a, const Samples& b) {
   return static_cast<double>(sum);
 }
 
-/// Errors of the sources of one region, sampled once each, and their products.
+/// Errors of one region's sources, sampled once each, and their products.
 class RegionGram {
  public:
   template <class SampleSource>
@@ -69,7 +69,7 @@ class RegionGram {
     if (i < j) std::swap(i, j);
     const std::size_t k = i * (i + 1) / 2 + j;
     if (!known_[k]) {
-      products_[k] = dot(errors_[i], errors_[j]);
+      products_[k] = error_product(errors_[i], errors_[j]);
       known_[k] = true;
     }
     return products_[k];

@@ -1,4 +1,4 @@
-// What each blend mode of each region costs in distortion, picture by picture.
+// Distortion of each blend mode in each region, picture by picture.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ namespace fbs {
 /// Squared luma error of a region in each mode, in samples of the full picture.
 using ModeErrors = std::array<std::array<double, kBlendModeCount>, kRegionCount>;
 
-/// Patterns as decoded, at a reduced size.
+/// Works on decoded patterns at a reduced size.
 class BlendErrors {
  public:
-  /// @param scene      what it refers to must outlive the object
+  /// @param scene      must outlive the object, with everything it refers to
   /// @param reduction  log2
   BlendErrors(const BlendScene& scene, int reduction);
 
   /// @param source     the picture
-  /// @param available  indices of the patterns that can be used
+  /// @param available  indices of the usable patterns
   [[nodiscard]] ModeErrors errors(const Plane& source, const State& state,
                                   std::span<const std::size_t> available) const;
 

@@ -11,7 +11,7 @@
 namespace fbs {
 namespace {
 
-/// A lane is done when its residual has fallen to this share, squared.
+/// A lane has converged when its squared residual has fallen to this share.
 constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
@@ -20,7 +20,7 @@ void clear(std::span<SolvedPlanes> planes) {
   for (SolvedPlanes& p : planes) std::fill(p.samples.begin(), p.samples.end(), glm::vec4(0));
 }
 
-/// Of each lane.
+/// Inner product per lane.
 glm::dvec4 dot(const PatternPlanes& a, const PatternPlanes& b) {
   glm::dvec4 sum(0);
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -46,7 +46,7 @@ void scale_and_add(PatternPlanes& a, const glm::dvec4& factor, const PatternPlan
       a[k].samples[i] = b[k].samples[i] + f * a[k].samples[i];
 }
 
-/// Zero for lanes that are done.
+/// Zero for converged lanes.
 glm::dvec4 ratio(const glm::dvec4& a, const glm::dvec4& b, const glm::bvec4& done) {
   return glm::mix(a / glm::mix(b, glm::dvec4(1), done), glm::dvec4(0), done);
 }
@@ -216,13 +216,13 @@ PatternPlanes PatternSolver::solve(std::span<const SolvedPlanes> targets, Patter
   const auto hold_fixed = [&](PatternPlanes& planes) {
     clear(std::span(planes).first(planes.size() - count));
   };
-  // The start is the anchor, so that the pull has no part in the first residual.
+  // Starts at the anchor, so that the pull has no part in the first residual.
   PatternPlanes residual = gradient(targets, sources), product = residual;
   hold_fixed(residual);
   const glm::dvec4 pull(settings.pull * mean_weight(sources));
   SolvedPlanes scratch = targets.front();
   PatternPlanes x = std::move(sources), direction = residual;
-  // The planes are problems of their own: each lane has its own steps.
+  // The planes are separate problems: each lane has its own steps.
   glm::dvec4 now = dot(residual, residual);
   const glm::dvec4 enough = kConverged * now;
   for (int i = 0; i < settings.iterations; ++i) {

@@ -17,7 +17,7 @@ VertexLight light_of(const std::vector<VertexLight>& light, std::size_t vertex) 
   return light.empty() ? VertexLight{} : light[vertex];
 }
 
-/// The light of the pattern is taken back, and that of the picture added: SPEC 10.11.
+/// Replaces the pattern's light by the picture's: SPEC 10.11.
 void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const SurfaceTriangle& t, glm::vec2 at,
                glm::vec2 step, SourceRun& out) {
   if (mesh.light.empty() && texture.light.empty()) return;
@@ -53,8 +53,8 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
     out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
 }
 
-/// Mixes the samples of a footprint.
-/// @param a      the upper left one
+/// Interpolates the samples of a footprint.
+/// @param a      the upper left sample
 /// @param width  of the plane
 float mixed(const float* a, int width, float fx, float fy) {
   const float* b = a + width;
@@ -62,14 +62,14 @@ float mixed(const float* a, int width, float fx, float fy) {
   return top + fy * (bottom - top);
 }
 
-/// Whether the surround lies where the pattern has it: then the decoder shows the pattern's own samples.
+/// Whether the surround lies as in the pattern: the decoder then shows the pattern's own samples.
 bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureMesh& texture) {
   return !t.head && std::ranges::all_of(
                         t.corners, [&](std::uint16_t k) { return mesh.surround[k] == texture.surround[k]; });
 }
 
-/// Where the surround's textures begin to repeat what lies inside their border (kLumaInset), in samples of a
-/// reduced plane. Much reduced, its outermost samples have more from inside than from the border.
+/// Where the surround's textures begin to repeat samples inside their border (kLumaInset), in samples of a
+/// reduced plane. After much reduction, the outermost samples are mostly from inside.
 float border_inset(int reduction) {
   return std::max((static_cast<float>(kLumaInset) + 0.5F) / static_cast<float>(1 << reduction) - 0.5F, 0.0F);
 }

@@ -1,4 +1,4 @@
-// What a source of a blend shows at the samples of a picture, at a reduced size: the renderer's warp in
+// The samples of a blend's source at the positions of a picture, at a reduced size: the renderer's warp in
 // floating point.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace fbs {
 
-/// Of a sample, which is never negative; lround takes several times as long.
+/// Rounds a sample, which is never negative; lround takes several times as long.
 [[nodiscard]] inline int rounded(float sample) {
   return static_cast<int>(sample + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
 }
@@ -29,38 +29,38 @@ struct ReducedPlane {
   [[nodiscard]] float* row(int y) { return samples.data() + static_cast<std::ptrdiff_t>(y) * width; }
 };
 
-/// Means of squares of 2^reduction samples; what does not fill a square is dropped.
+/// Means over squares of 2^reduction samples; incomplete squares are dropped.
 [[nodiscard]] ReducedPlane reduce(const Plane& plane, int reduction);
 
-/// What pictures are blended from.
+/// The patterns and geometry that pictures are blended from.
 struct BlendScene {
   const SceneGeometry& geometry;
   const MouthInterior& mouth;
   std::span<const Pattern> patterns;
 };
 
-/// A pattern as textures are read from it.
+/// A pattern as a texture.
 struct ReducedPattern {
   const TextureMesh* texture;
   ReducedPlane luma;
 };
 
-/// A value that changes linearly along a run.
+/// A value that is linear along a run.
 struct RunValue {
   float first = 0, step = 0;
 };
 
-/// How the samples of a run come from a texture. What hardly changes along it has one value.
+/// How to sample a texture along a run. Quantities that hardly change have one value.
 struct SourceRun {
   RunValue u, v;                    ///< texture position, samples; integers lie on centres
-  float inset = 0;                  ///< samples of the border that repeat what is inside
+  float inset = 0;                  ///< border samples that repeat those inside
   RunValue offset;                  ///< of the light, grey levels
   float gain = 0;                   ///< of the light, per grey level from 128; at the first sample
   float opacity = 0;                ///< of the mouth interior, 0..1
-  std::array<float, 3> interior{};  ///< its Y, U, V; mean over the triangle
+  std::array<float, 3> interior{};  ///< the interior's Y, U, V; mean over the triangle
 };
 
-/// The mesh of a picture and what its light and its mouth need.
+/// The mesh of a picture, with the inputs of its light and mouth.
 struct PictureMesh {
   const VisibleSurface& surface;
   const ScreenMesh& mesh;
@@ -72,8 +72,8 @@ struct PictureMesh {
 [[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
                                    const TextureMesh& texture, bool still);
 
-/// Whether all samples that a run mixes lie inside a plane of this size, even where the steps that are added
-/// up along it have been rounded.
+/// Whether all samples that a run interpolates lie inside a plane of this size, even with rounding in the
+/// increments added up along it.
 [[nodiscard]] inline bool is_inside(const SourceRun& source, int count, glm::ivec2 size) {
   constexpr float kDrift = 0.25F;
   const auto within = [&](const RunValue& v, int samples) {
@@ -90,9 +90,9 @@ struct PictureMesh {
          source.v.first == static_cast<float>(run.row);
 }
 
-/// Calls use(i, number of the upper left sample, fx, fy) for the four samples of a plane of this size that
-/// each sample i of a run mixes; fx and fy are the shares of the right and the lower ones. Positions outside
-/// repeat the border.
+/// Calls use(i, index of the upper left sample, fx, fy) for each sample i of a run, which interpolates four
+/// samples of a plane of this size; fx and fy are the shares of the right and the lower ones. Positions
+/// outside repeat the border.
 template <class Use>
 void for_each_footprint(const SourceRun& source, int count, glm::ivec2 size, Use&& use) {
   float u = source.u.first, v = source.v.first;

@@ -1,4 +1,4 @@
-// Which triangle of the scene shows at each sample of a picture, at a reduced size.
+// The scene's triangle that is visible at each sample of a picture, at a reduced size.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct SurfaceRun {
 
 /// Position of a sample inside its triangle, linear over the triangle: the weights of corners 1 and 2.
 struct Barycentric {
-  glm::vec2 origin, per_column, per_row;  ///< at sample (0, 0), and what one sample adds
+  glm::vec2 origin, per_column, per_row;  ///< at sample (0, 0), and increments per sample
   [[nodiscard]] glm::vec2 at(float column, float row) const {
     return origin + column * per_column + row * per_row;
   }

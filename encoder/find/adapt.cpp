@@ -17,14 +17,14 @@ namespace {
 
 constexpr double kUnits = kUnitsPerEyeDistance;
 
-/// The generic head seen from the front, eye distances.
+/// The generic head from the front, eye distances.
 FrontPoints generic_points() {
   FrontPoints out(kVertexCount);
   for (std::size_t v = 0; v < kVertexCount; ++v) out[v] = glm::dvec2(generic_vertex(v));
   return out;
 }
 
-/// Roll, shift and scale that bring the eyes level and one unit apart.
+/// Roll, shift and scale that make the eyes level and one unit apart.
 Pose pose_of_eyes(const std::array<glm::dvec2, 2>& eyes) {
   const glm::dvec2 across = eyes[1] - eyes[0];
   Pose pose;
@@ -34,7 +34,7 @@ Pose pose_of_eyes(const std::array<glm::dvec2, 2>& eyes) {
   return pose;
 }
 
-/// A place that a face in a picture may have; a caller's marks may be any numbers.
+/// Whether a face in a picture can have this mark; a caller's marks may be any numbers.
 bool is_position(glm::dvec2 mark) {
   return std::abs(mark.x) <= kMaxMarkPx && std::abs(mark.y) <= kMaxMarkPx;
 }
@@ -79,7 +79,7 @@ YawAndWidth yaw_and_width(const FrontMarks& target) {
   return out;
 }
 
-/// Scale of one axis that brings the generic positions nearest to the marked ones, within anatomical limits.
+/// Scale of one axis that best fits the generic positions to the marks, within anatomical limits.
 double axis_scale(const FrontPoints& generic, const FrontMarks& target, int axis) {
   double num = 0, den = 0;
   for (std::size_t v = 0; v < kVertexCount; ++v) {
@@ -90,9 +90,9 @@ double axis_scale(const FrontPoints& generic, const FrontMarks& target, int axis
   return den > 0 ? std::clamp(num / den, kMinHeadScale, kMaxHeadScale) : 1.0;
 }
 
-/// A yaw narrows x to its cosine, the distance between the eyes with it, so that seen in eye distances x
-/// keeps its size, depth adds to it by the tangent and y grows. The head rotates about its own axis, and the
-/// eyes stay where they are seen. Undoes that in `target`.
+/// Removes a yaw from `target`. Yaw narrows x to its cosine, and with it the distance between the eyes; so,
+/// in eye distances, x keeps its size, depth adds to it by the tangent and y grows. The head rotates about
+/// its own axis, and the eyes stay where they are seen.
 void take_out_yaw(double tangent, double depth_scale, double eye_distance, Pose& pose, FrontMarks& target) {
   pose.yaw = std::atan(tangent / depth_scale);
   const double cosine = std::cos(pose.yaw);

@@ -10,14 +10,14 @@ namespace fbs {
 
 struct AdaptedHead {
   Geometry geometry;   ///< head units
-  Pose pose;           ///< in which the marked picture shows it: no pitch; yaw as estimated from the marks
+  Pose pose;           ///< in the marked picture: no pitch; yaw as estimated from the marks
   int iterations = 0;  ///< of the elastic process until it came to rest
 };
 
 /// Rotates and scales the generic head to the marks (similarity from the eyes; then width and yaw together,
-/// since yaw moves what lies deep aside; then height), then deforms it elastically (fit_elastically). Depth
-/// is scaled with the mean of width and height and not deformed. The paper marks a frontal picture; in ours
-/// the face may be turned.
+/// since yaw moves deep points sideways; then height), then deforms it elastically (fit_elastically). Depth
+/// is scaled by the mean of width and height and not deformed. The paper marks a frontal picture; here the
+/// face may be turned.
 /// @return kDegenerateInput when an eye has no mark, or a coordinate is not a number or beyond kMaxMarkPx
 [[nodiscard]] Result<AdaptedHead> adapt_head(const Marks& marks);
 

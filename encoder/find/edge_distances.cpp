@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-/// Edges have their length, vertices none, and no other pair is joined.
+/// Direct distances: lengths of edges, zero for a vertex to itself, infinite for all other pairs.
 std::vector<float> edge_lengths(const WireFrame& frame) {
   const std::size_t n = frame.vertices.size();
   std::vector<float> d(n * n, std::numeric_limits<float>::infinity());

@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-/// Shortest path along the edges between each pair of the frame's n vertices as they lie in it, in eye
-/// distances; infinite where none leads. Method: Floyd-Warshall. [a * n + b]
+/// Shortest path along the edges between each pair of the frame's n vertices, in eye distances; infinite
+/// where there is none. Method: Floyd-Warshall. [a * n + b]
 [[nodiscard]] std::vector<float> edge_distances(const WireFrame& frame);
 
 }  // namespace fbs

@@ -57,7 +57,7 @@ double largest_force(const std::vector<T>& now, const std::vector<std::optional<
   return largest;
 }
 
-/// As far from `now` towards `moved` as no triangle folds; nothing when even a little folds one.
+/// Moves from `now` towards `moved` as far as no triangle folds; nothing when even a little folds one.
 std::optional<FrontPoints> without_folds(const WireFrame& frame, const FrontPoints& now,
                                          const FrontPoints& moved, const FrontPoints& scaled) {
   double reach = 1;
@@ -71,9 +71,9 @@ std::optional<FrontPoints> without_folds(const WireFrame& frame, const FrontPoin
 }
 
 /// Iterates until the marks are reached, or until `accepted` refuses an iteration: marks that contradict the
-/// mesh leave what was reached.
-/// @param accepted  (now, moved) -> optional of what is taken of `moved`
-/// @return iterations
+/// mesh stop it early.
+/// @param accepted  (now, moved) -> optional with the part of `moved` that is accepted
+/// @return number of iterations
 template <class T, class Accept>
 int iterate(std::span<const float> distances, const std::vector<std::optional<T>>& target,
             std::vector<T>& points, Accept&& accepted) {

@@ -10,11 +10,11 @@
 
 namespace fbs {
 
-/// Of each vertex, seen from the front, eye distances.
+/// Position of each vertex, seen from the front, eye distances.
 using FrontPoints = std::vector<glm::dvec2>;
 using FrontMarks = std::vector<std::optional<glm::dvec2>>;
 
-/// Of each vertex, away from the viewer, eye distances.
+/// Depth of each vertex, away from the viewer, eye distances.
 using Depths = std::vector<double>;
 using DepthMarks = std::vector<std::optional<double>>;
 
@@ -30,7 +30,7 @@ struct ElasticFit {
 [[nodiscard]] ElasticFit fit_elastically(const WireFrame& frame, std::span<const float> distances,
                                          const FrontPoints& scaled, const FrontMarks& target);
 
-/// The same for depth, which turns no triangle over.
+/// The same for depth, where no triangle can fold.
 [[nodiscard]] Depths fit_elastically(std::span<const float> distances, const Depths& scaled,
                                      const DepthMarks& target);
 

@@ -9,25 +9,25 @@
 namespace fbs {
 namespace {
 
-/// Two faces are one when their middles are nearer than this, eye distances.
+/// Two faces are the same when their middles are nearer than this, eye distances.
 constexpr double kSameFace = 1;
 
-/// Of the picture's shorter side, over the eye distance. The two smallest are whole steps of size apart, so
-/// that a face is looked at in the same size by either effort.
+/// The picture's shorter side over the eye distance. The two smallest sizes are whole steps apart, so that
+/// either effort examines a face at the same size.
 constexpr double kLargestFaces = 2.2, kSmallestFacesOfAll = 32;
 const double kSmallestFaces = kSmallestFacesOfAll / std::pow(PlaceSearch::kSizeStep, 4);
 
-/// Places that are looked at besides those of the faces wanted.
+/// Places examined in addition to the number of faces wanted.
 constexpr std::size_t kMorePlaces = 7;
 
-/// Places that are less like a face are not looked at; nor, when all faces wanted are found, those that are
-/// this much less like one than the last of them.
+/// Scores below which places are not examined; once all wanted faces are found, also how far a place may fall
+/// behind the last of them.
 constexpr float kWorthLooking = 0.2F, kWorthComparing = 0.6F;
 
-/// Belief from which landmarks are searched once more, now about where the face was found.
+/// Belief from which landmarks are searched again, now around the face as found.
 constexpr double kWorthAnotherLook = 0.2;
 
-/// Landmarks that lie in the picture: somebody who comes in is waited for.
+/// Share of the landmarks that must lie in the picture: somebody who is just coming in must wait.
 constexpr double kLeastInside = 0.8;
 
 double share_inside(const FoundLandmarks& found, const Picture& picture) {
@@ -52,7 +52,7 @@ bool are_one(const FacePlace& a, const FacePlace& b) {
   return std::hypot(d.x, d.y) < kSameFace * std::max(a.eye_distance_px, b.eye_distance_px);
 }
 
-/// Of those that are one, the most believed stays.
+/// Adds a face; of several that are the same, the most believed stays.
 void add(const FoundFace& face, std::vector<FoundFace>& faces) {
   const auto same =
       std::ranges::find_if(faces, [&](const FoundFace& f) { return are_one(f.place, face.place); });
@@ -62,7 +62,7 @@ void add(const FoundFace& face, std::vector<FoundFace>& faces) {
     *same = face;
 }
 
-/// By size times belief, the largest first.
+/// Sorts by size times belief, largest first.
 void sort(std::vector<FoundFace>& faces) {
   std::ranges::sort(faces, std::greater<>(),
                     [](const FoundFace& f) { return f.place.eye_distance_px * f.landmarks.belief; });

@@ -1,5 +1,5 @@
-// Finds the faces of a picture with their landmarks: landmarks are searched at the likeliest places, and what
-// is believed is taken.
+// Finds the faces of a picture with their landmarks: searches landmarks at the likeliest places and keeps
+// those with enough belief.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace fbs {
 
-/// A face that is believed.
+/// A face with enough belief.
 struct FoundFace {
   FoundLandmarks landmarks;
-  FacePlace place;  ///< by the landmarks
+  FacePlace place;  ///< from the landmarks
 };
 
 class FaceFinder {
  public:
-  /// Belief from which a face is taken for one; and one that is small in its picture, of which there are many
-  /// places. In a video the next pictures are as good, so that a face too many is worse than one missed: of
-  /// 196 pictures without a face and 620 of text none is believed.
+  /// Belief from which a face counts as one; higher for a face that is small in its picture, which has many
+  /// places for one. The next pictures of a video are as good, so a false face is worse than a missed one: of
+  /// 196 pictures without a face and 620 of text none passes.
   static constexpr double kBelieved = 0.5, kBelievedIfSmall = 0.8;
 
   enum class Effort : std::uint8_t { kUsualSizes, kAllSizes };
@@ -33,13 +33,12 @@ class FaceFinder {
 
   /// Faces whose eyes are a 15th to half of the picture's shorter side apart. The largest first, by size
   /// times belief.
-  /// @param wanted  how many faces are asked for; a few more may be found
-  /// @param effort  whether faces half as large are looked for, too, when fewer are found: three times as
-  /// slow
+  /// @param wanted  number of faces wanted; a few more may be found
+  /// @param effort  whether to look for faces half as large, too, when fewer are found: three times as slow
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, std::size_t wanted = 1,
                                             Effort effort = Effort::kAllSizes) const;
 
-  /// Faces of certain sizes, in the same order.
+  /// Finds faces of certain sizes, in the same order.
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, const EyeDistances& sizes,
                                             std::size_t wanted) const;
 

@@ -6,7 +6,7 @@
 
 namespace fbs {
 
-/// Its 68 landmarks.
+/// The 68 landmarks of a found face as marks.
 [[nodiscard]] Marks marks_of(const FoundFace& face);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// Where the landmarks are on the generic head.
+// The landmarks' positions on the generic head.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Lid point or eye corner.
+/// Whether a landmark is a lid point or eye corner.
 [[nodiscard]] constexpr bool is_eye_landmark(int landmark) {
   return landmark >= ibug::kEyesFirst && landmark < ibug::kEyesEnd;
 }
@@ -16,10 +16,10 @@ namespace fbs {
 /// Mean depth of the generic head's lids and eye corners in the head frame, eye distances.
 [[nodiscard]] double generic_eye_depth();
 
-/// A vertex of the generic head, eye distances; z is counted from the eyes' depth backwards.
+/// A vertex of the generic head, eye distances; z counts from the eyes' depth backwards.
 [[nodiscard]] glm::dvec3 generic_vertex(std::size_t vertex);
 
-/// The same of a landmark.
+/// The same for a landmark.
 [[nodiscard]] inline glm::dvec3 generic_landmark(int landmark) {
   return generic_vertex(vertex_of_landmark(landmark));
 }

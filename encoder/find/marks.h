@@ -1,4 +1,4 @@
-// Reference points on the first picture: what the wire-frame is adapted to. Paper section 2.1, Fig. 3 (b).
+// Reference points on the first picture, to which the wire-frame is adapted. Paper section 2.1, Fig. 3 (b).
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace fbs {
 
-/// Where vertices of the generic head are seen, pixels (the first pixel's centre is 0.5, 0.5). Not all need a
-/// mark, but both eyes (any lid point or corner of each) must have one.
+/// Positions of the generic head's vertices in a picture, pixels (the first pixel's centre is 0.5, 0.5). Not
+/// all need a mark, but both eyes (any lid point or corner of each) must have one.
 struct Marks {
   std::array<std::optional<glm::dvec2>, kVertexCount> vertex;
 

@@ -1,4 +1,4 @@
-// What the decoder shows at the sample points: Renderer's arithmetic in continuous numbers. SPEC 10.
+// The decoder's picture at the sample points: Renderer's arithmetic in continuous numbers. SPEC 10.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace fbs {
 
-/// What one grey level of each number of the light adds.
+/// Luma added by one grey level of each number of the light.
 /// @param light  SamplePoints::light()  @param luma  of the pattern
 [[nodiscard]] std::array<double, kLightCount> light_basis(std::array<double, kLightCount> light, double luma);
 
-/// What one grey level of each number of the mouth interior adds to its colour.
+/// Colour added to the mouth interior by one grey level of each of its numbers.
 /// @param ramp  0 at the upper lip to 1 at the lower
 [[nodiscard]] std::array<double, kInteriorCount> interior_basis(double ramp);
 
@@ -25,20 +25,20 @@ class Appearance {
   /// Luma; negative where the pattern does not reach.
   [[nodiscard]] double at(std::size_t point, int level) const;
 
-  /// Share of the mouth interior in what is shown, 0..1: what the pattern shows of it, and what is new.
+  /// Share of the mouth interior in the picture, 0..1: already in the pattern, or added.
   [[nodiscard]] double interior_share(std::size_t point) const {
     const double shade = shade_ / kShadeOne;
     return points_.mouth_ramp(point) < 0 ? 0 : shade + (1 - shade) * pattern_.interior_opacity();
   }
 
  private:
-  static constexpr double kShadeOne = 256;  ///< of interior_opacity()
+  static constexpr double kShadeOne = 256;  ///< unit of interior_opacity()
 
   const SamplePoints& points_;
   const PatternSamples& pattern_;
   std::array<double, kLightCount> light_;        ///< of the state
   std::array<double, kInteriorCount> interior_;  ///< luma at upper lip, half way and lower lip
-  std::array<double, kInteriorCount> added_;     ///< of it, what the state adds
+  std::array<double, kInteriorCount> added_;     ///< the state's part of interior_
   std::int32_t shade_;
 };
 

@@ -52,7 +52,7 @@ class LevelEquations {
   }
 
  private:
-  /// Columns of light and mouth interior.
+  /// Adds the columns of light and mouth interior.
   float* add_shading(std::size_t k, float* row) const {
     const double interior = shown_.interior_share(k);
     const auto luma = static_cast<double>(c_.pattern.luma(level_, k));
@@ -68,7 +68,7 @@ class LevelEquations {
   PoseJacobian jacobian_;
   PlacedHead head_;
   Appearance shown_;
-  glm::dvec2 ex_, ey_;  ///< of the head frame in the picture, pixels per head unit
+  glm::dvec2 ex_, ey_;  ///< axes of the head frame in the picture, pixels per head unit
 };
 
 }  // namespace

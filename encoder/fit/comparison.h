@@ -1,4 +1,4 @@
-// A pattern, a picture and the points at which they are compared: what all of the fit works on.
+// A pattern, a picture and the points at which they are compared: the input of the whole fit.
 #pragma once
 
 #include "encoder/fit/appearance.h"
@@ -18,28 +18,28 @@ struct Comparison {
   LumaPyramid picture{};
   MouthInterior mouth{};
 
-  /// Points spread over the head as the pattern saw it, and no picture yet.
-  /// The control points of setup.parts may move.
+  /// Spreads points over the head as seen in the pattern; no picture yet. The control points of setup.parts
+  /// may move.
   [[nodiscard]] static Comparison with(const Setup& setup, const Geometry& geometry,
                                        const SeenPattern& pattern);
 
-  /// What the decoder shows in a fit. Borrows this.
+  /// The decoder's picture of a fit. Borrows this.
   /// @param vertices  skinned by the fit
   [[nodiscard]] Appearance appearance(const Fit& fit, const HeadVertices& vertices) const {
     return {points, pattern, mouth, fit, vertices};
   }
 };
 
-/// Squared, and from kHuberLevels on linear.
+/// Squared, and linear from kHuberLevels on.
 [[nodiscard]] double huber(double difference);
 
-/// Robust mean of squared differences on the fine level, each point counted once; zero when none is seen.
+/// Robust mean of squared differences on the fine level, each point counted once; zero when no point is seen.
 [[nodiscard]] double mean_difference(const Comparison& comparison, const Fit& fit);
 
 /// Adds the picture's part of a Gauss-Newton step: robustly weighted luma differences at every point, over
-/// kResidualSigma. Points count alike, on triangles that face away, too: leaving those out gained 0.06 dB in
-/// the face on the mean of ten clips at three qualities, and lost 0.35 dB on foreman_cif at one.
-/// @return robust sum of squared differences over the samples of the full picture that the points stand for
+/// kResidualSigma. All points count alike, even on triangles that face away: leaving those out gained 0.06 dB
+/// in the face on the mean of ten clips at three qualities, and lost 0.35 dB on foreman_cif at one.
+/// @return robust sum of squared differences over the samples of the full picture that the points represent
 double add_picture(const Comparison& comparison, int level, const Fit& fit, NormalEquations& normal);
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// Which numbers of a fit are unknowns, and where they stand in the normal equations.
+// Which numbers of a fit are unknowns, and their columns in the normal equations.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class FitColumns {
   [[nodiscard]] int count() const { return count_; }
   /// Whether a control point may move.
   [[nodiscard]] bool has(std::size_t control) const { return of_[control] >= 0; }
-  /// Of a control point's x; that of y follows. Only of those that may move.
+  /// Column of a control point's x; y follows. Only for control points that may move.
   [[nodiscard]] std::size_t of(std::size_t control) const { return static_cast<std::size_t>(of_[control]); }
 
   /// Index among kFitNumbers of each column.

@@ -12,7 +12,7 @@ bool belongs_to(std::size_t control, FeatureId first, FeatureId last) {
          control < static_cast<std::size_t>(to.first_control) + to.control_count;
 }
 
-/// Of a control point about where it was tracked, eye distances.
+/// Sigma of a control point about its tracked position, eye distances.
 double sigma_of(std::size_t control) {
   if (belongs_to(control, FeatureId::kMouthOuter, FeatureId::kMouthOuter)) return kOuterLipSigma;
   if (belongs_to(control, FeatureId::kMouthInner, FeatureId::kMouthInner)) return kInnerLipSigma;
@@ -21,7 +21,7 @@ double sigma_of(std::size_t control) {
   return kOtherSigma;
 }
 
-/// Of a control point about rest, eye distances.
+/// Sigma of a control point about rest, eye distances.
 double rest_sigma_of(std::size_t control) {
   return belongs_to(control, FeatureId::kPupilRight, FeatureId::kPupilLeft) ? kGazeRestSigma : kLidRestSigma;
 }
@@ -59,7 +59,7 @@ void add_controls(const FitColumns& columns, const Fit& start, const Fit& fit, N
   }
 }
 
-/// Lips and brows: the expression prior, over all their control points together.
+/// Lips and brows: the expression prior, joint over all their control points.
 void add_expression(const FitColumns& columns, const Fit& fit, NormalEquations& normal) {
   const cv::Mat1d& expression = expression_precision();
   for (std::size_t i = 0; i < 2 * kExpressionControls; ++i) {
@@ -76,7 +76,7 @@ void add_expression(const FitColumns& columns, const Fit& fit, NormalEquations& 
   }
 }
 
-/// Both eyes look the same way. Each alone finds shadows and lashes as dark as a pupil.
+/// Makes both eyes look the same way. Each alone finds shadows and lashes as dark as a pupil.
 void add_gaze(const FitColumns& columns, const Fit& fit, NormalEquations& normal) {
   constexpr double kSigma = kGazeSigma * kUnitsPerEyeDistance, kPrecision = 1 / (kSigma * kSigma);
   const std::size_t right = feature(FeatureId::kPupilRight).first_control,

@@ -1,4 +1,4 @@
-// What is known of a fit before the picture is compared.
+// Priors of a fit, before the picture is compared.
 #pragma once
 
 #include "encoder/fit/fit_columns.h"
@@ -6,8 +6,8 @@
 
 namespace fbs {
 
-/// Near the start, and an expression that faces make.
-/// @param fit  about which the equations are linearised
+/// Adds priors: near the start, and an expression that faces make.
+/// @param fit  point about which the equations are linearised
 void add_priors(const FitColumns& columns, const Fit& start, const Fit& fit, NormalEquations& normal);
 
 }  // namespace fbs

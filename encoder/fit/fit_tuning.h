@@ -1,14 +1,14 @@
-// What the fit was tuned by. Set by eye and by face PSNR on the ten clips unless a line says otherwise.
+// Tuned constants of the fit. Set by eye and by face PSNR on the ten clips unless stated otherwise.
 #pragma once
 
 #include "common/generic_head.h"
 
 namespace fbs {
 
-// Sample points. Denser: steadier fits, and the time of a step grows with the square.
+// Sample points. Denser points steady the fit, but the time of a step grows with the square.
 inline constexpr int kFitLevels = 2;             ///< of the luma pyramid: the work frame and half its size
 inline constexpr double kFitPointSpacing = 2.5;  ///< work pixels between neighbours
-inline constexpr int kMinMouthRows = 5;          ///< of points across a triangle of the mouth interior
+inline constexpr int kMinMouthRows = 5;          ///< rows of points across a triangle of the mouth interior
 inline constexpr double kMinSkinningShare =
     0.01;  ///< a control point that moves no corner by more is left out
 
@@ -17,7 +17,7 @@ inline constexpr double kMinSkinningShare =
 inline constexpr double kResidualSigma = 6;  ///< grey levels
 inline constexpr double kHuberLevels = 48;   ///< grey levels
 
-// Priors: standard deviations about the start, which is the tracked pose, contours and the light of the
+// Priors: standard deviations about the start, which is the tracked pose, the contours and the light of the
 // picture before. Smaller: less jitter, slower to follow.
 inline constexpr double kPoseSigma = 0.006;  ///< rad, eye distances, log2; the tracker aligned this picture
 inline constexpr double kOuterLipSigma = 0.012;  ///< eye distances; contours show lips and lids better than
@@ -37,36 +37,38 @@ inline constexpr double kGazeSigma = 0.015;       ///< eye distances; of one pup
 
 // Gauss-Newton.
 inline constexpr int kStepsOfLevel[kFitLevels] = {3, 2};  ///< fine level first
-/// A single step that changes a number of the light by more starts where picture and pattern have little in
-/// common. Grey levels; of 2169 pictures of ten clips one changes by more than 8, and none by more than 12.
+/// When a single step changes a number of the light by more, picture and pattern had little in common at the
+/// start. Grey levels; in 2169 pictures of ten clips one changes by more than 8, and none by more than 12.
 inline constexpr double kMaxLightStep = 16;
 inline constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;  ///< head units, of a control point
-/// Inner lips farther from where the outer ones carry them are tried from there, too. Eye distances.
+/// Inner lips farther than this from where the outer ones carry them are also tried from there. Eye
+/// distances.
 inline constexpr double kInnerLipsStray = 0.04;
 
-/// By which the difference counts that is left from a start by landmarks: they do not rest on what came
-/// before. From 0.93 to 0.5 nothing changes, at 1 the correlation of the eyes' opening is 0.07 lower (ten
-/// clips).
+/// Factor on the remaining difference of a start from landmarks, which favours it since it does not depend on
+/// earlier pictures. From 0.93 to 0.5 nothing changes; at 1 the correlation of the eyes' opening is 0.07
+/// lower (ten clips).
 inline constexpr double kLandmarkStartCounts = 0.93;
 
 // Lids.
 /// Candidates of the search, in shares of the way from open to shut.
 inline constexpr double kLidClosings[] = {-0.3, 0, 0.2, 0.4, 0.6, 0.8, 1};
-/// Squared grey levels for lids that differ by the whole way: larger keeps winks out, and the noise of one
-/// eye.
+/// Squared grey levels for lids whose closing differs by the whole way: larger keeps out winks, and the noise
+/// of one eye.
 inline constexpr double kLidsApartCost = 60;
-/// By which a shut upper lid passes the lower one, so that nothing of the eye is left between. Eye distances.
+/// How far a shut upper lid passes the lower one, so that nothing of the eye shows between them. Eye
+/// distances.
 inline constexpr double kLidOverlap = 0.01;
 
 // Gaze.
 /// Candidates of the search, eye distances from rest.
 inline constexpr double kGazes[] = {-0.24, -0.12, 0, 0.12, 0.24};
-/// The gaze stays unless another differs from the picture by less than this share.
+/// The gaze stays unless another reduces the difference below this share.
 inline constexpr double kGazeKept = 0.8;
 
 // Both searches.
 inline constexpr double kSearchResidualSigma = 30;  ///< grey levels; larger differences hardly count more
-inline constexpr float kMinMovedShare = 0.05F;      ///< of control points in a sample point that they move
-inline constexpr int kSearchLevel = 1;              ///< coarse: places are compared, not edges
+inline constexpr float kMinMovedShare = 0.05F;      ///< share of control points in a sample point's motion
+inline constexpr int kSearchLevel = 1;              ///< coarse: compares areas, not edges
 
 }  // namespace fbs

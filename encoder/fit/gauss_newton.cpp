@@ -25,7 +25,7 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
   }
 }
 
-/// @param start  that `fit` began from
+/// @param start  the start of `fit`
 /// @return whether the equations could be solved
 bool descend(const Comparison& comparison, int level, const Fit& start, Fit& fit) {
   for (int i = 0; i < kStepsOfLevel[level]; ++i) {

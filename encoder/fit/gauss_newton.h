@@ -9,18 +9,18 @@ namespace fbs {
 
 struct FitStart {
   Fit fit;
-  double counts = 1;  ///< by which its difference is multiplied when starts are compared
+  double counts = 1;  ///< factor on its difference when starts are compared
 };
 
 struct BestFit {
   Fit fit;
-  std::size_t start;  ///< which it came from
+  std::size_t start;  ///< index of the start it came from
 };
 
 /// Minimises the robust squared difference over pose, light, mouth interior and control points together:
 /// Gauss-Newton with additive updates, coarse to fine, held near its start where the picture says nothing and
-/// near rest everywhere (fit_priors.h). Of several starts, the one that is nearest to the picture after the
-/// coarse levels goes on.
+/// near rest everywhere (fit_priors.h). Of several starts, only the one nearest to the picture after the
+/// coarse levels continues.
 /// @param starts  at least one
 /// @return the start where nothing is gained
 [[nodiscard]] BestFit gauss_newton(const Comparison& comparison, std::span<const FitStart> starts);
@@ -30,7 +30,7 @@ struct BestFit {
   return gauss_newton(comparison, {&lone, 1}).fit;
 }
 
-/// Where one step on the fine level leads, and what it was solved from.
+/// The result of one step on the fine level, and the equations it solved.
 struct GaussNewtonStep {
   Fit fit;                  ///< the start when the equations cannot be solved
   double difference;        ///< add_picture() at the start

@@ -1,5 +1,5 @@
-// Where the eyes look: a search, since they jump to another place within a picture or two, farther than a
-// descent reaches.
+// Finds the gaze by a search: eyes jump to another place within a picture or two, farther than a descent
+// reaches.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ class GazeSearch {
  public:
   explicit GazeSearch(const SamplePoints& points);
 
-  /// `start` with both pupils where the pattern is nearest to the picture: where they are, or moved alike
-  /// from rest to one of some places beside it.
+  /// `start` with both pupils where pattern and picture agree best: where they are, or moved alike from rest
+  /// to one of several places.
   /// @param comparison  over the same points
   [[nodiscard]] Fit best(const Comparison& comparison, const Fit& start) const;
 

@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::size_t kCandidates = std::size(kLidClosings) + 1;  // the last: as it is
+constexpr std::size_t kCandidates = std::size(kLidClosings) + 1;  // the last: unchanged
 
 }  // namespace
 
@@ -20,7 +20,7 @@ LidSearch::Lid LidSearch::lid_of(const Geometry& geometry, const SamplePoints& p
   for (const FeatureVertex& fv : f.vertices) upper += geometry.positions[fv.vertex].y;
   for (const std::size_t k : {lower_landmark, lower_landmark + 1})
     lower += geometry.positions[vertex_of_landmark(k)].y;
-  // Both free control points of the cubic together have two thirds of the weight at its vertices.
+  // Together, both free control points of the cubic have two thirds of the weight at its vertices.
   const double travel = 1.5 * (0.5 * (lower - upper) + kLidOverlap * kUnitsPerEyeDistance);
   return {f.first_control, travel, MovedPoints(points, f.first_control, 2)};
 }

@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// Looked up by places of the picture that the frame was cut from. Shares the frame's luma.
+/// Looked up by positions in the picture from which the frame was cut. Shares the frame's luma.
 class LumaPyramid {
  public:
   LumaPyramid() = default;  ///< covers nothing

@@ -1,4 +1,4 @@
-// What a few control points move: where candidates of a search for them are compared.
+// The points that a few control points move, at which a search compares its candidates.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ class MovedPoints {
   [[nodiscard]] double difference(const Comparison& comparison, const Fit& fit) const;
 
  private:
-  /// Those of a triangle.
+  /// The moved points of one triangle.
   struct Patch {
     std::size_t patch;  ///< index into SamplePoints::patches()
     std::vector<std::size_t> points;

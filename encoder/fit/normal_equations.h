@@ -1,4 +1,4 @@
-// Weighted linear least squares, summed up row by row.
+// Weighted linear least squares, accumulated row by row.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -19,7 +19,7 @@ class NormalEquations {
   }
   double& right(std::size_t row) { return right_[row]; }
 
-  /// That unknown k, which is `off` from where it should be, lies there to within sigma.
+  /// Adds the prior that unknown k, now `off` from its mean, lies there to within sigma.
   void add_prior(std::size_t k, double off, double sigma);
 
   /// The whole symmetric left side. Borrows this.

@@ -10,14 +10,15 @@
 
 namespace fbs {
 
-/// Dense and in single precision: few control points move one triangle. Rows are summed up several at a time,
-/// which takes a third of the time. 32 KB of scratch to keep between triangles.
+/// Dense and in single precision: few control points move one triangle. Sums several rows at a time, which
+/// takes a third of the time. 32 KB of scratch memory, to be reused between triangles.
 class PatchEquations {
  public:
-  /// Empties them for points that this many control points move.
+  /// Starts anew for points moved by this many control points.
   void begin(std::size_t controls);
 
-  /// To be filled before each add(): pose, light, mouth interior, x and y of each control point.
+  /// The next row, to be filled before each add(): pose, light, mouth interior, x and y of each control
+  /// point.
   [[nodiscard]] float* row() { return rows_[waiting_].data(); }
 
   /// @param r  residual of `row`
@@ -39,7 +40,7 @@ class PatchEquations {
   void sum_up();
 
   std::size_t n_ = 0;
-  std::size_t lanes_ = 0;  ///< n_ in whole lanes; the columns behind n_ are zero
+  std::size_t lanes_ = 0;  ///< n_ in whole lanes; the columns after n_ are zero
   std::size_t waiting_ = 0;
   std::array<float, kRows> weight_, residual_;
   alignas(32) std::array<Columns, kRows> rows_{};

@@ -9,7 +9,7 @@ namespace fbs {
 
 namespace {
 
-/// Luma before the light of a pattern fell on it: SPEC 10.11. Never negative, which means no luma.
+/// Luma of a pattern before its light: SPEC 10.11. Never negative, which means no luma.
 /// @param basis  SamplePoints::light()
 float unlit(float luma, const Fit& seen, const std::array<double, kLightCount>& basis) {
   double offset = 0;

@@ -1,4 +1,4 @@
-// A pattern at the sample points, and what of a face it already shows.
+// A pattern at the sample points, and what it already shows of a face.
 #pragma once
 
 #include <array>
@@ -14,20 +14,21 @@ struct SeenPattern {
   const WorkFrame& frame;  ///< of the decoded picture
   const State& seen;
   int index = 0;                ///< among the stream's patterns
-  double interior_opacity = 0;  ///< 0..1, of the state's mouth interior where the picture was drawn with one
+  double interior_opacity = 0;  ///< 0..1; of the mouth interior where the picture was drawn with one
 };
 
-/// Luma where the mesh lay in the seen state, its expression included, without the light of that state; and
-/// the mouth opening that is in it.
+/// Luma at the mesh's position in the seen state, its expression included, without that state's light; and
+/// the mouth opening of that state.
 class PatternSamples {
  public:
   PatternSamples(const SamplePoints& points, const Geometry& geometry, const SeenPattern& pattern);
 
-  /// Negative where the frame does not reach.
+  /// Negative outside the frame.
   [[nodiscard]] float luma(int level, std::size_t point) const { return luma_[level][point]; }
-  /// As mouth_gap() of the decoder gives it, head units.
+  /// The decoder's mouth_gap(), head units.
   [[nodiscard]] std::int32_t mouth_gap() const { return mouth_gap_; }
-  /// Of the mouth interior that the pattern shows, 0..1, and what that adds to its colours, grey levels.
+  /// Opacity of the mouth interior in the pattern, 0..1, and its addition to the interior's colours, grey
+  /// levels.
   [[nodiscard]] double interior_opacity() const { return interior_opacity_; }
   [[nodiscard]] const std::array<double, kInteriorCount>& interior() const { return interior_; }
   [[nodiscard]] int index() const { return index_; }

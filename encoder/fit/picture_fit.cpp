@@ -66,9 +66,9 @@ PictureCost PictureFit::cost_of(const Fit& fit, double constant, NormalEquations
   cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
   for (int i = 0; i < all.rows; ++i)
     for (int j = 0; j < all.cols; ++j) own(number[i], number[j]) = all(i, j);
-  // add_picture() weighs by the residual sigma and counts points, each of which stands for so many samples;
-  // those of small triangles for fewer, so that the quadratic is some 25 % too large for a pattern seen at
-  // rest. Lambda was found with that.
+  // add_picture() weighs by the residual sigma and counts points, each of which represents this many samples;
+  // points of small triangles represent fewer, so that the quadratic is some 25 % too large for a pattern
+  // seen at rest. Lambda was tuned with that.
   const double scale = comparison_.picture.scale(0);
   const double samples = kFitPointSpacing * kFitPointSpacing / (scale * scale);
   return fbs::cost_of(fit, comparison_.pattern.index(), constant,

@@ -1,5 +1,5 @@
-// Fits the state to what the viewer will see: a pattern drawn as the decoder draws it against the picture, at
-// points spread over the mesh. Design section 6.
+// Fits the state to the viewer's picture: compares a pattern, drawn as the decoder draws it, with the picture
+// at points spread over the mesh.
 #pragma once
 
 #include <span>
@@ -13,19 +13,19 @@
 
 namespace fbs {
 
-/// One pattern of a scene against one picture after another. Works at the work frame's size, whatever the
-/// size of the picture.
+/// Compares one pattern of a scene with one picture after another. Works at the work frame's size, whatever
+/// the size of the picture.
 class PictureFit {
  public:
   /// @param pattern  its work frame is cut like those of the later pictures
   /// The control points of setup.parts may move.
   PictureFit(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern);
 
-  /// The picture that the next calls are about; its luma is shared.
-  /// @param mouth  colours that the decoder shows inside the mouth, as far as is known
+  /// Sets the picture for the next calls; shares its luma.
+  /// @param mouth  the decoder's colours inside the mouth, as far as known
   void set_picture(const WorkFrame& picture, const MouthInterior& mouth);
 
-  /// Another pattern than the constructor's, compared at the same points.
+  /// Replaces the pattern; compared at the same points.
   void set_pattern(const SeenPattern& pattern);
 
   /// `start` with upper lids and pupils found anew: LidSearch::best(), GazeSearch::best().
@@ -37,21 +37,20 @@ class PictureFit {
     return gauss_newton(comparison_, starts);
   }
 
-  /// The contours as tracked and, where the inner lips have strayed from where the outer ones carry them,
-  /// from there, too: a mouth that opens at once leaves their contour behind.
+  /// The tracked contours and, where the inner lips have strayed from where the outer ones carry them, a
+  /// second start with them there: a mouth that opens suddenly leaves their contour behind.
   [[nodiscard]] static std::vector<FitStart> starts_of(const Fit& tracked);
 
-  /// What this pattern costs in states near a fit.
+  /// Cost of this pattern in states near a fit.
   [[nodiscard]] PictureCost cost_at(const Fit& fit) const;
 
-  /// The same about the fit that one step of the descent from `start` leads to, but for the constant, which
-  /// is that at the start: for starts so near that this takes the place of refine() and cost_at(), in a sixth
-  /// of the time. About `start` itself when the step changes a number of the light by more than
-  /// kMaxLightStep.
+  /// The cost about the fit that one step of the descent from `start` leads to, with the constant taken at
+  /// the start: replaces refine() and cost_at() for near starts, in a sixth of the time. About `start` itself
+  /// when the step changes a number of the light by more than kMaxLightStep.
   [[nodiscard]] PictureCost cost_near(const Fit& start) const;
 
  private:
-  /// @param picture  its part of the normal equations
+  /// @param picture  the picture's part of the normal equations
   [[nodiscard]] PictureCost cost_of(const Fit& fit, double constant, NormalEquations& picture) const;
 
   Comparison comparison_;

@@ -18,7 +18,7 @@ float mouth_ramp_of(const SurfacePoint& p) {
   return ramp;
 }
 
-/// The light's polynomial at a vertex, but for the gain. SPEC 10.
+/// The light's polynomial at a vertex, without the gain. SPEC 10.
 std::array<double, kLightCount> light_of_vertex(glm::dvec3 position) {
   constexpr double kMiddle = kFaceMiddle / static_cast<double>(kUnitsPerEyeDistance);
   const glm::dvec3 p = position / static_cast<double>(kUnitsPerEyeDistance);
@@ -35,7 +35,7 @@ std::array<double, kLightCount> light_of(const Geometry& geometry, const Surface
   return out;
 }
 
-/// Skinning weight of each control point in a vertex.
+/// Skinning weight of each control point at a vertex.
 std::array<double, kControlCount> weights_of(std::size_t vertex) {
   std::array<double, kControlCount> out{};
   for (const SkinningWeight& skinning : skinning_of(vertex))

@@ -10,20 +10,20 @@
 
 namespace fbs {
 
-/// Points fixed on the mesh: how the light falls on them, which are mouth interior, and what moves them. Know
-/// nothing of any picture, so that several patterns can share them.
+/// Points fixed on the mesh, with their light, mouth interior, and the control points that move them.
+/// Independent of any picture, so that several patterns can share them.
 class SamplePoints {
  public:
-  /// The points of one triangle, and how the control points that move it move each.
+  /// The points of one triangle, and the share of each control point in the motion of each.
   struct Patch {
     std::size_t first, end;               ///< points
-    std::vector<std::uint16_t> controls;  ///< rising, of those that may move
+    std::vector<std::uint16_t> controls;  ///< rising; only those that may move
     std::vector<float> shares;            ///< of each control point, point by point
 
     [[nodiscard]] std::size_t size() const { return end - first; }
   };
 
-  /// Spreads the points evenly over the head as `seen` places it.
+  /// Spreads the points evenly over the head as placed by `seen`.
   /// @param spacing_px  pixels of the picture
   SamplePoints(const Geometry& geometry, const FitColumns& columns, const PlacedHead& seen,
                double spacing_px);
@@ -32,12 +32,12 @@ class SamplePoints {
   [[nodiscard]] const SurfacePoint& operator[](std::size_t k) const { return points_[k]; }
   /// All points, triangle by triangle.
   [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
-  /// What one grey level of each number of the light adds, but for the gain, which is zero here: as in the
-  /// decoder, from the corners of the expressionless head, linear between them.
+  /// Luma added by one grey level of each number of the light, except the gain, which is zero here: linear
+  /// between the corners of the expressionless head, as in the decoder.
   [[nodiscard]] const std::array<double, kLightCount>& light(std::size_t k) const { return light_[k]; }
-  /// Samples of the full picture that each point of patch `n` stands for; zero when it faces away.
+  /// Samples of the full picture that each point of patch `n` represents; zero when it faces away.
   [[nodiscard]] double samples_per_point(std::size_t n, const PlacedHead& head) const;
-  /// Upper lip 0, lower lip 1; negative: not in the mouth interior.
+  /// 0 at the upper lip, 1 at the lower; negative: not in the mouth interior.
   [[nodiscard]] double mouth_ramp(std::size_t k) const { return static_cast<double>(mouth_ramp_[k]); }
 
  private:

@@ -1,4 +1,4 @@
-// Pictures between their samples. Positions count from the centre of the first sample.
+// Bilinear interpolation. Positions count from the centre of the first sample.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct BilinearCell {
         fraction(at.x - static_cast<Real>(column), at.y - static_cast<Real>(row)) {}
 };
 
-/// Border policy "refuse": whether four samples stand round a position.
+/// Border policy "refuse": whether four samples surround a position.
 [[nodiscard]] inline bool has_cell(const cv::Mat& picture, glm::dvec2 at) {
   return at.x >= 0 && at.y >= 0 && at.x < picture.cols - 1 && at.y < picture.rows - 1;
 }
@@ -34,8 +34,8 @@ template <class Real>
           std::clamp(at.y, Real(0), static_cast<Real>(picture.rows) - inset)};
 }
 
-/// a and b in the shares (1 - f) and f. In float by one product, for speed; in double by two. The results
-/// differ in their last bit, and streams depend on it.
+/// Interpolates a and b with shares (1 - f) and f. In float by one product, for speed; in double by two. The
+/// results differ in their last bit, and streams depend on it.
 template <class Real>
 [[nodiscard]] constexpr Real mix(Real a, Real b, Real f) {
   if constexpr (std::is_same_v<Real, float>)
@@ -44,7 +44,7 @@ template <class Real>
     return a * (1 - f) + b * f;
 }
 
-/// The value of a picture of type T in a cell that lies in it: along the rows first.
+/// The value of a picture of type T in a cell inside it: along the rows first.
 template <class T, class Real>
 [[nodiscard]] Real bilinear(const cv::Mat& picture, const BilinearCell<Real>& cell) {
   const T *a = picture.ptr<T>(cell.row) + cell.column, *b = picture.ptr<T>(cell.row + 1) + cell.column;
@@ -58,7 +58,7 @@ struct Sample {
   float value = 0, dx = 0, dy = 0;
 };
 
-/// Down the columns first, other than bilinear(): value and slopes share the row that results.
+/// Columns first, unlike bilinear(): value and slopes share the resulting row.
 /// @return false within two pixels of the border and outside
 template <class Real>  // float or double
 [[nodiscard]] inline bool sample_with_slope(const cv::Mat& picture, glm::vec<2, Real> at, Sample& out) {
@@ -71,7 +71,7 @@ template <class Real>  // float or double
   const std::size_t stride = picture.step.p[0];
   const std::uint8_t* r1 = picture.data + static_cast<std::size_t>(cell.row) * stride + cell.column;
   const std::uint8_t *r0 = r1 - stride, *r2 = r1 + stride, *r3 = r2 + stride;
-  // Rows 1 and 2 meet in a row at the height of `at`, whose value and slope follow from four samples.
+  // Rows 1 and 2 are combined into a row at the height of `at`, whose four samples give value and slope.
   alignas(16) float row[4], down[4];
   for (int k = 0; k < 4; ++k) row[k] = mix(static_cast<float>(r1[k - 1]), static_cast<float>(r2[k - 1]), f.y);
   out.value = mix(row[1], row[2], f.x);

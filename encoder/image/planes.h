@@ -1,4 +1,4 @@
-// Our planes as OpenCV sees them, without copying.
+// Our planes as OpenCV matrices, without copying.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -15,7 +15,7 @@ namespace fbs {
 template <std::size_t kLevels>
 using Pyramid = std::array<cv::Mat, kLevels>;
 
-/// @param finest  becomes level 0 without being copied
+/// @param finest  becomes level 0, not copied
 template <std::size_t kLevels>
 [[nodiscard]] Pyramid<kLevels> make_pyramid(const cv::Mat& finest) {
   Pyramid<kLevels> levels;
@@ -29,18 +29,18 @@ template <std::size_t kLevels>
   return 1 << level;
 }
 
-/// Where a position of level 0 lies in a level. Pixel centres are whole numbers in both: pyrDown keeps the
-/// samples at even positions where they are.
+/// Position on a level of a position on level 0. Pixel centres are whole numbers in both: pyrDown keeps the
+/// samples at even positions in place.
 [[nodiscard]] inline glm::dvec2 on_level(glm::dvec2 finest, int level) {
   return finest / level_scale(level);
 }
 
-/// The least whole factor that brings a picture's longer side to `long_side` samples or fewer.
+/// The least whole factor that reduces a picture's longer side to `long_side` samples or fewer.
 [[nodiscard]] inline int reduction_factor(int width, int height, int long_side) {
   return (std::max(width, height) + long_side - 1) / long_side;
 }
 
-/// A plane at 1/factor of its size, each sample the mean of those that it stands for; never a view.
+/// A plane at 1/factor of its size, each sample the mean of those it replaces; never a view.
 [[nodiscard]] inline cv::Mat reduced(const Plane& plane, int factor) {
   const cv::Mat whole = view(plane);
   if (factor == 1) return whole.clone();
@@ -49,8 +49,8 @@ template <std::size_t kLevels>
   return out;
 }
 
-/// A picture at any other size, not below a quarter of it, without aliasing. Means over areas, from samples
-/// interpolated at twice the size: OpenCV takes three times as long for means over fractions of samples.
+/// A picture at another size, at least a quarter of its own, without aliasing. Averages over areas, after
+/// interpolation to twice the size: OpenCV takes three times as long for means over fractions of samples.
 [[nodiscard]] inline cv::Mat resized(const cv::Mat& picture, cv::Size size) {
   cv::Mat out;
   if (size.width >= picture.cols) {

@@ -1,4 +1,4 @@
-// Robust costs: what a residual still weighs when it may be an outlier.
+// Robust costs: how much a residual counts when it may be an outlier.
 //
 // q is the squared residual in units of the outlier scale: r^2 / sigma^2.
 #pragma once
@@ -24,7 +24,7 @@ template <class Real>
   return 1 / geman_mcclure_divisor(q);
 }
 
-/// The same for Cauchy's cost log(1 + q), which lets far residuals keep some weight.
+/// The same for Cauchy's cost log(1 + q), which keeps some weight for far residuals.
 template <class Real>
 [[nodiscard]] constexpr Real cauchy_weight(Real q) {
   return 1 / (1 + q);

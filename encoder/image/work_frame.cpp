@@ -32,7 +32,7 @@ cv::Mat resized_crop(const Plane& plane, const cv::Rect& wanted, cv::Size size) 
 }  // namespace
 
 cv::Rect WorkFrame::area(glm::ivec2 size, glm::dvec2 centre, double eye_distance_px) {
-  // Whole even samples, so that luma and chroma cover the same area exactly.
+  // Whole even samples, so that luma and chroma cover exactly the same area.
   const auto even = [](double x) { return 2 * static_cast<int>(std::lround(x / 2)); };
   const int w = std::max(16, even(2 * kHalfWidth * eye_distance_px));
   const int h = std::max(16, even(2 * kHalfHeight * eye_distance_px));

@@ -1,4 +1,4 @@
-// The table that landmarks.table becomes at build time.
+// The landmark table, built in from landmarks.table.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace fbs {
 
-/// Valid as long as the program runs.
+/// Valid for the program's lifetime.
 [[nodiscard]] std::span<const std::uint8_t> built_in_landmark_table();
 
 }  // namespace fbs

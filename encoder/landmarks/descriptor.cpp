@@ -8,7 +8,7 @@
 namespace fbs {
 namespace {
 
-/// Of the square's side, the root-mean-square radius of the face.
+/// Root-mean-square radius of the face, as a share of the square's side.
 constexpr float kFaceRadius = 0.26F;
 
 PlaneSimilarity to_square(const Shape& shape, const Shape& mean, int side) {
@@ -17,7 +17,7 @@ PlaneSimilarity to_square(const Shape& shape, const Shape& mean, int side) {
   return {to.turn * scale, to.shift * scale + std::complex<float>(middle, middle)};
 }
 
-/// The patch as the square sees it.
+/// The patch drawn upright into the square.
 cv::Mat1f drawn_upright(const cv::Mat1b& patch, const PlaneSimilarity& to, int side) {
   const cv::Matx23f m(to.turn.real(), -to.turn.imag(), to.shift.real(), to.turn.imag(), to.turn.real(),
                       to.shift.imag());

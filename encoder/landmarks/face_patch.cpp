@@ -21,7 +21,7 @@ FacePlace place_of(const Shape& landmarks) {
 }
 
 FacePatch::FacePatch(const cv::Mat& picture, const FacePlace& place) {
-  // Whole pixels of the picture, of which some are in it.
+  // Whole pixels of the picture, some of which are inside it.
   const int side =
       std::max(4, static_cast<int>(std::lround(place.eye_distance_px * kPatchSide / kPatchEyeDistance)));
   const auto first = [&](double centre, int limit) {

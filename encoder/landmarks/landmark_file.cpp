@@ -37,7 +37,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   }
 }
 
-/// An empty field is nan. Nothing when it is no number.
+/// An empty field is nan. Nothing when it is not a number.
 std::optional<double> number_of(std::string_view field) {
   if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (field.front() == '+') field.remove_prefix(1);
@@ -51,7 +51,7 @@ auto fail_at(std::size_t line, const std::string& text) {
   return fail(ErrorCode::kInvalidArgument, "line " + std::to_string(line) + ": " + text);
 }
 
-/// Where each column is.
+/// Index of each column.
 struct Columns {
   std::size_t count = 0;  ///< of all columns
   std::size_t frame = 0;
@@ -119,7 +119,7 @@ Result<Row> row_of(std::string_view line, std::size_t number, const Columns& col
   return out;
 }
 
-/// The landmarks of a row, unless it is of a picture without a face.
+/// The landmarks of a row, unless it belongs to a picture without a face.
 std::optional<LandmarkPoints> points_of(const Row& row, const Columns& columns) {
   if (columns.success && !(row[*columns.success] > 0)) return std::nullopt;
   if (columns.confidence && !(row[*columns.confidence] >= kLeastConfidence)) return std::nullopt;
@@ -131,7 +131,7 @@ std::optional<LandmarkPoints> points_of(const Row& row, const Columns& columns) 
   return out;
 }
 
-/// Whether a face can be where the landmarks are.
+/// Whether a face can have these landmarks.
 bool shows_face(const LandmarkPoints& points, int width, int height) {
   Shape shape;
   std::copy(points.begin(), points.end(), shape.begin());

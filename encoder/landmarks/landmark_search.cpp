@@ -9,17 +9,17 @@
 namespace fbs {
 namespace {
 
-/// Bounds what a stage can do where there is no face. Radii of the mean shape.
+/// Limits the effect of a stage where there is no face. Radii of the mean shape.
 constexpr float kMaxMove = 0.7F;
 
-/// Aside of the usual shape.
+/// A start, relative to the usual shape.
 struct Start {
   glm::vec2 shift;  ///< eye distances
   float scale;
   float roll;  ///< radians
 };
 
-/// Detectors are as far off.
+/// Detectors err by about as much.
 constexpr Start kStarts[] = {{{0, 0}, 1, 0},
                              {{0.12F, 0.08F}, 1.1F, 0.12F},
                              {{-0.12F, 0.08F}, 0.9F, -0.12F},
@@ -39,7 +39,7 @@ Shape halfway(const Shape& a, const Shape& b) {
   return out;
 }
 
-/// Of each coordinate by itself.
+/// Median of each coordinate separately.
 Shape median_of(const std::vector<Shape>& shapes) {
   Shape out;
   std::vector<float> values(shapes.size());
@@ -54,7 +54,7 @@ Shape median_of(const std::vector<Shape>& shapes) {
   return out;
 }
 
-/// Mean distance of the shapes' landmarks to those of one, in its eye distances.
+/// Mean distance of the shapes' landmarks from one shape's, in its eye distances.
 float spread_about(const Shape& middle, const std::vector<Shape>& shapes) {
   float sum = 0;
   for (const Shape& s : shapes)

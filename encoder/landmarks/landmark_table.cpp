@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint16_t kVersion = 2;
 constexpr int kMaxStages = 16;
 
-/// Reads or writes the parts of a table: the layout is said once.
+/// Reads or writes the parts of a table: defines the layout once.
 class TableReader {
  public:
   explicit TableReader(std::span<const std::uint8_t> bytes) : reader_(bytes) {}
@@ -146,7 +146,7 @@ std::vector<std::uint8_t> write_landmark_table(const LandmarkTable& table) {
 }
 
 Result<LandmarkTable> load_landmarks() {
-  // Read once, before any thread of ours could change the environment.
+  // Read once, before any of our threads could change the environment.
   const char* path = std::getenv("FBS_LANDMARKS");  // NOLINT(concurrency-mt-unsafe)
   if (path == nullptr) return read_landmark_table(built_in_landmark_table());
   std::ifstream file(path, std::ios::binary);

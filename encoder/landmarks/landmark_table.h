@@ -1,4 +1,4 @@
-// What the search for landmarks has learned: train_landmarks makes the table, the encoder has it built in.
+// The learned part of the landmark search: made by train_landmarks, built into the encoder.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace fbs {
 /// Directions in which a stage moves a shape.
 inline constexpr int kShapeModes = 24;
 
-/// A linear map of descriptors. Weights are 8 bits and have a scale for each output.
+/// A linear map of descriptors. Weights have 8 bits, with a scale for each output.
 struct DescriptorMap {
   int outputs = 0;
   std::vector<std::int8_t> weights;  ///< kDescriptorSize rows of `outputs`
@@ -31,16 +31,16 @@ struct LandmarkStage {
   std::vector<float> offset;  ///< x0, y0, x1, y1 ...
 };
 
-/// What a face looks like at its landmarks, seen in one way.
+/// Scores the look of a face at its landmarks, at one resolution.
 struct BeliefView {
   Look look;
   DescriptorMap score;  ///< one output
 };
 inline constexpr std::size_t kBeliefViews = 2;
 
-/// How probable it is that landmarks are those of a face and right: a logistic function of
-/// the views' scores + spread * log(how far the starts differ in the end + kLeastSpread)
-/// + place * (how much the place looked like a face, PlaceSearch) + offset.
+/// Probability that landmarks are right and belong to a face: a logistic function of the views' scores +
+/// spread * log(final disagreement of the starts + kLeastSpread) + place * (PlaceSearch's score of the place)
+/// + offset.
 struct BeliefTable {
   std::array<BeliefView, kBeliefViews> views;
   float spread = 0, place = 0, offset = 0;
@@ -61,13 +61,13 @@ struct LandmarkTable {
   BeliefTable belief;
 };
 
-/// @return kUnsupported for another version, kInvalidStream for a table that is cut off or has other sizes
+/// @return kUnsupported for another version, kInvalidStream for a table that is truncated or has other sizes
 [[nodiscard]] Result<LandmarkTable> read_landmark_table(std::span<const std::uint8_t> bytes);
 
-/// What read_landmark_table() reads.
+/// The inverse of read_landmark_table().
 [[nodiscard]] std::vector<std::uint8_t> write_landmark_table(const LandmarkTable& table);
 
-/// The one that is built in. FBS_LANDMARKS, a path, puts another in its place: for the cross-validation.
+/// The built-in table. FBS_LANDMARKS, a path, replaces it: for the cross-validation.
 /// @return kIo, or errors of read_landmark_table()
 [[nodiscard]] Result<LandmarkTable> load_landmarks();
 

@@ -15,7 +15,7 @@ cv::Mat orientation_maps(const cv::Mat1f& luma, float sigma) {
   cv::Mat maps(luma.size(), CV_32FC(kOrientations), cv::Scalar::all(0));
   for (int y = 0; y < luma.rows; ++y)
     for (int x = 0; x < luma.cols; ++x) {
-      // Each gradient goes to the two orientations next to its own.
+      // Each gradient is split between the two orientations next to its own.
       const float at = angle(y, x) * (kOrientations / (2 * std::numbers::pi_v<float>));
       const int before = static_cast<int>(at);
       const float share = at - static_cast<float>(before);
@@ -23,7 +23,7 @@ cv::Mat orientation_maps(const cv::Mat1f& luma, float sigma) {
       histogram[before % kOrientations] += length(y, x) * (1 - share);
       histogram[(before + 1) % kOrientations] += length(y, x) * share;
     }
-  // To three deviations: OpenCV's own choice of four takes a quarter longer.
+  // To three sigma: OpenCV's own four take a quarter longer.
   const int side = 2 * static_cast<int>(std::ceil(3 * sigma)) + 1;
   cv::GaussianBlur(maps, maps, {side, side}, sigma);
   return maps;

@@ -1,5 +1,5 @@
-// Gradients of a picture, sorted by their orientation into maps that are smoothed: what faces are found and
-// landmarks are searched by. Method: Tola, Lepetit, Fua, DAISY, 2010.
+// Gradients of a picture, sorted by orientation into smoothed maps, for finding faces and landmarks. Method:
+// Tola, Lepetit, Fua, DAISY, 2010.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,17 +9,17 @@ namespace fbs {
 
 inline constexpr int kOrientations = 8;
 
-/// Of the gradients near a pixel: how much of each orientation there is.
+/// How much of each orientation the gradients near a pixel have.
 using Histogram = cv::Vec<float, kOrientations>;
 
-/// Below this, in grey levels, gradients are noise: they are not scaled up to unit length.
+/// Grey levels below which gradients are noise and are not scaled up to unit length.
 inline constexpr float kNoiseGradient = 10;
 
-/// Scales histograms that belong together to unit length, all of them.
+/// Scales histograms to unit length, all together.
 void scale_to_unit_length(std::span<float> histograms);
 
 /// @param luma   grey levels
-/// @param sigma  by which orientations are spread, pixels
+/// @param sigma  by which orientations are smoothed, pixels
 /// @return a Histogram for each pixel
 [[nodiscard]] cv::Mat orientation_maps(const cv::Mat1f& luma, float sigma);
 

@@ -8,17 +8,17 @@
 namespace fbs {
 namespace {
 
-/// Pictures are scaled so that a face as large as is looked for has eyes this far apart, pixels.
+/// Pictures are scaled so that faces of the wanted size have eyes this far apart, pixels.
 constexpr double kEyeDistance = 12;
 constexpr int kStride = 4;  ///< between places, pixels
 constexpr float kSigma = 2, kSpotRadius = 5;
 
-/// Added around a picture by repeating its border, for faces that reach it: pixels. The face's spots lie
-/// within.
+/// Margin added around a picture by repeating its border, for faces that reach it: pixels. Contains all of a
+/// face's spots.
 constexpr int kMargin = 32;
 
-/// Two places are one face when their middles are nearer than this, eye distances, and their sizes less
-/// different, log.
+/// Two places are the same face when their middles are nearer than this, eye distances, and the logarithms of
+/// their sizes differ by less.
 constexpr double kSameMiddle = 0.6, kSameSize = 0.5;
 
 bool are_one(const FacePlace& a, const FacePlace& b) {
@@ -50,7 +50,7 @@ cv::Mat1f scaled(const cv::Mat& picture, double scale) {
   return cv::Mat1f(out);
 }
 
-/// The scores of a row of places, kStride apart.
+/// Adds the scores of a row of places, kStride apart.
 /// @param middle  of the first place
 void add_row(const cv::Mat& maps, const cv::Point& middle, std::span<const cv::Point> spots,
              std::span<const Histogram> weights, std::span<float> scores) {
@@ -70,13 +70,13 @@ void add_row(const cv::Mat& maps, const cv::Point& middle, std::span<const cv::P
         product += products[o];
         square += squares[o];
       }
-      // scale_to_unit_length(), without the histograms being kept.
+      // scale_to_unit_length() without storing the histograms.
       scores[n] += product * (1 / std::sqrt(square + kNoiseGradient * kNoiseGradient));
     }
   }
 }
 
-/// What is best where several are one face.
+/// The best place of each face.
 std::vector<PlaceSearch::Place> best_of(std::vector<PlaceSearch::Place> places, std::size_t count) {
   std::ranges::sort(places, std::greater<>(), &PlaceSearch::Place::score);
   std::vector<PlaceSearch::Place> best;
@@ -102,7 +102,7 @@ PlaceSearch::PlaceSearch(const LandmarkTable& table)
 std::vector<PlaceSearch::Place> PlaceSearch::find(const cv::Mat& picture, const EyeDistances& sizes,
                                                   std::size_t count) const {
   std::vector<Place> places;
-  cv::Mat source = picture;  // no larger than need be
+  cv::Mat source = picture;  // no larger than necessary
   double source_scale = 1;
   for (double eye = sizes.least_px; eye <= sizes.most_px; eye *= kSizeStep) {
     const double scale = kEyeDistance / eye;

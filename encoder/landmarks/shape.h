@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// Positions in a picture: its first pixel's centre is (0.5, 0.5). Or in any other plane.
+/// Positions in a picture, whose first pixel's centre is (0.5, 0.5), or in any other plane.
 using Shape = std::array<glm::vec2, kLandmarkCount>;
 
 /// Distance between the centres of the eyes, each the mean of its six points.
@@ -31,7 +31,7 @@ struct PlaneSimilarity {
   [[nodiscard]] Shape operator()(const Shape& shape) const;
   [[nodiscard]] PlaneSimilarity inverse() const { return {1.F / turn, -shift / turn}; }
 
-  /// The one that takes `from` nearest to `to`, in least squares.
+  /// The similarity that brings `from` nearest to `to` in least squares.
   [[nodiscard]] static PlaneSimilarity between(const Shape& from, const Shape& to);
 };
 

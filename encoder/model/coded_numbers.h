@@ -7,7 +7,7 @@
 
 namespace fbs {
 
-/// The nearest state in whole steps, as far as its parts are sent.
+/// The nearest state in whole steps, for the parts that are sent; the others are zero.
 /// @param numbers  the first of the state, in the units of State and head units; the others are zero
 [[nodiscard]] CodedState coded_state(std::span<const double> numbers, const Setup& setup);
 

@@ -1,4 +1,4 @@
-// Between control points and the coefficients that the stream codes (GenericHead::expression).
+// Converts between control points and the coefficients that the stream codes (GenericHead::expression).
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ using Offsets = std::array<glm::dvec2, kControlCount>;
 /// The coefficients, head units, that move the control points by `offsets`.
 [[nodiscard]] std::array<double, kCoefficientCount> to_coefficients(const Offsets& offsets);
 
-/// A quadratic over the offsets as one over the coefficients.
+/// Converts a quadratic over the offsets to one over the coefficients.
 /// @param quadratic  kCoefficientCount x kCoefficientCount, symmetric
 [[nodiscard]] cv::Mat1d quadratic_of_coefficients(const cv::Mat1d& quadratic);
 
-/// Rows of a matrix over the offsets, one for each other number, over the coefficients.
+/// Converts rows of a matrix over the offsets, one for each other number, to the coefficients.
 /// @param rows  n x kCoefficientCount
 [[nodiscard]] cv::Mat1d rows_of_coefficients(const cv::Mat1d& rows);
 

@@ -9,12 +9,12 @@ namespace fbs {
 namespace {
 
 constexpr int kControls = static_cast<int>(kExpressionControls);
-// Standard deviations, eye distances; set by hand. Smaller: fewer odd shapes, less of what is particular.
-constexpr double kControlSigma = 0.008;  // of a control point about what the actions span
+// Standard deviations, eye distances; set by hand. Smaller: fewer odd shapes, less individual expression.
+constexpr double kControlSigma = 0.008;  // of a control point about the span of the actions
 constexpr double kOuterLipTrackSigma = 0.02, kInnerLipTrackSigma = 0.02,
                  kBrowTrackSigma = 0.03;  // of contours
 
-/// Where a vertex lies on lips or brows, in the coordinates of the actions.
+/// Position of a vertex on lips or brows, in the coordinates of the actions.
 struct Place {
   FeatureId feature;
   bool upper = false;   ///< lip
@@ -43,13 +43,13 @@ Action of_brows(Action action) {
 
 const std::vector<Action>& actions() {
   static const std::vector<Action> all = {
-      // The jaw drops; the corners come in and down a little.
+      // The jaw drops; the corners move in and down a little.
       of_lips([](const Place& p) {
         return 0.15 * glm::dvec2(-0.12 * p.across, p.upper ? 0.2 * (1 - p.middle()) : 0.2 + 0.8 * p.middle());
       }),
-      // The upper lip is raised.
+      // The upper lip rises.
       of_lips([](const Place& p) { return glm::dvec2(0, p.upper ? -0.045 * p.middle() : 0); }),
-      // The corners go apart, or together to a pout.
+      // The corners part, or come together to a pout.
       of_lips([](const Place& p) { return glm::dvec2(0.06 * p.across, 0); }),
       // A smile: corners up and out.
       of_lips([](const Place& p) { return (1 - p.middle()) * glm::dvec2(0.02 * p.across, -0.045); }),
@@ -59,7 +59,7 @@ const std::vector<Action>& actions() {
       of_lips([](const Place& p) {
         return glm::dvec2(0, p.upper && p.is_outer_lip() ? -0.025 * p.middle() : 0);
       }),
-      // The whole mouth goes aside, up and down, or tilts.
+      // The whole mouth moves sideways, up and down, or tilts.
       of_lips([](const Place&) { return glm::dvec2(0.02, 0); }),
       of_lips([](const Place&) { return glm::dvec2(0, 0.035); }),
       of_lips([](const Place& p) { return glm::dvec2(0, 0.02 * p.across); }),
@@ -108,7 +108,7 @@ cv::Mat1d precision() {
     for (const SkinningWeight& skinning : skinning_of(vertices[i]))
       if (skinning.control < kControls)
         follow(i, skinning.control) = skinning.weight / static_cast<double>(kSkinningOne);
-  // An action in control points: the least-squares offsets that move the vertices by it.
+  // An action in control points: the least-squares offsets that give the vertices its motion.
   const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
   cv::Mat1d covariance = kControlSigma * kControlSigma * cv::Mat1d::eye(2 * kControls, 2 * kControls);
   for (const Action& action : actions()) {

@@ -1,4 +1,4 @@
-// What faces do: the prior of expressions for the fit to the picture.
+// The prior of expressions for the fit to the picture.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ namespace fbs {
 inline constexpr std::size_t kExpressionControls = 26;
 
 /// Inverse covariance of the offsets of the control points of lips and brows about rest, per squared eye
-/// distance: a mouth opens, stretches, smiles, rolls its lips and goes aside as a whole, brows rise, frown
-/// and tilt, mostly together, and hardly do anything else. The actions are those that MPEG-4's parameters and
-/// CANDIDE's action units name; how far they go was set by hand from what speech does.
+/// distance: a mouth opens, stretches, smiles, rolls its lips and moves as a whole; brows rise, frown and
+/// tilt, mostly together; little else happens. The actions are those of MPEG-4's parameters and CANDIDE's
+/// action units; their sizes were set by hand from speech.
 /// Rows and columns: 2 * control point + axis, for control points 0 .. kExpressionControls - 1.
 [[nodiscard]] const cv::Mat1d& expression_precision();
 
-/// The most probable offsets (head units) given those of the tracked contours, each known to within some
-/// hundredths of the eye distance: contrast shows motion across a contour only, so that the line of a closed
-/// mouth may slide along itself unnoticed. Control points past kExpressionControls stay as they are.
+/// The most probable offsets (head units) given the tracked contours' offsets, each known to within some
+/// hundredths of the eye distance: contrast shows motion only across a contour, so that the line of a closed
+/// mouth may slide along itself unnoticed. Control points past kExpressionControls stay unchanged.
 [[nodiscard]] std::array<glm::dvec2, kControlCount> most_probable(
     const std::array<glm::dvec2, kControlCount>& tracked);
 

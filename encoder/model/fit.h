@@ -23,10 +23,10 @@ struct Fit {
 inline constexpr int kFitOffsets = kPoseCount + kLightCount + kInteriorCount;
 inline constexpr int kFitNumbers = kFitOffsets + kCoefficientCount;
 
-/// The state nearest to a fit; body and ground stay where pattern 0 saw them.
+/// The state nearest to a fit; body and ground stay as pattern 0 saw them.
 [[nodiscard]] State state_of(const Fit& fit);
 
-/// The fit whose state is `state`, body and ground apart.
+/// The fit whose state is `state`, without body and ground.
 [[nodiscard]] Fit fit_of(const State& state);
 
 }  // namespace fbs

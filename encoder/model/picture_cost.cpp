@@ -40,8 +40,8 @@ double PictureCost::constant() const {
 }
 
 PictureCost cost_unseen(const Fit& fit) {
-  // The pose stays instead of sliding to where the face comes back.
-  constexpr double kSamples = 4;  // weight: of so many samples with a slope of one level per pixel
+  // Holds the pose, which would otherwise slide to where the face comes back.
+  constexpr double kSamples = 4;  // weight: as many samples with a slope of one level per pixel
   const Pose unit = one_unit();
   const double eye = fit.pose.eye_distance_px();
   const std::array<double, kPoseCount> px = {unit.pitch * eye, unit.yaw * eye,

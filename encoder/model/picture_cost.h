@@ -1,4 +1,4 @@
-// What states other than the fitted one would cost in a picture: what the planner weighs against bits.
+// Cost in a picture of states other than the fitted one: the planner weighs it against bits.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ enum class CostLayer : std::uint8_t { kHead, kSurround };
 struct LayerCost {
   CostLayer layer = CostLayer::kHead;
   int pattern = 0;
-  double constant = 0;  ///< at the fit itself: what this pattern cannot show, whatever the state
+  double constant = 0;  ///< at the fit itself: the pattern's remaining error, whatever the state
   cv::Mat1d quadratic;  ///< kParameterCount x kParameterCount; zero for numbers that do not move the layer
 };
 
-/// One picture. Its cost is the sum over the layers.
+/// One picture, whose cost is the sum over the layers.
 struct PictureCost {
   std::array<double, kParameterCount>
       fit{};  ///< numbers of the coded state, in units of State and head units
@@ -33,10 +33,10 @@ struct PictureCost {
   [[nodiscard]] double constant() const;
 };
 
-/// Of a picture without a fit (the face is lost): only the pose is held a little.
+/// Cost of a picture without a fit (the face is lost): only the pose is held a little.
 [[nodiscard]] PictureCost cost_unseen(const Fit& fit);
 
-/// Of the head, drawn from a pattern.
+/// Cost of the head, drawn from a pattern.
 /// @param constant  at the fit
 /// @param own  kFitNumbers x kFitNumbers, symmetric: the quadratic over the fit's own numbers
 [[nodiscard]] PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1d& own);

@@ -1,4 +1,4 @@
-// The head of a fit where the picture sees it.
+// The head of a fit, placed in the picture.
 #pragma once
 
 #include "encoder/model/fit.h"
@@ -13,7 +13,7 @@ struct PlacedHead {
 
   PlacedHead(const Geometry& geometry, const Fit& fit);
 
-  /// Pixels.
+  /// Position in the picture, pixels.
   [[nodiscard]] glm::dvec2 operator()(const SurfacePoint& p) const { return projection(p.on(vertices)); }
 
   /// Area of a triangle in the picture, square pixels; zero when it faces away.

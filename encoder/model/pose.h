@@ -12,13 +12,13 @@
 
 namespace fbs {
 
-/// Positions in State and on the decoder's screen count so many to a pixel.
+/// Units of positions in State and on the decoder's screen, per pixel.
 inline constexpr double kStateUnitsPerPixel = 1 << kScreenOneLog2;
 
 /// Frame and order of rotation as in HeadPose.
 struct Pose {
   double pitch = 0, yaw = 0, roll = 0;  ///< rad
-  glm::dvec2 shift{0, 0};               ///< where the head frame's origin is seen, pixels
+  glm::dvec2 shift{0, 0};               ///< the head frame's origin in the picture, pixels
   double log2_scale = 5;                ///< log2 of the eye distance in pixels
 
   [[nodiscard]] double eye_distance_px() const;

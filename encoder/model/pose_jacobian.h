@@ -1,4 +1,4 @@
-// How a projected point moves with the pose.
+// Derivatives of a projected point by the pose.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace fbs {
 
-/// Pose with six numbers added: pitch, yaw, roll (rad), shift x and y (px), log2 scale; angles are
+/// Six numbers to add to a pose: pitch, yaw, roll (rad), shift x and y (px), log2 scale; the sum's angles are
 /// clamped to what still shows a face.
 using PoseStep = cv::Vec<double, 6>;
 [[nodiscard]] Pose moved(const Pose& pose, const PoseStep& step);
 
-/// Derivatives of a projected point by the six numbers of PoseStep: by finite difference for the angles,
-/// exact for the rest.
+/// Derivatives of a projected point by the six numbers of PoseStep: finite differences for the angles, exact
+/// for the rest.
 class PoseJacobian {
  public:
   explicit PoseJacobian(const Pose& pose);

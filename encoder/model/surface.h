@@ -24,10 +24,10 @@ struct SurfacePoint {
   }
 };
 
-/// Points spread evenly over the mesh as `projection` sees it.
+/// Points spread evenly over the mesh as projected by `projection`.
 /// @param spacing_px  between neighbours, pixels of the picture
 /// @param mouth_rows  least number of points across each triangle of the mouth interior, which has no area
-/// while the lips are closed
+///                    while the lips are closed
 [[nodiscard]] std::vector<SurfacePoint> spread_over_mesh(const HeadVertices& vertices,
                                                          const PoseProjection& projection, double spacing_px,
                                                          int mouth_rows = 1);

@@ -45,7 +45,7 @@ void configure(const VideoFormat& format, const Av1Settings& settings, aom_codec
   const int finest =
       settings.look_ahead > 0 ? std::max(0, settings.quantiser - settings.boost) : settings.quantiser;
   config.rc_min_quantizer = static_cast<unsigned>(finest);
-  // Left to its own rate control libaom spends several kB on later patterns.
+  // libaom's own rate control spends several kB on later patterns.
   if (settings.look_ahead == 0) config.rc_max_quantizer = static_cast<unsigned>(settings.quantiser);
 }
 
@@ -57,8 +57,8 @@ bool set_controls(const VideoFormat& format, const Av1Settings& settings, aom_co
                       set(AV1E_SET_COLOR_RANGE,
                           format.range == ColourRange::kFull ? AOM_CR_FULL_RANGE : AOM_CR_STUDIO_RANGE) &&
                       set(AV1E_SET_MATRIX_COEFFICIENTS, matrix_of(format.matrix));
-  // Overlays code a picture twice. A quantiser that varies within the frame favours the ground: without,
-  // faces cost 6 % less at equal PSNR, first pictures 9 %, and whole frames the same.
+  // Overlays would code a picture twice. A quantiser that varies within the frame favours the ground: without
+  // it, faces cost 6 % less at equal PSNR, first pictures 9 %, and whole frames the same.
   return common && (!ahead || (set(AV1E_SET_ENABLE_OVERLAY, 0) && set(AV1E_SET_DELTAQ_MODE, 0)));
 }
 

@@ -1,4 +1,4 @@
-// libaom as the coders of patterns use it.
+// libaom, set up for coding patterns.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,11 @@
 
 namespace fbs {
 
-/// libaom's --cpu-used, 0 (slow and small) to 9, for what is sent. Against 4, 3 takes 1.6 times as long for 3
-/// % fewer bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 % more.
+/// libaom's --cpu-used, 0 (slow and small) to 9, for patterns that are sent. Against 4, 3 takes 1.6 times as
+/// long for 3 % fewer bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 %
+/// more.
 inline constexpr int kSentSpeed = 3;
-/// For what is only looked at.
+/// Speed for trials.
 inline constexpr int kTrialSpeed = 6;
 
 struct Av1Settings {
@@ -22,28 +23,28 @@ struct Av1Settings {
   /// Pictures that libaom may hold back to code a later one first; 0: each is coded at once, all at
   /// `quantiser`.
   int look_ahead = 0;
-  /// With look-ahead, how many steps below `quantiser` frames may go that others refer to; 0..63.
+  /// With look-ahead, how many steps below `quantiser` frames that others refer to may go; 0..63.
   int boost = 0;
 };
 
-/// One AV1 sequence of which only the first frame is a key frame.
+/// One AV1 sequence, in which only the first frame is a key frame.
 class Av1Encoder {
  public:
-  using Frames = std::vector<std::vector<std::uint8_t>>;  ///< as coded_frames gives them
+  using Frames = std::vector<std::vector<std::uint8_t>>;  ///< as from coded_frames()
 
   /// @param format  its size, range and matrix are written into the sequence header
   static Result<Av1Encoder> create(const VideoFormat& format, const Av1Settings& settings);
 
   /// @param picture  of the format's size; copied
-  /// @return the frames that are coded since the last call, in coding order; without look-ahead exactly one
+  /// @return the frames coded since the last call, in coding order; without look-ahead exactly one
   Result<Frames> encode(const Picture& picture);
 
-  /// For the pictures that follow, without look-ahead.
+  /// Changes settings for the pictures that follow, without look-ahead.
   /// @param quantiser  libaom's scale, 0..63
   /// @param speed      Av1Settings::speed
   Result<void> set(int quantiser, int speed);
 
-  /// The rest; no picture may follow.
+  /// The remaining frames; no picture may follow.
   Result<Frames> finish();
 
  private:

@@ -30,7 +30,7 @@ tl::unexpected<Error> unexpected_unit() {
 
 Result<std::vector<Bytes>> coded_frames(std::span<const std::uint8_t> temporal_unit) {
   std::vector<Bytes> frames;
-  Bytes next;  // with a sequence header, until its frame comes
+  Bytes next;  // with a sequence header, until its frame follows
   for (ObuReader reader(temporal_unit); !reader.done();) {
     const auto obu = reader.next();
     if (!obu || obu->has_extension) return unexpected_unit();

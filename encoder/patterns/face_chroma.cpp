@@ -9,9 +9,9 @@
 namespace fbs {
 namespace {
 
-constexpr int kSteps = 64;           // samples of a picture are this many each way, at most
+constexpr int kSteps = 64;           // at most this many samples of a picture each way
 constexpr double kOutside = 0.002;   // share of the samples that may be clipped: lipstick is more than that
-constexpr std::int32_t kRoom = 112;  // from grey, for the others; pictures to come may be more colourful
+constexpr std::int32_t kRoom = 112;  // from grey, for the others; later pictures may be more colourful
 
 }  // namespace
 

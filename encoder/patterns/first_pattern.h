@@ -12,13 +12,13 @@
 
 namespace fbs {
 
-/// One pattern as it is sent and as it is shown.
+/// A pattern as coded and as shown.
 struct CodedPattern {
   std::vector<std::uint8_t> av1;  ///< as PatternDecoder reads it
   Picture decoded;
 };
 
-/// Each quantiser is coded once; only sizes are kept, and the pattern of the last.
+/// Codes each quantiser once; keeps sizes only, and the last pattern.
 class FirstPattern {
  public:
   /// @param picture  must outlive the object
@@ -29,7 +29,7 @@ class FirstPattern {
   /// Bytes of the pattern at a quantiser, 0..63.
   Result<std::size_t> bytes(int quantiser);
 
-  /// Leaves nothing behind.
+  /// Takes the pattern out; call last.
   Result<CodedPattern> take(int quantiser);
 
  private:

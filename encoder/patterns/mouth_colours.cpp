@@ -8,9 +8,9 @@
 namespace fbs {
 namespace {
 
-constexpr double kOpen = 0.10;            // eye distances by which the outer lips have parted beyond rest
+constexpr double kOpen = 0.10;            // opening of the outer lips beyond rest, eye distances
 constexpr std::int64_t kMinPictures = 3;  // fewer may be a tongue or a shadow
-constexpr int kSteps = 24;                // along the midline
+constexpr int kMidlineSteps = 24;         // along the midline
 
 glm::dvec2 seen_at(std::span<const glm::ivec3> vertices, std::size_t landmark) {
   const glm::ivec3 p = vertices[vertex_of_landmark(landmark)];
@@ -43,8 +43,8 @@ void MouthColours::add(const Picture& picture, std::span<const glm::ivec3> verti
   const glm::dvec2 top = seen_at(vertices, 51), bottom = seen_at(vertices, 57);
   glm::dvec2 darkest = top;
   int least = 256;
-  for (int i = kSteps / 5; i <= kSteps - kSteps / 5; ++i) {
-    const glm::dvec2 p = top + (bottom - top) * (static_cast<double>(i) / kSteps);
+  for (int i = kMidlineSteps / 5; i <= kMidlineSteps - kMidlineSteps / 5; ++i) {
+    const glm::dvec2 p = top + (bottom - top) * (static_cast<double>(i) / kMidlineSteps);
     const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
     if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) return;
     if (picture.y.row(y)[x] < least) {

@@ -1,4 +1,4 @@
-// Colour of the mouth interior: means over open mouths seen so far.
+// Colour of the mouth interior: means over the open mouths so far.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@ class MouthColours {
   MouthColours(std::int32_t rest_height, double eye_distance_px)
       : rest_height_(rest_height), eye_distance_px_(eye_distance_px) {}
 
-  /// Adds what a picture shows between parted lips: the darkest place on the mouth's midline, and the place
-  /// half way from there to the upper inner lip, where teeth are. Inner lips are tracked less reliably, so
-  /// the outer ones decide whether the mouth is open.
+  /// Adds the colours between parted lips in a picture: the darkest place on the mouth's midline, and the
+  /// place half way from there to the upper inner lip, where teeth are. The outer lips decide whether the
+  /// mouth is open: inner lips are tracked less reliably.
   /// @param vertices  screen positions of the head's vertices, 1/64 pixel
   void add(const Picture& picture, std::span<const glm::ivec3> vertices);
 
-  /// Sets the chroma of either lip's colour once enough has been seen of it.
+  /// Sets the chroma of either lip's colour once it has been seen often enough.
   void set_chroma(MouthInterior& mouth) const;
 
  private:

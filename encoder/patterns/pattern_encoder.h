@@ -1,4 +1,4 @@
-// Codes patterns one by one, each as soon as it comes, with libaom. SPEC 4.4.
+// Codes patterns one by one with libaom, without delay. SPEC 4.4.
 #pragma once
 
 #include <cstdint>

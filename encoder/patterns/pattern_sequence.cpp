@@ -11,11 +11,11 @@
 namespace fbs {
 namespace {
 
-// Pictures. 16 to 48 are within 1 % of each other, 9 loses 2 %, 5 loses 4 % of the bytes; each holds a
-// picture.
+// Pictures, each held in memory. 16 to 48 are within 1 % of each other, 9 loses 2 %, 5 loses 4 % of the
+// bytes.
 constexpr int kLookAhead = 25;
 
-/// libaom's order hints have 7 bits. Look-ahead is less than half of them.
+/// libaom's order hints have 7 bits. Look-ahead is less than half their range.
 constexpr std::size_t kOrderHints = 128;
 static_assert(kLookAhead < kOrderHints / 2);
 
@@ -42,7 +42,7 @@ Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Pict
   return out;
 }
 
-/// The picture of an order hint, which counts modulo kOrderHints: the one nearest to those coded so far.
+/// The picture with an order hint, which is modulo kOrderHints: the one nearest to those coded so far.
 std::size_t numbered(int order_hint, std::size_t coded) {
   const std::size_t past = coded % kOrderHints, hint = order_hint, whole = coded - past;
   if (hint > past + kOrderHints / 2 && whole > 0) return whole - kOrderHints + hint;
@@ -72,7 +72,7 @@ Result<std::vector<SequencePattern>> code_pattern_sequence(const VideoFormat& fo
     auto frame = decoder->decode_frame(av1);
     if (!frame) return fail(frame.error());
     const std::size_t picture = numbered(frame->order_hint, out.size());
-    // An overlay: libaom shows a hidden picture by coding it once more, for no other frame to refer to.
+    // An overlay: libaom shows a hidden picture by coding it again; no other frame refers to it.
     if (picture < pictures.size() && seen[picture] && !frame->referable) continue;
     if (picture >= pictures.size() || seen[picture])
       return fail(ErrorCode::kInternal, "libaom codes a pattern twice");

@@ -1,4 +1,4 @@
-// Codes a scene's patterns together, with look-ahead: a later one may be coded first and serve those before
+// Codes a scene's patterns together, with look-ahead: a later one may be coded first and predict those before
 // it.
 #pragma once
 
@@ -12,20 +12,20 @@
 
 namespace fbs {
 
-/// Pictures of a sequence, all of which are in memory.
+/// Limit of pictures in a sequence, all of which are in memory.
 inline constexpr std::size_t kMaxSequencePictures = 512;
 
 struct SequenceSettings {
-  int quantiser = 40;  ///< libaom's scale, 0..63; of the frames that no other refers to
+  int quantiser = 40;  ///< libaom's scale, 0..63; for frames that no other refers to
   int speed = kSentSpeed;
-  /// How many steps finer than `quantiser` frames may be coded that others refer to, the first above all.
+  /// How many steps finer than `quantiser` frames that others refer to may be coded, above all the first.
   /// Without a bound (63) the first costs 10..25 % more bytes at quantiser 50, for no gain in the whole (four
   /// clips, 16 and 30 patterns).
   int boost = 20;
   bool reduced = false;  ///< code all pictures at half width and height
 };
 
-/// A pattern as it is sent and as it is shown.
+/// A pattern as coded and as shown.
 struct SequencePattern {
   std::size_t picture = 0;        ///< index into the pictures, which are in display order
   std::vector<std::uint8_t> av1;  ///< one coded frame, as PatternDecoder reads it

@@ -5,13 +5,13 @@
 namespace fbs {
 namespace {
 
-/// PSNR that twice the bytes gain, dB: mean slope of the ten clips' curves between 2 and 12 kbit/s.
+/// PSNR gained by twice the bytes, dB: mean slope of the ten clips' curves between 2 and 12 kbit/s.
 constexpr double kSlope = 2.2;
 
 /// The face loses more than the mean over the picture, dB.
 constexpr double kMargin = 0.3;
 
-/// A blend averages the coding errors of its patterns.
+/// Share of its patterns' coding errors that a blend keeps after averaging.
 constexpr double kErrorLeft = 0.7;
 
 double bytes_of(const PatternCost& cost, std::size_t patterns) {

@@ -8,9 +8,9 @@
 namespace fbs {
 
 /// Compares PSNR of the pictures and bytes of the patterns at both sizes.
-/// @param blend_loss  luma error that pictures have between lossless patterns, mean over samples
+/// @param blend_loss  luma error of pictures drawn from lossless patterns, mean over samples
 /// @param patterns     number of patterns
-/// @param other_bytes  that the same pictures take beside the patterns
+/// @param other_bytes  bytes of the same pictures besides the patterns
 [[nodiscard]] bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_bytes,
                                      const PatternCost& full, const PatternCost& reduced);
 

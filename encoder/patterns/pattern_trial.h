@@ -1,4 +1,4 @@
-// What patterns cost at an operating point, from a few that are coded for trial.
+// Estimates the cost of patterns at an operating point from a few coded on trial.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct PatternCost {
   double squared_error = 0;  ///< luma, mean over samples
 };
 
-/// @param pictures  some that follow each other as the scene's patterns will, 2..kMaxSequencePictures
+/// @param pictures  consecutive patterns of the scene, 2..kMaxSequencePictures
 Result<PatternCost> trial_cost(const VideoFormat& format, std::span<const Picture> pictures,
                                const SequenceSettings& settings);
 

@@ -1,4 +1,4 @@
-// The pictures of a group as the planner sees them: costs over numbers in whole steps.
+// Costs of a group's pictures for the planner, over numbers in whole steps.
 #pragma once
 
 #include <array>
@@ -40,8 +40,8 @@ class GroupCost {
   std::vector<std::vector<float>> quadratic_;
 };
 
-/// A part on the straight line between two of its values; share 0 is `from`, 1 is `to`. What lies past the
-/// part's size is left undefined.
+/// A part on the straight line between two of its values; share 0 is `from`, 1 is `to`. Numbers past the
+/// part's size are left undefined.
 [[nodiscard]] inline PartPoint on_line(const PartValues& from, const PartValues& to, std::size_t part,
                                        double share) {
   PartPoint x;

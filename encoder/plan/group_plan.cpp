@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::size_t kPacketBytes = 5;  // of a motion packet around its payload: SPEC 3.1
+constexpr std::size_t kPacketBytes = 5;  // added to a motion payload by its packet: SPEC 3.1
 
 }  // namespace
 

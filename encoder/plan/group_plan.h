@@ -1,5 +1,5 @@
-// One motion group: which knots, at which lambda, for how many bits. Pure functions; what goes on from group
-// to group is the caller's.
+// Plans one motion group: its knots and lambda for a number of bits. Pure functions; the caller keeps what
+// lasts from group to group.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace fbs {
 
-/// What a group's plan depends on.
+/// Inputs of a group's plan.
 struct GroupInput {
-  const MotionEncoder& coder;  ///< as it is before the group: anchor and contexts
+  const MotionEncoder& coder;  ///< before the group: anchor and contexts
   std::span<const PictureCost> pictures;
   std::span<const std::uint32_t> durations;  ///< of each picture, 1/90000 s; 0: nominal
   std::uint32_t nominal_duration;            ///< 1/90000 s
@@ -33,10 +33,10 @@ struct PlannedGroup {
 /// Length of a group.
 [[nodiscard]] double seconds_of(std::span<const std::uint32_t> durations, std::uint32_t nominal_duration);
 
-/// The group at a fixed lambda.
+/// Plans the group at a fixed lambda.
 [[nodiscard]] MotionGroup plan_group(const TrackPlanner& planner, const GroupInput& input, double lambda);
 
-/// The group at the lambda at which it takes what it may: plan_within().
+/// Plans the group at the lambda that meets its allowed bits: plan_within().
 /// @param lambda  of the group before
 /// @param base    of the scene
 [[nodiscard]] PlannedGroup plan_group_within(const TrackPlanner& planner, const GroupInput& input,

@@ -5,7 +5,6 @@
 namespace fbs {
 namespace {
 
-constexpr std::size_t kN = kParameterCount;
 constexpr double kMinGain = 1e-6;  // squared luma levels; smaller is rounding
 
 }  // namespace
@@ -60,10 +59,10 @@ void KnotDescent::begin_slopes() {
       for (std::size_t k = 0, i = kPartFirst[part]; k < kPartSizes[part]; ++k, ++i)
         e[i] = x[k] - terms_.cost.target(t)[i];
     }
-    for (std::size_t i = 0; i < kN; ++i) {
-      const float* row = terms_.cost.quadratic(t) + i * kN;
+    for (std::size_t i = 0; i < kParameterCount; ++i) {
+      const float* row = terms_.cost.quadratic(t) + i * kParameterCount;
       double sum = 0;
-      for (std::size_t j = 0; j < kN; ++j) sum += static_cast<double>(row[j]) * e[j];
+      for (std::size_t j = 0; j < kParameterCount; ++j) sum += static_cast<double>(row[j]) * e[j];
       slope_[t][i] = sum;
     }
   }
@@ -71,8 +70,8 @@ void KnotDescent::begin_slopes() {
 
 void KnotDescent::add_to_slope(int picture, std::size_t number, double change) {
   Row& slope = slope_[picture];
-  const float* row = terms_.cost.quadratic(picture) + number * kN;
-  for (std::size_t j = 0; j < kN; ++j) slope[j] += change * static_cast<double>(row[j]);
+  const float* row = terms_.cost.quadratic(picture) + number * kParameterCount;
+  for (std::size_t j = 0; j < kParameterCount; ++j) slope[j] += change * static_cast<double>(row[j]);
 }
 
 void KnotDescent::move(std::size_t part, std::size_t k, std::size_t place, std::int32_t by) {
@@ -81,7 +80,7 @@ void KnotDescent::move(std::size_t part, std::size_t k, std::size_t place, std::
   for (int t = r.first; t <= r.last; ++t) add_to_slope(t, kPartFirst[part] + place, by * r.share(t));
 }
 
-/// Of the spans that end at knot k and begin there.
+/// Bits of the spans that end and begin at knot k.
 double KnotDescent::bits_around(std::size_t part, std::size_t k) const {
   const Knot& knot = group_.tracks[part][k];
   double bits = terms_.rate.knot(part, before(part, k), knot, group_.pictures);
@@ -89,7 +88,7 @@ double KnotDescent::bits_around(std::size_t part, std::size_t k) const {
   return bits;
 }
 
-/// When the numbers of knot k change to `to`.
+/// Change of the distortion when the numbers of knot k become `to`.
 double KnotDescent::distortion_change(std::size_t part, std::size_t k, const PartValues& to) const {
   const PartValues& from = group_.tracks[part][k].value;
   const std::size_t first = kPartFirst[part];
@@ -109,7 +108,7 @@ double KnotDescent::distortion_change(std::size_t part, std::size_t k, const Par
       double along = 2 * slope[i];
       for (std::size_t b = 0; b < count; ++b)
         along += share * (to[moved[b]] - from[moved[b]]) *
-                 static_cast<double>(quadratic[i * kN + first + moved[b]]);
+                 static_cast<double>(quadratic[i * kParameterCount + first + moved[b]]);
       sum += da * along;
     }
   }
@@ -146,7 +145,7 @@ bool KnotDescent::falls_upwards(std::size_t part, std::size_t k, std::size_t pla
   return slope < 0;
 }
 
-/// Every number of every knot: one step downhill, or equal to its neighbours, which costs no bits.
+/// Tries for every number of every knot one step downhill, or its neighbours' value, which costs no bits.
 bool KnotDescent::descend(std::size_t part) {
   bool changed = false;
   for (std::size_t k = 0; k < group_.tracks[part].size(); ++k) {
@@ -163,7 +162,7 @@ bool KnotDescent::descend(std::size_t part) {
   return changed;
 }
 
-/// When a part's numbers change by `by` in one picture.
+/// Change of the distortion in one picture when a part's numbers change by `by`.
 double KnotDescent::distortion_change_at(std::size_t part, int picture, const PartPoint& by) const {
   const std::size_t first = kPartFirst[part];
   const float* quadratic = terms_.cost.quadratic(picture);
@@ -172,7 +171,7 @@ double KnotDescent::distortion_change_at(std::size_t part, int picture, const Pa
     const std::size_t i = first + p;
     double along = 2 * slope_[picture][i];
     for (std::size_t q = 0; q < kPartSizes[part]; ++q)
-      along += by[q] * static_cast<double>(quadratic[i * kN + first + q]);
+      along += by[q] * static_cast<double>(quadratic[i * kParameterCount + first + q]);
     sum += by[p] * along;
   }
   return sum;

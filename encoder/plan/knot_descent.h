@@ -1,4 +1,4 @@
-// All parts of a group together: coordinate descent over knots and their numbers.
+// Optimises all parts of a group together: coordinate descent over knots and their numbers.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 namespace fbs {
 
 /// Lowers  distortion + lambda * bits  of a group, over all its parts at once, in whole steps. Keeps the
-/// slope of the distortion in each picture up to date, so that a trial costs a few products.
+/// slope of the distortion in each picture up to date, so that a trial takes only a few products.
 class KnotDescent {
  public:
   /// @param group  with a track for each part in terms.limits.parts; changed in place
@@ -19,7 +19,7 @@ class KnotDescent {
 
  private:
   using Row = GroupCost::Row;
-  /// Pictures on which a knot acts, and how much.
+  /// Pictures that a knot affects, and how much.
   struct Reach {
     int first, last;      ///< pictures
     int knot, low, high;  ///< pictures of the knot and its neighbours

@@ -6,11 +6,11 @@
 namespace fbs {
 namespace {
 
-/// Seconds in which a rate that is twice too high raises the price by e. Shorter ones make quality swing from
-/// pattern to pattern.
+/// Seconds in which a rate twice too high raises the price by e. Shorter ones make quality swing from pattern
+/// to pattern.
 constexpr double kSettlesIn = 8;
 
-/// How much a full bucket adds to the logarithm of the price over a half full one.
+/// Increase in the logarithm of the price from a half full to a full bucket.
 constexpr double kFullness = 2;
 
 }  // namespace

@@ -1,22 +1,22 @@
-// Holds a live stream to a rate: how much may be sent at once, and how dear a bit is meanwhile.
+// Holds a live stream to a rate: limits what may be sent at once, and prices bits.
 #pragma once
 
 namespace fbs {
 
-/// A leaky bucket. It drains at the rate of the channel; what is in it waits to be sent.
+/// A leaky bucket. It drains at the rate of the channel; its content waits to be sent.
 class LiveRate {
  public:
   /// @param kbps    of the channel, kbit/s, > 0
-  /// @param buffer  s, > 0: nothing should wait longer
+  /// @param buffer  s, > 0: the longest that anything should wait
   LiveRate(double kbps, double buffer);
 
-  /// So many bytes have been sent for pictures that last so long.
+  /// Records bytes sent for pictures that last this long.
   void add(double bytes, double seconds);
 
-  /// Bytes that may be sent now; negative: more wait than should.
+  /// Bytes that may be sent now; negative: more than the buffer allows is waiting.
   [[nodiscard]] double room() const { return capacity_ - waiting_; }
 
-  /// By how much more a bit is worth than at the start: rises while more is sent than the channel takes, and
+  /// How much more a bit is worth than at the start: rises while more is sent than the channel takes, and
   /// falls while it is idle. 1/kMaxFactor..kMaxFactor
   [[nodiscard]] double price() const;
 

@@ -16,9 +16,9 @@ std::int32_t step(double value) {
 OperatingPoint OperatingPoint::at(int quality, double eye_distance_px) {
   OperatingPoint p;
   p.pattern_quantiser = std::clamp(static_cast<int>(std::lround(66 - 0.52 * quality)), 2, 63);
-  // A quarter of a pixel on a small face, half a pixel on one that fills a large picture. One step of
-  // rotation or scale moves the farthest vertex, 1.3 eye distances from the origin, as far as one step of
-  // translation moves all of them.
+  // A quarter of a pixel on a small face, half a pixel on one that fills a large picture. A step of rotation
+  // or scale moves the farthest vertex, 1.3 eye distances from the origin, as far as a step of translation
+  // moves all.
   const double px = 0.25 * std::sqrt(std::max(8.0, eye_distance_px) / 34) * std::exp2((50 - quality) / 25.0);
   const double turn = px / (1.3 * eye_distance_px) / (2 * std::numbers::pi);
   p.steps.translation = step(px * 64);

@@ -15,20 +15,20 @@ struct HullPoint {
 using Hull = std::array<HullPoint, 5>;
 constexpr Hull kHull = {{{0.4, 63, 20}, {0.8, 60, 25}, {1.6, 58, 38}, {3.2, 55, 38}, {5.6, 52, 45}}};
 
-/// The same of pictures without a face: highway and hall_monitor, which differ. Up to 12 kbit/s more patterns
-/// gain more than finer ones; beyond, every picture of a busy scene is to be one.
+/// The same for pictures without a face: highway and hall_monitor, which differ. Up to 12 kbit/s more
+/// patterns gain more than finer ones; beyond, every picture of a busy scene should become one.
 constexpr Hull kHullWithoutFace = {{{1.5, 63, 20}, {4, 62, 25}, {7, 60, 38}, {13, 58, 38}, {30, 54, 45}}};
 
-/// Of the quantiser, for twice the samples: blends of large pictures are worth more patterns and fewer bits
-/// for each. Without it 720x1280 loses 12 % of its bytes, 176x144 some 3 %.
+/// Increase of the quantiser for twice the samples: blends of large pictures favour more patterns with fewer
+/// bits each. Without it 720x1280 loses 12 % of its bytes, 176x144 some 3 %.
 constexpr double kStepsPerOctave = 1.4;
 
-/// AV1's step of 8-bit AC coefficients at libaom's quantiser 63, levels, and the logarithm of what each step
-/// of that multiplies it by near there.
+/// AV1's step of 8-bit AC coefficients at libaom's quantiser 63, levels, and the logarithm of its ratio from
+/// one quantiser to the next near there.
 constexpr double kCoarsestStep = 228, kLogStep = 0.088;
 
-/// Of the squared step. For video some 0.15 is usual; here errors add up until a pattern is bought, and each
-/// one serves all pictures to come.
+/// Lambda as a share of the squared step. Some 0.15 is usual for video; here errors add up until a pattern is
+/// bought, and each pattern serves all later pictures.
 constexpr double kShare = 1.6;
 
 PatternPoint on(const Hull& hull, int quality) {
@@ -67,7 +67,7 @@ int quantiser_at_price(int quantiser, double price) {
 }
 
 int motion_quality_at(double kbps) {
-  // From 20 at 1.7 kbit/s to 50 at 14, as the points of the hull have them on small pictures.
+  // From 20 at 1.7 kbit/s to 50 at 14, as on the hull for small pictures.
   return std::clamp(static_cast<int>(std::lround(20 + 10 * std::log2(kbps / 1.7))), 0, 50);
 }
 

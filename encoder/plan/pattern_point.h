@@ -1,31 +1,31 @@
-// What --quality means for a scene with several patterns: how many, and how finely each is coded.
+// What --quality means for a scene with several patterns: their number and quantiser.
 #pragma once
 
 namespace fbs {
 
 struct PatternPoint {
   double per_second;   ///< patterns
-  int quantiser;       ///< libaom's scale, 0..63; of patterns of CIF size
+  int quantiser;       ///< libaom's scale, 0..63; for patterns of CIF size
   int motion_quality;  ///< OperatingPoint::at() for the motion between them
 
   /// @param quality  0..100
   static PatternPoint at(int quality);
 
-  /// The same for a scene without a face, in which all that moves is in the patterns.
+  /// The same for a scene without a face, where the patterns show all motion.
   static PatternPoint without_face(int quality);
 };
 
-/// Quantiser of patterns of another size: large ones are worth fewer bits a sample.
+/// Quantiser for patterns of another size: large ones get fewer bits per sample.
 [[nodiscard]] int quantiser_of(const PatternPoint& point, int width, int height);
 
-/// What one step less of the quantiser multiplies a pattern's bytes by, about.
+/// Approximate factor on a pattern's bytes when the quantiser is one lower.
 inline constexpr double kBytesPerStep = 1.045;
 
-/// Squared luma levels that a bit of a pattern is worth at a quantiser, libaom's scale 0..63: as for video,
-/// a share of the squared step of the transform's coefficients.
+/// Squared luma levels that a bit of a pattern is worth at a quantiser, libaom's scale 0..63: as for video, a
+/// share of the squared step of the transform's coefficients.
 [[nodiscard]] double pattern_lambda(int quantiser);
 
-/// The quantiser at which a bit is worth so many times as much as at another, 0..63.
+/// The quantiser at which a bit is worth `price` times as much, 0..63.
 [[nodiscard]] int quantiser_at_price(int quantiser, double price);
 
 /// Quality of the motion that goes with a total rate.

@@ -1,4 +1,4 @@
-// When a pattern pays for pictures that cannot be seen yet.
+// Decides when a pattern pays although later pictures are unknown.
 #pragma once
 
 #include <algorithm>
@@ -6,22 +6,22 @@
 namespace fbs {
 
 /// A pattern is bought once the pictures since the last one have lost what it costs, as skis are bought once
-/// their rent has come to the price (Karlin et al., Competitive snoopy caching, 1988). Whatever comes next,
-/// the cost is at most twice that of knowing it.
+/// their rent has reached the price (Karlin et al., Competitive snoopy caching, 1988). Whatever follows, the
+/// cost is at most twice the optimum in hindsight.
 class PatternRegret {
  public:
-  /// A pattern has come.
+  /// Starts a new pattern.
   /// @param error  of its own picture, drawn from it: squared luma levels, sum over the picture
   void begin(double error) {
     least_ = error;
     lost_ = 0;
   }
 
-  /// The next picture.
+  /// Adds the next picture.
   /// @param error  in its cheapest modes
   void add(double error) { lost_ += std::max(0.0, error - least_); }
 
-  /// @param bits    that the pattern takes
+  /// @param bits    the pattern's size
   /// @param lambda  squared luma levels that a bit is worth
   [[nodiscard]] bool pays(double bits, double lambda) const { return lost_ > lambda * bits; }
 

@@ -7,22 +7,22 @@
 namespace fbs {
 namespace {
 
-/// A pattern that others refer to is coded finely. With three of a slide its text is 5.7 dB better than with
-/// one, for 400 bytes.
+/// Patterns that others refer to are coded finely. With three patterns of a slide its text is 5.7 dB better
+/// than with one, for 400 bytes.
 constexpr std::size_t kMostOfStill = 3;
 
 std::size_t most_of(const Shot& shot) {
   return shot.still ? std::min(kMostOfStill, shot.pictures) : shot.pictures;
 }
 
-/// Patterns of each shot.
+/// Number of patterns for each shot.
 std::vector<std::size_t> shares(std::span<const Shot> shots, std::size_t count) {
   std::vector<std::size_t> out(shots.size(), 0), by_length(shots.size());
   std::iota(by_length.begin(), by_length.end(), 0);
   std::stable_sort(by_length.begin() + 1, by_length.end(),
                    [&](std::size_t a, std::size_t b) { return shots[a].pictures > shots[b].pictures; });
   for (std::size_t i = 0; i < std::min(count, shots.size()); ++i) out[by_length[i]] = 1;
-  // The next goes where most pictures share a pattern.
+  // The next pattern goes where most pictures share one.
   for (std::size_t left = count - std::min(count, shots.size()); left > 0; --left) {
     std::size_t neediest = shots.size();
     double most = 0;

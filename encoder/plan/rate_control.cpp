@@ -6,14 +6,14 @@
 namespace fbs {
 namespace {
 
-constexpr double kSecondsUnknown = 10;  // over which the startup is spread where the length is unknown
-constexpr double kMinMotion = 0.15;     // of the total rate, whatever the startup takes
+constexpr double kSecondsUnknown = 10;  // over which the startup is spread when the length is unknown
+constexpr double kMinMotion = 0.15;     // share of the total rate, whatever the startup takes
 
 double kbps_of(std::size_t bytes, double seconds) {
   return 8e-3 * static_cast<double>(bytes) / seconds;
 }
 
-/// Rate that motion takes at a quality, about; measured on the ten clips with the tracks of format 3.
+/// Approximate rate of motion at a quality; measured on the ten clips with the tracks of format 3.
 double usual_motion_kbps(int quality) {
   return 1.0 * std::exp2((quality - 50) / 30.0);
 }
@@ -41,7 +41,7 @@ Result<RatePlan> plan_rate(const RateTarget& target, std::size_t other_bytes,
 }
 
 Result<int> quality_for(double kbps, double seconds, const std::function<Result<std::size_t>(int)>& startup) {
-  int low = 0, high = 101;  // the highest that is taken to fit, and the lowest that does not
+  int low = 0, high = 101;  // the highest that fits, and the lowest that does not
   while (high - low > 1) {
     const int middle = (low + high) / 2;
     const auto bytes = startup(middle);

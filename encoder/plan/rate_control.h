@@ -1,4 +1,5 @@
-// Rates in kilobits a second: which operating point meets a target, and what each group of motion may take.
+// Rates in kilobits per second: chooses the operating point for a target, and the share of each group of
+// motion.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 
 namespace fbs {
 
-/// What was asked for.
+/// The requested rate or quality.
 struct RateTarget {
   int quality = 50;            ///< 0..100; where no bitrate is set
   double bitrate_kbps = 0;     ///< total; 0: quality decides
@@ -23,18 +24,18 @@ struct RateTarget {
 
 struct RatePlan {
   OperatingPoint point;
-  double motion_kbps = 0;  ///< that groups are held to; 0: lambda alone decides
+  double motion_kbps = 0;  ///< limit for groups; 0: lambda alone decides
 };
 
 /// Bytes of the first pattern at a quantiser of 0..63.
 using PatternBytes = std::function<Result<std::size_t>(int quantiser)>;
 
-/// @param other_bytes  of the startup beside the pattern
+/// @param other_bytes  of the startup besides the pattern
 /// @return errors of pattern_bytes
 [[nodiscard]] Result<RatePlan> plan_rate(const RateTarget& target, std::size_t other_bytes,
                                          const PatternBytes& pattern_bytes);
 
-/// The highest quality at which startup and the motion that goes with it fit a total rate; 0 when none does.
+/// The highest quality at which the startup and its motion fit a total rate; 0 when none does.
 /// @param kbps     total rate
 /// @param seconds  over which the startup is spread, > 0
 /// @param startup  bytes before the first picture at a quality of 0..100; called at most 7 times
@@ -42,7 +43,7 @@ using PatternBytes = std::function<Result<std::size_t>(int quantiser)>;
 [[nodiscard]] Result<int> quality_for(double kbps, double seconds,
                                       const std::function<Result<std::size_t>(int)>& startup);
 
-/// Spreads a rate over groups: later groups make up for what earlier ones left over or overspent.
+/// Spreads a rate over groups: later groups compensate for what earlier ones saved or overspent.
 class RateBudget {
  public:
   /// @param kbps  of the motion, > 0
@@ -54,13 +55,13 @@ class RateBudget {
 
  private:
   double bits_per_second_;
-  double left_ = 0;  ///< bits not yet taken; negative: overspent
+  double left_ = 0;  ///< bits not yet spent; negative: overspent
 };
 
-/// The plan whose bits come closest to what is allowed, by bisection over the logarithm of lambda; rather too
-/// few bits than too many.
-/// @param lambda  to start from: that of the group before
-/// @param base    of the scene, which bounds the search to base / 64 .. 4096 base
+/// The plan whose bits come closest to the allowed number, by bisection over the logarithm of lambda; prefers
+/// too few bits to too many.
+/// @param lambda  to start from: the previous group's
+/// @param base    the scene's, which limits the search to base / 64 .. 4096 base
 /// @param plan    takes a lambda, returns a value with a member `bits` that falls with lambda; called at most
 ///                10 times
 template <class Plan>

@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Startup beside geometry and pattern, about: setup, surround, packet headers.
+/// Approximate startup besides geometry and pattern: setup, surround, packet headers.
 inline constexpr std::size_t kOtherStartupBytes = 160;
 
 [[nodiscard]] inline RateTarget rate_target(const EncoderSettings& settings, double eye_distance_px) {

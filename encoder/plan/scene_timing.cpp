@@ -8,8 +8,8 @@
 namespace fbs {
 namespace {
 
-/// What is seen before the surround's map and the mouth's colours are fixed. Longer sees more open mouths and
-/// more of what moves; the first bytes come as much later.
+/// How much is observed before the surround's map and the mouth's colours are fixed. Longer sees more open
+/// mouths and more motion, but delays the first bytes.
 constexpr double kLookaheadSeconds = 2;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How a scene's pictures fall into groups.
+// Divides a scene's pictures into groups.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace fbs {
 
 struct SceneTiming {
   std::size_t group_pictures;      ///< pictures in a motion packet, after the first, which has its own
-  std::uint64_t lookahead;         ///< pictures that are seen before the scene's head is written
+  std::uint64_t lookahead;         ///< pictures observed before the scene's head is written
   std::uint32_t nominal_duration;  ///< of a picture, 1/90000 s
 
   SceneTiming(const VideoFormat& format, const EncoderSettings& settings);
 
   /// Whether a group ends with the picture pushed last. The scene's first picture is a group of its own, so
-  /// that a viewer need not wait for more.
+  /// that a viewer can start with it.
   /// @param in_group  pictures of the group so far
   /// @param in_scene  pictures of the scene so far
   [[nodiscard]] bool group_ends(std::size_t in_group, std::uint64_t in_scene) const {

@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-/// Nodes are the anchor (0) and the pictures (t + 1); each has the values that a knot there would take.
+/// Nodes are the anchor (0) and the pictures (t + 1); each has the values that a knot there would have.
 class SpanSearch {
  public:
   SpanSearch(const PlanTerms& terms, std::size_t part, const PartValues& anchor)
@@ -34,7 +34,7 @@ class SpanSearch {
            terms_.rate.knot(part_, Knot{0, value_[from]}, Knot{to - 1, value_[values_of]}, nodes_);
   }
 
-  /// Distortion of the pictures behind node a up to node b, on the line from one node's values to another's.
+  /// Distortion of the pictures after node a up to node b, on the line from one node's values to another's.
   [[nodiscard]] double line_distortion(int a, const PartValues& from, int b, const PartValues& to) const {
     double sum = 0;
     for (int node = a + 1; node <= b; ++node) {
@@ -54,7 +54,7 @@ class SpanSearch {
     const PartPoint still = on_line(value_[from], value_[from], part_, 0);
     double held = 0;  // distortion of holding up to the picture before `to`
     for (int to = from + 1; to <= nodes_; ++to) {
-      // Bits alone often rule a span out, and distortion takes far longer to sum.
+      // Bits alone often rule out a span, and distortion takes far longer to sum.
       const double straight = before + bits(from, to, to);
       if (straight < best_[to].cost)
         offer(to, straight + line_distortion(from, value_[from], to, value_[to]), from, from);
@@ -88,9 +88,9 @@ class SpanSearch {
 
   PlanTerms terms_;
   std::size_t part_;
-  int nodes_;                      ///< the last one's index: the number of pictures
+  int nodes_;                      ///< index of the last one: the number of pictures
   std::vector<PartValues> value_;  ///< of each node
-  std::vector<BackPointer> best_;  ///< cheapest way to a knot at each node
+  std::vector<BackPointer> best_;  ///< cheapest path to a knot at each node
   BackPointer end_;                ///< holding to the end
 };
 

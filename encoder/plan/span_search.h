@@ -6,7 +6,7 @@
 
 namespace fbs {
 
-/// What the choice of knots weighs.
+/// Terms of the choice of knots.
 struct PlanTerms {
   const GroupCost& cost;
   const TrackRate& rate;
@@ -14,7 +14,7 @@ struct PlanTerms {
   double lambda;  ///< squared luma levels that a bit is worth
 };
 
-/// The cheapest chain of one part through the fits in whole steps, all other parts being at their targets.
+/// The cheapest chain of one part through the fits in whole steps, with all other parts at their targets.
 /// From a knot a span goes straight to a later one, or holds and jumps to it within one picture, or holds to
 /// the end.
 /// @param anchor  the part before the first picture

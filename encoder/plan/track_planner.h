@@ -1,5 +1,4 @@
-// Chooses the knots of a group: what the viewer will see of all its pictures against what they cost. Design
-// section 6.
+// Chooses the knots of a group: weighs the error of all its pictures against bits.
 #pragma once
 
 #include <span>
@@ -19,7 +18,7 @@ class TrackPlanner {
 
   /// @param anchor    the coded state before the first picture
   /// @param pictures  costs of the group's pictures, 1..kMaxGroupPictures
-  /// @param rate      what knots cost
+  /// @param rate      bits of knots
   /// @param lambda    squared luma levels that a bit is worth
   [[nodiscard]] MotionGroup plan(const CodedState& anchor, std::span<const PictureCost> pictures,
                                  const TrackRate& rate, double lambda) const;

@@ -8,9 +8,9 @@
 namespace fbs {
 namespace {
 
-constexpr double kMemory = 0.85;     // weight of a group's counts a group later; lower follows changes faster
+constexpr double kMemory = 0.85;     // weight of counts one group later; lower follows changes faster
 constexpr double kPriorWeight = 6;   // observations that the priors below are worth
-constexpr double kLengthBits = 2.5;  // of a span's length when it does not reach the group's end
+constexpr double kLengthBits = 2.5;  // for a span's length when it does not reach the group's end
 constexpr double kPriorMoves = 0.5;  // probability that a part moves over a span
 constexpr double kPriorToEnd = 0.3;  // probability that a span reaches the group's end
 // Probability that a number changes when its part moves: falls along an expression part, whose coefficients
@@ -41,7 +41,7 @@ void TrackRate::update() {
                                 : kPriorChange * std::pow(kPriorChangeFall, place);
     const double changes = (changed_[i] + kPriorWeight * expected) / (seen_[i] + kPriorWeight);
     zero_[i] = bits_of(1 - changes);
-    // Magnitudes as a geometric distribution of their mean.
+    // Magnitudes as a geometric distribution with their mean.
     const double size =
         (size_[i] + kPriorWeight * expected * kPriorSize) / (changed_[i] + kPriorWeight * expected);
     const double stop = 1 / std::max(size, 1.05);

@@ -1,4 +1,4 @@
-// Estimated bits of knots: a model that is cheap enough to be asked thousands of times a group.
+// Estimated bits of knots: a model cheap enough for thousands of queries per group.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Estimates what the adaptive TrackCoder will spend, from the frequencies of what it has coded before.
+/// Estimates the adaptive TrackCoder's bits from the frequencies of what it has coded before.
 class TrackRate {
  public:
   TrackRate();
@@ -38,10 +38,10 @@ class TrackRate {
   static double log2_of(int value);
   void update();
 
-  // Counts, with older groups weighing less.
+  // Counts, weighing older groups less.
   std::array<double, kParameterCount> seen_{}, changed_{}, size_{};
   std::array<double, kPartCount> spans_{}, moved_{}, ended_{};
-  // What follows from them, bits.
+  // Bits derived from the counts.
   std::array<double, kParameterCount> zero_{}, not_zero_{}, more_{};
   std::array<double, kPartCount> moves_{}, holds_{}, to_end_{}, not_to_end_{};
 };

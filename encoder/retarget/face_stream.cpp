@@ -2,27 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <optional>
 #include <utility>
 
-#include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
-#include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/geometry_payload.h"
-#include "bitstream/payload/setup_payload.h"
-#include "bitstream/payload/surround_payload.h"
-#include "bitstream/payload/wire_frame_payload.h"
+#include "bitstream/payload/sound_payload.h"
+#include "bitstream/scene/scene_reader.h"
 #include "bitstream/track.h"
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/mouth_interior.h"
 
 namespace fbs {
 namespace {
-
-Error at(const Packet& packet, const Error& error) {
-  return {error.code, error.text, packet.offset};
-}
 
 /// Mean light of the mouth interior, over pictures by how far the mouth is open.
 class InteriorMean {
@@ -43,33 +34,19 @@ class InteriorMean {
   double weight_ = 0;
 };
 
-/// The packets of a stream up to the end of the first scene that has a face.
+/// Reads the packets of a stream up to the end of the first scene with a face.
 class Reading {
  public:
   /// @return false when the scene is complete
   Result<bool> take(const Packet& packet) {
-    if (packet.type == PacketType::kSetup || packet.type == PacketType::kEnd) {
-      if (has_face()) return false;
-      if (packet.type == PacketType::kEnd) return true;
-      return begin(packet);
-    }
-    switch (packet.type) {
-      case PacketType::kWireFrame:
-        return take_wire_frame(packet);
-      case PacketType::kGeometry:
-        return take_geometry(packet);
-      case PacketType::kSurround:
-        return take_surround(packet);
-      case PacketType::kPattern:
-        return take_patterns(packet);
-      case PacketType::kMotion:
-        return take_motion(packet);
-      default:
-        return true;
-    }
+    if (has_face() && (packet.type == PacketType::kSetup || packet.type == PacketType::kEnd)) return false;
+    if (packet.type == PacketType::kEnd || is_sound(packet.type)) return true;
+    auto syntax = reader_.read(packet);
+    if (!syntax) return fail(syntax.error());
+    return std::visit([&](auto& s) { return take(s, packet); }, *syntax);
   }
 
-  [[nodiscard]] bool has_face() const { return motion_.has_value() && !face_.geometry_payload.empty(); }
+  [[nodiscard]] bool has_face() const { return has_pattern_ && !face_.geometry_payload.empty(); }
 
   FaceStream finish() {
     face_.interior = interior_.mean();
@@ -77,85 +54,67 @@ class Reading {
   }
 
  private:
-  Result<bool> begin(const Packet& packet) {
-    *this = {};
-    auto setup = decode_setup(packet.payload);
-    if (!setup) return fail(at(packet, setup.error()));
-    face_.setup = *setup;
+  bool take(const Setup& setup, const Packet& /*packet*/) {
+    face_ = {};
+    face_.setup = setup;
+    has_pattern_ = false;
+    interior_ = {};
     return true;
   }
 
-  Result<bool> take_wire_frame(const Packet& packet) {
-    if (motion_) return true;  // has no effect
-    auto frame = decode_wire_frame(packet.payload);
-    if (!frame) return fail(at(packet, frame.error()));
-    wire_frame_ = std::move(*frame);
+  bool take(const std::shared_ptr<const WireFrame>& /*frame*/, const Packet& packet) {
     face_.wire_frame_payload.assign(packet.payload.begin(), packet.payload.end());
     return true;
   }
 
-  Result<bool> take_geometry(const Packet& packet) {
-    if (motion_) return true;  // has no effect
-    const auto geometry = decode_geometry(packet.payload, wire_frame_);
-    if (!geometry) return fail(at(packet, geometry.error()));
-    if (is_flat(*geometry)) return true;
-    face_.geometry = *geometry;
+  bool take(const Geometry& geometry, const Packet& packet) {
+    if (is_flat(geometry)) return true;
+    face_.geometry = geometry;
     face_.geometry_payload.assign(packet.payload.begin(), packet.payload.end());
     return true;
   }
 
-  Result<bool> take_surround(const Packet& packet) {
-    auto map = decode_surround(packet.payload);
-    if (!map) return fail(at(packet, map.error()));
-    face_.surround = std::move(*map);
+  bool take(SurroundMap& map, const Packet& /*packet*/) {
+    face_.surround = std::move(map);
     return true;
   }
 
-  Result<bool> take_patterns(const Packet& packet) {
-    auto patterns = packets_.decode(packet.payload, face_.setup, pictures());
-    if (!patterns) return fail(at(packet, patterns.error()));
-    for (PatternSyntax& pattern : *patterns) {
-      if (!motion_) {
-        motion_.emplace(face_.setup, pattern.state);
-        face_.rest = state_of(pattern.state, face_.setup.steps);
-        face_.first = std::move(pattern);
-      } else if (static_cast<std::size_t>(pattern.slot) == face_.later.size() + 1) {
-        face_.later.push_back(
-            {states_.at(static_cast<std::size_t>(pattern.picture)), std::move(pattern.av1)});
+  bool take(std::vector<ScenePattern>& patterns, const Packet& /*packet*/) {
+    for (ScenePattern& pattern : patterns) {
+      if (pattern.is_first()) {
+        has_pattern_ = true;
+        face_.rest = pattern.seen;
+        face_.first = std::move(pattern.coded);
+      } else if (static_cast<std::size_t>(pattern.coded.slot) == face_.later.size() + 1) {
+        face_.later.push_back({pattern.seen, std::move(pattern.coded.av1)});
       } else {
-        return has_face() ? Result<bool>(false) : Result<bool>(true);  // replaces one: the store is full
+        return !has_face();  // replaces one: the store is full
       }
     }
     return true;
   }
 
-  Result<bool> take_motion(const Packet& packet) {
-    if (!motion_) return fail(ErrorCode::kInvalidStream, "motion before the first pattern", packet.offset);
-    const auto group = motion_->decode(packet.payload);
-    if (!group) return fail(at(packet, group.error()));
-    for (const State& state : states_of(*group, face_.setup.steps)) {
-      if (has_face()) interior_.add(face_.geometry, state);
-      states_.push_back(state);
-    }
+  bool take(const MotionGroup& group, const Packet& /*packet*/) {
+    if (has_face())
+      for (const State& state : states_of(group, face_.setup.steps)) interior_.add(face_.geometry, state);
     return true;
   }
 
-  [[nodiscard]] std::int32_t pictures() const { return static_cast<std::int32_t>(states_.size()); }
+  template <class Syntax>
+  bool take(const Syntax& /*syntax*/, const Packet& /*packet*/) {
+    return true;
+  }
 
+  SceneReader reader_;
   FaceStream face_;
-  std::shared_ptr<const WireFrame> wire_frame_;
-  PatternPacketReader packets_;
-  std::optional<MotionDecoder> motion_;
-  std::vector<State> states_;  ///< of each picture of the scene
+  bool has_pattern_ = false;
   InteriorMean interior_;
 };
 
 }  // namespace
 
 Result<FaceStream> read_face_stream(std::span<const std::uint8_t> stream) {
-  PacketReader reader;
-  reader.feed(stream);
-  reader.close();
+  PacketReader reader(stream);
   Reading reading;
   for (;;) {
     const auto read = reader.next();

@@ -1,4 +1,4 @@
-// What a stream knows of a face: its geometry and patterns, apart from how the face moves.
+// The still part of a face in a stream: geometry and patterns, without its motion.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ struct FaceStream {
   State rest;                       ///< in which the first pattern was seen
   std::vector<LaterPattern> later;  ///< in coding order, in slots 1, 2, ...; at most kMaxPatterns - 1
   std::array<double, kInteriorCount>
-      interior{};  ///< light of the open mouth, mean of its pictures, 1/16 level
+      interior{};  ///< light of the open mouth, mean over its pictures, 1/16 level
 };
 
-/// Reads the first scene that has a face. Patterns are those that fill the store; what replaces them later is
-/// left out.
-/// @param stream  whole
-/// @return errors of PacketReader and of the payloads, with the byte; kDegenerateInput when no scene has a
-/// face
+/// Reads the first scene with a face. Keeps the patterns that fill the store; later replacements are left
+/// out.
+/// @param stream  the whole of it
+/// @return errors of PacketReader and of the payloads, with the byte offset; kDegenerateInput when no scene
+/// has a face
 [[nodiscard]] Result<FaceStream> read_face_stream(std::span<const std::uint8_t> stream);
 
 }  // namespace fbs

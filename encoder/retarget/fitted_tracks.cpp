@@ -10,7 +10,7 @@
 namespace fbs {
 namespace {
 
-/// Distance from the line that is taken for its rounding, steps: half for each end, and half as much again.
+/// Distance from the line that counts as rounding, steps: half for each end, and half as much again.
 constexpr double kTolerance = 0.75;
 
 class PartTrack {

@@ -8,10 +8,10 @@
 
 namespace fbs {
 
-/// Each span is the longest that stays near all numbers between its ends (greedy). What moves in straight
-/// lines, as the tracks of a stream do, is found again.
+/// Greedy: each span is the longest that stays near all numbers between its ends. Recovers motion in straight
+/// lines, such as the tracks of a stream.
 /// @param pictures  numbers of each picture of the group, 1..kMaxGroupPictures
-/// @param anchor    as MotionEncoder::anchor() says
+/// @param anchor    MotionEncoder::anchor()
 [[nodiscard]] MotionGroup fitted_tracks(std::span<const StateNumbers> pictures, const CodedState& anchor,
                                         const Setup& setup);
 

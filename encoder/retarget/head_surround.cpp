@@ -9,8 +9,8 @@
 namespace fbs {
 namespace {
 
-/// The spatial prior of the head fades over a wide margin; more than this is next to the face. Set by eye on
-/// four clips: all that the prior allows would drag the background along.
+/// A prior of the head above this, which fades over a wide margin, counts as next to the face. Set by eye on
+/// four clips: following all of the prior would drag the background along.
 constexpr double kNextToFace = 0.75;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Hair of a face that is moved otherwise than in its own clip.
+// Hair of a face whose motion is not its own.
 #pragma once
 
 #include "bitstream/syntax.h"
@@ -6,9 +6,9 @@
 
 namespace fbs {
 
-/// A map is learned from what moved: hair about a head that hardly did may belong to the ground for all that
-/// could be seen. The points next to the face, which cannot be anything else, are made to go with the head.
-/// Those farther out stay as they are: there the map knows more than a prior does.
+/// A map is learned from motion: around a head that hardly moved, hair may seem to belong to the ground. The
+/// points next to the face, which must be hair, are made to follow the head. Points farther out stay
+/// unchanged: there the map knows more than a prior does.
 /// @param rest  state in which the map's picture was seen
 [[nodiscard]] SurroundMap with_hair(SurroundMap map, const VideoFormat& format, const State& rest);
 

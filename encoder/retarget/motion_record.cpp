@@ -22,7 +22,7 @@ Result<MotionRecord> read_motion_record(std::span<const std::uint8_t> stream) {
       if (record.geometries.empty()) {
         record.steps = scene.setup.steps;
         record.rest = scene.patterns.front().seen;
-        // Pictures before the face appears are shown with it at rest.
+        // Pictures before the face appears show it at rest.
         for (MotionRecord::Entry& entry : record.pictures) entry.state = record.rest;
       }
       if (record.geometries.empty() || record.geometries.back() != face->geometry())

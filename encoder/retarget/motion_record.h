@@ -1,4 +1,4 @@
-// How a face moves through a whole stream, apart from what it looks like.
+// The motion of a face through a whole stream, without its look.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct MotionRecord {
   };
   Rational frame_rate;
   QuantiserSteps steps;              ///< of the first scene with a face
-  PartMask parts = 0;                ///< that any scene sends
+  PartMask parts = 0;                ///< sent by any scene
   State rest;                        ///< in which the first pattern of that scene was seen
   std::vector<Geometry> geometries;  ///< of the scenes with a face
-  std::vector<Entry> pictures;       ///< all of the stream; without a face they hold the state before
+  std::vector<Entry> pictures;       ///< the whole stream; pictures without a face hold the state before
 };
 
-/// @param stream  whole
+/// @param stream  the whole of it
 /// @return errors of StreamDecoder; kDegenerateInput when no picture shows a face
 [[nodiscard]] Result<MotionRecord> read_motion_record(std::span<const std::uint8_t> stream);
 

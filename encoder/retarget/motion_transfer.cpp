@@ -11,17 +11,17 @@
 namespace fbs {
 namespace {
 
-/// Features that differ more than this between two people are marked wrongly.
+/// Limits of the ratio of a feature's size between two people; beyond, its marks are wrong.
 constexpr double kMinScale = 0.5, kMaxScale = 2;
-/// Lips that touch are seen apart, by how much differs between people: 0 to 8 % of the eye distance in seven
-/// clips. The mouth is taken to be shut in this part of the pictures at least, unless it is wide open in all.
+/// Touching lips are measured apart, by 0 to 8 % of the eye distance in seven clips, depending on the person.
+/// The mouth is assumed shut in at least this share of the pictures, unless it is wide open in all.
 constexpr double kShutShare = 0.05;
 constexpr double kMaxShutGap = 0.06 * kUnitsPerEyeDistance;
 constexpr double kShutMargin = 0.015 * kUnitsPerEyeDistance;
 constexpr std::array<std::array<std::size_t, 2>, 3> kLipPairs{
     {{61, 67}, {62, 66}, {63, 65}}};  // upper, lower
 
-/// Between the inner lips, at the pairs of landmarks, head units.
+/// Distances between the inner lips at the pairs of landmarks, head units.
 using LipGaps = std::array<double, 3>;
 
 glm::dvec2 point(const Geometry& geometry, int landmark) {
@@ -35,7 +35,7 @@ glm::dvec2 middle(const Geometry& geometry, int first, int last) {
   return sum / static_cast<double>(last - first + 1);
 }
 
-/// Width and height of each feature by which its motion is measured.
+/// Width and height of each feature, by which its motion is scaled.
 std::array<glm::dvec2, kFeatureCount> sizes_of(const Geometry& g) {
   const auto width = [&](int a, int b) { return std::abs(point(g, b).x - point(g, a).x); };
   const glm::dvec2 mouth{width(48, 54), point(g, 8).y - middle(g, 48, 59).y};
@@ -54,7 +54,7 @@ double ratio(double shown, double moves) {
   return shown > 0 && moves > 0 ? std::clamp(shown / moves, kMinScale, kMaxScale) : 1.0;
 }
 
-/// How far down offsets of control points move the vertex of a landmark, head units.
+/// How far down offsets of control points move a landmark's vertex, head units.
 double moved_down(const WireFrame& head, std::size_t landmark, const Offsets& offsets) {
   double sum = 0;
   for (const SkinningWeight& s : head.skinning_of(head.vertex_of_landmark(landmark)))
@@ -78,9 +78,9 @@ double mean_of(const LipGaps& gaps) {
   return (gaps[0] + gaps[1] + gaps[2]) / 3;
 }
 
-/// Moves the control points of the inner lips down, and the outer lips with them: both curves run round the
+/// Moves the control points of the inner lips down, and the outer lips with them: both curves run around the
 /// mouth from its right corner.
-/// @param down  of each control point of the inner lips, head units
+/// @param down  for each control point of the inner lips, head units
 void move_lips(std::span<const double> down, Offsets& offsets) {
   const Feature &inner = feature(FeatureId::kMouthInner), &outer = feature(FeatureId::kMouthOuter);
   for (std::size_t c = 0; c < down.size(); ++c) offsets[inner.first_control + c].y += down[c];
@@ -95,7 +95,7 @@ void move_lips(std::span<const double> down, Offsets& offsets) {
 constexpr int kLipControls = 8;  ///< of the inner lips
 using GapSlopes = std::array<glm::dvec3, kLipControls>;
 
-/// What each argument of move_lips() adds to the gaps.
+/// Effect of each argument of move_lips() on the gaps.
 GapSlopes gap_slopes(const WireFrame& head) {
   GapSlopes out;
   for (std::size_t c = 0; c < out.size(); ++c) {
@@ -109,7 +109,7 @@ GapSlopes gap_slopes(const WireFrame& head) {
   return out;
 }
 
-/// Moves the lips as little as changes the gaps so.
+/// Moves the lips as little as possible to change the gaps by `change`.
 void add_to_gaps(const WireFrame& head, const LipGaps& change, Offsets& offsets) {
   const GapSlopes slopes = gap_slopes(head);
   glm::dmat3 squares(0.0);
@@ -120,7 +120,7 @@ void add_to_gaps(const WireFrame& head, const LipGaps& change, Offsets& offsets)
   move_lips(down, offsets);
 }
 
-/// The largest mean gap of a mouth that is taken to be shut.
+/// The largest mean gap of a mouth assumed to be shut.
 double shut_gap(const MotionRecord& motion) {
   std::vector<double> seen;
   for (const MotionRecord::Entry& picture : motion.pictures)
@@ -132,7 +132,7 @@ double shut_gap(const MotionRecord& motion) {
   return std::clamp(*place, 0.0, kMaxShutGap) + kShutMargin;
 }
 
-/// The share of the gaps that is real: none up to a mean of `shut`, all from twice that on.
+/// The real share of the gaps: none up to a mean of `shut`, all from twice that on.
 double real_share(double mean, double shut) {
   return mean <= shut ? 0 : std::min(2 * (mean - shut) / mean, 1.0);
 }

@@ -1,5 +1,5 @@
-// The motion of one face on another: what one does, measured by the size of its own features. Paper section
-// 3, Fig. 7.
+// Transfers the motion of one face to another, scaled by the sizes of their features. Paper section 3, Fig.
+// 7.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ using StateNumbers = std::array<double, kParameterCount>;
 
 [[nodiscard]] StateNumbers numbers_of(const State& state);
 
-/// Maps states of the face that moves to states of the face that is shown.
+/// Maps states of the moving face to states of the shown face.
 ///
-/// Pose is what differs from the first picture: angles as they are, translation in eye distances, less that
-/// of the background. Offsets of control points are scaled: the mouth's by the widths of the mouths and the
-/// heights from mouth to chin, brows' and eyes' by their own widths and heights, so that shut eyes are shut.
-/// Lips are as far apart as the others are, and touch where these do, however that is seen. Light and the
-/// inside of the mouth stay those of the face that is shown.
+/// Pose is the change from the first picture: angles unchanged, translation in eye distances, less the
+/// background's. Offsets of control points are scaled: the mouth's by the ratio of the mouths' widths and of
+/// the heights from mouth to chin, brows' and eyes' by their own widths and heights, so that shut eyes stay
+/// shut. Lips are as far apart as the moving face's, and touch where those do, even if measured apart. Light
+/// and the inside of the mouth stay the shown face's.
 class MotionTransfer {
  public:
   MotionTransfer(const MotionRecord& motion, const FaceStream& face);
@@ -32,7 +32,7 @@ class MotionTransfer {
 
  private:
   [[nodiscard]] Offsets scaled(const State& state, std::size_t geometry) const;
-  /// Moves the lips so that they are as far apart as those of the picture.
+  /// Moves the lips as far apart as in the picture.
   void match_gaps(const MotionRecord::Entry& picture, Offsets& offsets) const;
 
   const MotionRecord& motion_;

@@ -22,10 +22,10 @@ namespace fbs {
 namespace {
 
 constexpr std::int32_t kGroupPictures = kMaxGroupPictures;
-/// Coarser steps of the expression would part lips that touch.
+/// Coarser steps of the expression would part touching lips.
 constexpr std::int32_t kMaxControlStep = 16;
 
-/// The largest step up to `wanted` of which `step` is a multiple, so that what was coded in it is kept.
+/// The largest step up to `wanted` that divides `step`, so that what was coded with it stays exact.
 std::int32_t finer_step(std::int32_t step, std::int32_t wanted) {
   std::int32_t parts = 1;
   while (step % parts != 0 || step / parts > wanted) ++parts;
@@ -38,7 +38,8 @@ QuantiserSteps finer_steps(const QuantiserSteps& face, const QuantiserSteps& mot
           finer_step(face.control, std::min(motion.control, kMaxControlStep))};
 }
 
-/// Ground is not moved; the rest follows from states, which is smooth where picking a pattern would not be.
+/// The ground is not moved; all else is blended by states, which is smooth where picking a pattern would not
+/// be.
 RegionModes modes() {
   RegionModes out{};
   out[static_cast<std::size_t>(Region::kGround)] = BlendMode::kStillBefore;
@@ -54,7 +55,7 @@ double expression_distance(const State& a, const State& b) {
   return sum;
 }
 
-/// One scene of the result.
+/// Writes one scene of the result.
 class SceneWriter {
  public:
   SceneWriter(const Setup& setup, const FaceStream& face, std::vector<std::uint8_t>& stream)
@@ -123,7 +124,7 @@ class SceneWriter {
   }
 
   /// States of the patterns, as pictures that are never shown. The pattern nearest to the face at rest comes
-  /// first: it is the next one in time for all pictures that are.
+  /// first: for all shown pictures it is the next one in time.
   Result<void> write_patterns() {
     std::vector<std::size_t> order(face_.later.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -170,7 +171,7 @@ class SceneWriter {
   PacketWriter packets_;
   PatternPacketWriter pattern_packets_;
   MotionEncoder motion_;
-  std::int32_t pictures_ = 0;  ///< that have a state
+  std::int32_t pictures_ = 0;  ///< pictures with a state
 };
 
 Setup setup_of(const MotionRecord& motion, const FaceStream& face) {

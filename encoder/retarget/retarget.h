@@ -12,10 +12,10 @@
 
 namespace fbs {
 
-/// A stream with geometry and patterns of `face`, moved as `motion` is. It has the size of the pictures of
-/// `face`, the number and the times of those of `motion`. All motion of a scene comes before its pictures are
-/// shown, since patterns are named by pictures that have a state (SPEC 6).
-/// @return kInternal, of which none is expected
+/// A stream with geometry and patterns of `face` and the motion of `motion`. It has the picture size of
+/// `face`, and the number and times of pictures of `motion`. All motion of a scene comes before its pictures
+/// are shown, since patterns are named by pictures that have a state (SPEC 6).
+/// @return kInternal, which is not expected
 [[nodiscard]] Result<std::vector<std::uint8_t>> retarget(const MotionRecord& motion, const FaceStream& face);
 
 }  // namespace fbs

@@ -15,11 +15,11 @@ namespace fbs {
 namespace {
 
 constexpr double kUnits = kUnitsPerEyeDistance;
-/// Vertices of two wire-frames that are nearer than this are the same place of the head, eye distances.
+/// Vertices of two wire-frames nearer than this are the same place of the head, eye distances.
 constexpr double kSamePlace = 0.01;
 
 using Positions = std::vector<glm::dvec3>;  ///< eye distances
-/// Of each vertex of the frame, the vertex of the face that is the same place.
+/// For each vertex of the frame, the face's vertex at the same place.
 using Partners = std::vector<std::optional<std::size_t>>;
 
 Positions positions_of(const WireFrame& frame) {
@@ -47,7 +47,7 @@ std::optional<std::size_t> nearest(const Positions& to, glm::dvec3 place) {
   return out;
 }
 
-/// Landmarks and pupils correspond by what they are. Other vertices do where the two wire-frames, not the
+/// Landmarks and pupils correspond by meaning. Other vertices correspond where the two wire-frames, not the
 /// face, have them in the same place.
 Partners partners(const WireFrame& frame, const WireFrame& face) {
   const Positions at = positions_of(frame), on_face = positions_of(face);
@@ -60,7 +60,7 @@ Partners partners(const WireFrame& frame, const WireFrame& face) {
   return out;
 }
 
-/// Scale and shift that bring one axis of the vertices nearest to their partners.
+/// Scales and shifts one axis of the vertices to fit their partners.
 void scale_axis(Positions& points, const Positions& face, const Partners& partner, int axis) {
   double n = 0, x = 0, xx = 0, y = 0, xy = 0;
   for (std::size_t v = 0; v < points.size(); ++v) {

@@ -87,7 +87,7 @@ FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const 
       analysis_(settings, finder,
                 {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
                  start.scene.patterns.front().seen, first.centre, start.eye_distance_px}),
-      coder_(timing, settings, std::move(start)),
+      coder_(settings, std::move(start)),
       ahead_(settings.live && coder_.has_several_patterns() && thread_count(settings) > 1) {}
 
 void FaceScene::request_scene() {

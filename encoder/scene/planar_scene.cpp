@@ -42,47 +42,37 @@ Result<std::unique_ptr<SceneEncoder>> PlanarScene::begin(const VideoFormat& form
 
 PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, const RatePlan& rate,
                          PicturePlane plane)
-    : timing_(setup.format, settings),
-      rate_(rate),
-      plane_(std::move(plane)),
-      key_interval_(key_interval_of(settings, setup.format)),
-      motion_(setup, CodedState{}, rate, timing_.nominal_duration),
-      patterns_(planar_patterns(settings, rate.point, setup.format, CodedState{})),
-      live_(settings.live.has_value()),
-      position_(setup.before) {
+    : ledger_(setup, CodedState{}, rate, settings,
+              planar_patterns(settings, rate.point, setup.format, CodedState{})),
+      plane_(std::move(plane)) {
   scene_.setup = setup;
-  scene_.setup.patterns = patterns_->store();
+  scene_.setup.patterns = ledger_.patterns()->store();
 }
 
 Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
-  if (ended_) begin_again();
+  if (ledger_.scene_ended()) begin_again();
   GlobalMotion::Observation seen = global_.observe(picture);
   if (!plane_.covers(seen.since_first)) {
     if (auto ended = finish(); !ended) return ended;
     begin_again();
     seen = global_.observe(picture);
   }
-  observed_.push_back({plane_.pose(seen.since_first), PicturePlane::quadratic(seen), duration});
-  const double kept = live_ ? 1 - 1 / std::max(1.0, fps_of(scene_.setup.format)) : 1;
+  observed_.push_back({plane_.pose(seen.since_first), PicturePlane::quadratic(seen)});
+  const double kept = ledger_.live() ? 1 - 1 / std::max(1.0, fps_of(scene_.setup.format)) : 1;
   moved_ = kept * moved_ + seen.moved;
   still_ = kept * still_ + seen.still;
-  if (auto added = patterns_->add(picture); !added) return added;
-  ++pictures_;
-  position_.add(duration > 0 ? duration : timing_.nominal_duration);
-  return timing_.group_ends(++in_group_, pictures_) ? end_group() : Result<void>{};
+  if (auto added = ledger_.add(picture, duration); !added) return added;
+  return ledger_.group_ends() ? end_group() : Result<void>{};
 }
 
 void PlanarScene::cut() {
   global_.cut();
-  patterns_->cut();
+  ledger_.patterns()->cut();
 }
 
 void PlanarScene::begin_again() {
-  ended_ = requested_ = false;
+  ledger_.begin_again(scene_.setup);
   global_ = {};
-  scene_.setup.before = position_;
-  pictures_ = 0;
-  if (packets_.started()) packets_.begin_again();
 }
 
 Result<void> PlanarScene::begin_motion() {
@@ -94,24 +84,23 @@ Result<void> PlanarScene::begin_motion() {
   scene_.geometry.emplace(geometry_of(scene_.setup, moving_ ? plane_.geometry() : no_plane(), rest_state));
   scene_.patterns.clear();
   scene_.patterns.push_back(make_pattern({}, rest_state, scene_.geometry));
-  motion_ = MotionTrack(scene_.setup, rest, rate_, timing_.nominal_duration);
-  patterns_->begin_scene(rest);
+  ledger_.begin_motion(scene_.setup, rest);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
-  packets_.start({std::move(*setup), moving_ ? plane_.payload() : std::vector<std::uint8_t>{}, {}, {}});
+  ledger_.packets().start(
+      {std::move(*setup), moving_ ? plane_.payload() : std::vector<std::uint8_t>{}, {}, {}});
   return {};
 }
 
 Result<void> PlanarScene::end_group() {
-  if (in_group_ > 0) groups_.push_back(std::exchange(in_group_, 0));
-  return patterns_->segment_ends(timing_.group_pictures) ? end_segment() : Result<void>{};
+  if (ledger_.in_group()) groups_.push_back(ledger_.end_group());
+  return ledger_.segment_ends() ? end_segment() : Result<void>{};
 }
 
 Result<void> PlanarScene::add_motion() {
   auto next = observed_.begin();
-  for (const std::size_t pictures : groups_) {
-    std::vector<PictureCost> costs(pictures);
-    std::vector<std::uint32_t> durations;
+  for (const std::vector<std::uint32_t>& durations : groups_) {
+    std::vector<PictureCost> costs(durations.size());
     for (PictureCost& cost : costs) {
       if (!moving_) {
         next->pose = pose_of(state_of({}, scene_.setup.steps));
@@ -120,30 +109,24 @@ Result<void> PlanarScene::add_motion() {
       const auto numbers = numbers_of(next->pose);
       std::copy(numbers.begin(), numbers.end(), cost.fit.begin());
       cost.layers.push_back({CostLayer::kHead, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
-      cv::Mat(next->quadratic).copyTo(cost.layers.back().quadratic(cv::Rect(0, 0, kPoseCount, kPoseCount)));
-      durations.push_back(next++->duration);
+      cv::Mat(next++->quadratic).copyTo(cost.layers.back().quadratic(cv::Rect(0, 0, kPoseCount, kPoseCount)));
     }
-    auto group = motion_.add(costs, durations);
-    if (!group) return fail(group.error());
-    patterns_->add(group->states, std::move(group->payload));
+    if (auto planned = ledger_.plan(costs, durations); !planned) return planned;
   }
   return {};
 }
 
 Result<void> PlanarScene::end_segment() {
   if (groups_.empty()) return {};
-  if (!packets_.started())
+  if (!ledger_.packets().started())
     if (auto begun = begin_motion(); !begun) return begun;
   if (auto added = add_motion(); !added) return added;
-  const auto packets = patterns_->end_segment(scene_, packets_.counted(), {});
-  if (!packets) return fail(packets.error());
-  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
-  packets_.count_from_here();
+  if (auto ended = ledger_.end_segment(scene_, {}); !ended) return ended;
   observed_.clear();
   groups_.clear();
-  if (!live_) moved_ = still_ = 0;
-  ended_ = key_interval_ == 0 || static_cast<double>(pictures_ + timing_.group_pictures) > key_interval_ ||
-           (live_ && ((!moving_ && moves()) || requested_));
+  const bool begins_to_move = ledger_.live() && !moving_ && moves();
+  if (!ledger_.live()) moved_ = still_ = 0;
+  if (begins_to_move || ledger_.scene_ends(ledger_.timing().group_pictures)) ledger_.end_scene();
   return {};
 }
 

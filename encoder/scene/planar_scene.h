@@ -5,11 +5,8 @@
 #include <vector>
 
 #include "decoder/scene/scene.h"
-#include "encoder/plan/motion_track.h"
-#include "encoder/plan/scene_timing.h"
 #include "encoder/scene/scene_encoder.h"
-#include "encoder/scene/scene_packets.h"
-#include "encoder/segment/pattern_stage.h"
+#include "encoder/scene/scene_ledger.h"
 #include "encoder/surround/global_motion.h"
 #include "encoder/surround/picture_plane.h"
 
@@ -25,11 +22,11 @@ class PlanarScene : public SceneEncoder {
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
-  void request_scene() override { requested_ = !ended_; }
+  void request_scene() override { ledger_.request_scene(); }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return true; }
   Result<void> finish() override;
-  [[nodiscard]] std::vector<std::uint8_t> take() override { return packets_.take(); }
+  [[nodiscard]] std::vector<std::uint8_t> take() override { return ledger_.packets().take(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }
 
  private:
@@ -52,28 +49,16 @@ class PlanarScene : public SceneEncoder {
   struct Observed {
     Pose pose;
     cv::Matx<double, kPoseCount, kPoseCount> quadratic;
-    std::uint32_t duration;
   };
 
-  SceneTiming timing_;
-  RatePlan rate_;
+  SceneLedger ledger_;
   PicturePlane plane_;
-  double key_interval_;  ///< pictures; 0: a scene ends with its segment
-  Scene scene_;          ///< as the decoder builds it; its geometry is not sent where the plane rests
+  Scene scene_;  ///< as the decoder builds it; its geometry is not sent where the plane rests
   GlobalMotion global_;
-  MotionTrack motion_;
-  std::unique_ptr<PatternStage> patterns_;
-  bool live_;
   bool moving_ = false;           ///< the scene has a plane that moves
   double moved_ = 0, still_ = 0;  ///< sums of Observation::moved and still that moves() goes by
   std::vector<Observed> observed_;
-  std::vector<std::size_t> groups_;  ///< pictures of each group of the segment
-  std::size_t in_group_ = 0;         ///< pictures of the group so far
-  std::uint64_t pictures_ = 0;       ///< of the scene
-  bool requested_ = false;           ///< the scene ends with its present group
-  bool ended_ = false;               ///< the next picture begins another scene
-  StreamPosition position_;          ///< behind the last picture
-  ScenePackets packets_;
+  std::vector<std::vector<std::uint32_t>> groups_;  ///< of the segment: durations of their pictures
   PictureAnalysis analysis_;
 };
 

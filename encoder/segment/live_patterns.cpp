@@ -5,13 +5,10 @@
 #include <numeric>
 #include <utility>
 
-#include "bitstream/packet.h"
-#include "decoder/pattern/contrast_map.h"
 #include "encoder/blend/mode_choice.h"
 #include "encoder/patterns/downscale.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/plan/pattern_point.h"
-#include "encoder/plan/scene_timing.h"
 
 namespace fbs {
 namespace {
@@ -47,9 +44,8 @@ double unhurried_per_second(const VideoFormat& size) {
   return kUnhurriedSamplesPerSecond / (1.0 * size.width * size.height);
 }
 
-/// Pictures that share their errors at most where modes are chosen anew later on, and time is short: that
-/// takes 4 % of it, and 2 to 3 % more of the rate.
-constexpr std::size_t kDraftShared = 3;
+/// How many pictures share their errors at most where states may be fitted anew: kDraftShared where time is
+/// short. That takes 4 % of it, and 2 to 3 % more of the rate.
 std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
   return refit && format.width * format.height > kCif ? kDraftShared : 1;
 }
@@ -80,46 +76,30 @@ double least_error(const ModeErrors& errors) {
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
-    : format_(format), settings_(settings), rest_(rest), store_(pattern_store(format)) {
+    : settings_(settings), store_(format, rest) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
 void LivePatterns::begin_scene(const CodedState& rest) {
-  rest_ = rest;
-  picture_ = 0;
-  av1_.reset();
-  decoder_.reset();
-  pattern_packets_ = {};
-  blends_ = {};
+  store_.begin_scene(rest);
+  codec_.reset();
   regret_ = {};
   modes_ = {};
   next_slot_ = 0;
 }
 
-Result<void> LivePatterns::add(const Picture& picture) {
-  if (std::exchange(cut_, false) || segment_.shots.empty()) segment_.shots.push_back({});
-  ++segment_.shots.back().pictures;
-  return segment_.pictures.add(picture);
-}
-
-void LivePatterns::add(std::span<const State> states, std::vector<std::uint8_t> payload) {
-  segment_.groups.push_back({states.size(), std::move(payload)});
-  for (State s : states) {
-    s.picture = picture_ + static_cast<std::int32_t>(segment_.states.size());
-    segment_.states.push_back(s);
-  }
-}
-
 std::size_t LivePatterns::pattern_time() const {
-  if (is_key()) return 0;
-  if (segment_.shots.size() > 1) return segment_.states.size() - segment_.shots.back().pictures;
-  return segment_.states.size() - 1;
+  if (store_.is_first()) return 0;
+  if (store_.segment().shots.size() > 1)
+    return store_.segment().states.size() - store_.segment().shots.back().pictures;
+  return store_.segment().states.size() - 1;
 }
 
 SegmentPatterns LivePatterns::usable(const Scene& scene) const {
   AvailablePatterns all(scene.patterns.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return {{*scene.geometry, scene.setup.mouth, scene.patterns}, std::vector(segment_.groups.size(), all)};
+  return {{*scene.geometry, scene.setup.mouth, scene.patterns},
+          std::vector(store_.segment().groups.size(), all)};
 }
 
 double LivePatterns::Size::at(int other_quantiser) const {
@@ -138,7 +118,7 @@ Result<int> LivePatterns::key_quantiser() {
   const int wanted = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
   if (!rate_) return wanted;
   if (key_.bits > 0) return affordable(key_, wanted).value_or(kMaxQuantiser);
-  auto picture = segment_.pictures.read(0);
+  auto picture = store_.segment().pictures.read(0);
   if (!picture) return fail(picture.error());
   if (settings_.reduced) *picture = downscaled(*picture);
   FirstPattern trial(coded_format(), *picture, kTrialSpeed);
@@ -159,7 +139,7 @@ Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene, std
   for (const SegmentErrors::Run& run : errors_.runs)
     for (std::size_t i = 0; i < run.pictures; ++i) regret_.add(least_error(run.errors));
   const double price = rate_ ? rate_->price() : 1;
-  const Size& size = segment_.shots.size() > 1 ? key_ : later_;
+  const Size& size = store_.segment().shots.size() > 1 ? key_ : later_;
   const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price));
   if (!quantiser || !regret_.pays(size.at(*quantiser), price * pattern_lambda(settings_.quantiser)))
     return std::nullopt;
@@ -167,7 +147,7 @@ Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene, std
 }
 
 VideoFormat LivePatterns::coded_format() const {
-  VideoFormat format = format_;
+  VideoFormat format = store_.format();
   if (settings_.reduced) {
     format.width = reduced_size(format.width);
     format.height = reduced_size(format.height);
@@ -182,35 +162,33 @@ int LivePatterns::speed() const {
 Result<void> LivePatterns::open(int quantiser) {
   auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed()});
   if (!av1) return fail(av1.error());
-  av1_.emplace(std::move(*av1));
-  auto decoder = PatternDecoder::create(format_.width, format_.height);
+  auto decoder = PatternDecoder::create(store_.format().width, store_.format().height);
   if (!decoder) return fail(decoder.error());
-  decoder_.emplace(std::move(*decoder));
+  codec_.emplace(Codec{std::move(*av1), std::move(*decoder)});
   return {};
 }
 
 Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
-  if (auto ready = av1_ ? av1_->set(quantiser, speed()) : open(quantiser); !ready) return fail(ready.error());
-  auto picture = segment_.pictures.read(time);
+  if (auto ready = codec_ ? codec_->encoder.set(quantiser, speed()) : open(quantiser); !ready)
+    return fail(ready.error());
+  auto picture = store_.segment().pictures.read(time);
   if (!picture) return fail(picture.error());
-  const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[time];
-  if (ContrastMap::is_needed(scene.setup))
-    ContrastMap(scene.setup, scene.geometry->head_mesh(), scene.geometry->texture_mesh(seen))
-        .reduce(*picture);
-  auto frames = av1_->encode(settings_.reduced ? downscaled(*picture) : *picture);
+  store_.reduce_contrast(scene, time, *picture);
+  auto frames = codec_->encoder.encode(settings_.reduced ? downscaled(*picture) : *picture);
   if (!frames) return fail(frames.error());
   if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
-  auto decoded = decoder_->decode(frames->front());
+  auto decoded = codec_->decoder.decode(frames->front());
   if (!decoded) return fail(decoded.error());
   learn(frames->front().size(), quantiser);
   ++coded_lately_;
-  const std::size_t slot = std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_));
+  const std::size_t slot =
+      std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_.slots()));
   return Sent{time, slot, std::move(frames->front()), std::move(*decoded)};
 }
 
 void LivePatterns::learn(std::size_t bytes, int quantiser) {
   const double bits = 8.0 * static_cast<double>(bytes);
-  if (is_key() || segment_.shots.size() > 1) {
+  if (store_.is_first() || store_.segment().shots.size() > 1) {
     key_ = {bits, quantiser};
     if (later_.bits == 0) later_ = {kLaterShare * key_.at(settings_.quantiser), settings_.quantiser};
   } else {
@@ -220,17 +198,13 @@ void LivePatterns::learn(std::size_t bytes, int quantiser) {
 
 void LivePatterns::place(Scene& scene, const Sent& sent) {
   errors_ = {};
-  const State& seen = is_key() ? scene.patterns.front().seen : segment_.states[sent.time];
-  Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
-  if (sent.slot < scene.patterns.size())
-    scene.patterns[sent.slot] = std::move(pattern);
-  else
-    scene.patterns.push_back(std::move(pattern));
+  const State& seen = store_.seen_state(scene, sent.time);
+  SegmentStore::put(scene, sent.slot, make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup));
 }
 
 Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
   if (!errors_.runs.empty()) return {};
-  auto errors = mode_errors(segment_, usable(scene), shared);
+  auto errors = mode_errors(store_.segment(), usable(scene), shared);
   if (!errors) return fail(errors.error());
   errors_ = std::move(*errors);
   return {};
@@ -238,34 +212,28 @@ Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
 
 Result<void> LivePatterns::choose(const Scene& scene, std::size_t shared) {
   if (auto measured = measure(scene, shared); !measured) return measured;
-  const std::vector<RegionModes> modes = errors_.cheapest_modes(settings_.lambda, modes_);
-  for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
+  store_.set_modes(errors_.cheapest_modes(settings_.lambda, modes_));
   return {};
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
   std::vector<TypedPayload> out;
-  for (Segment::Group& group : segment_.groups)
+  for (Segment::Group& group : store_.segment().groups)
     out.emplace_back(PacketType::kMotion, std::move(group.payload));
   if (sent) {
-    const PatternSyntax pattern{static_cast<std::int32_t>(sent->slot),
-                                picture_ + static_cast<std::int32_t>(sent->time), rest_, sent->av1};
-    const std::int32_t known = picture_ + static_cast<std::int32_t>(segment_.states.size());
-    auto payload = pattern_packets_.encode(std::span(&pattern, 1), setup, known);
+    const PatternSyntax pattern = store_.pattern_syntax(sent->slot, sent->time, sent->av1);
+    auto payload = store_.coders().patterns.encode(std::span(&pattern, 1), setup,
+                                                   store_.number_of(store_.segment().states.size()));
     if (!payload) return fail(payload.error());
     // The scene's first has a state of its own, and motion is relative to it.
-    out.emplace(is_key() ? out.begin() : out.end(), PacketType::kPattern, std::move(*payload));
+    out.emplace(store_.is_first() ? out.begin() : out.end(), PacketType::kPattern, std::move(*payload));
   }
   std::size_t first = 0;
-  for (const Segment::Group& group : segment_.groups) {
-    BlendGroup blend;
-    blend.key = blends_.needs_key();
-    for (std::size_t t = first; t < first + group.pictures; ++t)
-      blend.modes.push_back(segment_.states[t].blend);
-    first += group.pictures;
-    auto payload = blends_.encode(blend);
+  for (const Segment::Group& group : store_.segment().groups) {
+    auto payload = store_.blend_payload(store_.coders().blends, first, group.pictures);
     if (!payload) return fail(payload.error());
     out.emplace_back(PacketType::kBlend, std::move(*payload));
+    first += group.pictures;
   }
   return out;
 }
@@ -280,38 +248,35 @@ Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::
     sent.emplace(std::move(*coded));
     place(scene, *sent);
   }
-  if (auto chosen = choose(scene, shared_before(refit, format_)); !chosen) return fail(chosen.error());
+  if (auto chosen = choose(scene, shared_before(refit, store_.format())); !chosen)
+    return fail(chosen.error());
   if (refit) {
-    if (auto done = refit(segment_, usable(scene)); !done) return fail(done.error());
+    if (auto done = refit(store_.segment(), usable(scene)); !done) return fail(done.error());
     errors_ = {};
     if (sent) place(scene, *sent);
     if (auto chosen = choose(scene, 1); !chosen) return fail(chosen.error());
   }
-  if (sent) regret_.begin(error_of(errors_.runs[time].errors, segment_.states[time].blend));
+  if (sent) regret_.begin(error_of(errors_.runs[time].errors, store_.segment().states[time].blend));
   return sent;
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
                                                             const StateRefit& refit) {
-  if (segment_.states.empty()) return std::vector<TypedPayload>{};
-  const StateRefit used = settings_.refits && !is_key() ? refit : StateRefit{};
-  Result<std::optional<int>> quantiser = is_key() ? Result<std::optional<int>>(key_quantiser())
-                                                  : later_quantiser(scene, shared_before(used, format_));
+  if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
+  const StateRefit used = settings_.refits && !store_.is_first() ? refit : StateRefit{};
+  Result<std::optional<int>> quantiser = store_.is_first()
+                                             ? Result<std::optional<int>>(key_quantiser())
+                                             : later_quantiser(scene, shared_before(used, store_.format()));
   if (!quantiser) return fail(quantiser.error());
   const auto sent = make(scene, *quantiser, used);
   if (!sent) return fail(sent.error());
   auto out = packets(scene.setup, *sent);
   if (!out) return out;
-  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+  const double seconds = store_.seconds();
   coded_lately_ = std::max(0.0, coded_lately_ - unhurried_per_second(coded_format()) * seconds);
-  if (rate_) {
-    std::size_t bytes = other_bytes;
-    for (const auto& [type, payload] : *out) bytes += packet_size(payload.size());
-    rate_->add(static_cast<double>(bytes), seconds);
-  }
-  modes_ = segment_.states.back().blend;
-  picture_ += static_cast<std::int32_t>(segment_.states.size());
-  segment_ = {};
+  if (rate_) rate_->add(static_cast<double>(other_bytes + bytes_of(*out)), seconds);
+  modes_ = store_.segment().states.back().blend;
+  store_.end_segment();
   errors_ = {};
   return out;
 }

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "bitstream/blend/blend_coder.h"
-#include "bitstream/pattern/pattern_packet.h"
 #include "decoder/pattern/pattern_decoder.h"
 #include "encoder/patterns/av1_encoder.h"
 #include "encoder/plan/live_rate.h"
 #include "encoder/plan/pattern_regret.h"
 #include "encoder/segment/pattern_stage.h"
 #include "encoder/segment/segment_blend.h"
+#include "encoder/segment/segment_store.h"
 
 namespace fbs {
 
@@ -34,12 +34,14 @@ class LivePatterns : public PatternStage {
   LivePatterns(const VideoFormat& format, const LivePatternSettings& settings, const CodedState& rest);
 
   void begin_scene(const CodedState& rest) override;
-  Result<void> add(const Picture& picture) override;
-  void cut() override { cut_ = true; }
-  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override;
+  Result<void> add(const Picture& picture) override { return store_.add(picture); }
+  void cut() override { store_.cut(); }
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
+    store_.add(states, std::move(payload));
+  }
   [[nodiscard]] bool segment_ends(std::size_t /*next*/) const override { return true; }
-  [[nodiscard]] std::size_t pictures() const override { return segment_.pictures.count(); }
-  [[nodiscard]] std::int32_t store() const override { return store_; }
+  [[nodiscard]] std::size_t pictures() const override { return store_.segment().pictures.count(); }
+  [[nodiscard]] std::int32_t store() const override { return store_.slots(); }
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
                                                               const StateRefit& refit) override;
 
@@ -67,7 +69,6 @@ class LivePatterns : public PatternStage {
   /// The finest one, no finer than `from`, with which a pattern may be sent now; nothing: even the coarsest
   /// takes too much.
   [[nodiscard]] std::optional<int> affordable(const Size& size, int from) const;
-  [[nodiscard]] bool is_key() const { return picture_ == 0; }
   /// The size at which patterns are coded.
   [[nodiscard]] VideoFormat coded_format() const;
   /// libaom's, for the next pattern: hasty where many have been coded lately.
@@ -93,25 +94,23 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(const Setup& setup,
                                                           const std::optional<Sent>& sent);
 
-  VideoFormat format_;
+  /// An AV1 sequence, and what the decoder makes of it.
+  struct Codec {
+    Av1Encoder encoder;
+    PatternDecoder decoder;
+  };
+
   LivePatternSettings settings_;
-  CodedState rest_;
-  std::int32_t store_;
+  SegmentStore store_;
   std::optional<LiveRate> rate_;
   Size key_, later_;         ///< of a whole picture, and of one that others predict
   double coded_lately_ = 0;  ///< patterns, less those for which there has been time since
-  // Of the scene.
-  std::optional<Av1Encoder> av1_;
-  std::optional<PatternDecoder> decoder_;
-  PatternPacketWriter pattern_packets_;
-  BlendEncoder blends_;
+  // The scene's:
+  std::optional<Codec> codec_;
   PatternRegret regret_;
   RegionModes modes_{};  ///< of the last picture
   std::size_t next_slot_ = 0;
-  std::int32_t picture_ = 0;  ///< number of the segment's first
-  Segment segment_;
   SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
-  bool cut_ = false;
 };
 
 }  // namespace fbs

@@ -1,13 +1,10 @@
 #include "encoder/segment/pattern_pass.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "bitstream/packet.h"
-#include "decoder/pattern/contrast_map.h"
 #include "encoder/image/pyramid.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
@@ -25,9 +22,6 @@ constexpr double kSegmentBytes = 64e6;
 // For deciding how many patterns: pictures coded, and every so many drawn.
 constexpr std::size_t kTrialPictures = 4, kLossEvery = 5;
 
-// Modes that are chosen anew later on are shared by so many pictures at most.
-constexpr std::size_t kDraftShared = 3;
-
 /// A shot whose pictures differ by no more from its first, luma levels, shows a still picture. Compared at a
 /// long side of so many pixels, where noise averages out and a talking mouth does not.
 constexpr double kStillLevels = 4;
@@ -44,54 +38,36 @@ constexpr double kRateTolerance = 0.02;
 
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
                          const CodedState& rest)
-    : format_(format),
-      settings_(settings),
-      rest_(rest),
-      store_(pattern_store(format)),
-      most_(store_),
-      point_(settings.point) {
+    : settings_(settings), store_(format, rest), most_(store_.slots()), point_(settings.point) {
   if (!settings.without_face) return;
   const double bytes = 1.5 * format.width * format.height;
-  most_ = static_cast<std::int32_t>(std::clamp<double>(kSegmentBytes / bytes, store_, kMaxSequencePictures));
-}
-
-void PatternPass::begin_scene(const CodedState& rest) {
-  assert(segment_.states.empty());
-  rest_ = rest;
-  picture_ = 0;
-  coders_ = {};
+  most_ = static_cast<std::int32_t>(
+      std::clamp<double>(kSegmentBytes / bytes, store_.slots(), kMaxSequencePictures));
 }
 
 Result<void> PatternPass::add(const Picture& picture) {
+  if (auto added = store_.add(picture); !added) return added;
   const cv::Mat small =
       reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
-  if (std::exchange(cut_, false) || segment_.shots.empty()) {
-    segment_.shots.push_back({0, true});
+  Shot& shot = store_.segment().shots.back();
+  if (shot.pictures == 1) {
+    shot.still = true;
     shot_first_ = small;
+  } else if (cv::norm(small, shot_first_, cv::NORM_INF) > kStillLevels) {
+    shot.still = false;
   }
-  Shot& shot = segment_.shots.back();
-  ++shot.pictures;
-  if (cv::norm(small, shot_first_, cv::NORM_INF) > kStillLevels) shot.still = false;
-  return segment_.pictures.add(picture);
-}
-
-void PatternPass::add(std::span<const State> states, std::vector<std::uint8_t> payload) {
-  segment_.groups.push_back({states.size(), std::move(payload)});
-  for (State s : states) {
-    s.picture = picture_ + static_cast<std::int32_t>(segment_.states.size());
-    segment_.states.push_back(s);
-  }
+  return {};
 }
 
 bool PatternPass::segment_ends(std::size_t next) const {
   const std::size_t pictures = this->pictures();
   // The motion of a whole segment may be sent before its first picture is shown.
   if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
-  const double fps = fps_of(format_);
+  const double fps = fps_of(store_.format());
   if (settings_.key_interval > 0 && static_cast<double>(pictures + next) > settings_.key_interval * fps)
     return true;
   if (settings_.count > 0) return false;
-  if (std::cmp_greater_equal(segment_.shots.size(), store_ / 2)) return true;
+  if (std::cmp_greater_equal(store_.segment().shots.size(), store_.slots() / 2)) return true;
   const bool any_density = settings_.without_face && settings_.bitrate_kbps > 0;
   const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
   const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
@@ -102,7 +78,7 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
   Draft draft;
   draft.times = times_wanted();
   for (const std::size_t time : draft.times) {
-    auto source = segment_.pictures.read(time);
+    auto source = store_.segment().pictures.read(time);
     if (!source) return fail(source.error());
     draft.pictures.push_back(std::move(*source));
   }
@@ -112,12 +88,8 @@ Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
   return draft;
 }
 
-const State& PatternPass::seen_state(const Scene& scene, std::size_t time) const {
-  return picture_ + time == 0 ? scene.patterns.front().seen : segment_.states[time];
-}
-
 Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const {
-  const State& seen = seen_state(scene, time);
+  const State& seen = store_.seen_state(scene, time);
   return p.av1.empty() ? make_pattern(p.decoded, seen, scene.geometry)
                        : make_coded_pattern(p.decoded, seen, scene.geometry, scene.setup);
 }
@@ -125,12 +97,12 @@ Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, st
 void PatternPass::place(const Scene& scene, Draft& draft) const {
   draft.shown.clear();
   draft.patterns = scene.patterns;
-  if (picture_ == 0) draft.patterns.clear();
+  if (store_.is_first()) draft.patterns.clear();
   for (const SequencePattern& p : draft.coded) {
     draft.shown.push_back(draft.times[p.picture]);
     draft.patterns.push_back(pattern_of(scene, p, draft.times[p.picture]));
   }
-  draft.arrived = arrivals(segment_, draft.shown, picture_ == 0);
+  draft.arrived = arrivals(store_.segment(), draft.shown, store_.is_first());
 }
 
 SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
@@ -149,16 +121,17 @@ SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
 Result<double> PatternPass::loss_between(const Scene& scene) {
   const auto draft = draft_of(scene);
   if (!draft) return fail(draft.error());
-  return blend_loss(segment_, usable(scene, *draft), kLossEvery);
+  return blend_loss(store_.segment(), usable(scene, *draft), kLossEvery);
 }
 
 int PatternPass::quantiser_at(bool reduced) const {
   if (settings_.quantiser) return *settings_.quantiser;
   const int halvings = reduced ? 1 : 0;
-  const int usual = quantiser_of(point_, format_.width >> halvings, format_.height >> halvings);
+  const int usual =
+      quantiser_of(point_, store_.format().width >> halvings, store_.format().height >> halvings);
   if (!settings_.without_face || settings_.count > 0) return usual;
-  const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
-  const double wanted = std::min(point_.per_second, fps_of(format_)) * seconds;
+  const double seconds = store_.seconds();
+  const double wanted = std::min(point_.per_second, fps_of(store_.format())) * seconds;
   const double octaves = std::log2(wanted / static_cast<double>(times_wanted().size()));
   return std::max(0, usual - static_cast<int>(std::lround(kStepsPerSharing * std::max(0.0, octaves))));
 }
@@ -177,22 +150,24 @@ void PatternPass::set_size(bool reduced) {
 }
 
 std::vector<std::size_t> PatternPass::times_wanted() const {
-  const std::size_t pictures = segment_.states.size();
-  const double seconds = static_cast<double>(pictures) / fps_of(format_);
-  const std::size_t wanted = settings_.count > 0
-                                 ? settings_.count
-                                 : pattern_count(segment_.shots, std::lround(point_.per_second * seconds));
+  const std::size_t pictures = store_.segment().states.size();
+  const double seconds = store_.seconds();
+  const std::size_t wanted =
+      settings_.count > 0 ? settings_.count
+                          : pattern_count(store_.segment().shots, std::lround(point_.per_second * seconds));
   // What a group is drawn from is kept all at once.
   const std::size_t most =
-      settings_.without_face ? std::min<std::size_t>(most_, store_ / 2 * segment_.groups.size()) : most_;
-  return pattern_times(segment_.shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
+      settings_.without_face
+          ? std::min<std::size_t>(most_, store_.slots() / 2 * store_.segment().groups.size())
+          : most_;
+  return pattern_times(store_.segment().shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
 }
 
 Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::size_t> times) {
   const std::size_t count = std::min(kTrialPictures, times.size());
   std::vector<Picture> out;
   for (std::size_t k = 0; k < count; ++k) {
-    auto picture = segment_.pictures.read(times[(times.size() - count) / 2 + k]);
+    auto picture = store_.segment().pictures.read(times[(times.size() - count) / 2 + k]);
     if (!picture) return fail(picture.error());
     out.push_back(std::move(*picture));
   }
@@ -206,12 +181,12 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   if (!loss) return fail(loss.error());
   const auto pictures = trial_pictures(times);
   if (!pictures) return fail(pictures.error());
-  const auto full = trial_cost(format_, *pictures, trial_coding(false));
+  const auto full = trial_cost(store_.format(), *pictures, trial_coding(false));
   if (!full) return fail(full.error());
-  const auto reduced = trial_cost(format_, *pictures, trial_coding(true));
+  const auto reduced = trial_cost(store_.format(), *pictures, trial_coding(true));
   if (!reduced) return fail(reduced.error());
   double motion = 0;
-  for (const Segment::Group& g : segment_.groups) motion += static_cast<double>(g.payload.size());
+  for (const Segment::Group& g : store_.segment().groups) motion += static_cast<double>(g.payload.size());
   return fbs::reduced_size_pays(*loss, times.size(), motion, *full, *reduced);
 }
 
@@ -223,15 +198,14 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
 }
 
 Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
-  const auto errors = mode_errors(segment_, usable(scene, draft), most);
+  const auto errors = mode_errors(store_.segment(), usable(scene, draft), most);
   if (!errors) return fail(errors.error());
-  const std::vector<RegionModes> modes = errors->cheapest_modes(settings_.lambda);
-  for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
+  store_.set_modes(errors->cheapest_modes(settings_.lambda));
   return {};
 }
 
 Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
-  auto solved = solve_patterns(segment_, usable(scene, draft), draft.coded.size(), SolverSettings{});
+  auto solved = solve_patterns(store_.segment(), usable(scene, draft), draft.coded.size(), SolverSettings{});
   if (!solved) return fail(solved.error());
   for (std::size_t k = 0; k < solved->size(); ++k)
     draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
@@ -240,47 +214,36 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
 
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
   std::vector<Picture> pictures = draft.pictures;
-  if (ContrastMap::is_needed(scene.setup))
-    for (std::size_t k = 0; k < pictures.size(); ++k)
-      ContrastMap(scene.setup, scene.geometry->head_mesh(),
-                  scene.geometry->texture_mesh(seen_state(scene, draft.times[k])))
-          .reduce(pictures[k]);
-  auto coded = code_pattern_sequence(format_, pictures, coding);
+  for (std::size_t k = 0; k < pictures.size(); ++k)
+    store_.reduce_contrast(scene, draft.times[k], pictures[k]);
+  auto coded = code_pattern_sequence(store_.format(), pictures, coding);
   if (!coded) return fail(coded.error());
   draft.coded = std::move(*coded);
   place(scene, draft);
   return {};
 }
 
-Result<std::vector<std::uint8_t>> PatternPass::blend_payload(BlendEncoder& encoder, std::size_t begin,
-                                                             std::size_t pictures) const {
-  BlendGroup group;
-  group.key = encoder.needs_key();
-  for (std::size_t t = begin; t < begin + pictures; ++t) group.modes.push_back(segment_.states[t].blend);
-  return encoder.encode(group);
-}
-
 Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup, const Draft& draft,
-                                                             Coders& coders) const {
+                                                             SegmentStore::Coders& coders) const {
   std::vector<PatternSyntax> patterns;
   std::vector<std::size_t> bytes;
   for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    const std::int32_t picture = picture_ + static_cast<std::int32_t>(draft.shown[k]);
-    patterns.push_back({static_cast<std::int32_t>(k) % store_, picture, rest_, draft.coded[k].av1});
+    patterns.push_back(store_.pattern_syntax(k % store_.slots(), draft.shown[k], draft.coded[k].av1));
     bytes.push_back(patterns.back().av1.size());
   }
   std::vector<TypedPayload> out;
   std::size_t moved = 0, drawn = 0;
-  for (const PlannedPacket& p : in_stream_order(segment_, draft.shown, draft.arrived, bytes)) {
+  for (const PlannedPacket& p : in_stream_order(store_.segment(), draft.shown, draft.arrived, bytes)) {
     Result<std::vector<std::uint8_t>> payload;
     if (p.type == PacketType::kPattern) {
-      const auto end = static_cast<std::int32_t>(picture_ + moved);
-      payload = coders.patterns.encode(std::span(patterns).subspan(p.first, p.count), setup, end);
-    } else if (const Segment::Group& group = segment_.groups[p.first]; p.type == PacketType::kMotion) {
+      payload = coders.patterns.encode(std::span(patterns).subspan(p.first, p.count), setup,
+                                       store_.number_of(moved));
+    } else if (const Segment::Group& group = store_.segment().groups[p.first];
+               p.type == PacketType::kMotion) {
       payload = group.payload;
       moved += group.pictures;
     } else {
-      payload = blend_payload(coders.blends, drawn, group.pictures);
+      payload = store_.blend_payload(coders.blends, drawn, group.pictures);
       drawn += group.pictures;
     }
     if (!payload) return fail(payload.error());
@@ -289,34 +252,27 @@ Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup,
   return out;
 }
 
-Result<double> PatternPass::bytes_of(const Setup& setup, const Draft& draft) const {
-  Coders coders = coders_;
+Result<double> PatternPass::taken_by(const Setup& setup, const Draft& draft) const {
+  SegmentStore::Coders coders = store_.coders();
   const auto packets = coded_packets(setup, draft, coders);
   if (!packets) return fail(packets.error());
-  std::size_t bytes = 0;
-  for (const auto& [type, payload] : *packets) bytes += packet_size(payload.size());
-  return static_cast<double>(bytes);
+  return static_cast<double>(bytes_of(*packets));
 }
 
 Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draft) {
-  auto out = coded_packets(scene.setup, draft, coders_);
+  auto out = coded_packets(scene.setup, draft, store_.coders());
   if (!out) return out;
   // The decoder's slots after the segment.
   const std::size_t old = draft.patterns.size() - draft.coded.size();
-  if (picture_ == 0) scene.patterns.clear();
-  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    if (const std::size_t slot = k % store_; slot < scene.patterns.size())
-      scene.patterns[slot] = std::move(draft.patterns[old + k]);
-    else
-      scene.patterns.push_back(std::move(draft.patterns[old + k]));
-  }
-  picture_ += static_cast<std::int32_t>(segment_.states.size());
-  segment_ = {};
+  if (store_.is_first()) scene.patterns.clear();
+  for (std::size_t k = 0; k < draft.coded.size(); ++k)
+    SegmentStore::put(scene, k % store_.slots(), std::move(draft.patterns[old + k]));
+  store_.end_segment();
   return out;
 }
 
 Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
-  if (auto done = refit(segment_, usable(scene, draft)); !done) return done;
+  if (auto done = refit(store_.segment(), usable(scene, draft)); !done) return done;
   place(scene, draft);  // what patterns show depends on the states they were seen in
   return {};
 }
@@ -355,7 +311,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     auto draft = draft_of(scene);
     if (!draft) return fail(draft.error());
     if (auto coded = code(scene, *draft, trial_coding(coding_.reduced)); !coded) return fail(coded.error());
-    const auto taken = bytes_of(scene.setup, *draft);
+    const auto taken = taken_by(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     (*taken <= bytes ? low : high) = middle;
   }
@@ -382,7 +338,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
   Draft best = draft;
   double nearest = 0;
   for (int trial = 0;; ++trial) {
-    const auto taken = bytes_of(scene.setup, draft);
+    const auto taken = taken_by(scene.setup, draft);
     if (!taken) return fail(taken.error());
     const int quantiser = coding_.quantiser;
     (*taken > bytes ? over : under) = quantiser;
@@ -404,23 +360,23 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::size_t other_bytes,
                                                            const StateRefit& refit) {
-  if (segment_.states.empty()) return std::vector<TypedPayload>{};
+  if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
   double allowed = 0;
   if (settings_.bitrate_kbps > 0) {
-    const double seconds = static_cast<double>(segment_.states.size()) / fps_of(format_);
+    const double seconds = store_.seconds();
     allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
     if (auto aimed = aim(scene, std::max(allowed, 1.0)); !aimed) return fail(aimed.error());
   } else if (auto sized = choose_size(scene); !sized) {
     return fail(sized.error());
   }
   // Few pictures are no reason for a coarse one: its bytes are the startup of a scene with one pattern.
-  if (picture_ == 0 && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
+  if (store_.is_first() && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
     coding_.quantiser = settings_.lone_quantiser;
   auto draft = make(scene, refit);
   if (!draft) return fail(draft.error());
   if (settings_.bitrate_kbps > 0) {
     if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());
-    const auto taken = bytes_of(scene.setup, *draft);
+    const auto taken = taken_by(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     left_bytes_ = allowed - *taken;
   }

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "bitstream/blend/blend_coder.h"
-#include "bitstream/pattern/pattern_packet.h"
 #include "decoder/scene/scene.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
 #include "encoder/segment/pattern_stage.h"
+#include "encoder/segment/segment_store.h"
 
 namespace fbs {
 
@@ -37,13 +37,15 @@ class PatternPass : public PatternStage {
   /// @param rest  seen state of pattern 0 as coded
   PatternPass(const VideoFormat& format, const PatternPassSettings& settings, const CodedState& rest);
 
-  void begin_scene(const CodedState& rest) override;
+  void begin_scene(const CodedState& rest) override { store_.begin_scene(rest); }
   Result<void> add(const Picture& picture) override;
-  void cut() override { cut_ = true; }
-  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override;
+  void cut() override { store_.cut(); }
+  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
+    store_.add(states, std::move(payload));
+  }
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
-  [[nodiscard]] std::size_t pictures() const override { return segment_.pictures.count(); }
-  [[nodiscard]] std::int32_t store() const override { return store_; }
+  [[nodiscard]] std::size_t pictures() const override { return store_.segment().pictures.count(); }
+  [[nodiscard]] std::int32_t store() const override { return store_.slots(); }
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
                                                               const StateRefit& refit) override;
 
@@ -68,8 +70,6 @@ class PatternPass : public PatternStage {
   [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
   /// Neighbours from the middle of the segment.
   [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
-  /// Of a pattern that is a picture of the segment.
-  [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;
   /// As the decoder makes it; with its picture as it is where that is not coded yet.
   [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
   void place(const Scene& scene, Draft& draft) const;
@@ -93,32 +93,19 @@ class PatternPass : public PatternStage {
   /// Codes the patterns again with other quantisers until the segment takes so many bytes, within a few
   /// percent.
   Result<void> meet(const Scene& scene, double bytes, Draft& draft);
-  /// Of all packets of the segment.
-  [[nodiscard]] Result<double> bytes_of(const Setup& setup, const Draft& draft) const;
-  /// The coders that adapt through the scene, beside that of motion.
-  struct Coders {
-    PatternPacketWriter patterns;
-    BlendEncoder blends;
-  };
-  [[nodiscard]] Result<std::vector<std::uint8_t>> blend_payload(BlendEncoder& encoder, std::size_t begin,
-                                                                std::size_t pictures) const;
+  /// All packets of the segment.
+  [[nodiscard]] Result<double> taken_by(const Setup& setup, const Draft& draft) const;
   /// The segment's packets in stream order.
   [[nodiscard]] Result<std::vector<TypedPayload>> coded_packets(const Setup& setup, const Draft& draft,
-                                                                Coders& coders) const;
+                                                                SegmentStore::Coders& coders) const;
   /// The same; ends the segment.
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, Draft& draft);
 
-  VideoFormat format_;
   PatternPassSettings settings_;
-  CodedState rest_;  ///< seen state of the scene's first pattern
-  std::int32_t store_;
-  std::int32_t most_;         ///< patterns in a segment
-  std::int32_t picture_ = 0;  ///< number of the segment's first
-  double left_bytes_ = 0;     ///< of the rate, that segments before have not taken; negative: overspent
-  Segment segment_;
-  bool cut_ = false;
-  cv::Mat shot_first_;  ///< of the last shot's pictures in the segment, reduced luma
-  Coders coders_;
+  SegmentStore store_;
+  std::int32_t most_;      ///< patterns in a segment
+  double left_bytes_ = 0;  ///< of the rate, that segments before have not taken; negative: overspent
+  cv::Mat shot_first_;     ///< of the last shot's pictures in the segment, reduced luma
   // How the segment is coded: as the settings say, or what meets the bitrate.
   PatternPoint point_;
   SequenceSettings coding_;

@@ -17,10 +17,11 @@ static_assert(first_of(PartId::kGround) == kFirstSurround + kSimilarityCount);
 }  // namespace
 
 SegmentRefit::SegmentRefit(const Setup& setup, const Geometry& geometry, const Pattern& first,
-                           double eye_distance_px)
+                           double eye_distance_px, MotionTrack motion)
     : eye_distance_px_(eye_distance_px),
       fit_(setup, geometry,
-           {WorkFrame::cut(first.picture, pose_of(first.seen).shift, eye_distance_px, false), first.seen}) {}
+           {WorkFrame::cut(first.picture, pose_of(first.seen).shift, eye_distance_px, false), first.seen}),
+      before_(std::move(motion)) {}
 
 void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t duration) {
   Analysed out{picture.state, picture.face, duration, {}, {}};
@@ -66,7 +67,8 @@ Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, SegmentRenderer& r
   return cost;
 }
 
-Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns, MotionTrack& motion) {
+Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns) {
+  MotionTrack motion = before_;
   SegmentRenderer renderer(patterns);
   const auto is_pattern = [&](const State& state) {
     return std::ranges::any_of(patterns.scene.patterns,
@@ -92,7 +94,14 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
     group.payload = std::move(planned->payload);
     for (const State& to : planned->states) segment.move(first++, to);
   }
+  after_ = std::move(motion);
   return {};
+}
+
+void SegmentRefit::begin_segment(const MotionTrack& motion) {
+  pictures_.clear();
+  before_ = motion;
+  after_.reset();
 }
 
 }  // namespace fbs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "encoder/analysis/face_analysis.h"
@@ -20,20 +21,25 @@ class SegmentRefit {
  public:
   /// @param first            pattern 0
   /// @param eye_distance_px  in its picture
-  SegmentRefit(const Setup& setup, const Geometry& geometry, const Pattern& first, double eye_distance_px);
+  /// @param motion           as before the first segment
+  SegmentRefit(const Setup& setup, const Geometry& geometry, const Pattern& first, double eye_distance_px,
+               MotionTrack motion);
 
   /// The next picture of the segment, as analysed.
   /// @param duration  1/90000 s; 0: nominal
   void add(const FaceAnalysis::Observation& picture, std::uint32_t duration);
 
   /// Replaces the motion of a segment whose pictures have been added: payloads of groups, states of pictures.
-  /// Blend modes stay.
+  /// Blend modes stay. Can be run again: each time starts from the motion before the segment.
   /// @param patterns  that it is drawn from; their seen states are left to the caller
-  /// @param motion    as before the segment; afterwards as after it
-  Result<void> run(Segment& segment, const SegmentPatterns& patterns, MotionTrack& motion);
+  Result<void> run(Segment& segment, const SegmentPatterns& patterns);
+
+  /// The motion as after the segment, if run() has replaced it.
+  [[nodiscard]] const std::optional<MotionTrack>& motion() const { return after_; }
 
   /// Forgets the pictures.
-  void begin_segment() { pictures_.clear(); }
+  /// @param motion  as before the segment
+  void begin_segment(const MotionTrack& motion);
 
  private:
   static constexpr int kSurroundCount = 2 * kSimilarityCount;
@@ -59,6 +65,8 @@ class SegmentRefit {
   double eye_distance_px_;
   PictureFit fit_;
   std::vector<Analysed> pictures_;
+  MotionTrack before_;                ///< the segment
+  std::optional<MotionTrack> after_;  ///< it, as run() planned it last
 };
 
 }  // namespace fbs

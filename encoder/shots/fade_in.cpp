@@ -7,7 +7,7 @@
 namespace fbs {
 namespace {
 
-constexpr int kLongSide = 64;  // pixels of the reduced picture, about
+constexpr int kFadeSide = 64;  // pixels of the reduced picture, about
 
 /// Contrast against the first picture's from which a scene is worth its bytes again: quantised for the dark
 /// one, it is shown with errors as many times as large.
@@ -20,7 +20,7 @@ constexpr double kStill = 1.03;
 constexpr double kAlike = 0.7;
 
 /// Standard deviation, luma levels, below which the first picture shows nothing to compare with.
-constexpr double kPlainBelow = 4;
+constexpr double kPlainFirstBelow = 4;
 
 struct Levels {
   double mean = 0, deviation = 0;
@@ -41,7 +41,7 @@ bool are_alike(const cv::Mat1f& a, const Levels& of_a, const cv::Mat1f& b, const
 
 bool FadeIn::has_ended(const Picture& picture) {
   cv::Mat1f now;
-  reduced(picture.y, reduction_factor(picture.width(), picture.height(), kLongSide)).convertTo(now, CV_32F);
+  reduced(picture.y, reduction_factor(picture.width(), picture.height(), kFadeSide)).convertTo(now, CV_32F);
   const Levels levels(now);
   if (seen_ == 0) {
     first_ = now;
@@ -49,10 +49,11 @@ bool FadeIn::has_ended(const Picture& picture) {
   }
   const double before = std::exchange(contrast_[seen_++ % kSettled], levels.deviation);
   const Levels first(first_);
-  const bool much_more = levels.deviation >= kMuchMore * first.deviation && levels.deviation >= kPlainBelow;
+  const bool much_more =
+      levels.deviation >= kMuchMore * first.deviation && levels.deviation >= kPlainFirstBelow;
   rises_ = much_more && levels.deviation > kStill * before;
   if (!much_more || rises_) return false;
-  if (first.deviation >= kPlainBelow && !are_alike(first_, first, now, levels)) return false;
+  if (first.deviation >= kPlainFirstBelow && !are_alike(first_, first, now, levels)) return false;
   first_ = now;
   return true;
 }

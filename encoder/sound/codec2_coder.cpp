@@ -8,9 +8,8 @@
 namespace fbs {
 namespace {
 
-/// Samples by which what is decoded comes late, in every mode. libcodec2 analyses a window of 40 ms that ends
-/// with the samples of which it says something: its centre, which a decoder shows at their end, is 20 ms
-/// before.
+/// Delay of the decoded sound, samples, in every mode. libcodec2 analyses a window of 40 ms that ends with
+/// the frame's samples and describes its centre, 20 ms earlier, which a decoder plays at the frame's end.
 constexpr std::int32_t kDelay = 160;
 
 class Codec2Coder final : public SoundEncoder {
@@ -29,8 +28,8 @@ class Codec2Coder final : public SoundEncoder {
   std::size_t frame_bytes_;
 };
 
-/// The mode of the highest rate up to `bitrate`; null when there is none. Not 1300, whose frames are as long
-/// as those of 1400 and understood no better.
+/// The mode of the highest rate up to `bitrate`; null when there is none. Never 1300, whose frames are as
+/// long as those of mode 1400 and no clearer.
 const Codec2Mode* mode_of_rate(int bitrate) {
   const auto modes = codec2_modes();
   const auto found = std::find_if(modes.begin(), modes.end(),

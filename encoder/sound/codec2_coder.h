@@ -1,4 +1,4 @@
-// Codec 2 as libcodec2 codes it.
+// Codes sound by Codec 2 with libcodec2.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace fbs {
 
-/// @return errors as those of SoundEncoder::create
+/// @return errors of SoundEncoder::create
 Result<std::unique_ptr<SoundEncoder>> create_codec2_coder(const SoundSettings& settings);
 
 }  // namespace fbs

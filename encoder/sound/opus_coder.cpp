@@ -11,22 +11,22 @@ namespace {
 
 constexpr int kTicksOfMs = kSoundClock / 1000;
 constexpr std::size_t kRoom = 4000;  // bytes; what libopus recommends for a packet
-constexpr std::size_t kPause = 2;    // bytes; DTX makes no longer frames
+constexpr std::size_t kPause = 2;    // bytes; DTX frames are no longer than this
 
-/// Long frames of libopus 1.3 fall short of low rates by up to a fifth. What was not spent is asked for
-/// again, within a second and up to a quarter of the rate.
+/// Long frames of libopus 1.3 fall short of low rates by up to a fifth. Requests the unspent bits again,
+/// within a second and up to a quarter of the rate.
 class UnspentBits {
  public:
   UnspentBits(int bitrate, std::int32_t duration) : bitrate_(bitrate), duration_(duration) {}
 
-  /// A frame of a voice has been coded.
+  /// Records a coded frame of a voice.
   void add(std::size_t bytes) {
     const std::int64_t spent = static_cast<std::int64_t>(bytes) * 8;
     unspent_ += std::int64_t{bitrate_} * duration_ / kSoundClock - spent;
     unspent_ = std::clamp<std::int64_t>(unspent_, 0, bitrate_ / 4);
   }
 
-  /// bit/s to be asked for.
+  /// bit/s to request.
   [[nodiscard]] opus_int32 bitrate() const { return bitrate_ + static_cast<opus_int32>(unspent_); }
 
  private:
@@ -87,7 +87,7 @@ Result<void> check(const SoundSettings& settings) {
   }
 }
 
-/// With DTX, pauses cost a byte or two a frame.
+/// With DTX, pauses cost a byte or two per frame.
 bool configure(OpusEncoder* encoder, const SoundSettings& settings) {
   const auto set = [encoder](auto... request) { return opus_encoder_ctl(encoder, request...) == OPUS_OK; };
   return set(OPUS_SET_BITRATE(settings.bitrate)) && set(OPUS_SET_VBR(1)) && set(OPUS_SET_VBR_CONSTRAINT(1)) &&

@@ -1,4 +1,4 @@
-// Opus (RFC 6716) as libopus codes it.
+// Codes sound by Opus (RFC 6716) with libopus.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace fbs {
 
-/// @return errors as those of SoundEncoder::create
+/// @return errors of SoundEncoder::create
 Result<std::unique_ptr<SoundEncoder>> create_opus_coder(const SoundSettings& settings);
 
 }  // namespace fbs

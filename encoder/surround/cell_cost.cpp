@@ -16,17 +16,17 @@ namespace {
 
 constexpr int kScreenPerPixel = static_cast<int>(kStateUnitsPerPixel);
 
-/// Corner-based positions, as the grid's are; the border is repeated.
+/// Corner-based positions, like the grid's; the border is repeated.
 inline float value(const cv::Mat& luma, glm::vec2 at) {
   return bilinear<std::uint8_t>(luma, BilinearCell(clamped(luma, at - 0.5F, 1.01F)));
 }
 
-/// Where a sample lies in a cell, of 0..1.
+/// Position of a sample in a cell, 0..1.
 constexpr float share(std::size_t i) {
   return (static_cast<float>(i) + 0.5F) / kSamplesAcrossCell;
 }
 
-/// Of a cell as it moved, over what it was; negative when it has folded.
+/// Area of a cell after its motion over its area before; negative when it has folded.
 double area_ratio(const std::array<glm::dvec2, 4>& to, glm::dvec2 size) {
   const glm::dvec2 d1 = to[3] - to[0], d2 = to[2] - to[1];
   return 0.5 * (d1.x * d2.y - d1.y * d2.x) / (size.x * size.y);

@@ -1,4 +1,4 @@
-// What a cell of the surround's grid costs under the labels of its corners.
+// Cost of a cell of the surround's grid under the labels of its corners.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace fbs {
 
-/// Squared differences that moving the first picture's luma leaves in the later ones. Holds a reference to
-/// the observations.
+/// Squared differences that remain in the later pictures after moving the first picture's luma. Holds a
+/// reference to the observations.
 class CellCost {
  public:
   CellCost(const Setup& setup, const Geometry& geometry, const MapGrid& grid,
@@ -25,13 +25,13 @@ class CellCost {
   [[nodiscard]] bool empty() const { return later_.empty(); }
 
   /// Mean over the later pictures and the cell's area of the truncated squared difference, where the head
-  /// does not hide it. Not to be asked when empty().
+  /// does not hide it. Not when empty().
   /// @param column, row  of the cell, the margin's included
   /// @param corner       labels of its corners, row by row
   [[nodiscard]] double operator()(int column, int row, const std::array<MapLabel, 4>& corner) const;
 
  private:
-  /// A later picture, and where points of the grid go that go wholly with one layer.
+  /// A later picture, and the displacement of grid points that follow a single layer.
   struct Later {
     const cv::Mat* luma;
     cv::Mat hidden;                                       ///< nonzero where the head is
@@ -61,7 +61,7 @@ class CellCost {
   const SurroundObservations& observations_;
   std::vector<glm::dvec2> points_;
   std::vector<Later> later_;
-  std::vector<CellSamples> first_;  ///< of each cell in the first picture, as index_of() says
+  std::vector<CellSamples> first_;  ///< of each cell in the first picture, by index_of()
 };
 
 }  // namespace fbs

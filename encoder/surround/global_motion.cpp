@@ -11,11 +11,11 @@ using namespace surround;
 
 namespace {
 
-/// The anchor is left once a corner of the picture has moved by so much of the long side. Farther, less of
-/// both pictures is alike; nearer, drift adds up.
+/// The anchor is replaced once a corner of the picture has moved by this share of the long side. Farther, the
+/// pictures have less in common; nearer, drift adds up.
 constexpr double kAnchorReach = 0.12;
 
-/// Motion is believed if it leaves less than this of the cost without.
+/// Motion is trusted if it leaves less than this share of the cost at rest.
 constexpr double kBelieved = 0.95;
 
 PlaneMotion plane_motion(const Similarity& s, double unit_px) {

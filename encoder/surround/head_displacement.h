@@ -1,4 +1,4 @@
-// How what goes with the head has moved since the first picture: hair, which has no pose of its own.
+// Motion since the first picture of what follows the head: hair, which has no pose of its own.
 #pragma once
 
 #include <glm/mat2x2.hpp>

@@ -44,7 +44,7 @@ std::array<Keypoint::Quarter, 4> quarters_of(const cv::Mat& luma, int x, int y) 
   return out;
 }
 
-/// Three pieces along each side, four along the top; or none.
+/// Which piece of the rim, three along each side and four along the top; or none.
 /// @param at  share of the picture's width and height
 int rim_piece_at(glm::dvec2 at) {
   if (at.y < kRimWidth) return std::min(3, static_cast<int>(4 * at.x));
@@ -53,7 +53,7 @@ int rim_piece_at(glm::dvec2 at) {
   return -1;
 }
 
-/// Keypoints that belong to no layer yet.
+/// Keypoints without a layer.
 std::vector<Keypoint> steepest_places(const SurroundPyramid& first, int factor, glm::dvec2 origin,
                                       double unit_px) {
   const cv::Mat& luma = first[0];

@@ -17,7 +17,7 @@ using SurroundPyramid = Pyramid<kSurroundLevels>;
 
 /// The steepest place of a small square of the first picture.
 struct Keypoint {
-  /// One sample of each quarter of the square: what the square as a whole looks like.
+  /// One sample of each quarter of the square, which represent its look.
   struct Quarter {
     glm::ivec2 at{};  ///< work pixels
     float value = 0;
@@ -30,7 +30,7 @@ struct Keypoint {
   std::array<Quarter, 4> quarters{};
   std::array<float, 3> structure{};  ///< of the whole square: sums of dx dx, dx dy, dy dy
   LayerMembership layers;
-  int rim_piece = -1;  ///< which of the ten pieces of the picture's rim shows it as ground; or none
+  int rim_piece = -1;  ///< which of the ten pieces of the picture's rim it shows as ground; or none
 
   [[nodiscard]] bool on_rim() const { return rim_piece >= 0; }
 };
@@ -41,13 +41,13 @@ struct Keypoint {
 [[nodiscard]] std::vector<Keypoint> select_keypoints(const SurroundPyramid& first, int factor,
                                                      const Pose& seen);
 
-/// The same where all of the picture is ground.
-/// @param origin     that places are seen from in `from_head`, pixels of the picture
-/// @param unit_px    in which they are given there, in the place of an eye distance
+/// The same where the whole picture is ground.
+/// @param origin     origin of `from_head`, pixels of the picture
+/// @param unit_px    its unit, in place of an eye distance
 [[nodiscard]] std::vector<Keypoint> select_ground_keypoints(const SurroundPyramid& first, int factor,
                                                             glm::dvec2 origin, double unit_px);
 
-/// Whether enough ground is seen near the rim to say whether the camera moves.
+/// Whether enough ground is visible near the rim to tell whether the camera moves.
 [[nodiscard]] bool ground_shows(std::span<const Keypoint> keypoints);
 
 }  // namespace fbs

@@ -14,10 +14,10 @@ LayerShares layers_by_place(const Pose& seen, glm::dvec2 place) {
   const double c = std::cos(seen.roll), s = std::sin(seen.roll);
   const glm::dvec2 d = (place - seen.shift) / seen.eye_distance_px();
   const glm::dvec2 own(c * d.x + s * d.y, -s * d.x + c * d.y);
-  // Head and hair: an ellipse about the face that fades outwards.
+  // Head and hair: an ellipse around the face that fades outwards.
   const double r = std::hypot(own.x / 1.45, (own.y - 0.3) / 1.95);
   const double head = std::clamp(2.3 - 1.3 * r, 0.0, 1.0);
-  // Neck and shoulders: below a line that falls away from the chin, and steeper beyond the arms.
+  // Neck and shoulders: below a line that falls away from the chin, steeper beyond the arms.
   const double x = std::abs(own.x);
   const double line = 1.8 + 0.4 * x + 2 * std::max(0.0, x - 2.8);
   const double body = std::clamp(0.5 + (own.y - line) / 1.2, 0.04, 0.96);

@@ -1,4 +1,4 @@
-// What a place of the surround belongs to: head, body or ground.
+// Membership of a place of the surround: head, body or ground.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ enum Layer : std::uint8_t { kHeadLayer, kBodyLayer, kGroundLayer };
 /// One number for each layer.
 using LayerShares = std::array<float, kLayerCount>;
 
-/// Spatial prior: what a place near a head seen in this pose belongs to, before anything has moved; sum 1.
+/// Spatial prior of a place near a head in this pose, before anything has moved; sum 1.
 /// @param place  pixels of the picture
 [[nodiscard]] LayerShares layers_by_place(const Pose& seen, glm::dvec2 place);
 
-/// What a map gives a place, interpolated between its points; sum 1.
+/// Shares of a place by a map, interpolated between its points; sum 1.
 /// @param place  share of the picture's width and height
 [[nodiscard]] LayerShares layers_by_map(const SurroundMap& map, glm::dvec2 place);
 
@@ -32,22 +32,22 @@ class LayerMembership {
   LayerMembership() = default;
   explicit LayerMembership(const LayerShares& by_place) : prior_(by_place), share_(by_place) { update(); }
 
-  /// @param by_map  replaces the prior; the residuals seen so far keep their say
+  /// @param by_map  replaces the prior; the residuals so far still count
   void set_map(const LayerShares& by_map);
 
-  /// The residual that a layer's motion leaves in a picture, grey levels.
+  /// Adds the residual of a layer's motion in a picture, grey levels.
   /// @param rate  share of this picture in the running mean
   void observe(Layer layer, double residual, float rate);
-  /// It cannot be seen where the layer's motion takes it.
+  /// Marks the place as invisible where the layer's motion takes it.
   void observe_hidden(Layer layer) { visible_[layer] = 0; }
-  /// Takes all layers' residuals into the weights.
+  /// Updates the weights by all layers' residuals.
   void update();
 
   /// Posterior; sum 1.
   [[nodiscard]] const LayerShares& weight() const { return weight_; }
   [[nodiscard]] double weight(Layer layer) const { return static_cast<double>(weight_[layer]); }
   [[nodiscard]] const LayerShares& prior() const { return prior_; }
-  /// That prior or map give it, as the decoder moves it.
+  /// Shares by prior or map, as in the decoder's motion.
   [[nodiscard]] const LayerShares& share() const { return share_; }
   /// Robust weight of the last picture's residual: how surely the layer is seen there.
   [[nodiscard]] const LayerShares& visible() const { return visible_; }

@@ -12,13 +12,13 @@
 
 namespace fbs {
 
-/// What a point of the map may say: its share in the head's motion, and the rest's in the body's; quarters.
+/// Label of a point of the map: its share in the head's motion, and the body's share of the rest; quarters.
 struct MapLabel {
   std::uint8_t head = 0, body = 0;
   friend bool operator==(const MapLabel&, const MapLabel&) = default;
 };
 
-/// All labels that differ: what goes wholly with the head has no rest.
+/// All distinct labels: a point that wholly follows the head has no rest.
 [[nodiscard]] inline const std::vector<MapLabel>& map_labels() {
   static const std::vector<MapLabel> all = [] {
     std::vector<MapLabel> out;
@@ -30,15 +30,15 @@ struct MapLabel {
   return all;
 }
 
-/// Distance of two labels in quarters: of the head's share, and of the body's in what both leave to it.
+/// Distance of two labels in quarters: in the head's share, and in the body's share of what both leave to it.
 [[nodiscard]] inline double distance(const MapLabel& a, const MapLabel& b) {
   const double head = std::abs(a.head - b.head);
   const double rest = std::min(kFollowOne - a.head, kFollowOne - b.head) / static_cast<double>(kFollowOne);
   return head + rest * std::abs(a.body - b.body);
 }
 
-/// columns x rows cells, whose corners are the points, row by row. A margin one cell wide lies round the
-/// picture; it moves as the border does.
+/// columns x rows cells, whose corners are the points, row by row. A margin one cell wide surrounds the
+/// picture and moves as the border does.
 struct MapGrid {
   int columns = 0, rows = 0;
 
@@ -65,7 +65,7 @@ struct MapGrid {
   }
 };
 
-/// A map with all its points alike.
+/// A map with the same label at all points.
 [[nodiscard]] inline SurroundMap uniform_map(const MapGrid& grid, MapLabel label) {
   SurroundMap map;
   map.columns = grid.columns;

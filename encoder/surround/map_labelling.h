@@ -9,19 +9,20 @@
 
 namespace fbs {
 
-/// Minimises the cells' costs, plus what neighbours that differ cost, plus departures from a spatial prior.
+/// Minimises the cells' costs plus penalties for neighbours that differ and for departures from a spatial
+/// prior.
 class MapLabelling {
  public:
   /// @param prior  shares of head and body of each point, quarters
   MapLabelling(const MapGrid& grid, const CellCost& cell_cost, std::vector<glm::dvec2> prior);
 
-  /// First as if each point's surroundings went with it, then on the cells as they are drawn.
+  /// First as if each point's surroundings followed it, then on the cells as they are drawn.
   [[nodiscard]] std::vector<MapLabel> solve();
 
  private:
   [[nodiscard]] double prior_cost(std::size_t k, const MapLabel& label) const;
   [[nodiscard]] double smoothness(std::size_t k, const MapLabel& label) const;
-  /// Cells' cost of each point and label, as if the point's four cells had the label. [point * labels +
+  /// Cells' cost for each point and label, as if the point's four cells had the label. [point * labels +
   /// label]
   [[nodiscard]] std::vector<double> uniform_costs() const;
   void start();
@@ -31,7 +32,7 @@ class MapLabelling {
   /// @param enough  a cost of at least this need not be exact, which saves most of the cells
   [[nodiscard]] double cost_of(std::size_t k, const MapLabel& label, double enough);
   [[nodiscard]] MapLabel best_label(std::size_t k);
-  /// The visit in which a point or one of those around it changed last.
+  /// The visit in which a point or one around it last changed.
   [[nodiscard]] int changed_near(std::size_t k) const;
   [[nodiscard]] bool has_neighbour(std::size_t k, const MapLabel& label) const;
 
@@ -40,7 +41,7 @@ class MapLabelling {
   std::vector<glm::dvec2> prior_;
   std::vector<MapLabel> labels_;
   int visits_ = 0;
-  std::vector<int> visited_, changed_;  ///< the visit in which a point was seen last, and changed last
+  std::vector<int> visited_, changed_;  ///< the visit in which a point was last seen, and last changed
 };
 
 }  // namespace fbs

@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-/// Of the generic head; so that the coordinates stay within kMaxCoordinate.
+/// Enlargement of the generic head; keeps the coordinates within kMaxCoordinate.
 constexpr std::int32_t kEnlarged = 2;
 
 /// Eye distance of the plane over the long side of the picture: room to pan.
@@ -69,7 +69,7 @@ cv::Matx<double, kPoseCount, kPoseCount> PicturePlane::quadratic(
   cv::Matx<double, kPoseCount, kPoseCount> out;
   for (const GlobalMotion::Observation::Place& place : observation.places) {
     const glm::dvec2 d = place.at - origin;
-    std::array<glm::dvec2, kPoseCount> by{};  // displacement of the place by one of each number
+    std::array<glm::dvec2, kPoseCount> by{};  // displacement of the place per unit of each number
     by[kRoll] = one.roll * glm::dvec2(-d.y, d.x);
     by[kShiftX] = {one.shift.x, 0};
     by[kShiftY] = {0, one.shift.y};

@@ -1,7 +1,7 @@
-// The whole picture as a plane that a camera pans, rolls and zooms over. The format moves the picture with a
-// head, so the plane stands in the place of one: the generic head, flat and many times as large as the
-// picture. The ground's motion would not do: beyond the borders of the rest state the surround repeats them,
-// where a pattern of a pan shows something.
+// The whole picture as a plane over which a camera pans, rolls and zooms. The format moves pictures with a
+// head, so the plane takes its place: the generic head, flattened and many times as large as the picture. The
+// ground's motion would not do: beyond the borders of the rest state the surround repeats them, where a
+// pattern from a pan has content.
 #pragma once
 
 #include <cstdint>
@@ -23,21 +23,22 @@ class PicturePlane {
 
   /// Pose of the plane at rest.
   [[nodiscard]] const Pose& rest() const { return rest_; }
-  /// As decoded, and the payload of its packet.
+  /// As decoded, with the payload of its packet.
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] const std::vector<std::uint8_t>& payload() const { return payload_; }
 
-  /// Steps of the pose: one of rotation or scale moves a corner of the picture as far as one of translation.
+  /// Steps of the pose: a step of rotation or scale moves a corner of the picture as far as a step of
+  /// translation.
   /// @param step_px  of translation, pixels
   [[nodiscard]] QuantiserSteps steps(double step_px) const;
 
-  /// The plane where it has moved.
+  /// The plane's pose after a motion.
   [[nodiscard]] Pose pose(const PlaneMotion& motion) const;
 
-  /// Whether it fills the picture there.
+  /// Whether the plane fills the picture after a motion.
   [[nodiscard]] bool covers(const PlaneMotion& motion) const;
 
-  /// What other poses would cost: squared luma differences over the picture, by the numbers of State::pose.
+  /// Cost of other poses: squared luma differences over the picture, by the numbers of State::pose.
   [[nodiscard]] static cv::Matx<double, kPoseCount, kPoseCount> quadratic(
       const GlobalMotion::Observation& observation);
 
@@ -49,7 +50,7 @@ class PicturePlane {
   std::vector<std::uint8_t> payload_;
 };
 
-/// A plane without extent: for scenes that do not move. Nothing of it is drawn, so that it need not be sent.
+/// A plane without extent, for scenes without motion. Nothing of it is drawn, so that it need not be sent.
 [[nodiscard]] inline Geometry no_plane() {
   return {};
 }

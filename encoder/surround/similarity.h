@@ -1,4 +1,4 @@
-// A similarity of the picture plane about the head's origin: how body or ground have moved.
+// A similarity of the picture plane about the head's origin: the motion of body or ground.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ using Similarity = std::array<double, kSimilarityCount>;
 }
 
 /// Displacement of a place, pixels of the picture.
-/// @param from_head  the place seen from the head's origin in the first picture, eye distances
+/// @param from_head  the place relative to the head's origin in the first picture, eye distances
 [[nodiscard]] inline glm::dvec2 displacement(const Similarity& s, glm::dvec2 from_head) {
   const glm::dvec2 d = from_head;
   return {s[kDisplacementX] + s[kSimilarityScale] * d.x - s[kSimilarityRotation] * d.y,

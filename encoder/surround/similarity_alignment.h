@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Gauss-Newton on the keypoints' luma, coarse to fine, with Geman-McClure weights for what is hidden or new
+/// Gauss-Newton on the keypoints' luma, coarse to fine, with Geman-McClure weights for hidden or new content
 /// and a Gaussian prior. Holds references: for one picture.
 class SimilarityAlignment {
  public:
@@ -24,7 +24,7 @@ class SimilarityAlignment {
   [[nodiscard]] Similarity align(Layer layer, const Similarity& start, const Similarity& prior) const;
 
   /// Mean of the robust squared difference over a layer's keypoints, by their weight; 0 without any.
-  /// @param rim_only  only of keypoints near the picture's sides and top
+  /// @param rim_only  only keypoints near the picture's sides and top
   [[nodiscard]] double cost(Layer layer, const Similarity& similarity, bool rim_only = false) const;
 
  private:

@@ -20,7 +20,7 @@ const LayerShares& shares_of(const Keypoint& keypoint, bool mapped) {
   return mapped ? keypoint.layers.share() : keypoint.layers.weight();
 }
 
-/// A square of the work picture stands for factor^2 times as many samples, whose slopes are as much less.
+/// A square of the work picture represents factor^2 as many samples, whose slopes are smaller by as much.
 void add(const Keypoint& keypoint, const LayerShares& share, Quadratic& sum) {
   const auto most = std::max_element(share.begin(), share.end()) - share.begin();
   const auto visible = static_cast<double>(keypoint.layers.visible()[most]);

@@ -1,4 +1,4 @@
-// Chooses how the picture round the face moves: the surround's map. Design section 4.
+// Chooses how the picture around the face moves: the surround's map.
 #pragma once
 
 #include "bitstream/syntax.h"
@@ -6,10 +6,10 @@
 
 namespace fbs {
 
-/// For each point of the grid, which shares in the motions of head, body and ground explain the later
-/// pictures best: the sum over the grid's cells of the truncated squared differences that moving the first
-/// picture's luma leaves where the head does not hide it (CellCost), smoothed so that neighbours agree, and
-/// from the spatial prior where the pictures show nothing (MapLabelling).
+/// Chooses for each point of the grid the shares in the motions of head, body and ground that best explain
+/// the later pictures. Minimises the sum over the grid's cells of the truncated squared differences that
+/// remain after moving the first picture's luma where the head does not hide it (CellCost), smoothed so that
+/// neighbours agree, and following the spatial prior where the pictures show nothing (MapLabelling).
 /// @param observations  with a first picture; without later ones the spatial prior alone decides
 [[nodiscard]] SurroundMap fit_surround(const Setup& setup, const Geometry& geometry,
                                        const SurroundObservations& observations);

@@ -46,8 +46,8 @@ void SurroundMotion::observe(const Picture& picture, const Pose& head) {
   luma_ = make_pyramid<kSurroundLevels>(reduced(picture.y, factor_));
   const SimilarityAlignment alignment(keypoints_, luma_, factor_, seen_.eye_distance_px());
   const Similarity none{};
-  // Where the ground does not show, it is free to go with what neither head nor body explains: long hair
-  // before an even wall (woman_presenter_700: 24.1 -> 25.8 dB).
+  // Where the ground does not show, it may follow what neither head nor body explains: long hair in front of
+  // an even wall (woman_presenter_700: 24.1 -> 25.8 dB).
   ground_.aligned = alignment.align(kGroundLayer, ground_.aligned, none);
   accept(alignment, kGroundLayer, none, ground_shows_, ground_);
   const Similarity& rest = ground_shows_ ? ground_.accepted : none;

@@ -1,4 +1,4 @@
-// What the surround's map is learned from: a few pictures of the scene, reduced when they are added.
+// The pictures from which the surround's map is learned: a few of the scene, reduced when they are added.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,10 +10,10 @@
 
 namespace fbs {
 
-/// Keeps the reduced luma of each picture (kMapLongSide samples at most each way), never the picture.
+/// Keeps the reduced luma of each picture (at most kMapLongSide samples each way), never the picture.
 class SurroundObservations {
  public:
-  /// A picture at 1/factor() of its size and the state found for it, body and ground included.
+  /// A picture at 1/factor() of its size and its state, body and ground included.
   struct Observation {
     cv::Mat luma;  ///< 8 bit
     State state;
@@ -21,12 +21,12 @@ class SurroundObservations {
 
   explicit SurroundObservations(const VideoFormat& format);
 
-  /// The picture that the map moves, pattern 0's. To be called before the map is fitted.
+  /// Sets the picture that the map moves, pattern 0's. Call before the map is fitted.
   void set_first(const Picture& picture, const State& state) { first_ = observe(picture, state); }
-  /// A later picture; a dozen of them is enough.
+  /// Adds a later picture; a dozen is enough.
   void add(const Picture& picture, const State& state) { later_.push_back(observe(picture, state)); }
 
-  /// Pixels of the picture per sample that is kept.
+  /// Pixels of the picture per sample kept.
   [[nodiscard]] int factor() const { return factor_; }
   [[nodiscard]] const Observation& first() const { return first_; }
   [[nodiscard]] std::span<const Observation> later() const { return later_; }

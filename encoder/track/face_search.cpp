@@ -21,11 +21,11 @@ namespace {
 constexpr std::array kYaw = {-30 * kDegree, -15 * kDegree, 0.0, 15 * kDegree, 30 * kDegree};
 constexpr std::array kPitch = {-15 * kDegree, 0.0, 15 * kDegree};
 constexpr std::array kSize = {-0.15, 0.0, 0.15};  // log2
-// A face that is found is placed better than the last pose does one that moves.
+// A found face is placed better than the last pose places one that moves.
 constexpr PoseGrid kGridAround = {kYaw, kPitch, kSize, 1.0};
 constexpr PoseGrid kGridAtFace = {kYaw, kPitch, kSize, 0.4};
 
-/// Among which the head is looked for.
+/// Number of faces among which the head is sought.
 constexpr std::size_t kFacesEverywhere = 2;
 
 bool shows_nothing(const cv::Mat& luma) {
@@ -45,7 +45,7 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
   return std::accumulate(points.begin(), points.end(), glm::dvec3(0)) / static_cast<double>(points.size());
 }
 
-/// Whether a head is where it was, however it is turned now.
+/// Whether a head has stayed in place, however it is turned now.
 bool in_place(const Pose& pose, const Pose& last, std::span<const glm::dvec3> points) {
   const glm::dvec3 middle = middle_of(points);
   const glm::dvec2 d = PoseProjection(pose)(middle) - PoseProjection(last)(middle);
@@ -53,7 +53,7 @@ bool in_place(const Pose& pose, const Pose& last, std::span<const glm::dvec3> po
          std::abs(pose.log2_scale - last.log2_scale) < kStayedSize;
 }
 
-/// Of a size the head may have by now, turned so that a face is seen, and in the picture.
+/// Whether a pose has a size the head may have by now, shows its face, and lies in the picture.
 bool plausible(const Pose& pose, const Pose& last, const Picture& picture,
                std::span<const glm::dvec3> points) {
   if (std::abs(pose.log2_scale - last.log2_scale) > kMaxSizeChange) return false;
@@ -66,7 +66,7 @@ bool plausible(const Pose& pose, const Pose& last, const Picture& picture,
   return static_cast<double>(inside) > kMinInside * static_cast<double>(points.size());
 }
 
-/// What is looked for in one picture.
+/// The search in one picture.
 struct Wanted {
   const Picture& picture;
   const HeadAppearance& head;
@@ -75,12 +75,12 @@ struct Wanted {
   std::vector<glm::dvec3> points;
 };
 
-/// Keeps the best detection, and stops at the first that is accepted.
+/// Keeps the best detection, and stops at the first accepted.
 class Detections {
  public:
   explicit Detections(const Wanted& wanted) : wanted_(wanted), best_{{wanted.last, 0}, false} {}
 
-  /// At a pose that is nearly right.
+  /// Refines from a pose that is nearly right.
   void refine(const LevelledFrame& now, const Pose& start) {
     if (best_.accepted) return;
     const TrackedPose head = fbs::refine(wanted_.head, now, start, wanted_.points);
@@ -90,7 +90,7 @@ class Detections {
     if (accepted || head.confidence > best_.head.confidence) best_ = {head, accepted};
   }
 
-  /// Around a pose, by a grid.
+  /// Searches a grid around a pose.
   void search(const LevelledFrame& now, const Pose& centre, const PoseGrid& grid) {
     if (best_.accepted) return;
     std::vector<Pose> tried;
@@ -109,7 +109,7 @@ class Detections {
   FaceSearch::Detection best_;
 };
 
-/// Where the head was, and around.
+/// Searches where the head was, and around.
 void search_around(const Wanted& w, Detections& detections) {
   const WorkFrame frame = WorkFrame::cut(w.picture, w.last.shift, w.head.eye_distance_px(), false);
   if (shows_nothing(frame.luma)) return;
@@ -118,12 +118,12 @@ void search_around(const Wanted& w, Detections& detections) {
     if (w.head.correlation(now, there, w.points) > kWorthRefiningInPlace) detections.refine(now, there);
   };
   refine_at(w.last);
-  // The tracker may have been caught at a wrong yaw or pitch.
+  // The tracker may have been stuck at a wrong yaw or pitch.
   if (const Pose front = frontal(w.last, w.vertices); !alike(front, w.last)) refine_at(front);
   detections.search(now, w.last, kGridAround);
 }
 
-/// Where its eyes are, upright.
+/// The upright pose with the face's eyes.
 Pose pose_of(const FoundFace& face) {
   const auto eyes = std::span(face.landmarks.points).subspan(ibug::kEyesFirst, 2 * ibug::kEyePoints);
   Pose pose;
@@ -132,7 +132,7 @@ Pose pose_of(const FoundFace& face) {
   return pose;
 }
 
-/// At each face that is found.
+/// Searches at each face found.
 void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& detections) {
   if (shows_nothing(view(w.picture.y))) return;
   const double eye = w.last.eye_distance_px(), factor = std::exp2(kMaxSizeChange);
@@ -162,7 +162,7 @@ FaceSearch::Detection FaceSearch::find(const Picture& picture, const HeadTracker
   if (lost_pictures_++ % kEverywherePeriod == 1 && !detections.best().accepted)
     search_everywhere(wanted, *finder_, detections);
   Detection found = detections.best();
-  // What is likely in two pictures running, at one place, is accepted.
+  // Accept what is likely in two consecutive pictures at one place.
   const bool likely = !found.accepted && found.head.confidence >= kLostBelow;
   if (likely && suspected_ && in_place(found.head.pose, *suspected_, wanted.points)) found.accepted = true;
   suspected_ = likely ? std::optional(found.head.pose) : std::nullopt;

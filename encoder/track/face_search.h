@@ -1,4 +1,4 @@
-// Looks for a head that the tracker has lost: in every picture around where it was last, now and then
+// Searches for a head that the tracker has lost: in every picture around its last place, now and then
 // everywhere.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace fbs {
 
-/// A detection is a place at which the picture resembles the head in picture 0, light levelled out. First a
-/// grid over place, rotation and size is tried at the coarsest level; then the best of it are refined. Faces
-/// that are found everywhere are only places to look at; the head's own appearance decides there too, so that
-/// another face is not taken for the head.
+/// A detection is a place where the picture resembles the head in picture 0, light levelled out. First a grid
+/// over place, rotation and size is tried at the coarsest level; then its best are refined. Faces found
+/// everywhere are only candidates; the head's own appearance decides there too, so that another face is not
+/// taken for the head.
 class FaceSearch {
  public:
   /// Correlation below which the head is lost.
@@ -27,20 +27,20 @@ class FaceSearch {
   /// @param finder  must outlive the object
   explicit FaceSearch(const FaceFinder& finder) : finder_(&finder) {}
 
-  /// One lost picture, in the order in which they come.
+  /// Searches one lost picture; call in order.
   /// @param last      pose of the last picture in which the head was accepted
-  /// @param vertices  head-frame positions with the expression that is held (head units)
+  /// @param vertices  head-frame positions with the expression held meanwhile (head units)
   [[nodiscard]] Detection find(const Picture& picture, const HeadTracker& head, const Pose& last,
                                const HeadVertices& vertices);
 
-  /// Looks at faces wherever they are, and nowhere else: for the first picture of another shot.
+  /// Searches faces anywhere, and nowhere else: for the first picture of another shot.
   [[nodiscard]] Detection find_anywhere(const Picture& picture, const HeadTracker& head, const Pose& last,
                                         const HeadVertices& vertices) const;
 
-  /// Whether the picture before was a lost one.
+  /// Whether the picture before was lost.
   [[nodiscard]] bool lost() const { return lost_pictures_ > 0; }
 
-  /// The face is seen: the next loss begins anew.
+  /// Call when the face is seen: the next loss starts over.
   void rest() {
     lost_pictures_ = 0;
     suspected_.reset();
@@ -49,7 +49,7 @@ class FaceSearch {
  private:
   const FaceFinder* finder_;
   int lost_pictures_ = 0;
-  std::optional<Pose> suspected_;  ///< where the lost picture before had something that may be the head
+  std::optional<Pose> suspected_;  ///< candidate of the lost picture before
 };
 
 }  // namespace fbs

@@ -12,12 +12,12 @@
 namespace fbs {
 namespace {
 
-constexpr double kStay = 0.15;       // weight per control point of what the flow leaves open
+constexpr double kStay = 0.15;       // weight per control point where the flow leaves it open
 constexpr double kMaxFlow = 8;       // snake units, a quarter of the eye distance: beyond, the flow is lost
 constexpr double kShutLid = 16;      // snake units, farther than any lid travels
 constexpr double kSingular = 1e-12;  // determinant of a pose seen edge-on
 
-/// The eye shut: far below, brought back to the limit.
+/// The eye shut: moved far below, then limited.
 std::vector<glm::dvec2> shut(const FeatureSnake& s) {
   std::vector<glm::dvec2> control = s.rest;
   for (int i = s.curve.first_free(); i < s.curve.end_free(); ++i) control[i].y += kShutLid;
@@ -57,7 +57,7 @@ std::vector<glm::dvec2> FeatureTracker::carried_rest(const FeatureSnake& s) cons
 
 std::vector<glm::dvec2> FeatureTracker::predict(const FeatureSnake& s, const Pose& pose,
                                                 const MeshFlow& flow) const {
-  // Least squares: which offsets of the control points move the feature's vertices as the flow did.
+  // Least squares for the offsets of the control points that move the feature's vertices as the flow did.
   const PoseProjection projection(pose);
   const glm::dvec2 ex(projection.matrix[0]), ey(projection.matrix[1]);
   const double det = ex.x * ey.y - ey.x * ex.y;
@@ -98,8 +98,8 @@ void FeatureTracker::track(const WorkFrame& now, const Pose& pose, const MeshFlo
     const SnakeImage image = s.observe(s.patch(now, pose));
     const auto rest = carried_rest(s);
     const BSnake snake(s.curve, image, s.weights, rest, s.now, s.facing);
-    // A descent starts where it was, or where the flow, the outer lips or a blink may have taken it:
-    // whichever fits.
+    // A descent starts where the curve was, or where the flow, the outer lips or a blink may have taken it:
+    // the best fit wins.
     const auto from = starts(s, pose, flow, rest);
     const auto best = std::min_element(from.begin(), from.end(), [&](const auto& a, const auto& b) {
       return snake.energy(a) < snake.energy(b);

@@ -10,25 +10,25 @@
 
 namespace fbs {
 
-/// The features that have a snake, in the order in which they are followed. Inner lips and lids go past the
-/// paper.
+/// The features with a snake, in tracking order. Inner lips and lids go beyond the paper.
 inline constexpr std::array<FeatureId, 6> kSnakeFeatures = {
     FeatureId::kMouthOuter, FeatureId::kMouthInner,    FeatureId::kBrowRight,
     FeatureId::kBrowLeft,   FeatureId::kUpperLidRight, FeatureId::kUpperLidLeft};
 
 class FeatureTracker {
  public:
-  /// Learns what each feature looks like; its snake descends on the first picture and rests there.
+  /// Learns the look of each feature; its snake descends on the first picture and rests there.
   /// @param first     with colour
-  /// @param descends  in later pictures, too; else each snake stays at the best of its starts there
+  /// @param descends  whether snakes descend in later pictures, too; else each stays at the best of its
+  ///                  starts
   FeatureTracker(const Geometry& geometry, const Pose& pose, const WorkFrame& first, bool descends = true);
 
   /// @param now   with colour
-  /// @param flow  of the mesh: moves the curves first, as does the pose
+  /// @param flow  of the mesh: like the pose, moves the curves first
   void track(const WorkFrame& now, const Pose& pose, const MeshFlow& flow);
 
-  /// Offsets of all control points from rest, head units; those of the inner lips from where the outer lips
-  /// take them.
+  /// Offsets of all control points from rest, head units; for the inner lips from where the outer lips carry
+  /// them.
   [[nodiscard]] std::array<glm::dvec2, kControlCount> offsets() const;
 
   /// Moves every snake to these offsets (head units).
@@ -36,21 +36,20 @@ class FeatureTracker {
 
   /// The curve of a snake as points in the head frame, head units; for drawing and for marks.
   [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t snake) const;
-  /// Whether its last point is joined to its first.
+  /// Whether the curve is closed.
   [[nodiscard]] bool is_closed(std::size_t snake) const { return snakes_[snake].curve.is_closed(); }
 
-  /// Where the curves as they are now put the vertices that lie on them: the vertex and its place in the head
-  /// frame (head units).
+  /// The vertices on the present curves: vertex and position in the head frame (head units).
   [[nodiscard]] std::vector<std::pair<std::size_t, glm::dvec3>> vertices() const;
 
   [[nodiscard]] std::size_t count() const { return snakes_.size(); }
-  /// Iterations that the last track() needed, per snake.
+  /// Iterations of the last track(), per snake.
   [[nodiscard]] int iterations(std::size_t snake) const { return snakes_[snake].iterations; }
 
  private:
-  /// Where the snake rests when nothing but the features that carry it has moved.
+  /// The snake's rest when only the features that carry it have moved.
   [[nodiscard]] std::vector<glm::dvec2> carried_rest(const FeatureSnake& s) const;
-  /// Where the flow takes the snake's vertices, its control points follow.
+  /// Control points that follow the snake's vertices to where the flow takes them.
   [[nodiscard]] std::vector<glm::dvec2> predict(const FeatureSnake& s, const Pose& pose,
                                                 const MeshFlow& flow) const;
   /// Control points from which a descent may start.

@@ -15,12 +15,12 @@ TrackedPose HeadTracker::track(const WorkFrame& now, const HeadVertices& vertice
   const std::vector<glm::dvec3> points = appearance_.surface(vertices);
   const auto explained = [&](const Pose& pose) { return appearance_.correlation(levelled, pose, points); };
 
-  // The flow's guess and the pose before: the alignment starts from the one that explains the picture better.
+  // Start the alignment from the flow's guess or the previous pose, whichever explains the picture better.
   const Pose guess = fit_pose(flow_, pose_, vertices);
   const Pose& start = explained(guess) >= explained(pose_) ? guess : pose_;
   TrackedPose found = refine(appearance_, levelled, start, points);
   if (found.confidence < head_tuning::kDoubtBelow) {
-    // The tracker may be caught at a wrong yaw or pitch.
+    // The tracker may be stuck at a wrong yaw or pitch.
     const TrackedPose other = refine(appearance_, levelled, frontal(found.pose, vertices), points);
     if (other.confidence > found.confidence) found = other;
   }

@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-/// First guess: a robust fit of the pose to the mesh's optical flow (MeshFlow). Then the guess is refined to
-/// the pose that explains the present picture best by the first one's brightness at points fixed on the mesh
+/// First guess: a robust fit of the pose to the mesh's optical flow (MeshFlow). The guess is then refined to
+/// the pose at which the present picture best matches the first one's brightness at points fixed on the mesh
 /// (HeadAppearance), so that nothing drifts.
 class HeadTracker {
  public:
@@ -19,7 +19,7 @@ class HeadTracker {
   /// @param vertices  head-frame positions with the expression of the picture before (head units)
   TrackedPose track(const WorkFrame& now, const HeadVertices& vertices);
 
-  /// Takes `before` as the picture before and `pose` as the head's in it: while a face is lost and when a
+  /// Makes `before` the previous picture and `pose` the head's pose in it: while a face is lost and when a
   /// search has found it.
   void restart(const Pose& pose, const WorkFrame& before) {
     pose_ = pose;
@@ -27,7 +27,7 @@ class HeadTracker {
   }
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
-  /// Of the last track().
+  /// The flow of the last track().
   [[nodiscard]] const MeshFlow& flow() const { return flow_; }
   [[nodiscard]] const HeadAppearance& appearance() const { return appearance_; }
 

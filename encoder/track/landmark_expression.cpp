@@ -9,7 +9,7 @@ namespace {
 constexpr double kFoundSigma = 0.03;  ///< of a landmark, eye distances
 constexpr double kLidSigma = 0.1;     ///< of a lid's control point about rest, eye distances
 
-/// Nose and corners of the eyes move with the head only.
+/// Whether a landmark moves with the head only: nose and corners of the eyes.
 bool is_rigid(int landmark) {
   return (landmark >= ibug::kNoseFirst && landmark < ibug::kNoseEnd) || landmark == ibug::kRightEyeOuter ||
          landmark == ibug::kRightEyeInner || landmark == ibug::kLeftEyeInner ||

@@ -1,4 +1,4 @@
-// The expression that landmarks of a picture show, from whatever program they come.
+// The expression that a picture's landmarks show, whichever program found them.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,24 @@
 
 namespace fbs {
 
-/// Of one head and one source of landmarks.
+/// For one head and one source of landmarks.
 class LandmarkExpression {
  public:
   explicit LandmarkExpression(const Geometry& geometry)
       : geometry_(geometry), rest_(skinned(geometry, Offsets{})) {}
 
-  /// What the source is off by in a picture whose state is known, it is taken to be off by in all others.
+  /// Takes the source's error in a picture with a known state as its error in all others.
   void calibrate(const LandmarkPoints& seen, const Pose& pose, const Offsets& offsets);
   [[nodiscard]] bool is_calibrated() const { return calibrated_; }
 
   /// The most probable offsets; pupils at rest.
-  /// @param pose  of the head; where the landmarks of rigid parts are elsewhere, all are moved back
+  /// @param pose  of the head; if the landmarks of rigid parts are elsewhere, all are moved back
   [[nodiscard]] Offsets offsets(const LandmarkPoints& seen, const Pose& pose) const;
 
  private:
   using HeadLandmarks = std::array<glm::dvec2, kLandmarkCount>;  ///< x and y in the head frame, eye distances
 
-  /// Where they are seen, less where the head has them at rest.
+  /// Positions of the landmarks less the head's own at rest.
   [[nodiscard]] HeadLandmarks displacements(const LandmarkPoints& seen, const Pose& pose) const;
 
   Geometry geometry_;

@@ -19,48 +19,50 @@
 #ifndef FBS_ENCODER_H
 #define FBS_ENCODER_H
 
-#include <fbs/fbs.h>
+#include <fbs/packet.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/** Filled by fbs_encoder_default_settings(&settings, sizeof settings); width and height are then 0 and have
- * to be set. */
+/** Filled by fbs_encoder_default_settings(&settings, sizeof settings), after which width and height are 0 and
+ * must be set. */
 typedef struct fbs_encoder_settings {
   size_t struct_size;
-  fbs_format format;   /**< of all pictures; default 25 pictures per second, square pixels */
+  fbs_format format;   /**< for all pictures; default 25 pictures per second, square pixels */
   int quality;         /**< 0..100; default 50 */
-  double bitrate;      /**< kbit/s in all, from which quality follows; 0 (default): quality decides */
+  double bitrate;      /**< kbit/s in total, which determines quality; 0 (default): quality decides */
   double seconds;      /**< length of the video, for bitrate; 0 (default): unknown */
-  int effort;          /**< 0..2; default 1. More takes longer and needs fewer bits */
+  int effort;          /**< 0..2; default 1. More takes longer and saves bits */
   int patterns;        /**< pictures of the person in a scene, 1..64; 0 (default): chosen by the encoder */
-  int face;            /**< which face is followed, the largest being 0 (default) */
-  int allow_no_face;   /**< 1: a video without any face is coded all the same; default 0 */
-  double key_interval; /**< seconds between scenes at most: where a viewer can join. 0 (default): up to 40 */
+  int face;            /**< which face to follow, 0 (default) being the largest */
+  int allow_no_face;   /**< 1: also code a video without any face; default 0 */
+  double key_interval; /**< longest time between places to join, seconds; 0 (default): up to 40 */
   int live;            /**< 1: no look-ahead; default 0 */
-  double live_delay;   /**< live: pictures are coded in groups of so many seconds; default 0.2 */
-  double live_buffer;  /**< live, with bitrate: nothing waits longer to be sent, seconds; default 2 */
+  double live_delay;   /**< live: seconds of pictures that are coded as a group; default 0.2 */
+  double live_buffer;  /**< live, with bitrate: longest time that data waits to be sent, seconds; default 2 */
   int threads;         /**< live: 1, or more to code while the next pictures are analysed; the stream is the
                             same. 0 (default): as many as there are cores */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;
 
-/** A piece of the stream. The stream is all packets one after the other; the first begins with the signature,
- * and the last says how many pictures there were. */
+/** A piece of the stream, which is all packets in sequence; the first begins with the signature, and the last
+ * gives the number of pictures. */
 typedef struct fbs_packet {
   const uint8_t* data; /**< valid until the next call for this encoder */
   size_t size;         /**< bytes, at least 1 */
+  int type;            /**< fbs_packet_type */
   int key;             /**< 1: a setup packet: decoding can begin here */
+  uint32_t pictures;   /**< that can be shown once it has arrived */
   uint64_t number;     /**< of the first picture that needs the packet; of the last packet: pictures in all */
   uint64_t time;       /**< of that picture, ticks; of the last packet: the length of the video */
 } fbs_packet;
 
-/** What happened so far. */
+/** Statistics so far. */
 typedef struct fbs_encoder_report {
   uint64_t pictures;     /**< pushed */
-  uint64_t without_face; /**< of them, those in which no face was followed */
+  uint64_t without_face; /**< of those, pictures in which no face was followed */
   uint64_t cuts;
   uint64_t scenes; /**< begun for a person or a shot */
 } fbs_encoder_report;
@@ -68,50 +70,50 @@ typedef struct fbs_encoder_report {
 /** As fbs_decoder_default_settings(). */
 FBS_API void fbs_encoder_default_settings(fbs_encoder_settings* settings, size_t struct_size);
 
-/** @param out  set to the encoder, which is freed by fbs_encoder_close(); to null on failure
+/** @param out  set to the encoder, to be freed by fbs_encoder_close(); to null on failure
  * @return FBS_OK; FBS_ERROR_ARGUMENT: a setting is out of its range; FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* settings);
 
-/** Frees the encoder, and sets *encoder to null. Packets that were not pulled are lost. Null is fine. */
+/** Frees the encoder and sets *encoder to null. Packets not yet pulled are lost. Null is allowed. */
 FBS_API void fbs_encoder_close(fbs_encoder** encoder);
 
-/** Takes the next picture. It is copied.
+/** Copies and encodes the next picture.
  * @param picture   of the format's size
- * @param duration  ticks, at most those of a minute; 0: that of the frame rate
- * @return FBS_OK; FBS_ERROR_ARGUMENT, and nothing is taken: another size, a stride that is too small, a
- *         duration that is too long, or a call after the end; any other error ends the encoding: only pulling
- *         and closing are left. FBS_ERROR_NO_FACE: fewer faces than the setting `face` asks for;
+ * @param duration  ticks, at most a minute; 0: the frame rate's
+ * @return FBS_OK; FBS_ERROR_ARGUMENT, with nothing taken: another size, a stride that is too small, a
+ *         duration that is too long, or a call after the end. Any other error ends the encoding: only pulling
+ *         and closing remain. FBS_ERROR_NO_FACE: fewer faces than the setting `face` asks for;
  *         FBS_ERROR_IO, FBS_ERROR_NO_MEMORY, FBS_ERROR_INTERNAL */
 FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture,
                                     uint32_t duration);
 
-/** Asks for a place where a viewer can join, as one does who has lost something: a scene begins with the next
- * picture that can begin one, after `delay` at the latest. With `live` only. Asking again before that changes
- * nothing. A picture without motion, shown where no face is and there is one pattern, is not sent again.
+/** Requests a place where a viewer can join, for instance after a loss: a scene begins with the next picture
+ * that can begin one, after `delay` at the latest. With `live` only. Repeating the request before then has no
+ * effect. An unchanged picture, shown while there is no face and only one pattern, is not sent again.
  * @return FBS_OK; FBS_ERROR_ARGUMENT without `live`, or after the end */
 FBS_API fbs_status fbs_encoder_request_scene(fbs_encoder* encoder);
 
-/** Says that there are no more pictures, and codes what is held back.
+/** Ends the video, and codes what is held back.
  * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no
- *         picture or this is the second call; other errors as of fbs_encoder_push(). In any case the encoding
- *         has ended */
+ *         picture or this is the second call; other errors as for fbs_encoder_push(). In any case the
+ *         encoding has ended */
 FBS_API fbs_status fbs_encoder_finish(fbs_encoder* encoder);
 
-/** Gives out the next packet.
- * @return FBS_OK; FBS_NEED_DATA: push more, or finish. With `live` and `threads` other than 1 packets may be
- *         ready a little later, without another push; FBS_END: the encoding has ended, and all has been given
- *         out */
+/** Returns the next packet.
+ * @return FBS_OK; FBS_NEED_DATA: push more, or finish. With `live` and `threads` other than 1 packets may
+ *         become ready a little later, without another push; FBS_END: the encoding has ended, and all packets
+ *         have been returned */
 FBS_API fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out);
 
 FBS_API fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out);
 
-/** The landmarks in the picture pushed last, as they were tracked, without coding loss; `confidence` is the
- * same for all, 0 where the face is not followed.
+/** The landmarks in the picture pushed last, as tracked, without coding loss; `confidence` is the same for
+ * all, 0 where the face is not followed.
  * @param out  FBS_LANDMARKS points
  * @return FBS_OK; FBS_ERROR_NO_FACE; FBS_ERROR_ARGUMENT before the first picture */
 FBS_API fbs_status fbs_encoder_get_landmarks(const fbs_encoder* encoder, fbs_landmark* out);
 
-/** As fbs_decoder_error(). */
+/** Like fbs_decoder_error(). */
 FBS_API const char* fbs_encoder_error(const fbs_encoder* encoder);
 
 #ifdef __cplusplus

@@ -44,16 +44,17 @@ extern "C" {
 
 /* ---- version ---- */
 
-/** Of this header. The library's soname changes with the first number, or while that is 0 with the second. */
+/** Version of this header. The library's soname changes with the first number, or while that is 0 with the
+ * second. */
 #define FBS_VERSION_MAJOR 0
 #define FBS_VERSION_MINOR 1
 #define FBS_VERSION_PATCH 0
 
-/** Of the library that runs: "0.1.0". */
+/** Version of the running library: "0.1.0". */
 FBS_API const char* fbs_version_string(void);
-/** Of the library that runs: major << 16 | minor << 8 | patch. */
+/** Version of the running library: major << 16 | minor << 8 | patch. */
 FBS_API uint32_t fbs_version_number(void);
-/** The newest version of the stream format that the library reads, and the one that the encoder writes. */
+/** The newest version of the stream format that the library reads; also the one that the encoder writes. */
 FBS_API uint32_t fbs_format_version(void);
 
 /* ---- answers ---- */
@@ -61,8 +62,8 @@ FBS_API uint32_t fbs_format_version(void);
 /** Errors are negative. */
 typedef enum fbs_status {
   FBS_OK = 0,
-  FBS_NEED_DATA = 1, /**< nothing is wrong; feed or push more, or finish */
-  FBS_END = 2,       /**< finished, and all has been given out */
+  FBS_NEED_DATA = 1, /**< no error; feed or push more, or finish */
+  FBS_END = 2,       /**< finished, and everything has been returned */
 
   FBS_ERROR_ARGUMENT = -1,    /**< a null pointer, a value out of its range, or a call at the wrong time */
   FBS_ERROR_NOT_FBS = -2,     /**< the input does not begin as an fbs stream does */
@@ -71,12 +72,12 @@ typedef enum fbs_status {
   FBS_ERROR_UNSUPPORTED = -5, /**< a newer version of the format, or a change of the picture's size */
   FBS_ERROR_TOO_LARGE = -6,   /**< beyond a limit of the format or of the settings */
   FBS_ERROR_NO_MEMORY = -7,
-  FBS_ERROR_NO_FACE = -8,  /**< the encoder found no face, and was not allowed to go without */
+  FBS_ERROR_NO_FACE = -8,  /**< the encoder found no face, and was not allowed to continue without */
   FBS_ERROR_IO = -9,       /**< the encoder could not use its temporary file */
-  FBS_ERROR_INTERNAL = -10 /**< a bug of the library */
+  FBS_ERROR_INTERNAL = -10 /**< a bug in the library */
 } fbs_status;
 
-/** "damaged stream", for a user; never null. fbs_decoder_error() says more. */
+/** A text for users, such as "damaged stream"; never null. fbs_decoder_error() has details. */
 FBS_API const char* fbs_status_text(fbs_status status);
 
 /* ---- pictures ---- */
@@ -85,12 +86,12 @@ FBS_API const char* fbs_status_text(fbs_status status);
 #define FBS_MIN_SIDE 64
 #define FBS_MAX_SIDE 8192
 
-/** Times and durations count 1/90000 s. */
+/** Unit of times and durations: 1/90000 s. */
 #define FBS_TICKS_PER_SECOND 90000
 
 typedef enum fbs_matrix { FBS_MATRIX_UNSPECIFIED = 0, FBS_MATRIX_BT601 = 1, FBS_MATRIX_BT709 = 2 } fbs_matrix;
 
-/** What all pictures of a stream share. */
+/** Properties shared by all pictures of a stream. */
 typedef struct fbs_format {
   uint32_t width, height;                      /**< pixels, FBS_MIN_SIDE..FBS_MAX_SIDE */
   uint32_t frame_rate_num, frame_rate_den;     /**< nominal pictures per second; each has its own duration */
@@ -107,7 +108,7 @@ typedef struct fbs_picture {
   ptrdiff_t stride[3];    /**< bytes from a row to the next one below; may be negative */
 } fbs_picture;
 
-/** The same, to be read only. */
+/** The read-only counterpart. */
 typedef struct fbs_const_picture {
   uint32_t width, height;
   const uint8_t* data[3];
@@ -116,10 +117,10 @@ typedef struct fbs_const_picture {
 
 /** A picture's place in its stream. */
 typedef struct fbs_picture_info {
-  uint64_t number;   /**< from 0; numbers that are missing were lost */
+  uint64_t number;   /**< from 0; missing numbers were lost */
   uint64_t time;     /**< since the beginning of the stream, ticks */
   uint32_t duration; /**< ticks, at least 1 */
-  int held;          /**< 1: this picture was lost, and the one before is shown again in its place */
+  int held;          /**< 1: this picture was lost, and the previous one is shown in its place */
   int new_scene;     /**< 1: the first of a scene: decoding can begin here */
 } fbs_picture_info;
 
@@ -129,30 +130,30 @@ typedef struct fbs_picture_info {
  * "right" and "left" are the person's own. */
 typedef struct fbs_landmark {
   float x, y;
-  /** 0..1: of the wire-frame's triangles that meet in the point, the share of their area in the picture that
-   * is turned to the viewer. 1: seen; 0: the point is on the far side of the head. */
+  /** 0..1: how much of the area of the triangles around the point faces the viewer, in the picture.
+   * 1: visible; 0: the point is on the far side of the head. */
   float confidence;
 } fbs_landmark;
 
-/** Points of a face, as iBUG (300-W) numbers them from 0. */
+/** Number of landmarks, in the order of iBUG (300-W), from 0. */
 #define FBS_LANDMARKS 68
 
-/** Most vertices that a wire-frame has. The generic head has 105; a stream may bring another. */
+/** Largest number of vertices of a wire-frame. The generic head has 105; a stream may bring another. */
 #define FBS_MAX_VERTICES 1024
 
-/** Control points of the snakes, as bitstream/SPEC.md section 5.1 orders them: outer mouth 0..9, inner mouth
- * 10..17, right brow 18..21, left brow 22..25, upper lids 26..27 and 28..29, lower lids 30..31 and 32..33,
- * pupils 34 and 35. */
+/** Number of control points of the snakes, in the order of bitstream/SPEC.md section 5.1: outer mouth 0..9,
+ * inner mouth 10..17, right brow 18..21, left brow 22..25, upper lids 26..27 and 28..29, lower lids 30..31
+ * and 32..33, pupils 34 and 35. */
 #define FBS_CONTROL_POINTS 36
 
-/** Where the head is and what the face does. */
+/** Pose and expression of the face. */
 typedef struct fbs_face_state {
   float pitch, yaw, roll; /**< degrees; positive: the face looks down, to the picture's left, its top leans
                                to the picture's right */
-  float x, y;             /**< of the middle of the head at the height of the eyes, pixels */
-  float eye_distance;     /**< of the face seen from the front, pixels */
-  /** Displacement of each control point from the expressionless face, x and y along the head's own axes,
-   * in eye distances. */
+  float x, y;             /**< middle of the head at the height of the eyes, pixels */
+  float eye_distance;     /**< with the face seen from the front, pixels */
+  /** Displacement of each control point from the expressionless face, x and y along the head's own axes, in
+   * eye distances. */
   float control[FBS_CONTROL_POINTS][2];
 } fbs_face_state;
 
@@ -162,14 +163,14 @@ typedef struct fbs_vertex {
   float z;    /**< eye distances away from the viewer, from the middle of the head */
 } fbs_vertex;
 
-/** Weights of movements of the face that have a name in animation programs: those of ARKit where both have
- * them. docs/export.md says what each is at a weight of 1; 0 is the face of the scene's first picture. */
+/** Number of named movements of the face, with ARKit's names where both have them. docs/export.md says what
+ * each is at a weight of 1; 0 is the face of the scene's first picture. */
 #define FBS_BLENDSHAPES 32
 
-/** "jawOpen"; null from FBS_BLENDSHAPES on, and where there is no memory. */
+/** A name such as "jawOpen"; null from FBS_BLENDSHAPES on, and when out of memory. */
 FBS_API const char* fbs_blendshape_name(size_t index);
 
-/** What a viewer adds to a face: all 0 changes nothing. Beyond its limits each counts as the limit. */
+/** A viewer's changes to a face: all 0 changes nothing. Values beyond a limit count as the limit. */
 typedef struct fbs_face_edit {
   float pitch, yaw, roll; /**< degrees, +-12, +-18 and +-15 */
   float brows;            /**< -1: lowered, 1: raised, as far as looks right */
@@ -187,70 +188,70 @@ typedef struct fbs_decoder fbs_decoder;
 /** Filled by fbs_decoder_default_settings(&settings, sizeof settings). */
 typedef struct fbs_decoder_settings {
   size_t struct_size;
-  /** Streams with more pixels in a picture are refused with FBS_ERROR_TOO_LARGE before memory is taken.
-   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes for each pixel, and 1 MB, for
-   * each of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
+  /** Streams with more pixels per picture are refused with FBS_ERROR_TOO_LARGE before memory is allocated.
+   * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes per pixel, and 1 MB, for each
+   * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
   uint64_t max_pixels;
-  /** Threads that draw each picture, 1..FBS_MAX_THREADS, with that of the caller; pictures are the same. They
-   * work during calls of this decoder only. Default: 1. */
+  /** Threads that draw each picture, 1..FBS_MAX_THREADS, including the caller's; pictures are the same. They
+   * work only during calls of this decoder. Default: 1. */
   int threads;
 } fbs_decoder_settings;
 
 /** @param settings     null: nothing happens
- * @param struct_size  sizeof *settings: so much is written */
+ * @param struct_size  sizeof *settings: the bytes to write */
 FBS_API void fbs_decoder_default_settings(fbs_decoder_settings* settings, size_t struct_size);
 
-/** Makes a decoder of one stream.
- * @param out       set to the decoder, which is freed by fbs_decoder_close(); to null on failure
+/** Creates a decoder for one stream.
+ * @param out       set to the decoder, to be freed by fbs_decoder_close(); to null on failure
  * @param settings  null: defaults; not needed after the call
  * @return FBS_OK, FBS_ERROR_ARGUMENT, FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* settings);
 
-/** Frees the decoder, with all that it has given out, and sets *decoder to null. Null is fine. */
+/** Frees the decoder, with everything it has returned, and sets *decoder to null. Null is allowed. */
 FBS_API void fbs_decoder_close(fbs_decoder** decoder);
 
-/** Takes the next bytes of the stream, in pieces of any size. They are copied. What has been fed and not been
- * decoded is kept: call fbs_decoder_next() until it needs data.
+/** Copies the next bytes of the stream, in pieces of any size. Bytes not yet decoded are kept: call
+ * fbs_decoder_next() until it needs data.
  * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
- *         FBS_ERROR_NO_MEMORY, and nothing is taken */
+ *         FBS_ERROR_NO_MEMORY, with nothing taken */
 FBS_API fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size);
 
-/** Says that no more bytes will come: what is left is given out, then FBS_END. Once more does nothing.
+/** Ends the stream: the rest is returned, then FBS_END. Repeating the call has no effect.
  * @return FBS_OK, FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_decoder_finish(fbs_decoder* decoder);
 
-/** Goes on to the next picture. Nothing is drawn yet.
+/** Advances to the next picture, without drawing it.
  * @param info  may be null
- * @return FBS_OK: there is one, of which the functions below tell;
- *         FBS_NEED_DATA, FBS_END: there is none; the functions below go on telling of the last one;
- *         an error: reported once. The next call goes on behind the damage, at the next scene, and gives
- *         FBS_END when there is none. Pictures that are known to be lost are held: fbs_picture_info.
- *         After FBS_ERROR_NO_MEMORY nothing is known any more: FBS_END until fbs_decoder_reset() */
+ * @return FBS_OK: the functions below refer to the next picture;
+ *         FBS_NEED_DATA, FBS_END: there is none; the functions below still refer to the last one;
+ *         an error: reported once. The next call continues after the damage, at the next scene, and returns
+ *         FBS_END when there is none. Pictures known to be lost are held: fbs_picture_info.
+ *         After FBS_ERROR_NO_MEMORY everything is lost: FBS_END until fbs_decoder_reset() */
 FBS_API fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info);
 
-/** Forgets everything but the settings: the decoder is as new. To seek, reset, then feed the stream from
- * some setup packet on: fbs_find_scene(). The stream's signature, its first four bytes, may be left out then.
- * @return FBS_OK; FBS_ERROR_NO_MEMORY, and nothing has changed */
+/** Forgets everything but the settings: the decoder is as new. To seek, reset, then feed the stream from a
+ * setup packet on: fbs_find_scene(). The stream's signature, its first four bytes, may then be left out.
+ * @return FBS_OK; FBS_ERROR_NO_MEMORY, with nothing changed */
 FBS_API fbs_status fbs_decoder_reset(fbs_decoder* decoder);
 
-/** Draws the picture into memory of the decoder.
- * @param out  set to planes that stay as they are until the next call for this decoder of any function that
- *             is not called fbs_decoder_get_...
+/** Draws the picture into the decoder's memory.
+ * @param out  set to planes that stay valid and unchanged until the next call for this decoder of any
+ *             function other than fbs_decoder_get_...
  * @return FBS_OK; FBS_ERROR_ARGUMENT before the first picture; FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out);
 
-/** Draws the picture into memory of the caller.
- * @param picture  of the format's size, or FBS_ERROR_ARGUMENT is returned; |stride| is at least the plane's
- *                 width. Exactly width * height samples of each plane are written */
+/** Draws the picture into the caller's memory.
+ * @param picture  of the format's size, otherwise FBS_ERROR_ARGUMENT is returned; |stride| is at least the
+ *                 plane's width. Exactly width * height samples of each plane are written */
 FBS_API fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture);
 
-/** Draws the face of a state of the caller's, in the scene of the picture that was announced last: what a
- * viewer sees who turns the head. What fbs_decoder_get_picture() gives is left alone. The state that
- * fbs_decoder_get_state() gives draws the picture as it was sent; so does any where a held picture's scene is
+/** Draws the face in a state of the caller's, in the scene of the picture announced last: the view of a user
+ * who turns the head. Does not affect what fbs_decoder_get_picture() returns. With the state of
+ * fbs_decoder_get_state() it draws the picture as sent; so does any state where a held picture's scene is
  * gone.
  * @param state    numbers of any kind within the format's limits: rotations of +-90 degrees, control points
  *                 of +-2, an eye distance of 1 to 8192 pixels, a place within +-16384 pixels
- * @param picture  as of fbs_decoder_draw()
+ * @param picture  as for fbs_decoder_draw()
  * @return FBS_OK; FBS_ERROR_ARGUMENT: beyond a limit, or before the first picture; FBS_ERROR_NO_FACE;
  *         FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_state* state,
@@ -259,12 +260,12 @@ FBS_API fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_s
 /** @return FBS_OK; FBS_NEED_DATA until the setup has arrived */
 FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out);
 
-/* Of the picture that fbs_decoder_next() announced last, without drawing it. Each returns FBS_OK;
+/* These describe the picture that fbs_decoder_next() announced last, without drawing it. Each returns FBS_OK;
  * FBS_ERROR_NO_FACE in a scene without a face; FBS_ERROR_ARGUMENT before the first picture. */
 
 FBS_API fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out);
-/** The state with a viewer's changes, for fbs_decoder_draw_state(). Lips and lids do not pass each other.
- * @return also FBS_ERROR_ARGUMENT when a number of `edit` is none */
+/** The state with a viewer's changes, for fbs_decoder_draw_state(). Lips and lids never cross.
+ * @return also FBS_ERROR_ARGUMENT when a member of `edit` is not a number */
 FBS_API fbs_status fbs_decoder_get_edited_state(const fbs_decoder* decoder, const fbs_face_edit* edit,
                                                 fbs_face_state* out);
 /** @param out  FBS_LANDMARKS points */
@@ -272,14 +273,15 @@ FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_lan
 /** @param out  FBS_BLENDSHAPES weights */
 FBS_API fbs_status fbs_decoder_get_blendshapes(const fbs_decoder* decoder, float* out);
 /** @param out    the vertices of the scene's wire-frame
- * @param count  before: how many there is room for; after: how many there are, 0 without a face. If there is
- *               too little room, nothing is written and the answer is FBS_ERROR_ARGUMENT */
+ * @param count  before: capacity of `out`; after: number of vertices, 0 without a face. If the capacity is
+ *               too
+ *               small, nothing is written and the result is FBS_ERROR_ARGUMENT */
 FBS_API fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out, size_t* count);
 
-/** What went wrong in the last call that returned an error for this decoder, in one line; "" before the
- * first. Never null; valid until the next call for this decoder. */
+/** The cause of the last call that returned an error for this decoder, in one line; "" before the first.
+ * Never null; valid until the next call for this decoder. */
 FBS_API const char* fbs_decoder_error(const fbs_decoder* decoder);
-/** The byte of the stream that the last error is about, from the first byte fed; 0 if it is about none. */
+/** The offset of the last error in the stream, from the first byte fed; 0 if it has none. */
 FBS_API uint64_t fbs_decoder_error_offset(const fbs_decoder* decoder);
 
 /* ---- without a decoder ---- */
@@ -291,8 +293,8 @@ typedef struct fbs_scene {
   uint64_t time;   /**< of its first picture, ticks */
 } fbs_scene;
 
-/** Finds the scene in which a picture of a time lies: the last that begins at or before it, or the first.
- * Damaged parts of the stream are passed over.
+/** Finds the scene that contains a time: the last one that begins at or before it, or the first. Skips
+ * damaged parts of the stream.
  * @param bytes  the whole stream
  * @return FBS_OK; FBS_END when there is no scene in it; FBS_ERROR_ARGUMENT, FBS_ERROR_NO_MEMORY */
 FBS_API fbs_status fbs_find_scene(const uint8_t* bytes, size_t size, uint64_t time, fbs_scene* out);

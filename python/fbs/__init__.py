@@ -1,7 +1,7 @@
 """fbs, a video codec for talking heads.
 
-A stream holds a few pictures of a person, and between them only how head and face move: 2 to 8 kbit/s. This package
-encodes and decodes such streams, and gives what they know of the face as arrays.
+A stream holds a few pictures of a person, and between them only the motion of head and face: 2 to 8 kbit/s. This
+package encodes and decodes such streams, and gives their data of the face as arrays.
 
 Whole files, each in a process of its own::
 
@@ -62,7 +62,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-# Loaded when they are asked for: errors and the program need neither numpy nor the extension.
+# Loaded on demand: errors and the program need neither numpy nor the extension.
 _HOMES = {
     "BLENDSHAPES": "_fbs",
     "Decoder": "_decoder",

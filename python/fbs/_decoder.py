@@ -51,27 +51,27 @@ class Scene(NamedTuple):
 class Decoder:
     """Decodes a stream, picture by picture.
 
-    A decoder is an iterator of its pictures. Each has memory of its own, and stays as it is. Several threads may share
+    A decoder is an iterator over its pictures. Each owns its memory and does not change. Several threads may share
     one: each picture is given to one of them.
 
     Parameters
     ----------
     source : path, bytes, or binary file, optional
-        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work; the path may be that of a
-        Matroska file that has a stream. A file, or whatever else has a method ``read``, is read as pictures are asked
-        for. Without: the stream comes through :meth:`feed`.
+        A path or bytes: the whole stream, in which :meth:`seek` and :attr:`states` work; the path may name a
+        Matroska file with a stream. A file, or any object with a method ``read``, is read as pictures are requested.
+        Without: the stream comes through :meth:`feed`.
     threads : int, optional
-        That draw each picture, 1 to 64; the pictures are the same. By default one for each core, up to four.
+        Threads that draw each picture, 1 to 64; the pictures are the same. By default one per core, up to four.
     max_pixels : int, optional
-        Streams with more pixels in a picture are refused before memory is taken. 0: the format's limit, 8192 by 8192.
+        Streams with more pixels per picture are refused before allocating memory. 0: the format's limit, 8192 by 8192.
     keep_going : bool
-        Go on behind damage. What was wrong is in :attr:`errors`. Otherwise it is raised; asking for the next
-        picture then goes on.
+        Continue after damage, and collect it in :attr:`errors`. Otherwise it is raised; requesting the next
+        picture then continues.
 
     Attributes
     ----------
     errors : list of Error
-        With `keep_going`: what was wrong with the stream so far.
+        With `keep_going`: the damage to the stream so far.
 
     Examples
     --------
@@ -130,7 +130,7 @@ class Decoder:
     # ---- opening and closing ----
 
     def close(self) -> None:
-        """Free the decoder's memory. Pictures that it gave out stay."""
+        """Free the decoder's memory. Pictures it returned stay valid."""
         self._decoder.close()
 
     def __enter__(self) -> Decoder:
@@ -144,16 +144,16 @@ class Decoder:
     # ---- bytes in ----
 
     def feed(self, piece: Buffer) -> None:
-        """Take the next bytes of the stream, in pieces of any size. They are copied.
+        """Copy the next bytes of the stream, in pieces of any size.
 
-        For decoders without a source. Iterate over the pictures in between: what is fed and not decoded is kept.
+        For decoders without a source. Iterate over the pictures in between: bytes not yet decoded are kept.
         """
         if not self._source.is_fed:
             raise ArgumentError("this decoder reads its source by itself")
         self._decoder.feed(piece)
 
     def finish(self) -> None:
-        """Say that no more bytes will come."""
+        """End the stream."""
         self._decoder.finish()
 
     def _feed_more(self) -> bool:
@@ -170,17 +170,17 @@ class Decoder:
     # ---- pictures out ----
 
     def advance(self) -> PictureInfo | None:
-        """Go on to the next picture, without drawing it.
+        """Advance to the next picture, without drawing it.
 
         Returns
         -------
         PictureInfo or None
-            None at the end, and where more bytes have to be fed first.
+            None at the end, and when more bytes must be fed first.
 
         Raises
         ------
         DamagedError, TruncatedError, ...
-            Reported once, unless `keep_going`: the next call goes on behind the damage, at the next scene.
+            Reported once, unless `keep_going`: the next call continues after the damage, at the next scene.
         """
         with self._lock:
             waiting, self._waiting = self._waiting, None
@@ -206,17 +206,17 @@ class Decoder:
                 return None
 
     def draw(self, out: PictureLike | None = None) -> Picture:
-        """Draw the picture that :meth:`advance` went to last.
+        """Draw the picture that :meth:`advance` announced last.
 
         Parameters
         ----------
         out : Picture or three planes, optional
-            To draw into: uint8 arrays of the picture's size, whose rows are contiguous.
+            Target: uint8 arrays of the picture's size, with contiguous rows.
 
         Returns
         -------
         Picture
-            Of `out`, if that is given; else of memory of its own.
+            `out`, if given; otherwise a new one.
         """
         picture = self._target(out)
         self._decoder.draw(*picture.planes)
@@ -233,14 +233,14 @@ class Decoder:
         smile: float = 0,
         lids: float = 0,
     ) -> FaceState | None:
-        """The face in the current picture with changes, to be drawn by :meth:`render`.
+        """The face in the current picture with changes, for :meth:`render`.
 
-        Lips and lids do not pass each other. Beyond its limits each change counts as the limit.
+        Lips and lids never cross. Changes beyond their limits count as the limits.
 
         Parameters
         ----------
         pitch, yaw, roll : float
-            Degrees that are added, up to 12, 18 and 15 either way.
+            Degrees to add, up to 12, 18 and 15 either way.
         brows : float
             -1: lowered, 1: raised, as far as looks right.
         mouth : float
@@ -266,17 +266,17 @@ class Decoder:
         state : FaceState
             Rotations within 90 degrees, control points within 2 eye distances.
         out : Picture or three planes, optional
-            As of :meth:`draw`.
+            As for :meth:`draw`.
 
         Returns
         -------
         Picture
-            Of `out`, if that is given. With :attr:`state` it is the picture as it was sent.
+            `out`, if given. With :attr:`state` it is the picture as sent.
 
         Raises
         ------
         NoFaceError
-            The picture has none.
+            The picture has no face.
 
         Examples
         --------
@@ -319,7 +319,7 @@ class Decoder:
         return picture
 
     def _look_ahead(self) -> None:
-        """Find the first picture, so that what is no stream is refused at once."""
+        """Find the first picture, so that anything but a stream is refused at once."""
         try:
             self._waiting = self.advance()
         except Error as problem:
@@ -336,7 +336,7 @@ class Decoder:
         Raises
         ------
         ArgumentError
-            Nothing is known yet: more bytes have to be fed.
+            Not known yet: more bytes must be fed.
         """
         if self._format is None:
             found = self._decoder.format()
@@ -371,7 +371,7 @@ class Decoder:
 
     @property
     def confidence(self) -> Floats | None:
-        """(68,) float32 array: of each landmark, 0 to 1; None if the current picture has no face."""
+        """(68,) float32 array: confidence of each landmark, 0 to 1; None if the current picture has no face."""
         found = self._decoder.landmarks()
         return None if found is None else found[:, 2]
 

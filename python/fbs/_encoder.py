@@ -24,16 +24,16 @@ _MAX_DURATION = 60.0  # s
 
 
 class Packet(bytes):
-    """A piece of a stream, which is all its packets one after the other.
+    """A piece of a stream, which is all its packets in sequence.
 
     Attributes
     ----------
     key : bool
         Decoding can begin here.
     number : int
-        Of the first picture that needs it; of the last packet: pictures in all.
+        Of the first picture that needs it; in the last packet: number of pictures.
     time : float
-        Of that picture, s; of the last packet: the length of the video.
+        Of that picture, s; in the last packet: the length of the video.
     """
 
     key: bool
@@ -42,7 +42,7 @@ class Packet(bytes):
 
 
 class Report(NamedTuple):
-    """What happened so far: `pictures` pushed, those `without_face`, `cuts`, and `scenes` begun."""
+    """Statistics so far: `pictures` pushed, those `without_face`, `cuts`, and `scenes` begun."""
 
     pictures: int
     without_face: int
@@ -65,29 +65,29 @@ class Encoder:
     quality : int
         0 (fewest bytes) to 100 (best pictures).
     bitrate : float, optional
-        kbit/s in all, from which quality follows.
+        kbit/s in total, which determines quality.
     seconds : float, optional
-        Length of the video, if it is known; for `bitrate`.
+        Length of the video, if known; for `bitrate`.
     effort : {0, 1, 2}
-        More takes longer and needs fewer bits.
+        More takes longer and saves bits.
     patterns : int
         Pictures of the person in a scene, 1 to 64; 0: chosen by the encoder.
     face : int
-        Which face is followed, 0 being the largest.
+        Which face to follow, 0 being the largest.
     allow_no_face : bool
-        Encode a video without any face, too.
+        Also encode a video without any face.
     key_interval : float
-        Seconds between scenes at most: where a viewer can join. 0: up to 40.
+        Longest time between scenes, where viewers can join, s. 0: up to 40.
     live : bool
         No look-ahead.
     live_delay : float
-        Pictures are encoded in groups of so many seconds.
+        Seconds of pictures that are encoded as a group.
     live_buffer : float
-        With `bitrate`: nothing waits longer to be sent, s.
+        With `bitrate`: longest time that data waits to be sent, s.
     threads : int
         Live: 1, or more to encode while the next pictures are analysed. 0: as many as there are cores.
     matrix : {"bt601", "bt709", "unspecified"}
-        Of YCbCr: what RGB pictures are converted to, and what planes are.
+        Of YCbCr: for RGB pictures the target of conversion, for planes their own.
     full_range : bool
         Whether black is 0 and white 255.
     pixel_aspect : Fraction, optional
@@ -165,26 +165,26 @@ class Encoder:
         )
 
     def push(self, picture: PictureLike, duration: float | None = None) -> list[Packet]:
-        """Take the next picture. It is copied.
+        """Encode the next picture, which is copied.
 
         Parameters
         ----------
         picture : (h, w, 3) uint8 array, Picture, or three planes
             RGB, or Y, Cb and Cr of 8-bit 4:2:0.
         duration : float, optional
-            Seconds, 60 at most; that of `fps` unless given.
+            Seconds, at most 60; from `fps` unless given.
 
         Returns
         -------
         list of Packet
-            Those that are ready: often none.
+            The packets that are ready: often none.
 
         Raises
         ------
         ArgumentError
             The picture has another size, or the encoding has ended; nothing is taken.
         Error
-            Any other ends the encoding.
+            Any other error ends the encoding.
         """
         ticks = 0
         if duration is not None:
@@ -194,7 +194,7 @@ class Encoder:
         return self.pull()
 
     def finish(self) -> list[Packet]:
-        """Say that there are no more pictures, and encode what is held back.
+        """End the video, and encode the pictures held back.
 
         Returns
         -------
@@ -210,7 +210,7 @@ class Encoder:
         return self.pull()
 
     def pull(self) -> list[Packet]:
-        """Packets that became ready since: with `live` and `threads` that is a little after a push."""
+        """Packets that have become ready since: with `live` and `threads` a little after a push."""
         packets = []
         while (found := self._encoder.pull()) is not None:
             data, key, number, ticks = found
@@ -220,7 +220,7 @@ class Encoder:
         return packets
 
     def request_scene(self) -> None:
-        """Begin a scene with the next picture that can begin one, as for a viewer who has lost something. Live only."""
+        """Begin a scene with the next picture that can begin one, for instance after a loss. Live only."""
         self._encoder.request_scene()
 
     @property
@@ -230,20 +230,20 @@ class Encoder:
 
     @property
     def report(self) -> Report:
-        """What happened so far."""
+        """Statistics so far."""
         return Report(*self._encoder.report())
 
     @property
     def landmarks(self) -> Floats | None:
         """(68, 2) float32 array: the points of iBUG in the picture pushed last, pixels; None without a face.
 
-        As they were tracked, without coding loss.
+        As tracked, without coding loss.
         """
         found = self._encoder.landmarks()
         return None if found is None else found[:, :2]
 
     def close(self) -> None:
-        """Free the encoder. Packets that were not given out are lost."""
+        """Free the encoder. Packets not yet returned are lost."""
         self._encoder.close()
 
     def __enter__(self) -> Encoder:
@@ -256,7 +256,7 @@ class Encoder:
 
 
 def rate_of(fps: Rate) -> Fraction:
-    """Pictures per second as the ratio that is meant."""
+    """Pictures per second as the intended ratio."""
     if not 0 < fps <= 1000:
         raise ArgumentError(f"fps is more than 0 and at most 1000, not {fps}")
     if isinstance(fps, float):

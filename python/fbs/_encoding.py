@@ -40,39 +40,39 @@ def encode(
 ) -> Path:
     """Encode a video.
 
-    A file is read, with its sound, by the program ``fbs encode``: Ctrl-C ends that at once, and leaves nothing.
+    A file is read, with its sound, by the program ``fbs encode``: Ctrl-C ends it at once and leaves nothing behind.
     Pictures are encoded in this process, without sound.
 
     Parameters
     ----------
     video : path, or iterable of pictures
-        Whatever ``fbs encode`` reads: a video file, ``camera:0``, images such as ``frame_%05d.png``, a folder of
-        images. Or (h, w, 3) uint8 arrays of RGB, an (n, h, w, 3) array of them, or pictures and planes as
-        :meth:`Encoder.push` takes them.
+        Any input of ``fbs encode``: a video file, ``camera:0``, images such as ``frame_%05d.png``, a folder of
+        images. Or (h, w, 3) uint8 arrays of RGB, an (n, h, w, 3) array, or pictures and planes as for
+        :meth:`Encoder.push`.
     path : path
         The stream to write, ``.fbs``. It has this name only once it is complete.
     quality : int, optional
         0 (smallest file) to 100 (best pictures); 50 unless given.
     bitrate : float, optional
-        Instead: kbit/s in all, with sound.
+        Instead: kbit/s in total, with sound.
     fps : int, float or Fraction, optional
-        Pictures per second, of pictures and images; 25 unless given. A video file has its own.
+        Pictures per second, for pictures and images; 25 unless given. A video file has its own.
     effort : {0, 1, 2}
-        More takes longer and needs fewer bits.
+        More takes longer and saves bits.
     patterns : int
         Pictures of the person in a scene, 1 to 64; 0: chosen by the encoder.
     face : int
-        Which face is followed, 0 being the largest.
+        Which face to follow, 0 being the largest.
     allow_no_face : bool
-        Encode a video without any face, too.
+        Also encode a video without any face.
     key_interval : float, optional
-        Seconds between scenes at most: where a viewer can join.
+        Longest time between scenes, where viewers can join, s.
     live : bool
         No look-ahead: more bits, less memory.
     sound : bool
-        Take the sound of a file along.
+        Include the sound of a file.
     on_progress : callable, optional
-        Called as ``on_progress(done, total)``, in pictures; `total` is None where nobody knows it.
+        Called as ``on_progress(done, total)``, in pictures; `total` is None if unknown.
     options : sequence of str
         More options of ``fbs encode``, such as ``["--overlay", "see.mp4"]``; for files only.
 
@@ -86,12 +86,12 @@ def encode(
     NoFaceError
         No picture shows a face, and `allow_no_face` is not set.
     FileError, UnsupportedError, ArgumentError
-        The video cannot be read, or the stream not written; a value is out of its range.
+        The video cannot be read, or the stream cannot be written; a value is out of range.
 
     Warns
     -----
     PartialWarning
-        The file is cut off or damaged; the stream has what could be read.
+        The file is truncated or damaged; the stream has the readable part.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def encode(
 
 @contextmanager
 def discarded_part(path: PathLike) -> Iterator[None]:
-    """Remove ``PATH.part``, where the program writes, if that has been ended from here."""
+    """Remove ``PATH.part``, which the program writes, if this process has ended it."""
     try:
         yield
     except BaseException as problem:

@@ -1,4 +1,4 @@
-"""What a stream knows of the face."""
+"""A stream's data of the face."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class FaceState:
-    """Where the head is and what the face does, in one picture.
+    """Pose and expression of the face in one picture.
 
     ``dataclasses.replace(state, yaw=state.yaw + 10)`` makes another, which :meth:`fbs.Decoder.render` draws;
-    :meth:`fbs.Decoder.edited` makes one by what a face can do.
+    :meth:`fbs.Decoder.edited` makes one by movements of the face.
 
     Attributes
     ----------
     pitch, yaw, roll : float
         Degrees. Positive: the face looks down, to the picture's left, its top leans to the picture's right.
     x, y : float
-        Of the middle of the head at the height of the eyes, pixels from the top left corner of the picture.
+        Middle of the head at the height of the eyes, pixels from the top left corner of the picture.
     eye_distance : float
-        Of the face seen from the front, pixels.
+        With the face seen from the front, pixels.
     control_points : (36, 2) float32 array
         Displacement of each control point from the expressionless face, x and y along the head's own axes, in eye
         distances. Outer mouth 0..9, inner mouth 10..17, right brow 18..21, left brow 22..25, upper lids 26..29, lower
@@ -54,24 +54,24 @@ class States:
     Attributes
     ----------
     number : (n,) int64 array
-        Of each picture, from 0; numbers that are missing were lost.
+        Number of each picture, from 0; missing numbers were lost.
     time, duration : (n,) float64 arrays
         Seconds.
     has_face, held, new_scene : (n,) bool arrays
-        Whether there is a face; whether the picture was lost, and the one before is shown; whether decoding can begin
-        here.
+        Whether there is a face; whether the picture was lost, and the previous one is shown; whether decoding can
+        begin here.
     pose : (n, 3) float32 array
-        Pitch, yaw and roll as :class:`FaceState` has them, degrees.
+        Pitch, yaw and roll as in :class:`FaceState`, degrees.
     position : (n, 2) float32 array
-        Of the middle of the head, pixels.
+        Middle of the head, pixels.
     eye_distance : (n,) float32 array
         Pixels.
     control_points : (n, 36, 2) float32 array
-        As :class:`FaceState` has them, eye distances.
+        As in :class:`FaceState`, eye distances.
     landmarks : (n, 68, 2) float32 array
         The 68 points of iBUG (300-W), x and y, pixels. The centre of the first pixel is 0.5, 0.5.
     confidence : (n, 68) float32 array
-        Of each landmark, 0 to 1: how much of the face around it is turned to the viewer.
+        Confidence of each landmark, 0 to 1: how much of the face around it faces the viewer.
     blendshapes : (n, 32) float32 array
         Weights of movements, named by :data:`fbs.BLENDSHAPES` as in ARKit; 0 is the face of the scene's first picture.
     """
@@ -109,7 +109,7 @@ class States:
         return len(self.number)
 
     def __getitem__(self, index: int) -> FaceState | None:
-        """Of the picture in row `index`; None where it has no face."""
+        """The state of the picture in row `index`; None where it has no face."""
         index = operator.index(index)
         if not self.has_face[index]:
             return None

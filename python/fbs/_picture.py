@@ -27,7 +27,7 @@ TICKS_PER_SECOND = 90000
 
 @dataclass(frozen=True)
 class Format:
-    """What all pictures of a stream share.
+    """Properties shared by all pictures of a stream.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Format:
     pixel_aspect : Fraction or None
         Width of a pixel over its height; None when unknown.
     matrix : {"unspecified", "bt601", "bt709"}
-        Of YCbCr. "unspecified" is taken as BT.601.
+        Of YCbCr. "unspecified" counts as BT.601.
     full_range : bool
         False: black is 16 and white 235. True: 0 and 255.
     """
@@ -61,7 +61,7 @@ class Picture:
         Each sample is at the centre of the four pixels it belongs to. The planes are kept, not copied.
     matrix : {"unspecified", "bt601", "bt709"}
     full_range : bool
-        As :class:`Format` has them; for conversion to RGB.
+        As in :class:`Format`; for conversion to RGB.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Picture:
     duration : float
         s; 0 for pictures that are not from a stream.
     held : bool
-        This picture was lost; the one before is shown in its place.
+        This picture was lost; the previous one is shown in its place.
     new_scene : bool
         The first picture of a scene: decoding can begin here.
 
@@ -109,7 +109,7 @@ class Picture:
 
     @classmethod
     def empty(cls, width: int, height: int, *, matrix: str = "unspecified", full_range: bool = False) -> Picture:
-        """Make a picture to be drawn into; what is in it is not defined."""
+        """Make a picture to draw into, with undefined content."""
         luma, half = width * height, ((height + 1) // 2, (width + 1) // 2)
         chroma = half[0] * half[1]
         samples: Plane = np.empty(luma + 2 * chroma, np.uint8)
@@ -161,12 +161,12 @@ class Picture:
         Parameters
         ----------
         out : (h, w, 3) uint8 array, optional
-            To write into.
+            Target.
 
         Returns
         -------
         (h, w, 3) uint8 array
-            `out`, if that is given.
+            `out`, if given.
         """
         if out is None:
             out = np.empty((self.height, self.width, 3), np.uint8)
@@ -175,11 +175,11 @@ class Picture:
         return out
 
     def tobytes(self) -> bytes:
-        """All samples of Y, then U, then V, as Y4M has them, and ``fbs decode --md5`` digests them."""
+        """All samples of Y, then U, then V, as in Y4M and in the digest of ``fbs decode --md5``."""
         return b"".join(plane.tobytes() for plane in self.planes)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        """RGB, so that ``np.asarray`` and ``plt.imshow`` take a picture."""
+        """RGB, so that ``np.asarray`` and ``plt.imshow`` accept a picture."""
         if copy is False:
             raise ValueError("a picture becomes RGB by a copy")
         rgb = self.rgb()
@@ -207,7 +207,7 @@ PictureLike = Union[Picture, "Plane", Sequence["Plane"]]
 
 
 def planes_of(picture: PictureLike, format: Format) -> tuple[Plane, Plane, Plane]:
-    """Planes Y, U and V of whatever an encoder takes, with contiguous rows; copied only where that is needed."""
+    """Planes Y, U and V of any input of an encoder, with contiguous rows; copied only if necessary."""
     if isinstance(picture, np.ndarray) and picture.ndim == 3:
         picture = Picture.from_rgb(picture, matrix=format.matrix, full_range=format.full_range)
     elif not isinstance(picture, Picture):

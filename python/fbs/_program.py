@@ -1,6 +1,6 @@
 """Runs the program ``fbs``: whole files are encoded, tracked and measured in a process of their own.
 
-A process is not held up by the interpreter's lock, can be ended at any time, and takes nothing with it when it
+A process does not wait for the interpreter's lock, can be ended at any time, and takes nothing with it when it
 crashes.
 """
 
@@ -55,7 +55,7 @@ def program() -> str:
         return named
     if _OWN.exists():
         return str(_OWN)
-    # `fbs` beside this interpreter is the command of this package, which would run itself for ever.
+    # `fbs` beside this interpreter is this package's own command, which would run itself forever.
     scripts = sysconfig.get_path("scripts")
     folders = [f for f in os.environ.get("PATH", "").split(os.pathsep) if f and f != scripts]
     found = shutil.which("fbs", path=os.pathsep.join(folders))
@@ -82,16 +82,16 @@ def run(
 ) -> str:
     """Run ``fbs ARGUMENTS`` and wait for its end.
 
-    Whatever leaves this function early, such as Ctrl-C or an exception of `on_progress`, ends the program, with all
-    that it has started.
+    Leaving this function early, for instance by Ctrl-C or an exception of `on_progress`, ends the program and
+    everything it has started.
 
     Parameters
     ----------
     arguments : sequence of str or path
         The verb, then its options and names.
     on_progress : callable, optional
-        Called as ``on_progress(done, total)`` some times a second, in pictures. `total` is an estimate, and None where
-        nobody knows it.
+        Called as ``on_progress(done, total)`` some times a second, in pictures. `total` is an estimate, and None if
+        unknown.
     cwd : path, optional
         The folder to run in.
     timeout : float, optional
@@ -102,7 +102,7 @@ def run(
     Returns
     -------
     str
-        What the program wrote to standard output.
+        The program's standard output.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def run(
     Warns
     -----
     PartialWarning
-        There are results, but the source was cut off or damaged, or something was left out.
+        There are results, but the source was truncated or damaged, or something was left out.
     """
     name = program()
     child = _Child([*launcher, name, *map(os.fspath, arguments)], cwd)
@@ -132,7 +132,7 @@ def run(
 
 
 class _Child:
-    """A running program, and what it has said."""
+    """A running program and its output."""
 
     def __init__(self, command: list[str], cwd: PathLike | None) -> None:
         self.error: str | None = None
@@ -187,7 +187,7 @@ class _Child:
                 on_progress(int(words[0]), None if words[1] == "-" else int(words[1]))
 
     def end(self) -> None:
-        """End the program, if it is still there, with all that it has started."""
+        """End the program, if it is still there, with everything it has started."""
         if self._process.poll() is None:
             try:
                 os.killpg(self._process.pid, signal.SIGKILL)

@@ -12,8 +12,8 @@ from fbs.errors import ArgumentError, FileError
 Buffer = Union[bytes, bytearray, memoryview]
 Source = Union[str, "os.PathLike[str]", Buffer, BinaryIO]
 
-_MATROSKA = b"\x1aE\xdf\xa3"  # how such files begin
-_PIECE = 1 << 16  # bytes that are fed before the pictures in them are taken
+_MATROSKA = b"\x1aE\xdf\xa3"  # the first bytes of such files
+_PIECE = 1 << 16  # bytes fed before the pictures in them are taken
 
 
 class ByteSource:
@@ -22,7 +22,7 @@ class ByteSource:
     Attributes
     ----------
     name : str or None
-        Of a stream that is given by its path.
+        Of a stream given by its path.
     """
 
     def __init__(self, source: Source | None) -> None:
@@ -46,17 +46,17 @@ class ByteSource:
 
     @property
     def is_fed(self) -> bool:
-        """By the caller."""
+        """Whether the caller feeds bytes."""
         return self._stream is None and self._file is None
 
     def whole(self, wanted: str) -> Buffer:
-        """The stream, for what is `wanted`; ArgumentError if it is not there from the beginning."""
+        """The stream, for the purpose `wanted`; ArgumentError if it is not complete from the beginning."""
         if self._stream is None:
             raise ArgumentError(f"{wanted}: only of a path or of bytes, which are there from the beginning")
         return self._stream
 
     def go_to(self, offset: int) -> None:
-        """In a whole stream."""
+        """Go to a position in a whole stream."""
         self._at = offset
 
     def piece(self) -> Buffer:
@@ -66,7 +66,7 @@ class ByteSource:
             self._at += len(piece)
             return piece
         assert self._file is not None
-        # What a pipe has now, rather than what it will have once the piece is full.
+        # Read what a pipe has now, rather than wait for a full piece.
         read = getattr(self._file, "read1", self._file.read)
         found: bytes = read(_PIECE)
         return found

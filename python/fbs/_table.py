@@ -33,20 +33,20 @@ def track(
     on_progress: Progress | None = None,
     options: Sequence[str] = (),
 ) -> Table:
-    """Follow a face in a video, or read what a stream knows of it.
+    """Track a face in a video, or read a stream's data of it.
 
     Parameters
     ----------
     video : path
-        Whatever ``fbs encode`` reads; or a stream, ``.fbs``, whose table it has without tracking anything.
+        Any input of ``fbs encode``; or a stream, ``.fbs``, whose data need no tracking.
     face : int
-        Of a video: which face is followed, 0 being the largest.
+        In a video: which face to follow, 0 being the largest.
     frames : int, optional
-        Only so many pictures.
+        Track at most this many pictures.
     duration : float, optional
-        Only so many seconds.
+        Track at most this many seconds.
     fps : float, optional
-        Pictures per second of images; 25 unless given.
+        Pictures per second, for images; 25 unless given.
     on_progress : callable, optional
         Called as ``on_progress(done, total)``, in pictures.
     options : sequence of str

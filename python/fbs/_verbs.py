@@ -51,12 +51,12 @@ def decode(
     Parameters
     ----------
     stream : path, bytes or binary file
-        For a file to write: a path, also of a Matroska file that has a stream.
+        To write a file: a path, which may name a Matroska file with a stream.
     path : path, optional
         ``.mp4``, ``.mkv``, ``.y4m``, ``frame_%05d.png``, or ``.wav`` for the sound alone; the program ``fbs decode``
         writes it, with the sound.
     keep_going : bool
-        Go on behind damage.
+        Continue after damage.
     on_progress : callable, optional
         Called as ``on_progress(done, None)``, in pictures.
     options : sequence of str
@@ -65,8 +65,8 @@ def decode(
     Returns
     -------
     (n, h, w, 3) uint8 array, or Path
-        RGB: 0.3 MB for each picture of 352 by 288. Iterate over a :class:`Decoder` where that is too much. `path`, if
-        that is given.
+        RGB: 0.3 MB for each picture of 352 by 288. Iterate over a :class:`Decoder` if that is too much. `path`, if
+        given.
 
     Examples
     --------
@@ -118,9 +118,9 @@ def retarget(
     path : path
         The stream to write, ``.fbs``.
     quality : int, optional
-        0 to 100, of a face that is no stream; 70 unless given.
+        0 to 100, for a face that is not a stream; 70 unless given.
     sound : bool
-        Take the sound of `motion` along.
+        Include the sound of `motion`.
     wire_frame : path, optional
         Draw the face on this wire-frame, ``.gltf`` or ``.glb``.
     options : sequence of str
@@ -134,7 +134,7 @@ def retarget(
     Raises
     ------
     NoFaceError
-        One of the two shows no face.
+        One of the inputs shows no face.
     """
     arguments = ["retarget", "--motion", _program.argument(motion), "--face", _program.argument(face)]
     if quality is not None:
@@ -149,7 +149,7 @@ def retarget(
 
 
 def inspect(stream: PathLike) -> dict[str, Any]:
-    """Tell what a stream contains, and how many bytes each part takes.
+    """List the content of a stream, and the bytes of each part.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def inspect(stream: PathLike) -> dict[str, Any]:
     Returns
     -------
     dict
-        As ``fbs inspect --json`` has it: `bytes` of each part, `frames`, `fps`, `seconds`, `patterns`, `scenes`.
+        As from ``fbs inspect --json``: `bytes` of each part, `frames`, `fps`, `seconds`, `patterns`, `scenes`.
 
     Examples
     --------
@@ -186,26 +186,26 @@ def evaluate(
     on_progress: Progress | None = None,
     options: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Measure how many bytes streams take, and how near their pictures are to the source.
+    """Measure the bytes of streams, and the fidelity of their pictures to the source.
 
     Parameters
     ----------
     video : path
         The source, or a folder of videos.
     *streams : path
-        To be measured. Without, the source is encoded first.
+        Streams to measure. Without any, the source is encoded first.
     quality : sequence of int
-        To encode at; 20, 35, 50, 65 and 80 unless given.
+        Qualities to encode at; 20, 35, 50, 65 and 80 unless given.
     frames : int, optional
-        Only so many pictures.
+        Measure at most this many pictures.
     peers : bool
         Also encode with x264, x265 and AV1, as far as ``ffmpeg`` has them; takes minutes.
     html, csv : path, optional
         Write a report, or a table of the values of each picture.
     region : path, optional
-        Table of landmarks, or stream, that says where the face is.
+        Table of landmarks, or stream, that gives the face.
     keep : path, optional
-        Folder for what is finished; the same call goes on from there.
+        Folder for finished results; the same call continues from there.
     live, allow_no_face
         As for :func:`fbs.encode`.
     jobs : int
@@ -218,13 +218,13 @@ def evaluate(
     Returns
     -------
     dict
-        As ``fbs evaluate --json`` has it. ``result["points"]`` is a list with a dictionary for each stream: `kbps`,
+        As from ``fbs evaluate --json``. ``result["points"]`` is a list with a dictionary for each stream: `kbps`,
         `psnr_face`, `psnr_frame` in dB, `ssim_face`, `ssim_frame` and more; ``pandas.DataFrame`` takes it as it is.
 
     Warns
     -----
     PartialWarning
-        The source is cut off or damaged, or videos of a folder were left out.
+        The source is truncated or damaged, or videos of a folder were left out.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What can go wrong: one class for each status of the library, all of them :class:`fbs.Error`."""
+"""The exceptions: one class for each error status of the library, all derived from :class:`fbs.Error`."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class Error(Exception):
     text : str
         What is wrong.
     offset : int
-        The byte of the stream that the error is about; 0 if it is about none.
+        Offset of the error in the stream; 0 if it has none.
     exit_code : int or None
-        Of the program, where that was run; negative: the signal that ended it.
+        Of the program, if it was run; negative: the signal that ended it.
     log : str
-        All that the program wrote to standard error.
+        The program's standard error.
     """
 
     def __init__(self, text: str, offset: int = 0, *, exit_code: int | None = None, log: str = "") -> None:
@@ -79,7 +79,7 @@ class FileError(Error, OSError):
 
 
 class InternalError(Error):
-    """A bug of fbs."""
+    """A bug in fbs."""
 
 
 class ProgramMissingError(Error):
@@ -87,8 +87,8 @@ class ProgramMissingError(Error):
 
 
 class ProgramTimeoutError(Error, TimeoutError):
-    """The program took longer than it was given."""
+    """The program exceeded its time limit."""
 
 
 class PartialWarning(UserWarning):
-    """There are results, but the source was cut off or damaged, or something of it was left out."""
+    """There are results, but the source was truncated or damaged, or part of it was left out."""

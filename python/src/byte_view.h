@@ -1,4 +1,4 @@
-// Bytes of any object of Python that has some: bytes, bytearray, memoryview, mmap, an array.
+// The bytes of any Python object that has some: bytes, bytearray, memoryview, mmap, an array.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -8,7 +8,7 @@
 
 namespace fbs_python {
 
-/// Made and destroyed with the interpreter's lock; read without.
+/// Created and destroyed with the interpreter's lock; read without it.
 class ByteView {
  public:
   explicit ByteView(nanobind::handle object) {

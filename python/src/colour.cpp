@@ -10,7 +10,7 @@ namespace nb = nanobind;
 namespace fbs_python {
 namespace {
 
-constexpr int kShift = 16;  ///< of fixed point numbers; sums of a pixel stay below 2^27
+constexpr int kShift = 16;  ///< of fixed-point numbers; sums of a pixel stay below 2^27
 
 int fixed(double value) {
   return static_cast<int>(std::lround(value * (1 << kShift)));
@@ -20,7 +20,7 @@ std::uint8_t to_byte(int value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
 }
 
-/// ITU-R BT.601 or BT.709: Y = red R + green G + blue B, chroma is what R and B have more than Y, scaled to
+/// ITU-R BT.601 or BT.709: Y = red R + green G + blue B; chroma is the excess of R and B over Y, scaled to
 /// one half.
 struct Equation {
   explicit Equation(const Colours& colours)
@@ -36,7 +36,7 @@ struct Equation {
   double luma_levels, chroma_levels;  ///< of 255 levels of R, G and B
 };
 
-/// The samples of one picture's planes and its pixels have the same size.
+/// Converts planes and pixels of one picture, both of the same size.
 template <class Picture, class Sample>
 void require_same_size(const Picture& picture, const RgbView<Sample>& rgb) {
   if (picture.width != rgb.width || picture.height != rgb.height)

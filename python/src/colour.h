@@ -1,4 +1,4 @@
-// Between planes Y, Cb, Cr and RGB.
+// Converts between planes Y, Cb, Cr and RGB.
 #pragma once
 
 #include <fbs/fbs.h>
@@ -8,13 +8,13 @@
 
 namespace fbs_python {
 
-/// What the numbers of a picture mean. FBS_MATRIX_UNSPECIFIED is taken as BT.601.
+/// The meaning of a picture's samples. FBS_MATRIX_UNSPECIFIED counts as BT.601.
 struct Colours {
   fbs_matrix matrix;
   bool full_range;
 };
 
-/// Each chroma sample serves its four pixels. The sizes have to be the same.
+/// Each chroma sample serves its four pixels. The sizes must be equal.
 void rgb_of(const fbs_const_picture& picture, const Colours& colours, const RgbView<std::uint8_t>& out);
 
 /// The inverse; chroma is the mean of the pixels it belongs to.

@@ -41,7 +41,7 @@ void feed(Decoder& self, nb::handle piece) {
   self.call([&](fbs_decoder* d) { check(d, fbs_decoder_feed(d, view.bytes().data(), view.bytes().size())); });
 }
 
-/// The status, then what fbs_picture_info has.
+/// The status, then the members of fbs_picture_info.
 nb::tuple next(Decoder& self) {
   fbs_picture_info info{};
   const fbs_status status = self.call([&](fbs_decoder* d) { return check(d, fbs_decoder_next(d, &info)); });
@@ -72,7 +72,7 @@ void draw_state(Decoder& self, const std::array<float, 6>& pose, const ControlAr
   self.call([&](fbs_decoder* d) { check(d, fbs_decoder_draw_state(d, &state, &picture)); });
 }
 
-/// What `question` gives of the picture; nothing without a face.
+/// The answer of `question` about the picture; nothing without a face.
 template <class Answer, class Question>
 std::optional<Answer> ask(Decoder& self, Question&& question) {
   return self.call([&](fbs_decoder* d) -> std::optional<Answer> {
@@ -98,7 +98,7 @@ nb::object state(Decoder& self) {
   return s ? nb::object(tuple_of(*s)) : nb::none();
 }
 
-/// @param edit  as fbs_face_edit has it
+/// @param edit  members in the order of fbs_face_edit
 nb::object edited_state(Decoder& self, const std::array<float, 7>& edit) {
   const fbs_face_edit changes{edit[0], edit[1], edit[2], edit[3], edit[4], edit[5], edit[6]};
   const auto s = ask<fbs_face_state>(

@@ -17,7 +17,7 @@ namespace {
 
 using Encoder = Guarded<fbs_encoder, fbs_encoder_close, fbs_encoder_error>;
 
-/// Reads `name` of the settings, which Python has completed.
+/// Reads setting `name`; Python has filled in the defaults.
 template <class T>
 void take(const nb::dict& settings, const char* name, T& out) {
   out = nb::cast<T>(settings[name]);

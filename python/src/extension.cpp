@@ -1,4 +1,4 @@
-// The module fbs._fbs: include/fbs as it is. The rest of the package makes it pleasant.
+// The module fbs._fbs: include/fbs in Python. The rest of the package makes it pleasant.
 #include <fbs/fbs.h>
 #include <nanobind/nanobind.h>
 

@@ -1,4 +1,4 @@
-// An object of the library that Python's threads share.
+// An object of the library shared by Python threads.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -9,8 +9,8 @@
 
 namespace fbs_python {
 
-/// Owns a T of the C interface, which belongs to one thread at a time: calls wait for each other, and other
-/// threads of Python go on meanwhile.
+/// Owns a T of the C interface, which belongs to one thread at a time: calls wait for each other, while other
+/// Python threads continue.
 template <class T, void (*close_object)(T**), const char* (*error_text)(const T*)>
 class Guarded {
  public:
@@ -25,7 +25,7 @@ class Guarded {
     close_object(&object_);
   }
 
-  /// @param body  called with the object; nothing of Python may be touched in it
+  /// @param body  called with the object; must not touch any Python object
   template <class Body>
   auto call(Body&& body) {
     const nanobind::gil_scoped_release others;
@@ -34,7 +34,7 @@ class Guarded {
     return body(object_);
   }
 
-  /// @return `status`, unless it is an error: that is thrown with its text
+  /// @return `status`, unless it is an error, which is thrown with its text
   static fbs_status check(const T* object, fbs_status status, std::uint64_t offset = 0) {
     if (status < 0) throw StatusError(status, error_text(object), offset);
     return status;

@@ -15,13 +15,13 @@ using RgbArray = nanobind::ndarray<std::uint8_t, nanobind::shape<-1, -1, 3>, nan
 using ConstRgbArray =
     nanobind::ndarray<const std::uint8_t, nanobind::shape<-1, -1, 3>, nanobind::device::cpu>;
 
-/// Rows may lie anywhere, also upwards; within a row samples lie side by side. The arrays have to outlive
-/// what is returned. Throws StatusError where shapes or strides do not fit.
+/// Rows may lie anywhere, even upwards; samples of a row are contiguous. The arrays must outlive the result.
+/// Throws StatusError where shapes or strides do not fit.
 [[nodiscard]] fbs_picture view_of(const PlaneArray& y, const PlaneArray& u, const PlaneArray& v);
 [[nodiscard]] fbs_const_picture view_of(const ConstPlaneArray& y, const ConstPlaneArray& u,
                                         const ConstPlaneArray& v);
 
-/// Red, green, blue: three bytes side by side, and so the pixels of a row.
+/// Red, green, blue: three contiguous bytes per pixel, pixels of a row contiguous.
 template <class Sample>
 struct RgbView {
   std::uint32_t width, height;

@@ -22,7 +22,7 @@ struct CloseDecoder {
   void operator()(fbs_decoder* decoder) const { fbs_decoder_close(&decoder); }
 };
 
-/// One row for each picture in each; what has no face has numbers that are none.
+/// One row per picture in each array; NaN where there is no face.
 struct States {
   std::vector<std::uint64_t> number, time;
   std::vector<std::uint32_t> duration;
@@ -61,7 +61,7 @@ struct States {
   }
 };
 
-/// @param keep_going  go on behind damage, instead of throwing
+/// @param keep_going  continue after damage instead of throwing
 States states_of(std::span<const std::uint8_t> stream, std::uint64_t max_pixels, bool keep_going) {
   fbs_decoder_settings settings;
   fbs_decoder_default_settings(&settings, sizeof settings);
@@ -70,7 +70,7 @@ States states_of(std::span<const std::uint8_t> stream, std::uint64_t max_pixels,
   if (const fbs_status status = fbs_decoder_open(&opened, &settings); status < 0) throw StatusError(status);
   const std::unique_ptr<fbs_decoder, CloseDecoder> decoder(opened);
 
-  constexpr std::size_t kPiece = 1 << 16;  // bytes that are fed before the pictures in them are taken
+  constexpr std::size_t kPiece = 1 << 16;  // bytes fed before the pictures in them are taken
   States out;
   for (;;) {
     fbs_picture_info info;

@@ -9,11 +9,11 @@
 
 namespace fbs_python {
 
-/// A failed call. Holds nothing of Python, so that it may be thrown without the interpreter's lock; becomes
-/// the class of fbs.errors that belongs to the status.
+/// A failed call. Holds no Python object, so that it may be thrown without the interpreter's lock; becomes
+/// the class of fbs.errors for the status.
 class StatusError : public std::exception {
  public:
-  /// @param text    empty: that of the status
+  /// @param text    empty: the status's own
   /// @param offset  in the stream, bytes
   explicit StatusError(fbs_status status, std::string text = {}, std::uint64_t offset = 0);
 
@@ -27,7 +27,7 @@ class StatusError : public std::exception {
   std::uint64_t offset_;
 };
 
-/// Once, when the extension is loaded.
+/// Call once, when the extension is loaded.
 void translate_status_errors();
 
 }  // namespace fbs_python

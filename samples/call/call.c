@@ -1,12 +1,12 @@
-/* One end of a call: sends face and voice of files as if they came from a camera and a microphone, and
+/* One end of a call: sends face and voice from files as if they came from a camera and a microphone, and
  * receives those of the other end. README.md shows how two of them talk to each other.
  *
- *   options     what is told on the command line
- *   pipeline    the elements, and how rtpbin holds them together
+ *   options     the command line
+ *   pipeline    the elements, and how rtpbin connects them
  *   retransmission  retransmission of lost packets
- *   network     loses and delays what is sent
- *   receiver    when what arrives is seen and heard
- *   statistics  a line a second */
+ *   network     loses and delays packets
+ *   receiver    when pictures and sound are seen and heard
+ *   statistics  one line per second */
 #include <glib-unix.h>
 #include <gst/gst.h>
 #include <stdio.h>

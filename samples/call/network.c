@@ -6,8 +6,8 @@
 
 #define IP_AND_UDP 28 /* bytes */
 
-/* Gilbert's chain in continuous time: each state lasts as long as an exponential distribution says, and in
- * the bad one all packets of all streams are lost. */
+/* Gilbert's chain in continuous time: the duration of each state is exponentially distributed, and in the bad
+ * one all packets of all streams are lost. */
 static gboolean burst_loses(Network* network) {
   const gint64 now = g_get_monotonic_time();
   const gdouble ms = (gdouble)(now - network->changed) / 1000;

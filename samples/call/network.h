@@ -1,5 +1,5 @@
 /* The network between the two ends: delays by GStreamer's netsim, losses by a chain of two states, which
- * netsim has not; and the count of what is sent into it. */
+ * netsim lacks; and counts of the packets sent. */
 #ifndef FBS_CALL_NETWORK_H
 #define FBS_CALL_NETWORK_H
 
@@ -11,11 +11,11 @@
 typedef enum { SENT_PICTURES, SENT_VOICE, SENT_REPAIR, SENT_RTCP, SENT_KINDS } SentKind;
 
 typedef struct {
-  gdouble loss, burst; /**< of CallOptions */
+  gdouble loss, burst; /**< from CallOptions */
   GMutex lock;
   GRand* chance;
-  gboolean bad;   /**< the state in which all is lost */
-  gint64 changed; /**< monotonic time at which it was decided upon, us */
+  gboolean bad;   /**< the state in which everything is lost */
+  gint64 changed; /**< monotonic time of its last change, us */
   guint64 bytes[SENT_KINDS];
   guint64 packets, lost;
 } Network;

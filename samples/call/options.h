@@ -1,15 +1,14 @@
-/* What one end of a call is told on the command line. */
+/* Command line options of one end of a call. */
 #ifndef FBS_CALL_OPTIONS_H
 #define FBS_CALL_OPTIONS_H
 
 #include <glib.h>
 
-/** How packets that the network loses are made up for; what of the pictures is lost nevertheless costs a
- * scene. */
+/** How lost packets are replaced; pictures lost nevertheless cost a scene. */
 typedef enum {
   REPAIR_NONE = 0,
-  REPAIR_RTX = 1,  /**< they are asked for once more: RFC 4588 */
-  REPAIR_COPY = 2, /**< all of the pictures' are sent once more, a little later */
+  REPAIR_RTX = 1,  /**< requested again: RFC 4588 */
+  REPAIR_COPY = 2, /**< all packets of the pictures are sent again, a little later */
   REPAIR_BOTH = REPAIR_RTX | REPAIR_COPY,
 } Repair;
 
@@ -17,7 +16,7 @@ typedef struct {
   char* pictures; /**< file with video */
   char* sound;    /**< file with sound; it may be the same */
   char* peer;     /**< host */
-  gint port;      /**< first of four that this end listens at */
+  gint port;      /**< first of four that this end listens on */
   gint peer_port; /**< and the peer */
 
   gint bitrate;       /**< pictures, bit/s */
@@ -27,17 +26,17 @@ typedef struct {
   Repair repair;
 
   gdouble loss;   /**< of packets sent, 0..1 */
-  gdouble burst;  /**< mean length of a loss, ms; 0: each packet has its own luck */
+  gdouble burst;  /**< mean length of a loss, ms; 0: packets are lost independently */
   gint min_delay; /**< of the network, ms */
   gint max_delay;
   gint seed;
 
   gdouble seconds; /**< how long the call lasts */
   gboolean show;   /**< in a window and a loudspeaker */
-  char* record;    /**< prefix of files of what arrives; or null */
+  char* record;    /**< prefix of files for what arrives; or null */
 } CallOptions;
 
-/** @return FALSE: they make no sense, and a line on stderr says why */
+/** @return FALSE: they are invalid, and a line on stderr says why */
 gboolean call_options_parse(CallOptions* out, int* argc, char*** argv);
 void call_options_clear(CallOptions* options);
 

@@ -9,7 +9,7 @@
 #define FIRST_SCENE (2 * GST_SECOND)
 #define REPORT_INTERVAL (1 * GST_SECOND)
 
-/* The text of the pipeline, as gst-launch-1.0 would take it. Pictures leave `clocksync` when they would leave
+/* The text of the pipeline, in the syntax of gst-launch-1.0. Pictures leave `clocksync` when they would leave
  * a camera, sound when the 20 ms of a packet have been recorded. */
 
 static char* sending(const CallOptions* o) {
@@ -47,7 +47,7 @@ static char* netsim(const CallOptions* o, guint number) {
       o->min_delay, o->max_delay);
 }
 
-/* A session has two ports: of RTP and of RTCP. */
+/* A session has two ports: for RTP and for RTCP. */
 static char* network(const CallOptions* o, guint session) {
   const gint port = o->port + 2 * (gint)session, peer_port = o->peer_port + 2 * (gint)session;
   char* const rtp = netsim(o, 2 * session);
@@ -63,8 +63,8 @@ static char* network(const CallOptions* o, guint session) {
   return out;
 }
 
-/* The same packets once more, so much later that a burst of losses takes one of the two. The jitter buffer
- * drops the second one by its number; RFC 7198 gives copies a source of their own, for the sake of
+/* Sends the same packets again, so much later that a burst of losses takes only one of the two. The jitter
+ * buffer drops the second one by its number; RFC 7198 gives copies a source of their own, for the sake of
  * statistics. They leave from the same port: rtpbin takes another one for a collision of sources. */
 static char* copies(const CallOptions* o) {
   if ((o->repair & REPAIR_COPY) == 0) return g_strdup("");
@@ -99,8 +99,8 @@ static GstCaps* caps_of(GstElement* rtp, guint session, guint payload, gpointer 
                              session == SESSION_VOICE ? 48000 : 90000, NULL);
 }
 
-/* Somebody has come, and does not have to ask. Not at the beginning of the call: a second scene so soon after
- * the first one has little of the rate left. */
+/* A new viewer need not ask for a scene. Not at the beginning of the call: a second scene so soon after the
+ * first one has little of the rate left. */
 static void on_source(GstElement* rtp, guint session, guint source, gpointer pipeline) {
   (void)rtp;
   (void)source;
@@ -112,7 +112,7 @@ static void on_source(GstElement* rtp, guint session, guint source, gpointer pip
   gst_object_unref(encoder);
 }
 
-/* A stream of the peer begins; if it has called again, it takes the place of the one before. */
+/* A stream of the peer begins; after another call of the peer, it replaces the previous one. */
 static void on_stream(GstElement* rtp, GstPad* pad, gpointer pipeline) {
   guint session = 0, source = 0, payload = 0;
   char* const name = gst_pad_get_name(pad);
@@ -133,8 +133,8 @@ static void on_stream(GstElement* rtp, GstPad* pad, gpointer pipeline) {
   gst_object_unref(depay);
 }
 
-/* The times of reports are those of the recording, so that picture and voice are shown in step. They are of
- * the clock of this machine, which tells the delay from end to end if the other end has the same. */
+/* Report times are recording times, so that picture and voice are shown in step. They use this machine's
+ * clock, which gives the delay from end to end if the other end has the same. */
 static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline) {
   GstElement* const rtp = gst_element_factory_make("rtpbin", "rtp");
   if (rtp == NULL) {
@@ -153,8 +153,8 @@ static GstElement* sessions_of(const CallOptions* options, GstElement* pipeline)
   return rtp;
 }
 
-/* What is asked for has to go out at once. RTCP may have a twentieth of this, far more than reports need:
- * regular ones keep to REPORT_INTERVAL. */
+/* Lets requests go out at once. RTCP may use a twentieth of this, far more than reports need: regular ones
+ * keep to REPORT_INTERVAL. */
 static void hurry_feedback(GstElement* pipeline) {
   GstElement* const rtp = gst_bin_get_by_name(GST_BIN(pipeline), "rtp");
   for (guint k = 0; k < SESSIONS; ++k) {
@@ -167,7 +167,7 @@ static void hurry_feedback(GstElement* pipeline) {
   gst_object_unref(rtp);
 }
 
-/* Requests pads of rtpbin, for sending before those that appear then. */
+/* Requests pads of rtpbin, for sending before those that appear later. */
 static gboolean link_sessions(GstElement* pipeline) {
   static const char* const links[][4] = {
       {"picture_out", "src", "rtp", "send_rtp_sink_0"}, {"voice_out", "src", "rtp", "send_rtp_sink_1"},

@@ -2,9 +2,9 @@
 
 #include <gst/video/video.h>
 
-#define LONGER (150 * GST_MSECOND) /* than a picture lasts: a freeze, as WebRTC's statistics define it */
+#define LONGER (150 * GST_MSECOND) /* a picture this much late is a freeze, as in WebRTC's statistics */
 
-/* ---- when a packet was recorded: the jitter buffer has it from the sender's reports ---- */
+/* ---- when a packet was recorded: the jitter buffer knows from the sender's reports ---- */
 
 static GstPadProbeReturn on_packet(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   Stream* const stream = user;
@@ -20,7 +20,7 @@ static GstPadProbeReturn on_packet(GstPad* pad, GstPadProbeInfo* info, gpointer 
   return GST_PAD_PROBE_OK;
 }
 
-/* @return 0: not known */
+/* @return 0: unknown */
 static GstClockTime recorded_at(const Stream* stream, GstClockTime pts) {
   const guint known = MIN(stream->packets, RECEIVER_TIMES);
   for (guint k = 1; k <= known; ++k) {
@@ -98,7 +98,7 @@ static GstPadProbeReturn on_request(GstPad* pad, GstPadProbeInfo* info, gpointer
 
 /* ---- life ---- */
 
-/* Of the voice; the decoder makes something up, or finds it in the packet behind. */
+/* Counts losses of the voice; the decoder conceals them, or finds the data in the next packet. */
 static GstPadProbeReturn on_lost(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   Stream* const stream = user;
   const GstStructure* const lost = gst_event_get_structure(gst_pad_probe_info_get_event(info));

@@ -1,4 +1,4 @@
-/* What arrives at screen and ear: when, how long after it was seen and said, and what is missing. */
+/* What arrives at screen and ear: when, how long after it was recorded, and what is missing. */
 #ifndef FBS_CALL_RECEIVER_H
 #define FBS_CALL_RECEIVER_H
 
@@ -18,9 +18,9 @@ typedef struct {
   guint64 shown;      /**< pictures, or buffers of sound */
   GstClockTime first; /**< when the first one was shown, monotonic; or none */
   GstClockTime last;
-  GstClockTimeDiff delay; /**< of the last one, ns; 0: not known */
-  guint64 freezes;        /**< pictures: times that none came for 150 ms more than one lasts; voice: losses */
-  GstClockTime frozen;    /**< how long these were in all */
+  GstClockTimeDiff delay;  /**< of the last one, ns; 0: unknown */
+  guint64 freezes;         /**< pictures: gaps of 150 ms more than a picture lasts; voice: losses */
+  GstClockTime frozen;     /**< their total duration */
   GstClockTime lost_until; /**< voice: the timestamp at which the last loss ends */
   FILE* record;            /**< samples; or null */
 } Stream;
@@ -29,7 +29,7 @@ typedef struct Receiver {
   GMutex lock;
   Stream pictures, voice;
   guint64 requests; /**< for a scene */
-  FILE* times; /**< CSV: what, when it was shown, when it was recorded (ns, 0: not known), bytes; or null */
+  FILE* times;      /**< CSV: what, when shown, when recorded (ns, 0: unknown), bytes; or null */
 } Receiver;
 
 /** Watches "picture_in", "voice_in", "screen" and "ear" of the pipeline.

@@ -12,7 +12,7 @@ static void expose(GstElement* bin, GstElement* element, const char* pad_name, g
   g_free(name);
 }
 
-/* rtpbin takes a bin whose pads have the number of the session. */
+/* rtpbin takes a bin whose pads have the session's number. */
 static GstElement* retransmission(const char* factory, guint session) {
   GstElement* const bin = gst_bin_new(NULL);
   GstElement* const element = gst_element_factory_make(factory, NULL);
@@ -39,7 +39,7 @@ static GstElement* on_aux_receiver(GstElement* rtp, guint session, gpointer user
   return retransmission("rtprtxreceive", session);
 }
 
-/* Packets that are only late are not asked for, nor are those whose copies are on their way. */
+/* Neither late packets nor those whose copies are on their way are requested. */
 static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session, guint source,
                              gpointer user) {
   const CallOptions* const options = user;

@@ -6,7 +6,7 @@
 
 #include "options.h"
 
-/** Of both sessions of rtpbin, before it has any pads. */
+/** For both sessions of rtpbin, before it has any pads. */
 void retransmission_connect(GstElement* rtp, const CallOptions* options);
 
 #endif

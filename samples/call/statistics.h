@@ -1,4 +1,4 @@
-/* One line a second: README.md says what the columns mean. */
+/* One line per second: README.md explains the columns. */
 #ifndef FBS_CALL_STATISTICS_H
 #define FBS_CALL_STATISTICS_H
 
@@ -11,11 +11,11 @@
 typedef struct {
   guint64 sent[SENT_KINDS]; /**< bytes */
   guint64 packets, dropped;
-  guint64 missing, repaired; /**< packets that the jitter buffers waited for in vain, or that came by RTX */
+  guint64 missing, repaired; /**< packets that the jitter buffers gave up on, or that came by RTX */
   guint64 shown;
-  guint64 requests, heard, scenes; /**< requests for a scene, those of the other end, and scenes sent */
+  guint64 requests, heard, scenes; /**< requests for a scene by this end and by the other, and scenes sent */
   guint64 freezes, breaks;         /**< of pictures and voice */
-  GstClockTime frozen, broken;     /**< how long these were */
+  GstClockTime frozen, broken;     /**< their durations */
 } Counts;
 
 typedef struct {
@@ -32,9 +32,9 @@ typedef struct {
 void statistics_init(Statistics* statistics, GstElement* pipeline, Network* network, Receiver* receiver);
 void statistics_clear(Statistics* statistics);
 
-/** Every second. */
+/** Prints a line; called every second. */
 void statistics_print(Statistics* statistics);
-/** When the call has ended: all of it. */
+/** Prints the totals when the call has ended. */
 void statistics_print_total(Statistics* statistics);
 
 #endif

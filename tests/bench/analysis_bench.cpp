@@ -1,5 +1,4 @@
-// The stages of the analysis, one picture of a CIF talker after the other, and all of them together:
-// Encoder::push.
+// The stages of the analysis, picture by picture of a CIF talker, and all of them together: Encoder::push.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -136,7 +135,7 @@ void EncoderPush(benchmark::State& state, bool expression) {
     least = std::min(least, encoder->analysis().confidence);
   }
   state.SetItemsProcessed(state.iterations());
-  state.counters["least_confidence"] = least;  // low: the face was lost, and the time is that of a search
+  state.counters["least_confidence"] = least;  // low: the face was lost, and the time includes a search
 }
 BENCHMARK_CAPTURE(EncoderPush, all, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(EncoderPush, without_expression, false)->Unit(benchmark::kMicrosecond);

@@ -1,4 +1,4 @@
-// The steps from a state to samples, each by itself, and whole streams.
+// The steps from a state to samples, each alone, and whole streams.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -87,7 +87,8 @@ void BlendBlock(benchmark::State& state) {
 }
 BENCHMARK(BlendBlock)->Arg(2)->Arg(4)->Arg(8);
 
-/// The four patches of a block of one source, displaced by so much more at the right nodes, 1/64 sample.
+/// The four patches of a block of one source, with this difference of displacement at the right nodes, 1/64
+/// sample.
 void WarpBlock(benchmark::State& state) {
   const Picture picture = noise_picture(128, 128, 2);
   const int bend = static_cast<int>(state.range(0));
@@ -112,7 +113,7 @@ void WarpBlock(benchmark::State& state) {
 }
 BENCHMARK(WarpBlock)->Arg(0)->Arg(60)->Arg(300);
 
-/// All of a stream: that named by FBS_STREAM, or a vector. The counter is the time for each luma sample.
+/// A whole stream: the one named by FBS_STREAM, or a vector. The counter is the time for each luma sample.
 void Decode(benchmark::State& state) {
   const char* const named = std::getenv("FBS_STREAM");  // NOLINT(concurrency-mt-unsafe)
   const auto bytes = read_bytes(named != nullptr ? named : FBS_VECTORS "/talk.fbs");

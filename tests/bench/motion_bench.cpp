@@ -27,7 +27,7 @@ CodedState seen() {
   return state;
 }
 
-/// Groups like those of the encoder: about one knot in four pictures, small changes.
+/// Groups like the encoder's: about one knot in four pictures, small changes.
 std::vector<MotionGroup> groups(const Setup& setup, int count) {
   std::mt19937 random(1);
   const CodedLimits limits(setup.steps, setup.parts);

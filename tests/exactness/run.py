@@ -58,7 +58,7 @@ class Build:
             return [], ["-ldav1d", "-ldraco", "-lhwy"], self.run
         root = sysroot(self.debian)
         [folder] = {path.parent for path in root.glob("usr/lib/*/libdav1d.so")}
-        # Of the root the headers of the three libraries alone: those of C and C++ are the cross compiler's.
+        # From the root only the headers of the three libraries: those of C and C++ come with the cross compiler.
         headers = root / "headers"
         headers.mkdir(exist_ok=True)
         for library in ("dav1d", "draco", "hwy"):

@@ -68,7 +68,7 @@ void Canvas::curve(std::span<const glm::dvec2> points, bool closed, const cv::Sc
 }
 
 void Canvas::dots(std::span<const glm::dvec2> points, const cv::Scalar& colour, double radius_px) {
-  // By hand: cv::circle makes a diamond of so small a circle.
+  // By hand: cv::circle turns such a small circle into a diamond.
   const cv::Vec3d ink(colour[0], colour[1], colour[2]);
   const int reach = static_cast<int>(radius_px) + 2;
   for (const glm::dvec2 p : points) {

@@ -31,7 +31,7 @@ State moved_along(State state, const Functional& a, double value) {
   return state;
 }
 
-/// Adds a vertex's place along y, so many times.
+/// Adds a vertex's position along y, this many times.
 void add_height(std::size_t landmark, double times, Functional& a) {
   for (const SkinningWeight& skinning : skinning_of(vertex_of_landmark(landmark)))
     if (skinning.control < kExpressionControls)

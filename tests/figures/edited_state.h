@@ -1,4 +1,4 @@
-// States by hand: motion "coming through keyboard". Paper section 3.
+// States set by hand: motion "coming through keyboard". Paper section 3.
 #pragma once
 
 #include "common/state.h"

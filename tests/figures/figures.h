@@ -39,7 +39,7 @@ struct SnakeFigure {
 /// @param paper  as Paths::paper
 [[nodiscard]] Result<cv::Mat3b> animation_figure(const Footage& footage, const Followed& paper);
 
-/// A footage by the paper's own path, and as the encoder does by default.
+/// A footage coded by the paper's own path, and with the encoder's defaults.
 struct Paths {
   Followed paper, fitted;
 };

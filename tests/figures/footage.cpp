@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "cli/video/open/open_video.h"
-#include "decoder/stream/stream_decoder.h"
 #include "encoder/model/pose.h"
 #include "encoder/track/feature_tracker.h"
 #include "tests/talker/talker_render.h"
+#include "tests/unit/encode_decode.h"
 
 namespace fbs::figures {
 namespace {
@@ -90,16 +90,11 @@ Result<Followed> follow(const Footage& footage, const EncoderSettings& settings)
   if (auto finished = encoder->finish(); !finished) return fail(finished.error());
   out.stream = encoder->take();
 
-  StreamDecoder decoder;
-  decoder.feed(out.stream);
-  decoder.close();
-  for (;;) {
-    const auto status = decoder.next();
-    if (!status) return fail(status.error());
-    if (*status != DecodeStatus::kPicture) break;
+  const auto end = decode_pictures(out.stream, [&](const StreamDecoder& decoder) {
     out.scene = decoder.scene();
     out.states.push_back(decoder.state());
-  }
+  });
+  if (!end) return fail(end.error());
   return out;
 }
 

@@ -23,8 +23,8 @@ struct Footage {
   std::vector<Landmarks> truth;  ///< of each picture; empty when unknown
 };
 
-/// A talking head of samples/, close enough to fill the picture.
-/// @param name  also that of its figures
+/// A talking head from tests/talker, close enough to fill the picture.
+/// @param name  also the name of its figures
 /// @param seed  of person and motion
 [[nodiscard]] Footage talker_footage(const std::string& name, std::uint32_t seed);
 

@@ -22,8 +22,8 @@ void draw_snakes(Canvas& canvas, const PictureAnalysis& analysis) {
   }
 }
 
-/// Sources with snakes in the first row, below them the pictures of the paper's own path and, last, those of
-/// the encoder's default.
+/// Sources with snakes in the first row, below them the pictures of the paper's own path and, last, the
+/// encoder's defaults.
 /// @param captions  of the first row, one for each number
 Result<cv::Mat3b> rows(const Footage& footage, const Paths& paths, const std::vector<int>& numbers,
                        const std::vector<std::string>& captions) {

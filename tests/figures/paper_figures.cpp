@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kTalkerSeed = 1, kNeighbourSeed = 4;  // two people of samples/
+constexpr std::uint32_t kTalkerSeed = 1, kNeighbourSeed = 4;  // two people of tests/talker
 
 /// Exceptions end here.
 template <class T>
@@ -38,7 +38,7 @@ void print(const std::string& name, const TeethHeights& h) {
 using Stream = std::vector<std::uint8_t>;
 
 /// @param other  whose face takes over the motion
-/// @return the footage's own, to take over that of another
+/// @return the footage's own stream, which takes over another's motion
 Stream draw_figures(const Footage& footage, const Stream& other, const fs::path& out) {
   const Paths paths{must(follow(footage, paper_settings())), must(follow(footage, {}))};
   const Followed& followed = paths.fitted;
@@ -66,7 +66,7 @@ std::vector<fs::path> videos(const fs::path& folder) {
   return out;
 }
 
-/// A clip that fails does not affect the others. The motion of each is also that of the face before it.
+/// A clip that fails does not affect the others. The motion of each is also applied to the face before it.
 int draw_clips(const fs::path& folder, Stream other, const fs::path& out) {
   int failed = 0;
   for (const fs::path& video : videos(folder)) {

@@ -1,4 +1,4 @@
-// step_pictures OUT_FOLDER: what the steps of the codec make of the talker, a PNG each, for
+// step_pictures OUT_FOLDER: draws the steps of the codec on the talker, a PNG each, for
 // docs/make_pictures.py. NAME_1.png, NAME_2.png ... stand beside each other there.
 #include <algorithm>
 #include <cstdio>
@@ -121,7 +121,7 @@ double mouth_height(const Subject& of, const Pattern& pattern) {
   return lips.y / pose_of(pattern.seen).eye_distance_px();
 }
 
-/// The first pattern, and that with the widest mouth; each as sent, and its head in the atlas.
+/// The first pattern, and the one with the widest mouth; each as sent, and its head in the atlas.
 Panels patterns(const Subject& of) {
   const std::vector<Pattern>& all = of.followed.scene.patterns;
   const auto open = std::ranges::max_element(all, {}, [&](const Pattern& p) { return mouth_height(of, p); });
@@ -133,7 +133,7 @@ Panels patterns(const Subject& of) {
   return out;
 }
 
-/// Source, mesh as decoded, decoded picture, and how the luma differs: mid-grey where it does not.
+/// Source, mesh as decoded, decoded picture, and the luma difference, mid-grey where there is none.
 Panels decoded(const Subject& of) {
   const int picture = rising(measure(of.footage, of.followed, &FaceMotion::mouth_height), 2).back();
   const auto i = static_cast<std::size_t>(picture);

@@ -16,8 +16,7 @@ using LineSegment = std::array<glm::dvec2, 2>;
 
 /// The parts of a wire-frame's edges that no triangle hides. An edge is drawn where one of its triangles
 /// faces the viewer.
-/// @param vertices  those of the frame; x and y in the picture, y down, z away from the viewer, all in one
-/// unit
+/// @param vertices  the frame's; x and y in the picture, y down, z away from the viewer, all in one unit
 [[nodiscard]] std::vector<LineSegment> visible_edges(const WireFrame& frame,
                                                      std::span<const glm::dvec3> vertices);
 

@@ -1,4 +1,5 @@
-// Bytes to the modes of pictures: all are modes, and a group that was read can be written and read back.
+// Bytes to the modes of pictures: all modes are valid, and a group that was read can be written and read
+// back.
 #include <algorithm>
 
 #include "bitstream/blend/blend_coder.h"

@@ -1,4 +1,4 @@
-// Decodes any bytes as a stream, checks what must hold of every stream, and does a bounded amount of work.
+// Decodes any bytes as a stream, checks the invariants of every stream, and does a bounded amount of work.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@ namespace fbs::fuzz {
 inline constexpr int kMaxDrawnSide = 160;     ///< pixels; small pictures find the same bugs sooner
 inline constexpr int kMaxDrawnPictures = 60;  ///< the rest of the stream is not decoded
 
-/// What came of the bytes.
+/// The result of decoding.
 struct DecodeTally {
   std::uint64_t drawn = 0;   ///< pictures
   std::uint64_t held = 0;    ///< of those, or after them
   std::uint64_t errors = 0;  ///< reported by the decoder
 };
 
-/// Aborts where something does not hold.
+/// Aborts where an invariant is broken.
 DecodeTally decode_bounded(std::span<const std::uint8_t> stream);
 
 }  // namespace fbs::fuzz

@@ -1,4 +1,4 @@
-// Small changes of bytes that know nothing of their meaning.
+// Small changes of bytes that ignore their meaning.
 #pragma once
 
 #include <random>
@@ -9,7 +9,7 @@ namespace fbs::fuzz {
 
 using Random = std::mt19937;
 
-/// Changes some bytes: flips bits, inserts, erases, copies, rarely truncates. Empty ones stay empty.
+/// Changes some bytes: flips bits, inserts, erases, copies, rarely truncates. Empty input stays empty.
 void mutate_bytes(Bytes& bytes, Random& random);
 
 }  // namespace fbs::fuzz

@@ -1,8 +1,8 @@
 // Decodes damaged versions of streams, each with a bounded amount of work: damage MUTATIONS STREAM...
 //
-// One process for each stream decodes its versions one after the other. Where it crashes or hangs, the
-// version is saved as damage_NAME_NUMBER.fbs and another process goes on behind it. Exit code 1 if there was
-// any such, or if decoding took too much memory.
+// One process per stream decodes its versions in order. Where it crashes or hangs, the version is saved as
+// damage_NAME_NUMBER.fbs and another process continues after it. Exit code 1 after any such failure, or if
+// decoding took too much memory.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,8 +26,8 @@ using fbs::fuzz::Bytes;
 using fbs::fuzz::DamagedStreams;
 
 constexpr unsigned kMaxSeconds = 60;  // for one version
-constexpr int kMaxCrashes = 20;       // of one stream: then the rest is left out
-// Of a process: the pictures of the vectors are small, and what is damaged asks for no more. Seen are 8.
+constexpr int kMaxCrashes = 20;       // per stream: then the rest is left out
+// Limit of a process: the pictures of the vectors are small, and damaged ones ask for no more. 8 were seen.
 constexpr long kMaxPeakMiB = 64;
 #if defined(__SANITIZE_ADDRESS__)          // gcc; build/fuzz does not run this
 constexpr bool kMemoryIsMeasured = false;  // the sanitizer's own is much more
@@ -35,7 +35,7 @@ constexpr bool kMemoryIsMeasured = false;  // the sanitizer's own is much more
 constexpr bool kMemoryIsMeasured = true;
 #endif
 
-/// What the decoding process leaves in memory that it shares with its parent.
+/// What the decoding process writes to memory shared with its parent.
 struct Shared {
   std::size_t current = 0;  ///< number of the version being decoded
   std::uint64_t streams = 0, drawn = 0, held = 0, errors = 0, with_pictures = 0;

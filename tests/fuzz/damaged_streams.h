@@ -7,12 +7,12 @@
 
 namespace fbs::fuzz {
 
-/// Every cut; every packet left out, repeated, or swapped with the next, once with the checks that were there
+/// Every truncation; every packet left out, repeated, or swapped with the next, once with the original checks
 /// and once with right ones; then mutations.
 class DamagedStreams {
  public:
-  /// @param stream, others  must outlive the object; mutations take packets from `others`, one of them at
-  /// least
+  /// @param stream, others  must outlive the object; mutations take packets from `others`, at least one
+  ///                        stream
   DamagedStreams(const Bytes& stream, const std::vector<Bytes>& others, std::size_t mutations);
 
   [[nodiscard]] std::size_t count() const { return cuts() + kPacketDamages * packets() + mutations_; }
@@ -20,7 +20,7 @@ class DamagedStreams {
   /// @param number  0..count() - 1
   [[nodiscard]] Bytes operator[](std::size_t number) const;
 
-  /// What was done, in words.
+  /// A description of the damage.
   [[nodiscard]] std::string what(std::size_t number) const;
 
  private:

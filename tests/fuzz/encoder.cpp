@@ -1,5 +1,6 @@
-// Bytes to a few small pictures, settings and calls in any order: what the encoder refuses it refuses with an
-// error of its caller's, and each stream that it finishes decodes to the pictures that it took.
+// Bytes to a few small pictures, settings and calls in any order: whatever the encoder refuses, it refuses
+// with an error that blames the caller, and each stream that it finishes decodes to the pictures that it
+// took.
 #include "encoder/encoder.h"
 
 #include <algorithm>
@@ -217,7 +218,7 @@ class Session {
     return !result && result.error().code == ErrorCode::kInvalidArgument;
   }
 
-  /// Calls that have to be refused and to change nothing.
+  /// Calls that must be refused and change nothing.
   void misuse(Choices& choices) {
     Picture picture(format_.width, format_.height);
     std::uint32_t duration = 0;
@@ -281,12 +282,12 @@ class Session {
   fbs::fuzz::Bytes stream_;
   std::vector<std::uint32_t> durations_;  // of the pictures taken
   Picture last_;
-  bool failed_ = false;  // a push, after which the stream is of no use
+  bool failed_ = false;  // by a push, after which the stream is useless
 };
 
 }  // namespace
 
-/// Any bytes are choices: the first ones of a stream are some.
+/// Any bytes are choices: the first bytes of a stream are some.
 std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
   constexpr std::size_t kBytes = 90;
   return {

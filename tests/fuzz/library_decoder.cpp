@@ -1,5 +1,5 @@
-// A stream by the calls of fbs/fbs.h: in pieces of any size, with other calls between them, it gives what it
-// gives in one piece. The order of the calls is drawn from a check of the input.
+// A stream through the calls of fbs/fbs.h: in pieces of any size, with other calls between them, it gives the
+// same result as in one piece. The order of the calls is drawn from a checksum of the input.
 #include <array>
 #include <limits>
 #include <memory>
@@ -20,7 +20,7 @@ struct Close {
   void operator()(fbs_decoder* decoder) const { fbs_decoder_close(&decoder); }
 };
 
-/// What fbs_decoder_next() answered, and the picture if it announced one.
+/// The answer of fbs_decoder_next(), and the picture if it announced one.
 struct Answer {
   fbs_status status = FBS_OK;
   std::uint64_t number = 0, time = 0, error_offset = 0;
@@ -97,7 +97,8 @@ class Session {
     return true;
   }
 
-  /// Drawn by the decoder and into rows of another length from the bottom up: they must be the same.
+  /// The picture as drawn by the decoder and into rows of another length from the bottom up: they must be the
+  /// same.
   std::string picture() {
     fbs_const_picture given;
     require(fbs_decoder_get_picture(get(), &given) == FBS_OK, "an announced picture is not given");

@@ -1,5 +1,5 @@
-// Bytes as a Matroska file: whatever is read becomes a stream. And bytes as a stream: in Matroska and out of
-// it again, a stream is the same, damaged or not.
+// Bytes as a Matroska file: whatever can be read becomes a stream. And bytes as a stream: put into Matroska
+// and taken out again, a stream is unchanged, damaged or not.
 #include <algorithm>
 #include <span>
 
@@ -16,7 +16,7 @@ using fbs::fuzz::Bytes;
 
 constexpr fbs::SoundSetup kVoice{fbs::SoundCodec::kOpus, 1, 0, 960, 312};
 
-/// Packets of 20 ms of Opus, by their first byte; what follows is no sound.
+/// Opus packets of 20 ms, by their first byte; the rest is not sound.
 Bytes with_sound(const Bytes& stream) {
   std::int64_t next = 0;
   fbs::cli::SoundInterleaver interleaver(

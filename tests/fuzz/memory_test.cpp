@@ -1,5 +1,5 @@
-// What decoding allocates is bounded by what has arrived and by the limits of the format, not by what a
-// stream claims. Counts all that is allocated by operator new, in Draco too, and what dav1d asks for.
+// Decoding allocates within bounds set by the bytes that have arrived and the limits of the format, not by a
+// stream's claims. Counts all allocations by operator new, in Draco too, and dav1d's requests.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -74,7 +74,7 @@ namespace {
 
 constexpr std::size_t kMiB = 1 << 20;
 
-/// Counts from its beginning on.
+/// Counts from its construction on.
 class Meter {
  public:
   Meter() : before_(held) {
@@ -183,7 +183,7 @@ TEST(Memory, SearchPastDamageForgetsWhatItHasSeen) {
   reader.feed(Bytes(8, 0));
   EXPECT_FALSE(reader.next());
   for (int i = 0; i < 200; ++i) {
-    EXPECT_EQ(reader.resync()->status, ReadStatus::kNeedMore);
+    EXPECT_EQ(reader.next()->status, ReadStatus::kNeedMore);
     reader.feed(piece);
   }
   EXPECT_LT(meter.peak(), kMiB / 2);
@@ -210,7 +210,7 @@ TEST(Memory, WireFramesAreBounded) {
 
 TEST(Memory, DracoIsBounded) {
   // Draco's tables follow numbers of its stream: 64 symbols for each byte of the payload, and 2^20 entries of
-  // what a symbol looks up.
+  // the table that symbols are looked up in.
   constexpr std::size_t kMost = 16 * kMiB;
   std::vector<Bytes> payloads;
   for (const char* name : {"talk.fbs", "blends.fbs", "limits.fbs", "odd.fbs"})
@@ -247,7 +247,7 @@ TEST(Memory, DracoWithATableOfManySymbolsIsBounded) {
 }
 
 TEST(Memory, PatternOfClaimedLengthTakesOnlyWhatHasArrived) {
-  // Of any bytes no frame is longer than what codes it.
+  // Whatever the bytes, no frame is longer than its code.
   const auto setup = *decode_setup(setup_of_size(64, 64, 64));
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
@@ -286,7 +286,7 @@ TEST(Memory, WaitingPicturesAreBounded) {
 }
 
 TEST(Memory, KeptPicturesAreBounded) {
-  // Many groups of a scene of one pattern: each is shown and then forgotten, but for kKeptPictures.
+  // Many groups of a scene of one pattern: each is shown and then forgotten, except for kKeptPictures.
   LooseStream stream = read_loose(vector_named("talk.fbs"));
   const LoosePacket key = take_motion(stream);
   const auto peak_of = [&](int groups) {

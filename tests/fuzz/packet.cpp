@@ -11,18 +11,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span<const std::uint8_t> bytes(data, size);
   const std::size_t piece = size == 0 ? 1 : 1 + bytes.back() * std::size_t{7};
   fbs::PacketReader reader;
-  bool lost = false;
   std::uint64_t end_of_last = 0;
   for (std::size_t fed = 0, steps = 0;; ++steps) {
     require(steps < 4 * size + 16, "the reader does not come to an end");
-    const auto read = lost ? reader.resync() : reader.next();
+    const auto read = reader.next();
     if (!read) {
       require(read.error().code != fbs::ErrorCode::kInternal, "internal error");
-      lost = true;
     } else if (read->status == fbs::ReadStatus::kEnd) {
       return 0;
     } else if (read->status == fbs::ReadStatus::kPacket) {
-      lost = false;
       require(read->packet.offset >= end_of_last, "packets overlap");
       end_of_last = read->packet.offset + read->packet.size;
       require(end_of_last <= fed, "a packet of bytes not yet fed");

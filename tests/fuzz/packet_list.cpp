@@ -1,5 +1,5 @@
-// Bytes to the list of packets that `fbs inspect --packets` prints: its entries cover the stream, and what it
-// reports the decoder reports too.
+// Bytes to the list of packets that `fbs inspect --packets` prints: its entries cover the stream, and it
+// reports the same errors as the decoder.
 #include "decoder/stream/packet_list.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Bytes to AV1 frames of one scene: width and height, each 64 and a byte, then frames of two bytes of length,
-// the high one first, and so many bytes. What is decoded has the size that was asked for, whatever came
-// before.
+// high byte first, and as many bytes. Decoded frames have the requested size, whatever came before.
 #include "decoder/pattern/pattern_decoder.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What libFuzzer calls and offers besides the target itself. Without it, replay.cpp does the same.
+// The functions of libFuzzer besides the target itself. Without it, replay.cpp does the same.
 #pragma once
 
 #include <cstddef>

@@ -83,7 +83,7 @@ class Tally:
 
 
 def fuzz(target, seconds):
-    """Runs one target for so much CPU time; a finding ends a run, and another goes on."""
+    """Runs one target for a CPU time; a finding ends a run, and another continues."""
     corpus = CORPUS / target
     if not corpus.exists():
         subprocess.run([BUILD / f"replay_{target}", "--seeds", ROOT / "tests/vectors", corpus], check=True)

@@ -15,7 +15,7 @@ struct SceneFrames {
   std::vector<Bytes> frames;
 };
 
-/// Those of each scene that has any, up to the first packet that is damaged or invalid.
+/// The frames of each scene that has any, up to the first packet that is damaged or invalid.
 std::vector<SceneFrames> frames_of(const Bytes& stream);
 
 }  // namespace fbs::fuzz

@@ -1,4 +1,4 @@
-// The fields of a setup payload as numbers that may be out of range: what encode_setup() refuses to write.
+// The fields of a setup payload as numbers that may be out of range, which encode_setup() refuses to write.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace fbs::fuzz {
 
-/// Reads the fields of SPEC 4.1 that are there, up to one that is malformed, and what is behind them.
+/// Reads the fields of SPEC 4.1 that are there, up to a malformed one, and the bytes after them.
 struct SetupFields {
   std::vector<std::uint64_t> values;
   Bytes rest;

@@ -1,6 +1,6 @@
-// Bytes to sound: setups and groups of frames as a reader of sound takes them. First a setup: codec, channels
-// and one, mode (number in a list, or of itself), duration in 2.5 ms, skip of two bytes. Then steps, each a
-// byte: 0xFF a setup again; 0xFE a reset; 0xFD a jump by two bytes; else so many bytes of a frame, 0 a lost
+// Bytes to sound: setups and groups of frames for a reader of sound. First a setup: codec, channels less one,
+// mode (index in a list, or the mode itself), duration in 2.5 ms, skip of two bytes. Then steps, each a byte:
+// 0xFF a setup again; 0xFE a reset; 0xFD a jump by two bytes; else the length of a frame in bytes, 0 a lost
 // one, 0xFC two bytes of length.
 #include <algorithm>
 #include <array>
@@ -63,7 +63,7 @@ fbs::fuzz::Bytes seed_of(const fbs::SoundSettings& settings) {
   return seed;
 }
 
-/// What must hold for all pieces that a reader gives.
+/// Checks the invariants of all pieces that a reader gives.
 class Listener {
  public:
   explicit Listener(fbs::SoundReader& reader) : reader_(reader) {}
@@ -99,7 +99,7 @@ class Listener {
 
   fbs::SoundReader& reader_;
   fbs::SoundPiece piece_;
-  std::int64_t end_ = -1;  // of what has been given; -1: anything may come
+  std::int64_t end_ = -1;  // of the pieces so far; -1: anything may come
   std::size_t errors_ = 0;
   int pieces_ = 0;
 };

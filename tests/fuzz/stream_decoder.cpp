@@ -1,4 +1,4 @@
-// Bytes to pictures, of which a bounded number is held.
+// Bytes to pictures, a bounded number of them held.
 #include "tests/fuzz/bounded_decode.h"
 #include "tests/fuzz/fuzz_target.h"
 

@@ -17,7 +17,7 @@ struct Found {
   bool whole = false;
   std::uint8_t type = 0;
   std::span<const std::uint8_t> payload;
-  std::size_t checked = 0;  ///< bytes that the check is of; it follows them
+  std::size_t checked = 0;  ///< bytes covered by the check, which follows them
 };
 
 Found find_packet(std::span<const std::uint8_t> bytes) {
@@ -184,7 +184,7 @@ Bytes mutate_stream(std::span<const std::uint8_t> stream, std::span<const std::u
     if (random() % 2 == 0) repair_checks(out);
   }
   if (random() % 16 == 0) out.resize(index(out.size() + 1, random));
-  if (random() % 8 == 0) mutate(out, random);  // its checks are wrong then, or its signature
+  if (random() % 8 == 0) mutate(out, random);  // leaves checks or signature wrong
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Changes of whole streams that know of packets: bytes changed at random seldom get past the first check.
+// Changes to whole streams that know packets: bytes changed at random seldom get past the first check.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,16 @@ struct LoosePacket {
 /// A stream whose packets need not be valid, nor in order.
 struct LooseStream {
   std::vector<LoosePacket> packets;
-  Bytes rest;  ///< behind the last whole packet
+  Bytes rest;  ///< after the last whole packet
 };
 
-/// Divides a stream into packets, whatever their checks are. Its signature is not looked at.
+/// Divides a stream into packets, whatever their checks. Ignores the signature.
 [[nodiscard]] LooseStream read_loose(std::span<const std::uint8_t> stream);
 
-/// The stream with its signature, and the right check of each packet.
+/// The stream with its signature, and right checks for all packets.
 [[nodiscard]] Bytes write_loose(const LooseStream& stream);
 
-/// Where the packets of a stream begin, whatever their checks are, and where the last whole one ends.
+/// Where the packets of a stream begin, whatever their checks, and where the last whole one ends.
 [[nodiscard]] std::vector<std::size_t> packet_borders(std::span<const std::uint8_t> stream);
 
 /// Corrects signature and checks of all whole packets.

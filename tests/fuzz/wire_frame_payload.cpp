@@ -1,4 +1,4 @@
-// Bytes to a wire-frame: it keeps the rules, and one that was read can be written and read back.
+// Bytes to a wire-frame: it follows the rules, and one that was read can be written and read back.
 #include "bitstream/payload/wire_frame_payload.h"
 
 #include "tests/fuzz/fuzz_target.h"

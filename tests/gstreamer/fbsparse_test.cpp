@@ -138,7 +138,7 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// Of the first buffer that the parser sends from now on.
+  /// Watches the next buffer that the parser sends.
   void watch_parser() {
     first_ = GST_CLOCK_TIME_NONE;
     GstElement* const parser = gst_bin_get_by_name(GST_BIN(pipeline_), "parser");
@@ -162,7 +162,7 @@ class Player {
     return static_cast<GstClockTime>(found);
   }
 
-  /// What the sink shows while the pipeline is paused.
+  /// The picture that the sink shows while the pipeline is paused.
   [[nodiscard]] Bytes shown() const {
     GstElement* const sink = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
     GstSample* sample = nullptr;

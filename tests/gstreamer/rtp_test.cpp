@@ -1,9 +1,9 @@
+#include <fbs/packet.h>
 #include <gst/rtp/gstrtpbuffer.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "gstreamer/packet.h"
 #include "tests/gstreamer/stream.h"
 
 namespace fbs::gstreamer {
@@ -58,7 +58,7 @@ TEST(RtpFbs, NoPacketIsLargerThanTheMtuAndTheLastOfAGroupIsMarked) {
   EXPECT_EQ(marked, groups.size());
 }
 
-/// What comes out when one RTP packet is lost.
+/// The output when one RTP packet is lost.
 std::vector<Buffer> without(GstHarness* depay, const std::vector<Buffer>& groups, std::size_t lost) {
   std::vector<Buffer> packets = paid(groups, 100);
   for (std::size_t k = 0; k < packets.size(); ++k)
@@ -72,7 +72,7 @@ TEST(RtpFbs, AfterALossNothingComesUpToTheNextScene) {
   for (std::size_t lost = 0; lost < count; ++lost) {
     const Harness harness = depayloader();
     const std::vector<Buffer> out = without(harness.get(), groups, lost);
-    // Whatever is lost, what comes is whole: the library finds damage nowhere but for what is missing.
+    // Whatever is lost, the output is whole: the library finds no damage except the missing packets.
     EXPECT_LT(out.size(), groups.size()) << lost;
     for (const Buffer& group : out)
       if (GST_BUFFER_IS_DISCONT(group.get())) {
@@ -153,7 +153,7 @@ TEST(RtpFbs, RandomPayloadsAreNoHarm) {
     gst_rtp_buffer_set_marker(&rtp, random() % 3 == 0);
     auto* const payload = static_cast<guint8*>(gst_rtp_buffer_get_payload(&rtp));
     for (guint k = 0; k < size; ++k) payload[k] = static_cast<guint8>(random() >> 8);
-    if (size > 1) payload[1] = GST_FBS_SETUP;
+    if (size > 1) payload[1] = FBS_PACKET_SETUP;
     gst_rtp_buffer_unmap(&rtp);
     gst_harness_push(harness.get(), packet.release());
   }

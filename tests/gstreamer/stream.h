@@ -1,4 +1,4 @@
-// A talker, its streams, and what the library makes of them: what the elements are compared with.
+// A talker, its streams, and the library's output for them, with which the elements are compared.
 #pragma once
 
 #include <fbs/fbs.h>
@@ -13,7 +13,7 @@
 namespace fbs::gstreamer {
 
 inline constexpr int kSide = 112, kRate = 30, kPictures = 60;
-/// Pictures of a live group, the delay of 0.2 s.
+/// Pictures in a live group, for a delay of 0.2 s.
 inline constexpr int kGroup = 6;
 inline constexpr GstClockTime kFrame = GST_SECOND / kRate;
 
@@ -32,7 +32,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// A picture of the talker, I420, with its time.
 Buffer talker_buffer(int number);
 
-/// `line` as of gst-launch, with one element or a bin. Pictures of the talker are its input.
+/// `line` as for gst-launch, with one element or a bin. Takes pictures of the talker.
 Harness encoder_harness(const std::string& line);
 /// The caps of its input.
 std::string picture_caps(int width, int height);
@@ -45,8 +45,8 @@ std::vector<Buffer> pull(GstHarness* harness);
 /// The same after the end of the stream.
 std::vector<Buffer> finish(GstHarness* harness);
 
-/// Groups of a stream of so many pictures, with a scene requested at each of `scenes`. Made by fbsenc.
-/// @param slower    so many times as long as the talker's
+/// Groups of a stream of this many pictures, with a scene requested at each of `scenes`. Made by fbsenc.
+/// @param slower    factor on the talker's durations
 /// @param settings  of fbsenc; the last ones count
 std::vector<Buffer> encoded(int pictures, const std::vector<int>& scenes = {}, int slower = 1,
                             const std::string& settings = {});
@@ -69,7 +69,7 @@ struct Decoded {
   std::vector<DecodedPicture> pictures;
   int errors = 0;
 };
-/// By the library.
+/// Decodes with the library.
 Decoded decoded(const Bytes& stream);
 
 /// How many messages of a type the elements have posted.

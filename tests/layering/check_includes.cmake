@@ -6,7 +6,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(floors
   common
-  bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend
+  bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend bitstream/scene
   decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/pattern decoder/scene decoder/draw decoder/stream
   decoder/expression decoder/export decoder/sound
   encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/settings.h encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/analysis encoder/segment encoder/scene encoder/retarget

@@ -141,6 +141,12 @@ TABLE = {
 
 
 class BadInput(ProgramTest):
+    def test_table(self):
+        for name, row in TABLE.items():
+            with self.subTest(name):
+                self.new_folder()
+                self.row(*row)
+
     def row(self, files, arguments, says):
         for name, source in (("TALK.y4m", TALK_Y4M), ("TALK.fbs", TALK_FBS)):
             if name in arguments:
@@ -206,11 +212,3 @@ class BadInput(ProgramTest):
         with open("/dev/full", "wb") as full:
             self.fail_cleanly("encode", TALK_Y4M, "out.fbs", "--frames", 5, "--overlay", "-",
                               says=["standard output", "No space left"], stdout=full)
-
-
-def add_rows():
-    for name, row in TABLE.items():
-        setattr(BadInput, "test_" + name, lambda self, row=row: self.row(*row))
-
-
-add_rows()

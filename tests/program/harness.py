@@ -123,9 +123,12 @@ class ProgramTest(unittest.TestCase):
     """Each test runs its programs in a new, empty folder."""
 
     def setUp(self):
-        self._temporary = tempfile.TemporaryDirectory(prefix="fbs-test-")
-        self.addCleanup(self._temporary.cleanup)
-        self.folder = pathlib.Path(self._temporary.name)
+        self.new_folder()
+
+    def new_folder(self):
+        temporary = tempfile.TemporaryDirectory(prefix="fbs-test-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
 
     def fbs(self, *arguments, stdin=b"", stdout=subprocess.PIPE, environment=None, largest_file=None):
         """Runs fbs to its end, whatever the outcome. `largest_file`, bytes, simulates a full disk."""

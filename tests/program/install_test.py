@@ -106,7 +106,7 @@ class Install(ProgramTest):
         return {**os.environ, "PKG_CONFIG_PATH": str(lib / "pkgconfig"), "LD_LIBRARY_PATH": str(lib)}
 
     def check_decoding(self, program, lib, vectors, pieces):
-        """Decodes vectors in pieces of so many bytes, and compares with vectors.txt."""
+        """Decodes vectors in pieces of this many bytes, and compares with vectors.txt."""
         checked = 0
         for line in (VECTORS / "vectors.txt").read_text().splitlines():
             name, error, pictures, md5 = line.split() if line[0] != "#" else ("#", "", "", "")

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Measures the clips of clip_floors.txt (FBS_BUILD is the folder of fbs; default build/release).
+"""Measures the clips of clip_floors.txt, for clips_test.py.
 
     measure_clips.py             prints the table
     measure_clips.py --update    also writes it into clip_floors.txt, with the margins below
+
+Reads FBS_SHARED/clips/NAME.mkv, by default ../shared/clips beside the repository; FBS_BUILD is the folder of fbs, by default
+build/release. docs/results.md tells how to use clips of your own.
 """
 import dataclasses
 import sys

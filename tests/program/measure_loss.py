@@ -139,7 +139,7 @@ def feed(encoder, video):
 
 
 def kill(material, video, interval, seconds):
-    """(pictures fed, pictures that can be played) when the encoder is killed after so many seconds."""
+    """(pictures fed, pictures that can be played) when the encoder is killed after this many seconds."""
     part = material.folder / "killed.fbs.part"
     part.unlink(missing_ok=True)
     encoder = subprocess.Popen([FBS, "encode", "-", part.with_suffix(""), "--quiet", *material.options(interval)],

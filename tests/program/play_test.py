@@ -159,7 +159,7 @@ class Keys(Play):
         self.assertAlmostEqual(decoded.index(seen[1]), len(decoded) / 2, delta=2)
 
     def test_mouth_key_moves_the_mouth_alone(self):
-        # Of one pattern: which of several are blended follows from the whole face.
+        # A picture of one pattern: which of several are blended follows from the whole face.
         before, *_, opened, after = self.recorded("m", "m", "m", "0", stream=TALK_ONE_FBS)
         marks = self.landmarks()
         left, top, right, bottom = self.changed(before, opened)

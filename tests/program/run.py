@@ -14,8 +14,8 @@ import harness
 SKIPPED = 77
 
 
-def all_tests():
-    """{"bad_input.empty_file": test, ...}"""
+def tests_of(file="*"):
+    """{"bad_input.table": test, ...} of a file `bad_input`, or of all."""
     def walk(suite):
         for test in suite:
             if isinstance(test, unittest.TestSuite):
@@ -23,20 +23,21 @@ def all_tests():
             else:
                 module, _, method = test.id().split(".")
                 yield module.removesuffix("_test") + "." + method.removeprefix("test_"), test
-    return dict(walk(unittest.defaultTestLoader.discover(pathlib.Path(__file__).parent, "*_test.py")))
+    return dict(walk(unittest.defaultTestLoader.discover(pathlib.Path(__file__).parent, file + "_test.py")))
 
 
 def main(arguments):
-    tests = all_tests()
     if arguments == ["--list"]:
-        print("\n".join(tests))
+        print("\n".join(tests_of()))
         return 0
     if arguments == ["--make-material"]:
         harness.make_material()
         return 0
     if not (harness.KEYED_FBS.exists() and harness.TWO_SCENES_FBS.exists()):
         harness.make_material()
-    result = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(tests[name] for name in arguments or tests))
+    suite = unittest.TestSuite(tests_of(name.split(".")[0])[name] for name in arguments) if arguments else \
+        unittest.TestSuite(tests_of().values())
+    result = unittest.TextTestRunner(verbosity=2).run(suite)
     if not result.wasSuccessful():
         return 1
     return SKIPPED if len(result.skipped) == result.testsRun else 0

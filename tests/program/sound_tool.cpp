@@ -1,6 +1,6 @@
 // Codes sound and decodes it again: sound_tool opus|codec2 BITRATE FRAME_MS <IN >OUT. IN and OUT are mono
-// samples, 16 bits of this machine's byte order, at 48 kHz (opus) or 8 kHz (codec2). Prints a line for
-// measure_sound.py: rate of samples, bytes, frames, duration of a frame (1/48000 s), skip.
+// samples, 16 bits in this machine's byte order, at 48 kHz (opus) or 8 kHz (codec2). Prints a line for
+// measure_sound.py: sample rate, bytes, frames, duration of a frame (1/48000 s), skip.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

@@ -41,7 +41,7 @@ class HeadPose:
 def move_vertices(frame, adapted, state):
     """The vertices of the adapted head, moved by control points and lids; head units (SPEC 8.5, 8.6)."""
     vertices = adapted.copy()
-    vertices[:, :2] += nearest(frame.skinning_matrix @ np.array(state.controls), 12)
+    vertices[:, :2] += nearest(frame.skinning_matrix @ state.controls, 12)
     for pupil, upper_lid, lower_lid in _EYES:
         upper = int(max(vertices[frame.features[upper_lid].vertices, 1]))
         lower = int(min(vertices[frame.features[lower_lid].vertices, 1]))

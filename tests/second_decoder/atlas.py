@@ -78,13 +78,14 @@ class Atlas:
 
 def atlas_weights(frame, weights):
     """Weights in the atlas, from those of the warped sources (rows) at the vertices of head and ring."""
-    result = weights.copy()
-    totals = weights[:, :frame.vertices].sum(axis=1)
-    for v in range(weights.shape[1]):
-        x = weights[:, v]
-        if x.sum() == 0:
-            x = result[:, frame.outline[v - frame.vertices]] if v >= frame.vertices else totals
-        if x.sum() == 0:
-            x = np.eye(len(x), dtype=np.int64)[0]
-        result[:, v] = complete((x * ONE + x.sum() // 2) // x.sum(), ONE)
-    return result
+    def rounded(x):
+        total = x.sum(axis=0)
+        return complete((x * ONE + total // 2) // total, ONE)
+
+    def where_none(x, instead):
+        return np.where(x.sum(axis=0) == 0, instead, x)
+
+    head, ring = weights[:, :frame.vertices], weights[:, frame.vertices:]
+    first_alone = np.eye(len(weights), 1, dtype=np.int64)
+    head = rounded(where_none(head, where_none(head.sum(axis=1, keepdims=True), first_alone)))
+    return np.concatenate([head, rounded(where_none(ring, head[:, frame.outline]))], axis=1)

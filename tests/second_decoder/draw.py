@@ -72,7 +72,7 @@ class _PictureDrawing:
         weights += [weight for weight, source in zip(self._weights, self._sources) if source.still]
         for k, plane in enumerate(self._planes):
             shown = np.full((plane.height, plane.width), NO_TRIANGLE)
-            triangles.draw_with_depth(shown, plane, self._now.z[corners], 0)
+            triangles.draw_with_depth(shown, plane, self._now.z[corners])
             fragments = Fragments(triangles, shown, plane)
             stills = [source.pattern.planes[k] for source in self._sources if source.still]
             samples = [self._from_atlas(texture[k], k, fragments) if texture else None]

@@ -22,7 +22,7 @@ def quotient(a, b):
 
 def clamp(x, low, high):
     if isinstance(x, np.ndarray):
-        return np.clip(x, low, high)
+        return np.minimum(np.maximum(x, low), high)
     return min(max(x, low), high)
 
 

@@ -62,6 +62,11 @@ def rounded_weights(weights, shift, one):
     return complete(weights >> shift, one)
 
 
+def corners_of_patches(nodes):
+    """The values at the upper left, upper right, lower left and lower right node of each patch."""
+    return np.stack([nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, :-1], nodes[1:, 1:]])
+
+
 class Samples:
     """The samples of a plane in their patches.
 
@@ -72,16 +77,16 @@ class Samples:
         step = plane.bits - 5
         self.columns, self.rows = np.arange(plane.width), np.arange(plane.height)[:, None]
         self._i, self._k = self.columns * step // PATCH, self.columns * step % PATCH
-        self._j, self._l = self.rows * step // PATCH, self.rows * step % PATCH
+        self._j, self._l = self.rows[:, 0] * step // PATCH, self.rows * step % PATCH
 
-    def between(self, nodes):
-        """Values between the four nodes of each sample's patch, times 64."""
-        return self.between_corners(*self.corners(nodes))
+    def of_patches(self, values):
+        """For each sample the value of its patch."""
+        return values[:, self._i][self._j]
 
-    def corners(self, nodes):
-        return (nodes[self._j, self._i], nodes[self._j, self._i + 1],
-                nodes[self._j + 1, self._i], nodes[self._j + 1, self._i + 1])
+    def between(self, corners):
+        """Values between the four corners of each sample's patch, times 64."""
+        upper, lower = (self._beside(left, right) for left, right in (corners[:2], corners[2:]))
+        return upper[self._j] * (PATCH - self._l) + lower[self._j] * self._l
 
-    def between_corners(self, n00, n10, n01, n11):
-        k, l = self._k, self._l
-        return (n00 * (PATCH - k) + n10 * k) * (PATCH - l) + (n01 * (PATCH - k) + n11 * k) * l
+    def _beside(self, left, right):
+        return left[:, self._i] * (PATCH - self._k) + right[:, self._i] * self._k

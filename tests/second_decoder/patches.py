@@ -3,7 +3,7 @@
 import numpy as np
 
 from .integers import clamp, nearest
-from .nodes import Samples
+from .nodes import Samples, corners_of_patches
 
 NODE_ONE = 256  # sum of the weights at a node
 _OUTSIDE = 24 * 64
@@ -24,13 +24,12 @@ def warped(texture, plane, displacement):
     if displacement is None:
         return texture.astype(np.int64)
     samples = Samples(plane)
-    corners = [np.stack(samples.corners(nodes)) for nodes in displacement]
+    corners = [corners_of_patches(nodes) for nodes in displacement]
     is_still = (corners[0] == 0).all(axis=0) & (corners[1] == 0).all(axis=0)
     is_even = np.logical_and(*(np.ptp(c, axis=0) <= _EVEN for c in corners))
     halved = plane.bits - 6
-    x, y = (nearest(samples.between_corners(*np.where(is_even, (c.sum(axis=0) + 2) >> 2, c)), 6) >> halved
-            for c in corners)
-    return np.where(is_still, texture, _sample(texture, 64 * samples.columns + x, 64 * samples.rows + y, 2 - halved))
+    x, y = (nearest(samples.between(np.where(is_even, (c.sum(axis=0) + 2) >> 2, c)), 6) >> halved for c in corners)
+    return np.where(samples.of_patches(is_still), texture, _sample(texture, 64 * samples.columns + x, 64 * samples.rows + y, 2 - halved))
 
 
 def _sample(texture, u, v, inset):
@@ -51,5 +50,5 @@ def blended(plane, textures, weights):
     samples = Samples(plane)
     total = np.zeros((plane.height, plane.width), np.int64)
     for texture, nodes in zip(textures, weights):
-        total += samples.between(nodes) * texture >> 8
+        total += samples.between(corners_of_patches(nodes)) * texture >> 8
     return (total + 32) >> 6

@@ -1,6 +1,5 @@
 """Pattern packet: which slots and pictures its AV1 frames are for (SPEC 4.4)."""
 
-import copy
 from bisect import bisect_right
 from dataclasses import dataclass
 
@@ -59,9 +58,6 @@ def _initial_header():
     return header
 
 
-_INITIAL_HEADER = _initial_header()
-
-
 class Contexts:
     """Everything that the first pattern of a scene resets."""
 
@@ -69,7 +65,7 @@ class Contexts:
         self.has_length = Context()
         self.has_next = Context()
         self.other_slot = Context()
-        self.header = copy.deepcopy(_INITIAL_HEADER)
+        self.header = _initial_header()
         self.frame_length = Exponential()
         self.from_end = Exponential()
         self.gap = Wide()

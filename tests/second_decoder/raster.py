@@ -55,54 +55,44 @@ class Triangles:
         return (clamp(quotient((first * by - second * ay) << shift, areas), -MAX_GRADIENT, MAX_GRADIENT),
                 clamp(quotient((second * ax - first * bx) << shift, areas), -MAX_GRADIENT, MAX_GRADIENT))
 
-    def pieces(self, plane, first=0):
-        """Yields, in order, a Piece of each triangle from `first` on that may cover samples of a plane."""
+    def covered_samples(self, plane):
+        """Triangle, row and column of every sample that a triangle covers, in the order of the triangles."""
         left, right = plane.samples_between(self.x.min(axis=1), self.x.max(axis=1), plane.width)
         top, bottom = plane.samples_between(self.y.min(axis=1), self.y.max(axis=1), plane.height)
-        is_visible = (self.areas > 0) & (left < right) & (top < bottom)
-        for t in first + np.flatnonzero(is_visible[first:]):
-            x = plane.centres(np.arange(left[t], right[t])) - self.x[t, 0]
-            y = plane.centres(np.arange(top[t], bottom[t]))[:, None] - self.y[t, 0]
-            covered = _inside((self.x[t] - self.x[t, 0]).tolist(), (self.y[t] - self.y[t, 0]).tolist(), x, y)
-            yield Piece(t, (slice(top[t], bottom[t]), slice(left[t], right[t])), x, y, covered)
+        columns = np.maximum(right - left, 0)
+        counts = np.where(self.areas > 0, columns * np.maximum(bottom - top, 0), 0)  # in the rectangle around each
+        triangle = np.repeat(np.arange(len(counts)), counts)
+        n = np.arange(len(triangle)) - np.repeat(counts.cumsum() - counts, counts)
+        row, column = top[triangle] + n // columns[triangle], left[triangle] + n % columns[triangle]
+        covered = self._inside(triangle, plane.centres(column), plane.centres(row))
+        return triangle[covered], row[covered], column[covered]
+
+    def _inside(self, triangle, x, y):
+        """Which of the points (x, y) are covered, each by its triangle."""
+        covered = True
+        for i in range(3):
+            j = (i + 1) % 3
+            along_x, along_y = self.x[:, j] - self.x[:, i], self.y[:, j] - self.y[:, i]
+            is_left_or_top = (along_y < 0) | (along_y == 0) & (along_x > 0)
+            least = np.where(is_left_or_top, 0, 1) + along_x * self.y[:, i] - along_y * self.x[:, i]
+            covered = covered & (along_x[triangle] * y - along_y[triangle] * x >= least[triangle])
+        return covered
 
     def draw(self, shown, plane):
         """Writes into `shown`, for each sample, the last triangle that covers it."""
-        for piece in self.pieces(plane):
-            shown[piece.place][piece.covered] = piece.triangle
+        triangle, row, column = self.covered_samples(plane)
+        np.maximum.at(shown, (row, column), triangle)
 
-    def draw_with_depth(self, shown, plane, z, first):
-        """Writes into `shown` the nearest triangle, of those from `first` on; z are the depths of the corners."""
-        depth = np.full(shown.shape, FARTHEST)
+    def draw_with_depth(self, shown, plane, z):
+        """Writes into `shown` the nearest triangle, the first of several; z are the depths of the corners."""
+        triangle, row, column = self.covered_samples(plane)
         gx, gy = self.gradients(z, plane.bits)
-        for piece in self.pieces(plane, first):
-            t = piece.triangle
-            here = z[t, 0] + (gx[t] * piece.x + gy[t] * piece.y >> plane.bits)
-            here = clamp(here, -2**31, FARTHEST - 1)
-            nearer = piece.covered & (here < depth[piece.place])
-            depth[piece.place][nearer] = here[nearer]
-            shown[piece.place][nearer] = t
-
-
-@dataclass
-class Piece:
-    """The rectangle of samples around a triangle."""
-    triangle: int
-    place: tuple  # rows and columns, two slices
-    x: np.ndarray  # centres of the columns less corner 0, 1/64 luma sample
-    y: np.ndarray  # centres of the rows, one in each row
-    covered: np.ndarray  # is a sample covered
-
-
-def _inside(corner_x, corner_y, x, y):
-    """Which of the points (x, y) a triangle covers."""
-    covered = True
-    for i in range(3):
-        j = (i + 1) % 3
-        xf, yf, xt, yt = corner_x[i], corner_y[i], corner_x[j], corner_y[j]
-        is_left_or_top = yt < yf or yt == yf and xt > xf
-        covered = covered & ((yf - yt) * (x - xf) + (xt - xf) * (y - yf) >= (0 if is_left_or_top else 1))
-    return covered
+        x, y = plane.centres(column) - self.x[triangle, 0], plane.centres(row) - self.y[triangle, 0]
+        depth = clamp(z[triangle, 0] + (gx[triangle] * x + gy[triangle] * y >> plane.bits), -2**31, FARTHEST - 1)
+        place = row * plane.width + column
+        order = np.lexsort((triangle, depth, place))
+        _, nearest = np.unique(place[order], return_index=True)
+        shown.flat[place[order][nearest]] = triangle[order][nearest]
 
 
 class Fragments:

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .errors import invalid
 from .head import HEAD
 from .integers import clamp, nearest
@@ -83,8 +85,6 @@ def _control_offsets(values):
     offsets = []
     for part, expression in zip(PARTS[5:], HEAD.expression):
         assert expression.first_control == len(offsets)
-        coefficients = [values[i] for i in part]
-        sums = [sum(a * w for a, w in zip(coefficients, column)) for column in zip(*expression.rows)]
-        o = [clamp(nearest(total, 12), -MAX_CONTROL, MAX_CONTROL) for total in sums]
-        offsets += zip(o[0::2], o[1::2])
-    return offsets
+        sums = np.array([values[i] for i in part]) @ np.array(expression.rows)
+        offsets += clamp(nearest(sums, 12), -MAX_CONTROL, MAX_CONTROL).reshape(-1, 2).tolist()
+    return np.array(offsets)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .head import HEAD
-from .integers import complete, exp2, log2, quotient
+from .integers import clamp, complete, exp2, log2, quotient
 from .raster import signed_areas
 from .wire_frame import (BODY, FACE, GROUND, HAIR, INNER_LIPS, LEFT_BROW, LEFT_EYE, MOUTH, OUTER_LIPS, REGION_FEATURES,
                          RIGHT_BROW, RIGHT_EYE)
@@ -52,8 +52,9 @@ def _square(x, unit):
 
 
 def _control_squares(seen, now, features, unit):
-    return sum(_square(seen.controls[c][axis] - now.controls[c][axis], unit)
-               for feature in features for c in HEAD.features[feature].control_range() for axis in range(2))
+    controls = [c for feature in features for c in HEAD.features[feature].control_range()]
+    differences = abs(seen.controls[controls] - now.controls[controls])
+    return int((clamp(differences * 256 // unit, 0, 2**24) ** 2).sum()) if unit else 0
 
 
 def _state_distance(region, seen, now):

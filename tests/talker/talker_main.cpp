@@ -1,4 +1,4 @@
-// talker: renders a talking head with exact truth. See samples/README.md.
+// talker: renders a talking head with exact truth. See README.md.
 #include <fstream>
 #include <iostream>
 

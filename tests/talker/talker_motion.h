@@ -34,7 +34,7 @@ struct Settings {
   float scale = 0.06f;         ///< amplitude of the change of size, fraction
   float light = 0;             ///< amplitude of the change of light, fraction
   float eye_distance = 0.15f;  ///< of the frontal face in frame 0, fraction of the picture's height
-  bool still = false;          ///< the pose stays that of frame 0; the face keeps moving
+  bool still = false;          ///< keeps the pose of frame 0; the face still moves
   Motion motion = Motion::kDefault;
 };
 

@@ -1,5 +1,4 @@
-// Integer-hash noise and the soft shapes everything of the talker is made of. No state: same input, same
-// number.
+// Integer-hash noise and the soft shapes that the talker is made of. No state: same input, same number.
 #pragma once
 
 #include <algorithm>

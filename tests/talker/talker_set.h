@@ -1,4 +1,4 @@
-// Everything around the head: a static wall with a shelf and a plant, and a body in clothes with its neck.
+// Everything around the head: a static wall with a shelf and a plant, and a clothed body with its neck.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -20,7 +20,7 @@ struct BodyState {
   float pixels_per_unit;
 };
 
-/// What is at `place` of the body, or nothing; the normal is in screen directions.
+/// The material at `place` of the body, or nothing; the normal is in screen directions.
 [[nodiscard]] std::optional<Material> body(glm::vec2 place, const BodyState& state, const Look& look);
 
 }  // namespace fbs::talker

@@ -3,7 +3,7 @@
 a source, the headers of ours that it includes, its command and .clang-tidy, and what has a stamp is skipped. Stamps are
 kept in the user's cache, and so hold for other clones.
 
-    run_tidy.py CLANG_TIDY BUILD    BUILD has compile_commands.json
+    run_tidy.py CLANG_TIDY CMAKE BUILD    BUILD is configured here, with a command for each source and not for groups
 """
 
 import concurrent.futures
@@ -31,6 +31,11 @@ def sources(build):
         if path.split("/")[0] in FOLDERS and path.endswith(".cpp"):  # our rules are for C++
             found.setdefault(path, entry["command"])
     return found
+
+
+def configure(cmake, build):
+    subprocess.run([cmake, "-S", SOURCE, "-B", build, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release", "-D",
+                    "CMAKE_DISABLE_PRECOMPILE_HEADERS=ON"], check=True, stdout=subprocess.DEVNULL)
 
 
 def with_headers(path, seen):
@@ -71,7 +76,8 @@ def drop_old_stamps():
 
 
 def main():
-    tidy, build = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    tidy, cmake, build = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]).resolve()
+    configure(cmake, build)
     STAMPS.mkdir(parents=True, exist_ok=True)
     drop_old_stamps()
     version = subprocess.run([tidy, "--version"], check=True, capture_output=True).stdout

@@ -2,8 +2,8 @@
 //
 //   long_run [--pictures 15000] [--clip 150] [--size 176x144] [--noise 2] [--seed 1] [--quality 50]
 //
-// Each picture gets noise of its own, so that no two are identical and drift can accumulate. The pictures are
-// encoded and decoded, and the states compared with those of the second round at the same phase. (In the
+// Each picture gets its own noise, so that no two are identical and drift can accumulate. The pictures are
+// encoded and decoded, and the states compared with the states of the second round at the same phase. (In the
 // first round, parts without a contour, such as pupils, are still converging.) Exit code 1 when the end
 // differs from the beginning.
 #include <algorithm>
@@ -19,11 +19,10 @@
 #include <string_view>
 #include <vector>
 
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
 #include "encoder/model/pose.h"
 #include "tests/talker/talker_noise.h"
 #include "tests/talker/talker_render.h"
+#include "tests/unit/encode_decode.h"
 
 namespace {
 
@@ -31,8 +30,8 @@ using namespace fbs;
 
 constexpr double kMostDegrees = 0.5, kMostPixels = 0.5;
 
-/// The last two seconds, backwards, show what the first did. Single poses jitter: in each round one is off by
-/// nearly two degrees.
+/// The last two seconds, backwards, show the same as the first two. Single poses jitter: in each round one is
+/// off by nearly two degrees.
 constexpr int kEndPictures = 60;
 constexpr double kDegrees = 57.29577951308232;
 
@@ -181,27 +180,17 @@ std::optional<Error> run(const Options& o, const ToAndFro& source, int pictures,
   EncoderSettings settings;
   settings.quality = o.quality;
   settings.patterns = 1;  // states do not depend on them
-  auto encoder = Encoder::create(format, settings);
-  if (!encoder) return encoder.error();
-  StreamDecoder decoder;
-  const auto pass_on = [&]() -> std::optional<Error> {
-    const auto bytes = encoder->take();
-    if (bytes.empty()) return std::nullopt;
-    decoder.feed(bytes);
-    for (;;) {
-      const auto status = decoder.next();
-      if (!status) return status.error();
-      if (*status != DecodeStatus::kPicture) return std::nullopt;
-      if (!decoder.scene().geometry) return Error{ErrorCode::kNoFace, "no face in the first picture"};
+  const auto stream = encode_pictures(format, settings, pictures, [&](int i) { return source.at(i); });
+  if (!stream) return stream.error();
+  std::optional<Error> error;
+  const auto end = decode_pictures(*stream, [&](const StreamDecoder& decoder) {
+    if (decoder.scene().geometry)
       see(Shown(decoder));
-    }
-  };
-  for (int i = 0; i < pictures; ++i) {
-    if (auto pushed = encoder->push(source.at(i)); !pushed) return pushed.error();
-    if (auto error = pass_on()) return error;
-  }
-  if (auto finished = encoder->finish(); !finished) return finished.error();
-  return pass_on();
+    else
+      error = Error{ErrorCode::kNoFace, "no face in the first picture"};
+  });
+  if (!end) error = end.error();
+  return error;
 }
 
 }  // namespace
@@ -219,7 +208,7 @@ int main(int argc, char** argv) {
   std::vector<Shown> second;
   std::vector<Round> seen(static_cast<std::size_t>(rounds) + 1);
   std::vector<Shown> beginning;
-  std::deque<Shown> end;  // the latest first
+  std::deque<Shown> end;  // latest first
   int i = 0;
   const auto error = run(*options, source, rounds * source.round() + 1, [&](const Shown& now) {
     if (i / source.round() == 1) second.push_back(now);

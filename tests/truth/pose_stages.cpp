@@ -2,7 +2,7 @@
 //
 //   pose_stages [NOISE ...]
 //
-// Head tracker (flow and alignment with the first picture), fit to the pattern, what the encoder chooses.
+// Head tracker (flow and alignment with the first picture), fit to the pattern, and the encoder's choice.
 // Each stage starts from the tracker's own pose, as in the encoder. Degrees and percent, mean and 95th
 // percentile over three seeds; `gain` is the slope of found against true angles: 1 when depth is right.
 #include <algorithm>

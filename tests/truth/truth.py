@@ -35,7 +35,7 @@ def read_truth(path):
 
 
 def rotation(angles):
-    """Rz(roll) Ry(yaw) Rx(pitch); samples/README.md and SPEC agree on it."""
+    """Rz(roll) Ry(yaw) Rx(pitch); tests/talker/README.md and SPEC agree on it."""
     (cx, sx), (cy, sy), (cz, sz) = ((math.cos(math.radians(a)), math.sin(math.radians(a))) for a in angles)
     return ((cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx),
             (sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx),

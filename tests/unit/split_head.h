@@ -1,4 +1,4 @@
-// Wire-frames other than the generic head. The split head draws what the generic head draws: it is the
+// Wire-frames other than the generic head. The split head draws the same as the generic head: it is the
 // generic head with one more vertex in the middle of most triangles.
 #pragma once
 

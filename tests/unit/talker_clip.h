@@ -1,5 +1,4 @@
-// The generated talker as the encoder's tests use it: pictures drawn once, truth in the encoder's
-// conventions.
+// The generated talker for the encoder's tests: pictures drawn once, truth in the encoder's conventions.
 #pragma once
 
 #include <algorithm>
@@ -50,8 +49,7 @@ class TalkerClip {
     return out;
   }
 
-  /// Head frames differ by where their origin lies, so that only turns, scale and how the pose changes
-  /// compare.
+  /// Head frames differ in their origins, so that only turns, scale and changes of the pose are comparable.
   [[nodiscard]] Pose pose(int frame) const {
     constexpr double kDegree = std::numbers::pi / 180;
     const talker::Pose p = talker_.truth(frame).pose;

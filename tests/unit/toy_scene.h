@@ -1,5 +1,4 @@
-// A scene with a face made of the generic head and random paint: what the decoder's tests draw, no encoder
-// needed.
+// A scene with a face made of the generic head and random paint, for tests of the decoder without an encoder.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 namespace fbs {
 
-/// Of a store of three slots, with every mode in every region: blends.fbs.
+/// Blends from a store of three slots, with every mode in every region: blends.fbs.
 std::vector<Piece> hand_made_blends();
 
 void add_blends(Folder& folder);

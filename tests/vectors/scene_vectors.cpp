@@ -22,7 +22,7 @@ Bytes late() {
 
 using Scene = std::vector<Piece>;
 
-/// Without the end packet.
+/// The scenes of a stream, without the end packet.
 std::vector<Scene> scenes_of(const Bytes& stream) {
   std::vector<Scene> out;
   for (const Piece& piece : pieces_of(stream)) {

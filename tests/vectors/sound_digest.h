@@ -1,4 +1,4 @@
-// Digest of the sound of a stream: what comes of it, and how much is heard.
+// Digest of the sound of a stream: its frames, and how much is heard.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace fbs {
 
-/// Decoded samples are not compared: the codecs' libraries do not promise the same ones.
+/// Decoded samples are not compared: the codecs' libraries do not guarantee them.
 struct SoundDigest {
   std::uint64_t frames = 0;   ///< of sound packets that count, missing ones too if they are said to be
   std::uint64_t samples = 0;  ///< of each channel that are heard, at the rates of the codecs

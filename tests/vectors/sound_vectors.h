@@ -6,7 +6,7 @@
 namespace fbs {
 
 /// Writes them, and sound.txt.
-/// @param talk  a stream of one scene; its pictures are those of the vectors of one scene
+/// @param talk  a stream of one scene; it shares its pictures with the vectors of one scene
 /// @param late  one of two
 void add_sound(Folder& folder, const std::string& path, const Bytes& talk, const Bytes& late);
 

@@ -27,6 +27,8 @@ std::string_view name_of(ErrorCode code) {
       return "kDegenerateInput";
     case ErrorCode::kNoFace:
       return "kNoFace";
+    case ErrorCode::kTooFewFaces:
+      return "kTooFewFaces";
     case ErrorCode::kIo:
       return "kIo";
     case ErrorCode::kInternal:

@@ -8,8 +8,8 @@
 #include "bitstream/packet.h"
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/setup_payload.h"
-#include "encoder/encoder.h"
 #include "tests/talker/talker_render.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace fbs {
@@ -47,12 +47,7 @@ Bytes encoded(const std::vector<Picture>& pictures, const EncoderSettings& setti
   format.width = pictures[0].width();
   format.height = pictures[0].height();
   format.frame_rate = {30, 1};
-  auto encoder = must(Encoder::create(format, settings));
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    if (auto pushed = encoder.push(pictures[i], durations.empty() ? 0 : durations[i]); !pushed)
-      give_up(pushed.error().text);
-  if (auto finished = encoder.finish(); !finished) give_up(finished.error().text);
-  return encoder.take();
+  return must(encode_pictures(format, settings, pictures, durations));
 }
 
 std::vector<Piece> pieces_of(const Bytes& stream) {

@@ -79,7 +79,7 @@ std::vector<SkinningWeight> random_skinning(std::mt19937& random) {
   return out;
 }
 
-/// What is allowed and no head: triangles that are turned over, here and in the atlas, and many at a vertex.
+/// Allowed, but not a head: triangles that are turned over, here and in the atlas, and many at a vertex.
 WireFrameTables random_tables(std::mt19937& random) {
   constexpr std::size_t kVertices = 120, kTriangles = 150, kOutlineVertices = 17;
   WireFrameTables out;
@@ -117,7 +117,7 @@ Geometry random_head() {
   return {tables.positions, must(make_wire_frame(tables))};
 }
 
-/// With the right code, but not the right content.
+/// A valid code with invalid content.
 Bytes with_outline_of_one(std::vector<Piece> pieces) {
   const auto frame = split_head();
   const std::vector<std::uint16_t> outline(frame->outline.size(), frame->outline.front());

@@ -16,7 +16,7 @@ function row(entry, seconds) {
   const fbs = kbits(entry.fbs_bytes, seconds), av1 = kbits(entry.av1_bytes, seconds);
   const player = element("fbs-player", { src: MEDIA + entry.fbs, controls: "", loop: "", label: `Talker, fbs at ${fbs} kbit/s` });
   const video = element("video", { src: MEDIA + entry.av1, controls: "", loop: "", "aria-label": `Talker, AV1 at ${av1} kbit/s` });
-  // One of all is heard.
+  // Only one of all is heard.
   for (const one of [player, video])
     one.addEventListener("play", () => {
       for (const other of document.querySelectorAll("fbs-player, video")) if (other !== one) other.pause();

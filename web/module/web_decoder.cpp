@@ -75,10 +75,8 @@ const WebDecoder::Face* WebDecoder::face() {
 void WebDecoder::count_sound(std::span<const std::uint8_t> bytes) {
   packets_.feed(bytes);
   for (;;) {
-    const auto read = damaged_ ? packets_.resync() : packets_.next();
-    if (!read && (damaged_ || read.error().code == ErrorCode::kNotFbs)) return;
-    damaged_ = !read;
-    if (damaged_) continue;
+    const auto read = packets_.next();
+    if (!read) continue;
     if (read->status != ReadStatus::kPacket) return;
     const PacketType type = read->packet.type;
     if (type == PacketType::kSound || type == PacketType::kSoundSetup) sound_bytes_ += read->packet.size;

@@ -72,7 +72,6 @@ class WebDecoder {
   bool finished_ = false;
   std::unique_ptr<StreamDecoder> decoder_;
   PacketReader packets_;  ///< for sound_bytes_
-  bool damaged_ = false;  ///< it has to search
   std::uint64_t sound_bytes_ = 0;
   WebSound sound_;
   StateEdit edit_;

@@ -1,6 +1,7 @@
-/** YCbCr to RGB: matrices of 8-bit samples, as the stream's format says. */
+/** YCbCr to RGB: matrices for 8-bit samples in the stream's format. */
 
-/** Weights of red and blue in luma, by the names of Format.matrix. Where a stream does not say, it is the older one. */
+/** Weights of red and blue in luma, by the names of Format.matrix. An unspecified matrix counts as the older
+ * one. */
 const LUMA_WEIGHTS = {
   bt601: [0.299, 0.114],
   bt709: [0.2126, 0.0722],

@@ -3,26 +3,26 @@ import type { Announced, ErrorCode, Face, FaceEdit, Format, Picture, Sound } fro
 
 export * from "./types";
 
-/** What the stream or the decoder has against going on. */
+/** An error of the stream or of the decoder. */
 export class FbsError extends Error {
   constructor(code: ErrorCode, message: string, offset?: number);
   readonly code: ErrorCode;
-  /** The byte of the stream that it is about; 0 if it is about none. */
+  /** The offset in the stream of the error's cause; 0 if it has none. */
   readonly offset: number;
 }
 
-/** The file of the module that this machine can run: with vector instructions or without. */
+/** The module file for this machine: with or without vector instructions. */
 export function moduleUrl(): URL;
 /** Fetches and compiles the module; `url`: default moduleUrl(). */
 export function compileModule(url?: URL | string): Promise<WebAssembly.Module>;
-/** Makes an instance of the module, which is fetched if it is not given. */
+/** Creates an instance of the module, which is fetched if not given. */
 export function loadModule(module?: WebAssembly.Module): Promise<FbsModule>;
 
 export class FbsModule {
   private constructor();
   /** Names of the weights in Face.blendshapes. */
   readonly blendshapeNames: readonly string[];
-  /** A decoder of one stream. All of a module share its memory, of 2 GB at most. */
+  /** Opens a decoder of one stream. All decoders of a module share its memory, at most 2 GB. */
   open(): FbsDecoder;
 }
 
@@ -32,35 +32,35 @@ export class FbsModule {
  */
 export class FbsDecoder {
   private constructor();
-  /** Frees it. Nothing may be called after that. */
+  /** Frees the decoder. No method may be called afterwards. */
   close(): void;
-  /** Takes the next bytes of the stream. They are copied. */
+  /** Copies the next bytes of the stream. */
   feed(bytes: Uint8Array): void;
-  /** No more bytes will come. */
+  /** Ends the stream. */
   finish(): void;
-  /** Goes on to the next picture, without drawing it. Throws an FbsError where the stream is damaged; called again, it goes
-   * on behind the damage. */
+  /** Advances to the next picture, without drawing it. Throws an FbsError where the stream is damaged; the next call
+   * continues after the damage. */
   next(): "picture" | "need-data" | "end";
-  /** Goes to the scene in which a picture of a time lies: next() gives its first picture. Sound goes on from the time itself.
-   * Returns false as long as no scene has come. */
+  /** Goes to the scene that contains a time: next() gives its first picture. Sound continues from the time itself.
+   * Returns false until a scene has arrived. */
   seek(time: number): boolean;
 
   /** The picture that next() announced last. */
   announced(): Announced;
   format(): Format;
-  /** Draws it, with the edit. `buffer` is used for its planes if it has the right size. */
+  /** Draws the picture, with the edit. `buffer` is used for its planes if it has the right size. */
   draw(buffer?: ArrayBuffer): Picture;
-  /** Its face, with the edit, without drawing; null in a scene without a face. */
+  /** The picture's face, with the edit, without drawing; null in a scene without a face. */
   face(): Face | null;
-  /** Sets what is added to the motion of the stream; what is left out is 0. */
+  /** Sets the changes to the motion of the stream; omitted members are 0. */
   edit(edit: FaceEdit): void;
 
-  /** The sound from where the last call or seek() ended up to a time, or as far as it has come; null as long as none has. */
+  /** The sound from the end of the last call or seek() up to a time, or as far as it has arrived; null until some has. */
   sound(end: number): Sound | null;
-  /** Hz; 0 as long as no sound has come. */
+  /** Hz; 0 until sound has arrived. */
   readonly soundRate: number;
-  /** End of the pictures that have come, seconds. */
+  /** End of the pictures that have arrived, seconds. */
   readonly arrivedTime: number;
-  /** Bytes that have come, and those of them that are sound. */
+  /** Bytes that have arrived, and how many of them are sound. */
   readonly arrivedBytes: { all: number; sound: number };
 }

@@ -1,4 +1,4 @@
-/** The page's end of the worker: starts it, and numbers what is asked. */
+/** The page's end of the worker: starts it, and numbers the requests. */
 import { compileModule, FbsError } from "./fbs_module.js";
 
 /**
@@ -15,7 +15,7 @@ let compiled;
  */
 export function prepareDecoder() {
   compiled ??= compileModule().catch((fault) => {
-    compiled = undefined;  // to be tried again
+    compiled = undefined;  // try again
     throw fault;
   });
   return compiled;
@@ -25,17 +25,17 @@ export function prepareDecoder() {
 function startWorker() {
   const url = new URL("./worker.js", import.meta.url);
   if (url.origin === location.origin) return new Worker(url, { type: "module" });
-  // A worker has to be of the page's own origin: this one is, and imports the other.
+  // A worker must come from the page's own origin: this one does, and imports the other.
   const text = new Blob([`import ${JSON.stringify(url.href)};`], { type: "text/javascript" });
   return new Worker(URL.createObjectURL(text), { type: "module" });
 }
 
 export class DecoderClient {
-  /** @param {(answer: Answer) => void} take  is given the answers to the last load or seek */
+  /** @param {(answer: Answer) => void} take  called with the answers to the last load or seek */
   constructor(take) {
     this.take = take;
     this.generation = 0;
-    /** The generation of the last load: what is about the stream is of interest after a seek, too. */
+    /** The generation of the last load: reports about the stream matter after a seek, too. */
     this.loaded = 0;
     /** @type {Worker | null} */
     this.worker = null;

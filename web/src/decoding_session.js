@@ -1,4 +1,4 @@
-/** One stream in the worker: it arrives, and requests for its pictures are answered when they can be. */
+/** One stream in the worker: reads it, and answers requests for its pictures when they can be decoded. */
 import { FbsError } from "./fbs_module.js";
 import { openStream, readStream } from "./stream_source.js";
 

@@ -1,4 +1,4 @@
-/** The visitor's hands on the face: sliders, drags on the picture, arrow keys. */
+/** The visitor's control of the face: sliders, drags on the picture, arrow keys. */
 
 /**
  * @typedef {import("./types").FaceEdit} FaceEdit
@@ -6,7 +6,7 @@
  */
 
 /**
- * Words are for values below and above 0. `sign`: -1 where the slider's left is what the part counts above 0.
+ * `words` name values below and above 0. `sign`: -1 where the slider's left stands for the part's positive values.
  * @type {{ part: Part, name: string, low: number, high: number, step: number, words: [string, string], sign: number }[]}
  */
 const SLIDERS = [
@@ -18,9 +18,9 @@ const SLIDERS = [
   { part: "smile", name: "Smile", low: -1, high: 1, step: 0.05, words: ["less", "more"], sign: 1 },
   { part: "lids", name: "Eyes", low: -1, high: 1, step: 0.05, words: ["opened", "shut"], sign: 1 },
 ];
-/** Degrees of an arrow key. */
+/** Degrees per press of an arrow key. */
 const KEY_TURN = 3;
-/** Degrees that a drag over the whole picture turns. */
+/** Degrees per drag over the whole picture. */
 const DRAG_TURN = 60;
 const BLINK_MS = 180;
 

@@ -12,7 +12,7 @@
  * @typedef {import("./types").Announced} Announced
  */
 
-/** A function with one vector instruction: it is valid where there are vectors of 128 bits. */
+/** A function with one vector instruction: valid where there are vectors of 128 bits. */
 const VECTOR_PROBE = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
@@ -28,7 +28,7 @@ const STATUS_CODES = /** @type {const} */ ({
 
 const MATRICES = /** @type {const} */ (["unspecified", "bt601", "bt709"]);
 
-/** What the stream or the decoder has against going on. */
+/** An error of the stream or of the decoder. */
 export class FbsError extends Error {
   /**
    * @param {import("./types").ErrorCode} code
@@ -43,7 +43,7 @@ export class FbsError extends Error {
   }
 }
 
-/** The file of the module that this machine can run. */
+/** The module file for this machine. */
 export function moduleUrl() {
   const vectors = WebAssembly.validate(VECTOR_PROBE);
   return vectors ? new URL("./fbs-simd.wasm", import.meta.url) : new URL("./fbs.wasm", import.meta.url);
@@ -56,7 +56,7 @@ export function moduleUrl() {
 export async function compileModule(url = moduleUrl()) {
   const answer = await fetch(url, { credentials: "same-origin" });
   if (!answer.ok) throw new FbsError("http", `${url}: the server answers ${answer.status}`);
-  // It compiles while it arrives, where the server has the right type for it.
+  // Compiles while downloading, if the server sends the right type.
   return answer.headers.get("Content-Type")?.startsWith("application/wasm")
     ? WebAssembly.compileStreaming(answer)
     : WebAssembly.compile(await answer.arrayBuffer());
@@ -130,7 +130,7 @@ export class FbsDecoder {
     this.module.functions.web_feed(this.handle);
   }
 
-  /** No more bytes will come. */
+  /** Ends the stream. */
   finish() {
     this.module.functions.web_finish(this.handle);
   }
@@ -223,17 +223,17 @@ export class FbsDecoder {
     return { time, sampleRate, channels: web_sound_channels(this.handle), samples };
   }
 
-  /** Hz; 0 as long as no sound has come. */
+  /** Hz; 0 until sound has arrived. */
   get soundRate() {
     return this.module.functions.web_sound_rate(this.handle);
   }
 
-  /** End of the pictures that have come, with all before them. */
+  /** End of the pictures that have arrived, with all before them. */
   get arrivedTime() {
     return this.module.functions.web_released(this.handle);
   }
 
-  /** Bytes that have come, and those of them that are sound. */
+  /** Bytes that have arrived, and how many of them are sound. */
   get arrivedBytes() {
     const { web_bytes, web_sound_bytes } = this.module.functions;
     return { all: web_bytes(this.handle), sound: web_sound_bytes(this.handle) };

@@ -7,14 +7,14 @@ export * from "./decoder";
 export function prepareDecoder(): Promise<WebAssembly.Module>;
 
 export interface FbsPlayerEventMap extends HTMLElementEventMap {
-  /** A picture is shown. */
+  /** Fired when a picture is shown. */
   face: CustomEvent<FaceDetail>;
-  /** Playback goes on after it unless it is fatal. */
+  /** Playback continues after it unless it is fatal. */
   error: CustomEvent<PlayerError> & ErrorEvent;
 }
 
 export class FbsPlayer extends HTMLElement {
-  // As of HTMLMediaElement. Besides these events: play, playing, pause, timeupdate, waiting, seeking, seeked, ended,
+  // Like HTMLMediaElement. Further events: play, playing, pause, timeupdate, waiting, seeking, seeked, ended,
   // loadedmetadata, loadeddata, durationchange, progress, volumechange.
   src: string;
   preload: string;
@@ -24,9 +24,9 @@ export class FbsPlayer extends HTMLElement {
   muted: boolean;
   /** 0..1 */
   volume: number;
-  /** Seconds. A time that has not come yet is waited for. */
+  /** Seconds. Waits for a time that has not arrived. */
   currentTime: number;
-  /** Seconds: NaN before the first picture, Infinity until the whole stream has come. */
+  /** Seconds: NaN before the first picture, Infinity until the whole stream has arrived. */
   readonly duration: number;
   readonly paused: boolean;
   readonly ended: boolean;
@@ -35,21 +35,21 @@ export class FbsPlayer extends HTMLElement {
   readonly currentSrc: string;
   readonly videoWidth: number;
   readonly videoHeight: number;
-  /** Rejects where nothing can be played, and where the browser allows no sound before the visitor has done something. */
+  /** Rejects where nothing can be played, and where the browser allows no sound before a visitor's action. */
   play(): Promise<void>;
   pause(): void;
   load(): void;
 
-  /** What the picture shows, for those who do not see it. The attribute is `label`. */
+  /** Describes the picture for visitors who cannot see it. The attribute is `label`. */
   label: string;
-  /** What is added to the motion of the stream. Setting changes those that are named. */
+  /** Changes to the motion of the stream. Setting changes only the members named. */
   get faceEdit(): Required<FaceEdit>;
   set faceEdit(edit: FaceEdit);
-  /** Of the picture that is shown; null without a face. */
+  /** The face in the picture shown; null without a face. */
   readonly face: Face | null;
-  /** Seconds of the stream that have come. */
+  /** Seconds of the stream that have arrived. */
   readonly arrivedTime: number;
-  /** kbit/s on average of what has come. */
+  /** Average kbit/s of the part that has arrived. */
   readonly rate: { picture: number; sound: number };
 
   addEventListener<K extends keyof FbsPlayerEventMap>(

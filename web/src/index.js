@@ -1,4 +1,4 @@
-/** Defines <fbs-player>, and gives what programs use beside it. */
+/** Defines <fbs-player>, and exports what programs use with it. */
 import { FbsPlayer } from "./player_element.js";
 
 export { FbsPlayer };

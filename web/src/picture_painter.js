@@ -1,4 +1,4 @@
-/** Draws pictures on a canvas: by WebGL, or where there is none by its 2D context. */
+/** Draws pictures on a canvas: by WebGL, or without it by the 2D context. */
 import { colourMatrix } from "./colour.js";
 
 /**
@@ -140,7 +140,7 @@ class PlainPainter {
     }
     const { canvas } = this.context;
     if (canvas.width === width) return this.context.putImageData(this.image, 0, 0);
-    // Its pixels are not square.
+    // The pixels are not square.
     this.square.width = width;
     this.square.height = height;
     this.square.getContext("2d")?.putImageData(this.image, 0, 0);

@@ -1,14 +1,14 @@
 /**
- * Plays a stream: asks the worker for pictures and sound, and shows each picture when its time has come. What happens is
- * told by `emit`, by the names of HTMLMediaElement's events where there is one.
+ * Plays a stream: asks the worker for pictures and sound, and shows each picture at its time. Reports events through `emit`,
+ * under the names of HTMLMediaElement's events where they exist.
  */
 import { DecoderClient } from "./decoder_client.js";
 import { SoundOutput } from "./sound_output.js";
 import { WallClock } from "./wall_clock.js";
 
-/** Sound is fetched so many seconds ahead of what is heard, when a third of it is used: a hidden page looks once a second. */
+/** Seconds of sound fetched ahead, whenever a third has been used: a hidden page looks once a second. */
 const SOUND_AHEAD = 3;
-/** Between two events `timeupdate`, and between two looks at the clock while the page is hidden. */
+/** Interval of `timeupdate`, and of looks at the clock while the page is hidden. */
 const UPDATE_MS = 250;
 
 /**
@@ -33,7 +33,7 @@ export class Playback {
   /** @type {ShownPicture | null} */
   shown = null;
   /**
-   * Of a picture that is not shown any more.
+   * The buffer of a picture that is no longer shown.
    * @type {ArrayBuffer | undefined}
    */
   spare;
@@ -51,12 +51,12 @@ export class Playback {
   pending = null;
   requested = false;
   seeking = false;
-  /** The next picture has not come. */
+  /** The next picture has not arrived. */
   waiting = false;
   /** There is no next picture. */
   atEnd = false;
   soundRequested = false;
-  /** All sound that has come has been taken. */
+  /** All sound that has arrived has been taken. */
   soundStarved = false;
   redrawing = false;
   redrawAgain = false;
@@ -71,7 +71,7 @@ export class Playback {
     this.client = new DecoderClient((answer) => this.take(answer));
   }
 
-  /** As before the first load. */
+  /** Returns to the state before the first load. */
   forget() {
     this.unschedule();
     this.closeSound();
@@ -83,7 +83,7 @@ export class Playback {
     this.forgetRequests();
   }
 
-  /** What was asked is of no interest any more. */
+  /** Ignores the answers to all earlier requests. */
   forgetRequests() {
     this.pending = null;
     this.requested = this.seeking = this.waiting = this.atEnd = false;
@@ -103,7 +103,7 @@ export class Playback {
     this.forget();
   }
 
-  /** Whether something has been loaded, and nothing forbids to play it. */
+  /** Whether something has been loaded and can be played. */
   get usable() {
     return (this.shown !== null || this.requested) && !this.error?.fatal;
   }
@@ -113,7 +113,7 @@ export class Playback {
     return Math.min(this.clock.time(), this.duration);
   }
 
-  /** Infinity until all has come; NaN before there is a picture. */
+  /** Infinity until everything has arrived; NaN before there is a picture. */
   get duration() {
     if (!this.shown) return NaN;
     return this.arrival.complete ? Math.max(this.arrival.time, endOf(this.shown)) : Infinity;
@@ -132,7 +132,7 @@ export class Playback {
     if (!this.playing) return;
     this.playing = false;
     this.halt(this.currentTime);
-    // The decoder is at the next picture already, and an edit has to draw the one that is seen.
+    // The decoder is at the next picture already, while an edit must redraw the one that is seen.
     if (this.pending) this.showPending();
     this.sound?.rest();
     this.emit("timeupdate");
@@ -156,7 +156,7 @@ export class Playback {
   edit(edit) {
     this.client.edit(edit);
     if (this.clock.running || !this.shown) return;
-    // What is on its way may have been drawn without it.
+    // A picture on its way may have been drawn without the edit.
     if (this.redrawing || (this.requested && !this.waiting)) this.redrawAgain = true;
     else this.redraw();
   }
@@ -167,7 +167,7 @@ export class Playback {
     this.client.redraw();
   }
 
-  /** Volume or muting has been changed. */
+  /** Applies a change of volume or muting. */
   async changeVolume() {
     if (this.sound) this.sound.volume = this.muted ? 0 : this.volume;
     else if (this.playing && this.wantsSound) await this.goWithSound();
@@ -178,7 +178,7 @@ export class Playback {
   }
 
   /**
-   * Goes on, by the clock of the sound if there is any.
+   * Continues, by the clock of the sound if there is any.
    * @returns {Promise<boolean>}  whether the browser allows it
    */
   async goWithSound() {
@@ -208,10 +208,10 @@ export class Playback {
     this.clock = new WallClock();
   }
 
-  /** Starts the clock, if all is there that is needed. */
+  /** Starts the clock when everything it needs is there. */
   go() {
     if (!this.playing || this.clock.running || !this.shown || this.seeking) return;
-    if (this.sound && this.sound !== this.clock) return;  // is being opened
+    if (this.sound && this.sound !== this.clock) return;  // still being opened
     if (!this.pending && !this.requested && !this.atEnd) this.request(this.position);
     if (this.waiting && !this.pending) return;
     if (this.sound && this.sound.end <= this.position && !this.soundStarved) return this.requestSound();

@@ -1,4 +1,4 @@
-/** <fbs-player>: the element of a page. Its attributes and functions are those of <video> where there are such. */
+/** <fbs-player>: the element of a page. Attributes and functions follow <video> where it has them. */
 import { ControlBar } from "./control_bar.js";
 import { FaceControls } from "./face_controls.js";
 import { PicturePainter } from "./picture_painter.js";
@@ -51,7 +51,7 @@ export class FbsPlayer extends HTMLElement {
       face: () => this.togglePanel(),
     });
     this.faceControls = new FaceControls(this.panel, this.stage, (edit) => this.playback.edit(edit));
-    /** What has been loaded, or is being loaded. */
+    /** The source that has been loaded, or is loading. */
     this.currentSrc = "";
     this.planned = false;
     this.addEventListener("keydown", (event) => this.takeKey(event));
@@ -82,7 +82,7 @@ export class FbsPlayer extends HTMLElement {
   }
 
   /**
-   * Loads when the script that sets attributes is done.
+   * Loads once the script that sets attributes is done.
    * @param {boolean} [again]
    */
   planLoad(again = false) {
@@ -108,7 +108,7 @@ export class FbsPlayer extends HTMLElement {
 
   // ---- as HTMLMediaElement
 
-  /** Rejects where the browser allows no sound before the visitor has done something, and where nothing can be played. */
+  /** Rejects where the browser allows no sound before a visitor's action, and where nothing can be played. */
   async play() {
     if (!this.currentSrc || this.error?.fatal) this.load();
     if (!this.currentSrc) throw new DOMException("there is no src", "NotSupportedError");
@@ -217,7 +217,7 @@ export class FbsPlayer extends HTMLElement {
 
   // ---- of its own
 
-  /** What the picture shows, for those who do not see it. */
+  /** Describes the picture for visitors who cannot see it. */
   get label() {
     return this.getAttribute("label") ?? "Video of a person talking";
   }
@@ -227,7 +227,7 @@ export class FbsPlayer extends HTMLElement {
   }
 
   /**
-   * What is added to the motion of the stream; to be set in part.
+   * Changes to the motion of the stream; may be set in part.
    * @returns {Required<FaceEdit>}
    */
   get faceEdit() {
@@ -238,17 +238,17 @@ export class FbsPlayer extends HTMLElement {
     this.faceControls.set(edit);
   }
 
-  /** The face of the picture that is shown. */
+  /** The face in the picture shown. */
   get face() {
     return this.playback.shown?.face ?? null;
   }
 
-  /** Seconds of the stream that have come. */
+  /** Seconds of the stream that have arrived. */
   get arrivedTime() {
     return this.playback.arrival.time;
   }
 
-  /** kbit/s of what has come, on average. */
+  /** Average kbit/s of the part that has arrived. */
   get rate() {
     const { bytes, soundBytes, time } = this.playback.arrival;
     const rateOf = (/** @type {number} */ part) => (time > 0 ? (part * 8) / 1000 / time : 0);
@@ -257,7 +257,7 @@ export class FbsPlayer extends HTMLElement {
 
   // ---- what happens
 
-  /** Whether it plays without being asked: not where the visitor wants little motion. */
+  /** Whether it plays unasked: not for visitors who prefer reduced motion. */
   get startsItself() {
     return this.autoplay && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   }

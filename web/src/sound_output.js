@@ -1,8 +1,8 @@
-/** Plays sound by Web Audio, and tells what is heard: the pictures' clock. */
+/** Plays sound by Web Audio, and gives the pictures' clock: the time of the sound heard. */
 
 /** Seconds from start() to the first sample, for the buffers to be ready. */
 const LEAD = 0.05;
-/** How long a context may take to begin. Where the visitor has to allow sound first, it never does. */
+/** How long a context may take to start. Where the visitor must allow sound first, it never does. */
 const PATIENCE_MS = 400;
 
 export class SoundOutput {
@@ -16,7 +16,7 @@ export class SoundOutput {
     this.gain.connect(context.destination);
     this.running = false;
     this.position = 0;
-    /** Of the context, at `position`. */
+    /** Time of the context at `position`. */
     this.begun = 0;
     /** @type {{ time: number, buffer: AudioBuffer, source: AudioBufferSourceNode | null }[]} */
     this.pieces = [];
@@ -78,12 +78,12 @@ export class SoundOutput {
     }
   }
 
-  /** Needs no power until allowed() is asked. */
+  /** Uses no power until allowed() is called. */
   rest() {
     /** @type {AudioContext} */ (this.context).suspend();
   }
 
-  /** Forgets all sound: what is added next may be from anywhere. */
+  /** Drops all sound: what is added next may be from anywhere. */
   clear() {
     this.stop();
     this.pieces = [];
@@ -94,13 +94,13 @@ export class SoundOutput {
     if (this.context instanceof AudioContext) this.context.close();
   }
 
-  /** What is heard, seconds of the stream. */
+  /** Time of the sound heard, seconds of the stream. */
   time() {
     if (!this.running) return this.position;
     return this.position + Math.max(0, this.heard() - this.begun);
   }
 
-  /** Time of the context that leaves the loudspeaker now. */
+  /** Time of the context that is leaving the loudspeaker now. */
   heard() {
     const context = /** @type {AudioContext} */ (this.context);
     const stamp = context.getOutputTimestamp?.();
@@ -113,7 +113,7 @@ export class SoundOutput {
   schedule(piece) {
     const { sampleRate, currentTime } = this.context;
     const late = this.begun + piece.time - this.position;
-    // On the sample: rounding of seconds must not leave a seam between pieces.
+    // Aligned to samples: rounding of seconds must not leave a seam between pieces.
     const when = Math.max(Math.round(late * sampleRate) / sampleRate, this.begun, currentTime);
     const offset = Math.max(0, when - late);
     if (offset >= piece.buffer.duration) return;
@@ -126,7 +126,7 @@ export class SoundOutput {
 
   /** @param {AudioBufferSourceNode} source */
   ended(source) {
-    // Kept until the next one has begun: end() tells of it.
+    // Kept until the next one has begun, for end().
     const place = this.pieces.findIndex((piece) => piece.source === source);
     if (place >= 0 && place < this.pieces.length - 1) this.pieces.splice(0, place + 1);
   }

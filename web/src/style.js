@@ -1,4 +1,4 @@
-/** How the player looks. Pages change its colours by the custom properties of :host. */
+/** The player's style. Pages change its colours by the custom properties of :host. */
 export const STYLE = `
 :host {
   --fbs-background: Canvas;

@@ -1,4 +1,4 @@
-/** What all pictures of a stream share. */
+/** Properties shared by all pictures of a stream. */
 export interface Format {
   width: number;
   height: number;
@@ -7,7 +7,7 @@ export interface Format {
   /** Width of a pixel over its height. */
   pixelAspect: number;
   matrix: "unspecified" | "bt601" | "bt709";
-  /** Whether black is 0 and white 255, and not 16 and 235. */
+  /** Whether black is 0 and white 255, rather than 16 and 235. */
   fullRange: boolean;
 }
 
@@ -26,12 +26,12 @@ export interface Announced {
   time: number;
   /** Seconds. */
   duration: number;
-  /** The picture was lost: the one before is shown again. */
+  /** The picture was lost: the previous one is shown again. */
   held: boolean;
   newScene: boolean;
 }
 
-/** Degrees and pixels, as fbs_face_state of fbs/fbs.h has them. */
+/** Degrees and pixels, as in fbs_face_state of fbs/fbs.h. */
 export interface Pose {
   /** Positive: the face looks down. */
   pitch: number;
@@ -39,23 +39,23 @@ export interface Pose {
   yaw: number;
   /** Positive: the top of the head leans to the picture's right. */
   roll: number;
-  /** Of the middle of the head at the height of the eyes. */
+  /** The middle of the head at the height of the eyes. */
   x: number;
   y: number;
-  /** Of the face seen from the front. */
+  /** With the face seen from the front. */
   eyeDistance: number;
 }
 
-/** A face as it is shown: with what the visitor has added. */
+/** A face as shown: with the visitor's changes. */
 export interface Face {
   pose: Pose;
-  /** 68 points as iBUG (300-W) numbers them: x, y in pixels, and 0..1, the share of the point that is seen. */
+  /** 68 points in the order of iBUG (300-W): x, y in pixels, and the visible share of the point, 0..1. */
   landmarks: Float32Array;
   /** Weights by the names of docs/export.md, most of them ARKit's: jawOpen, mouthSmileLeft ... */
   blendshapes: Record<string, number>;
 }
 
-/** What is added to the motion of a stream. 0 changes nothing; beyond the limits is as at the limits. */
+/** Changes to the motion of a stream. 0 changes nothing; values beyond the limits count as the limits. */
 export interface FaceEdit {
   /** Degrees, -12..12: positive: the face looks down. */
   pitch?: number;
@@ -74,7 +74,7 @@ export interface FaceEdit {
 }
 
 export interface Sound {
-  /** Of the first sample, seconds. */
+  /** Time of the first sample, seconds. */
   time: number;
   sampleRate: number;
   channels: number;
@@ -85,41 +85,42 @@ export interface Sound {
 export type ErrorCode =
   /** The bytes could not be fetched. */
   | "network" | "http"
-  /** Of the stream, as fbs_status of fbs/fbs.h. */
+  /** From the stream, as fbs_status of fbs/fbs.h. */
   | "not-fbs" | "damaged" | "truncated" | "unsupported" | "too-large"
-  /** Of the decoder. */
+  /** From the decoder. */
   | "argument" | "no-memory" | "no-face" | "io" | "internal";
 
-/** What went wrong. */
+/** An error of the player. */
 export interface PlayerError {
   code: ErrorCode;
   message: string;
-  /** Whether nothing more is played; otherwise the player goes on behind the damage. */
+  /** Whether nothing more is played; otherwise the player continues after the damage. */
   fatal: boolean;
 }
 
-/** What has come of a stream. */
+/** The part of a stream that has arrived. */
 export interface Arrival {
   bytes: number;
-  /** Of them. */
+  /** How many of them are sound. */
   soundBytes: number;
-  /** End of the pictures that have come, seconds. */
+  /** End of the pictures that have arrived, seconds. */
   time: number;
-  /** Hz; 0 as long as no sound has come. */
+  /** Hz; 0 until sound has arrived. */
   soundRate: number;
-  /** Whether nothing more will come. */
+  /** Whether no more will arrive. */
   complete: boolean;
 }
 
 /** Detail of the event `face`. */
 export interface FaceDetail {
-  /** Of the picture, seconds. */
+  /** Time of the picture, seconds. */
   time: number;
-  /** Null where the stream shows nobody. */
+  /** Null where the stream shows no face. */
   face: Face | null;
 }
 
-/** To the worker. `generation` tells answers from those to earlier requests: it rises with each load and seek. */
+/** To the worker. `generation` rises with each load and seek: it tells answers from those to earlier
+ * requests. */
 export type Request =
   | { type: "module"; module: WebAssembly.Module }
   | { type: "load"; generation: number; url: string }
@@ -128,7 +129,7 @@ export type Request =
   | { type: "seek"; generation: number; time: number }
   | { type: "sound"; generation: number; to: number }
   | { type: "edit"; edit: FaceEdit }
-  /** The last picture once more, with the edit. */
+  /** The last picture again, with the edit. */
   | { type: "redraw"; generation: number; buffer?: ArrayBuffer };
 
 export interface ShownPicture extends Picture, Announced {
@@ -140,7 +141,7 @@ export interface ShownPicture extends Picture, Announced {
 export type Answer =
   | { type: "arrival"; generation: number; arrival: Arrival }
   | { type: "picture"; generation: number; picture: ShownPicture; redraw: boolean }
-  /** The next picture has not come yet; it will be sent when it has. */
+  /** The next picture has not arrived; it will be sent when it has. */
   | { type: "waiting"; generation: number }
   | { type: "end"; generation: number }
   | { type: "sound"; generation: number; sound: Sound | null }

@@ -1,4 +1,4 @@
-/** The time of a stream without sound: that of the machine. */
+/** The time of a stream without sound: the machine's. */
 export class WallClock {
   constructor() {
     this.running = false;

@@ -1,4 +1,4 @@
-/** Decodes for one player, beside the page. What it takes and sends is in types.d.ts. */
+/** Decodes for one player, in parallel to the page. Its messages are in types.d.ts. */
 import { DecodingSession } from "./decoding_session.js";
 import { loadModule } from "./fbs_module.js";
 
@@ -33,7 +33,7 @@ async function take(request) {
   if (request.type === "edit") edit = request.edit;
   if (request.type === "edit") return session?.edit(edit);
   if (request.type === "seek") return session?.seek(request.generation, request.time);
-  if (request.generation !== session?.generation) return;  // asked before it knew of a seek
+  if (request.generation !== session?.generation) return;  // sent before it knew of a seek
   if (request.type === "next") session.next(request.skipTo, request.buffer);
   if (request.type === "sound") session.sound(request.to);
   if (request.type === "redraw") session.redraw(request.buffer);
@@ -43,7 +43,8 @@ self.onmessage = async ({ data }) => {
   try {
     await take(data);
   } catch (fault) {
-    // No memory, or a bug: the module is done with, and the player starts another worker for its next stream.
+    // Out of memory, or a bug: the module is unusable, and the player starts another worker for its next
+    // stream.
     const message = `the decoder has failed: ${fault instanceof Error ? fault.message : fault}`;
     send({ type: "error", generation: session?.generation ?? 0, error: { code: "internal", message, fatal: true } });
   }

@@ -15,7 +15,7 @@ TYPES = {".wasm": "application/wasm", ".js": "text/javascript", ".mjs": "text/ja
 
 
 class Link:
-    """A link of so many bits a second, which all answers share; None: as fast as the machine."""
+    """A link of this many bits per second, shared by all answers; None: as fast as the machine."""
 
     def __init__(self):
         self.rate = None

@@ -36,7 +36,7 @@ std::vector<char*> pointers(std::vector<std::string>& command) {
   return out;
 }
 
-/// posix_spawnp() with `pipe` as one standard stream, and null and the log as the others.
+/// posix_spawnp() with `pipe` as one standard stream; the others are null and the log.
 int spawn(std::vector<std::string> command, int pipe, bool to_child, const std::string& log, pid_t& id) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -12,13 +12,13 @@
 
 namespace fbs::cli {
 
-/// A running program with one of its standard streams in our hands. Its standard error goes to a file.
+/// A running program with one of its standard streams connected to us. Its standard error goes to a file.
 class ChildProcess {
  public:
   enum class Pipe : std::uint8_t { kToStandardInput, kFromStandardOutput };
 
   /// @param command  the program, found in PATH, and its arguments
-  /// @param log      file that takes its standard error, replaced; empty: nowhere
+  /// @param log      file for its standard error, replaced; empty: none
   /// @return kIo, with the name of the program, when it cannot be started
   static Result<ChildProcess> start(const std::vector<std::string>& command, Pipe pipe,
                                     const std::string& log);
@@ -30,9 +30,9 @@ class ChildProcess {
   /// Ends the program if finish() has not waited for it.
   ~ChildProcess();
 
-  /// @return false when the program does not take more; finish() says why
+  /// @return false when the program accepts no more; finish() says why
   [[nodiscard]] bool write(std::span<const std::uint8_t> bytes) const;
-  /// Fills `bytes` as far as the program writes as much.
+  /// Fills `bytes` as far as the program writes enough.
   /// @return number of bytes
   [[nodiscard]] std::size_t read(std::span<std::uint8_t> bytes) const;
 
@@ -46,7 +46,7 @@ class ChildProcess {
   void close_pipe();
 
   pid_t id_;  ///< 0: has ended
-  int pipe_;  ///< a socket: writing to one that is closed raises no signal; -1: closed
+  int pipe_;  ///< a socket: writing to a closed one raises no signal; -1: closed
   std::string name_, log_;
 };
 

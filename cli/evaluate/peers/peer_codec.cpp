@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kMinSide = 64;  // samples
 
-// One group of pictures, as in a stream of fbs. What the encoders write about themselves is left out: at
-// these rates it would be a fifth of the bytes.
+// One group of pictures, as in a stream of fbs. Leaves out what the encoders write about themselves: at these
+// rates it would be a fifth of the bytes.
 const PeerCodec kX264{
     "x264",
     "x264",

@@ -1,4 +1,4 @@
-// The codecs that fbs is compared with: what of them an installed ffmpeg has, and how each is asked for.
+// The codecs that fbs is compared with: which of them an installed ffmpeg has, and their options.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@ namespace fbs::cli {
 struct PeerCodec {
   std::string name;                  ///< for people: "x265", "AV1"
   std::string option;                ///< for --peer-codec: "x265", "av1"
-  std::string encoder;               ///< of ffmpeg
+  std::string encoder;               ///< ffmpeg's name
   std::string suffix;                ///< of a file with its raw stream
-  std::vector<std::string> options;  ///< of ffmpeg, for the best a slow preset gives at low rates
+  std::vector<std::string> options;  ///< ffmpeg's, for the best that a slow preset gives at low rates
   std::vector<int> crfs;             ///< constant rate factors, from the lowest rate up
 };
 
 /// One picture size and rate at which a peer codes the source.
 struct PeerVariant {
   int divisor = 1;  ///< of width and height
-  int step = 1;     ///< every how many pictures of the source one is coded
+  int step = 1;     ///< codes one of this many pictures of the source
 };
 
 /// x264, x265 and SVT-AV1 (or libaom), as far as ffmpeg has them; none without ffmpeg.

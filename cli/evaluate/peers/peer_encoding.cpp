@@ -20,7 +20,7 @@ std::string rate_text(const Rational& rate, int step) {
   return std::to_string(rate.num) + "/" + std::to_string(static_cast<std::int64_t>(rate.den) * step);
 }
 
-/// An even part of a side, as 4:2:0 encoders want it.
+/// A side divided and made even, as 4:2:0 encoders need it.
 std::string side_text(int side, int divisor) {
   return std::to_string((side / divisor + 1) / 2 * 2);
 }
@@ -49,7 +49,7 @@ bool write_picture(const Picture& picture, ChildProcess& ffmpeg) {
          ffmpeg.write(picture.v.samples);
 }
 
-/// Passes on every picture of the source that the variant has.
+/// Passes on the pictures of the source that the variant codes.
 Result<void> feed(SourcePart& source, const PeerJob& job, ChildProcess& ffmpeg) {
   Progress progress("coding " + peer_label(job.codec, job.variant, job.crf), source.frame_count_estimate(),
                     job.quiet);
@@ -57,7 +57,7 @@ Result<void> feed(SourcePart& source, const PeerJob& job, ChildProcess& ffmpeg) 
     auto picture = source.next();
     if (!picture) return fail(picture.error());
     if (!*picture) return {};
-    // Where ffmpeg takes no more, its end says why.
+    // If ffmpeg takes no more, its exit says why.
     if (n % job.variant.step == 0 && !write_picture((*picture)->picture, ffmpeg)) return {};
     progress.update(n + 1);
   }

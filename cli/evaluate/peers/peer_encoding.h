@@ -19,14 +19,14 @@ struct PeerJob {
   bool quiet = false;  ///< no progress bar
 };
 
-/// Codes the source up to its limits. The file appears when it is complete; what is half done is removed.
+/// Codes the source up to its limits. The file appears when complete; an incomplete one is removed.
 /// @param stop  may be null
 /// @return kIo with what ffmpeg said, or when the signal came
 Result<void> encode_peer(const std::string& source, const PartLimits& limits, const PeerJob& job,
                          const StopSignal* stop);
 
-/// Bytes of the packets in a raw stream. Of .ivf without its headers and the temporal delimiters of AV1, two
-/// bytes a picture that no container needs; of anything else, of the file.
+/// Bytes of the packets in a raw stream. For .ivf without its headers and the temporal delimiters of AV1, two
+/// bytes per picture that no container needs; otherwise the size of the file.
 /// @return kIo; kInvalidStream for a damaged .ivf
 Result<std::uint64_t> packet_bytes(const std::string& file);
 

@@ -1,4 +1,4 @@
-// Where the face is in each picture: one region for all streams of a source that are compared.
+// The face's region in each picture, the same for all streams of a source that are compared.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ struct FaceRegions {
 
   /// Pictures in which a face is believed.
   [[nodiscard]] std::size_t believed() const;
-  /// That of a picture; none behind the last.
+  /// The outline in a picture; none after the last.
   [[nodiscard]] const FaceOutline& of(std::size_t picture) const;
-  /// Changes when an outline does.
+  /// Changes whenever an outline does.
   [[nodiscard]] std::size_t hash() const;
 };
 
@@ -36,17 +36,18 @@ struct StreamTrack {
 /// @return errors of StreamFile; kIo when the signal came
 Result<StreamTrack> read_track(const std::string& stream, const StopSignal* stop);
 
-/// Face regions from 68 landmarks a picture: the convex hull of the points, from the brows to the chin.
+/// Reads face regions from 68 landmarks per picture: the convex hull of the points, from the brows to the
+/// chin.
 ///
-/// A header line, then a line a picture. Columns, in any order: x0 ... x67 and y0 ... y67, or x_0 ... as
-/// OpenFace has them, in pixels; `frame`, from 0 or 1, else the lines are the pictures in their order;
-/// `success` and `confidence`: a face is believed unless they are 0 and below 0.5. Points that are no number,
-/// such as `nan`, are left out; a face has 30 at least. The first face of a picture counts.
+/// A header line, then a line per picture. Columns, in any order: x0 ... x67 and y0 ... y67, or OpenFace's
+/// x_0 ..., in pixels; `frame`, from 0 or 1, else the lines are the pictures in order; `success` and
+/// `confidence`: a face is believed unless `success` is 0 or `confidence` below 0.5. Points that are not
+/// numbers, such as `nan`, are left out; a face has at least 30. The first face of a picture counts.
 ///
-/// @return kIo, kInvalidArgument with the line that is wrong; texts name the file
+/// @return kIo, kInvalidArgument with the faulty line; texts name the file
 Result<FaceRegions> read_region_csv(const std::string& file);
 
-/// The mesh of a stream, or read_region_csv() of anything else.
+/// The mesh of a stream, or read_region_csv() for anything else.
 Result<FaceRegions> read_region(const std::string& file, const StopSignal* stop);
 
 }  // namespace fbs::cli

@@ -13,7 +13,7 @@ Plane cut(const Plane& p, const PixelBox& box) {
   return out;
 }
 
-/// A chroma sample is inside where the luma sample above left of it is.
+/// A chroma sample is inside where the upper left of its luma samples is.
 Plane chroma_mask(const Plane& luma) {
   Plane out((luma.width + 1) / 2, (luma.height + 1) / 2);
   for (int y = 0; y < out.height; ++y)

@@ -1,4 +1,4 @@
-// How near a shown picture is to its source: the whole frame, and the face in it.
+// Compares a shown picture with its source: the whole frame, and the face in it.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace fbs::cli {
 
-/// Of one area of one picture.
+/// Quality of one area of one picture.
 struct AreaQuality {
   SquaredError y, u, v;
-  double ssim = 0, ms_ssim = 0;  ///< luma; of a face, over its bounding box
+  double ssim = 0, ms_ssim = 0;  ///< luma; for a face, over its bounding box
 
   friend bool operator==(const AreaQuality&, const AreaQuality&) = default;
 };
 
 struct PictureQuality {
   AreaQuality frame;
-  std::optional<AreaQuality> face;  ///< nothing where no face is in the picture
+  std::optional<AreaQuality> face;  ///< nothing if the picture has no face
 
   friend bool operator==(const PictureQuality&, const PictureQuality&) = default;
 };
@@ -31,10 +31,10 @@ struct PictureQuality {
 [[nodiscard]] PictureQuality compare_pictures(const Picture& source, const Picture& shown,
                                               const FaceOutline& face);
 
-/// Over many pictures.
+/// Summary of an area over many pictures.
 struct AreaSummary {
-  std::uint64_t pictures = 0;    ///< that have the area
-  SquaredError y, u, v;          ///< sums: their PSNR is that of the mean squared error
+  std::uint64_t pictures = 0;    ///< pictures that have the area
+  SquaredError y, u, v;          ///< sums: PSNR is computed from the mean squared error
   double ssim = 0, ms_ssim = 0;  ///< means over the pictures; 0 without any
 };
 

@@ -35,14 +35,14 @@ std::vector<std::string> cells_of(const std::string& line) {
   }
 }
 
-/// NaN for what is no number.
+/// NaN if the cell is not a number.
 double number(const std::string& cell) {
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
   return cell.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-/// Places of the columns in a line.
+/// Positions of the columns in a line.
 struct Columns {
   std::array<std::size_t, kLandmarks> x{}, y{};
   std::optional<std::size_t> frame, success, confidence;

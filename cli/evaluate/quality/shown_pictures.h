@@ -1,4 +1,4 @@
-// The pictures that a viewer of a stream sees, of fbs or of another codec.
+// The pictures that a viewer of a stream sees, for fbs or another codec.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ Result<std::unique_ptr<ShownPictures>> open_fbs_pictures(const std::string& stre
 struct PeerStream {
   std::string file;
   int width = 0, height = 0;   ///< of the source: pictures are scaled to it, bicubic
-  int step = 1;                ///< every how many pictures of the source one is coded: it is shown as often
+  int step = 1;                ///< codes one of this many pictures of the source, and shows it as often
   std::uint64_t pictures = 0;  ///< of the source
 };
 

@@ -28,7 +28,7 @@ cv::Mat blurred(const cv::Mat& image) {
   return out;
 }
 
-/// Means over the plane of one scale.
+/// Means over the plane at one scale.
 struct Terms {
   double similarity = 0;          ///< luminance, contrast and structure
   double contrast_structure = 0;  ///< without luminance

@@ -12,7 +12,7 @@ int even(int n) {
   return (n + 1) / 2 * 2;
 }
 
-/// Luma alone counts, and goes in with grey chroma. Odd sides get a row or column that is cut off again.
+/// Only luma counts; chroma is passed as grey. Odd sides get a row or column that is cut off again.
 void append_luma(const Plane& plane, std::vector<std::uint8_t>& out) {
   const auto width = static_cast<std::size_t>(even(plane.width));
   for (int y = 0; y < even(plane.height); ++y) {
@@ -31,7 +31,7 @@ bool has_vmaf() {
 Result<VmafMeter> VmafMeter::start(int width, int height, const std::string& log) {
   const auto text = [](int n) { return std::to_string(n); };
   const std::string crop = "crop=" + text(width) + ":" + text(height) + ":0:";
-  // A colon in the name of the log would end the option.
+  // A colon in the log's name would end the option.
   std::string log_name;
   for (const char c : log + ".json") {
     if (std::string("\\:',;[]").find(c) != std::string::npos) log_name += "\\\\\\";

@@ -13,7 +13,7 @@ namespace fbs::cli {
 /// Whether ffmpeg is there and has the filter libvmaf.
 [[nodiscard]] bool has_vmaf();
 
-/// VMAF of a whole stream. Both pictures go to one ffmpeg, one below the other.
+/// VMAF of a whole stream. Both pictures go to one ffmpeg, one above the other.
 class VmafMeter {
  public:
   /// @param width, height  of the pictures

@@ -14,10 +14,10 @@ namespace {
 using Values = std::vector<double>;
 using LogRate = boost::math::interpolators::pchip<Values>;
 
-constexpr std::size_t kMinPoints = 4;  // of PCHIP's implementation, and of VCEG-M33
+constexpr std::size_t kMinPoints = 4;  // required by PCHIP's implementation, and by VCEG-M33
 
-/// Slope at the end of the first of two intervals of lengths h0, h1 and slopes d0, d1: of the parabola
-/// through the three points, kept monotone. Boost takes d0, the JCT-VC sheets and scipy this.
+/// Slope at the end of the first of two intervals of lengths h0, h1 and slopes d0, d1, of the parabola
+/// through the three points, kept monotone. Boost uses d0, the JCT-VC sheets and scipy this.
 double end_slope(double h0, double h1, double d0, double d1) {
   const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
   if (slope * d0 <= 0) return 0;
@@ -39,7 +39,7 @@ LogRate log_rate_over_quality(const Curve& curve) {
   return {std::move(x), std::move(y), left, right};
 }
 
-/// Exact: Simpson's rule has no error on a cubic, and the ends of the cubics are among the limits.
+/// Exact: Simpson's rule has no error on a cubic, and the ends of the cubics are integration limits.
 double integral(const Curve& curve, double low, double high) {
   const LogRate f = log_rate_over_quality(curve);
   Values limits{low};

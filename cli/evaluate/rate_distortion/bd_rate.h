@@ -1,4 +1,4 @@
-// Rate-distortion curves: the envelope of points, what it gives at a rate, and the Bjontegaard measure.
+// Rate-distortion curves: the envelope of points, its quality at a rate, and the Bjontegaard measure.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@ namespace fbs::cli {
 
 struct CurvePoint {
   double kbps = 0;     ///< above 0
-  double quality = 0;  ///< dB, say; more is better
+  double quality = 0;  ///< dB, for instance; more is better
   friend bool operator==(const CurvePoint&, const CurvePoint&) = default;
 };
 
@@ -26,7 +26,7 @@ using Curve = std::vector<CurvePoint>;
 /// Mean difference in rate at equal quality.
 struct RateDifference {
   double percent = 0;        ///< below 0: `test` needs less
-  double low = 0, high = 0;  ///< qualities that both curves have, over which it is the mean
+  double low = 0, high = 0;  ///< range of qualities that both curves share, over which the mean is taken
 };
 
 /// Bjontegaard, *Calculation of Average PSNR Differences between RD-curves*, VCEG-M33, 2001: the mean

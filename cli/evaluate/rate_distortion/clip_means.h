@@ -15,7 +15,7 @@ struct AreaFigures {
   std::optional<double> bd_rate;  ///< percent
 };
 
-/// Of shown_point().
+/// Figures at shown_point().
 struct ClipFigures {
   std::string name;   ///< of the file, without folder and suffix
   std::string label;  ///< of the point
@@ -25,7 +25,7 @@ struct ClipFigures {
 
 [[nodiscard]] ClipFigures figures_of(const ClipReport& clip);
 
-/// Over the clips that have one; nothing without any.
+/// Over the clips that have one; nothing if none has.
 [[nodiscard]] std::optional<double> mean_bd_rate(const std::vector<ClipReport>& clips, Area area);
 
 /// "Over 3 clips, fbs needs 55 % less rate than the best of the other codecs for the same face, and ...";

@@ -20,7 +20,7 @@ const char* name_of(Area area) {
   return area == Area::kFace ? "face" : "frame";
 }
 
-/// "x264, x265 and AV1", as far as they are there.
+/// Names such as "x264, x265 and AV1", of the peers present.
 std::string names_of(const std::vector<RdPoint>& peers) {
   std::vector<std::string> names;
   for (const RdPoint& p : peers)
@@ -31,7 +31,7 @@ std::string names_of(const std::vector<RdPoint>& peers) {
   return out;
 }
 
-/// "2.9 dB better (29.5 against 26.6 dB)".
+/// A phrase such as "2.9 dB better (29.5 against 26.6 dB)".
 std::string better(double ours, double theirs) {
   const double difference = ours - theirs;
   const std::string both = " (" + fixed(ours, 1) + " against " + fixed(theirs, 1) + " dB)";
@@ -45,7 +45,7 @@ std::string own_sentence(const RdPoint& point) {
   return out + "the frame " + fixed(psnr_of(point, Area::kFrame).value_or(0), 1) + " dB of luma PSNR.";
 }
 
-/// At the rate of `point` against the envelope of the peers.
+/// Compares at the rate of `point` with the envelope of the peers.
 std::string sentence_at_rate(const ClipReport& clip, const RdPoint& point) {
   std::string out = "At " + fixed(point.kbps(), 1) + " kbit/s (" + point.label +
                     "), compared with the best of " + names_of(clip.peers) + ",";

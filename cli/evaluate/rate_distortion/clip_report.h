@@ -1,4 +1,4 @@
-// All that was measured of one source, and what follows from it.
+// Everything measured on one source, and conclusions from it.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct ClipReport {
   double seconds = 0;
   std::vector<double> times;    ///< of each picture, s
   std::string region_origin;    ///< "the mesh of quality 80", "faces.csv"
-  std::size_t believed = 0;     ///< pictures with a face
+  std::size_t believed = 0;     ///< pictures with a face that is believed
   std::vector<RdPoint> points;  ///< streams of fbs
   std::vector<RdPoint> peers;   ///< streams of other codecs
   bool compared = false;        ///< with peers
@@ -34,17 +34,17 @@ enum class Area : std::uint8_t { kFace, kFrame };
 /// Envelope of the points' luma PSNR over rate.
 [[nodiscard]] Curve psnr_curve(const std::vector<RdPoint>& points, Area area);
 
-/// Of the streams of fbs against the envelope of all peers.
+/// BD-rate of the streams of fbs against the envelope of all peers.
 [[nodiscard]] std::optional<RateDifference> bd_rate_against_peers(const ClipReport& clip, Area area);
 
-/// The point that is shown in stills and in the first sentence: that of the middle rate. Null without points.
+/// The point for stills and the first sentence: the one of the middle rate. Null without points.
 [[nodiscard]] const RdPoint* shown_point(const ClipReport& clip);
 
 /// The peer with the best face (frame, where there is none) among those that take at most 2 % more than
-/// `kbps`; where all take more, the one that takes least. Null without peers.
+/// `kbps`; if all take more, the one that takes least. Null without peers.
 [[nodiscard]] const RdPoint* rival_of(const ClipReport& clip, double kbps);
 
-/// What the measurements say in one or two sentences.
+/// The result in one or two sentences.
 [[nodiscard]] std::string summary_of(const ClipReport& clip);
 
 }  // namespace fbs::cli

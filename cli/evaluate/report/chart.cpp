@@ -48,7 +48,7 @@ struct Span {
   }
 };
 
-/// From values to places in the view box.
+/// Maps values to positions in the view box.
 class Scale {
  public:
   Scale(Span span, double from, double to, bool log) : span_(span), from_(from), to_(to), log_(log) {}
@@ -68,7 +68,7 @@ class Scale {
   bool log_;
 };
 
-/// A little more than what there is, so that no point lies on the frame.
+/// A little more than the range of values, so that no point lies on the frame.
 Span widened(Span s, bool log) {
   if (log) {
     const double factor = std::max(std::pow(s.high / s.low, 0.04), 1.02);
@@ -112,7 +112,7 @@ struct EndLabel {
   double x, y;
 };
 
-/// Moves labels apart that would cover each other, within the chart.
+/// Moves labels that would overlap apart, within the chart.
 void spread(std::vector<EndLabel>& labels) {
   std::sort(labels.begin(), labels.end(), [](const EndLabel& a, const EndLabel& b) { return a.y < b.y; });
   for (std::size_t i = 1; i < labels.size(); ++i)

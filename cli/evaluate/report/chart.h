@@ -1,4 +1,4 @@
-// Charts as SVG: lines over two axes. Colours are classes that report.css gives.
+// Charts as SVG: lines over two axes. Colours are classes defined in report.css.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ struct ChartSeries {
 };
 
 struct ChartSetting {
-  std::string title;  ///< for those who cannot see it
+  std::string title;  ///< for readers who cannot see the chart
   std::string x_name, y_name;
   bool log_x = false;
 };
 
-/// Nothing for series without points.
+/// Empty for series without points.
 [[nodiscard]] std::string line_chart(const ChartSetting& setting, const std::vector<ChartSeries>& series);
 
-/// For text and attribute values of HTML and SVG.
+/// Escapes text and attribute values of HTML and SVG.
 [[nodiscard]] std::string escaped(const std::string& text);
 
 }  // namespace fbs::cli

@@ -8,7 +8,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative: an end of the axis that is a round number has its tick
+constexpr double kSlack = 1e-9;  // relative: a round number at the end of the axis gets its tick
 
 std::vector<double> digits_times_powers(std::span<const double> digits, double low, double high) {
   std::vector<double> out;

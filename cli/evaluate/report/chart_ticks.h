@@ -10,12 +10,12 @@ namespace fbs::cli {
 /// @param low, high  finite, low < high
 [[nodiscard]] std::vector<double> linear_ticks(double low, double high, int wanted);
 
-/// 1, 2 and 5 times powers of ten within low..high; where these are fewer than three, all digits 1 to 9, and
-/// then linear_ticks().
+/// 1, 2 and 5 times powers of ten within low..high; if these are fewer than three, all digits 1 to 9; if
+/// these are still too few, linear_ticks().
 /// @param low, high  finite, 0 < low < high
 [[nodiscard]] std::vector<double> log_ticks(double low, double high);
 
-/// Without trailing zeros: "0.5", "20", "1500".
+/// A number without trailing zeros: "0.5", "20", "1500".
 [[nodiscard]] std::string tick_text(double value);
 
 }  // namespace fbs::cli

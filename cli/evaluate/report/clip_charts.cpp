@@ -11,7 +11,7 @@ namespace fbs::cli {
 namespace {
 
 constexpr double kMostShown = 60;             // dB; equal pictures have 99
-constexpr std::size_t kMostTimePoints = 400;  // a line of more is a band of noise
+constexpr std::size_t kMostTimePoints = 400;  // a line with more is a band of noise
 
 std::string style_of(const std::string& codec) {
   std::string out = codec;
@@ -42,7 +42,7 @@ const char* title_of(Area area) {
   return area == Area::kFace ? "PSNR of the face" : "PSNR of the frame";
 }
 
-/// Means over a few pictures where there are many.
+/// Averages over a few pictures where there are many.
 ChartSeries time_series(const ClipReport& clip, const RdPoint& point, Area area) {
   ChartSeries out{point.codec, style_of(point.codec) + " time", {}, true, false};
   const std::size_t group = point.pictures.size() / kMostTimePoints + 1;

@@ -1,4 +1,4 @@
-// What was measured as JSON and CSV, for programs.
+// Measurements as JSON and CSV, for programs.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -21,7 +21,7 @@ namespace {
 
 using Fields = std::map<std::string, std::string>;
 
-/// The text with each {{name}} replaced. What is filled in may have braces of its own.
+/// The text with each {{name}} replaced. Values may contain braces.
 std::string filled(std::string_view text, const Fields& fields) {
   std::string out;
   for (;;) {
@@ -116,7 +116,7 @@ Result<std::string> clip_section(const ClipReport& clip, bool with_heading) {
                  {"peers", peer_table(clip)}});
 }
 
-/// What comes before several clips.
+/// The part before several clips.
 std::string overview(const std::vector<ClipReport>& clips) {
   std::string out;
   if (const std::string means = means_sentence(clips); !means.empty())

@@ -20,7 +20,7 @@ std::string cell(std::optional<double> value, int digits) {
   return cell(value ? decimal(*value, digits) : "&ndash;");
 }
 
-/// With its sign, a minus as wide as a plus.
+/// Signed, with a minus as wide as a plus.
 std::string percent_cell(std::optional<double> value) {
   if (!value) return cell("&ndash;");
   return cell((*value < 0 ? "&minus;" : "+") + decimal(std::abs(*value), 1) + "&thinsp;%");
@@ -48,7 +48,7 @@ std::string quality_cells(const RdPoint& p, bool vmaf) {
   return area_cells(sum.face) + area_cells(sum.frame) + (vmaf ? cell(p.vmaf, 1) : "");
 }
 
-/// The two lines above a table of points, of which `columns` come before the qualities.
+/// The two header lines of a table of points; `columns` come before the qualities.
 std::string quality_head(std::vector<std::string> columns, bool vmaf) {
   const std::string before = std::to_string(columns.size());
   for (int i = 0; i < 2; ++i)

@@ -8,19 +8,19 @@
 
 namespace fbs::cli {
 
-/// "4.2"
+/// A number such as "4.2".
 [[nodiscard]] std::string decimal(double value, int digits);
 
-/// The label, or of a stream the name of the file alone.
+/// The label; for a given stream only the file's name.
 [[nodiscard]] std::string point_name(const RdPoint& point);
 
-/// Streams of fbs.
+/// Table of the streams of fbs.
 [[nodiscard]] std::string point_table(const ClipReport& clip);
 
-/// Streams of other codecs, folded; nothing without any.
+/// Table of other codecs' streams, folded; empty without any.
 [[nodiscard]] std::string peer_table(const ClipReport& clip);
 
-/// All clips, and means.
+/// Table of all clips, and means.
 [[nodiscard]] std::string clip_table(const std::vector<ClipReport>& clips);
 
 }  // namespace fbs::cli

@@ -1,5 +1,4 @@
-// The files of this folder that a report is made of, embedded by embed_text.cmake. Places to fill in look
-// like
+// The files of this folder that make up a report, embedded by embed_text.cmake. Places to fill in look like
 // {{this}}.
 #pragma once
 

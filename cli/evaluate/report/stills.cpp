@@ -53,7 +53,7 @@ Result<Pictures> pictures_of_stream(const ClipReport& clip, const RdPoint& point
   return out;
 }
 
-/// Through OpenImageIO, as image sequences are written.
+/// Encodes with OpenImageIO, like image sequences.
 Result<std::string> jpeg_of(const Picture& picture, const VideoFormat& format) {
   const auto folder = RunFolder::temporary();
   if (!folder) return fail(folder.error());

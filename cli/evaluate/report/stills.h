@@ -1,4 +1,4 @@
-// Pictures of streams beside those of the source.
+// Pictures of streams beside their source.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace fbs::cli {
 
-/// The same picture of the source, of fbs, and of another codec where there is one.
+/// The same picture from the source, fbs, and another codec if there is one.
 struct Still {
   std::size_t picture = 0;
   std::string why;  ///< "typical", "worst"
@@ -18,15 +18,15 @@ struct Still {
     const RdPoint* point = nullptr;  ///< null: the source
   };
   std::vector<Image> images;
-  std::string difference;  ///< of fbs from the source: four times that of luma, on black; JPEG
+  std::string difference;  ///< of fbs from the source: luma, four times amplified, on black; JPEG
 };
 
-/// The picture of the median PSNR of the face (of the frame, without a face) in shown_point(), and that of
-/// the least. The pointers are into `clip`.
+/// The pictures of the median and of the least PSNR of the face (of the frame, without a face) in
+/// shown_point(). The pointers are into `clip`.
 Result<std::vector<Still>> make_stills(const ClipReport& clip);
 
-/// Writes them as `WHY-source.jpg`, `WHY-fbs.jpg`, `WHY-difference.jpg` and, of a rival, `WHY-x265.jpg`.
-/// @param folder  made where needed
+/// Writes them as `WHY-source.jpg`, `WHY-fbs.jpg`, `WHY-difference.jpg` and, for a rival, `WHY-x265.jpg`.
+/// @param folder  created if needed
 Result<void> write_stills(const std::string& folder, const std::vector<Still>& stills);
 
 }  // namespace fbs::cli

@@ -7,7 +7,7 @@
 
 namespace fbs::cli {
 
-/// A line for each stream of fbs; with several streams or peers what follows from them, too.
+/// A line for each stream of fbs; with several streams or peers also the conclusions.
 void print_clip(const ClipReport& clip);
 
 /// A line for each clip, and the means.

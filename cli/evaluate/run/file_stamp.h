@@ -1,4 +1,4 @@
-// What tells one state of the files of a source from another.
+// Identifies a state of a source's files.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,12 +6,11 @@
 
 namespace fbs::cli {
 
-/// Absolute path, size and time of change of a file; of a folder or an image sequence (`%`, `*`, `?` in the
-/// name), those of all files in the folder. Of anything else, such as an address, a value that never comes
-/// again.
+/// Absolute path, size and time of change of a file; for a folder or an image sequence (`%`, `*`, `?` in the
+/// name), of all files in the folder. For anything else, such as an address, a value that never recurs.
 [[nodiscard]] nlohmann::json file_stamp(const std::string& name);
 
-/// The same of the program itself: what another build has made is made anew.
+/// The same for the program itself: results of another build are made anew.
 [[nodiscard]] nlohmann::json program_stamp();
 
 }  // namespace fbs::cli

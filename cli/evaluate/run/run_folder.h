@@ -1,4 +1,4 @@
-// The folder that keeps what a run has finished, so that the next one goes on from there.
+// The folder that keeps finished results of a run, so that the next one continues from there.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,14 +9,14 @@
 
 namespace fbs::cli {
 
-/// A thing that is finished is `NAME.json`, which holds what it was made of, its key, and its value. It
-/// appears under its name only when complete; what has another key is made anew.
+/// A finished result is `NAME.json`, which holds its key (what it was made from) and its value. It appears
+/// under its name only when complete; a result with another key is made anew.
 class RunFolder {
  public:
-  /// Makes the folder and its parents where needed.
+  /// Creates the folder and its parents if needed.
   /// @return kIo with the system's reason
   static Result<RunFolder> open(const std::string& path);
-  /// A folder of its own in TMPDIR that the destructor removes with all that is in it.
+  /// A new folder in TMPDIR that the destructor removes with its content.
   static Result<RunFolder> temporary();
 
   RunFolder(const RunFolder&) = delete;
@@ -28,7 +28,7 @@ class RunFolder {
   /// Path of a file in the folder.
   [[nodiscard]] std::string path(const std::string& name) const { return path_ + "/" + name; }
 
-  /// @return the value; nothing if it is not there, unreadable, or was made of something else
+  /// @return the value; nothing if it is missing, unreadable, or was made from something else
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& name, const nlohmann::json& key) const;
   Result<void> keep(const std::string& name, const nlohmann::json& key, nlohmann::json value) const;
 

@@ -9,7 +9,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr int kChannelBitrate = 24000;  // bit/s: of the few that the stream has, nothing is lost
+constexpr int kChannelBitrate = 24000;  // bit/s: enough to lose nothing of the stream's few
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The sound of what the player has shown, picture by picture.
+// The sound of a recording, picture by picture.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct SoundSpan {
   [[nodiscard]] bool heard() const { return begin < end; }
 };
 
-/// Codes what belongs to each picture, one after another, whatever was played between them. A picture that
-/// was looked at without its sound has silence. It is as loud as in the stream.
+/// Codes the sound of each picture in sequence, whatever was played between them. A picture shown without its
+/// sound gets silence. Loudness is the stream's.
 class RecordedSound {
  public:
   /// @param parts  must outlive the object; may grow
@@ -29,10 +29,10 @@ class RecordedSound {
   /// For SinkOptions.
   [[nodiscard]] const SoundSetup& setup() const { return encoder_->setup(); }
 
-  /// @param span  of the picture that is written next; empty: silence
+  /// @param span  of the picture written next; empty: silence
   /// @param end   of the picture in the sink, 1/90000 s
   Result<void> write(const SoundSpan& span, std::int64_t end, VideoSink& sink);
-  /// The last picture has been written.
+  /// Call when the last picture has been written.
   Result<void> finish(VideoSink& sink);
 
  private:
@@ -45,10 +45,10 @@ class RecordedSound {
   std::unique_ptr<SoundEncoder> encoder_;
   SoundCursor cursor_;
   int channels_;
-  std::int64_t next_ = -1;             ///< time in the stream behind the last span
+  std::int64_t next_ = -1;             ///< time in the stream after the last span
   std::int64_t end_ = 0;               ///< of the last picture in the sink, 1/90000 s
-  std::vector<std::int16_t> waiting_;  ///< a sample for which the last picture had no room
-  std::int64_t written_ = 0;           ///< samples of each channel
+  std::vector<std::int16_t> waiting_;  ///< a sample that did not fit the last picture
+  std::int64_t written_ = 0;           ///< samples per channel
   std::int64_t frames_ = 0;
 };
 

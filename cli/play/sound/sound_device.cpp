@@ -9,7 +9,7 @@
 namespace fbs::cli {
 namespace {
 
-constexpr unsigned kBlocksPerSecond = 50;  // about; blocks have a power of two of samples
+constexpr unsigned kBlocksPerSecond = 50;  // approximate; blocks have a power of two of samples
 
 Error no_device() {
   std::string reason = SDL_GetError();
@@ -21,7 +21,7 @@ Error no_device() {
 void say_nothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/,
                  const char* /*format*/, ...) {}
 
-/// Where there is no sound card, ALSA prints a page of its own before SDL gives the reason.
+/// Without a sound card, ALSA prints a page of its own before SDL gives the reason.
 void silence_alsa() {
   void* const library = SDL_LoadObject("libasound.so.2");
   if (library == nullptr) return;

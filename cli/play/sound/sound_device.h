@@ -11,12 +11,12 @@ namespace fbs::cli {
 /// At most one exists at a time.
 class SoundDevice {
  public:
-  /// @param queue  must outlive the object; gives rate and channels, which SDL converts where the device
-  ///               needs others
+  /// @param queue  must outlive the object; sets rate and channels, which SDL converts if the device needs
+  ///               others
   /// @return kIo, with a text that begins "cannot open an audio device"
   static Result<SoundDevice> open(SoundQueue& queue);
 
-  /// Whether it fetches from the queue. Not when opened.
+  /// Starts or stops fetching from the queue. Stopped when opened.
   void run(bool runs);
 
  private:

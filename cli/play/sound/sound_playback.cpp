@@ -10,7 +10,7 @@ namespace fbs::cli {
 
 namespace {
 
-/// What so many pictures last, less the sum of their nominal durations, which are rounded. 1/90000 s.
+/// Duration of `count` pictures less the sum of their rounded nominal durations. 1/90000 s.
 /// @param count  0..kMaxStreamPictures: the product with a duration would not fit into 64 bits
 std::int64_t rounding(std::int64_t count, Rational rate) {
   const std::int64_t nominal = nominal_duration(rate), period = rate.num, rest = count % period;

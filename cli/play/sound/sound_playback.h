@@ -1,4 +1,4 @@
-// The sound of a stream as the player needs it: from any time on, a little ahead of what is heard.
+// The sound of a stream for the player: from any time on, decoded a little ahead of what is heard.
 #pragma once
 
 #include <chrono>
@@ -12,20 +12,20 @@
 
 namespace fbs::cli {
 
-/// Time of a picture as that of the sound that belongs to it. Durations of the frame rate are counted, so
-/// that their rounding to 1/90000 s does not add up.
+/// Time of the sound that belongs to a picture. Counts durations of the frame rate, so that their rounding to
+/// 1/90000 s does not add up.
 /// @return 1/kSoundClock s
 [[nodiscard]] std::int64_t sound_time(const StreamPosition& position, Rational rate);
 
-/// Loudness, as the viewer sets it.
+/// Loudness, set by the viewer.
 class Volume {
  public:
   /// In steps of kStep percent.
   void change(int steps);
   void toggle_mute() { muted_ = !muted_; }
-  /// Factor of the samples: the square of the share, since loudness is felt so.
+  /// Factor on the samples: the square of the setting, to match perceived loudness.
   [[nodiscard]] double gain() const;
-  /// "muted", "volume 70 %"; nothing where it is as in the stream.
+  /// "muted", "volume 70 %"; empty if as in the stream.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -34,7 +34,7 @@ class Volume {
   bool muted_ = false;
 };
 
-/// Decodes ahead for the thread of the device. Knows no device.
+/// Decodes ahead for the device's thread. Independent of the device.
 class SoundPlayback {
  public:
   using Time = SoundQueue::Time;
@@ -43,13 +43,13 @@ class SoundPlayback {
   SoundPlayback(const SoundParts& parts, int sample_rate, int channels)
       : cursor_(parts, sample_rate, channels), queue_(sample_rate, channels) {}
 
-  /// @param time  1/kSoundClock s, of what is heard next
+  /// @param time  of what is heard next, 1/kSoundClock s
   void start(std::int64_t time);
   void stop();
   [[nodiscard]] bool started() const { return started_; }
 
-  /// Decodes up to kAhead more than is heard. While started().
-  /// @param known  1/kSoundClock s: up to here what has not come will not come, and is silence
+  /// Decodes up to kAhead beyond what is heard. While started().
+  /// @param known  1/kSoundClock s: what has not arrived before this is lost, and is silence
   void fill(std::int64_t known);
 
   /// Time of what is heard, 1/kSoundClock s. While started().
@@ -62,7 +62,7 @@ class SoundPlayback {
   /// For the device.
   [[nodiscard]] SoundQueue& queue() { return queue_; }
 
-  /// However long a picture takes, the sound goes on for so long.
+  /// However long a picture takes, the sound continues for this long.
   static constexpr std::chrono::seconds kAhead{1};
 
  private:

@@ -10,7 +10,7 @@
 
 namespace fbs {
 
-/// Errors are ErrorCode::kIo with the system's reason when the file failed, else libav's reason.
+/// Errors are ErrorCode::kIo with the system's reason when the file failed, else with libav's.
 class AvMuxer {
  public:
   /// @param container  libav's name, "mp4" or "matroska"
@@ -23,8 +23,8 @@ class AvMuxer {
   AVStream* add_stream();
   [[nodiscard]] const AVOutputFormat& container() const { return *context_->oformat; }
 
-  /// To be added to the times of a track of sound, 1/48000 s. In Matroska they are later by CodecDelay, which
-  /// players subtract; up to version 5.1 ffmpeg writes that element for Opus and forgets to add it.
+  /// Added to the times of a sound track, 1/48000 s. In Matroska they are later by CodecDelay, which players
+  /// subtract; up to version 5.1 ffmpeg writes that element for Opus and forgets the addition.
   [[nodiscard]] std::int64_t forgotten_delay(const AVCodecParameters& sound) const;
 
   Result<void> write_header();

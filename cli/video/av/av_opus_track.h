@@ -10,12 +10,12 @@
 
 namespace fbs {
 
-/// Packets go into the container as they are. What the decoder has to leave out at the start is said in
+/// Packets are copied into the container. The samples that a decoder leaves out at the start are given in
 /// OpusHead (RFC 7845 5.1), and as CodecDelay in Matroska and as an edit list in MP4.
 class AvOpusTrack {
  public:
   /// Before the muxer's write_header.
-  /// @return ErrorCode::kUnsupported for another codec than Opus, and a skip that OpusHead cannot hold
+  /// @return ErrorCode::kUnsupported for another codec than Opus, and for a skip that OpusHead cannot hold
   static Result<AvOpusTrack> add(const SoundSetup& setup, AvMuxer& muxer);
 
   /// @param frame  a packet of Opus; nothing is written for an empty one

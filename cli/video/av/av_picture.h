@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-/// Copies 8-bit 4:2:0 and grey as they are; converts everything else with swscale (bicubic, accurate
-/// rounding). YCbCr keeps its range and matrix; RGB becomes limited-range BT.601.
+/// Copies 8-bit 4:2:0 and grey; converts everything else with swscale (bicubic, accurate rounding). YCbCr
+/// keeps its range and matrix; RGB becomes limited-range BT.601.
 class FramePicture {
  public:
   /// @return ErrorCode::kUnsupported when swscale does not know the pixel format

@@ -23,7 +23,7 @@ constexpr const char* kQualityCrf = "12";
 constexpr const char* kPreset = "veryfast";
 constexpr int kFallbackQuantiser = 2;  // MPEG-4 part 2, best of 1..31 in practice
 
-/// A clock in which a picture period and a 1/90000 s tick are both (nearly) whole numbers.
+/// A clock in which both a picture period and a 1/90000 s tick are (nearly) whole numbers.
 AVRational fine_time_base(Rational rate) {
   const std::int64_t per_second = std::max<std::int64_t>(rate.num, 1);
   std::int64_t factor = (kTicksPerSecond + per_second - 1) / per_second;
@@ -44,14 +44,14 @@ void set_colour(AVCodecContext& encoder, const VideoFormat& format) {
   }
 }
 
-void copy_plane(const Plane& plane, AVFrame& frame, int index) {
+void fill_plane(const Plane& plane, AVFrame& frame, int index) {
   for (int y = 0; y < plane.height; ++y) {
     std::copy_n(plane.row(y), plane.width,
                 frame.data[index] + static_cast<std::ptrdiff_t>(y) * frame.linesize[index]);
   }
 }
 
-/// 4:2:0 chroma at luma size, each sample repeated: nothing is lost when it is averaged again.
+/// 4:2:0 chroma at luma size, each sample repeated: averaging restores it exactly.
 void spread_plane(const Plane& plane, AVFrame& frame, int index) {
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* from = plane.row(y / 2);
@@ -142,7 +142,7 @@ Result<void> AvSink::open_encoder() {
   } else {
     encoder_->flags |= AV_CODEC_FLAG_QSCALE;
     encoder_->global_quality = kFallbackQuantiser * FF_QP2LAMBDA;
-    // MPEG-4 part 2 has 16 bits for its clock.
+    // The clock of MPEG-4 part 2 has 16 bits.
     encoder_->time_base = {encoder_->framerate.den, encoder_->framerate.num};
     period_ = 1;
   }
@@ -162,8 +162,8 @@ Result<void> AvSink::write(const Picture& picture, std::int64_t pts) {
     return fail(ErrorCode::kInvalidArgument, "picture size differs from the video's");
   }
   if (av_frame_make_writable(frame_.get()) < 0) return muxer_->error("out of memory");
-  copy_plane(picture.y, *frame_, 0);
-  const auto copy_chroma = frame_->format == AV_PIX_FMT_YUV444P ? spread_plane : copy_plane;
+  fill_plane(picture.y, *frame_, 0);
+  const auto copy_chroma = frame_->format == AV_PIX_FMT_YUV444P ? spread_plane : fill_plane;
   copy_chroma(picture.u, *frame_, 1);
   copy_chroma(picture.v, *frame_, 2);
 
@@ -179,7 +179,7 @@ Result<void> AvSink::write_sound(std::span<const std::uint8_t> frame, std::int64
   return opus_->write(frame, begin, *muxer_);
 }
 
-/// Exact on the regular grid, though 90000 ticks a second may only round it.
+/// Exact on the regular grid, where 90000 ticks a second may only round.
 std::int64_t AvSink::encoder_pts(std::int64_t pts) const {
   const Rational rate = format_.frame_rate;
   const std::int64_t nearest =

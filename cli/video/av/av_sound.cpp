@@ -8,7 +8,7 @@
 namespace fbs {
 namespace {
 
-/// What encoders put before the sound proper, 1/AV_TIME_BASE s; AAC has 46 ms of it.
+/// Longest priming that encoders put before the sound, 1/AV_TIME_BASE s; AAC has 46 ms.
 constexpr std::int64_t kLongestPriming = 60'000;
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace fbs {
 
 /// Copies packets without re-encoding. Times count from the first picture of the source, which is time 0 of a
-/// stream made of it; without pictures, from its start.
+/// stream made from it; without pictures, from its start.
 class AvSound {
  public:
   /// Finds the main sound stream of `source` and adds one for it to the muxer.
@@ -32,9 +32,9 @@ class AvSound {
   AvPacket packet_;
   AVStream* from_ = nullptr;   ///< of container_
   AVStream* to_ = nullptr;     ///< of the muxer
-  std::int64_t shift_ = 0;     ///< what is subtracted from times of the source, in from_'s time base
+  std::int64_t shift_ = 0;     ///< subtracted from times of the source, in from_'s time base
   bool begins_later_ = false;  ///< sound before time 0 of the output is left out
-  bool waiting_ = false;       ///< packet_ was read and not yet written
+  bool waiting_ = false;       ///< packet_ has been read but not yet written
   bool ended_ = false;
 };
 

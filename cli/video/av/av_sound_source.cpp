@@ -87,7 +87,7 @@ Result<std::optional<int>> AvSoundSource::choose_track(std::optional<int> track)
   if (tracks.empty()) return std::nullopt;
   if (track) return tracks[static_cast<std::size_t>(*track)];
   const int video = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const AVCodec* decoder = nullptr;  // asked for, so that tracks without one come last
+  const AVCodec* decoder = nullptr;  // passed so that tracks without a decoder come last
   const int best = av_find_best_stream(container_.get(), AVMEDIA_TYPE_AUDIO, -1, video, &decoder, 0);
   return best >= 0 ? best : tracks.front();
 }
@@ -172,7 +172,7 @@ Result<void> AvSoundSource::place(std::vector<std::int16_t>& samples) {
     timeline_.add_silence(*frame_, static_cast<int>(std::min(gap, second)), samples);
     if (gap > second) return {};
   }
-  if (gap < 0) timeline_.expect_gap();  // until a frame is there that need not be left out altogether
+  if (gap < 0) timeline_.expect_gap();  // until a frame that is not left out altogether
   if (gap == 0 && begin) {
     if (auto followed = timeline_.follow(*frame_, *begin, samples); !followed) return followed;
   }

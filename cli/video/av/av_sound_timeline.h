@@ -1,4 +1,4 @@
-// Puts decoded sound where its timestamps say. Part of the module fbs_av.
+// Puts decoded sound at its timestamps. Part of the module fbs_av.
 #pragma once
 
 extern "C" {
@@ -19,31 +19,30 @@ struct AvResamplerDeleter {
 };
 using AvResampler = std::unique_ptr<SwrContext, AvResamplerDeleter>;
 
-/// Converts frames to interleaved 16-bit samples of which number n is at n / sample_rate. Times are
-/// in 1/AV_TIME_BASE s. Slow drift is resampled away, by 0.2 % at most, which is not heard.
+/// Converts frames to interleaved 16-bit samples, with sample n at n / sample_rate. Times are in
+/// 1/AV_TIME_BASE s. Slow drift is resampled away, by an inaudible 0.2 % at most.
 class AvSoundTimeline {
  public:
   AvSoundTimeline(int sample_rate, int channels) : sample_rate_(sample_rate), channels_(channels) {}
 
-  /// Must be called before the others, for each frame: the format may change. What is held back of the format
-  /// before is appended.
+  /// Call first for each frame: the format may change. Appends what is held back of the previous format.
   /// @return ErrorCode::kUnsupported when swresample does not take it
   Result<void> prepare(const AVFrame& frame, std::vector<std::int16_t>& out);
 
-  /// Silence due before a frame that begins at `begin`; negative: what is left out at the frame's start.
-  /// @return samples of the frame's rate; 0 for what is within the tolerance
+  /// Silence due before a frame that begins at `begin`; negative: samples to leave out at the frame's start.
+  /// @return samples at the frame's rate; 0 within the tolerance
   [[nodiscard]] std::int64_t gap(const AVFrame& frame, std::int64_t begin) const;
 
   /// Appends silence in the frame's format and rate.
   void add_silence(const AVFrame& frame, int samples, std::vector<std::int16_t>& out);
 
-  /// Appends the frame but for the first `skipped` samples.
+  /// Appends the frame without its first `skipped` samples.
   void add(const AVFrame& frame, int skipped, std::vector<std::int16_t>& out);
 
-  /// Learns from a frame that is about to be added without gap how far its timestamp is off.
+  /// Learns the error of a frame's timestamp; for a frame about to be added without gap.
   Result<void> follow(const AVFrame& frame, std::int64_t begin, std::vector<std::int16_t>& out);
 
-  /// Samples are missing before the next frame: it is put exactly where its timestamp says.
+  /// Samples are missing before the next frame: it is placed exactly at its timestamp.
   void expect_gap() { exact_ = true; }
 
   /// Appends what the resampler holds back.
@@ -68,11 +67,11 @@ class AvSoundTimeline {
   int channels_;
   Format format_;
   AvResampler resampler_;
-  std::int64_t count_ = 0;  ///< of samples of one channel appended
-  bool begun_ = false;      ///< something was given to resampler_
-  bool exact_ = true;       ///< the next frame goes exactly where its timestamp says
-  bool adaptive_ = false;   ///< resampler_ can follow a drift
-  double drift_ = 0;        ///< mean by which the timestamps are ahead of the samples, 1/AV_TIME_BASE s
+  std::int64_t count_ = 0;            ///< samples per channel appended
+  bool begun_ = false;                ///< resampler_ has received something
+  bool exact_ = true;                 ///< the next frame is placed exactly at its timestamp
+  bool adaptive_ = false;             ///< resampler_ can follow a drift
+  double drift_ = 0;                  ///< mean lead of the timestamps over the samples, 1/AV_TIME_BASE s
   std::int64_t next_correction_ = 0;  ///< 1/AV_TIME_BASE s
 };
 

@@ -71,7 +71,7 @@ class AvSource final : public VideoSource {
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
-  /// Of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
+  /// Time of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
   [[nodiscard]] std::int64_t first_picture_time() const;
 
  private:
@@ -81,7 +81,7 @@ class AvSource final : public VideoSource {
   Result<bool> decode();
   /// Sends the next packet, or the end, to the decoder.
   Result<void> feed();
-  /// @param code  libav's, of the end of the container
+  /// @param code  libav's, at the end of the container
   /// @param cut   whether it came too early
   void note_failure(int code, bool cut);
   std::int64_t next_pts();
@@ -99,15 +99,14 @@ class AvSource final : public VideoSource {
   FramePicture converter_;
   VideoFormat format_;
   Orientation orientation_;
-  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
-  bool drained_ = false;        ///< the decoder has got its end-of-stream packet
-  std::optional<Error>
-      failure_;  ///< what ended the container before its end; reported after the last picture
+  bool frame_waiting_ = false;    ///< frame_ is decoded and not yet returned
+  bool drained_ = false;          ///< the decoder has got its end-of-stream packet
+  std::optional<Error> failure_;  ///< what ended the container early; reported after the last picture
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;
   std::int64_t damaged_packets_ = 0;
-  bool last_packet_cut_ = false;  ///< libav read less of it than it should have
+  bool last_packet_cut_ = false;  ///< libav read less of it than expected
 };
 
 Result<void> AvSource::open(const SourceOptions& options) {

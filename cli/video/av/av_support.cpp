@@ -59,7 +59,7 @@ int open_av_decoder(const AVCodec& codec, const AVStream& stream, int threads, A
   if (!decoder) return AVERROR(ENOMEM);
   const int code = avcodec_parameters_to_context(decoder.get(), stream.codecpar);
   if (code < 0) return code;
-  decoder->pkt_timebase = stream.time_base;  // lets a decoder of sound leave out the encoder's delay
+  decoder->pkt_timebase = stream.time_base;  // lets a sound decoder leave out the encoder's delay
   decoder->thread_count = threads;
   return avcodec_open2(decoder.get(), &codec, nullptr);
 }

@@ -36,7 +36,7 @@ using AvInput = std::unique_ptr<AVFormatContext, AvInputDeleter>;
 
 inline constexpr AVRational kTick{1, static_cast<int>(kTicksPerSecond)};
 
-/// libav's AV_TIME_BASE_Q is no C++.
+/// libav's AV_TIME_BASE_Q is not valid C++.
 inline constexpr AVRational kTimeBase{1, AV_TIME_BASE};
 
 /// libav's text for one of its codes.
@@ -46,17 +46,17 @@ inline std::string av_reason(int code) {
   return text.data();
 }
 
-/// Number of errors that demuxers have logged since the program began. For some faults, such as the sudden
-/// end of a Matroska file, it is the only sign.
+/// Number of errors that demuxers have logged since the program began: for some faults, such as the sudden
+/// end of a Matroska file, the only sign.
 [[nodiscard]] std::int64_t demuxer_complaints();
 
 /// Opens a container for reading and finds its streams. A local file wins over an address of the same
 /// spelling.
-/// @param stop  interrupts opening and reading; null: nothing does
+/// @param stop  interrupts opening and reading; may be null
 /// @return null when it fails, with libav's code in `error`
 AvInput open_av_input(const std::string& name, const StopSignal* stop, int& error);
 
-/// Has the demuxer pass over all streams but one.
+/// Makes the demuxer skip all streams but one.
 void discard_others(AVFormatContext& container, int index);
 
 /// Opens a decoder of a stream.

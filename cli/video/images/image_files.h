@@ -18,15 +18,14 @@ namespace fbs {
 Result<std::unique_ptr<VideoSource>> open_image_source(const std::string& input,
                                                        const SourceOptions& options);
 
-/// Pictures are numbered from 1 and stand as `NAME.part` until finish() renames them all.
+/// Pictures are numbered from 1 and named `NAME.part` until finish() renames them all.
 Result<std::unique_ptr<VideoSink>> open_image_sink(const std::string& output, const VideoFormat& format);
 
-/// Images of scene-linear light, as OpenEXR's are, get the transfer curve of sRGB; others are taken for sRGB.
+/// Images of scene-linear light, such as OpenEXR's, get the transfer curve of sRGB; others count as sRGB.
 /// Values beyond 0..1 are clamped, alpha is dropped.
 /// @param format  of the video: its size, range and matrix
 /// @return kIo, kInvalidStream for an image that cannot be read; kInvalidArgument for one of another size;
-/// the
-///         text names the file
+///         the text names the file
 Result<Picture> read_still_image(const std::string& name, const VideoFormat& format);
 
 /// The image, in sRGB, as a PNG file in memory.

@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <string_view>
@@ -15,10 +14,6 @@ namespace fbs {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 
 /// The leading run of digits without its leading zeros; removed from `text`.
 std::string_view take_number(std::string_view& text) {

@@ -27,7 +27,7 @@ bool is_linear(const OIIO::ImageSpec& spec) {
   return OIIO::Strutil::istarts_with(space, "lin") || OIIO::Strutil::iequals(space, "scene_linear");
 }
 
-/// IEC 61966-2-1. Neither infinities nor NaN come out.
+/// IEC 61966-2-1. Never returns infinities or NaN.
 float srgb_of(float linear) {
   if (!(linear > 0)) return 0;
   const float v = std::min(linear, 1.0F);

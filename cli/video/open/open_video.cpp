@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes of a Matroska file in which its tracks are described: writers put them first.
+/// The tracks are described within the first bytes of a Matroska file: writers put them first.
 constexpr std::size_t kTracksWithin = 1 << 16;
 
 Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const std::string& input,
@@ -45,7 +45,7 @@ Result<std::unique_ptr<VideoSink>> open_by_module(const char* module, const std:
   return sink;
 }
 
-/// Sound and pictures are read apart, by two readers of the same file.
+/// Whether sound and pictures can be read by two readers of the same file.
 bool can_be_read_twice(const std::string& input) {
   std::error_code ignored;
   const fs::file_status status = fs::status(input, ignored);
@@ -83,7 +83,7 @@ bool is_image_sequence(const std::string& input) {
 
 bool is_stream_file(const std::string& name) {
   std::error_code ignored;
-  if (!fs::is_regular_file(name, ignored)) return false;  // what is read from a pipe is gone
+  if (!fs::is_regular_file(name, ignored)) return false;  // reading a pipe would consume it
   std::ifstream file(name, std::ios::binary);
   std::string start(kTracksWithin, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));

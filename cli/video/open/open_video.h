@@ -16,10 +16,10 @@ namespace fbs {
 /// Whether `input` names a numbered sequence, several images or a folder of them.
 bool is_image_sequence(const std::string& input);
 
-/// How Matroska files begin: the ID of their first element.
+/// The first bytes of Matroska files: the ID of their first element.
 inline constexpr std::array<std::uint8_t, 4> kEbmlHead{0x1A, 0x45, 0xDF, 0xA3};
 
-/// Whether this is a stream, or a Matroska file that has one. False of pipes, of which nothing is read.
+/// Whether this is a stream, or a Matroska file with one. False for pipes, which are not read.
 bool is_stream_file(const std::string& name);
 
 /// Opens `input`:
@@ -36,7 +36,7 @@ bool is_stream_file(const std::string& name);
 Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
                                                        const SourceOptions& options = {});
 
-/// Whether the output may have sound: .mp4 and .mkv, in letters of any size.
+/// Whether the output may have sound: .mp4 and .mkv, in upper or lower case.
 [[nodiscard]] bool has_sound_track(const std::string& output);
 
 /// Opens `output`:
@@ -51,11 +51,11 @@ Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
 Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
                                                    const SinkOptions& options = {});
 
-/// Opens the sound of `input`. Without pictures in it, the sound counts from the start of the file.
-/// @return null when there is none: in Y4M, image sequences, cameras and streams of our own, and in what
-///         cannot be read a second time beside the pictures (pipes, devices, addresses other than http);
-///         ErrorCode::kIo when it cannot be read, kInvalidArgument for a track that is not there,
-///         kUnsupported when there is no decoder for it
+/// Opens the sound of `input`. Without pictures in it, times count from the start of the file.
+/// @return null when there is none: in Y4M, image sequences, cameras and streams of our own, and in inputs
+///         that cannot be read a second time beside the pictures (pipes, devices, addresses other than http);
+///         ErrorCode::kIo when it cannot be read, kInvalidArgument for a missing track, kUnsupported when
+///         there is no decoder for it
 Result<std::unique_ptr<SoundSource>> open_sound_source(const std::string& input,
                                                        const SoundSourceOptions& options = {});
 

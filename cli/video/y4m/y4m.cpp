@@ -142,7 +142,7 @@ Result<std::optional<TimedPicture>> Y4mSource::next() {
 
 bool Y4mSource::is_ready(std::chrono::milliseconds patience) const {
   pollfd input{fileno(file_.get()), POLLIN, 0};
-  return poll(&input, 1, static_cast<int>(patience.count())) != 0;  // an error shows when it is read
+  return poll(&input, 1, static_cast<int>(patience.count())) != 0;  // reading will report errors
 }
 
 std::optional<std::int64_t> Y4mSource::frame_count_estimate() const {

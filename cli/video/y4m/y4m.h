@@ -30,10 +30,10 @@ struct Y4mHeader {
 };
 
 /// Parses the first line, without its newline.
-/// @return ErrorCode::kInvalidStream, kUnsupported (a chroma format we do not know) or kTooLarge
+/// @return ErrorCode::kInvalidStream, kUnsupported (unknown chroma format) or kTooLarge
 Result<Y4mHeader> parse_y4m_header(std::string_view line);
 
-/// The first line as we write it, without its newline; at most 95 bytes for sane rates, the limit of ffmpeg.
+/// The first line as we write it, without its newline; at most 95 bytes, ffmpeg's limit, for sane rates.
 std::string y4m_header(const VideoFormat& format);
 
 /// @param input  a file name, or `-` for standard input

@@ -10,7 +10,7 @@ namespace fbs {
 namespace {
 
 constexpr std::string_view kMagic = "YUV4MPEG2";
-constexpr std::size_t kMaxWrittenHeader = 95;  // what ffmpeg reads; longer lines are an error to it
+constexpr std::size_t kMaxWrittenHeader = 95;  // ffmpeg's limit; it rejects longer lines
 
 template <class Integer>
 std::optional<Integer> parse_number(std::string_view text) {
@@ -20,7 +20,7 @@ std::optional<Integer> parse_number(std::string_view text) {
   return value;
 }
 
-/// "30000:1001"; 0:0 stands for unknown.
+/// Parses "30000:1001"; 0:0 stands for unknown.
 std::optional<Rational> parse_ratio(std::string_view text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
@@ -48,7 +48,7 @@ constexpr std::array<ChromaName, 9> kChromaNames{{
     {"mono", {false, false, 0, 0, 8}},
 }};
 
-/// "420jpeg", "422p10", "mono12".
+/// Parses "420jpeg", "422p10", "mono12".
 std::optional<Y4mLayout> parse_chroma(std::string_view text) {
   for (const ChromaName& known : kChromaNames) {
     if (!text.starts_with(known.name)) continue;
@@ -81,7 +81,7 @@ std::string quoted(std::string_view text) {
   return "'" + quote + "'";
 }
 
-/// One tag, its letter first. @return false when its value cannot be read
+/// Parses one tag, its letter first. @return false when its value cannot be read
 bool parse_tag(std::string_view tag, Y4mHeader& header) {
   const std::string_view value = tag.substr(1);
   VideoFormat& format = header.format;

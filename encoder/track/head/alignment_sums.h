@@ -1,4 +1,4 @@
-// Normal equations of the head's alignment, summed in single precision, some points at a time.
+// Normal equations of the head's alignment, summed in single precision, several points at a time.
 #pragma once
 
 #include <array>
@@ -11,21 +11,21 @@
 
 namespace fbs {
 
-/// Unknowns: the pose's six numbers, gain and offset of the light. Points are gathered in blocks so that the
-/// loops over them vectorise.
+/// Unknowns: the pose's six numbers, gain and offset of the light. Gathers points in blocks to vectorise the
+/// loops over them.
 class AlignmentSums {
  public:
   static constexpr int kUnknowns = 8;
   using Matrix = cv::Matx<double, kUnknowns, kUnknowns>;
   using Vector = cv::Vec<double, kUnknowns>;
 
-  /// @param pixels_per_unit  of the level, per pixel of the picture
+  /// @param pixels_per_unit  pixels of the level per pixel of the picture
   /// @param sigma  outlier scale of Geman-McClure, grey levels
   AlignmentSums(const PoseJacobian& jacobian, double pixels_per_unit, double sigma);
 
   /// @param seen  luma in the first picture
-  /// @param difference  that luma under the light's gain and offset, less the sample's
-  /// @param weight  without the robust weight, which is worked out here
+  /// @param difference  `seen` under the light's gain and offset, less the sample
+  /// @param weight  without the robust weight, which add() computes
   void add(glm::vec3 point, const Sample& s, float seen, float difference, float weight) {
     const std::size_t k = count_++;
     for (std::size_t axis = 0; axis < 3; ++axis) point_[axis][k] = point[static_cast<int>(axis)];
@@ -42,8 +42,8 @@ class AlignmentSums {
 
  private:
   static constexpr std::size_t kBlock = 64, kLanes = 8;
-  static constexpr std::array<std::size_t, 4> kRotationsAndScale = {0, 1, 2,
-                                                                    5};  // these move a point by where it is
+  static constexpr std::array<std::size_t, 4> kRotationsAndScale = {0, 1, 2, 5};  // these move a point
+                                                                                  // depending on its position
   using Row = float[kBlock];
 
   void flush();

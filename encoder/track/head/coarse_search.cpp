@@ -6,7 +6,7 @@
 namespace fbs {
 namespace {
 
-constexpr std::size_t kMaxPoints = 250;  // enough for a grid's order; time goes with it
+constexpr std::size_t kMaxPoints = 250;  // enough to rank a grid; time is proportional
 constexpr int kBorder = 12;              // level pixels: an eye distance
 constexpr int kStep = 2;                 // level pixels, a sixth of the eye distance
 
@@ -86,7 +86,7 @@ double CoarseCorrelation::correlation(glm::ivec2 shift) const {
   if (low_.x + shift.x < 0 || low_.y + shift.y < 0 || high_.x + shift.x >= level_.cols ||
       high_.y + shift.y >= level_.rows)
     return 0;
-  // The shift alone may lead out of the picture: only with a tap's place it is an address.
+  // The shift alone may lead outside the picture: only with a tap's position is it an address.
   const auto stride = static_cast<std::ptrdiff_t>(level_.step[0]);
   const std::ptrdiff_t origin = shift.y * stride + shift.x;
   const auto* samples = level_.ptr<std::uint8_t>();

@@ -1,4 +1,4 @@
-// Tries a grid of poses at the coarsest level, where one costs microseconds: whole pixels and few points.
+// Tries a grid of poses at the coarsest level, where one takes microseconds: whole pixels and few points.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,29 +9,28 @@
 
 namespace fbs {
 
-/// Poses around one: steps of rotation (rad) and size (log2), and how far the place may be off (eye
-/// distances).
+/// Poses around one: steps of rotation (rad) and size (log2), and the radius of places (eye distances).
 struct PoseGrid {
   std::span<const double> yaw, pitch, size;
   double reach;
 };
 
-/// The best place for each rotation and size of the grid, the likeliest first. Their confidences are coarse
-/// correlations, not to be compared with HeadAppearance's.
+/// The best place for each rotation and size of the grid, likeliest first. Their confidences are coarse
+/// correlations, not comparable with HeadAppearance's.
 /// @param centre  of the grid
 [[nodiscard]] std::vector<TrackedPose> search_coarsely(const HeadAppearance& head,
                                                        const HeadVertices& vertices, const LevelledFrame& now,
                                                        const Pose& centre, const PoseGrid& grid);
 
-/// The head's appearance against a picture at the coarsest level. Holds references: for one picture.
+/// Correlates the head's appearance with a picture at the coarsest level. Holds references: for one picture.
 class CoarseCorrelation {
  public:
   CoarseCorrelation(const HeadAppearance& head, const HeadVertices& vertices, const LevelledFrame& now);
 
-  /// The middle of the points, about which the head is rotated.
+  /// The middle of the points, the centre of the head's rotation.
   [[nodiscard]] glm::dvec3 centre() const { return centre_; }
 
-  /// The best place within `reach_px` pixels of the picture around that of `pose`.
+  /// The best place within `reach_px` pixels of the picture around `pose`.
   [[nodiscard]] TrackedPose best_place(Pose pose, double reach_px);
 
  private:
@@ -44,7 +43,7 @@ class CoarseCorrelation {
   };
   struct Tap {
     glm::ivec2 at;            ///< in level_
-    float weight, deviation;  ///< of what was seen, from its mean, times the weight
+    float weight, deviation;  ///< of the luma seen: from its mean, times the weight
   };
 
   void set_pose(const Pose& pose);

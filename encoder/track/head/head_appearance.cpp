@@ -13,7 +13,7 @@ using namespace head_tuning;
 
 namespace {
 
-/// Of a point on a triangle: the least of its corners'.
+/// Weight of points on a triangle: the least of its corners'.
 float weight_of(const HeadTriangle& t) {
   float least = 1;
   for (const std::uint16_t v : t) {

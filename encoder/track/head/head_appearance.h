@@ -1,4 +1,4 @@
-// What the head looks like in the scene's first picture, at points fixed on the mesh.
+// The head in the scene's first picture, sampled at points fixed on the mesh.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace fbs {
 
 struct TrackedPose {
   Pose pose;
-  double confidence = 0;  ///< 0..1: HeadAppearance::correlation() there
+  double confidence = 0;  ///< 0..1: HeadAppearance::correlation() at the pose
 };
 
 class HeadAppearance {
@@ -21,18 +21,18 @@ class HeadAppearance {
   /// @param first    the first picture, in which the head is seen in `pose`
   HeadAppearance(const HeadVertices& neutral, const Pose& pose, const WorkFrame& first);
 
-  /// Of the first picture: it sets the scale of work frames.
+  /// Eye distance in the first picture, which sets the scale of work frames.
   [[nodiscard]] double eye_distance_px() const { return eye_distance_px_; }
-  /// The points that are compared, head units, with the expression of `vertices`.
+  /// The points, head units, with the expression of `vertices`.
   [[nodiscard]] std::vector<glm::dvec3> surface(const HeadVertices& vertices) const;
-  /// On which triangle each of them lies.
+  /// The triangle of each point.
   [[nodiscard]] std::span<const SurfacePoint> points() const { return points_; }
-  /// What they looked like at a level of LevelledFrame, of its 8 bits; negative where not seen.
+  /// Levels of the points at a level of LevelledFrame, 8 bits; negative where not seen.
   [[nodiscard]] std::span<const float> seen(int level) const { return seen_[level]; }
-  /// How much each says of the head's pose, 0..1.
+  /// How reliably each point moves with the head, 0..1.
   [[nodiscard]] std::span<const float> weights() const { return weight_; }
 
-  /// Weighted correlation of what the points show in `now` with the first picture, 0..1.
+  /// Weighted correlation of the points in `now` with the first picture, 0..1.
   /// @param points  surface() with the present expression
   [[nodiscard]] double correlation(const LevelledFrame& now, const Pose& pose,
                                    std::span<const glm::dvec3> points) const;

@@ -13,7 +13,7 @@ using namespace head_tuning;
 namespace {
 
 cv::Mat levelled(const cv::Mat& luma) {
-  // Means over a large Gaussian, at a quarter of the size.
+  // Means over a large Gaussian, computed at a quarter of the size.
   cv::Mat value, small, mean, variance;
   luma.convertTo(value, CV_32F);
   cv::GaussianBlur(value, value, {3, 3}, 0.8);
@@ -25,7 +25,7 @@ cv::Mat levelled(const cv::Mat& luma) {
   smooth(value, mean);
   value -= mean;
   smooth(value.mul(value), variance);
-  variance += kMinContrast * kMinContrast;
+  variance += kMinLocalContrast * kMinLocalContrast;
   cv::sqrt(variance, variance);
   cv::Mat out;
   cv::divide(value, variance, value, kLevelledSigma);

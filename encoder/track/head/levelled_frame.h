@@ -12,13 +12,13 @@
 namespace fbs {
 
 /// Brightness less its local mean, over the local contrast: a face that turns under a lamp changes its
-/// shading, but not its features.
+/// shading but not its features.
 struct LevelledFrame {
   static constexpr int kLevels = 3;
 
   explicit LevelledFrame(WorkFrame of);
 
-  /// Where a position in pixels of the picture lies in a level.
+  /// Position in a level of a position in pixels of the picture.
   [[nodiscard]] glm::dvec2 at(glm::dvec2 picture, int level) const {
     return on_level(frame.to_work(picture), level);
   }
@@ -27,7 +27,7 @@ struct LevelledFrame {
   Pyramid<kLevels> levels;  ///< 8 bit, flat is 128; [0] has luma's size
 };
 
-/// Where head points are seen in a level of a work frame: affine in the point, single precision.
+/// Projects head points to a level of a work frame: affine in the point, single precision.
 struct LevelProjection {
   glm::vec3 x, y;  ///< rows of the matrix
   glm::vec2 shift;

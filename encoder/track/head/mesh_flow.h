@@ -8,10 +8,10 @@
 
 namespace fbs {
 
-/// Where the flow took each vertex, pixels of the picture; nan where it was lost.
+/// Position of each vertex after the flow, pixels of the picture; nan where it was lost.
 using MeshFlow = std::array<glm::dvec2, kVertexCount>;
 
-/// Pyramidal Lucas-Kanade flow of the vertices as `before` shows them.
+/// Pyramidal Lucas-Kanade flow of the vertices from their positions in `before`.
 [[nodiscard]] MeshFlow mesh_flow(const WorkFrame& before, const WorkFrame& now, const Pose& pose,
                                  const HeadVertices& vertices);
 

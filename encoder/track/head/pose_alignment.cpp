@@ -18,7 +18,7 @@ struct Light {
   double gain = 1, offset = 0;
 };
 
-/// What a pose and light are aligned by; the references hold for one alignment.
+/// The inputs of an alignment, all held by reference.
 struct Target {
   const HeadAppearance& head;
   const LevelledFrame& now;
@@ -67,7 +67,7 @@ bool solve(AlignmentSums::Matrix& a, const AlignmentSums::Vector& b, AlignmentSu
   return cv::solve(a, b, step, cv::DECOMP_CHOLESKY);
 }
 
-/// Middle of the eyes and the nose, head units: what stays in place in frontal().
+/// Middle of the eyes and the nose, head units: fixed in frontal().
 glm::dvec3 face_centre(const HeadVertices& vertices) {
   const auto at = [&](int ibug) { return vertices[vertex_of_landmark(ibug)]; };
   return (at(ibug::kRightEyeOuter) + at(ibug::kLeftEyeOuter) + at(ibug::kNoseTip)) / 3.0;

@@ -1,5 +1,5 @@
 // Aligns the head to its appearance in the first picture: direct alignment, as in Baker & Matthews 2004, but
-// additive, since the pose is no group under weak perspective. Nothing drifts.
+// additive, since poses are not a group under weak perspective. Nothing drifts.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,8 +9,8 @@
 
 namespace fbs {
 
-/// How strongly a pose is held where it was guessed: inverse variances of its numbers. Only what the picture
-/// does not determine feels it.
+/// Prior of a pose about its guess: inverse variances of its numbers. Affects only what the picture does not
+/// determine.
 /// @param sigma_angle  rad; of the scale, log2
 /// @param sigma_shift  eye distances
 [[nodiscard]] cv::Matx66d pose_precision(double eye_distance_px, double sigma_angle, double sigma_shift);
@@ -21,11 +21,11 @@ namespace fbs {
 [[nodiscard]] Pose align(const HeadAppearance& head, const LevelledFrame& now, int level, const Pose& start,
                          std::span<const glm::dvec3> points);
 
-/// Aligns from the coarsest level on; a level that lowers the correlation is left out.
+/// Aligns from the coarsest level on; skips a level that lowers the correlation.
 [[nodiscard]] TrackedPose refine(const HeadAppearance& head, const LevelledFrame& now, const Pose& start,
                                  std::span<const glm::dvec3> points);
 
-/// The pose without yaw and pitch, the middle of the face in place: tried when those may be wrong.
+/// The pose without yaw and pitch, with the middle of the face in place: tried when those may be wrong.
 [[nodiscard]] Pose frontal(const Pose& pose, const HeadVertices& vertices);
 
 }  // namespace fbs

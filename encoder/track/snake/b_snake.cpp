@@ -26,7 +26,7 @@ Contrast ridge_at(const MapPlace& at, const SnakeImage& image) {
 }
 
 /// The curve runs clockwise in the picture, so (vs.y, -vs.x) points outwards. The feature map is high inside:
-/// the contrast that shows the contour is its fall along the normal.
+/// a contour's contrast is the fall along the normal.
 Contrast contour_at(const MapPlace& at, const SnakeImage& image, const Four& vs_x, const Four& vs_y) {
   const MapLookup gx = at.in(image.contrast_x), gy = at.in(image.contrast_y);
   const Four length = cv::v_sqrt(vs_x * vs_x + vs_y * vs_y) + cv::v_setall_f32(1e-9F);
@@ -37,7 +37,7 @@ Contrast contour_at(const MapPlace& at, const SnakeImage& image, const Four& vs_
           (cv::v_setzero_f32() - gx.value - h.value * ty) * per_length};
 }
 
-/// Takes slopes over four points' places and over their v_s to the control points that move them.
+/// Distributes slopes by the positions of four points and by their v_s to the control points that move them.
 void subtract(const PointQuad& q, const std::array<Four, 2>& by_place, const std::array<Four, 2>& by_vs,
               std::vector<glm::dvec2>& gradient) {
   for (std::size_t k = 0; k < 4; ++k) {
@@ -92,8 +92,8 @@ double BSnake::repulsion(const Vectors& control, Vectors* gradient) const {
   if (weights_.repulsion == 0) return 0;
   double energy = 0;
   for (const FacingPair& pair : facing_) {
-    // Quadratic in what the gap falls short of the least one. The gap is signed, so that points that have
-    // crossed are driven apart again and not farther through each other.
+    // Quadratic in how far the gap falls short of its minimum. The gap is signed, so that crossed points are
+    // driven apart again and not farther through each other.
     const SplineBasis& from = curve_.points()[pair.from];
     const SplineBasis& to = curve_.points()[pair.to];
     const double lacks =

@@ -16,25 +16,25 @@ struct SnakeWeights {
   double tension = 0;   ///< alpha, eq. 3
   double rigidity = 0;  ///< beta, eq. 4
   double temporal = 0;  ///< tau, eq. 5
-  /// Of |v_s - r_s|^2, with r the curve at rest: not in the paper. Contrast sees motion across the curve
-  /// only; this keeps points from sliding along it, which would tear the texture.
+  /// Weight of |v_s - r_s|^2, with r the curve at rest: not in the paper. Contrast sees only motion across
+  /// the curve; this keeps points from sliding along it, which would tear the texture.
   double shape = 0;
   double repulsion = 0;  ///< between facing points; the paper gives no formula, see FacingPair
   double contrast = 0;   ///< rho, eq. 7
   double change = 0;     ///< gamma, eq. 8, as a share of rho; FeatureSnake adds it to the maps
 };
 
-/// What the snake sees: a picture patch in the head's own frame, as maps of forces' potentials, all of one
+/// The snake's input: a picture patch in the head's own frame, as potentials of the forces, all maps of one
 /// size and without gaps between their rows.
 struct SnakeImage {
   cv::Mat1f contrast_x, contrast_y;  ///< gradient of the feature map; H is its part along the curve's normal
-  cv::Mat1f ridge;          ///< instead: H itself, for a curve that runs along the middle of a dark band
-  glm::dvec2 origin{0, 0};  ///< snake units of the centre of pixel (0, 0)
+  cv::Mat1f ridge;                   ///< instead: H itself, for a curve along the middle of a dark band
+  glm::dvec2 origin{0, 0};           ///< centre of pixel (0, 0), snake units
   double px_per_unit = 1;
 };
 
-/// Two points of the curve that repel each other: upper and lower lip, or the two ends of a brow, whose
-/// length the paper takes as constant. No force acts while the gap from one to the other along `direction` is
+/// Two points of the curve that repel each other: on upper and lower lip, or the two ends of a brow, whose
+/// length the paper assumes constant. No force acts while the gap from one to the other along `direction` is
 /// large enough.
 struct FacingPair {
   int from, to;          ///< indices into SnakeCurve::points()
@@ -54,11 +54,11 @@ class BSnake {
 
   /// E_tot = E_int - E_img (eq. 1) of the whole curve.
   [[nodiscard]] double energy(const std::vector<glm::dvec2>& control) const;
-  /// dE_tot/dX_i and dE_tot/dY_i; maps slope as their bilinear interpolation does, the normal turns with v_s.
+  /// dE_tot/dX_i and dE_tot/dY_i; map slopes follow bilinear interpolation, the normal turns with v_s.
   [[nodiscard]] std::vector<glm::dvec2> gradient(const std::vector<glm::dvec2>& control) const;
 
-  /// The energy but for the factor ds of the curve.
-  /// @param gradient  set to dE/dX_i and dE/dY_i, but for that factor; or null
+  /// The energy without the curve's factor ds.
+  /// @param gradient  set to dE/dX_i and dE/dY_i without that factor; or null
   [[nodiscard]] double evaluate(const std::vector<glm::dvec2>& control,
                                 std::vector<glm::dvec2>* gradient) const;
   [[nodiscard]] const SnakeCurve& curve() const { return curve_; }
@@ -66,7 +66,7 @@ class BSnake {
  private:
   using Vectors = std::vector<glm::dvec2>;  // one for each control point
 
-  // Each gives its energy but for the factor ds and, unless `gradient` is null, adds its dE/dX_i, dE/dY_i.
+  // Each returns its energy without the factor ds and, unless `gradient` is null, adds its dE/dX_i, dE/dY_i.
   double internal(const Vectors& control, Vectors* gradient) const;
   double repulsion(const Vectors& control, Vectors* gradient) const;
   double external(const Vectors& control, Vectors* gradient) const;

@@ -3,7 +3,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kRigidity = 1e-4;  // weight: decides only what vertices leave open
+constexpr double kRigidity = 1e-4;  // weight: decides only what the vertices leave open
 constexpr double kPinned = 1e6;     // weight: as good as fixed
 
 }  // namespace

@@ -8,17 +8,16 @@ namespace fbs {
 namespace {
 
 // Tuned by eye on the ten clips.
-/// Variance that every sample of Y, U, V is taken to have, squared grey levels: regularises the covariances
-/// of small patches.
+/// Variance assumed for every sample of Y, U, V, squared grey levels: regularises the covariances of small
+/// patches.
 constexpr double kSampleVariance[3] = {30, 6, 6};
 
-/// The map is cut off here: a dark open mouth is no more lip than lips are, and teeth are no less lip than
-/// skin is.
+/// Limits of the map: a dark open mouth is no more lip than lips are, and teeth are no less lip than skin is.
 constexpr float kMinMap = -0.25F, kMaxMap = 1.1F;
 
-/// Lips change colour with light and stretch: variance over that of one picture, and over kSampleVariance.
+/// Lips change colour with light and stretch: factors on one picture's variance, and on kSampleVariance.
 constexpr double kLikenessVariance = 3, kLikenessSampleVariance = 4;
-constexpr int kMinSamples = 8;  ///< of a class; with fewer the map stays as it is without learning
+constexpr int kMinSamples = 8;  ///< of a class; with fewer the map is not learned
 
 struct Class {
   cv::Vec3d mean;
@@ -26,7 +25,7 @@ struct Class {
   int count = 0;
 };
 
-/// @param planes  0 stands for what is left out
+/// @param planes  0 stands for omitted planes
 Class statistics(const std::array<cv::Mat, 3>& patch, const cv::Mat& mask, int planes = 3) {
   Class c;
   cv::Vec3d sum(0, 0, 0);

@@ -1,5 +1,5 @@
 // H of the paper's eq. 7, per feature and per person: what distinguishes a lip from the skin around it,
-// learned on the first picture where the marks say which is which.
+// learned on the first picture, where the marks tell them apart.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ class FeatureMap {
   static FeatureMap discriminant(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside,
                                  const cv::Mat& outside, bool luma_only);
 
-  /// How near a colour is to the feature's own: exp(-d^2 / 2) of a widened Mahalanobis distance. For lips
-  /// seen from inside, where teeth, tongue and dark are all other than lip.
+  /// Likeness of a colour to the feature's own: exp(-d^2 / 2) of a widened Mahalanobis distance. For lips
+  /// seen from inside, where teeth, tongue and dark all differ from lip.
   static FeatureMap likeness(const std::array<cv::Mat, 3>& patch, const cv::Mat& inside);
 
   [[nodiscard]] cv::Mat1f operator()(const std::array<cv::Mat, 3>& patch) const;

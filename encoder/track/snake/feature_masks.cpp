@@ -10,7 +10,7 @@ namespace fbs {
 namespace {
 
 // Widths of the masks, snake units; set by eye on the first pictures of the ten clips.
-constexpr double kSkinRoundLips = 4, kLipsEdge = 1;    // skin reaches so far; the edge itself is left out
+constexpr double kSkinRoundLips = 4, kLipsEdge = 1;    // width of the skin, and of the edge that is left out
 constexpr double kInnerLipsBand = 2, kInnerGap = 0.7;  // lips lie between these distances from their line
 constexpr double kBrowWidth = 2, kSkinRoundBrow = 4.5, kBrowEdge = 2;
 constexpr double kLidLine = 1.4, kLashesBelow = 1, kLidSkinAbove = -2;
@@ -50,7 +50,7 @@ FeatureMasks feature_masks(FeatureId id, const Outline& outline, cv::Size patch)
       return {lips, grown(lips, kSkinRoundLips) - grown(lips, kLipsEdge)};
     }
     case FeatureId::kMouthInner: {
-      // The lips themselves: a band round the line between them.
+      // The lips themselves: a band around the line between them.
       const cv::Mat gap = filled(outline, patch);
       return {grown(gap, kInnerLipsBand) - grown(gap, kInnerGap), {}};
     }

@@ -1,4 +1,4 @@
-// Which pixels of the first picture's patch show a feature, and which its surroundings.
+// Which pixels of the first picture's patch show a feature, and which show its surroundings.
 #pragma once
 
 #include <opencv2/core.hpp>

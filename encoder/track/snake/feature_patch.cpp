@@ -8,7 +8,7 @@
 namespace fbs {
 namespace {
 
-/// From the patch's pixels to the work frame's.
+/// Maps the patch's pixels to the work frame's.
 cv::Matx23d to_work(const WorkFrame& frame, const Pose& pose, const PatchPlane& plane) {
   const PoseProjection projection(pose);
   const auto work = [&](glm::dvec2 snake) {
@@ -20,7 +20,7 @@ cv::Matx23d to_work(const WorkFrame& frame, const Pose& pose, const PatchPlane& 
   return {ex.x, ey.x, o.x, ex.y, ey.y, o.y};
 }
 
-/// Rows that a patch comes from, with the neighbours that interpolation asks for; one at least.
+/// Rows that a patch is sampled from, with the neighbours for interpolation; at least one.
 cv::Range rows_of(const cv::Matx23d& m, cv::Size patch, int rows) {
   constexpr double kMargin = 2;
   const double across = m(1, 0) * patch.width, down = m(1, 1) * patch.height;
@@ -46,8 +46,8 @@ FeaturePatch cut_patch(const WorkFrame& frame, const Pose& pose, const PatchPlan
     warp(frame.luma, m, size, out[0]);
     return out;
   }
-  // All planes at once: most of the work is finding the place. Only the rows that the patch shows are put
-  // together.
+  // All planes at once: most of the work is finding the position. Only the rows that the patch needs are
+  // combined.
   const cv::Range rows = rows_of(m, size, frame.luma.rows);
   cv::Mat together, patch;
   cv::merge(std::array{frame.luma.rowRange(rows), frame.u.rowRange(rows), frame.v.rowRange(rows)}, together);

@@ -1,4 +1,4 @@
-// A picture patch of a feature, cut out in the head's own frame: it goes with the head.
+// A picture patch of a feature, cut out in the head's own frame, so that it moves with the head.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace fbs {
 
-/// Y, U and V, 8 bit, of one size; a brow's is Y alone.
+/// Y, U and V, 8 bit, of one size; Y alone for a brow.
 using FeaturePatch = std::array<cv::Mat, 3>;
 
 /// Resolution of patches per snake unit: WorkFrame's 48 pixels per eye distance.
@@ -21,7 +21,7 @@ struct PatchPlane {
   double depth = 0;     ///< z, head units
 };
 
-/// The part of a picture that the rectangle covers: the pose maps its plane to the picture affinely.
+/// The part of a picture in the rectangle: the pose maps its plane to the picture affinely.
 /// @param luma_only  leave the chroma planes empty
 [[nodiscard]] FeaturePatch cut_patch(const WorkFrame& frame, const Pose& pose, const PatchPlane& plane,
                                      bool luma_only);

@@ -9,7 +9,7 @@
 namespace fbs {
 namespace {
 
-constexpr double kBrowSurround = 3;  // snake units, sigma: a band as wide as a brow is darkest against it
+constexpr double kBrowSurround = 3;  // snake units, sigma: makes a band as wide as a brow stand out most
 
 /// The curve at rest, pixels of the patch.
 std::vector<cv::Point> outline_of(const FeatureSnake& s) {
@@ -36,7 +36,7 @@ FeatureSnake FeatureSnake::make(FeatureId id, const Geometry& geometry) {
 }
 
 void FeatureSnake::limit(std::vector<glm::dvec2>& control) const {
-  // The middle of a clamped cubic moves by 3/4 of what both inner control points do.
+  // The middle of a clamped cubic moves by 3/4 of the motion of both inner control points.
   const double beyond = curve_point(clamped_basis(true, 0.5), control).y - lowest;
   if (beyond <= 0) return;
   for (int i = curve.first_free(); i < curve.end_free(); ++i) control[i].y -= beyond / 0.75;
@@ -52,7 +52,7 @@ void FeatureSnake::learn(const FeaturePatch& first) {
     map = FeatureMap::likeness(first, masks.inside);
     return;
   }
-  // Dark lashes are below the edge, but below the lower lid's lashes too; skin of the lid is above this one
+  // Dark lashes are below this edge, but also below the lower lid's lashes; the lid's skin is above this one
   // only.
   if (is_upper_lid(id)) skin = FeatureMap::likeness(first, masks.outside);
   map = FeatureMap::discriminant(first, masks.inside, masks.outside, id != FeatureId::kMouthOuter);
@@ -60,7 +60,7 @@ void FeatureSnake::learn(const FeaturePatch& first) {
 
 SnakeImage FeatureSnake::observe(const FeaturePatch& patch) {
   cv::Mat1f values = map(patch);
-  // Half of the difference, so that a lid's edge keeps the contrast of other features.
+  // Half of the difference, so that a lid's edge has the contrast of other features.
   if (skin) cv::addWeighted(values, 0.5, (*skin)(patch), -0.5, 0, values);
   smooth(values, values, kind_of(id).blur);
   if (weights.change != 0) {

@@ -1,4 +1,4 @@
-// One feature's snake: its curve, what it looks for, and where it is.
+// The snake of one feature: curve, energies' input, and present position.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -18,15 +18,15 @@ struct FeatureSnake {
   FeatureId id;
   SnakeCurve curve;
   SnakeWeights weights;
-  PatchPlane plane{};  ///< of the patch it looks at
+  PatchPlane plane{};  ///< the patch it sees
   FeatureMap map{};
-  std::optional<FeatureMap> skin{};       ///< of a lid: likeness to its own skin, which lies above the edge
-  std::vector<glm::dvec2> rest{}, now{};  ///< control points with pinned ones, snake units
+  std::optional<FeatureMap> skin{};       ///< for a lid: likeness to its own skin, which lies above the edge
+  std::vector<glm::dvec2> rest{}, now{};  ///< control points including pinned ones, snake units
   std::vector<FacingPair> facing{};
-  double below_vertices = 0;  ///< the curve runs this far below the vertices it moves
+  double below_vertices = 0;  ///< distance of the curve below the vertices it moves
   double lowest = 1e9;        ///< y that a lid's middle does not pass: just above the lower lid
   cv::Mat1f seen{};           ///< feature map of the picture before; empty when I_t has no weight
-  int iterations = 0;         ///< of the last descent
+  int iterations = 0;         ///< in the last descent
 
   /// A snake at rest on the adapted head. It sees nothing before learn().
   static FeatureSnake make(FeatureId id, const Geometry& geometry);
@@ -37,19 +37,18 @@ struct FeatureSnake {
   /// Learns from the first picture what distinguishes the feature from its surroundings.
   void learn(const FeaturePatch& first);
 
-  /// Brings control points back to where the feature can be: a lid that has passed the lower lid would fold
-  /// the eye.
+  /// Moves control points back to where the feature can be: a lid past the lower lid would fold the eye.
   void limit(std::vector<glm::dvec2>& control) const;
 
-  /// What the energies need of a picture. Remembers it for the next one's I_t.
+  /// The energies' maps for a picture. Keeps it for the next picture's I_t.
   ///
-  /// Eq. 8 takes I_t where the curve is. Which sign it has there depends on the side of the contour and on
-  /// the person; that of its contrast across the curve does not: H(I_t) is positive where the contour has
-  /// come and negative where it was. So E_v is that of H(I_t), and as H is linear, rho H(I) + gamma H(I_t) is
-  /// H of the map plus its change.
+  /// Eq. 8 evaluates I_t on the curve. Its sign there depends on the side of the contour and on the person;
+  /// the sign of its contrast across the curve does not: H(I_t) is positive where the contour has come and
+  /// negative where it was. So E_v uses H(I_t), and as H is linear, rho H(I) + gamma H(I_t) is H of the map
+  /// plus its change.
   SnakeImage observe(const FeaturePatch& patch);
 
-  /// Where the curve passes a vertex of the feature, snake units.
+  /// Position of a vertex of the feature on the curve, snake units.
   [[nodiscard]] glm::dvec2 at(const FeatureVertex& vertex, const std::vector<glm::dvec2>& control) const {
     return curve_point(basis_at(curve, static_cast<double>(vertex.s)), control);
   }

@@ -1,4 +1,4 @@
-// How far the inner lips go with the outer ones.
+// How far the inner lips follow the outer ones.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// Bilinear look-ups in maps of floats, four places at a time. The scalar look-ups are in image/bilinear.h.
+// Bilinear look-ups in maps of floats, four at a time. The scalar look-ups are in image/bilinear.h.
 #pragma once
 
 #include <array>
@@ -8,19 +8,19 @@
 
 namespace fbs {
 
-using Four = cv::v_float32x4;  // one number of each of four points
+using Four = cv::v_float32x4;  // one number for each of four points
 
 /// A map's bilinear value at four points and its slopes, per sample of the map.
 struct MapLookup {
   Four value, by_x, by_y;
 };
 
-/// Where four points lie in maps of one size.
+/// Positions of four points in maps of one size.
 struct MapPlace {
   std::array<std::ptrdiff_t, 4> first;  ///< index of the sample above and to the left
   std::ptrdiff_t stride;
   Four fx, fy;
-  Four inside_x, inside_y;  ///< 1, or 0 where the map's border is repeated and nothing slopes
+  Four inside_x, inside_y;  ///< 1, or 0 where the map's border is repeated and slopes are zero
 
   MapPlace(const cv::Mat1f& map, const Four& x, const Four& y) : stride(map.cols) {
     const Four zero = cv::v_setzero_f32(), one = cv::v_setall_f32(1);

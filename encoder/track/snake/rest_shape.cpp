@@ -10,20 +10,20 @@
 namespace fbs {
 namespace {
 
-constexpr int kCornerPoints = 3;  // of the curve, on either side of a mouth's corner: no facing there
+constexpr int kCornerPoints = 3;  // points of the curve on either side of a mouth's corner that face none
 
 glm::dvec2 on_head(const Geometry& geometry, std::size_t vertex) {
   const glm::dvec3 p(geometry.positions[vertex]);
   return glm::dvec2(p.x, p.y) / kHeadUnitsPerSnakeUnit;
 }
 
-/// Landmarks between which an upper lid is spanned, in order of s.
+/// Landmarks at the ends of an upper lid, in order of s.
 std::array<int, 2> corners_of(FeatureId id) {
   return id == FeatureId::kUpperLidLeft ? std::array{ibug::kLeftEyeInner, ibug::kLeftEyeOuter}
                                         : std::array{ibug::kRightEyeOuter, ibug::kRightEyeInner};
 }
 
-/// The feature's extent and the margin that its kind looks at.
+/// The feature's extent plus the margin of its kind.
 cv::Rect2d region_of(const SnakeKind& kind, std::span<const glm::dvec2> extent) {
   const auto [x0, x1] =
       std::minmax_element(extent.begin(), extent.end(), [](auto a, auto b) { return a.x < b.x; });
@@ -75,7 +75,7 @@ std::vector<FacingPair> facing_pairs(FeatureId id, const SnakeCurve& curve,
   const int points = static_cast<int>(curve.points().size());
   if (is_brow(id)) return {facing_pair(curve, rest, 0, points - 1, {1, 0}, kMinBrowLength)};
   if (!curve.is_closed()) return {};
-  // Upper points of a closed mouth curve lie at s in (0, n / 2), the lower that faces each at n - s.
+  // Upper points of a closed mouth curve lie at s in (0, n / 2), the lower point facing each at n - s.
   std::vector<FacingPair> out;
   for (int h = kCornerPoints; h <= points / 2 - kCornerPoints; ++h) {
     FacingPair pair = facing_pair(curve, rest, h, points - h, {0, 1}, kMinLipGap);

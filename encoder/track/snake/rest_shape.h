@@ -1,4 +1,4 @@
-// Where a feature's snake rests on the adapted head, and which of its points repel each other.
+// The rest position of a feature's snake on the adapted head, and which of its points repel each other.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,14 +10,14 @@
 
 namespace fbs {
 
-/// The curve along which a feature is followed.
+/// The curve that tracks a feature.
 [[nodiscard]] SnakeCurve curve_of(FeatureId id);
 
 /// A feature at rest on the adapted head, snake units of the head frame.
 struct RestShape {
-  std::vector<glm::dvec2> control;  ///< with pinned ones
-  PatchPlane plane;                 ///< the patch that the snake looks at, and the feature's depth
-  double below_vertices = 0;        ///< the curve runs this far below the vertices it moves
+  std::vector<glm::dvec2> control;  ///< including pinned ones
+  PatchPlane plane;                 ///< the snake's patch, and the feature's depth
+  double below_vertices = 0;        ///< distance of the curve below the vertices it moves
   double lowest = 1e9;              ///< y that a lid's middle does not pass: just above the lower lid
 };
 [[nodiscard]] RestShape rest_shape(FeatureId id, const SnakeCurve& curve, const Geometry& geometry);

@@ -1,5 +1,4 @@
-// The B-spline curve of a snake: its fixed part, basis functions at the points over which energies are
-// summed.
+// The fixed part of a snake's B-spline curve: basis functions at the points over which energies are summed.
 #pragma once
 
 #include <array>
@@ -10,8 +9,8 @@
 
 namespace fbs {
 
-/// Four neighbouring points that the same control points move, or fewer and copies of the last with weight
-/// zero: one step of the loops over the curve.
+/// Four neighbouring points that the same control points move; fewer are filled up with copies of the last
+/// with weight zero. One step of the loops over the curve.
 struct PointQuad {
   std::array<int, 4> control;
   alignas(16) float value[4][4], d1[4][4];  ///< B_i and dB_i/ds, [control][point]
@@ -24,7 +23,7 @@ class SnakeCurve {
   /// Closed curve with `controls` control points, sampled at `points` even steps of s.
   static SnakeCurve closed(int controls, int points);
   /// Clamped cubic with four control points.
-  /// @param free_ends  false: the first and the last control point are pinned where they are
+  /// @param free_ends  false: the first and the last control point are pinned
   static SnakeCurve clamped(int points, bool free_ends = true);
 
   [[nodiscard]] int controls() const { return controls_; }
@@ -32,13 +31,13 @@ class SnakeCurve {
   [[nodiscard]] int first_free() const { return pinned_; }
   [[nodiscard]] int end_free() const { return controls_ - pinned_; }
   [[nodiscard]] const std::vector<SplineBasis>& points() const { return points_; }
-  /// Parameter distance between neighbouring points: ds of the sums that stand for the integrals.
+  /// Parameter distance of neighbouring points: ds of the sums that approximate the integrals.
   [[nodiscard]] double ds() const { return ds_; }
   [[nodiscard]] bool is_closed() const { return closed_; }
   /// The points once more, four at a time.
   [[nodiscard]] const std::vector<PointQuad>& quads() const { return quads_; }
-  /// Gram matrix of the basis functions' n-th derivatives, row after row: sum over the points of
-  /// B_i(s) B_j(s). So sum |v|^2 = c' G c of either coordinate, and internal energies need no loop over them.
+  /// Gram matrix of the basis functions' n-th derivatives, row by row: sum over the points of B_i(s) B_j(s).
+  /// So sum |v|^2 = c' G c for either coordinate, and internal energies need no loop over the points.
   /// @param derivative  0, 1 or 2
   [[nodiscard]] const std::vector<double>& gram(int derivative) const { return gram_[derivative]; }
 
@@ -53,7 +52,7 @@ class SnakeCurve {
   double ds_;
 };
 
-/// v(s) of control points.
+/// v(s) for control points.
 [[nodiscard]] glm::dvec2 curve_point(const SplineBasis& basis, const std::vector<glm::dvec2>& control);
 
 /// Basis functions of the curve at a feature's parameter, with indices of its control points.

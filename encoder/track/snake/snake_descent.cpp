@@ -11,16 +11,16 @@ namespace {
 constexpr double kDelta0 = 1.0, kSigma = 0.75;
 constexpr int kMaxIterations = 15;  // the paper's
 constexpr int kMaxRestarts = 2;
-constexpr double kStopChange = 2e-4;  // of the energy, from iteration to iteration
+constexpr double kStopChange = 2e-4;  // share of the energy, from iteration to iteration
 constexpr double kNearlyFullReach =
     3.0;                        // snake units, of the 4 that the steps sum to: delta_0 / (1 - sigma)
-constexpr double kFlat = 1e-7;  // energy per snake unit; a slope below this is rounding and no direction
+constexpr double kFlat = 1e-7;  // energy per snake unit; a smaller slope is rounding
 
 double against(double slope) {
   return slope > kFlat ? -1.0 : slope < -kFlat ? 1.0 : 0.0;
 }
 
-/// One descent from out.control; `best` follows the least energy met.
+/// One descent from out.control; `best` keeps the least energy met.
 void descend_once(const BSnake& snake, std::vector<glm::dvec2>& gradient, SnakeOutcome& out,
                   SnakeOutcome& best) {
   const SnakeCurve& curve = snake.curve();
@@ -62,7 +62,7 @@ SnakeOutcome descend(const BSnake& snake, std::vector<glm::dvec2> start) {
     descend_once(snake, gradient, out, best);
     best.iterations = out.iterations;
     best.restarts = restart;
-    // A control point that has gone nearly as far as the steps reach together was still on its way.
+    // A control point that has moved nearly as far as all steps reach was still on its way.
     if (farthest_squared(descent_start, best.control) < kNearlyFullReach * kNearlyFullReach) break;
     out.control = best.control;
   }

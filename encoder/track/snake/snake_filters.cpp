@@ -10,7 +10,7 @@
 namespace fbs {
 namespace {
 
-/// A Gaussian as a column. Kept: OpenCV takes longer to work one out than to blur with it.
+/// A Gaussian as a column. Cached: OpenCV takes longer to compute one than to blur with it.
 const cv::Mat& gaussian(double sigma_units) {
   static std::map<double, cv::Mat> kept;
   static std::mutex one_at_a_time;
@@ -36,7 +36,7 @@ void slopes(const cv::Mat1f& values, float sign, cv::Mat1f& by_x, cv::Mat1f& by_
   by_x.create(values.size());
   by_y.create(values.size());
   for (int y = 0; y < h; ++y) {
-    // The border is mirrored, as OpenCV's filters do: what meets there is alike.
+    // The border is mirrored, as in OpenCV's filters.
     const float *above = values[y > 0 ? y - 1 : 1], *here = values[y],
                 *below = values[y < h - 1 ? y + 1 : h - 2];
     float *dx = by_x[y], *dy = by_y[y];

@@ -1,4 +1,4 @@
-// Filters that make the maps of the external energies. Lengths in snake units.
+// Filters for the maps of the external energies. Lengths in snake units.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -4,10 +4,10 @@ namespace fbs {
 namespace {
 
 // Found by looking at where the contours come to rest on the clips and on the talker. The contrast sets the
-// scale. Tension and rigidity smooth, against corners; temporal steadies, against lag; shape keeps points
-// from sliding along the contour, against stretching; repulsion holds a mouth with teeth open; change tells
-// lips that have come from an edge that was there before. After the weights: points, blur, above, below,
-// aside.
+// scale. Tension and rigidity smooth, at the cost of corners; temporal steadies, at the cost of lag; shape
+// keeps points from sliding along the contour, at the cost of stretching; repulsion holds a mouth with teeth
+// open; change tells lips that have arrived from an edge that was there before. After the weights: points,
+// blur, above, below, aside.
 // clang-format off
 constexpr SnakeKind
     kOuterLips = {{.tension = 0.0012, .rigidity = 0.002, .temporal = 0.004, .shape = 0.012, .repulsion = 0.10,

@@ -23,7 +23,7 @@ T = TypeVar("T")
 class Attempt:
     """Runs one piece of work in a scratch folder, and keeps count.
 
-    A clip that takes its worker down cannot report it. So each beginning is noted in the folder of results, and
+    A clip that takes its worker down cannot report it. So each start is recorded in the folder of results, and
     once there are `order.attempts` of this run without an end, the clip is given up. Without a folder that workers
     share, the client can only count what Dask tells it.
     """

@@ -28,7 +28,7 @@ def _launcher(memory_bytes: int | None) -> list[str]:
 
 
 def program_version() -> str:
-    """What the program of this machine calls itself."""
+    """The version text of this machine's program."""
     return _program.run(["--version"], timeout=60).strip()
 
 

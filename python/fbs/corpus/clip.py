@@ -1,4 +1,4 @@
-"""Clips: the videos of a folder, and what tells one state of a clip from another."""
+"""Clips: the videos of a folder, with a key for each state of a clip."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SUFFIXES = frozenset(".y4m .mp4 .mkv .webm .mov .avi .m4v .mpg .mpeg .ts .ogv .f
 
 
 def short_hash(value: object) -> str:
-    """Hash of what JSON can hold: 16 hexadecimal digits."""
+    """Hash of any JSON value: 16 hexadecimal digits."""
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -37,12 +37,12 @@ class Clip:
 
     @property
     def shown_name(self) -> str:
-        """The name as tables have it: bytes that are no UTF-8 are replaced."""
+        """The name in tables: bytes that are not UTF-8 are replaced."""
         return os.fsencode(self.name).decode("utf-8", "replace")
 
     @property
     def key(self) -> str:
-        """Of this state of the clip, wherever the folder is mounted."""
+        """Key of this state of the clip, wherever the folder is mounted."""
         return short_hash([self.name, self.size, self.changed_ns])
 
 

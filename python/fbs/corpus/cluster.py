@@ -1,4 +1,4 @@
-"""Where tasks run: on this machine, or on a Dask cluster that is there already."""
+"""Where tasks run: on this machine, or on an existing Dask cluster."""
 
 from __future__ import annotations
 

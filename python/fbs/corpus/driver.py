@@ -1,4 +1,4 @@
-"""Drives a run: submits tasks while there is room, keeps what comes back, tries again what was lost."""
+"""Drives a run: submits tasks while there is room, keeps results, retries lost tasks."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class _Task:
 
 @dataclass
 class Tally:
-    """What has come back so far."""
+    """Counts of the results so far."""
 
     done: int = 0
     failed: int = 0

@@ -1,4 +1,4 @@
-"""Rows of the table of points, from what the program prints."""
+"""Rows of the table of points, from the program's output."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def point_row(point: Row) -> Row:
 
 
 def crf_of(label: str) -> int:
-    """Of a peer's name, such as "x265 1/2 size crf 45"."""
+    """The crf in a peer's name, such as "x265 1/2 size crf 45"."""
     return int(label.rpartition(" ")[2])
 
 

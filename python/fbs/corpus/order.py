@@ -1,4 +1,4 @@
-"""What is asked of every task of a run."""
+"""The request that all tasks of a run share."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fbs.corpus.setting import Setting
 
 @dataclass(frozen=True)
 class Order:
-    """The same for all tasks; small, since it travels with each of them."""
+    """The request; small, since it travels with each task."""
 
     program: str
     """What ``fbs --version`` must say on every worker."""
@@ -19,7 +19,7 @@ class Order:
     run: str
     """Tells this run from earlier ones."""
     frames: int | None = None
-    """Only the first so many pictures of each clip."""
+    """Use at most this many pictures of each clip, from the first on."""
     effort: int = 1
     allow_no_face: bool = False
     keep_streams: bool = False

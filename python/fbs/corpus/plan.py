@@ -1,4 +1,4 @@
-"""What is left to do: clips with the settings whose tasks have neither been done nor failed."""
+"""The remaining work: clips with the settings whose tasks have neither been done nor failed."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Progress:
 
 
 def duration(seconds: float) -> str:
-    """In the unit that makes it a number of two or three digits."""
+    """A duration in the unit that makes it a number of two or three digits."""
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 3 * size:
             return f"{seconds / size:.0f} {unit}"

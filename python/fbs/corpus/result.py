@@ -1,4 +1,4 @@
-"""What a task gives back: rows for the tables."""
+"""Results of tasks: rows for the tables."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field
 
 @dataclass
 class Result:
-    """Of one task."""
+    """Result of one task."""
 
     task: dict[str, object]
     """Its row in the table of tasks."""

@@ -90,14 +90,14 @@ class ResultsFolder:
         write_atomically(self._finished_path(result.key), result.to_json().encode())
 
     def find(self, key: str) -> Result | None:
-        """Of a finished task that is not yet in the tables."""
+        """Result of a finished task that is not yet in the tables."""
         try:
             return Result.from_json(self._finished_path(key).read_text())
         except FileNotFoundError:
             return None
 
     def begin(self, key: str, run: str) -> int:
-        """Say that a task begins.
+        """Record that a task begins.
 
         Returns
         -------

@@ -40,7 +40,7 @@ Setting = FbsSetting | PeerSetting
 
 
 def asked_settings(asked: dict[str, Any]) -> list[Setting]:
-    """Those that run.json notes."""
+    """The settings recorded in run.json."""
     return settings_of(*(asked[name] for name in ("qualities", "peers", "peer_sizes", "peer_rates")))
 
 

@@ -14,7 +14,7 @@ _ENOUGH_TO_RESAMPLE = 5_000
 
 @dataclass(frozen=True)
 class Spread:
-    """Of one value over the clips that have it."""
+    """Spread of one value over the clips that have it."""
 
     count: int
     median: float

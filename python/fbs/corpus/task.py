@@ -75,7 +75,7 @@ def measure(setting: Setting, clip: Clip, order: Order, reference: Reference) ->
 
 
 def failed_result(clip: Clip, setting: Setting, order: Order, error: str, attempts: int) -> Result:
-    """Of a task that gave none itself."""
+    """Result for a task that returned none."""
     return Result(
         {
             "clip": clip.shown_name,

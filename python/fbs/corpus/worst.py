@@ -1,4 +1,4 @@
-"""The worst clips, and in what they differ from the others."""
+"""The worst clips, and how they differ from the others."""
 
 from __future__ import annotations
 

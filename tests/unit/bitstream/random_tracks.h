@@ -10,8 +10,8 @@ namespace fbs {
 
 /// Statistics of random tracks.
 struct TrackHabits {
-  int knot_one_in = 6;   ///< one picture in so many has a knot
-  int moves_one_in = 2;  ///< over one span in so many the part moves
+  int knot_one_in = 6;   ///< one picture in this many has a knot
+  int moves_one_in = 2;  ///< the part moves over one span in this many
   int reach = 3;         ///< largest change of a number over a span, within its limits
 };
 

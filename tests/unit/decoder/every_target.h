@@ -2,7 +2,7 @@
 #pragma once
 
 #include "decoder/vectors/fixed_vectors.h"
-// Before Highway, as in the kernels: else there would be targets here that they have not.
+// Before Highway, as in the kernels: otherwise there would be targets here that they lack.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -11,7 +11,7 @@
 
 namespace fbs {
 
-/// @param target  of Highway's; 0: the best that there is
+/// @param target  Highway's number; 0: the best available
 inline void choose_target(std::int64_t target) {
   hwy::SetSupportedTargetsForTest(target);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());

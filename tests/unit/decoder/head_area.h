@@ -1,5 +1,6 @@
-// Where a picture shows the head, by the winding of its polygons: what the renderer's tests compare apart.
-// The head passes through the atlas, sampled twice, so it is drawn closely; all else is drawn exactly.
+// Where a picture shows the head, by the winding of its polygons: the renderer's tests compare head and
+// surround separately. The head passes through the atlas, sampled twice, so it is drawn closely; the rest is
+// drawn exactly.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 
 namespace fbs {
 
-/// Times that the closed polygon winds round the centre of luma sample (x, y), clockwise.
+/// How often the closed polygon winds around the centre of luma sample (x, y), clockwise.
 inline int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
   const int px = x * 64 + 32, py = y * 64 + 32;
   int count = 0;

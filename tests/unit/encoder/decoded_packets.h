@@ -8,7 +8,7 @@
 #include "bitstream/packet.h"
 #include "common/quality.h"
 #include "decoder/scene/scene_face.h"
-#include "decoder/stream/stream_decoder.h"
+#include "tests/unit/encode_decode.h"
 
 namespace fbs {
 
@@ -19,7 +19,7 @@ struct Shown {
   std::size_t scenes = 0;
   std::size_t patterns = 0;
   std::size_t bytes = 0;
-  /// Of luma against the sources.
+  /// PSNR of luma against the sources.
   [[nodiscard]] double psnr(const std::vector<Picture>& sources) const {
     EXPECT_EQ(pictures.size(), sources.size());
     SquaredError error;
@@ -45,15 +45,14 @@ inline Shown shown_by(const std::vector<std::uint8_t>& packets) {
   decoder.feed(stream);
   decoder.close();
   decoder.record_patterns();
-  auto status = decoder.next();
-  for (; status && *status == DecodeStatus::kPicture; status = decoder.next()) {
+  const auto end = decode_pictures(decoder, [&](StreamDecoder&) {
     shown.pictures.emplace_back();
     EXPECT_TRUE(decoder.render(shown.pictures.back()));
     shown.durations.push_back(decoder.duration());
     shown.moves.push_back(decoder.scene().geometry.has_value());
     EXPECT_EQ(face_of(decoder.scene()), nullptr);
-  }
-  EXPECT_TRUE(status) << status.error().text;
+  });
+  EXPECT_TRUE(end) << end.error().text;
   shown.patterns = decoder.pattern_records().size();
   return shown;
 }

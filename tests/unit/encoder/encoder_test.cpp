@@ -8,7 +8,7 @@
 #include <random>
 
 #include "common/quality.h"
-#include "decoder/stream/stream_decoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -46,21 +46,7 @@ struct Coded {
 Result<std::vector<std::uint8_t>> encoded(const Pictures& source, const VideoFormat& format,
                                           const EncoderSettings& settings,
                                           const std::vector<std::uint32_t>& durations = {}) {
-  auto encoder = Encoder::create(format, settings);
-  if (!encoder) return fail(encoder.error());
-  std::vector<std::uint8_t> stream;
-  const auto take = [&] {
-    const auto bytes = encoder->take();
-    stream.insert(stream.end(), bytes.begin(), bytes.end());
-  };
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    if (auto pushed = encoder->push(source[i], durations.empty() ? 0 : durations[i]); !pushed)
-      return fail(pushed.error());
-    take();
-  }
-  if (auto finished = encoder->finish(); !finished) return fail(finished.error());
-  take();
-  return stream;
+  return encode_pictures(format, settings, source, durations);
 }
 
 Coded decoded(std::vector<std::uint8_t> stream) {
@@ -69,14 +55,12 @@ Coded decoded(std::vector<std::uint8_t> stream) {
   StreamDecoder decoder;
   decoder.feed(out.stream);
   decoder.close();
-  for (;;) {
-    const auto status = decoder.next();
-    EXPECT_TRUE(status) << status.error().text;
-    if (!status || *status != DecodeStatus::kPicture) break;
+  const auto end = decode_pictures(decoder, [&](StreamDecoder&) {
     out.pictures.emplace_back();
     EXPECT_TRUE(decoder.render(out.pictures.back()));
     out.durations.push_back(decoder.duration());
-  }
+  });
+  EXPECT_TRUE(end) << end.error().text;
   out.bytes = decoder.bytes();
   EXPECT_EQ(decoder.announced_pictures(), out.pictures.size());
   return out;
@@ -133,7 +117,7 @@ TEST(Encoder, ReachesItsFloorOfQuality) {
   EXPECT_GT(squared_error(c.pictures[0].y, talking()[0].y).psnr(), 31) << "the first picture is its pattern";
 }
 
-// What the model is for: far better than the first picture held, for a few bytes a picture.
+// The purpose of the model: far better than the first picture held, for a few bytes per picture.
 TEST(Encoder, MotionBeatsTheFirstPictureHeld) {
   const Coded& c = coded_talk();
   SquaredError held;
@@ -279,7 +263,7 @@ Watched watched(const Pictures& source, const EncoderSettings& settings = {}) {
   return {decoded(encoder->take()), encoder->report()};
 }
 
-// A slide is carried by the scene's patterns, and the face found again behind it.
+// The scene's patterns carry a slide, and the face is found again after it.
 TEST(Encoder, SlideAndBackStayOneScene) {
   const Pictures source = interrupted(Pictures(12, slide()));
   const Watched w = watched(source);
@@ -293,7 +277,7 @@ TEST(Encoder, SlideAndBackStayOneScene) {
   EXPECT_GT(psnr_from(w.coded, source, 33, 19), 28);
 }
 
-// One that stays is worth a scene, whose patterns are finer than those of a face.
+// A slide that stays is worth a scene, with finer patterns than a face.
 TEST(Encoder, SlideThatStaysIsASceneOfItsOwn) {
   const Pictures source = interrupted(Pictures(60, slide()));
   const Watched w = watched(source);
@@ -305,7 +289,7 @@ TEST(Encoder, SlideThatStaysIsASceneOfItsOwn) {
   EXPECT_GT(psnr_from(w.coded, source, 81, 19), 28);
 }
 
-// What is coded of the dark pictures is too coarse for the others.
+// Patterns of dark pictures are too coarse for bright ones.
 TEST(Encoder, FaceOutOfTheDarkHasASceneOfItsOwn) {
   constexpr int kFade = 15;
   Pictures p = talking();
@@ -357,7 +341,7 @@ TEST(Encoder, SaysAtOnceThatThereIsNoSuchFace) {
   ASSERT_TRUE(encoder);
   const auto pushed = encoder->push(talking()[0]);
   ASSERT_FALSE(pushed);
-  EXPECT_EQ(pushed.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(pushed.error().code, ErrorCode::kTooFewFaces);
   EXPECT_EQ(pushed.error().text, "no face 1: picture 0 shows 1, and the largest is face 0");
 }
 
@@ -489,7 +473,7 @@ TEST(Encoder, RefusesAPictureThatLastsTooLongOrLacksSamples) {
   cut.y.samples.pop_back();
   EXPECT_TRUE(refuses(p[0], kMaxDuration + 1));
   for (const Picture& picture : {thin, dense, cut}) EXPECT_TRUE(refuses(picture, 0));
-  // What is refused changes nothing.
+  // A refused picture changes nothing.
   ASSERT_TRUE(encoder->push(p[0], kMaxDuration));
   ASSERT_TRUE(encoder->finish());
   EXPECT_EQ(decoded(encoder->take()).durations, std::vector<std::uint32_t>{kMaxDuration});

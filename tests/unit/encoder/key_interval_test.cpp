@@ -3,8 +3,7 @@
 
 #include "bitstream/packet.h"
 #include "common/quality.h"
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -27,25 +26,19 @@ std::vector<std::uint8_t> encoded(double key_interval, int patterns) {
   settings.key_interval = key_interval;
   settings.patterns = patterns;
   settings.group_pictures = 5;
-  auto encoder = Encoder::create(clip().format(), settings);
-  EXPECT_TRUE(encoder);
-  for (int i = 0; i < kPictures; ++i) EXPECT_TRUE(encoder->push(clip()[i]));
-  EXPECT_TRUE(encoder->finish());
-  return encoder->take();
+  auto stream = encode_pictures(clip().format(), settings, kPictures, [](int i) { return clip()[i]; });
+  EXPECT_TRUE(stream) << stream.error().text;
+  return *stream;
 }
 
 std::vector<Picture> decoded(std::span<const std::uint8_t> stream) {
-  StreamDecoder decoder;
-  decoder.feed(stream);
-  decoder.close();
   std::vector<Picture> out;
-  for (;;) {
-    const auto status = decoder.next();
-    EXPECT_TRUE(status) << status.error().text;
-    if (!status || *status != DecodeStatus::kPicture) return out;
+  const auto end = decode_pictures(stream, [&](StreamDecoder& decoder) {
     out.emplace_back();
     EXPECT_TRUE(decoder.render(out.back()));
-  }
+  });
+  EXPECT_TRUE(end) << end.error().text;
+  return out;
 }
 
 /// Offsets of the setup packets.

@@ -1,4 +1,4 @@
-// Encoding as it happens: packets leave with each group, and nothing later is waited for.
+// Encoding as it happens: packets leave with each group, without waiting for later ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +7,7 @@
 
 #include "common/quality.h"
 #include "decoder/stream/scene_index.h"
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -57,15 +56,13 @@ class LiveLine {
  private:
   void pass_on() {
     decoder_.feed(encoder_.take());
-    for (;;) {
-      const auto status = decoder_.next();
-      ASSERT_TRUE(status) << status.error().text;
-      bytes = decoder_.bytes();
-      patterns = decoder_.scene().patterns.size();
-      if (*status != DecodeStatus::kPicture) return;
+    const auto status = decode_pictures(decoder_, [&](StreamDecoder&) {
       shown.emplace_back();
       ASSERT_TRUE(decoder_.render(shown.back()));
-    }
+    });
+    ASSERT_TRUE(status) << status.error().text;
+    bytes = decoder_.bytes();
+    patterns = decoder_.scene().patterns.size();
   }
 
   Encoder encoder_;
@@ -102,7 +99,7 @@ TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
   EXPECT_EQ(line.patterns, 1U);
 }
 
-// Another picture of the room, as different as a cut but without one: the light of half of it changes.
+// The room changes as much as by a cut, but without one: the light of half of it changes.
 TEST(Live, AChangeIsSentWithItsGroup) {
   Picture changed = clip()[0];
   for (int y = 0; y < changed.height(); ++y)

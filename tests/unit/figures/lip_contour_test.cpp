@@ -1,5 +1,5 @@
 // The paper's case for an energy of repulsion: "a mouth opened where the teeth are visible". Pictures are
-// painted, and go through everything that the lips' snake sees of a picture.
+// painted, and pass through the whole input of the lips' snake.
 #include "tests/figures/lip_contour.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(LipContour, CollapsesOnTheUpperLipWithoutRepulsion) {
   EXPECT_LT(follow(0, kOpen).opened, kUpperLip + 0.02);
 }
 
-// 4/5 of the height at rest is where the repulsion becomes silent; the lower lip itself is out of sight.
+// Repulsion ends at 4/5 of the height at rest; the lower lip itself is out of sight.
 TEST(LipContour, RepulsionKeepsItOpen) {
   const Heights h = follow(1, kOpen);
   EXPECT_GT(h.opened, 0.7 * h.closed);

@@ -1,4 +1,4 @@
-// Calls that make no sense, and calls in any order: nothing crashes, and what is documented holds.
+// Invalid calls, and calls in any order: nothing crashes, and the documentation holds.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -76,7 +76,7 @@ TEST(ApiCalls, FailureLeavesNoObject) {
   EXPECT_EQ(decoder, nullptr);
 }
 
-// A program that was compiled with a later header, and one with an earlier.
+// A program compiled with a later header, and one with an earlier.
 TEST(ApiCalls, SettingsMayBeOfAnotherVersion) {
   struct Later {
     fbs_decoder_settings known;

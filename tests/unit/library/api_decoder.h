@@ -1,4 +1,4 @@
-// A decoder of fbs/fbs.h for tests, and what it makes of a stream.
+// A decoder of fbs/fbs.h for tests, and its output for a stream.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -63,7 +63,7 @@ TalkerClip& clip() {
 
 struct Pulled {
   std::vector<std::vector<std::uint8_t>> packets;
-  std::vector<fbs_packet> infos;  ///< their data is gone
+  std::vector<fbs_packet> infos;  ///< their data is no longer valid
   fbs_status last = FBS_OK;
 
   [[nodiscard]] std::vector<std::uint8_t> stream() const {
@@ -97,7 +97,8 @@ Pulled encoded(const fbs_encoder_settings& settings, int pictures, std::uint32_t
   return out;
 }
 
-/// Feeds packet by packet: no picture that needs a packet comes before it, and its time is that of the first.
+/// Feeds packet by packet: no picture that needs a packet comes before it, and its time is the first such
+/// picture's.
 void expect_right_places(const Pulled& pulled) {
   StreamDecoder decoder;
   std::map<std::uint64_t, std::uint64_t> times;  // of the pictures

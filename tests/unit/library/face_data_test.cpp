@@ -16,7 +16,7 @@ namespace {
 
 using Landmarks = std::array<fbs_landmark, kLandmarkCount>;
 
-/// Of the generic head, turned by so many degrees.
+/// Landmarks of the generic head, turned by this many degrees.
 Landmarks turned(double yaw_degrees) {
   const Scene scene = toy_scene(noise_picture(160, 128, 1));
   State state = toy_state();

@@ -1,6 +1,6 @@
-// out_of_memory STREAM: lets one allocation after the other fail while a stream is decoded through fbs/fbs.h.
-// Each time the decoder says so, or gets along without; it neither crashes nor forgets how to go on after a
-// reset. A program of its own, since it replaces operator new.
+// out_of_memory STREAM: makes each allocation in turn fail while a stream is decoded through fbs/fbs.h. Each
+// time the decoder reports it, or manages without; it neither crashes nor fails to continue after a reset. A
+// separate program, since it replaces operator new.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 long allocations_left = -1;  // until one fails; negative: none does
 bool has_failed = false;
 
-constexpr long kTried = 400;  ///< one by one; behind, one in kStep
+constexpr long kTried = 400;  ///< each of these; later ones in steps of kStep
 constexpr long kStep = 61;
 
 }  // namespace

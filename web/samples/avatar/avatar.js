@@ -1,4 +1,4 @@
-// A model of a head that follows a player: pose, place and blendshapes of each picture.
+// A model of a head that follows a player: pose, position and blendshapes of each picture.
 import "../package/src/index.js";
 import { AmbientLight, MathUtils, WebGLRenderer } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -6,8 +6,8 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 const player = document.querySelector("fbs-player");
 const canvas = document.querySelector("#model");
 
-// The model of `fbs export talk.fbs head.glb`: an orthographic camera that sees what the picture shows, and the head below a
-// node whose unit is a pixel.
+// The model from `fbs export talk.fbs head.glb`: an orthographic camera that sees the picture's content, and
+// the head below a node whose unit is a pixel.
 const { scene, cameras: [camera] } = await new GLTFLoader().loadAsync("../media/head.glb");
 const head = scene.getObjectByName("head_0");
 const meshes = [];

@@ -1,17 +1,54 @@
-"""Charts as SVG: curves over rate, and rows that show how values are distributed."""
+"""Charts as SVG, drawn by Matplotlib: curves over rate, and rows that show how values are distributed."""
 
 from __future__ import annotations
 
+import io
+import math
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
 from markupsafe import Markup, escape
-
-from fbs.corpus.report.axis import Axis, axis_over, tick_text
+from matplotlib import rc_context, ticker
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.mlab import GaussianKDE
 
 _WIDTH = 480
 _MOST_DOTS = 150
 """Values that are drawn one by one; more are drawn as a density."""
+
+_COLOURS = {name: f"#0f0f{n:02d}" for n, name in enumerate("text quiet grid fbs x264 x265 av1 envelope".split())}
+"""What Matplotlib draws in the place of the page's colours, which differ by day, by night and on paper."""
+
+_STYLE = {
+    "svg.fonttype": "none",
+    "font.size": 12,
+    "axes.spines.left": False,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.edgecolor": _COLOURS["quiet"],
+    "axes.labelcolor": _COLOURS["quiet"],
+    "axes.labelpad": 3,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "axes.grid.axis": "x",
+    "grid.color": _COLOURS["grid"],
+    "xtick.labelcolor": _COLOURS["quiet"],
+    "ytick.labelcolor": _COLOURS["quiet"],
+    "xtick.major.size": 0,
+    "ytick.major.size": 0,
+    "text.color": _COLOURS["quiet"],
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+}
+
+_LEFT_OUT = re.compile(
+    r"(?<=<svg)[^>]*(?= viewBox)|<metadata>.*?</metadata>|<style.*?</style>| xmlns(:\w+)?=\"[^\"]*\""
+    r"| clip-path=\"[^\"]*\"| id=\"\w+_\d+\"|font(-size|-family)?: [^;\"]*;? ?",
+    re.DOTALL,
+)
+"""What the page has a say in, or would be there twice."""
 
 
 @dataclass
@@ -41,30 +78,22 @@ class Row:
 
 def curve_chart(series: list[Series], x_name: str, y_name: str, label: str) -> Markup:
     """Curves over a logarithmic rate, each with its name at its end."""
-    height, left, right, top, bottom = 320, 42, 72, 12, 40
-    xs = [v for s in series for v in s.x]
-    ys = [v for s in series for v in (*s.y, *s.low, *s.high)]
-    x = axis_over(xs, left, _WIDTH - right, is_log=True)
-    y = axis_over(ys, height - bottom, top)
-    parts = [_grid(x, y, x_name, y_name, height - bottom)]
-    ends = []
-    for s in series:
-        band = ""
-        if s.low:
-            edge = [*zip(s.x, s.high, strict=True), *reversed([*zip(s.x, s.low, strict=True)])]
-            band = f'<polygon points="{_points(edge, x, y)}"/>'
-        line = [*zip(s.x, s.y, strict=True)]
-        dots = (
-            "".join(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="3.5"/>' for a, b in line) if s.has_points else ""
-        )
-        parts.append(f'<g class="series {s.css_class}">{band}<polyline points="{_points(line, x, y)}"/>{dots}</g>')
-        if line:
-            ends.append([x.at(line[-1][0]) + 7, y.at(line[-1][1]) + 4, s])
-    parts += [
-        f'<text class="name {s.css_class}" x="{at_x:.1f}" y="{at_y:.1f}">{escape(s.name)}</text>'
-        for at_x, at_y, s in _apart(ends)
-    ]
-    return _svg(parts, height, label)
+    with rc_context(_STYLE | {"axes.grid.axis": "both", "svg.hashsalt": label}):
+        axes = _axes(320, left=42, right=72, top=12, bottom=40)
+        for s in series:
+            colour = _COLOURS[s.css_class]
+            if s.low:
+                axes.fill_between(s.x, s.low, s.high, color=colour, alpha=0.15, linewidth=0)
+            width = 2.5 if s.css_class == "fbs" else 1.75
+            axes.plot(s.x, s.y, color=colour, linewidth=width, marker="o" if s.has_points else None, markersize=7)
+        _scale(axes, x_name, is_log=True)
+        axes.text(0.01, 0.99, y_name, transform=axes.transAxes, va="top")
+        lowest = math.inf
+        for s in sorted((s for s in series if s.x), key=lambda s: -s.y[-1]):
+            x, y = axes.transData.transform((s.x[-1], s.y[-1]))
+            lowest = min(y, lowest - 14)  # names one below the other where curves end close together
+            axes.text(x + 7, lowest, s.name, transform=None, va="center", color=_COLOURS[s.css_class], weight="bold")
+        return _svg(axes, label)
 
 
 def row_chart(rows: list[Row], x_name: str, label: str, *, is_log: bool = False, mark: float | None = None) -> Markup:
@@ -75,93 +104,66 @@ def row_chart(rows: list[Row], x_name: str, label: str, *, is_log: bool = False,
     mark : float, optional
         A value to draw a line at, such as 0.
     """
-    row_height, left, right, top, bottom = 46, 84, 14, 8, 38
-    height = top + row_height * len(rows) + bottom
-    values = np.concatenate([r.values for r in rows]) if rows else np.array([])
-    x = axis_over([*values.tolist(), *([] if mark is None else [mark])], left, _WIDTH - right, is_log=is_log)
-    parts = [_grid(x, None, x_name, "", height - bottom, top)]
-    if mark is not None:
-        parts.append(
-            f'<line class="axis" x1="{x.at(mark):.1f}" x2="{x.at(mark):.1f}" y1="{top}" y2="{height - bottom}"/>'
-        )
-    for n, row in enumerate(rows):
-        parts.append(_row(row, x, top + row_height * (n + 0.5), row_height))
-    return _svg(parts, height, label)
+    with rc_context(_STYLE | {"ytick.labelcolor": _COLOURS["text"], "svg.hashsalt": label}):
+        axes = _axes(46 * len(rows) + 46, left=84, right=14, top=8, bottom=38)
+        axes.set_ylim(len(rows) - 0.5, -0.5)
+        axes.set_yticks(range(len(rows)), [row.name for row in rows])
+        if mark is not None:
+            axes.axvline(mark, color=_COLOURS["quiet"], linewidth=1)
+        for y, row in enumerate(rows):
+            _draw_row(axes, y, row, is_log)
+        _scale(axes, x_name, is_log)
+        return _svg(axes, label)
 
 
-def _row(row: Row, x: Axis, middle: float, height: float) -> str:
-    name = (
-        f'<text class="row-name" x="{x.begin - 8:.1f}" y="{middle + 4:.1f}" text-anchor="end">{escape(row.name)}</text>'
-    )
-    values = row.values[np.isfinite(row.values)]
+def _draw_row(axes: Axes, y: float, row: Row, is_log: bool) -> None:
+    colour = _COLOURS[row.css_class]
+    values = np.sort(row.values[np.isfinite(row.values)])
     if not len(values):
-        return name + f'<text class="tick" x="{x.begin + 4:.1f}" y="{middle + 4:.1f}">none</text>'
+        axes.text(0.01, y, "none", transform=axes.get_yaxis_transform(), va="center")
+        return
+    if len(values) <= _MOST_DOTS:
+        beside = (np.arange(len(values)) * 7 % 5 - 2) * 0.075  # where they would cover each other
+        axes.scatter(values, y + beside, s=16, color=colour, alpha=0.6, linewidth=0)
+    elif values[0] < values[-1]:
+        places = np.log(values) if is_log else values
+        at = np.linspace(places[0], places[-1], 96)
+        density = GaussianKDE(places)(at)
+        half = 0.44 * density / density.max()
+        axes.fill_between(np.exp(at) if is_log else at, y - half, y + half, color=colour, alpha=0.35, linewidth=0)
     low, median, high = np.percentile(values, [25, 50, 75])
-    shape = _dots(values, x, middle, height) if len(values) <= _MOST_DOTS else _density(values, x, middle, height)
-    box = (
-        f'<rect class="box" x="{x.at(low):.1f}" width="{max(0.5, x.at(high) - x.at(low)):.1f}" '
-        f'y="{middle - height * 0.22:.1f}" height="{height * 0.44:.1f}"/>'
-        f'<line class="median" x1="{x.at(median):.1f}" x2="{x.at(median):.1f}" '
-        f'y1="{middle - height * 0.3:.1f}" y2="{middle + height * 0.3:.1f}"/>'
-    )
+    axes.barh(y, high - low, left=low, height=0.44, fill=False, edgecolor=colour, linewidth=1.25)
+    axes.vlines(median, y - 0.3, y + 0.3, color=colour, linewidth=3)
     if row.interval is not None:
-        (a, b), y = (x.at(v) for v in row.interval), middle + height * 0.36
-        box += f'<line class="interval" x1="{a:.1f}" x2="{b:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>'
-    return f'{name}<g class="row {row.css_class}">{shape}{box}</g>'
+        axes.hlines(y + 0.36, *row.interval, color=colour, linewidth=3, alpha=0.7)
 
 
-def _dots(values: np.ndarray, x: Axis, middle: float, height: float) -> str:
-    """Beside each other where they would cover each other."""
-    ordered = np.sort(values)
-    offsets = (np.arange(len(ordered)) * 7 % 5 - 2) * height * 0.075
-    return "".join(
-        f'<circle cx="{x.at(v):.1f}" cy="{middle + o:.1f}" r="2"/>' for v, o in zip(ordered, offsets, strict=True)
-    )
+def _axes(height: int, left: int, right: int, top: int, bottom: int) -> Axes:
+    """Margins are in SVG units, of which a figure has 72 to the inch."""
+    figure = Figure(figsize=(_WIDTH / 72, height / 72), dpi=72)
+    inner = (left / _WIDTH, bottom / height, (_WIDTH - left - right) / _WIDTH, (height - top - bottom) / height)
+    return figure.add_axes(inner)
 
 
-def _density(values: np.ndarray, x: Axis, middle: float, height: float) -> str:
-    """A violin: a histogram of narrow bins, smoothed."""
-    places = np.array([x.at(v) for v in np.clip(values, x.low, x.high)])
-    counts, edges = np.histogram(places, bins=96, range=(x.begin, x.end))
-    kernel = np.exp(-0.5 * (np.arange(-6, 7) / 2.2) ** 2)
-    smooth = np.convolve(counts, kernel / kernel.sum(), mode="same")
-    widths = smooth / smooth.max() * height * 0.44
-    centres = (edges[:-1] + edges[1:]) / 2
-    shown = widths > 0.15
-    upper = [f"{c:.1f},{middle - w:.1f}" for c, w in zip(centres[shown], widths[shown], strict=True)]
-    lower = [f"{c:.1f},{middle + w:.1f}" for c, w in zip(centres[shown], widths[shown], strict=True)]
-    return f'<polygon class="density" points="{" ".join(upper + lower[::-1])}"/>'
+def _scale(axes: Axes, x_name: str, is_log: bool) -> None:
+    axes.set_xlabel(x_name, loc="right")
+    if not is_log:
+        axes.xaxis.set_major_locator(ticker.MaxNLocator(6))
+        return
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    decades = math.log10(high / low)
+    steps = (1,) if decades > 4 else (1, 3) if decades > 2 else (1, 2, 5)
+    axes.xaxis.set_major_locator(ticker.LogLocator(subs=steps) if decades > 0.7 else ticker.MaxNLocator(6))
+    axes.xaxis.set_major_formatter(ticker.StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_locator(ticker.NullLocator())
 
 
-def _points(line: list[tuple[float, float]], x: Axis, y: Axis) -> str:
-    return " ".join(f"{x.at(a):.1f},{y.at(b):.1f}" for a, b in line)
-
-
-def _apart(ends: list[list]) -> list[list]:
-    """Names one below the other where curves end close together."""
-    ends.sort(key=lambda e: e[1])
-    for above, below in zip(ends, ends[1:], strict=False):
-        below[1] = max(below[1], above[1] + 14)
-    return ends
-
-
-def _grid(x: Axis, y: Axis | None, x_name: str, y_name: str, bottom: float, top: float = 12) -> str:
-    out = []
-    for tick in x.ticks():
-        at = x.at(tick)
-        out.append(f'<line class="grid" x1="{at:.1f}" x2="{at:.1f}" y1="{top}" y2="{bottom}"/>')
-        out.append(f'<text class="tick" x="{at:.1f}" y="{bottom + 15}" text-anchor="middle">{tick_text(tick)}</text>')
-    for tick, at in [(t, y.at(t)) for t in y.ticks()] if y else []:
-        out.append(f'<line class="grid" x1="{x.begin}" x2="{x.end}" y1="{at:.1f}" y2="{at:.1f}"/>')
-        out.append(f'<text class="tick" x="{x.begin - 6}" y="{at + 4:.1f}" text-anchor="end">{tick_text(tick)}</text>')
-    out.append(f'<line class="axis" x1="{x.begin}" x2="{x.end}" y1="{bottom}" y2="{bottom}"/>')
-    out.append(f'<text class="axis-name" x="{x.end}" y="{bottom + 32}" text-anchor="end">{escape(x_name)}</text>')
-    if y_name:
-        out.append(f'<text class="axis-name" x="{x.begin + 5}" y="{top + 10}">{escape(y_name)}</text>')
-    return "".join(out)
-
-
-def _svg(parts: list[str], height: float, label: str) -> Markup:
-    return Markup(
-        f'<svg viewBox="0 0 {_WIDTH} {height:g}" role="img" aria-label="{escape(label)}">{"".join(parts)}</svg>'
-    )
+def _svg(axes: Axes, label: str) -> Markup:
+    """The drawing in the colours and letters of the page."""
+    out = io.StringIO()
+    axes.figure.savefig(out, format="svg")
+    svg = _LEFT_OUT.sub("", out.getvalue()[out.getvalue().index("<svg") :])
+    for name, colour in _COLOURS.items():
+        svg = svg.replace(colour, f"var(--{name})")
+    return Markup(svg.replace("<svg", f'<svg role="img" aria-label="{escape(label)}"', 1))

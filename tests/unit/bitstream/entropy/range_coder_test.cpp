@@ -87,7 +87,7 @@ TEST(RangeCoder, EndCostsLessThanABytePastTheInformation) {
   }
 }
 
-// Bytes of any value behind bits of any probability: the reader is told neither how many nor the sum.
+// Bytes of any value after bits of any probability: the reader is not told their number.
 TEST(RangeCoder, OpenEndEndsTheLastBytes) {
   std::mt19937 random(6);
   for (int i = 0; i < 2000; ++i) {

@@ -50,7 +50,7 @@ TEST(PatternNumber, MiddlesCostFewBits) {
   EXPECT_LT(bits / static_cast<double>(pyramid.size()), 3.5);
 }
 
-// Of what random bytes say, only numbers with a state are accepted.
+// Among random bytes, only numbers with a state are accepted.
 TEST(PatternNumber, RefusesWhatIsOutOfRange) {
   std::mt19937 random(2);
   int refused = 0;

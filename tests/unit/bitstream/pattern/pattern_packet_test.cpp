@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Patterns = std::vector<PatternSyntax>;
 
-constexpr int kPictures = 400;  // that have a state
+constexpr int kPictures = 400;  // pictures with a state
 
 PatternSyntax first_pattern(Bytes frame = {0x12, 0x00, 0x0A}) {
   PatternSyntax pattern;
@@ -44,7 +44,7 @@ Bytes first_packet() {
   return *encode_first_pattern(first_pattern(), sample_setup());
 }
 
-/// A frame as libaom writes them: a header that others have too, and data.
+/// A frame like libaom's: a header that others share, and data.
 Bytes random_frame(std::mt19937& random, std::size_t size) {
   Bytes frame = {0x30, 0x30, 0x02, 0x40, 0x0F, 0x00, 0x81, 0x06, 0x99, 0xC0};
   while (frame.size() < size) frame.push_back(static_cast<std::uint8_t>(random()));
@@ -190,7 +190,7 @@ TEST(PatternPacket, TooManyBytesLeaveTheWriterAsItWas) {
             *same.encode(Patterns{later_pattern()}, sample_setup(), kPictures));
 }
 
-/// A scene's first pattern has been read.
+/// A reader that has read a scene's first pattern.
 PatternPacketReader begun() {
   PatternPacketReader reader;
   EXPECT_TRUE(reader.decode(first_packet(), sample_setup(), 0));

@@ -132,7 +132,7 @@ TEST(WireFramePayload, RefusesWhatIsNoWireFrame) {
   EXPECT_NE(decoded.error().text.find("outline"), std::string::npos) << decoded.error().text;
 }
 
-// The bytes end after the first number that breaks a rule: what matters is the rule.
+// The bytes end after the first number that breaks a rule, which alone matters.
 TEST(WireFramePayload, StopsAtTheFirstNumberOutOfRange) {
   const auto right = split_head();
   std::vector<HeadVertex> vertices(right->vertices.begin(), right->vertices.end());

@@ -25,8 +25,8 @@ Bgr at(const RgbImage& image, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-/// Of the landmark's chroma sample and its neighbours, the colour nearest to `colour`: at the lips a region
-/// is narrow.
+/// Among the landmark's chroma sample and its neighbours, the colour nearest to `colour`: at the lips a
+/// region is narrow.
 int nearest(const RgbImage& image, const Scene& scene, const State& state, std::size_t landmark,
             const Bgr& colour) {
   const glm::ivec3 p = scene.geometry->project_vertices(state)[vertex_of_landmark(landmark)];

@@ -1,4 +1,4 @@
-// Vectors with a sound beside them.
+// Vectors with sound beside them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@
 namespace fbs::cli {
 
 inline std::vector<std::uint8_t> vector_file(const std::string& name) {
-  std::ifstream file(std::string(FBS_VECTORS) + "/" + name, std::ios::binary);
+  std::ifstream file(FBS_VECTORS "/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// As `encode` does, with frames of 20 ms of Opus that have their number in them.
-/// @param first    number of the first one
-/// @param missing  empty where it says so
+/// Like `encode`, with Opus frames of 20 ms that contain their number.
+/// @param first    number of the first frame
+/// @param missing  true for frames to leave empty
 template <class Missing>
 std::vector<std::uint8_t> voiced(const std::vector<std::uint8_t>& stream, const SoundSetup& setup,
                                  std::int64_t first, const Missing& missing) {

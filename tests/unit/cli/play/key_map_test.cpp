@@ -29,7 +29,7 @@ TEST(KeyMap, EveryKeyIsFoundByItsName) {
   EXPECT_FALSE(find_key(""));
 }
 
-// A line with two keys that differ has those that do less, or go back, first or with Shift.
+// In a line with two different keys, the one for less or backwards comes first, or has Shift.
 TEST(KeyMap, OppositeKeysHaveOppositeAmounts) {
   EXPECT_EQ(find_key("m")->amount, -find_key("Shift+m")->amount);
   EXPECT_EQ(find_key(".")->amount, -find_key(",")->amount);

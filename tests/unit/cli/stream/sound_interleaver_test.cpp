@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "decoder/stream/packet_list.h"
 #include "decoder/stream/stream_decoder.h"
 
 namespace fbs::cli {
@@ -14,13 +15,13 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes vector_file(const std::string& name) {
-  std::ifstream file(std::string(FBS_VECTORS) + "/" + name, std::ios::binary);
+  std::ifstream file(FBS_VECTORS "/" + name, std::ios::binary);
   return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 
 constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 
-/// Frames of 20 ms, each of which has its number in it; without end.
+/// Frames of 20 ms that contain their number; without end.
 class Counting {
  public:
   std::vector<SoundGroup> operator()(std::int64_t before) {
@@ -52,7 +53,7 @@ struct Seen {
   std::uint64_t time = 0;  ///< end of the last picture
 };
 
-/// Checks on the way that no sound comes later than it is heard.
+/// Also checks that no sound comes later than it is heard.
 Seen decoded(const Bytes& stream, bool has_sound) {
   StreamDecoder decoder;
   decoder.keep_sound();

@@ -87,7 +87,7 @@ TEST(Colour, BlackAndWhiteHaveTheLevelsOfTheirRange) {
   EXPECT_EQ(luma(white, ColourRange::kFull), 255);
 }
 
-// The primaries in 8 bits as ITU-R BT.601 and BT.709 give them: 16 + 219 Y', 128 + 224 C.
+// The primaries in 8 bits by ITU-R BT.601 and BT.709: 16 + 219 Y', 128 + 224 C.
 TEST(Colour, RedHasTheValuesOfTheRecommendations) {
   std::vector<std::uint8_t> red(3 * 64 * 64, 0);
   for (std::size_t i = 0; i < red.size(); i += 3) red[i] = 255;

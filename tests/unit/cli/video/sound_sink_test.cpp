@@ -69,7 +69,7 @@ class SoundSinkFiles : public SoundFiles {
 
   static std::int64_t begin_of(std::size_t packet) { return static_cast<std::int64_t>(packet) * 960 - kSkip; }
 
-  /// As ffmpeg hears it: with the silence before it that its timestamps ask for.
+  /// Heard by ffmpeg: with the silence before it that its timestamps ask for.
   [[nodiscard]] std::vector<double> onsets_by_ffmpeg(const std::string& name) const {
     ffmpeg("-i " + name + " -map 0:a -af aresample=async=1:first_pts=0 -ar 48000 -ac 1 heard.wav");
     return burst_onsets(read("heard.wav"), 48000);
@@ -85,7 +85,7 @@ class SoundSinkFiles : public SoundFiles {
     return picture && *picture ? static_cast<double>((*picture)->pts) / kTicksPerSecond : -1;
   }
 
-  /// By our reader, and by ffmpeg's as a second opinion.
+  /// Checks with our reader, and with ffmpeg's as a second opinion.
   void expect_in_step(const std::string& name) const {
     const auto ours = burst_onsets(read(name), 48000);
     const auto theirs = onsets_by_ffmpeg(name);

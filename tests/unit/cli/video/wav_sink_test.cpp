@@ -33,7 +33,7 @@ std::vector<std::uint8_t> content(const std::string& name) {
 
 constexpr std::array<std::int16_t, 4> kSamples{1, -2, 32767, -32768};
 
-/// Of two frames in stereo at 44100 Hz.
+/// A file of two stereo frames at 44100 Hz.
 std::vector<std::uint8_t> expected_file() {
   return {'R', 'I', 'F', 'F', 44, 0, 0,    0,    'W', 'A', 'V',  'E',  'f',  'm',  't', ' ', 16, 0,
           0,   0,   1,   0,   2,  0, 0x44, 0xAC, 0,   0,   0x10, 0xB1, 2,    0,    4,   0,   16, 0,

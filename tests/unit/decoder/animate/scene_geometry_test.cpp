@@ -29,7 +29,7 @@ std::vector<glm::ivec2> ring_of(const ScreenMesh& mesh) {
   return {mesh.head.begin() + kVertexCount, mesh.head.end()};
 }
 
-// What lies under the ring carries it: ground that stays must not be dragged along.
+// The ring is carried by what lies under it: ground that stays must not be dragged along.
 TEST(SceneGeometry, RingGoesWithTheSurround) {
   State moved = toy_state(84, 45);
   for (glm::ivec2& c : moved.control) c = {500, 900};
@@ -42,7 +42,7 @@ TEST(SceneGeometry, RingGoesWithTheSurround) {
     EXPECT_EQ(after[i] - before[i], glm::ivec2(4 * 64, -5 * 64)) << i;
 }
 
-// In the rest state, which is that of pattern 0, the mesh lies on the screen where it lies in the pattern.
+// In the rest state, pattern 0's, the mesh lies at the same place on the screen and in the pattern.
 TEST(SceneGeometry, TextureOfTheRestStateIsWhereTheRestStateIsDrawn) {
   State rest = toy_state();
   rest.light = {160, -48, 200, -300};

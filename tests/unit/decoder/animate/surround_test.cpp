@@ -13,7 +13,7 @@ namespace fbs {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 128;
-constexpr int kInset = 2 * 64;  ///< of the grid's border from the picture's; SPEC 10.1
+constexpr int kInset = 2 * 64;  ///< from the picture's border to the grid's; SPEC 10.1
 
 Surround surround_of(SurroundMap map, const State& seen = toy_state()) {
   return {toy_setup(kWidth, kHeight).format, std::move(map), seen};
@@ -56,7 +56,7 @@ SurroundMap random_map(std::mt19937& random, int columns, int rows) {
   return map;
 }
 
-/// Column or row of a point, margin included, as that of the picture's point it moves with.
+/// Column or row of a point, margin included, as the column or row of the picture's point it moves with.
 int on_picture(int place, int last) {
   return std::clamp(place - 1, 0, last);
 }
@@ -154,7 +154,7 @@ TEST(Surround, BodyAndGroundScaleAndRotateAboutTheHeadsOrigin) {
   }
 }
 
-// So that what comes in from outside repeats the border's samples.
+// Content that comes in from outside repeats the border's samples.
 TEST(Surround, MarginMovesAsTheBorderDoes) {
   std::mt19937 random(2);
   for (int i = 0; i < 60; ++i) {
@@ -171,7 +171,7 @@ TEST(Surround, MarginMovesAsTheBorderDoes) {
   }
 }
 
-// A point of the surround that follows wholly is one of the head frame's plane z = 0.
+// A point of the surround that wholly follows the head moves with the head frame's plane z = 0.
 TEST(Surround, WhatFollowsWhollyMovesAsTheHeadsPlane) {
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
@@ -220,7 +220,7 @@ TEST(Surround, CellsCoverTheGridOnceEach) {
   EXPECT_EQ(first.size(), surround.cells().size());
 }
 
-// SPEC 10.1: what is nearer to the viewer is drawn later.
+// SPEC 10.1: nearer cells are drawn later.
 TEST(Surround, DrawsGroundThenBodyThenHead) {
   std::mt19937 random(4);
   for (int i = 0; i < 20; ++i) {

@@ -34,7 +34,7 @@ TEST(AtlasLayout, TrianglesAreClockwiseAtEverySize) {
   }
 }
 
-// Their areas sum to that within the outline of the skirt: none lies on another.
+// Their areas sum to the area within the skirt's outline: none overlap.
 TEST(AtlasLayout, TrianglesDoNotOverlap) {
   const AtlasLayout layout(generic_head(), 160);
   std::int64_t sum = 0, within = 0;
@@ -107,7 +107,7 @@ Plane head_samples(const AtlasLayout& layout) {
   return out;
 }
 
-/// Whether some of the samples lies in a block, or up to so many samples beside it.
+/// Whether any of the samples lies in a block, or within `margin` samples of it.
 bool is_near(const Plane& samples, glm::ivec2 block, int margin) {
   for (int y = std::max(16 * block.y - margin, 0); y < std::min(16 * block.y + 16 + margin, samples.height);
        ++y)
@@ -117,7 +117,7 @@ bool is_near(const Plane& samples, glm::ivec2 block, int margin) {
   return false;
 }
 
-// Bilinear samples of chroma, two of luma wide, reach beyond the head; of its skirt nothing else is shown.
+// Bilinear samples of chroma, two of luma wide, reach beyond the head; nothing else of its skirt is shown.
 TEST(AtlasLayout, BlocksAreThoseOfWhichTheHeadShowsSomething) {
   for (const int eyes : {64, 80, 160}) {
     const AtlasLayout layout(generic_head(), eyes);

@@ -29,7 +29,7 @@ HeadAtlas atlas_of(const AtlasLayout& layout, const Picture& picture, const Text
   return out;
 }
 
-// At the middle of each triangle of the head, luma is that of the triangle's middle in the picture.
+// At the middle of each triangle of the head, luma equals the luma at the triangle's middle in the picture.
 TEST(HeadAtlas, ShowsWhatThePatternShowsOfEachTriangle) {
   const Scene scene = toy_scene(ramp(160, 128));
   const AtlasLayout& layout = generic_atlas_layout(scene.geometry->rest_scale());

@@ -17,7 +17,7 @@ std::size_t vertices() {
   return generic_head_mesh().vertex_count;
 }
 
-/// Sources, of which `still` tells; every vertex has the same weights.
+/// Sources, still or warped by `still`; every vertex has the same weights.
 MeshBlend even_blend(const std::vector<bool>& still, const Row& weights) {
   MeshBlend out;
   for (std::size_t s = 0; s < still.size(); ++s)
@@ -64,7 +64,7 @@ TEST(HeadWeights, StillSourcesAloneNeedNoAtlas) {
   EXPECT_EQ(row(out.screen, 0), (Row{0, 4095, 1}));
 }
 
-// What the atlas has there is not shown, but its neighbours fade to it.
+// The atlas there is not shown, but its neighbours fade to it.
 TEST(HeadWeights, WhereNoWarpedSourceShowsTheAtlasHasWhatIsNear) {
   MeshBlend blend = even_blend({false, false, true}, {1000, 3000, 96});
   const std::size_t outline = generic_head().outline[4], ring = kVertexCount + 4;

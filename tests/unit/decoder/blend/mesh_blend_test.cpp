@@ -114,7 +114,7 @@ TEST(MeshBlend, VerticesAreTakenFromPatternsThatShowThem) {
   EXPECT_EQ(weight(), kMeshWeightOne / 4) << "and more is no better";
   first = second = 0;
   EXPECT_EQ(weight(), kMeshWeightOne / 4) << "none shows it: as if all did";
-  // Of 2048 triangles that are as large as they can be on the screen.
+  // The sum of 2048 triangles as large as the screen allows.
   c.mesh.areas[cheek] = first = std::int64_t{1} << 55;
   second = std::int64_t{1} << 53;  // 64 against 96
   EXPECT_NEAR(weight(), kMeshWeightOne * 2 / 5, kRounding) << "large";
@@ -132,7 +132,7 @@ TEST(MeshBlend, VerticesThatAreHardlyDrawnNeedNotBeSeenWell) {
   EXPECT_EQ(c.blend(picture).head.at(cheek)[0], kMeshWeightOne / 4);
 }
 
-// What is not warped shows what is there.
+// Unwarped sources show what is there.
 TEST(MeshBlend, StillSourcesAreAlwaysVisible) {
   Case c;
   PictureBlend picture;

@@ -117,7 +117,7 @@ TEST(PictureBlend, CrossFadeBeforeTheFirstIsTheFirst) {
   EXPECT_EQ(weight_of(patterns.blend(state_at(3), Region::kFace, BlendMode::kByTime), 0), kBlendOne);
 }
 
-// The order of the store is not that of time.
+// The order in the store is not the order in time.
 TEST(PictureBlend, CrossFadeFindsItsNeighboursInAnyOrder) {
   const Patterns patterns({80, 0, 120, 40});
   const RegionBlend blend = patterns.blend(state_at(50), Region::kBody, BlendMode::kByTime);
@@ -174,7 +174,7 @@ TEST(PictureBlend, EqualDistancesGoToTheLowerSlotFirst) {
   }
 }
 
-// A pattern's own picture is nearest to it, and the farther it is the less it has.
+// A pattern weighs most in its own picture, and less the farther away a picture is.
 TEST(PictureBlend, PatternsOwnPictureGivesItTheMostWeight) {
   const Patterns patterns({0, 40, 80, 120, 160}, 150);
   for (const Region region : kRegions)
@@ -199,8 +199,8 @@ TEST(PictureBlend, ReturnsToAPatternThatIsLongPast) {
       << "the ground is as it was lately";
 }
 
-// Nothing pops: weights of a state that moves by small steps do so too. By state they move faster where all
-// patterns are alike, since little is left of their weights once the smallest is taken off.
+// Nothing pops: weights change in small steps when the state does. By state they move faster where all
+// patterns are alike, since little is left of their weights once the smallest is subtracted.
 TEST(PictureBlend, WeightsAreContinuousInTime) {
   std::mt19937 random(2);
   for (int i = 0; i < 40; ++i) {

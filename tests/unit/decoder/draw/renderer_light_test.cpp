@@ -80,7 +80,7 @@ TEST(RendererLight, SlopesBrightenOneSide) {
   EXPECT_GT(luma_at(scene, state, kNoseTip), luma_at(scene, state, kNoseBridge) + 5);
 }
 
-// The pattern is what light is added to: a head that rotates keeps its light.
+// Light is added to the pattern: a head that rotates keeps its light.
 TEST(RendererLight, MovesWithTheHead) {
   const Scene scene = grey_scene(100);
   State state = toy_state(90, 60);
@@ -90,7 +90,7 @@ TEST(RendererLight, MovesWithTheHead) {
   EXPECT_GT(luma_at(scene, state, 54), luma_at(scene, state, 48) + 5) << "corners of the mouth";
 }
 
-// The pattern was seen under a light of its own: what is added is the difference.
+// The pattern was seen under its own light: the difference is added.
 TEST(RendererLight, IsTheDifferenceToThePatternsLight) {
   const std::array<std::int32_t, kLightCount> own = {16 * 30, 0, 0, 0};
   const Scene scene = grey_scene(100, own);

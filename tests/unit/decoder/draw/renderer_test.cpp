@@ -51,7 +51,7 @@ Scene scene_seen_in(const State& seen, Picture picture, SurroundMap surround,
   return scene;
 }
 
-// Nothing has moved since the pattern was seen, so the surround is exact and the head is drawn in its place,
+// Nothing has moved since the pattern was seen, so the surround is exact and the head is drawn in place,
 // whatever the state was and wherever the rest state has the grid.
 TEST(Renderer, SeenStateOfAnyPatternReproducesTheSurroundExactly) {
   std::mt19937 random(12);
@@ -92,7 +92,7 @@ TEST(Renderer, CellsAreStillWhereThePatternSawThemAndNotWhereTheyRest) {
   EXPECT_EQ(rendered(scene, ground_at(5, 0)), picture);
 }
 
-// A pattern that was drawn from another, drawn back.
+// A pattern drawn from another pattern, drawn back.
 TEST(Renderer, PatternSeenElsewhereGivesBackTheFirstOne) {
   Picture smooth(160, 128);
   for (int y = 0; y < 128; ++y)
@@ -198,13 +198,13 @@ std::vector<glm::ivec2> outline_of(const ScreenMesh& mesh) {
   return out;
 }
 
-/// Of a ScreenMesh or a TextureMesh.
+/// Positions of a ScreenMesh or a TextureMesh.
 template <class Mesh>
 std::vector<glm::ivec2> ring_of(const Mesh& mesh) {
   return {mesh.head.begin() + kVertexCount, mesh.head.end()};
 }
 
-/// Bright where head and ring are in toy_state() and `reach` pixels round them, dark elsewhere.
+/// Bright where head and ring are in toy_state() and `reach` pixels around them, dark elsewhere.
 Picture bright_head(int reach) {
   const auto ring = ring_of(toy_scene(Picture(160, 128)).patterns[0].texture);
   Picture out(160, 128);
@@ -228,8 +228,8 @@ State random_pose(std::mt19937& random) {
   return state;
 }
 
-// Outline and ring close the mesh: wherever such a polygon winds round a sample, some triangle that faces the
-// viewer lies there, and what it shows comes from the head. A crack would show the dark ground.
+// Outline and ring close the mesh: wherever such a polygon winds around a sample, some triangle there faces
+// the viewer, and its colour comes from the head. A crack would show the dark ground.
 TEST(Renderer, MovedHeadShowsNoUncoveredPixel) {
   std::mt19937 random(6);
   const Picture bright = bright_head(2);
@@ -287,7 +287,7 @@ TEST(Renderer, SurroundThatFollowsMovesWithTheHead) {
   expect_shows(part(out.v, 12, 8, 56, 48), part(pattern.v, 10, 9, 56, 48), shown, kOnceMoreSampled);
 }
 
-// The outermost samples of many videos are dark: what comes in from outside repeats those within.
+// The outermost samples of many videos are dark: content that comes in from outside repeats samples within.
 TEST(Renderer, DarkBorderIsNotRepeated) {
   Picture picture(160, 128);
   picture.y = Plane(160, 128, 200);

@@ -20,7 +20,7 @@ TEST(Workers, DoEachJobOnce) {
   }
 }
 
-// What a worker has for itself needs no lock.
+// A worker's own data needs no lock.
 TEST(Workers, NoTwoJobsAtOnceHaveTheSameWorker) {
   Workers workers(4);
   std::vector<std::atomic<int>> busy(static_cast<std::size_t>(workers.count()));

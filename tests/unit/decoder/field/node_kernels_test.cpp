@@ -190,7 +190,7 @@ Nodes random_nodes(std::mt19937& random, std::size_t row) {
   return out;
 }
 
-/// Of the sources that are shown; of the others nobody asks.
+/// Compares the sources that are shown; the others are undefined.
 void expect_same(const BlockMotions& out, const BlockMotions& expected, std::array<int, 3>& kinds) {
   ASSERT_EQ(out.shown, expected.shown);
   for (std::size_t s = 0; s < kRowStep; ++s) {

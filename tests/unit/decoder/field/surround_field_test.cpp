@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::vector<glm::ivec2>;
 
-/// The field of sources that saw the grid's points so.
+/// The field of sources that saw the grid's points at these positions.
 SurroundField field_of(const SurroundGrid& grid, const std::vector<const Points*>& seen) {
   SurroundField out;
   out.set(grid.cover, seen, grid.now, {SurroundGrid::kWidth, SurroundGrid::kHeight});
@@ -116,7 +116,7 @@ TEST(SurroundField, OfSourcesThatDoNotMoveIsStill) {
   EXPECT_EQ(field.at(5, 0), glm::ivec2(64, 0));
 }
 
-/// Grid points that two triangles have, beyond a picture, and of which two sources are displaced.
+/// Grid points shared by two triangles, beyond a picture, of which two sources are displaced.
 struct LargeCover {
   static constexpr int kSize = 1500;  ///< of the picture
   Points now{{-700, -700}, {100000, -700}, {-700, 100000}, {100000, 100000}};

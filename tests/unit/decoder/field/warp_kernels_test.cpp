@@ -28,7 +28,7 @@ WarpedBlock blank() {
   return out;
 }
 
-/// A kernel may write `columns` by `rows` samples, of which `size` by `size` are asked for.
+/// A kernel may write `columns` by `rows` samples, of which `size` by `size` are compared.
 void expect_same(const WarpedBlock& out, const WarpedBlock& expected, int size, int columns, int rows) {
   for (int y = 0; y < kBlockSize; ++y) {
     for (int x = 0; x < WarpedBlock::kStride; ++x) {
@@ -81,7 +81,7 @@ TEST(WarpKernels, EvenOnesOfChromaEqualThePlainOnes) {
   });
 }
 
-/// One coordinate of displacements that differ by just so much, in any order.
+/// One coordinate of displacements that differ by exactly this much, in any order.
 /// @param least  the smallest
 std::array<int, 4> spread(std::mt19937& random, int least, int range) {
   std::array<int, 4> out{least, least + range};

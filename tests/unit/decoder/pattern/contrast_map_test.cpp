@@ -52,7 +52,7 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
   EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 50);
 }
 
-// Of contrast c one level is 256 / c levels of the pattern, rounded twice.
+// At contrast c one level is 256 / c levels of the pattern, rounded twice.
 TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
   const TextureMesh mesh = texture();
   for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {

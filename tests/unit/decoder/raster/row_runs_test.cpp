@@ -40,7 +40,7 @@ TEST(CoveredRun, IsWhereAllEdgesHold) {
   EXPECT_GT(covered, 10000);
 }
 
-/// Runs that were drawn, one mark per sample: no sample twice.
+/// Runs drawn, one mark per sample: no sample twice.
 template <class Walk>
 std::vector<int> marked(std::vector<std::int32_t>& nearest, Walk&& walk) {
   std::vector<int> mark(nearest.size());

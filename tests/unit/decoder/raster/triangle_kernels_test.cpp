@@ -35,10 +35,10 @@ struct Drawn {
   }
 };
 
-/// Of the mouth in both planes.
+/// Colours of the mouth in both planes.
 constexpr std::array<std::array<std::uint8_t, kInteriorCount>, 2> kColours{{{10, 90, 200}, {250, 40, 130}}};
 
-/// All that a triangle is drawn from.
+/// Everything that a triangle is drawn from.
 struct Case {
   PlaneScale scale = PlaneScale::kLuma;
   TexturedTriangle triangle;
@@ -52,7 +52,7 @@ struct Case {
   std::array<std::array<std::int32_t, 3>, 2> weights{};
   Drawn before;
 
-  /// Calls draw(sources, target) for what is there before.
+  /// Calls draw(sources, target) over earlier content.
   template <class Draw>
   [[nodiscard]] Drawn after(Draw&& draw) const {
     Drawn out = before;
@@ -94,7 +94,7 @@ struct Case {
     });
   }
 
-  /// By the rasteriser's own loops, which it takes for several sources that move: here the first once more,
+  /// Uses the rasteriser's own loops, which it takes for several moving sources: here the first is repeated
   /// without weight.
   [[nodiscard]] Drawn by_loops() const {
     return after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
@@ -144,7 +144,7 @@ TexturedTriangle random_triangle(std::mt19937& random, const Lie& lie, PlaneScal
   return t;
 }
 
-/// Depths about those of random_triangle(), or nothing yet.
+/// Depths near random_triangle()'s, or nothing yet.
 void put_depth(std::mt19937& random, DepthPlane& depth) {
   const unsigned kind = random() % 3;
   for (std::int32_t& z : depth.depth)
@@ -188,7 +188,7 @@ std::array<Plane, 4> random_textures() {
   return out;
 }
 
-/// The lookups that a kernel of so many lanes can choose from: texels that a step reaches over.
+/// The lookups that a kernel with this many lanes can choose from: texels that a step reaches over.
 struct Lookups {
   int two_rows = 0, four_rows = 0, one_by_one = 0;
 
@@ -269,7 +269,7 @@ Case whole_picture(PlaneScale scale) {
   return out;
 }
 
-// Kernels draw eight samples at once: at the right border only those that there are (address sanitizer).
+// Kernels draw eight samples at once: at the right border only those that exist (address sanitizer).
 TEST(TriangleKernels, DrawUpToTheLastSample) {
   on_every_target([] {
     for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {

@@ -38,7 +38,7 @@ Samples decoded(SoundDecoder& decoder, const SoundEncoder::Frames& frames) {
   return out;
 }
 
-/// A frame of 20 ms with so many times 254 bytes of padding, one byte of length for each. RFC 6716, 3.2.5.
+/// A frame of 20 ms with `paddings` times 254 bytes of padding, one byte of length for each. RFC 6716, 3.2.5.
 std::vector<std::uint8_t> padded_frame(std::size_t paddings) {
   std::vector<std::uint8_t> frame = {0x0B, 0x41};
   frame.insert(frame.end(), paddings, 0xFF);

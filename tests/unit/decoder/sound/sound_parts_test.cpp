@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "cli/stream/sound_interleaver.h"
-
+#include "decoder/stream/stream_decoder.h"
 namespace fbs::cli {
 namespace {
 

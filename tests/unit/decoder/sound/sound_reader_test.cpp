@@ -28,7 +28,7 @@ SoundReader reader_of(const CodedSound& sound) {
   return reader;
 }
 
-/// Reads groups of so many frames.
+/// Reads groups of `count` frames.
 Samples read_in_groups(const CodedSound& sound, std::ptrdiff_t count) {
   SoundReader reader = reader_of(sound);
   Samples out;

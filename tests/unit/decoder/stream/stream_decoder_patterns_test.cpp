@@ -255,7 +255,7 @@ TEST(StreamDecoderPatterns, OfSeveralPatternsInASlotTheLastOneStays) {
     play_through(decoder, w, result);
     ASSERT_EQ(decoder.scene().patterns.size(), slot + 1U);
     EXPECT_EQ(decoder.scene().patterns[static_cast<std::size_t>(slot)].seen.picture, 5);
-    // The second frame alone: both are decoded, as those of a stream that fills another slot first.
+    // The second frame alone: both are decoded, as in a stream that fills another slot first.
     Writer other = begun(3);
     other.motion(0, 10, true).pattern(face_picture(1), 1, 4).pattern(face_picture(5), 2, 5).blend(10);
     StreamDecoder both;
@@ -287,7 +287,7 @@ TEST(StreamDecoderPatterns, ASurroundAfterPatternsLeavesThePictureShownAsItIs) {
   }
 }
 
-// Patterns that waited are those of a scene that nobody sees any more.
+// Waiting patterns belong to a scene that is no longer shown.
 TEST(StreamDecoderPatterns, ANewSceneLeavesThePictureShownAsItIs) {
   for (const int count : {0, 1, 4, 5}) {
     Writer w = begun(4);
@@ -307,7 +307,7 @@ TEST(StreamDecoderPatterns, ANewSceneLeavesThePictureShownAsItIs) {
   }
 }
 
-// The rest state stays that of the first pattern.
+// The rest state stays the first pattern's.
 TEST(StreamDecoderPatterns, FirstPatternMayBeReplaced) {
   Writer w = begun(2);
   w.motion(0, 10, true).pattern(face_picture(1), 0, 9).blend(10, BlendMode::kStillAfter);

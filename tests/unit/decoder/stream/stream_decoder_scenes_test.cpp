@@ -20,7 +20,7 @@ const Writer& three_scenes() {
   return w;
 }
 
-/// The bytes without those of packets `begin`..`end` - 1.
+/// The bytes without packets `begin`..`end` - 1.
 Bytes without(const Writer& w, std::size_t begin, std::size_t end) {
   const auto at = [&](std::size_t packet) {
     return w.bytes.begin() + static_cast<std::ptrdiff_t>(w.begins[packet]);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 
-/// A setup, then sound for so many seconds, of the largest frames, and no picture.
+/// A setup, then this many seconds of sound in the largest frames, and no picture.
 std::vector<std::uint8_t> endless_sound(int seconds) {
   PacketReader reader;
   reader.feed(read_bytes(std::string(FBS_VECTORS) + "/talk.fbs"));

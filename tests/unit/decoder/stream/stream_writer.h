@@ -1,4 +1,4 @@
-// Streams for the decoder's tests, and what a decoder makes of them.
+// Streams for the decoder's tests, and a decoder's output for them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ class Writer {
   Writer& pattern(const Picture& picture, int slot, int number) {
     return patterns({{slot, number, {}, *av1_->encode(picture)}});
   }
-  /// The frame that follows those of the patterns so far.
+  /// The AV1 frame after the frames of the patterns so far.
   [[nodiscard]] Bytes frame(const Picture& picture) { return *av1_->encode(picture); }
   /// Any, in one packet.
   Writer& patterns(const std::vector<PatternSyntax>& patterns) {

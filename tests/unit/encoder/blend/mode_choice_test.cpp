@@ -41,7 +41,8 @@ TEST(ModeChoice, LargeLambdaNeverChanges) {
   for (const RegionModes& modes : cheapest_modes(random_errors(40), 1e6)) EXPECT_EQ(modes, RegionModes{});
 }
 
-/// Of pictures 20..20 + length - 1, in which kOther is better for the mouth by `gain` each.
+/// Number of pictures in kOther when it is better for the mouth by `gain` in each of pictures 20..20 + length
+/// - 1.
 std::size_t pictures_in_other(int length, double gain, double lambda) {
   auto errors = even_errors(60, 1000);
   for (int t = 20; t < 20 + length; ++t) errors[t][kMouth][static_cast<std::size_t>(kOther)] -= gain;

@@ -8,7 +8,7 @@ namespace fbs {
 namespace {
 
 using PicturePlane = Plane Picture::*;
-/// Of each pattern.
+/// A plane of each pattern.
 using Planes = std::vector<ReducedPlane>;
 
 SolvedPlanes alone(const ReducedPlane& plane) {

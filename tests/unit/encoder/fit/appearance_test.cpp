@@ -15,7 +15,7 @@ namespace {
 
 using Change = void (StateMaker::*)(State&);
 
-/// Differences between what the fit takes the decoder to show and what the decoder draws, grey levels.
+/// Differences between the fit's model of the decoder and the decoder's picture, grey levels.
 struct Differences {
   std::vector<double> clear;  ///< at points well inside what is seen, ascending
   std::vector<double> other;  ///< at folded or hidden triangles and at their edges
@@ -33,7 +33,7 @@ struct Differences {
 };
 
 void compare(const SeenScene& scene, const State& now, Differences& out) {
-  constexpr double kMinArea = 4;  // square pixels: of smaller triangles the samples show as much of others
+  constexpr double kMinArea = 4;  // square pixels: smaller triangles share most samples with others
   const Fit fit = fit_of(now);
   const PlacedHead head(toy_geometry(), fit);
   const Appearance shown = scene.comparison.appearance(fit, head.vertices);
@@ -48,7 +48,8 @@ void compare(const SeenScene& scene, const State& now, Differences& out) {
   }
 }
 
-/// Over random states that differ from rest by `changes`, of patterns seen at rest or in another such state.
+/// Over random states that differ from rest by `changes`, with patterns seen at rest or in another such
+/// state.
 Differences differences(bool seen_at_rest, std::initializer_list<Change> changes) {
   constexpr unsigned kStates = 12;
   Differences out;
@@ -113,7 +114,7 @@ TEST_P(AppearanceOf, FollowsAllTogetherAsTheDecoderDraws) {
          0.32, 1.1, 2.6);
 }
 
-// Light, mouth and expression that a pattern already shows are not put on it again.
+// Light, mouth and expression already in a pattern are not added again.
 TEST(Appearance, IsThePatternInTheStateThatThePatternWasSeenIn) {
   StateMaker maker(5);
   State seen = SeenScene::rest();

@@ -96,8 +96,8 @@ TEST(PictureFit, CostOfAShutMouthIgnoresItsInterior) {
     }
 }
 
-// What the encoder weighs bits against is what the decoder's picture shows, though it compares some thousand
-// points where the decoder has all samples.
+// The encoder's cost matches the decoder's picture, though it compares some thousand points where the decoder
+// has all samples.
 TEST(PictureFit, CostPredictsTheChangeOfTheSquaredDifference) {
   FittedScene s;
   s.set_picture(s.seen);
@@ -227,7 +227,7 @@ TEST(PictureFit, CostNearAStartIsThatAtARefinedFit) {
   EXPECT_LT(cv::norm(near.quadratic() - at.quadratic()), 0.1 * cv::norm(at.quadratic()));
 }
 
-// A blend that is about to be another is no reason for another light.
+// A blend that is about to change is no reason for another light.
 TEST(PictureFit, OneStepIsNotTakenToAPictureOfAnotherBrightness) {
   FittedScene s;
   State truth = s.seen;

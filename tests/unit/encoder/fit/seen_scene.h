@@ -1,4 +1,4 @@
-// A scene whose pattern was seen in any state, drawn by the decoder and compared as the fit compares.
+// A scene whose pattern was seen in any state, drawn by the decoder and compared as in the fit.
 #pragma once
 
 #include <cmath>

@@ -16,7 +16,7 @@ const PlaceSearch& search() {
   return s;
 }
 
-/// Near enough for landmarks to be searched there.
+/// Near enough to search landmarks there.
 bool is_near(const FacePlace& found, const FacePlace& wanted) {
   const glm::dvec2 d = found.centre - wanted.centre;
   return std::hypot(d.x, d.y) < 0.3 * wanted.eye_distance_px &&
@@ -54,7 +54,7 @@ TEST(PlaceSearch, TheBestComesFirstAndNoFaceTwice) {
   EXPECT_EQ(near_the_face, 1);
 }
 
-// While a face is lost its size is about known, which makes looking for it cheap.
+// While a face is lost its size is roughly known, which makes the search cheap.
 TEST(PlaceSearch, LooksOnlyForTheSizesAskedFor) {
   TalkerClip clip(talker_settings(352, 288, 1));
   const double eye = place_of(clip.shape(0)).eye_distance_px;

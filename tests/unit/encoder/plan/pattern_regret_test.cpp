@@ -5,7 +5,7 @@
 namespace fbs {
 namespace {
 
-/// Pictures until a pattern pays, when the error grows by so much from picture to picture.
+/// Pictures until a pattern pays, when the error grows by `growth` from picture to picture.
 int pictures_until_it_pays(double growth, double bits, double lambda) {
   PatternRegret regret;
   regret.begin(100);

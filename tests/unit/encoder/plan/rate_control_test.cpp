@@ -74,7 +74,7 @@ TEST(RateBudget, NeverStarvesAGroup) {
   EXPECT_GT(budget.allowed(1), 100);
 }
 
-// Groups that cannot be had for just what they may take, of uneven lengths.
+// Groups of uneven lengths, whose bits cannot match their allowance exactly.
 TEST(RateBudget, KeepsTheRateOverManyGroups) {
   std::mt19937 random(1);
   for (const double bias : {-0.3, 0.0, 0.3}) {
@@ -123,7 +123,7 @@ TEST(PlanRate, NeverStarvesMotion) {
   EXPECT_NEAR(plan->motion_kbps, 0.15 * 2, 1e-9);
 }
 
-/// A planned group as the search sees it.
+/// A planned group as seen by the search.
 struct Trial {
   double lambda, bits;
 };
@@ -171,7 +171,7 @@ TEST(PlanWithin, StaysBoundedByTheBase) {
   }
 }
 
-// A group whose bits jump: rather too few than too many.
+// A group whose bits jump: too few rather than too many.
 TEST(PlanWithin, TakesTooFewBitsWhereNoneAreRight) {
   for (const double begin : {0.1, 1.0, 2.9, 3.1, 30.0}) {
     const Trial found = plan_within(1000, begin, 1.0, [](double at) {

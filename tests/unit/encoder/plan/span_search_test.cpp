@@ -23,7 +23,7 @@ struct Search {
   [[nodiscard]] Track solve(double lambda) const {
     return cheapest_spans({cost, rate, limits, lambda}, 0, anchor());
   }
-  /// Of the pose alone.
+  /// Cost of the pose alone.
   [[nodiscard]] double total(const Track& track, double lambda) const {
     double sum = 0;
     Knot last{-1, anchor()};

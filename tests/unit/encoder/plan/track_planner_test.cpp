@@ -23,7 +23,7 @@ double in_units(std::size_t parameter, double steps) {
   return steps * step_of(kSteps, parameter);
 }
 
-/// A picture that says the same of every number: a step beside the fit costs `weight`.
+/// A picture with the same cost for every number: a step beside the fit costs `weight`.
 PictureCost even_fit(double weight) {
   PictureCost fit;
   fit.layers = {{.quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount)}};
@@ -40,7 +40,7 @@ CodedState anchor_of() {
   return anchor;
 }
 
-/// Pictures that all say what the anchor has.
+/// Pictures that all match the anchor.
 std::vector<PictureCost> still_fits(int count, double weight = 50) {
   std::vector<PictureCost> fits(static_cast<std::size_t>(count));
   for (PictureCost& fit : fits) {
@@ -54,7 +54,7 @@ MotionGroup planned(const std::vector<PictureCost>& fits, double lambda = 1, Par
   return TrackPlanner(kSteps, parts).plan(anchor_of(), fits, TrackRate(), lambda);
 }
 
-/// What the viewer sees of a group: the sum over pictures of the forms.
+/// The viewer's loss in a group: the sum over pictures of the forms.
 double distortion(const MotionGroup& group, const std::vector<PictureCost>& fits) {
   double sum = 0;
   for (std::size_t t = 0; t < fits.size(); ++t) {
@@ -195,7 +195,7 @@ TEST(TrackPlanner, LargerLambdaGivesFewerBitsAndMoreDistortion) {
   }
 }
 
-// Neither a knot at every picture nor holding still may be better than what was chosen.
+// Neither a knot at every picture nor holding still may beat the choice.
 TEST(TrackPlanner, IsNotWorseThanPlainChoices) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const auto fits = wandering_fits(12, seed);

@@ -26,7 +26,7 @@ struct People {
 
   State& moves() { return motion.pictures.front().state; }
 
-  /// What the face does in the motion's picture.
+  /// The face's numbers in the motion's picture.
   [[nodiscard]] StateNumbers numbers() const { return MotionTransfer(motion, face)(motion.pictures.front()); }
 
   [[nodiscard]] std::vector<glm::ivec3> shown() const {
@@ -138,7 +138,7 @@ TEST(MotionTransfer, AShutMouthStaysShutHoweverItIsMoved) {
   People people;
   for (int i = 0; i < kControlCount; ++i)
     people.moves().control[i] = {i * 37 % 200 - 100, i * 53 % 200 - 100};
-  // Among others that are open, this picture is the one that is shut.
+  // Among open pictures, this one is shut.
   State open = people.motion.rest;
   open_mouth(open, 800);
   const int gap = mouth_gap(people.motion.geometries[0], people.moves());

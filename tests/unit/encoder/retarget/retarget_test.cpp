@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "decoder/scene/scene_face.h"
-#include "decoder/stream/stream_decoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -40,18 +40,11 @@ MotionRecord nodding(int pictures) {
   return motion;
 }
 
-/// Decodes a stream that must be without fault.
+/// Decodes a stream that must be free of errors.
 template <class See>
 void decode(const std::vector<std::uint8_t>& stream, See&& see) {
-  StreamDecoder decoder;
-  decoder.feed(stream);
-  decoder.close();
-  for (;;) {
-    const auto status = decoder.next();
-    ASSERT_TRUE(status) << status.error().text;
-    if (*status == DecodeStatus::kEnd) break;
-    see(decoder);
-  }
+  const auto end = decode_pictures(stream, see);
+  ASSERT_TRUE(end) << end.error().text;
 }
 
 TEST(ReadFaceStream, TakesThePatternsAndTheirStates) {

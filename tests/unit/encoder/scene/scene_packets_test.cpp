@@ -51,7 +51,7 @@ TEST(ScenePackets, CountsWhatIsWrittenWhetherTakenOrNot) {
   EXPECT_EQ(packets.counted(), 2 * packet_size(kPayload.size()));
 }
 
-// Their checks are those of the place where they are written.
+// Their checks fit the place where they are written.
 TEST(ScenePackets, HoldsBackAgainInTheNextScene) {
   ScenePackets packets;
   for (int scene = 0; scene < 2; ++scene) {

@@ -7,8 +7,7 @@
 
 #include "bitstream/packet.h"
 #include "common/quality.h"
-#include "decoder/stream/stream_decoder.h"
-#include "encoder/encoder.h"
+#include "tests/unit/encode_decode.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
@@ -34,11 +33,9 @@ struct Coded {
 };
 
 std::vector<std::uint8_t> encoded(TalkerClip& source, const EncoderSettings& settings) {
-  auto encoder = Encoder::create(source.format(), settings);
-  EXPECT_TRUE(encoder);
-  for (int i = 0; i < source.count(); ++i) EXPECT_TRUE(encoder->push(source[i]));
-  EXPECT_TRUE(encoder->finish());
-  return encoder->take();
+  auto stream = encode_pictures(source.format(), settings, source.count(), [&](int i) { return source[i]; });
+  EXPECT_TRUE(stream) << stream.error().text;
+  return *stream;
 }
 
 std::map<PacketType, int> packets_of(const std::vector<std::uint8_t>& stream) {
@@ -63,15 +60,13 @@ Coded coded(TalkerClip source, const EncoderSettings& settings) {
   decoder.close();
   decoder.record_patterns();
   SquaredError error;
-  for (int i = 0;; ++i) {
-    const auto status = decoder.next();
-    EXPECT_TRUE(status) << status.error().text;
-    if (!status || *status != DecodeStatus::kPicture) break;
+  const auto end = decode_pictures(decoder, [&](StreamDecoder&) {
     out.pictures.emplace_back();
     EXPECT_TRUE(decoder.render(out.pictures.back()));
     out.patterns.push_back(decoder.scene().patterns.size());
-    error += squared_error(out.pictures.back().y, source[i].y);
-  }
+    error += squared_error(out.pictures.back().y, source[static_cast<int>(out.pictures.size()) - 1].y);
+  });
+  EXPECT_TRUE(end) << end.error().text;
   out.records = decoder.pattern_records();
   out.psnr = error.psnr();
   return out;

@@ -72,7 +72,7 @@ TEST(FadeIn, LessLightOrLittleMoreIsNone) {
   EXPECT_TRUE(ends(120, [](int t) { return std::min(1.0, 0.8 + t / 60.0); }).empty());
 }
 
-// What was coded in the light is still there.
+// Patterns coded in the light are still there.
 TEST(FadeIn, LightThatComesBackIsNone) {
   EXPECT_TRUE(ends(120, [](int t) { return t < 40 || t > 80 ? 1.0 : 0.3; }).empty());
 }

@@ -20,7 +20,7 @@ struct CodedSound {
     for (const auto& frame : frames) sum += frame.size();
     return sum;
   }
-  /// bit/s, of the time that the frames last.
+  /// bit/s, over the time that the frames last.
   [[nodiscard]] double rate() const {
     return static_cast<double>(bytes()) * 8 * kSoundClock /
            (static_cast<double>(frames.size()) * setup.duration);
@@ -48,7 +48,7 @@ inline CodedSound code(const SoundSettings& settings, std::span<const std::int16
   return out;
 }
 
-/// What is left to be read, which must be without errors and follow on without gaps.
+/// The remaining samples, which must be read without errors and without gaps.
 inline Samples read_rest(SoundReader& reader, std::int64_t* begin = nullptr) {
   Samples out;
   SoundPiece piece;

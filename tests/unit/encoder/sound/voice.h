@@ -1,4 +1,4 @@
-// Sounds that codecs of speech take for speech, and how they compare with what comes back.
+// Sounds that speech codecs accept as speech, and comparisons with the decoded sound.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A painted head before painted shoulders before painted ground, each moved as one likes.
+// A painted head before painted shoulders before painted ground, each moved independently.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class Paint {
   std::array<Wave, 6> waves_;
 };
 
-/// The place in the first picture of what is now at `p`.
+/// The position in the first picture of what is now at `p`.
 inline glm::dvec2 before(glm::dvec2 p, const Similarity& by) {
   const glm::dvec2 moved(by[kDisplacementX], by[kDisplacementY]);
   const glm::dvec2 d = p - kHeadAt - moved;
@@ -51,7 +51,7 @@ inline glm::dvec2 before(glm::dvec2 p, const Similarity& by) {
   return kHeadAt + glm::dvec2(q.real(), q.imag());
 }
 
-/// Where everything is in a picture.
+/// Positions of everything in a picture.
 struct Shown {
   glm::dvec2 head{};  ///< pixels from kHeadAt
   Similarity body{}, ground{};

@@ -49,7 +49,7 @@ TEST(SurroundConstant, CountsSamplesOfTheFullPicture) {
   EXPECT_GT(covered_samples(), 0.5 * kWidth * kHeight) << "else the paint is too flat for the test";
 }
 
-// As the quadratic does: what the encoder weighs is how full pictures differ.
+// Like the quadratic: the encoder weighs the difference of full pictures.
 TEST(SurroundConstant, IsNearTheSquaredDifferenceOfThePictures) {
   const Picture first = picture_of({}, 0, false);
   for (const Similarity& by : {Similarity{0.7, 0, 0, 0}, {0, -0.7, 0, 0}, {0, 0, 0.15, 0}}) {

@@ -32,7 +32,7 @@ State state_of_motion(const SurroundMotion& motion) {
   return state;
 }
 
-/// The farthest that a part of the state is from where it should be, over the points of a rectangle; pixels.
+/// The largest error of a part of the state, over the points of a rectangle; pixels.
 double error_over(const std::array<std::int32_t, kSimilarityCount>& found, const Similarity& truth,
                   glm::dvec2 low, glm::dvec2 high) {
   double most = 0;
@@ -179,7 +179,7 @@ TEST(SurroundMotion, MapSaysWhatMattersToWhat) {
   EXPECT_LT(matters(kFirstBody), 1e-9 * all);
 }
 
-// What the encoder weighs bits against is how pictures differ: it looks at one spot in many samples.
+// The encoder weighs the difference of pictures, but samples one spot in many.
 TEST(SurroundMotion, QuadraticPredictsTheChangeOfTheSquaredDifference) {
   const Picture first = picture_of({}, 0, false);
   SurroundMotion motion(first, seen_state());
@@ -203,7 +203,7 @@ TEST(SurroundMotion, CostsRegionIsTheSurroundDrawnFromPatternZero) {
   ASSERT_EQ(cost.layers.size(), 1U);
   EXPECT_EQ(cost.layers[0].layer, CostLayer::kSurround);
   EXPECT_EQ(cost.layers[0].pattern, 0);
-  // At the similarities that were found little remains of what differs where nothing is moved.
+  // At the similarities found, little remains of the difference at rest.
   const double still = squares(picture_of({{}, away, away}), picture_of({}));
   EXPECT_GT(cost.constant(), 0);
   EXPECT_LT(cost.constant(), 0.1 * still);

@@ -112,7 +112,7 @@ TEST(FaceSearch, FindsNothingWhereNothingIsSeen) {
   }
 }
 
-// A wild face is worse than a held one.
+// A wildly wrong face is worse than a held one.
 TEST(FaceSearch, DoesNotTakeAnythingElseForTheHead) {
   TalkerClip clip(talker_settings(352, 288, 40));
   Lost lost(clip);
@@ -131,7 +131,7 @@ TEST(FaceSearch, DoesNotTakeAnotherSizeForTheHead) {
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(lost.find(near[0]).accepted);
 }
 
-// What leaves most of the picture is held, not followed to where it cannot be seen.
+// A head that leaves most of the picture is held, not followed out of sight.
 TEST(FaceSearch, DoesNotAcceptAHeadMostlyOutside) {
   TalkerClip clip(talker_settings(352, 288, 1));
   Lost lost(clip);

@@ -25,7 +25,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return (sab - sa * sb / n) / std::sqrt((saa - sa * sa / n) * (sbb - sb * sb / n));
 }
 
-/// What head tracker and feature tracker see on a clip, begun with true marks.
+/// The head tracker's and feature tracker's results on a clip, begun with true marks.
 struct Followed {
   std::vector<std::array<glm::dvec2, kControlCount>> offsets;  ///< of each picture from 1 on, head units
   std::vector<talker::Expression> truth;
@@ -103,7 +103,7 @@ TEST(FeatureTracker, BrowsFollowWhenTheyAreRaised) {
   EXPECT_LT(correlation(left, f.true_values([](const auto& e) { return e.brow_left; })), -0.85);
 }
 
-/// The farthest that any control point of a feature gets from rest, eye distances.
+/// The farthest that any control point of a feature moves from rest, eye distances.
 double farthest(const Followed& f, FeatureId id) {
   double most = 0;
   for (const auto& offsets : f.offsets) {

@@ -111,8 +111,8 @@ TEST(StructuralSimilarity, SsimIsThatOfAPlainImplementation) {
   EXPECT_NEAR(structural_similarity(a, b).ssim, plain_ssim(a, b), 1e-4);
 }
 
-// The values are those of a plain implementation: numpy, 64 bits, the window summed sample by sample. On
-// akiyo at 352x288 libvmaf's float_ms_ssim, whose borders and filter differ, gave 0.9691 and this 0.9704.
+// The values come from a plain implementation: numpy, 64 bits, the window summed sample by sample. On akiyo
+// at 352x288 libvmaf's float_ms_ssim, whose borders and filter differ, gave 0.9691 and this 0.9704.
 TEST(StructuralSimilarity, MsSsimIsThatOfAPlainImplementation) {
   const Plane a = textured(192, 180);
   EXPECT_NEAR(structural_similarity(a, distorted(a, 1)).ms_ssim, 0.971487, 1e-5);

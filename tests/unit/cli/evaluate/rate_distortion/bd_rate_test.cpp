@@ -7,8 +7,8 @@
 namespace fbs::cli {
 namespace {
 
-// Two pairs of curves and their BD-rates as published: JCTVC-E137 (5th meeting, Geneva, 2011), as the test of
-// Netflix's VMAF has them (python/test/bd_rate_calculator_test.py, BDrateCalculatorJCTVCTest).
+// Two pairs of curves and their BD-rates as published: JCTVC-E137 (5th meeting, Geneva, 2011), as used in
+// Netflix's VMAF tests (python/test/bd_rate_calculator_test.py, BDrateCalculatorJCTVCTest).
 const Curve kFirstAnchor{
     {18883.6928, 34.2911}, {33905.6656, 37.247}, {61279.976, 40.3953}, {108048.8736, 43.6471}};
 const Curve kFirstTest{
@@ -36,7 +36,7 @@ TEST(BdRate, OfHalfTheRateIsMinusHalf) {
 }
 
 TEST(BdRate, TakesTheCommonRangeAlone) {
-  // Straight lines in log rate, half as much rate in the range that both have.
+  // Straight lines in log rate, half as much rate in the range that both share.
   Curve anchor, test;
   for (int i = 0; i < 6; ++i) {
     anchor.push_back({std::pow(2, i), 30.0 + i});

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
 #include "common/picture.h"
 #include "encoder/sound/sound_encoder.h"
@@ -33,7 +34,9 @@ std::vector<std::uint8_t> coded_beats() {
   std::vector<std::uint8_t> out;
   write_signature(out);
   PacketWriter writer;
-  writer.write(out, PacketType::kSetup, {});  // only that there is one counts
+  Setup setup;
+  setup.format.width = setup.format.height = kMinPictureSize;
+  writer.write(out, PacketType::kSetup, encode_setup(setup).value());
   writer.write(out, PacketType::kSoundSetup, encode_sound_setup(encoder->setup()).value());
   for (std::size_t k = 0; k < frames.size(); k += 25) {
     SoundGroup group{static_cast<std::int64_t>(k), {}};

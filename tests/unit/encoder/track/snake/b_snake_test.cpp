@@ -35,7 +35,7 @@ constexpr std::array<double SnakeWeights::*, 6> kTerms = {&SnakeWeights::tension
                                                           &SnakeWeights::temporal,  &SnakeWeights::shape,
                                                           &SnakeWeights::repulsion, &SnakeWeights::contrast};
 
-/// A snake on which every term has something to say.
+/// A snake on which every term is active.
 struct EveryTerm : ToySnake {
   Control now = ellipse({15, 7}, {1, 2});
 
@@ -87,7 +87,7 @@ TEST(BSnake, InternalEnergyIsAPenaltyAndTheImagesAReward) {
   }
 }
 
-// What the sign descent goes by, against the difference of the energies either side.
+// The gradient that sign descent uses, against the difference of the energies on either side.
 void expect_slope_of_energy(const ToySnake& b, const Control& at, double tolerance) {
   constexpr double kEither = 0.01;  // snake units; maps have kinks at their samples
   const BSnake snake = b.snake();
@@ -152,12 +152,12 @@ TEST(BSnake, RigidityOfEq4IsTheSquareOfTheSecondDerivative) {
 TEST(BSnake, TemporalTermOfEq5IsTheSquareOfTheDisplacementSinceThePictureBefore) {
   ToySnake b;
   b.before = circle(10, {3, 4});
-  b.rest = circle(2);  // which it does not look at
+  b.rest = circle(2);  // not used by this term
   EXPECT_NEAR(energy_of(b, {.temporal = 0.5}, circle(10)), 0.5 * 25 * kControls, 1e-9);
   EXPECT_NEAR(energy_of(b, {.temporal = 0.5}, b.before), 0, 1e-9);
 }
 
-// Not in the paper: what differs from the rest's slope, wherever the curve lies.
+// Not in the paper: difference from the rest's slope, wherever the curve lies.
 TEST(BSnake, ShapeTermIsTheSquareOfTheSlopesDifferenceFromRest) {
   ToyLine b;
   b.rest = line(4);

@@ -1,4 +1,4 @@
-// One feature's snake: its patch goes with the head, its image holds what the energies of eq. 7 and 8 want.
+// One feature's snake: its patch moves with the head, its image holds the input of eq. 7 and 8.
 #include "encoder/track/snake/feature_snake.h"
 
 #include <gtest/gtest.h>

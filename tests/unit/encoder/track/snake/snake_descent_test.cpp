@@ -1,4 +1,4 @@
-// Where the descent brings a curve, term by term, and its steps.
+// Where the descent takes a curve, term by term, and its steps.
 #include "encoder/track/snake/snake_descent.h"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,7 @@ TEST(SnakeDescent, RepulsionUncrossesLips) {
   EXPECT_GT(p[kPoints * 3 / 4].y - p[kPoints / 4].y, 3.5);
 }
 
-// delta_q = 0.75^q over 15 iterations, three descents: what draws the curve lies out of reach, so that every
+// delta_q = 0.75^q over 15 iterations, three descents: the curve's target lies out of reach, so that every
 // control point makes every step.
 TEST(SnakeDescent, StepsFollowThePapersSchedule) {
   ToySnake b;
@@ -199,7 +199,7 @@ TEST(SnakeDescent, CurvesThatLeaveThePictureAreHarmless) {
     EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
 }
 
-// What repulsion does for brows: their length is taken as constant.
+// Repulsion on brows: their length is assumed constant.
 TEST(SnakeDescent, RepulsionOfItsEndsKeepsABrowsLength) {
   const auto length_after = [](double repulsion) {
     ToyLine b;
@@ -259,7 +259,7 @@ TEST(SnakeDescent, ADescentThatOvershootsGivesBackTheBestItMet) {
   EXPECT_EQ(out.energy, b.snake().energy(beside));
 }
 
-/// The curve is drawn to where it was in the picture before, `displacement` units to the right of where it
+/// Draws the curve to its position in the picture before, `displacement` units to the right of where it
 /// starts.
 SnakeOutcome drawn_over(double displacement) {
   ToySnake b;

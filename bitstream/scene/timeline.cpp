@@ -1,4 +1,4 @@
-#include "decoder/stream/timeline.h"
+#include "bitstream/scene/timeline.h"
 
 #include <cassert>
 
@@ -10,8 +10,9 @@ Result<void> Timeline::add(std::span<const State> states, std::span<const std::u
   if (new_end - next_ > kMaxWaitingPictures || new_end > static_cast<std::int64_t>(kMaxPictureNumber))
     return fail(ErrorCode::kTooLarge, "too many pictures wait for their patterns");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    entries_.push_back({states[i], durations[i]});
+    entries_.push_back({states[i], end_time_, durations[i]});
     entries_.back().state.picture = end() - 1;
+    end_time_ += durations[i];
   }
   return {};
 }
@@ -33,9 +34,9 @@ Timeline::Entry Timeline::next() {
   return entry;
 }
 
-const State* Timeline::find(std::int32_t picture) const {
+const Timeline::Entry* Timeline::find(std::int32_t picture) const {
   if (picture < first_ || picture - first_ >= static_cast<std::int32_t>(entries_.size())) return nullptr;
-  return &entries_[picture - first_].state;
+  return &entries_[picture - first_];
 }
 
 }  // namespace fbs

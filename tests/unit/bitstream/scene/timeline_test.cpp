@@ -1,4 +1,4 @@
-#include "decoder/stream/timeline.h"
+#include "bitstream/scene/timeline.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST(Timeline, FindsWaitingPictures) {
   ASSERT_TRUE(add(t, 0, 20));
   for (int i = 0; i < 20; ++i) {
     ASSERT_NE(t.find(i), nullptr);
-    EXPECT_EQ(t.find(i)->pose[kYaw], i);
+    EXPECT_EQ(t.find(i)->state.pose[kYaw], i);
   }
   EXPECT_EQ(t.find(20), nullptr);
   EXPECT_EQ(t.find(-1), nullptr);
@@ -98,7 +98,7 @@ TEST(Timeline, KeepsTheLastDisplayedPicturesAndNoMore) {
     t.next();
     const int oldest = std::max(0, i + 1 - kKeptPictures);
     ASSERT_NE(t.find(oldest), nullptr) << i;
-    EXPECT_EQ(t.find(oldest)->pose[kYaw], oldest);
+    EXPECT_EQ(t.find(oldest)->state.pose[kYaw], oldest);
     EXPECT_EQ(t.find(oldest - 1), nullptr) << i;
   }
 }

@@ -17,8 +17,12 @@ class Timeline {
  public:
   struct Entry {
     State state;
+    std::uint64_t time = 0;      ///< of the stream, 1/90000 s
     std::uint32_t duration = 0;  ///< 1/90000 s
   };
+
+  /// @param begin  time of the first picture, 1/90000 s
+  explicit Timeline(std::uint64_t begin = 0) : end_time_(begin) {}
 
   /// The states of the next pictures, which get their numbers.
   /// @return kTooLarge when more than kMaxWaitingPictures would wait, or their numbers exceed
@@ -38,14 +42,18 @@ class Timeline {
   /// Pictures of the scene whose states have come.
   [[nodiscard]] std::int32_t end() const { return first_ + static_cast<std::int32_t>(entries_.size()); }
 
-  /// State of a picture; null when it is not known, or no longer.
-  [[nodiscard]] const State* find(std::int32_t picture) const;
+  /// When the last of them ends, 1/90000 s.
+  [[nodiscard]] std::uint64_t end_time() const { return end_time_; }
+
+  /// A picture by its number; null when it is not known, or no longer.
+  [[nodiscard]] const Entry* find(std::int32_t picture) const;
 
  private:
   std::deque<Entry> entries_;  // pictures first_, first_ + 1, ...
   std::int32_t first_ = 0;     // number of the oldest picture that is kept
   std::int32_t next_ = 0;      // to be displayed
   std::int32_t released_ = 0;  // pictures below this may be displayed
+  std::uint64_t end_time_;
 };
 
 }  // namespace fbs

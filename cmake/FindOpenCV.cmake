@@ -1,0 +1,27 @@
+# OpenCV as targets opencv_<component>, and OpenCV_INCLUDE_DIRS. Its own CMake files are used where they are installed;
+# Debian has them in a package that wants every part of OpenCV, 300 packages more than the parts that we name.
+find_package(OpenCV ${OpenCV_FIND_VERSION} QUIET CONFIG COMPONENTS ${OpenCV_FIND_COMPONENTS})
+if(NOT OpenCV_FOUND)
+  find_path(OpenCV_CORE_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4)
+  foreach(component ${OpenCV_FIND_COMPONENTS})
+    find_library(OpenCV_${component}_LIBRARY opencv_${component})
+    find_path(OpenCV_${component}_INCLUDE opencv2/${component}.hpp PATH_SUFFIXES opencv4)
+    if(OpenCV_${component}_LIBRARY AND OpenCV_${component}_INCLUDE)
+      set(OpenCV_${component}_FOUND TRUE)
+      if(NOT TARGET opencv_${component})
+        add_library(opencv_${component} UNKNOWN IMPORTED GLOBAL)
+        set_target_properties(opencv_${component} PROPERTIES
+          IMPORTED_LOCATION ${OpenCV_${component}_LIBRARY}
+          INTERFACE_INCLUDE_DIRECTORIES ${OpenCV_CORE_INCLUDE})
+      endif()
+    endif()
+  endforeach()
+  set(OpenCV_INCLUDE_DIRS ${OpenCV_CORE_INCLUDE})
+  if(OpenCV_CORE_INCLUDE)
+    file(STRINGS ${OpenCV_CORE_INCLUDE}/opencv2/core/version.hpp numbers REGEX "define CV_VERSION_(MAJOR|MINOR|REVISION) ")
+    list(TRANSFORM numbers REPLACE "^.* " "")
+    list(JOIN numbers "." OpenCV_VERSION)
+  endif()
+  include(FindPackageHandleStandardArgs)
+  find_package_handle_standard_args(OpenCV REQUIRED_VARS OpenCV_CORE_INCLUDE VERSION_VAR OpenCV_VERSION HANDLE_COMPONENTS)
+endif()

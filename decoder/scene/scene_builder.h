@@ -1,0 +1,43 @@
+// Builds the scene that pictures are drawn from, as its packets come.
+#pragma once
+
+#include <optional>
+
+#include "bitstream/scene/scene_reader.h"
+#include "common/result.h"
+#include "decoder/pattern/pattern_decoder.h"
+#include "decoder/scene/scene.h"
+
+namespace fbs {
+
+/// Geometry and surround wait for the first pattern, in whose state they are at rest.
+class SceneBuilder {
+ public:
+  void begin(const Setup& setup, PatternDecoder patterns);
+
+  void set_geometry(const Geometry& geometry) { geometry_ = geometry; }
+  /// Takes effect with the first pattern, or with apply_surround().
+  void set_surround(const SurroundMap& surround) { surround_ = surround; }
+  /// Puts geometry and surround into the scene, and into its patterns.
+  void apply_surround();
+
+  struct MadePattern {
+    Pattern pattern;
+    bool reduced;  ///< coded at reduced size
+  };
+  /// Decodes the next pattern, which is yet to be put into the scene.
+  /// @return errors of PatternDecoder
+  [[nodiscard]] Result<MadePattern> make(const ScenePattern& pattern);
+
+  [[nodiscard]] Scene& scene() { return scene_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  std::optional<Geometry> geometry_;
+  SurroundMap surround_ = still_surround();
+  State rest_;  ///< in which the first pattern was seen
+  std::optional<PatternDecoder> patterns_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,79 @@
+#include "decoder/stream/packet_times.h"
+
+#include <utility>
+
+#include "bitstream/sound_time.h"
+
+namespace fbs {
+
+void PacketTimes::lose() {
+  reader_.lose();
+  clock_.lose();
+}
+
+Result<TimedPacket> PacketTimes::take(const Packet& packet) {
+  auto syntax = reader_.read(packet);
+  if (!syntax) {
+    if (is_of_scene(packet.type)) clock_.lose();
+    return fail(syntax.error());
+  }
+  TimedPacket out{std::move(*syntax), false, clock_.now(), clock_.now().time, 0};
+  if (auto placed = std::visit([&](const auto& s) { return place(s, out); }, out.syntax); !placed)
+    return fail(placed.error().code, placed.error().text, packet.offset);
+  for (Timeline& pictures = reader_.pictures(); pictures.has_next();) clock_.show(pictures.next().duration);
+  return out;
+}
+
+Result<void> PacketTimes::place(const Setup& setup, TimedPacket& out) {
+  out.key = true;
+  auto jumped = jump(clock_.go_to(setup.before), out);
+  if (!jumped) reader_.lose();
+  return jumped;
+}
+
+Result<void> PacketTimes::place(const End& end, TimedPacket& out) {
+  const std::uint32_t nominal = reader_.has_setup() ? nominal_duration(reader_.setup().format.frame_rate) : 1;
+  return jump(clock_.go_to_end(end.pictures, nominal), out);
+}
+
+Result<void> PacketTimes::jump(const Result<std::uint64_t>& missing, TimedPacket& out) {
+  if (!missing) return fail(missing.error());
+  out.missing = *missing;
+  while (clock_.is_behind()) clock_.hold(nominal_duration(reader_.setup().format.frame_rate));
+  out.first = clock_.now();
+  out.time = out.first.time;
+  return {};
+}
+
+Result<void> PacketTimes::place(const std::vector<ScenePattern>& patterns, TimedPacket& out) {
+  out.key = patterns.front().is_first();
+  if (!out.key) out.time = reader_.pictures().find(patterns.front().coded.picture)->time;
+  return {};
+}
+
+Result<void> PacketTimes::place(const MotionGroup& group, TimedPacket& out) {
+  out.key = group.key;
+  const std::int32_t first = reader_.pictures().end() - group.pictures;
+  out.first = {reader_.setup().before.pictures + static_cast<std::uint64_t>(first),
+               reader_.pictures().find(first)->time};
+  out.time = out.first.time;
+  return {};
+}
+
+Result<void> PacketTimes::place(const BlendGroup& group, TimedPacket& out) {
+  out.key = group.key;
+  return {};
+}
+
+Result<void> PacketTimes::place(const SoundGroup& group, TimedPacket& out) {
+  const std::int64_t begin = frame_time(*reader_.sound_setup(), group.first);
+  out.time = begin < 0 ? 0 : static_cast<std::uint64_t>(begin) * kTicksPerSecond / kSoundClock;
+  return {};
+}
+
+Result<void> PacketTimes::place(std::monostate /*unused*/, TimedPacket& out) {
+  out.time.reset();
+  return {};
+}
+
+}  // namespace fbs

@@ -1,0 +1,68 @@
+#include "decoder/stream/stream_tally.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace fbs {
+
+StreamTally::StreamTally() {
+  bytes_.other = bytes_.total = kSignature.size();
+}
+
+void StreamTally::count(const Packet& packet) {
+  bytes_.other += packet.offset - bytes_.total;  // skipped bytes
+  bytes_.total = packet.offset + packet.size;
+  switch (packet.type) {
+    case PacketType::kWireFrame:
+    case PacketType::kGeometry:
+    case PacketType::kSurround:
+      bytes_.geometry += packet.size;
+      break;
+    case PacketType::kPattern:
+      bytes_.patterns += packet.size;
+      break;
+    case PacketType::kMotion:
+      bytes_.motion += packet.size;
+      break;
+    case PacketType::kBlend:
+      bytes_.motion += packet.size;
+      bytes_.blend += packet.size;
+      break;
+    case PacketType::kSoundSetup:
+    case PacketType::kSound:
+      bytes_.sound += packet.size;
+      break;
+    default:
+      bytes_.other += packet.size;
+      break;
+  }
+}
+
+void StreamTally::note_startup() {
+  if (bytes_.startup == 0) bytes_.startup = bytes_.total;
+}
+
+void StreamTally::add(const Packet& packet, const Setup& setup, std::span<const ScenePattern> patterns,
+                      const std::vector<bool>& reduced) {
+  if (counts_motion_bits_ && patterns.front().is_first())
+    bit_counter_.emplace(setup, patterns.front().coded.state);
+  if (!records_patterns_) return;
+  std::uint64_t frames = 0, frames_before = 0;
+  for (const ScenePattern& pattern : patterns) frames += pattern.coded.av1.size();
+  const auto share = [&](std::uint64_t bytes) { return packet.size * bytes / frames; };
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    const PatternSyntax& pattern = patterns[k].coded;
+    const std::uint64_t frames_after = frames_before + pattern.av1.size();
+    patterns_.push_back({pattern.slot, setup.before.pictures + static_cast<std::uint64_t>(pattern.picture),
+                         share(frames_after) - share(frames_before), reduced[k]});
+    frames_before = frames_after;
+  }
+}
+
+void StreamTally::add(const MotionGroup& group) {
+  if (!bit_counter_) return;
+  const PartBitsX256 bits = bit_counter_->count(group);
+  std::transform(bits.begin(), bits.end(), motion_bits_.begin(), motion_bits_.begin(), std::plus<>());
+}
+
+}  // namespace fbs

@@ -1,0 +1,66 @@
+// What a stream is made of: bytes and bits by what they are for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bitstream/motion/motion_bit_counter.h"
+#include "bitstream/packet.h"
+#include "bitstream/scene/scene_reader.h"
+
+namespace fbs {
+
+/// Bytes of a stream by what they are for; the parts sum to `total`.
+struct ByteCount {
+  std::uint64_t total = 0;
+  std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
+  std::uint64_t geometry = 0;  ///< geometry and surround packets
+  std::uint64_t patterns = 0;
+  std::uint64_t motion = 0;  ///< motion and blend packets
+  std::uint64_t blend = 0;   ///< of `motion`, the blend packets
+  std::uint64_t sound = 0;   ///< sound packets and their setups
+  std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
+};
+
+/// A pattern as it came.
+struct PatternRecord {
+  int slot = 0;               ///< index into Scene::patterns, until another pattern comes for the slot
+  std::uint64_t picture = 0;  ///< number in the stream of the picture it shows
+  std::uint64_t bytes = 0;    ///< of its packet, by the share of its frame in those of the packet
+  bool reduced = false;       ///< coded at reduced size
+};
+
+class StreamTally {
+ public:
+  StreamTally();
+
+  /// Counts the bits of motion from the next scene on, which takes as long again as to read it.
+  void count_motion_bits() { counts_motion_bits_ = true; }
+  /// Keeps a record of every pattern from now on.
+  void record_patterns() { records_patterns_ = true; }
+
+  void count(const Packet& packet);
+  /// All that the first picture needs has come.
+  void note_startup();
+  /// @param reduced  of each pattern, whether it is coded at reduced size
+  void add(const Packet& packet, const Setup& setup, std::span<const ScenePattern> patterns,
+           const std::vector<bool>& reduced);
+  void add(const MotionGroup& group);
+
+  [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
+  /// Zero unless count_motion_bits() was called.
+  [[nodiscard]] const PartBitsX256& motion_bits() const { return motion_bits_; }
+  /// In the order they came; empty unless record_patterns() was called.
+  [[nodiscard]] const std::vector<PatternRecord>& patterns() const { return patterns_; }
+
+ private:
+  bool counts_motion_bits_ = false, records_patterns_ = false;
+  ByteCount bytes_;
+  std::optional<MotionBitCounter> bit_counter_;  // of the scene
+  PartBitsX256 motion_bits_{};
+  std::vector<PatternRecord> patterns_;
+};
+
+}  // namespace fbs

@@ -1,0 +1,64 @@
+#include "encoder/scene/scene_ledger.h"
+
+#include <utility>
+
+#include "encoder/segment/pass_settings.h"
+
+namespace fbs {
+
+SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RatePlan& rate,
+                         const EncoderSettings& settings, std::unique_ptr<PatternStage> patterns)
+    : timing_(setup.format, settings),
+      rate_(rate),
+      live_(settings.live.has_value()),
+      key_interval_(key_interval_of(settings, setup.format)),
+      patterns_(std::move(patterns)),
+      motion_(setup, seen, rate, timing_.nominal_duration),
+      position_(setup.before) {}
+
+Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
+  if (patterns_)
+    if (auto added = patterns_->add(picture); !added) return added;
+  durations_.push_back(duration);
+  ++pictures_;
+  position_.add(duration > 0 ? duration : timing_.nominal_duration);
+  return {};
+}
+
+Result<void> SceneLedger::plan(std::span<const PictureCost> costs, std::span<const std::uint32_t> durations) {
+  auto group = motion_.add(costs, durations);
+  if (!group) return fail(group.error());
+  if (patterns_)
+    patterns_->add(group->states, std::move(group->payload));
+  else
+    packets_.add_motion(group->payload);
+  return {};
+}
+
+Result<void> SceneLedger::end_segment(Scene& scene, const StateRefit& refit) {
+  const auto packets = patterns_->end_segment(scene, packets_.counted(), refit);
+  if (!packets) return fail(packets.error());
+  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  packets_.count_from_here();
+  return {};
+}
+
+bool SceneLedger::scene_ends(std::size_t more) const {
+  if (key_interval_ == 0) return patterns_ != nullptr;
+  if (live_) return requested_ || live_scene_ends(pictures_);
+  return !in_group() && static_cast<double>(pictures_ + more) > key_interval_;
+}
+
+void SceneLedger::begin_again(Setup& setup) {
+  ended_ = requested_ = false;
+  setup.before = position_;
+  pictures_ = 0;
+  if (packets_.started()) packets_.begin_again();
+}
+
+void SceneLedger::begin_motion(const Setup& setup, const CodedState& seen) {
+  motion_ = MotionTrack(setup, seen, rate_, timing_.nominal_duration);
+  if (patterns_) patterns_->begin_scene(seen);
+}
+
+}  // namespace fbs

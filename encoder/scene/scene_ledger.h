@@ -1,0 +1,93 @@
+// The account of a scene that is being coded: groups, segments and scenes, and the packets that they became.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "decoder/scene/scene.h"
+#include "encoder/plan/motion_track.h"
+#include "encoder/plan/scene_timing.h"
+#include "encoder/scene/scene_packets.h"
+#include "encoder/segment/pattern_stage.h"
+
+namespace fbs {
+
+/// Knows when a group, a segment and a scene end; what each shows is its owner's business. One object serves
+/// all scenes in a row that go on with the same person or plane.
+class SceneLedger {
+ public:
+  /// @param setup     of the first scene
+  /// @param seen      of its pattern 0
+  /// @param patterns  nothing: one pattern, which the head brings
+  SceneLedger(const Setup& setup, const CodedState& seen, const RatePlan& rate,
+              const EncoderSettings& settings, std::unique_ptr<PatternStage> patterns);
+
+  /// Counts a picture. The pattern stage gets it, too, if there is one.
+  /// @param duration  1/90000 s; 0: that of the frame rate
+  Result<void> add(const Picture& picture, std::uint32_t duration);
+  /// Whether a group ends with the picture added last.
+  [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
+  /// Begins another group.
+  /// @return durations of the pictures of the group before: empty if it has none
+  [[nodiscard]] std::vector<std::uint32_t> end_group() { return std::exchange(durations_, {}); }
+  [[nodiscard]] bool in_group() const { return !durations_.empty(); }
+
+  /// Plans the motion of a group.
+  Result<void> plan(std::span<const PictureCost> costs, std::span<const std::uint32_t> durations);
+  /// As after the group planned last.
+  [[nodiscard]] const MotionTrack& motion() const { return motion_; }
+  void set_motion(MotionTrack motion) { motion_ = std::move(motion); }
+
+  [[nodiscard]] bool segment_ends() const {
+    return patterns_ && patterns_->segment_ends(timing_.group_pictures);
+  }
+  /// Writes the packets of the segment, whose groups have all been planned. The head has been written.
+  Result<void> end_segment(Scene& scene, const StateRefit& refit);
+
+  /// A live scene ends with its present group, unless it has ended already.
+  void request_scene() { requested_ = !ended_; }
+  /// Whether a live scene ends with a group, the last of so many pictures.
+  [[nodiscard]] bool live_scene_ends(std::uint64_t pictures) const {
+    return key_interval_ > 0 && static_cast<double>(pictures + timing_.group_pictures) > key_interval_;
+  }
+  /// Whether the next picture is to begin another scene.
+  /// @param more  where the scene is not live: pictures after which it could end next
+  [[nodiscard]] bool scene_ends(std::size_t more) const;
+  void end_scene() {
+    ended_ = true;
+    requested_ = false;
+  }
+  /// Whether the next picture begins another scene.
+  [[nodiscard]] bool scene_ended() const { return ended_; }
+  /// Another scene begins with the next picture.
+  void begin_again(Setup& setup);
+  /// Motion is planned from a new pattern 0 on.
+  void begin_motion(const Setup& setup, const CodedState& seen);
+
+  [[nodiscard]] const SceneTiming& timing() const { return timing_; }
+  [[nodiscard]] const RatePlan& rate() const { return rate_; }
+  [[nodiscard]] bool live() const { return live_; }
+  [[nodiscard]] std::uint64_t pictures() const { return pictures_; }  ///< of the scene
+  /// Null with one pattern.
+  [[nodiscard]] PatternStage* patterns() const { return patterns_.get(); }
+  [[nodiscard]] ScenePackets& packets() { return packets_; }
+
+ private:
+  SceneTiming timing_;
+  RatePlan rate_;
+  bool live_;
+  double key_interval_;  ///< pictures; 0: none where there is one pattern, segments where there are several
+  std::unique_ptr<PatternStage> patterns_;
+  MotionTrack motion_;
+  std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
+  std::uint64_t pictures_ = 0;            ///< of the scene
+  bool requested_ = false;                ///< the scene ends with its present group
+  bool ended_ = false;
+  StreamPosition position_;  ///< behind the last picture
+  ScenePackets packets_;
+};
+
+}  // namespace fbs
