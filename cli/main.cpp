@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/help_formatter.h"
-#include "cli/report.h"
-#include "cli/standard_output.h"
-#include "cli/verb.h"
+#include "cli/command_line/help_formatter.h"
+#include "cli/command_line/verb.h"
+#include "cli/files/output_check.h"
+#include "cli/program/report.h"
 
 namespace {
 

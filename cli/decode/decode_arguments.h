@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/outcome.h"
+#include "cli/program/outcome.h"
 #include "common/result.h"
 
 namespace fbs::cli {

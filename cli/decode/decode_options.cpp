@@ -1,7 +1,7 @@
 // The options of `fbs decode`.
 
+#include "cli/command_line/verb.h"
 #include "cli/decode/decode_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "cli/display/picture_sources.h"
+#include "cli/stream/picture_sources.h"
 
 namespace fbs::cli {
 

@@ -4,7 +4,7 @@
 
 #include "cli/display/pattern_legend.h"
 #include "cli/display/pattern_tint.h"
-#include "cli/display/picture_sources.h"
+#include "cli/stream/picture_sources.h"
 #include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {

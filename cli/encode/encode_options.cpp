@@ -1,9 +1,8 @@
 // The options of `fbs encode`.
 #include <cstdint>
 
-#include "cli/encode/encode_arguments.h"
-#include "cli/module_verb.h"
-#include "cli/verb.h"
+#include "cli/command_line/verb.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {
@@ -21,13 +20,13 @@ constexpr const char* kEncodeExamples =
     "  fbs encode shots/frame_%05d.png talk.fbs --rate 30";
 
 void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
-  verb.add_option("--quality", a.quality, "From 0 (smallest file) to 100 (best pictures)")
+  verb.add_option("--quality", a.settings.quality, "From 0 (smallest file) to 100 (best pictures)")
       ->capture_default_str()
       ->check(CLI::Range(0, 100));
-  verb.add_option("--bitrate", a.bitrate, "Target total bitrate in kbit/s, instead of a quality")
+  verb.add_option("--bitrate", a.settings.bitrate, "Target total bitrate in kbit/s, instead of a quality")
       ->check(number_within(0.1, 10000))
       ->excludes("--quality");
-  verb.add_option("--patterns", a.patterns,
+  verb.add_option("--patterns", a.settings.patterns,
                   "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
                   "then only motion (default: chosen by the encoder)")
       ->check(CLI::Range(1, 64));
@@ -43,11 +42,11 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
           "that rate (default: 2)")
       ->check(number_within(0.1, 60));
   verb.add_option(
-          "--threads", a.threads,
+          "--threads", a.settings.threads,
           "With --live: with 2 or more, pictures are encoded while the next ones are analysed (default: "
           "one for each core)")
       ->check(CLI::Range(1, 64));
-  verb.add_option("--key-interval", a.key_interval,
+  verb.add_option("--key-interval", a.settings.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
                   "40 with several patterns; none with --patterns 1; 10 with --live)")
       ->check(CLI::Range(0.2, 3600.0));
@@ -74,16 +73,20 @@ void add_sound(CLI::App& verb, EncodeArguments& a) {
 }
 
 void add_experiments(CLI::App& verb, EncodeArguments& a) {
-  verb.add_flag_callback("--reduced-patterns", [&a] { a.reduced_patterns = true; })->group(kHiddenGroup);
-  verb.add_flag_callback("--full-size-patterns", [&a] { a.reduced_patterns = false; })->group(kHiddenGroup);
+  verb.add_flag_callback("--reduced-patterns", [&a] { a.settings.reduced_patterns = true; })
+      ->group(kHiddenGroup);
+  verb.add_flag_callback("--full-size-patterns", [&a] { a.settings.reduced_patterns = false; })
+      ->group(kHiddenGroup);
   // The gain of each part of the analysis: docs/paper.md.
-  verb.add_flag("!--no-expression", a.expression)->group(kHiddenGroup)->excludes("--track-only");
-  verb.add_flag("!--no-contours-in-fit", a.contours)->group(kHiddenGroup)->excludes("--track-only");
-  verb.add_flag("!--no-descent", a.descent)->group(kHiddenGroup);
-  verb.add_flag("!--no-landmark-search", a.landmark_search)->group(kHiddenGroup);
-  verb.add_flag("!--still-surround", a.surround)->group(kHiddenGroup);
-  verb.add_option("--pattern-quantiser", a.pattern_quantiser)->check(CLI::Range(0, 63))->group(kHiddenGroup);
-  verb.add_option("--motion-bitrate", a.motion_bitrate)
+  verb.add_flag("!--no-expression", a.settings.expression)->group(kHiddenGroup)->excludes("--track-only");
+  verb.add_flag("!--no-contours-in-fit", a.settings.contours)->group(kHiddenGroup)->excludes("--track-only");
+  verb.add_flag("!--no-descent", a.settings.descent)->group(kHiddenGroup);
+  verb.add_flag("!--no-landmark-search", a.settings.landmark_search)->group(kHiddenGroup);
+  verb.add_flag("!--still-surround", a.settings.surround)->group(kHiddenGroup);
+  verb.add_option("--pattern-quantiser", a.settings.pattern_quantiser)
+      ->check(CLI::Range(0, 63))
+      ->group(kHiddenGroup);
+  verb.add_option("--motion-bitrate", a.settings.motion_bitrate)
       ->check(number_within(0.05, 1000))
       ->group(kHiddenGroup);
 }
@@ -99,7 +102,7 @@ void add_encode(CLI::App& app, Run& run) {
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
   add_encode_rate(*verb, a);
   add_sound(*verb, a);
-  verb->add_option("--effort", a.effort,
+  verb->add_option("--effort", a.settings.effort,
                    "0 is fastest; 1 optimises patterns and motion for each other; 2 does so once more, for "
                    "1 % fewer bytes at equal quality")
       ->capture_default_str()
@@ -115,11 +118,11 @@ void add_encode(CLI::App& app, Run& run) {
       "--landmarks", a.landmarks,
       "CSV file with the 68 landmarks of each picture by any tracker (MediaPipe, OpenFace, dlib): "
       "one more start for the fit of each picture, used where it is best");
-  verb->add_flag("--track-only", a.track_only,
+  verb->add_flag("--track-only", a.settings.track_only,
                  "The method of the paper alone: contours move the mesh, and nothing is fitted to decoded "
                  "pictures")
       ->excludes("--landmarks");
-  verb->add_option("--face", a.face, "Face to track; 0 is the largest")
+  verb->add_option("--face", a.settings.face, "Face to track; 0 is the largest")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));
   verb->add_option("--overlay", a.overlay,
@@ -133,7 +136,7 @@ void add_encode(CLI::App& app, Run& run) {
       ->type_name("SECONDS");
   verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
-  verb->add_flag("--allow-no-face", a.allow_no_face,
+  verb->add_flag("--allow-no-face", a.settings.allow_no_face,
                  "Encode a video without a face, too, instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");
   add_experiments(*verb, a);

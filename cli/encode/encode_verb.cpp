@@ -8,15 +8,15 @@
 #include <string>
 #include <utility>
 
-#include "cli/display/overlay.h"
-#include "cli/encode/encode_arguments.h"
+#include "cli/encode/overlay.h"
 #include "cli/encode/sound_choice.h"
 #include "cli/encode/sound_track.h"
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
 #include "cli/source/encode_session.h"
+#include "cli/source/encoder_module.h"
 #include "cli/source/source_part.h"
 #include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
@@ -65,37 +65,23 @@ bool is_live(const EncodeArguments& arguments) {
 Result<void> check_live(const EncodeArguments& a) {
   const auto refuse = [](const std::string& text) { return fail(ErrorCode::kInvalidArgument, text); };
   if (!is_live(a)) {
-    const char* option = a.delay ? "--delay" : a.buffer ? "--buffer" : a.threads ? "--threads" : nullptr;
+    const char* option = a.delay                  ? "--delay"
+                         : a.buffer               ? "--buffer"
+                         : a.settings.threads > 0 ? "--threads"
+                                                  : nullptr;
     if (option != nullptr) return refuse(std::string(option) + " needs --live");
   }
-  if (a.buffer && a.bitrate <= 0) return refuse("--buffer needs --bitrate, the rate of the channel");
+  if (a.buffer && a.settings.bitrate <= 0) return refuse("--buffer needs --bitrate, the rate of the channel");
   return {};
 }
 
 Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const VideoSource& source) {
-  EncoderSettings settings;
-  settings.quality = arguments.quality;
-  settings.patterns = arguments.patterns;
-  settings.key_interval = arguments.key_interval;
+  EncoderSettings settings = arguments.settings;
   if (is_live(arguments)) {
     LiveSettings& live = settings.live.emplace();
     live.delay = arguments.delay.value_or(live.delay);
     live.buffer = arguments.buffer.value_or(live.buffer);
   }
-  settings.threads = arguments.threads.value_or(settings.threads);
-  settings.effort = arguments.effort;
-  settings.reduced_patterns = arguments.reduced_patterns;
-  settings.pattern_quantiser = arguments.pattern_quantiser;
-  settings.face = arguments.face;
-  settings.allow_no_face = arguments.allow_no_face;
-  settings.bitrate = arguments.bitrate;
-  settings.motion_bitrate = arguments.motion_bitrate;
-  settings.track_only = arguments.track_only;
-  settings.expression = arguments.expression;
-  settings.contours = arguments.contours;
-  settings.descent = arguments.descent;
-  settings.landmark_search = arguments.landmark_search;
-  settings.surround = arguments.surround;
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);
     if (!marks) return fail(about_file(arguments.marks, marks.error()));
@@ -168,9 +154,10 @@ Error with_advice(Error error) {
 
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded");
-  if (arguments.bitrate > 0 && std::abs(measure.kbps() / arguments.bitrate - 1) > kRateTolerance)
+  if (arguments.settings.bitrate > 0 &&
+      std::abs(measure.kbps() / arguments.settings.bitrate - 1) > kRateTolerance)
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
-                 arguments.bitrate, measure.kbps());
+                 arguments.settings.bitrate, measure.kbps());
 }
 
 Result<void> check_files(const EncodeArguments& a) {
@@ -178,7 +165,7 @@ Result<void> check_files(const EncodeArguments& a) {
     return fail(ErrorCode::kInvalidArgument, "--landmarks: pictures of a camera have no numbers");
   if (auto live = check_live(a); !live) return live;
   if (auto named = check_stream_name(a.output); !named) return named;
-  if (!a.pattern.empty() && a.patterns != 1)
+  if (!a.pattern.empty() && a.settings.patterns != 1)
     return fail(ErrorCode::kInvalidArgument,
                 "--pattern needs --patterns 1: with several, patterns are made of the video's pictures");
   const std::array inputs{NamedFile{"INPUT", a.input}, NamedFile{"--marks", a.marks},

@@ -22,17 +22,17 @@ constexpr double kPacketBits = 8 * 8,
 
 SoundCodec chosen_codec(const EncodeArguments& a) {
   if (a.sound) return *a.sound == "codec2" ? SoundCodec::kCodec2 : SoundCodec::kOpus;
-  const bool low =
-      a.sound_bitrate ? *a.sound_bitrate < kOpus.least : a.bitrate > 0 && a.bitrate < kLeastTotalOfOpus;
+  const bool low = a.sound_bitrate ? *a.sound_bitrate < kOpus.least
+                                   : a.settings.bitrate > 0 && a.settings.bitrate < kLeastTotalOfOpus;
   return low ? SoundCodec::kCodec2 : SoundCodec::kOpus;
 }
 
 /// Grows with the square of the quality: up to the middle the sound takes little more than the least, like
 /// pictures.
 double chosen_rate(const EncodeArguments& a, const Rates& rates) {
-  const double share = a.quality / 100.0;
-  const double wanted =
-      a.bitrate > 0 ? kShareOfTotal * a.bitrate : rates.least + (rates.usual - rates.least) * share * share;
+  const double share = a.settings.quality / 100.0;
+  const double wanted = a.settings.bitrate > 0 ? kShareOfTotal * a.settings.bitrate
+                                               : rates.least + (rates.usual - rates.least) * share * share;
   return std::clamp(wanted, rates.least, rates.usual);
 }
 

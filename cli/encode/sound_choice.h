@@ -1,7 +1,7 @@
 // Chooses the sound encoded with the pictures.
 #pragma once
 
-#include "cli/encode/encode_arguments.h"
+#include "cli/source/encoder_module.h"
 #include "common/result.h"
 #include "encoder/sound/sound_encoder.h"
 

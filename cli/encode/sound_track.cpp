@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bitstream/sound_time.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 namespace {

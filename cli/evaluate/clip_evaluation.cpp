@@ -6,14 +6,15 @@
 #include <memory>
 #include <utility>
 
-#include "cli/evaluate/file_stamp.h"
 #include "cli/evaluate/measurement.h"
 #include "cli/evaluate/peers/peer_encoding.h"
 #include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/quality/vmaf.h"
+#include "cli/evaluate/run/file_stamp.h"
 #include "cli/files/atomic_file.h"
 #include "cli/source/encode_session.h"
 #include "cli/stream/stream_file.h"
+#include "cli/video/open/open_video.h"
 #include "cli/video/y4m/y4m.h"
 
 namespace fbs::cli {

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/evaluate/clip_report.h"
-#include "cli/evaluate/evaluate_arguments.h"
 #include "cli/evaluate/peers/peer_codec.h"
-#include "cli/evaluate/run_folder.h"
+#include "cli/evaluate/rate_distortion/clip_report.h"
+#include "cli/evaluate/run/run_folder.h"
 #include "cli/files/stop_signal.h"
+#include "cli/source/encoder_module.h"
 #include "common/result.h"
 
 namespace fbs::cli {

@@ -1,10 +1,8 @@
 // The options of `fbs evaluate`.
 #include <cstdint>
 
-#include "cli/encode/encode_arguments.h"
-#include "cli/evaluate/evaluate_arguments.h"
-#include "cli/module_verb.h"
-#include "cli/verb.h"
+#include "cli/command_line/verb.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {

@@ -6,26 +6,81 @@
 #include <utility>
 #include <vector>
 
-#include "cli/evaluate/argument_check.h"
-#include "cli/evaluate/clip_means.h"
-#include "cli/evaluate/data_report.h"
-#include "cli/evaluate/evaluate_arguments.h"
 #include "cli/evaluate/folder_evaluation.h"
+#include "cli/evaluate/rate_distortion/clip_means.h"
+#include "cli/evaluate/report/data_report.h"
 #include "cli/evaluate/report/html_report.h"
 #include "cli/evaluate/report/stills.h"
-#include "cli/evaluate/text_report.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
+#include "cli/evaluate/report/text_report.h"
+#include "cli/files/output_check.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kStoppingEvaluation = "fbs: stopping; a second signal ends at once";
+
+Result<void> refuse(const std::string& text) {
+  return fail(ErrorCode::kInvalidArgument, text);
+}
+
+Result<void> check_folder(const EvaluateArguments& a) {
+  if (!a.streams.empty()) return refuse(a.source + ": is a folder of videos: STREAM goes with one video");
+  if (!a.region.empty()) return refuse(a.source + ": is a folder of videos: --region goes with one video");
+  if (!a.stills.empty()) return refuse(a.source + ": is a folder of videos: --stills goes with one video");
+  return {};
+}
+
+Result<void> check_streams(const EvaluateArguments& a) {
+  if (std::count(a.streams.begin(), a.streams.end(), "-") + (a.source == "-" ? 1 : 0) > 1)
+    return refuse("- : standard input can be read once only");
+  const char* option = !a.qualities.empty() ? "--quality"
+                       : a.live             ? "--live"
+                       : a.allow_no_face    ? "--allow-no-face"
+                                            : nullptr;
+  if (option == nullptr) return {};
+  return refuse(std::string(option) + " is for encoding: it does nothing for " + a.streams.front() +
+                ", which is a stream already");
+}
+
+Result<void> check_outputs(const EvaluateArguments& a, const std::vector<std::string>& clips) {
+  for (const auto& [option, name] : {std::pair{"--csv", a.csv}, std::pair{"--html", a.html}})
+    if (name == "-") return refuse(std::string(option) + " - : needs the name of a file");
+  std::vector<NamedFile> inputs{{"SOURCE", a.source}, {"--region", a.region}};
+  for (const std::string& stream : a.streams) inputs.push_back({"STREAM", stream});
+  for (const std::string& clip : clips) inputs.push_back({"the video", clip});
+  const std::vector<NamedFile> outputs{{"--csv", a.csv}, {"--html", a.html}};
+  if (auto distinct = check_distinct(inputs, outputs); !distinct) return distinct;
+  for (const std::string& name : {a.csv, a.html}) {
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder))
+      return refuse("cannot write " + name + ": there is no folder " + folder.string());
+  }
+  return {};
+}
+
+/// @param clips  videos in the folder; empty where the source is a video itself
+/// @return kInvalidArgument for an option without effect, and for an output that is an input
+Result<void> check_arguments(const EvaluateArguments& a, const std::vector<std::string>& clips) {
+  if (a.source.starts_with("camera:"))
+    return refuse(a.source + ": a camera does not show the same twice; record it first");
+  if (!clips.empty())
+    if (auto checked = check_folder(a); !checked) return checked;
+  if (clips.empty() && a.jobs && fs::exists(a.source))
+    return refuse("--jobs is for a folder of videos, which " + a.source + " is not");
+  if (!a.streams.empty())
+    if (auto checked = check_streams(a); !checked) return checked;
+  return check_outputs(a, clips);
+}
 
 /// Folder for finished results; empty: none.
 std::string kept_folder(const EvaluateArguments& arguments) {
   if (!arguments.keep.empty() || arguments.html.empty()) return arguments.keep;
-  return std::filesystem::path(arguments.html).replace_extension(".fbs-run").string();
+  return fs::path(arguments.html).replace_extension(".fbs-run").string();
 }
 
 nlohmann::json folder_json(const EvaluateArguments& arguments, const FolderReport& report) {

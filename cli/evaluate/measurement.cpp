@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "cli/evaluate/quality/vmaf.h"
-#include "cli/progress.h"
+#include "cli/program/progress.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 namespace {

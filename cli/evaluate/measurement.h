@@ -6,7 +6,7 @@
 
 #include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/quality/shown_pictures.h"
-#include "cli/evaluate/rd_point.h"
+#include "cli/evaluate/rate_distortion/rd_point.h"
 #include "cli/files/stop_signal.h"
 #include "cli/source/source_part.h"
 #include "common/result.h"

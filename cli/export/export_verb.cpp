@@ -2,19 +2,33 @@
 #include <array>
 #include <cstdio>
 
-#include "cli/export/export_arguments.h"
+#include "cli/command_line/verb.h"
 #include "cli/export/head_looks.h"
 #include "cli/export/model_module.h"
 #include "cli/export/obj_sequence.h"
 #include "cli/export/table_output.h"
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene/scene_face.h"
 
 namespace fbs::cli {
 namespace {
+
+constexpr const char* kExportExamples =
+    "Examples:\n"
+    "  fbs export talk.fbs head.glb                    animated head with texture and morph targets\n"
+    "  fbs export talk.fbs head.gltf --draco           the same as text, its mesh compressed\n"
+    "  fbs export talk.fbs frames/head_%05d.obj        a mesh for each picture\n"
+    "  fbs export talk.fbs talk.csv                    pose, landmarks, gaze, expression of each picture\n"
+    "  fbs export talk.fbs - --format json | jq '.frames[0].face.pose'";
+
+struct ExportArguments {
+  std::string input, output;
+  std::string format;  ///< of a table: "csv", "json"; empty: by the name of the output
+  bool draco = false;  ///< of a .glb or .gltf
+};
 
 enum class OutputKind : std::uint8_t { kTable, kGlb, kGltf, kObj };
 
@@ -138,8 +152,6 @@ Result<void> export_model(StreamFile& file, const ExportArguments& a, OutputKind
   return written;
 }
 
-}  // namespace
-
 Result<Outcome> run_export(const ExportArguments& arguments) {
   const auto output = output_of(arguments);
   if (!output) return fail(output.error());
@@ -151,6 +163,24 @@ Result<Outcome> run_export(const ExportArguments& arguments) {
   auto done = output->kind == OutputKind::kTable ? export_table(*file, arguments, output->table)
                                                  : export_model(*file, arguments, output->kind);
   return done.map([] { return Outcome::kComplete; });
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Run& run) {
+  const auto [verb, a] = new_verb<ExportArguments>(
+      app, run, "export", "Write the head as a model, or its motion as a table", run_export);
+  verb->add_option("INPUT", a.input, "Stream to export, or - for standard input")->required();
+  verb->add_option(
+          "OUTPUT", a.output,
+          "Model (.glb, .gltf, or a sequence head_%05d.obj), table (.csv, .json), or - for a table on "
+          "standard output")
+      ->required();
+  verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->type_name("csv|json");
+  verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
+  verb->footer(kExportExamples);
 }
 
 }  // namespace fbs::cli

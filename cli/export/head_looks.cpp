@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/video/colour.h"
 #include "cli/video/video_modules.h"
 

@@ -1,6 +1,6 @@
 #include "cli/export/model_module.h"
 
-#include "cli/module.h"
+#include "cli/program/module.h"
 
 FBS_MODULE_EXPORT void fbs_write_gltf(const fbs::HeadRecording& recording,
                                       const std::vector<fbs::HeadLook>& looks,

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/video/images/number_pattern.h"
+#include "cli/files/number_pattern.h"
 #include "common/result.h"
 #include "decoder/export/head_recording.h"
 

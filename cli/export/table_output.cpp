@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "cli/files/output_check.h"
-#include "cli/standard_output.h"
 
 namespace fbs::cli {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -94,6 +95,14 @@ Result<void> check_picture_name(const std::string& output) {
 
 void print_replaced_leftover(const std::string& output) {
   std::fprintf(stderr, "fbs: replaced %s.part, left by an earlier run\n", output.c_str());
+}
+
+Result<void> flush_standard_output() {
+  if (std::fflush(stdout) != 0)
+    return fail(ErrorCode::kIo, "cannot write standard output: " + std::generic_category().message(errno));
+  if (std::ferror(stdout) != 0)  // an earlier write, whose reason is not known any more
+    return fail(ErrorCode::kIo, "cannot write standard output");
+  return {};
 }
 
 }  // namespace fbs::cli

@@ -1,4 +1,5 @@
-// Checks of outputs: their names, before anything is opened for writing, and leftovers they replace.
+// Checks of outputs: their names, before anything is opened for writing, what was in their way, and that what
+// is printed arrives.
 #pragma once
 
 #include <span>
@@ -31,5 +32,9 @@ Result<void> check_picture_name(const std::string& output);
 
 /// Says on standard error that `OUTPUT.part` of an earlier run was replaced.
 void print_replaced_leftover(const std::string& output);
+
+/// Writes out what has been printed: a full disk is noticed only then.
+/// @return kIo when it, or anything printed earlier, could not be written
+[[nodiscard]] Result<void> flush_standard_output();
 
 }  // namespace fbs::cli

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/display/picture_sources.h"
-#include "cli/inspect/inspect_arguments.h"
+#include "cli/command_line/verb.h"
 #include "cli/inspect/pattern_use.h"
 #include "cli/stream/byte_count_json.h"
+#include "cli/stream/picture_sources.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/scene/scene_face.h"
 #include "decoder/stream/packet_list.h"
@@ -19,6 +19,18 @@
 
 namespace fbs::cli {
 namespace {
+
+constexpr const char* kInspectExamples =
+    "Examples:\n"
+    "  fbs inspect talk.fbs                            size of each part\n"
+    "  fbs inspect talk.fbs --json\n"
+    "  fbs inspect broken.fbs --packets                every packet, and what is wrong with it";
+
+struct InspectArguments {
+  std::string input;
+  bool json = false;
+  bool packets = false;  ///< list them
+};
 
 struct PatternSummary {
   std::uint64_t picture = 0;
@@ -200,8 +212,6 @@ Result<Outcome> inspect_packets(StreamFile& file, std::span<const std::uint8_t> 
   return whole ? Outcome::kComplete : Outcome::kLittleLost;
 }
 
-}  // namespace
-
 Result<Outcome> run_inspect(const InspectArguments& arguments) {
   auto file = StreamFile::open(arguments.input);
   if (!file) return fail(file.error());
@@ -235,6 +245,19 @@ Result<Outcome> run_inspect(const InspectArguments& arguments) {
   else
     print(file->name(), s);
   return Outcome::kComplete;
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, Run& run) {
+  const auto [verb, a] = new_verb<InspectArguments>(
+      app, run, "inspect", "Show what a stream contains and the size of each part", run_inspect);
+  verb->add_option("INPUT", a.input, "Stream to inspect, or - for standard input")->required();
+  verb->add_flag("--packets", a.packets,
+                 "List every packet, also of a damaged stream: place, type, time of the first picture that "
+                 "it concerns, bytes, and what is wrong; exit code 3: something is");
+  verb->add_flag("--json", a.json, "Print JSON");
+  verb->footer(kInspectExamples);
 }
 
 }  // namespace fbs::cli

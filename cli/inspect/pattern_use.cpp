@@ -1,6 +1,6 @@
 #include "cli/inspect/pattern_use.h"
 
-#include "cli/display/picture_sources.h"
+#include "cli/stream/picture_sources.h"
 #include "decoder/blend/picture_blend.h"
 
 namespace fbs::cli {

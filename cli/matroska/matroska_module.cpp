@@ -1,4 +1,4 @@
-#include "cli/matroska/matroska_module.h"
+#include "cli/stream/matroska_module.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "cli/matroska/matroska_reader.h"
 #include "cli/matroska/matroska_writer.h"
 #include "cli/matroska/stream_mapping.h"
-#include "cli/module.h"
+#include "cli/program/module.h"
 
 namespace fbs::cli {
 namespace {

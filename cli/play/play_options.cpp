@@ -1,9 +1,8 @@
 // The options of `fbs play`.
 
-#include "cli/module_verb.h"
+#include "cli/command_line/verb.h"
 #include "cli/play/key_map.h"
 #include "cli/play/play_arguments.h"
-#include "cli/verb.h"
 
 namespace fbs::cli {
 namespace {

@@ -2,10 +2,10 @@
 #include <array>
 
 #include "cli/files/output_check.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
 #include "cli/play/play_arguments.h"
 #include "cli/play/player.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
 
 namespace fbs::cli {
 namespace {

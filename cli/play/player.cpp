@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "cli/video/open/open_video.h"
 #include "decoder/stream/stream_length.h"
 
 namespace fbs::cli {

@@ -2,6 +2,7 @@
 
 #include "cli/files/output_check.h"
 #include "cli/video/constant_rate.h"
+#include "cli/video/open/open_video.h"
 #include "cli/video/y4m/y4m.h"
 
 namespace fbs::cli {

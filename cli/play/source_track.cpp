@@ -4,6 +4,7 @@
 
 #include "bitstream/syntax.h"
 #include "cli/video/colour.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 

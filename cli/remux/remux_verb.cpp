@@ -2,16 +2,27 @@
 #include <array>
 #include <cstdio>
 
+#include "cli/command_line/verb.h"
 #include "cli/files/atomic_file.h"
 #include "cli/files/output_check.h"
-#include "cli/matroska/matroska_module.h"
-#include "cli/module.h"
-#include "cli/remux/remux_arguments.h"
+#include "cli/program/module.h"
+#include "cli/stream/matroska_module.h"
 #include "cli/stream/stream_file.h"
 #include "decoder/stream/packet_list.h"
 
 namespace fbs::cli {
 namespace {
+
+constexpr const char* kRemuxExamples =
+    "Examples:\n"
+    "  fbs remux talk.fbs talk.mkv                     Matroska, with the sound as a track of its own\n"
+    "  fbs remux talk.mkv talk.fbs                     and back: the same bytes\n"
+    "  fbs remux talk.mkv - | fbs decode - talk.y4m    through a pipe";
+
+struct RemuxArguments {
+  std::string input, output;
+  bool quiet = false;
+};
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -81,8 +92,6 @@ Result<void> take_out(const RemuxArguments& a, StreamFile& file, const Bytes& st
   return {};
 }
 
-}  // namespace
-
 Result<Outcome> run_remux(const RemuxArguments& arguments) {
   if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   auto file = StreamFile::open(arguments.input);
@@ -92,6 +101,19 @@ Result<Outcome> run_remux(const RemuxArguments& arguments) {
   const auto done = is_matroska_name(arguments.output) ? put_in(arguments, *file, *stream)
                                                        : take_out(arguments, *file, *stream);
   return done.map([] { return Outcome::kComplete; });
+}
+
+}  // namespace
+
+void add_remux(CLI::App& app, Run& run) {
+  const auto [verb, a] = new_verb<RemuxArguments>(
+      app, run, "remux", "Put a stream into a Matroska file, or take it out, without loss", run_remux);
+  verb->add_option("INPUT", a.input, "Stream (.fbs, or - for standard input) or Matroska file (.mkv)")
+      ->required();
+  verb->add_option("OUTPUT", a.output, "Matroska file (.mkv) or stream (.fbs, or - for standard output)")
+      ->required();
+  verb->add_flag("--quiet", a.quiet, "Print nothing but errors");
+  verb->footer(kRemuxExamples);
 }
 
 }  // namespace fbs::cli

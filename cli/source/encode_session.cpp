@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bitstream/syntax.h"
-#include "cli/progress.h"
+#include "cli/program/progress.h"
 #include "encoder/segment/picture_spool.h"
 
 namespace fbs::cli {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "cli/source/stream_meter.h"
 #include "cli/stream/sound_interleaver.h"
-#include "cli/stream/stream_meter.h"
 #include "cli/video/video_source.h"
 #include "encoder/encoder.h"
 

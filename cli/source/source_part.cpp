@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/video/open/open_video.h"
+
 namespace fbs::cli {
 namespace {
 

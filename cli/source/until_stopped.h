@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "cli/files/stop_signal.h"
-#include "cli/outcome.h"
+#include "cli/program/outcome.h"
 #include "common/result.h"
 
 namespace fbs::cli {

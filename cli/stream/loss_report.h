@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cli/outcome.h"
-#include "cli/progress.h"
+#include "cli/program/outcome.h"
+#include "cli/program/progress.h"
 #include "cli/stream/stream_file.h"
 
 namespace fbs::cli {

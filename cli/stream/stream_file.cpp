@@ -12,9 +12,9 @@
 #include <cstdio>
 #include <system_error>
 
-#include "cli/matroska/matroska_module.h"
-#include "cli/module.h"
-#include "cli/video/video_source.h"
+#include "cli/program/module.h"
+#include "cli/stream/matroska_module.h"
+#include "cli/video/open/open_video.h"
 #include "decoder/stream/scene_index.h"
 
 namespace fbs::cli {

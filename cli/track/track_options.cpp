@@ -1,9 +1,7 @@
 // The options of `fbs track`.
 
-#include "cli/encode/encode_arguments.h"
-#include "cli/module_verb.h"
-#include "cli/track/track_arguments.h"
-#include "cli/verb.h"
+#include "cli/command_line/verb.h"
+#include "cli/source/encoder_module.h"
 
 namespace fbs::cli {
 namespace {

@@ -4,13 +4,13 @@
 
 #include "cli/export/table_output.h"
 #include "cli/files/output_check.h"
-#include "cli/module.h"
-#include "cli/outcome.h"
-#include "cli/progress.h"
+#include "cli/program/module.h"
+#include "cli/program/outcome.h"
+#include "cli/program/progress.h"
+#include "cli/source/encoder_module.h"
 #include "cli/source/source_part.h"
 #include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
-#include "cli/track/track_arguments.h"
 #include "encoder/encoder.h"
 
 namespace fbs::cli {

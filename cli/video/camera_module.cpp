@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/video/colour.h"
 #include "cli/video/picture_size.h"
 #include "cli/video/timestamps.h"

@@ -42,16 +42,14 @@ class SoundSource {
   [[nodiscard]] virtual std::int64_t damaged_packets() const { return 0; }
 };
 
-/// Opens the sound of `input`. Without pictures in it, times count from the start of the file.
-/// @return null when there is none: in Y4M, image sequences, cameras and streams of our own, and in inputs
-/// that cannot be read a second time beside the pictures (pipes, devices, addresses other than http);
-/// ErrorCode::kIo when it cannot be read, kInvalidArgument for a missing track, kUnsupported when there is no
-/// decoder for it
-Result<std::unique_ptr<SoundSource>> open_sound_source(const std::string& input,
-                                                       const SoundSourceOptions& options = {});
-
 /// The error of open_sound_source for a missing track.
 /// @param count  number of sound tracks
-Error missing_track(const std::string& input, int track, std::ptrdiff_t count);
+inline Error missing_track(const std::string& input, int track, std::ptrdiff_t count) {
+  std::string has = "no sound";
+  if (count == 1) has = "one, number 0";
+  if (count > 1) has = std::to_string(count) + ", from 0 to " + std::to_string(count - 1);
+  return {ErrorCode::kInvalidArgument,
+          input + ": no sound track " + std::to_string(track) + ": it has " + has};
+}
 
 }  // namespace fbs

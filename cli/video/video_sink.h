@@ -31,7 +31,9 @@ class VideoSink {
   /// @param begin  1/kSoundClock s from time 0 of the pictures, not before the end of the previous frame; the
   ///               first is before 0 by the setup's skip
   /// @return ErrorCode::kUnsupported when the sink has no such sound, else as write()
-  virtual Result<void> write_sound(std::span<const std::uint8_t> frame, std::int64_t begin);
+  virtual Result<void> write_sound(std::span<const std::uint8_t> /*frame*/, std::int64_t /*begin*/) {
+    return fail(ErrorCode::kUnsupported, "the output has no sound");
+  }
 
   /// Whether an unfinished file of an earlier run was replaced.
   [[nodiscard]] virtual bool replaced_leftover() const { return false; }
@@ -48,20 +50,5 @@ struct SinkOptions {
   /// .mp4 and .mkv: Opus passed to write_sound; not together with sound_source.
   std::optional<SoundSetup> sound = std::nullopt;
 };
-
-/// Whether the output may have sound: .mp4 and .mkv, in upper or lower case.
-[[nodiscard]] bool has_sound_track(const std::string& output);
-
-/// Opens `output`:
-///   `null:`             discards the pictures
-///   `-`, `name.y4m`     Y4M, on standard output or in a file
-///   `name.mp4`, `.mkv`  H.264 (x264, CRF 12), for viewing: pictures are not exact.
-///                       4:2:0, or 4:4:4 when a side is odd, since H.264 cannot crop half a chroma sample
-///   `frame_%05d.png`    image sequence numbered from 1 through OpenImageIO, or another suffix that it writes
-///
-/// @return ErrorCode::kIo when it cannot be created (the text says why), kUnsupported for other names,
-///         for sound with an output that has none, and for sound that is not Opus
-Result<std::unique_ptr<VideoSink>> open_video_sink(const std::string& output, const VideoFormat& format,
-                                                   const SinkOptions& options = {});
 
 }  // namespace fbs

@@ -1,7 +1,6 @@
 // One interface to all sources of pictures: files, image sequences, pipes and cameras.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -55,28 +54,5 @@ struct SourceOptions {
   int decoder_threads = 1;           ///< at least 1
   const StopSignal* stop = nullptr;  ///< must outlive the source; interrupts a read that waits, with an error
 };
-
-/// Whether `input` names a numbered sequence, several images or a folder of them.
-bool is_image_sequence(const std::string& input);
-
-/// The first bytes of Matroska files: the ID of their first element.
-inline constexpr std::array<std::uint8_t, 4> kEbmlHead{0x1A, 0x45, 0xDF, 0xA3};
-
-/// Whether this is a stream, or a Matroska file with one. False for pipes, which are not read.
-bool is_stream_file(const std::string& name);
-
-/// Opens `input`:
-///   `-`                       Y4M on standard input
-///   `name.y4m`                Y4M
-///   `camera:N`                camera N through OpenCV
-///   `frame_%05d.png`, `*.png` with `*` or `?`, or a folder
-///                             image sequence through OpenImageIO, in order of number, then name
-///   anything else             libav: every container, codec and address that ffmpeg opens
-/// Rotated phone video is put upright; grey, 4:2:2, 4:4:4, more than 8 bits and RGB become 8-bit 4:2:0.
-///
-/// @return ErrorCode::kIo when it cannot be read, kUnsupported when it contains no video that we support,
-///         kTooLarge when the pictures are outside the size limits
-Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
-                                                       const SourceOptions& options = {});
 
 }  // namespace fbs

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "cli/video/video_source.h"
+#include "cli/video/open/open_video.h"
 #include "encoder/model/pose.h"
 #include "encoder/track/feature_tracker.h"
 #include "tests/talker/talker_render.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/video/video_source.h"
+#include "cli/video/open/open_video.h"
 #include "encoder/encoder.h"
 #include "encoder/track/feature_tracker.h"
 #include "tests/talker/talker_render.h"

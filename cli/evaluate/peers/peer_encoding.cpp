@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "cli/evaluate/peers/child_process.h"
-#include "cli/progress.h"
+#include "cli/program/progress.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cli/stream/stream_file.h"
-#include "cli/video/video_source.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 

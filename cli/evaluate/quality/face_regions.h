@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/files/stop_signal.h"
-#include "cli/stream/face_outline.h"
+#include "cli/source/face_outline.h"
 #include "common/result.h"
 #include "decoder/stream/stream_decoder.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "cli/stream/face_outline.h"
+#include "cli/source/face_outline.h"
 #include "common/picture.h"
 #include "common/quality.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/evaluate/clip_report.h"
+#include "cli/evaluate/rate_distortion/clip_report.h"
 
 namespace fbs::cli {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/evaluate/clip_means.h"
+#include "cli/evaluate/rate_distortion/clip_means.h"
 #include "cli/evaluate/report/base64.h"
 #include "cli/evaluate/report/chart.h"
 #include "cli/evaluate/report/clip_charts.h"

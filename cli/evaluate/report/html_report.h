@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/evaluate/clip_report.h"
+#include "cli/evaluate/rate_distortion/clip_report.h"
 #include "common/result.h"
 
 namespace fbs::cli {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "cli/evaluate/clip_means.h"
+#include "cli/evaluate/rate_distortion/clip_means.h"
 #include "cli/evaluate/report/chart.h"
 
 namespace fbs::cli {

@@ -11,10 +11,9 @@
 #include <utility>
 
 #include "cli/evaluate/quality/shown_pictures.h"
-#include "cli/evaluate/run_folder.h"
+#include "cli/evaluate/run/run_folder.h"
 #include "cli/files/atomic_file.h"
-#include "cli/video/video_sink.h"
-#include "cli/video/video_source.h"
+#include "cli/video/open/open_video.h"
 
 namespace fbs::cli {
 namespace {

@@ -1,6 +1,6 @@
 // The functions that the module fbs_av exports.
 
-#include "cli/module.h"
+#include "cli/program/module.h"
 #include "cli/video/av/av_sink.h"
 #include "cli/video/av/av_sound_source.h"
 #include "cli/video/av/av_source.h"

@@ -2,11 +2,8 @@
 
 #include <exception>
 
-#include "cli/module.h"
-#include "cli/video/images/image_sink.h"
-#include "cli/video/images/image_source.h"
-#include "cli/video/images/png.h"
-#include "cli/video/images/still_image.h"
+#include "cli/program/module.h"
+#include "cli/video/images/image_files.h"
 #include "cli/video/video_modules.h"
 
 FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::SourceOptions& options,

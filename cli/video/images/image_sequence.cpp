@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "cli/video/images/number_pattern.h"
+#include "cli/files/number_pattern.h"
 
 namespace fbs {
 namespace {

@@ -1,5 +1,3 @@
-#include "cli/video/images/image_sink.h"
-
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -9,8 +7,9 @@
 #include <vector>
 
 #include "cli/files/atomic_file.h"
+#include "cli/files/number_pattern.h"
 #include "cli/video/colour.h"
-#include "cli/video/images/number_pattern.h"
+#include "cli/video/images/image_files.h"
 
 namespace fbs {
 namespace {

@@ -1,5 +1,3 @@
-#include "cli/video/images/image_source.h"
-
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "cli/video/colour.h"
+#include "cli/video/images/image_files.h"
 #include "cli/video/images/image_sequence.h"
 #include "cli/video/picture_size.h"
 #include "cli/video/timestamps.h"

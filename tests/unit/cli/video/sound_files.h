@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/evaluate/peers/child_process.h"
-#include "cli/video/sound_source.h"
+#include "cli/video/open/open_video.h"
 #include "cli/video/wav_sink.h"
 #include "tone_bursts.h"
 

@@ -1,9 +1,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/video/open/open_video.h"
 #include "cli/video/timestamps.h"
-#include "cli/video/video_sink.h"
-#include "cli/video/video_source.h"
 #include "sound_files.h"
 
 namespace fbs {

@@ -1,7 +1,6 @@
-#include "cli/video/sound_source.h"
-
 #include <fstream>
 
+#include "cli/video/open/open_video.h"
 #include "sound_files.h"
 
 namespace fbs {

@@ -1,10 +1,10 @@
-#include "cli/video/video_sink.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "cli/video/open/open_video.h"
 
 namespace fbs {
 namespace {

@@ -1,5 +1,3 @@
-#include "cli/video/video_source.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,8 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "cli/video/open/open_video.h"
 #include "cli/video/timestamps.h"
-#include "cli/video/video_sink.h"
 
 namespace fbs {
 namespace {

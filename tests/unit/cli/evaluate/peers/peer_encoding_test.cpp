@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "cli/evaluate/run_folder.h"
+#include "cli/evaluate/run/run_folder.h"
 
 namespace fbs::cli {
 namespace {

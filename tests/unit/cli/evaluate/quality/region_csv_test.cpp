@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/evaluate/quality/face_regions.h"
-#include "cli/evaluate/run_folder.h"
+#include "cli/evaluate/run/run_folder.h"
 
 namespace fbs::cli {
 namespace {

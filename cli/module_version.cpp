@@ -1,6 +1,0 @@
-// Compiled into every module, so that the loader can refuse one of another version.
-#include "cli/module.h"
-
-FBS_MODULE_EXPORT const char* fbs_module_version() {
-  return FBS_VERSION;
-}

@@ -1,0 +1,24 @@
+# fbs_add_module(NAME source...): a module that the program loads when a verb needs it (cli/program/module.h).
+# It lands beside the program in the build tree and in lib/fbs when installed. Link its libraries afterwards with
+# target_link_libraries(NAME PRIVATE ...); static libraries that go in must be position independent.
+include_guard(GLOBAL)
+
+add_library(fbs_module_version OBJECT ${CMAKE_CURRENT_LIST_DIR}/module_version.cpp)
+target_compile_definitions(fbs_module_version PRIVATE FBS_VERSION="${PROJECT_VERSION}")
+target_link_libraries(fbs_module_version PRIVATE fbs_options tl::expected)
+
+function(fbs_add_module name)
+  add_library(${name} MODULE ${ARGN})
+  set_target_properties(${name} PROPERTIES
+    PREFIX ""
+    SUFFIX ".so"
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_sources(${name} PRIVATE $<TARGET_OBJECTS:fbs_module_version>)
+  target_link_libraries(${name} PRIVATE fbs_options)
+  target_link_options(${name} PRIVATE -Wl,--exclude-libs,ALL)  # only the marked functions are seen from outside
+  if(FBS_INSTALL)
+    install(TARGETS ${name} LIBRARY DESTINATION lib/fbs)  # where the program looks, whatever CMAKE_INSTALL_LIBDIR is
+  endif()
+endfunction()

@@ -1,0 +1,102 @@
+#include "cli/program/progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "cli/program/report.h"
+
+namespace fbs {
+namespace {
+
+constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+constexpr int kUsualColumns = 80;
+
+int terminal_columns() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
+  return size.ws_col;
+}
+
+/// "7 s", "2:05" or "1:02:05".
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
+  std::array<char, 48> text{};
+  if (whole < 60) {
+    std::snprintf(text.data(), text.size(), "%lld s", whole);
+  } else if (whole < 3600) {
+    std::snprintf(text.data(), text.size(), "%lld:%02lld", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+  }
+  return text.data();
+}
+
+}  // namespace
+
+std::string progress_text(const std::string& label, std::int64_t done, std::optional<std::int64_t> total,
+                          double seconds, int columns) {
+  const double speed = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  std::array<char, 64> speed_text{};
+  std::snprintf(speed_text.data(), speed_text.size(), "  %.1f pictures/s", speed);
+
+  std::string text = label;
+  if (total && *total > 0) {
+    const std::int64_t expected = std::max(*total, done);
+    const double share = static_cast<double>(done) / static_cast<double>(expected);
+    std::array<char, 16> percent{};
+    std::snprintf(percent.data(), percent.size(), " %3d %%", static_cast<int>(100 * share));
+    text += percent.data();
+    text += "  " + std::to_string(done) + "/" + std::to_string(expected) + speed_text.data();
+    if (speed > 0) text += "  " + duration_text(static_cast<double>(expected - done) / speed) + " left";
+  } else {
+    text += "  " + std::to_string(done) + speed_text.data();
+  }
+  return text.substr(0, static_cast<std::size_t>(std::max(columns - 1, 0)));
+}
+
+Progress::Progress(std::string label, std::optional<std::int64_t> total, bool quiet)
+    : label_(std::move(label)),
+      total_(total),
+      visible_(!quiet && isatty(STDERR_FILENO) == 1),
+      begun_(Clock::now()),
+      last_told_(begun_) {}
+
+Progress::~Progress() {
+  finish();
+}
+
+void Progress::update(std::int64_t done) {
+  if (!visible_ && !reports()) return;
+  done_ = done;
+  const Clock::time_point now = Clock::now();
+  if (now - last_told_ < kRedrawInterval) return;
+  last_told_ = now;
+  report_progress(label_, done, total_);
+  if (visible_) draw(now);
+}
+
+void Progress::draw(Clock::time_point now) {
+  const double seconds = std::chrono::duration<double>(now - begun_).count();
+  const std::string text = progress_text(label_, done_, total_, seconds, terminal_columns());
+  std::fprintf(stderr, "\r\033[K%s", text.c_str());
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void Progress::finish() {
+  if (const std::int64_t done = std::exchange(done_, 0); done > 0) report_progress(label_, done, total_);
+  if (drawn_) {
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+  }
+  drawn_ = false;
+  visible_ = false;
+}
+
+}  // namespace fbs
