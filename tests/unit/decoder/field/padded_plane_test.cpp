@@ -13,8 +13,8 @@ TEST(PaddedPlane, RepeatsWhatLiesInsideTheBorder) {
   for (const int inset : {0, 1, 2}) {
     const Plane plane = noise_plane(33, 17, 1);
     const PaddedPlane padded(plane, inset);
-    for (int y = -kPadding; y < 17 + kPadding; ++y)
-      for (int x = -kPadding; x < 33 + kPadding; ++x)
+    for (int y = -kPlanePadding; y < 17 + kPlanePadding; ++y)
+      for (int x = -kPlanePadding; x < 33 + kPlanePadding; ++x)
         ASSERT_EQ(*padded.at(x, y),
                   plane.row(std::clamp(y, inset, 16 - inset))[std::clamp(x, inset, 32 - inset)])
             << inset << ": " << x << ',' << y;
