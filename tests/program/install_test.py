@@ -13,7 +13,7 @@ from harness import BUILD, MAX_SECONDS, SOURCE, TALK_FBS, TALK_Y4M, ProgramTest,
 CMAKE, CC, CXX = (os.environ.get(name, default) for name, default in (("FBS_CMAKE", "cmake"), ("CC", "cc"), ("CXX", "c++")))
 SAMPLES = SOURCE / "samples"
 VECTORS = SOURCE / "tests/vectors"
-HEADERS = ["fbs.h", "encoder.h", "fbs.hpp", "encoder.hpp"]
+HEADERS = ["fbs.h", "encoder.h", "packet.h", "fbs.hpp", "encoder.hpp"]
 STATUSES = {"-": "no error", "kNotFbs": "not an fbs stream", "kTruncated": "the stream is cut off",
             "kInvalidStream": "damaged stream", "kUnsupported": "not supported by this version",
             "kTooLarge": "too large"}
@@ -217,7 +217,7 @@ class Install(ProgramTest):
             symbols = [line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()]
             self.assertTrue(symbols)
             self.assertEqual([symbol for symbol in symbols if not symbol.startswith("fbs_")], [])
-            declared = {symbol for header in HEADERS[:2] for symbol in
+            declared = {symbol for header in HEADERS[:3] for symbol in
                         re.findall(r"^FBS_API .*?\b(fbs_\w+)\(", (self.prefix / "include/fbs" / header).read_text(), re.M)}
             self.assertLessEqual(set(symbols), declared)
             self.assertGreater(len(symbols), 7)
