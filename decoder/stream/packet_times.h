@@ -43,9 +43,9 @@ class PacketTimes {
   Result<void> place(const End& end, TimedPacket& out);
   Result<void> place(const std::vector<ScenePattern>& patterns, TimedPacket& out);
   Result<void> place(const MotionGroup& group, TimedPacket& out);
-  Result<void> place(const BlendGroup& group, TimedPacket& out);
+  static Result<void> place(const BlendGroup& group, TimedPacket& out);
   Result<void> place(const SoundGroup& group, TimedPacket& out);
-  Result<void> place(std::monostate /*unused*/, TimedPacket& out);
+  static Result<void> place(std::monostate /*unused*/, TimedPacket& out);
   /// Any other packet counts from the next picture on.
   template <class Syntax>
   Result<void> place(const Syntax& /*syntax*/, TimedPacket& /*out*/) {
