@@ -156,7 +156,7 @@ Result<void> FaceCoder::end_segment() {
     if (auto written = write_head(); !written) return written;
   }
   SegmentRefit& refit = second_pass_->refit;
-  const auto ended = ledger_.end_segment(scene_, [&](Segment& segment, const SegmentPatterns& drawn_from) {
+  auto ended = ledger_.end_segment(scene_, [&](Segment& segment, const SegmentPatterns& drawn_from) {
     return refit.run(segment, drawn_from);
   });
   if (!ended) return ended;
