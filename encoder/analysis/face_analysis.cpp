@@ -25,35 +25,28 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
 FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder,
                            const AnalysisStart& start, const WorkFrame& first)
     : track_only_(settings.track_only),
-      expression_(settings.expression),
-      contours_(settings.contours),
-      eye_distance_px_(start.eye_distance_px),
+      contours_(settings.expression && settings.contours),
       geometry_(start.geometry),
-      mouth_(start.setup.mouth),
-      head_(start.geometry, pose_of(start.seen), first),
-      search_(finder),
+      head_(finder, start.geometry, pose_of(start.seen), first, start.eye_distance_px),
       features_(start.geometry, pose_of(start.seen), first, settings.descent),
-      given_expression_(start.geometry),
+      landmarks_(settings.landmark_search && !settings.track_only ? &finder.landmarks() : nullptr,
+                 start.geometry, pose_of(start.seen), view(start.first.y)),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
-  if (settings.landmark_search && !settings.track_only)
-    landmarks_.emplace(finder.landmarks(), start.geometry, now_.pose, view(start.first.y));
   if (settings.surround) surround_.emplace(start.first, start.seen);
+  report_.face = report_.followed = true;
+  report_.geometry = start.geometry;
 }
 
 FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   Observation seen;
-  seen.cost = begun_ ? fit_next(picture) : fit_first(picture);
-  begun_ = true;
-  // Calibrate where tracker and fit place the same face, the first time that both have it.
-  if (given_ && face_shows_ && !given_expression_.is_calibrated())
-    given_expression_.calibrate(*given_, now_.pose, now_.offsets);
-  given_.reset();
+  seen.cost = std::exchange(begun_, true) ? fit_next(picture) : fit_first(picture);
+  landmarks_.end_picture(report_.followed ? &now_ : nullptr);
   seen.state = state_of(now_);
-  seen.face = face_shows_;
+  seen.face = report_.followed;
   if (surround_) {
     if (std::exchange(surround_begins_, false)) surround_.emplace(picture, seen.state);
-    if (!elsewhere_) surround_->observe(picture, now_.pose);
+    if (head_.is_in_shot()) surround_->observe(picture, now_.pose);
     surround_->add_to(seen.cost);
     surround_->add_to(seen.state);
   }
@@ -62,69 +55,23 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   return seen;
 }
 
-void FaceAnalysis::set_surround_map(const SurroundMap& map) {
-  if (surround_) surround_->set_map(map);
-}
-
 PictureCost FaceAnalysis::fit_first(const Picture& picture) {
-  fit_.set_picture(WorkFrame::cut(picture, now_.pose.shift, eye_distance_px_, false), mouth_);
-  report_.confidence = 1;
+  fit_.set_picture(head_.frame(picture, now_.pose.shift, false));
   return fit_.cost_at(now_);
-}
-
-bool FaceAnalysis::recognises(const Picture& picture) {
-  const FaceSearch::Detection found =
-      search_.find_anywhere(picture, head_, now_.pose, skinned(geometry_, now_.offsets));
-  if (!found.accepted) return false;
-  head_.restart(found.head.pose, WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true));
-  search_.rest();
-  elsewhere_ = false;
-  return true;
 }
 
 PictureCost FaceAnalysis::fit_next(const Picture& picture) {
   report_.had_landmarks = report_.from_landmarks = false;
-  if (elsewhere_) {
-    face_shows_ = false;
-    report_.confidence = 0;
-    now_ = relaxed();
-    return cost_unseen(now_);
-  }
-  const HeadVertices vertices = skinned(geometry_, now_.offsets);
-  WorkFrame frame = WorkFrame::cut(picture, head_.pose().shift, eye_distance_px_, true);
-  const std::optional<TrackedPose> head = follow_head(picture, vertices, frame);
-  face_shows_ = head.has_value();
+  const auto head = head_.follow(picture, now_.pose, skinned(geometry_, now_.offsets));
+  report_.followed = head.has_value();
   if (!head) {
     now_ = relaxed();
     return cost_unseen(now_);
   }
-  Fit start = tracked(frame, *head);
-  fit_.set_picture(frame, mouth_);
+  const Fit start = tracked(*head);
+  fit_.set_picture(head->frame);
   now_ = track_only_ ? start : refined(picture, fit_.with_best_eyes(start));
   return fit_.cost_at(now_);
-}
-
-std::optional<TrackedPose> FaceAnalysis::follow_head(const Picture& picture, const HeadVertices& vertices,
-                                                     WorkFrame& frame) {
-  const Pose last_good = now_.pose;
-  // Flow between pictures without the head is meaningless: once lost, the head is searched.
-  if (!search_.lost()) {
-    const TrackedPose tracked = head_.track(frame, vertices);
-    report_.confidence = tracked.confidence;
-    if (tracked.confidence >= FaceSearch::kLostBelow) return tracked;
-  }
-  const FaceSearch::Detection found = search_.find(picture, head_, last_good, vertices);
-  report_.confidence = found.head.confidence;
-  if (!found.accepted) {
-    head_.restart(last_good, frame);
-    return std::nullopt;
-  }
-  search_.rest();
-  frame = WorkFrame::cut(picture, found.head.pose.shift, eye_distance_px_, true);
-  head_.restart(found.head.pose, frame);
-  const TrackedPose tracked = head_.track(frame, vertices);
-  report_.confidence = tracked.confidence;
-  return tracked;
 }
 
 Fit FaceAnalysis::relaxed() {
@@ -135,10 +82,10 @@ Fit FaceAnalysis::relaxed() {
   return fit;
 }
 
-Fit FaceAnalysis::tracked(const WorkFrame& frame, const TrackedPose& head) {
+Fit FaceAnalysis::tracked(const HeadFollow::Found& head) {
   Fit fit{head.pose, now_.light, now_.interior, now_.offsets};
-  if (!expression_ || !contours_) return fit;
-  features_.track(frame, fit.pose, head_.flow());
+  if (!contours_) return fit;
+  features_.track(head.frame, fit.pose, head_.tracker().flow());
   fit.offsets = features_.offsets();
   // Pupils have no contour: the fit to the picture moves them.
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft}) {
@@ -156,11 +103,9 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
     std::copy_n(seen.begin(), feature(FeatureId::kPupilRight).first_control,
                 starts.back().fit.offsets.begin());
   };
-  if (landmarks_)
-    if (const auto seen = landmarks_->find(view(picture.y), tracked.pose, tracked.offsets)) start_from(*seen);
+  if (const auto seen = landmarks_.find(view(picture.y), tracked.pose, tracked.offsets)) start_from(*seen);
   const std::size_t searched = starts.size();
-  if (given_ && given_expression_.is_calibrated())
-    start_from(given_expression_.offsets(*given_, tracked.pose));
+  if (const auto seen = landmarks_.by_given(tracked.pose)) start_from(*seen);
   const BestFit best = fit_.refine(starts);
   report_.had_landmarks = starts.size() > searched;
   report_.from_landmarks = best.start >= searched;
@@ -173,13 +118,11 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
 }
 
 void FaceAnalysis::write_report(const Observation& seen) {
-  report_.face = true;
-  report_.followed = face_shows_;
-  report_.geometry = geometry_;
+  report_.confidence = head_.confidence();
   report_.state = seen.state;
   for (std::size_t v = 0; v < kVertexCount; ++v)
     report_.vertices[v] = glm::dvec2(seen.vertices[v].x, seen.vertices[v].y) / kStateUnitsPerPixel;
-  const PoseProjection projection(head_.pose());
+  const PoseProjection projection(head_.tracker().pose());
   report_.snakes.clear();
   for (std::size_t i = 0; i < features_.count(); ++i) {
     SnakeOutline outline{{}, features_.is_closed(i), features_.iterations(i)};

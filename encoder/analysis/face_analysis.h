@@ -7,9 +7,8 @@
 #include "encoder/fit/picture_fit.h"
 #include "encoder/settings.h"
 #include "encoder/surround/surround_motion.h"
-#include "encoder/track/face_search.h"
 #include "encoder/track/feature_tracker.h"
-#include "encoder/track/head_tracker.h"
+#include "encoder/track/head_follow.h"
 #include "encoder/track/landmark_follow.h"
 
 namespace fbs {
@@ -42,20 +41,24 @@ class FaceAnalysis {
   [[nodiscard]] Observation observe(const Picture& picture);
 
   /// Landmarks of the next picture, by another tracker: its fit starts from them, too.
-  void give_landmarks(const LandmarkPoints& landmarks) { given_ = landmarks; }
+  void give_landmarks(const LandmarkPoints& landmarks) { landmarks_.give(landmarks); }
 
   /// The next picture begins another shot: the face is absent until recognised.
-  void cut() { elsewhere_ = true; }
+  void cut() { head_.cut(); }
 
   /// The next picture begins a scene with the same head: body and ground count from there.
   void begin_scene() { surround_begins_ = true; }
 
   /// Whether a picture of another shot shows the same head, which is then tracked again.
   /// @param picture  to be observed next
-  [[nodiscard]] bool recognises(const Picture& picture);
+  [[nodiscard]] bool recognises(const Picture& picture) {
+    return head_.recognises(picture, now_.pose, skinned(geometry_, now_.offsets));
+  }
 
   /// Sets the map that says how each part of the picture moves from now on.
-  void set_surround_map(const SurroundMap& map);
+  void set_surround_map(const SurroundMap& map) {
+    if (surround_) surround_->set_map(map);
+  }
 
   /// Report of the picture observed last.
   [[nodiscard]] const PictureAnalysis& report() const { return report_; }
@@ -64,14 +67,10 @@ class FaceAnalysis {
   /// @param first  work frame of the first picture, with colour
   FaceAnalysis(const EncoderSettings& settings, const FaceFinder& finder, const AnalysisStart& start,
                const WorkFrame& first);
-  /// Pose of the head, tracked or found again; nothing while it is lost.
-  /// @param frame  cut where the head was; cut anew where it is found elsewhere
-  [[nodiscard]] std::optional<TrackedPose> follow_head(const Picture& picture, const HeadVertices& vertices,
-                                                       WorkFrame& frame);
   /// Holds the pose and weakens the expression a little: a lost face must never look wild.
   [[nodiscard]] Fit relaxed();
   /// Pose as tracked, contours from the snakes, the rest as before.
-  [[nodiscard]] Fit tracked(const WorkFrame& frame, const TrackedPose& head);
+  [[nodiscard]] Fit tracked(const HeadFollow::Found& head);
   /// Sets now_.
   [[nodiscard]] PictureCost fit_first(const Picture& picture);
   [[nodiscard]] PictureCost fit_next(const Picture& picture);
@@ -80,23 +79,16 @@ class FaceAnalysis {
   [[nodiscard]] Fit refined(const Picture& picture, const Fit& tracked);
   void write_report(const Observation& seen);
 
-  bool track_only_, expression_, contours_;
-  double eye_distance_px_;
+  bool track_only_, contours_;
   Geometry geometry_;
-  MouthInterior mouth_;
-  HeadTracker head_;
-  FaceSearch search_;
+  HeadFollow head_;
   FeatureTracker features_;
-  std::optional<LandmarkFollow> landmarks_;  ///< nothing when they are not looked for
-  LandmarkExpression given_expression_;
-  std::optional<LandmarkPoints> given_;  ///< of the next picture
+  LandmarkFollow landmarks_;
   PictureFit fit_;
   std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
-  Fit now_;                                 ///< of the last picture
-  bool face_shows_ = true;                  ///< in the last picture, and is followed
-  bool begun_ = false;
   bool surround_begins_ = false;
-  bool elsewhere_ = false;  ///< the shot does not show the face, or not yet
+  Fit now_;  ///< of the last picture
+  bool begun_ = false;
   PictureAnalysis report_;
 };
 

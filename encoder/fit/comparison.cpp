@@ -77,7 +77,7 @@ Comparison Comparison::with(const Setup& setup, const Geometry& geometry, const 
   const FitColumns columns(setup.parts);
   const SamplePoints points(geometry, columns, PlacedHead(geometry, fit_of(pattern.seen)),
                             kFitPointSpacing / pattern.frame.scale);
-  return {geometry, columns, points, PatternSamples(points, geometry, pattern)};
+  return {geometry, columns, points, PatternSamples(points, geometry, pattern), {}, setup.mouth};
 }
 
 double huber(double difference) {

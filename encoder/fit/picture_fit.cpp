@@ -23,11 +23,6 @@ PictureFit::PictureFit(const Setup& setup, const Geometry& geometry, const SeenP
       lids_(geometry, comparison_.points),
       gaze_(comparison_.points) {}
 
-void PictureFit::set_picture(const WorkFrame& picture, const MouthInterior& mouth) {
-  comparison_.picture = LumaPyramid(picture);
-  comparison_.mouth = mouth;
-}
-
 void PictureFit::set_pattern(const SeenPattern& pattern) {
   comparison_.pattern = PatternSamples(comparison_.points, comparison_.geometry, pattern);
 }

@@ -22,8 +22,10 @@ class PictureFit {
   PictureFit(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern);
 
   /// Sets the picture for the next calls; shares its luma.
-  /// @param mouth  the decoder's colours inside the mouth, as far as known
-  void set_picture(const WorkFrame& picture, const MouthInterior& mouth);
+  void set_picture(const WorkFrame& picture) { comparison_.picture = LumaPyramid(picture); }
+
+  /// Sets the decoder's colours inside the mouth, where more is known of them than setup.mouth.
+  void set_mouth(const MouthInterior& mouth) { comparison_.mouth = mouth; }
 
   /// Replaces the pattern; compared at the same points.
   void set_pattern(const SeenPattern& pattern);

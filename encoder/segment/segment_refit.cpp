@@ -47,7 +47,8 @@ Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, SegmentRenderer&
     return WorkFrame::cut(luma, now.pose.shift, eye_distance_px_);
   };
   fit_.set_pattern({frame_of(**drawn), shown.state, 0, renderer.interior_opacity(shown.state)});
-  fit_.set_picture(frame_of(source), mouth);
+  fit_.set_picture(frame_of(source));
+  fit_.set_mouth(mouth);
   return shown.pattern ? fit_.cost_at(now) : fit_.cost_near(now);
 }
 

@@ -14,15 +14,16 @@ Shape projected(const PoseProjection& projection, const HeadVertices& vertices) 
 
 }  // namespace
 
-LandmarkFollow::LandmarkFollow(const LandmarkSearch& search, const Geometry& geometry, const Pose& pose,
+LandmarkFollow::LandmarkFollow(const LandmarkSearch* search, const Geometry& geometry, const Pose& pose,
                                const cv::Mat& first)
-    : search_(&search), geometry_(geometry), expression_(geometry) {
+    : search_(search), geometry_(geometry), expression_(geometry), expression_by_given_(geometry) {
   if (const auto found = search_landmarks(first, pose, Offsets{}))
     expression_.calibrate(*found, pose, Offsets{});
 }
 
 std::optional<LandmarkPoints> LandmarkFollow::search_landmarks(const cv::Mat& picture, const Pose& pose,
                                                                const Offsets& before) const {
+  if (search_ == nullptr) return std::nullopt;
   const FoundLandmarks found =
       search_->follow(picture, projected(PoseProjection(pose), skinned(geometry_, before)));
   if (found.belief < FaceFinder::kBelieved) return std::nullopt;
@@ -34,6 +35,17 @@ std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& 
   const auto found = search_landmarks(picture, pose, before);
   if (!found) return std::nullopt;
   return expression_.offsets(*found, pose);
+}
+
+std::optional<Offsets> LandmarkFollow::by_given(const Pose& pose) const {
+  if (!given_ || !expression_by_given_.is_calibrated()) return std::nullopt;
+  return expression_by_given_.offsets(*given_, pose);
+}
+
+void LandmarkFollow::end_picture(const Fit* seen) {
+  if (given_ && seen != nullptr && !expression_by_given_.is_calibrated())
+    expression_by_given_.calibrate(*given_, seen->pose, seen->offsets);
+  given_.reset();
 }
 
 }  // namespace fbs

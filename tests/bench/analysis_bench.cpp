@@ -84,7 +84,7 @@ void FitRefine(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
   PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.set_picture(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame);
     benchmark::DoNotOptimize(fit.refine(p.tracked_fit));
   });
 }
@@ -94,7 +94,7 @@ void FitCostAt(benchmark::State& state) {
   const AnalysisClip& clip = analysis_clip();
   PictureFit fit(clip.setup(), clip.geometry(), {clip.first(), clip.seen()});
   each_picture(state, [&](const AnalysedPicture& p) {
-    fit.set_picture(p.frame, clip.setup().mouth);
+    fit.set_picture(p.frame);
     benchmark::DoNotOptimize(fit.cost_at(p.tracked_fit));
   });
 }

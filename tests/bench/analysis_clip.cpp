@@ -36,7 +36,7 @@ AnalysisClip::AnalysisClip()
     p.flow = head.flow();
     features.track(p.frame, p.tracked.pose, p.flow);
     p.tracked_fit = {p.tracked.pose, now.light, now.interior, features.offsets()};
-    fit.set_picture(p.frame, setup_.mouth);
+    fit.set_picture(p.frame);
     now = fit.refine(p.tracked_fit);
     p.cost = fit.cost_at(now);
   }

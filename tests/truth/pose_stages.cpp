@@ -95,7 +95,7 @@ void follow(TalkerClip clip, std::array<Stage, 3>& stages) {
     const WorkFrame frame = WorkFrame::cut(clip[i], tracker.pose().shift, eye, true);
     const TrackedPose tracked = tracker.track(frame, skinned(head.geometry, now.offsets));
     features.track(frame, tracked.pose, tracker.flow());
-    fit.set_picture(frame, setup.mouth);
+    fit.set_picture(frame);
     now = fit.refine({tracked.pose, now.light, now.interior, features.offsets()});
     fits.push_back(fit.cost_at(now));
     truths.push_back(clip.pose(i));

@@ -18,7 +18,7 @@ struct FittedScene {
   FittedScene() : scene(make()), fit(setup, toy_geometry(), {frame_of(scene.patterns[0].picture), seen}) {}
 
   [[nodiscard]] Picture drawn(const State& state) const { return rendered(scene, state); }
-  void set_picture(const State& state) { fit.set_picture(frame_of(drawn(state)), setup.mouth); }
+  void set_picture(const State& state) { fit.set_picture(frame_of(drawn(state))); }
 
  private:
   Scene make() {

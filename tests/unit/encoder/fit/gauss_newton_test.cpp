@@ -48,7 +48,7 @@ TEST(GaussNewton, MovesNoPartsThatAreNotSent) {
   few.parts = static_cast<PartMask>(mask_of(PartId::kPose) | mask_of(PartId::kBrows));
   PictureFit fit(few, toy_geometry(),
                  {WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true), s.seen});
-  fit.set_picture(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true), few.mouth);
+  fit.set_picture(WorkFrame::cut(s.drawn(other_state(s)), {160, 96}, 48, true));
   const Fit found = fit.refine({pose_of(s.seen), {}, {}});
   const ExpressionPart& brows = generic_head().expression[1];
   for (int i = 0; i < kControlCount; ++i) {
@@ -85,7 +85,7 @@ TEST(GaussNewton, FindsTheMouthInterior) {
 // A face that has left: nothing to fit, nothing that may go wild.
 TEST(GaussNewton, IsNotCarriedFarByAFlatPicture) {
   FittedScene s;
-  s.fit.set_picture(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true), s.setup.mouth);
+  s.fit.set_picture(WorkFrame::cut(Picture(320, 240), {160, 96}, 48, true));
   const Pose start = pose_of(s.seen);
   const Fit found = s.fit.refine({start, {}, {}});
   EXPECT_TRUE(std::isfinite(found.pose.yaw) && std::isfinite(found.pose.shift.x));

@@ -44,7 +44,7 @@ TEST(GazeSearch, LeavesPupilsThatAreNotSent) {
   without.parts = static_cast<PartMask>(kAllParts & ~mask_of(PartId::kGaze) & ~mask_of(PartId::kUpperLids));
   const WorkFrame frame = WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true);
   PictureFit fit(without, toy_geometry(), {frame, s.seen});
-  fit.set_picture(frame, s.setup.mouth);
+  fit.set_picture(frame);
   const Fit start = fit_of(looking(s.seen, 0.24));
   EXPECT_EQ(fit.with_best_eyes(start).offsets, start.offsets);
 }

@@ -38,7 +38,7 @@ TEST(LidSearch, LeavesLidsThatAreNotSent) {
   without.parts = static_cast<PartMask>(kAllParts & ~mask_of(PartId::kUpperLids));
   const WorkFrame frame = WorkFrame::cut(s.scene.patterns[0].picture, {160, 96}, 48, true);
   PictureFit fit(without, toy_geometry(), {frame, s.seen});
-  fit.set_picture(frame, s.setup.mouth);
+  fit.set_picture(frame);
   Fit start = fit_of(s.seen);
   start.offsets[feature(FeatureId::kUpperLidLeft).first_control] = {10, 200};
   EXPECT_EQ(fit.with_best_eyes(start).offsets, start.offsets);

@@ -150,7 +150,7 @@ struct CostCase {
       source.y.samples[i] = static_cast<std::uint8_t>(source.y.samples[i] + (other.samples[i] - 128) / 4);
     set(source);
   }
-  void set(const Picture& picture) { fit.set_picture(SeenScene::frame_of(picture), scene.scene.setup.mouth); }
+  void set(const Picture& picture) { fit.set_picture(SeenScene::frame_of(picture)); }
 
   /// Over the samples of the head as the decoder draws it.
   [[nodiscard]] double drawn_difference(const State& state) const {
@@ -206,7 +206,7 @@ TEST(PictureFit, CostNamesThePatternAndIsLowerForTheOneThatShowsMore) {
   const Picture& source = shut.source;
   const auto cost_of_pattern = [&](const Picture& picture, const State& seen, int index) {
     PictureFit fit(shut.scene.scene.setup, toy_geometry(), {SeenScene::frame_of(picture), seen, index});
-    fit.set_picture(SeenScene::frame_of(source), shut.scene.scene.setup.mouth);
+    fit.set_picture(SeenScene::frame_of(source));
     return fit.cost_at(fit_of(open)).layers.at(0);
   };
   const LayerCost first = cost_of_pattern(shut.scene.scene.patterns[0].picture, SeenScene::rest(), 0);

@@ -101,10 +101,7 @@ struct SeenScene {
             Comparison::with(scene.setup, toy_geometry(), {frame_of(scene.patterns[0].picture), seen})) {}
 
   [[nodiscard]] Picture drawn(const State& state) const { return rendered(scene, state); }
-  void set_picture(const Picture& picture) {
-    comparison.picture = LumaPyramid(frame_of(picture));
-    comparison.mouth = scene.setup.mouth;
-  }
+  void set_picture(const Picture& picture) { comparison.picture = LumaPyramid(frame_of(picture)); }
 
  private:
   Scene make(const Plane& luma) const {

@@ -37,7 +37,7 @@ class LandmarkFollowTest : public testing::Test {
   TalkerClip clip_{talker_settings(264, 216, 150)};
   AdaptedHead head_ = *adapt_head(clip_.marks(0));
   LandmarkSearch search_{*load_landmarks()};
-  LandmarkFollow follow_{search_, head_.geometry, head_.pose, view(clip_[0].y)};
+  LandmarkFollow follow_{&search_, head_.geometry, head_.pose, view(clip_[0].y)};
 };
 
 TEST_F(LandmarkFollowTest, AFaceAtRestIsAtRest) {
