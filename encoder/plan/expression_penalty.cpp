@@ -9,7 +9,7 @@ namespace {
 
 /// A control point this far off, head units, costs half a bit. Smaller spends more bits on lips and lids and
 /// fewer on the rest; set with the tracks of format 3.
-constexpr double kTolerance = 0.03 * kUnitsPerEyeDistance;
+constexpr double kControlTolerance = 0.03 * kUnitsPerEyeDistance;
 
 /// An error this large in the distance of the inner lips, head units, also costs half a bit: viewers notice
 /// first whether a mouth is open, and the blend shows teeth and tongue by it. Measured on the ten clips
@@ -34,7 +34,8 @@ cv::Mat1d opening_of_offsets() {
 
 cv::Mat1d expression_penalty(double lambda) {
   const cv::Mat1d opening = opening_of_offsets() / kOpeningTolerance;
-  cv::Mat1d even = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kTolerance * kTolerance);
+  cv::Mat1d even =
+      cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kControlTolerance * kControlTolerance);
   even += opening.t() * opening;
   cv::Mat1d penalty = cv::Mat1d::zeros(kParameterCount, kParameterCount);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
