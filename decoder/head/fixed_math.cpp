@@ -48,7 +48,7 @@ std::int64_t exp2_q16(std::int32_t exponent) {
 
 std::int32_t log2_fixed(std::uint64_t x) {
   constexpr int kDigits = 12, kMantissaLog2 = 31;
-  const int whole = std::bit_width(x) - 1;
+  const int whole = static_cast<int>(std::bit_width(x)) - 1;
   std::uint64_t mantissa =
       whole > kMantissaLog2 ? x >> (whole - kMantissaLog2) : x << (kMantissaLog2 - whole);
   std::int32_t digits = whole;

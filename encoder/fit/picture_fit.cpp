@@ -58,7 +58,7 @@ PictureCost PictureFit::cost_near(const Fit& start) const {
 PictureCost PictureFit::cost_of(const Fit& fit, double constant, NormalEquations& picture) const {
   const cv::Mat1d all = picture.symmetric();
   const std::vector<int> number = comparison_.columns.numbers();
-  cv::Mat1d own = cv::Mat1d::zeros(kFitNumbers, kFitNumbers);
+  cv::Mat1d own(kFitNumbers, kFitNumbers, 0.0);
   for (int i = 0; i < all.rows; ++i)
     for (int j = 0; j < all.cols; ++j) own(number[i], number[j]) = all(i, j);
   // add_picture() weighs by the residual sigma and counts points, each of which represents this many samples;

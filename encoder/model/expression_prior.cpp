@@ -103,14 +103,14 @@ cv::Mat1d precision() {
   }
   // How these vertices follow the control points; the same for x and y.
   const int n = static_cast<int>(vertices.size());
-  cv::Mat1d follow = cv::Mat1d::zeros(n, kControls);
+  cv::Mat1d follow(n, kControls, 0.0);
   for (int i = 0; i < n; ++i)
     for (const SkinningWeight& skinning : skinning_of(vertices[i]))
       if (skinning.control < kControls)
         follow(i, skinning.control) = skinning.weight / static_cast<double>(kSkinningOne);
   // An action in control points: the least-squares offsets that give the vertices its motion.
-  const cv::Mat1d normal = follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls);
-  cv::Mat1d covariance = kControlSigma * kControlSigma * cv::Mat1d::eye(2 * kControls, 2 * kControls);
+  const cv::Mat1d normal(follow.t() * follow + 1e-3 * cv::Mat1d::eye(kControls, kControls));
+  cv::Mat1d covariance(kControlSigma * kControlSigma * cv::Mat1d::eye(2 * kControls, 2 * kControls));
   for (const Action& action : actions()) {
     cv::Mat1d moved(n, 2), offsets;
     for (int i = 0; i < n; ++i) {
@@ -127,7 +127,7 @@ cv::Mat1d precision() {
 
 /// Tracked offsets to most probable ones: (P + W)^-1 W, with the inverse variances W of the tracked contours.
 cv::Mat1d filter() {
-  cv::Mat1d tracked = cv::Mat1d::zeros(2 * kControls, 2 * kControls);
+  cv::Mat1d tracked(2 * kControls, 2 * kControls, 0.0);
   const int inner = feature(FeatureId::kMouthInner).first_control;
   const int brows = feature(FeatureId::kBrowRight).first_control;
   for (int i = 0; i < tracked.rows; ++i) {
@@ -136,7 +136,7 @@ cv::Mat1d filter() {
                                          : kBrowTrackSigma;
     tracked(i, i) = 1 / (sigma * sigma);
   }
-  const cv::Mat1d sum = expression_precision() + tracked;
+  const cv::Mat1d sum(expression_precision() + tracked);
   return cv::Mat1d(sum.inv(cv::DECOMP_CHOLESKY) * tracked);
 }
 

@@ -28,7 +28,7 @@ std::array<double, kParameterCount> values_of(const Fit& fit) {
 }  // namespace
 
 cv::Mat1d PictureCost::quadratic() const {
-  cv::Mat1d sum = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  cv::Mat1d sum(kParameterCount, kParameterCount, 0.0);
   for (const LayerCost& r : layers) sum += r.quadratic;
   return sum;
 }
@@ -47,7 +47,7 @@ PictureCost cost_unseen(const Fit& fit) {
   const std::array<double, kPoseCount> px = {unit.pitch * eye, unit.yaw * eye,
                                              unit.roll * eye,  unit.shift.x,
                                              unit.shift.y,     unit.log2_scale * eye * std::numbers::ln2};
-  cv::Mat1d quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  cv::Mat1d quadratic(kParameterCount, kParameterCount, 0.0);
   for (int i = 0; i < kPoseCount; ++i) quadratic(i, i) = kSamples * px[i] * px[i];
   return {values_of(fit), {{CostLayer::kHead, 0, 0, quadratic}}};
 }
@@ -64,7 +64,7 @@ PictureCost cost_of(const Fit& fit, int pattern, double constant, const cv::Mat1
   const cv::Range ours(0, kFitOffsets), offsets(kFitOffsets, kFitNumbers);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
   const cv::Mat1d across = rows_of_coefficients(cv::Mat1d(scaled(ours, offsets)));
-  cv::Mat1d quadratic = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  cv::Mat1d quadratic(kParameterCount, kParameterCount, 0.0);
   scaled(ours, ours).copyTo(quadratic(ours, ours));
   across.copyTo(quadratic(ours, coefficients));
   cv::Mat(across.t()).copyTo(quadratic(coefficients, ours));

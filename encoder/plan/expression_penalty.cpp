@@ -20,7 +20,7 @@ constexpr double kOpeningTolerance = 0.0075 * kUnitsPerEyeDistance;
 /// What unit offsets of the control points, x0, y0, x1, y1 ..., add to the distance of the inner lips'
 /// middles.
 cv::Mat1d opening_of_offsets() {
-  cv::Mat1d row = cv::Mat1d::zeros(1, kCoefficientCount);
+  cv::Mat1d row(1, kCoefficientCount, 0.0);
   const auto add = [&row](int landmark, double sign) {
     for (const SkinningWeight& w : skinning_of(vertex_of_landmark(landmark)))
       row(0, 2 * w.control + 1) += sign * w.weight / kSkinningOne;
@@ -33,14 +33,14 @@ cv::Mat1d opening_of_offsets() {
 }  // namespace
 
 cv::Mat1d expression_penalty(double lambda) {
-  const cv::Mat1d opening = opening_of_offsets() / kOpeningTolerance;
-  cv::Mat1d even =
-      cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kControlTolerance * kControlTolerance);
+  const cv::Mat1d opening(opening_of_offsets() / kOpeningTolerance);
+  cv::Mat1d even(cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) /
+                 (kControlTolerance * kControlTolerance));
   even += opening.t() * opening;
-  cv::Mat1d penalty = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  cv::Mat1d penalty(kParameterCount, kParameterCount, 0.0);
   const cv::Range coefficients(kFirstCoefficient, kParameterCount);
   quadratic_of_coefficients(even).copyTo(penalty(coefficients, coefficients));
-  return penalty * lambda / 2;
+  return cv::Mat1d(penalty * lambda / 2);
 }
 
 }  // namespace fbs

@@ -108,7 +108,7 @@ Result<void> PlanarScene::add_motion() {
       }
       const auto numbers = numbers_of(next->pose);
       std::copy(numbers.begin(), numbers.end(), cost.fit.begin());
-      cost.layers.push_back({CostLayer::kHead, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
+      cost.layers.push_back({CostLayer::kHead, 0, 0, cv::Mat1d(kParameterCount, kParameterCount, 0.0)});
       cv::Mat(next++->quadratic).copyTo(cost.layers.back().quadratic(cv::Rect(0, 0, kPoseCount, kPoseCount)));
     }
     if (auto planned = ledger_.plan(costs, durations); !planned) return planned;

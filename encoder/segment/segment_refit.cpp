@@ -58,7 +58,7 @@ Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, SegmentRenderer& r
   if (!cost) return cost;
   std::copy(shown.analysed.surround.begin(), shown.analysed.surround.end(),
             cost->fit.begin() + kFirstSurround);
-  LayerCost surround{CostLayer::kSurround, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)};
+  LayerCost surround{CostLayer::kSurround, 0, 0, cv::Mat1d(kParameterCount, kParameterCount, 0.0)};
   for (int i = 0; i < kSurroundCount; ++i)
     for (int j = 0; j < kSurroundCount; ++j)
       surround.quadratic(kFirstSurround + i, kFirstSurround + j) = shown.analysed.surround_quadratic(i, j);

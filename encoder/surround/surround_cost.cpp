@@ -52,7 +52,7 @@ glm::dvec2 LayerMotion::displacement_of(const Keypoint& keypoint, const LayerSha
 cv::Mat1d surround_quadratic(std::span<const Keypoint> keypoints, bool mapped) {
   Quadratic sum = {};
   for (const Keypoint& keypoint : keypoints) add(keypoint, shares_of(keypoint, mapped), sum);
-  cv::Mat1d out = cv::Mat1d::zeros(kParameterCount, kParameterCount);
+  cv::Mat1d out(kParameterCount, kParameterCount, 0.0);
   for (int i = 0; i < kNumbers; ++i)
     for (int j = 0; j < kNumbers; ++j)
       out(kFirst + i, kFirst + j) =

@@ -22,7 +22,7 @@ bool is_pupil(int control) {
 
 /// The inverse covariance of all offsets about rest, per squared eye distance.
 cv::Mat1d precision_at_rest() {
-  cv::Mat1d all = cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kLidSigma * kLidSigma);
+  cv::Mat1d all(cv::Mat1d::eye(kCoefficientCount, kCoefficientCount) / (kLidSigma * kLidSigma));
   const cv::Mat1d& prior = expression_precision();
   prior.copyTo(all(cv::Rect(0, 0, prior.cols, prior.rows)));
   return all;
@@ -73,7 +73,7 @@ void LandmarkExpression::calibrate(const LandmarkPoints& seen, const Pose& pose,
 Offsets LandmarkExpression::offsets(const LandmarkPoints& seen, const Pose& pose) const {
   const HeadLandmarks wanted = displacements(seen, pose);
   static const cv::Mat1d at_rest = precision_at_rest();
-  cv::Mat1d normal = at_rest.clone(), right = cv::Mat1d::zeros(kCoefficientCount, 1);
+  cv::Mat1d normal = at_rest.clone(), right(kCoefficientCount, 1, 0.0);
   for (int k = 0; k < kLandmarkCount; ++k) {
     const glm::dvec2 d = wanted[static_cast<std::size_t>(k)];
     const auto weights = skinning_of(vertex_of_landmark(k));
