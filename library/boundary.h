@@ -12,6 +12,8 @@
 
 namespace fbs {
 
+inline constexpr const char* kNullPointer = "a null pointer";
+
 [[nodiscard]] fbs_status status_of(ErrorCode code);
 
 /// The text of fbs_decoder_error(). Allocates nothing, since it may have to report a lack of memory.

@@ -19,7 +19,6 @@ namespace {
 
 using namespace fbs;
 
-constexpr const char* kNull = "a null pointer";
 constexpr const char* kNoPicture = "there is no picture yet";
 
 constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0, 1};
@@ -42,7 +41,15 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
 
   [[nodiscard]] PictureView planes_of(const fbs_picture& caller) const;
 
-  /// Calls `body` with the face's geometry and the state, if there are any.
+  /// The face's state with the edit.
+  [[nodiscard]] State shown(const SceneGeometry& face) const {
+    return edit.any() ? edit.applied(stream->state(), face.geometry()) : stream->state();
+  }
+  /// Draws the picture with the edit.
+  [[nodiscard]] Result<void> render(Picture& out);
+  [[nodiscard]] Result<void> render(const PictureView& out);
+
+  /// Calls `body` with the face's geometry and the state shown, if there are any.
   /// @return the result of `body`
   template <class Body>
   fbs_status with_face(Body&& body) const;
@@ -50,13 +57,24 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   fbs_decoder_settings settings;
   std::unique_ptr<StreamDecoder> stream;  ///< never null
   StreamEntry entry{false};
+  StateEdit edit;
   bool finished = false;
   bool broken = false;    ///< an exception has left the stream in an unknown state
   Picture picture;        ///< returned to the caller
-  bool is_drawn = false;  ///< `picture` is the stream's
+  bool is_drawn = false;  ///< `picture` is the one announced last
   mutable BlendshapeMeasure blendshapes;
   mutable LastError error;
 };
+
+Result<void> fbs_decoder::render(Picture& out) {
+  const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
+  return face != nullptr ? stream->render_state(shown(*face), std::nullopt, out) : stream->render(out);
+}
+
+Result<void> fbs_decoder::render(const PictureView& out) {
+  const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
+  return face != nullptr ? stream->render_state(shown(*face), out) : stream->render(out);
+}
 
 template <class Body>
 fbs_status fbs_decoder::with_face(Body&& body) const {
@@ -64,7 +82,7 @@ fbs_status fbs_decoder::with_face(Body&& body) const {
     if (!has_picture()) return error.set_argument(kNoPicture);
     const SceneGeometry* const face = face_of(stream->scene());
     if (face == nullptr) return error.set(FBS_ERROR_NO_FACE, "the scene has no face");
-    return body(*face, stream->state());
+    return body(*face, shown(*face));
   });
 }
 
@@ -102,7 +120,7 @@ void fbs_decoder_close(fbs_decoder** decoder) {
 fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
-  if (bytes == nullptr && size > 0) return d.error.set_argument(kNull);
+  if (bytes == nullptr && size > 0) return d.error.set_argument(kNullPointer);
   if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
   if (d.broken || size == 0) return FBS_OK;
   return guarded(d.error, [&] {
@@ -154,14 +172,23 @@ fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
   });
 }
 
+fbs_status fbs_decoder_set_edit(fbs_decoder* decoder, const fbs_face_edit* edit) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  const auto wanted = edit_of(edit != nullptr ? *edit : fbs_face_edit{});
+  if (!wanted) return decoder->error.set_argument("the edit has something that is not a number");
+  decoder->edit = *wanted;
+  decoder->is_drawn = false;
+  return FBS_OK;
+}
+
 fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
-  if (out == nullptr) return d.error.set_argument(kNull);
+  if (out == nullptr) return d.error.set_argument(kNullPointer);
   if (!d.has_picture()) return d.error.set_argument(kNoPicture);
   return guarded(d.error, [&] {
     if (!d.is_drawn)
-      if (const auto drawn = d.stream->render(d.picture); !drawn) return d.error.set(drawn.error());
+      if (const auto drawn = d.render(d.picture); !drawn) return d.error.set(drawn.error());
     d.is_drawn = true;
     *out = {static_cast<uint32_t>(d.picture.width()), static_cast<uint32_t>(d.picture.height()), {}, {}};
     const Plane* const planes[] = {&d.picture.y, &d.picture.u, &d.picture.v};
@@ -176,11 +203,11 @@ fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out)
 fbs_status fbs_decoder_draw(fbs_decoder* decoder, const fbs_picture* picture) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
-  if (picture == nullptr) return d.error.set_argument(kNull);
+  if (picture == nullptr) return d.error.set_argument(kNullPointer);
   if (!d.has_picture()) return d.error.set_argument(kNoPicture);
   if (const char* const fault = fault_of(*picture, d.stream->format())) return d.error.set_argument(fault);
   return guarded(d.error, [&] {
-    const auto drawn = d.stream->render(d.planes_of(*picture));
+    const auto drawn = d.render(d.planes_of(*picture));
     return drawn ? FBS_OK : d.error.set(drawn.error());
   });
 }
@@ -189,11 +216,11 @@ fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_state* st
                                   const fbs_picture* picture) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
-  if (state == nullptr || picture == nullptr) return d.error.set_argument(kNull);
+  if (state == nullptr || picture == nullptr) return d.error.set_argument(kNullPointer);
   if (!d.has_picture()) return d.error.set_argument(kNoPicture);
   if (const char* const fault = fault_of(*picture, d.stream->format())) return d.error.set_argument(fault);
-  return d.with_face([&](const SceneGeometry&, const State& sent) {
-    const auto wanted = state_of(*state, sent);
+  return d.with_face([&](const SceneGeometry&, const State&) {
+    const auto wanted = state_of(*state, d.stream->state());
     if (!wanted) return d.error.set_argument("a number of the state is beyond the limits of the format");
     const auto drawn = d.stream->render_state(*wanted, d.planes_of(*picture));
     return drawn ? FBS_OK : d.error.set(drawn.error());
@@ -202,7 +229,7 @@ fbs_status fbs_decoder_draw_state(fbs_decoder* decoder, const fbs_face_state* st
 
 fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return decoder->error.set_argument(kNull);
+  if (out == nullptr) return decoder->error.set_argument(kNullPointer);
   const VideoFormat& format = decoder->stream->format();
   if (decoder->broken || format.width == 0) return FBS_NEED_DATA;
   *out = caller_format(format);
@@ -211,28 +238,16 @@ fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format* out) {
 
 fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return decoder->error.set_argument(kNull);
+  if (out == nullptr) return decoder->error.set_argument(kNullPointer);
   return decoder->with_face([&](const SceneGeometry&, const State& state) {
     *out = face_state(state);
     return FBS_OK;
   });
 }
 
-fbs_status fbs_decoder_get_edited_state(const fbs_decoder* decoder, const fbs_face_edit* edit,
-                                        fbs_face_state* out) {
-  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (edit == nullptr || out == nullptr) return decoder->error.set_argument(kNull);
-  const auto wanted = edit_of(*edit);
-  if (!wanted) return decoder->error.set_argument("the edit has something that is not a number");
-  return decoder->with_face([&](const SceneGeometry& face, const State& state) {
-    *out = face_state(wanted->applied(state, face.geometry()));
-    return FBS_OK;
-  });
-}
-
 fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return decoder->error.set_argument(kNull);
+  if (out == nullptr) return decoder->error.set_argument(kNullPointer);
   return decoder->with_face([&](const SceneGeometry& face, const State& state) {
     write_landmarks(face, state, std::span<fbs_landmark, kLandmarkCount>(out, kLandmarkCount));
     return FBS_OK;
@@ -241,7 +256,7 @@ fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* o
 
 fbs_status fbs_decoder_get_blendshapes(const fbs_decoder* decoder, float* out) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return decoder->error.set_argument(kNull);
+  if (out == nullptr) return decoder->error.set_argument(kNullPointer);
   return decoder->with_face([&](const SceneGeometry& face, const State& state) {
     const std::vector<double> weights = decoder->blendshapes(face.geometry(), state);
     std::transform(weights.begin(), weights.end(), out, [](double w) { return static_cast<float>(w); });
@@ -251,7 +266,7 @@ fbs_status fbs_decoder_get_blendshapes(const fbs_decoder* decoder, float* out) {
 
 fbs_status fbs_decoder_get_vertices(const fbs_decoder* decoder, fbs_vertex* out, size_t* count) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr || count == nullptr) return decoder->error.set_argument(kNull);
+  if (out == nullptr || count == nullptr) return decoder->error.set_argument(kNullPointer);
   const std::size_t room = *count;
   *count = 0;
   return decoder->with_face([&](const SceneGeometry& face, const State& state) {

@@ -18,8 +18,6 @@ namespace {
 
 using namespace fbs;
 
-constexpr const char* kNull = "a null pointer";
-
 Picture copy_of(const fbs_const_picture& picture, const VideoFormat& format) {
   Picture out(format.width, format.height);
   Plane* const planes[] = {&out.y, &out.u, &out.v};
@@ -92,7 +90,7 @@ void fbs_encoder_close(fbs_encoder** encoder) {
 fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture, uint32_t duration) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_encoder& e = *encoder;
-  if (picture == nullptr) return e.error.set_argument(kNull);
+  if (picture == nullptr) return e.error.set_argument(kNullPointer);
   if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
   if (duration > kMaxDuration) return e.error.set_argument("a picture lasts for a minute at most");
   if (const char* const fault = fault_of(*picture, e.format)) return e.error.set_argument(fault);
@@ -121,7 +119,7 @@ fbs_status fbs_encoder_finish(fbs_encoder* encoder) {
 fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_encoder& e = *encoder;
-  if (out == nullptr) return e.error.set_argument(kNull);
+  if (out == nullptr) return e.error.set_argument(kNullPointer);
   return guarded(e.error, [&] {
     auto packet = e.packets.next();
     if (packet && !*packet && e.phase != fbs_encoder::Phase::kFailed) {
@@ -144,7 +142,7 @@ fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
 
 fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return encoder->error.set_argument(kNull);
+  if (out == nullptr) return encoder->error.set_argument(kNullPointer);
   const EncodingReport& report = encoder->encoder.report();
   *out = {report.pictures, report.without_face, report.cuts, report.scenes};
   return FBS_OK;
@@ -152,7 +150,7 @@ fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report
 
 fbs_status fbs_encoder_get_landmarks(const fbs_encoder* encoder, fbs_landmark* out) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
-  if (out == nullptr) return encoder->error.set_argument(kNull);
+  if (out == nullptr) return encoder->error.set_argument(kNullPointer);
   if (encoder->phase == fbs_encoder::Phase::kFailed || encoder->encoder.report().pictures == 0)
     return encoder->error.set_argument("there is no picture");
   const PictureAnalysis& analysis = encoder->encoder.analysis();

@@ -11,8 +11,6 @@ namespace {
 
 using namespace fbs;
 
-constexpr const char* kNullPointer = "a null pointer";
-
 }  // namespace
 
 struct fbs_packet_reader {  // NOLINT(readability-identifier-naming): the interface is C

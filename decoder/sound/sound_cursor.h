@@ -24,6 +24,9 @@ class SoundCursor {
   /// are silence.
   [[nodiscard]] std::vector<std::int16_t> take(std::int64_t end);
 
+  [[nodiscard]] int sample_rate() const { return sample_rate_; }
+  [[nodiscard]] int channels() const { return channels_; }
+
   /// Time of the next sample.
   [[nodiscard]] std::int64_t time() const { return begin_ + taken_ * kSoundClock / sample_rate_; }
 

@@ -24,6 +24,7 @@ void SoundParts::add(std::span<const std::uint8_t> bytes) {
 
 void SoundParts::take(const Packet& packet) {
   if (packet.type != PacketType::kSetup && !is_sound(packet.type)) return;
+  if (is_sound(packet.type)) bytes_ += packet.size;
   auto syntax = reader_.read(packet);
   if (!syntax) return;
   if (auto* const group = std::get_if<SoundGroup>(&*syntax))

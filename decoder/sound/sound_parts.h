@@ -28,6 +28,9 @@ class SoundParts {
   /// 0 without follow_pictures().
   [[nodiscard]] std::uint64_t released() const { return pictures_ ? pictures_->released().time : 0; }
 
+  /// Bytes of the sound packets, also of those that do not count.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
   /// All parts in the order of the stream. In a damaged stream times may not rise.
   [[nodiscard]] const std::vector<SoundPart>& all() const { return parts_; }
 
@@ -38,6 +41,7 @@ class SoundParts {
   SceneReader reader_;                   ///< sees no packets of pictures
   std::optional<PacketTimes> pictures_;  ///< sees them
   std::vector<SoundPart> parts_;
+  std::uint64_t bytes_ = 0;
 };
 
 /// When its first frame is heard, 1/kSoundClock s; below 0 if it only prepares a decoder.

@@ -229,10 +229,16 @@ FBS_API fbs_status fbs_decoder_finish(fbs_decoder* decoder);
  *         After FBS_ERROR_NO_MEMORY everything is lost: FBS_END until fbs_decoder_reset() */
 FBS_API fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info);
 
-/** Forgets everything but the settings: the decoder is as new. To seek, reset, then feed the stream from a
- * setup packet on: fbs_find_scene(). The stream's signature, its first four bytes, may then be left out.
+/** Forgets everything but settings and edit: the decoder is as new. To seek, reset, then feed the stream from
+ * a setup packet on: fbs_find_scene(). The stream's signature, its first four bytes, may then be left out.
  * @return FBS_OK; FBS_ERROR_NO_MEMORY, with nothing changed */
 FBS_API fbs_status fbs_decoder_reset(fbs_decoder* decoder);
+
+/** Sets a viewer's changes to the face of all pictures, until the next call: they are drawn and described
+ * with them. Lips and lids never cross.
+ * @param edit  null: none, as at first
+ * @return FBS_OK; FBS_ERROR_ARGUMENT when a member of `edit` is not a number */
+FBS_API fbs_status fbs_decoder_set_edit(fbs_decoder* decoder, const fbs_face_edit* edit);
 
 /** Draws the picture into the decoder's memory.
  * @param out  set to planes that stay valid and unchanged until the next call for this decoder of any
@@ -264,10 +270,6 @@ FBS_API fbs_status fbs_decoder_get_format(const fbs_decoder* decoder, fbs_format
  * FBS_ERROR_NO_FACE in a scene without a face; FBS_ERROR_ARGUMENT before the first picture. */
 
 FBS_API fbs_status fbs_decoder_get_state(const fbs_decoder* decoder, fbs_face_state* out);
-/** The state with a viewer's changes, for fbs_decoder_draw_state(). Lips and lids never cross.
- * @return also FBS_ERROR_ARGUMENT when a member of `edit` is not a number */
-FBS_API fbs_status fbs_decoder_get_edited_state(const fbs_decoder* decoder, const fbs_face_edit* edit,
-                                                fbs_face_state* out);
 /** @param out  FBS_LANDMARKS points */
 FBS_API fbs_status fbs_decoder_get_landmarks(const fbs_decoder* decoder, fbs_landmark* out);
 /** @param out  FBS_BLENDSHAPES weights */

@@ -60,6 +60,8 @@ class Decoder {
   /// @return FBS_OK, FBS_NEED_DATA or FBS_END. After an exception the next call goes on behind the damage.
   fbs_status next(fbs_picture_info* info = nullptr) { return check(fbs_decoder_next(get(), info)); }
 
+  void set_edit(const fbs_face_edit& edit) { check(fbs_decoder_set_edit(get(), &edit)); }
+
   fbs_const_picture picture() {
     fbs_const_picture out;
     check(fbs_decoder_get_picture(get(), &out));
@@ -75,10 +77,6 @@ class Decoder {
 
   // Nothing in a scene without a face.
   std::optional<fbs_face_state> state() const { return ask<fbs_face_state>(fbs_decoder_get_state); }
-  std::optional<fbs_face_state> edited_state(const fbs_face_edit& edit) const {
-    return ask<fbs_face_state>(
-        [&](const fbs_decoder* d, auto* out) { return fbs_decoder_get_edited_state(d, &edit, out); });
-  }
   std::optional<std::array<float, FBS_BLENDSHAPES>> blendshapes() const {
     return ask<std::array<float, FBS_BLENDSHAPES>>(
         [](const fbs_decoder* d, auto* out) { return fbs_decoder_get_blendshapes(d, out->data()); });

@@ -101,8 +101,12 @@ nb::object state(Decoder& self) {
 /// @param edit  members in the order of fbs_face_edit
 nb::object edited_state(Decoder& self, const std::array<float, 7>& edit) {
   const fbs_face_edit changes{edit[0], edit[1], edit[2], edit[3], edit[4], edit[5], edit[6]};
-  const auto s = ask<fbs_face_state>(
-      self, [&](fbs_decoder* d, auto& out) { return fbs_decoder_get_edited_state(d, &changes, &out); });
+  const auto s = ask<fbs_face_state>(self, [&](fbs_decoder* d, auto& out) {
+    const fbs_status set = fbs_decoder_set_edit(d, &changes);
+    const fbs_status got = set == FBS_OK ? fbs_decoder_get_state(d, &out) : set;
+    (void)fbs_decoder_set_edit(d, nullptr);
+    return got;
+  });
   return s ? nb::object(tuple_of(*s)) : nb::none();
 }
 

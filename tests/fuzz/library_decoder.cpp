@@ -166,12 +166,15 @@ class Session {
     const auto any = [&](float limit) { return limit * (static_cast<float>(random() % 2001) / 1000 - 1); };
     const fbs_face_edit edit{any(12), any(18), any(15), any(1), any(1), any(1), any(1)};
     fbs_face_state state;
-    require(fbs_decoder_get_edited_state(get(), &edit, &state) == FBS_OK, "a state is not edited");
+    require(fbs_decoder_set_edit(get(), &edit) == FBS_OK && fbs_decoder_get_state(get(), &state) == FBS_OK,
+            "a state is not edited");
     Bytes memory(std::size_t{format.width} * format.height);
     const auto stride = static_cast<std::ptrdiff_t>(format.width);
     const fbs_picture drawn{
         format.width, format.height, {memory.data(), memory.data(), memory.data()}, {stride, stride, stride}};
     require(fbs_decoder_draw_state(get(), &state, &drawn) == FBS_OK, "an edited state is not drawn");
+    require(fbs_decoder_draw(get(), &drawn) == FBS_OK, "an edited picture is not drawn");
+    require(fbs_decoder_set_edit(get(), nullptr) == FBS_OK, "an edit stays");
   }
 
   std::span<const std::uint8_t> stream_;

@@ -15,8 +15,7 @@ set(floors
   cli/program cli/files cli/video cli/video/y4m cli/video/images cli/video/av cli/video/open cli/stream cli/matroska cli/display cli/source cli/command_line
   cli/inspect cli/remux cli/decode cli/play/sound cli/play cli/encode cli/export cli/track cli/retarget
   cli/evaluate/run cli/evaluate/peers cli/evaluate/quality cli/evaluate/rate_distortion cli/evaluate/report cli/evaluate
-  cli
-  web)
+  cli)
 # These stand side by side: neither may include the other.
 set(apart "decoder/head decoder/raster" "decoder/animate decoder/raster"
           "decoder/raster decoder/field" "decoder/export encoder" "decoder/export library"
@@ -60,8 +59,7 @@ set(checked 0)
 file(GLOB_RECURSE sources RELATIVE ${ROOT}
   ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/bitstream/*.h ${ROOT}/bitstream/*.cpp ${ROOT}/decoder/*.h
   ${ROOT}/decoder/*.cpp ${ROOT}/encoder/*.h ${ROOT}/encoder/*.cpp ${ROOT}/include/*.h ${ROOT}/include/*.hpp
-  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp
-  ${ROOT}/web/module/*.h ${ROOT}/web/module/*.cpp)
+  ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/cli/*.h ${ROOT}/cli/*.cpp)
 foreach(source ${sources})
   math(EXPR checked "${checked} + 1")
   floor_of(${source} mine)
@@ -101,8 +99,10 @@ foreach(source ${sources})
     endif()
   endforeach()
 endforeach()
-# The plugin and Python's extension are users of the libraries like any other: of ours they include include/fbs alone.
-foreach(user "gstreamer@(fbs|gst)/|string\\.h" "python/src@(fbs|nanobind)/|[a-z_]+>")
+# The plugin, Python's extension and the module for browsers are users of the libraries like any other: of ours they include
+# include/fbs alone.
+foreach(user "gstreamer@(fbs|gst)/|string\\.h" "python/src@(fbs|nanobind)/|[a-z_]+>"
+        "web/module@fbs/|stddef\\.h")
   string(REPLACE "@" ";" user "${user}")
   list(GET user 0 folder)
   list(GET user 1 headers)

@@ -13,7 +13,7 @@ from harness import BUILD, MAX_SECONDS, SOURCE, TALK_FBS, TALK_Y4M, ProgramTest,
 CMAKE, CC, CXX = (os.environ.get(name, default) for name, default in (("FBS_CMAKE", "cmake"), ("CC", "cc"), ("CXX", "c++")))
 SAMPLES = SOURCE / "samples"
 VECTORS = SOURCE / "tests/vectors"
-HEADERS = ["fbs.h", "encoder.h", "packet.h", "fbs.hpp", "encoder.hpp"]
+HEADERS = ["fbs.h", "encoder.h", "packet.h", "sound.h", "fbs.hpp", "encoder.hpp"]
 STATUSES = {"-": "no error", "kNotFbs": "not an fbs stream", "kTruncated": "the stream is cut off",
             "kInvalidStream": "damaged stream", "kUnsupported": "not supported by this version",
             "kTooLarge": "too large"}
@@ -23,7 +23,7 @@ PICTURES = 30  # of the talker, that are encoded again
 PROJECT = """
 cmake_minimum_required(VERSION 3.25)
 project(user LANGUAGES C CXX)
-find_package(fbs 0.1 REQUIRED COMPONENTS encoder)
+find_package(fbs 0.1 REQUIRED COMPONENTS encoder sound)
 foreach(sample feed_in_pieces print_landmarks)
   add_executable(${sample} %(samples)s/${sample}.c)
   target_link_libraries(${sample} PRIVATE fbs::fbs%(kind)s)

@@ -32,7 +32,7 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   EXPECT_EQ(fbs_decoder_get_picture(none, &picture), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_draw(none, &memory), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_draw_state(none, &state, &memory), FBS_ERROR_ARGUMENT);
-  EXPECT_EQ(fbs_decoder_get_edited_state(none, &edit, &state), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_set_edit(none, &edit), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_blendshapes(none, weights), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_format(none, &format), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_state(none, &state), FBS_ERROR_ARGUMENT);
@@ -51,8 +51,6 @@ TEST(ApiCalls, NullPointersAreAnswered) {
     EXPECT_EQ(fbs_decoder_draw(d, &memory), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_draw_state(d, nullptr, &memory), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_draw_state(d, &state, nullptr), FBS_ERROR_ARGUMENT);
-    EXPECT_EQ(fbs_decoder_get_edited_state(d, nullptr, &state), FBS_ERROR_ARGUMENT);
-    EXPECT_EQ(fbs_decoder_get_edited_state(d, &edit, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_blendshapes(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_format(d, nullptr), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(fbs_decoder_get_state(d, nullptr), FBS_ERROR_ARGUMENT);
@@ -201,7 +199,8 @@ class RandomCalls {
       return limit * (static_cast<float>(random_()) / static_cast<float>(std::mt19937::max()) * 2 - 1);
     };
     const fbs_face_edit edit = {any(20), any(30), any(20), any(2), any(2), any(2), any(2)};
-    EXPECT_EQ(fbs_decoder_get_edited_state(get(), &edit, &state), FBS_OK);
+    EXPECT_EQ(fbs_decoder_set_edit(get(), &edit), FBS_OK);
+    EXPECT_EQ(fbs_decoder_get_state(get(), &state), FBS_OK);
     if (random_() % 2 == 0) {
       state.yaw = any(90);
       state.eye_distance = 1 + std::abs(any(300));

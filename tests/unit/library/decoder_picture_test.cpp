@@ -88,26 +88,61 @@ TEST(DecoderPicture, TheStateThatWasSentDrawsThePictureThatWasSent) {
   }
 }
 
-TEST(DecoderPicture, AnEditedStateMovesTheFaceAlone) {
+struct Described {
+  fbs_face_state state;
+  std::array<fbs_landmark, FBS_LANDMARKS> landmarks;
+  std::array<float, FBS_BLENDSHAPES> weights;
+
+  explicit Described(const ApiDecoder& decoder) {
+    EXPECT_EQ(fbs_decoder_get_state(decoder.get(), &state), FBS_OK);
+    EXPECT_EQ(fbs_decoder_get_landmarks(decoder.get(), landmarks.data()), FBS_OK);
+    EXPECT_EQ(fbs_decoder_get_blendshapes(decoder.get(), weights.data()), FBS_OK);
+  }
+};
+
+TEST(DecoderPicture, AnEditMovesTheFaceAlone) {
   const ApiDecoder decoder = at_first_picture("talk.fbs");
   const auto sent = shown_by(decoder.get());
+  const Described plain(decoder);
   fbs_face_edit edit{};
-  fbs_face_state plain, edited;
-  ASSERT_EQ(fbs_decoder_get_state(decoder.get(), &plain), FBS_OK);
-  ASSERT_EQ(fbs_decoder_get_edited_state(decoder.get(), &edit, &edited), FBS_OK);
-  EXPECT_EQ(std::memcmp(&plain, &edited, sizeof plain), 0);
+  ASSERT_EQ(fbs_decoder_set_edit(decoder.get(), &edit), FBS_OK);
+  EXPECT_EQ(shown_by(decoder.get()), sent);
   edit.yaw = 10;
   edit.mouth = 1;
-  ASSERT_EQ(fbs_decoder_get_edited_state(decoder.get(), &edit, &edited), FBS_OK);
-  EXPECT_NEAR(edited.yaw, plain.yaw + 10, 0.01);
+  ASSERT_EQ(fbs_decoder_set_edit(decoder.get(), &edit), FBS_OK);
+  const Described edited(decoder);
+  EXPECT_NEAR(edited.state.yaw, plain.state.yaw + 10, 0.01);
+  EXPECT_GT(edited.weights[0], plain.weights[0] + 0.5f) << "jawOpen";
+  EXPECT_GT(std::abs(edited.landmarks[30].x - plain.landmarks[30].x), 1) << "the tip of the nose";
+  const auto drawn = shown_by(decoder.get());
+  EXPECT_NE(drawn, sent);
+  EXPECT_EQ(drawn[0], sent[0]) << "the corner of the background stays";
   fbs_format format;
   ASSERT_EQ(fbs_decoder_get_format(decoder.get(), &format), FBS_OK);
   CallerMemory memory(format.width, format.height, 0, false);
-  ASSERT_EQ(fbs_decoder_draw_state(decoder.get(), &edited, &memory.picture()), FBS_OK);
-  const auto drawn = memory.samples();
-  EXPECT_NE(drawn, sent);
-  EXPECT_EQ(drawn[0], sent[0]) << "the corner of the background stays";
-  EXPECT_EQ(shown_by(decoder.get()), sent) << "what is given out stays";
+  ASSERT_EQ(fbs_decoder_draw(decoder.get(), &memory.picture()), FBS_OK);
+  EXPECT_EQ(memory.samples(), drawn);
+  ASSERT_EQ(fbs_decoder_draw_state(decoder.get(), &edited.state, &memory.picture()), FBS_OK);
+  EXPECT_EQ(memory.samples(), drawn);
+  ASSERT_EQ(fbs_decoder_draw_state(decoder.get(), &plain.state, &memory.picture()), FBS_OK);
+  EXPECT_EQ(memory.samples(), sent) << "a state of the caller's is not edited";
+  ASSERT_EQ(fbs_decoder_set_edit(decoder.get(), nullptr), FBS_OK);
+  EXPECT_EQ(shown_by(decoder.get()), sent);
+}
+
+TEST(DecoderPicture, AnEditStaysWhenTheDecoderIsReset) {
+  const ApiDecoder decoder = at_first_picture("talk.fbs");
+  const auto sent = shown_by(decoder.get());
+  const fbs_face_edit edit{0, 10, 0, 0, 0, 0, 0}, fault{0, NAN, 0, 0, 0, 0, 0};
+  ASSERT_EQ(fbs_decoder_set_edit(decoder.get(), &edit), FBS_OK);
+  EXPECT_EQ(fbs_decoder_set_edit(decoder.get(), &fault), FBS_ERROR_ARGUMENT);
+  const auto edited = shown_by(decoder.get());
+  EXPECT_NE(edited, sent);
+  ASSERT_EQ(fbs_decoder_reset(decoder.get()), FBS_OK);
+  const auto bytes = vector_bytes("talk.fbs");
+  ASSERT_EQ(fbs_decoder_feed(decoder.get(), bytes.data(), bytes.size()), FBS_OK);
+  ASSERT_EQ(fbs_decoder_next(decoder.get(), nullptr), FBS_OK);
+  EXPECT_EQ(shown_by(decoder.get()), edited);
 }
 
 TEST(DecoderPicture, StatesNeedAFaceAndLimits) {
@@ -125,10 +160,9 @@ TEST(DecoderPicture, StatesNeedAFaceAndLimits) {
   ASSERT_EQ(fbs_decoder_get_format(nobody.get(), &format), FBS_OK);
   CallerMemory other(format.width, format.height, 0, false);
   state.yaw = 0;
-  const fbs_face_edit edit{};
   float weights[FBS_BLENDSHAPES];
   EXPECT_EQ(fbs_decoder_draw_state(nobody.get(), &state, &other.picture()), FBS_ERROR_NO_FACE);
-  EXPECT_EQ(fbs_decoder_get_edited_state(nobody.get(), &edit, &state), FBS_ERROR_NO_FACE);
+  EXPECT_EQ(fbs_decoder_get_state(nobody.get(), &state), FBS_ERROR_NO_FACE);
   EXPECT_EQ(fbs_decoder_get_blendshapes(nobody.get(), weights), FBS_ERROR_NO_FACE);
 }
 
