@@ -46,8 +46,8 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
     return edit.any() ? edit.applied(stream->state(), face.geometry()) : stream->state();
   }
   /// Draws the picture with the edit.
-  [[nodiscard]] Result<void> render(Picture& out);
-  [[nodiscard]] Result<void> render(const PictureView& out);
+  [[nodiscard]] Result<void> render(Picture& out) const;
+  [[nodiscard]] Result<void> render(const PictureView& out) const;
 
   /// Calls `body` with the face's geometry and the state shown, if there are any.
   /// @return the result of `body`
@@ -66,12 +66,12 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   mutable LastError error;
 };
 
-Result<void> fbs_decoder::render(Picture& out) {
+Result<void> fbs_decoder::render(Picture& out) const {
   const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
   return face != nullptr ? stream->render_state(shown(*face), std::nullopt, out) : stream->render(out);
 }
 
-Result<void> fbs_decoder::render(const PictureView& out) {
+Result<void> fbs_decoder::render(const PictureView& out) const {
   const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
   return face != nullptr ? stream->render_state(shown(*face), out) : stream->render(out);
 }
