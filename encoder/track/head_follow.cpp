@@ -7,11 +7,22 @@ namespace fbs {
 bool HeadFollow::recognises(const Picture& picture, const Pose& last, const HeadVertices& vertices) {
   const FaceSearch::Detection found = search_.find_anywhere(picture, head_, last, vertices);
   if (!found.accepted) return false;
-  const Pose& pose = found.head.pose;
-  head_.restart(pose, frame(picture, pose.shift, true));
-  search_.rest();
+  (void)go_on_from(picture, found.head.pose);
   elsewhere_ = false;
   return true;
+}
+
+WorkFrame HeadFollow::go_on_from(const Picture& picture, const Pose& pose) {
+  search_.rest();
+  WorkFrame now = frame(picture, pose.shift, true);
+  head_.restart(pose, now);
+  return now;
+}
+
+TrackedPose HeadFollow::track(const WorkFrame& now, const HeadVertices& vertices) {
+  const TrackedPose tracked = head_.track(now, vertices);
+  confidence_ = tracked.confidence;
+  return tracked;
 }
 
 std::optional<HeadFollow::Found> HeadFollow::follow(const Picture& picture, const Pose& last,
@@ -23,8 +34,7 @@ std::optional<HeadFollow::Found> HeadFollow::follow(const Picture& picture, cons
   WorkFrame now = frame(picture, head_.pose().shift, true);
   // Flow between pictures without the head is meaningless: once lost, the head is searched.
   if (!search_.lost()) {
-    const TrackedPose tracked = head_.track(now, vertices);
-    confidence_ = tracked.confidence;
+    const TrackedPose tracked = track(now, vertices);
     if (confidence_ >= FaceSearch::kLostBelow) return Found{tracked.pose, std::move(now)};
   }
   const FaceSearch::Detection found = search_.find(picture, head_, last, vertices);
@@ -33,11 +43,8 @@ std::optional<HeadFollow::Found> HeadFollow::follow(const Picture& picture, cons
     head_.restart(last, now);
     return std::nullopt;
   }
-  search_.rest();
-  now = frame(picture, found.head.pose.shift, true);
-  head_.restart(found.head.pose, now);
-  const TrackedPose tracked = head_.track(now, vertices);
-  confidence_ = tracked.confidence;
+  now = go_on_from(picture, found.head.pose);
+  const TrackedPose tracked = track(now, vertices);
   return Found{tracked.pose, std::move(now)};
 }
 

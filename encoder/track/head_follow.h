@@ -46,6 +46,11 @@ class HeadFollow {
   [[nodiscard]] const HeadTracker& tracker() const { return head_; }
 
  private:
+  /// Begins anew where a search has found the head.  @return the work frame there
+  WorkFrame go_on_from(const Picture& picture, const Pose& pose);
+  /// Tracks, and keeps the confidence.
+  TrackedPose track(const WorkFrame& now, const HeadVertices& vertices);
+
   double eye_distance_px_;
   HeadTracker head_;
   FaceSearch search_;
