@@ -34,6 +34,20 @@ add_executable(round_trip round_trip.cpp)
 target_compile_features(round_trip PRIVATE cxx_std_17)
 target_compile_options(round_trip PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
 target_link_libraries(round_trip PRIVATE fbs::encoder%(kind)s)
+add_executable(listen listen.c)
+target_link_libraries(listen PRIVATE fbs::sound)
+"""
+
+LISTEN = """
+#include <fbs/sound.h>
+int main(void) {
+  fbs_sound* sound = 0;
+  fbs_sound_info info;
+  if (fbs_sound_open(&sound) != FBS_OK) return 1;
+  if (fbs_sound_get_info(sound, &info) != FBS_OK || info.sample_rate != 0) return 2;
+  fbs_sound_close(&sound);
+  return sound == 0 ? 0 : 3;
+}
 """
 
 # A project that has fbs as a folder.
@@ -165,12 +179,14 @@ class Install(ProgramTest):
             project.mkdir()
             (project / "CMakeLists.txt").write_text(PROJECT % {"samples": SAMPLES, "kind": kind})
             (project / "round_trip.cpp").write_text(ROUND_TRIP)
+            (project / "listen.c").write_text(LISTEN)
             run(CMAKE, "-S", project, "-B", project / "build", "-DCMAKE_BUILD_TYPE=Release",
                 f"-DCMAKE_PREFIX_PATH={self.prefix}")
             run(CMAKE, "--build", project / "build")
             self.check_decoding(project / "build/feed_in_pieces", self.lib, ["talk.fbs", "odd.fbs"], [1, 7, 4096])
             run(project / "build/print_landmarks", TALK_FBS)
             run(project / "build/round_trip")
+            run(project / "build/listen")
             streams.append(self.check_encoding(project / "build", self.lib))
             needed = run("readelf", "-d", project / "build/feed_in_pieces")
             self.assertEqual("libfbs.so" in needed, kind == "")
