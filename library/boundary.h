@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -47,6 +48,26 @@ template <class Body>
   } catch (...) {
     return error.set(FBS_ERROR_INTERNAL, "unknown exception");
   }
+}
+
+/// Sets *out to a new object, or to null on failure.
+template <class Object, class... Arguments>
+[[nodiscard]] fbs_status open_object(Object** out, const Arguments&... arguments) noexcept {
+  if (out == nullptr) return FBS_ERROR_ARGUMENT;
+  *out = nullptr;
+  LastError ignored;
+  return guarded(ignored, [&] {
+    *out = std::make_unique<Object>(arguments...).release();
+    return FBS_OK;
+  });
+}
+
+/// Frees the object, if there is one, and sets *object to null.
+template <class Object>
+void close_object(Object** object) noexcept {
+  if (object == nullptr) return;
+  const std::unique_ptr<Object> closed(*object);
+  *object = nullptr;
 }
 
 }  // namespace fbs

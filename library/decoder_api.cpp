@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "decoder/expression/expression_targets.h"
@@ -45,6 +46,10 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   [[nodiscard]] State shown(const SceneGeometry& face) const {
     return edit.any() ? edit.applied(stream->state(), face.geometry()) : stream->state();
   }
+  /// Null where the edit changes nothing.
+  [[nodiscard]] const SceneGeometry* edited_face() const {
+    return edit.any() ? face_of(stream->scene()) : nullptr;
+  }
   /// Draws the picture with the edit.
   [[nodiscard]] Result<void> render(Picture& out) const;
   [[nodiscard]] Result<void> render(const PictureView& out) const;
@@ -59,20 +64,20 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   StreamEntry entry{false};
   StateEdit edit;
   bool finished = false;
-  bool broken = false;    ///< an exception has left the stream in an unknown state
-  Picture picture;        ///< returned to the caller
-  bool is_drawn = false;  ///< `picture` is the one announced last
+  bool broken = false;                  ///< an exception has left the stream in an unknown state
+  Picture picture;                      ///< returned to the caller
+  std::optional<StateEdit> drawn_with;  ///< the edit of `picture`, if that is the one announced last
   mutable BlendshapeMeasure blendshapes;
   mutable LastError error;
 };
 
 Result<void> fbs_decoder::render(Picture& out) const {
-  const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
+  const SceneGeometry* const face = edited_face();
   return face != nullptr ? stream->render_state(shown(*face), std::nullopt, out) : stream->render(out);
 }
 
 Result<void> fbs_decoder::render(const PictureView& out) const {
-  const SceneGeometry* const face = edit.any() ? face_of(stream->scene()) : nullptr;
+  const SceneGeometry* const face = edited_face();
   return face != nullptr ? stream->render_state(shown(*face), out) : stream->render(out);
 }
 
@@ -104,17 +109,11 @@ fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* setti
   fbs_decoder_settings taken = kDefaults;
   if (settings != nullptr && !take_settings(*settings, kFirstSize, taken)) return FBS_ERROR_ARGUMENT;
   if (taken.threads < 1 || taken.threads > FBS_MAX_THREADS) return FBS_ERROR_ARGUMENT;
-  LastError ignored;
-  return guarded(ignored, [&] {
-    *out = std::make_unique<fbs_decoder>(taken).release();
-    return FBS_OK;
-  });
+  return open_object(out, taken);
 }
 
 void fbs_decoder_close(fbs_decoder** decoder) {
-  if (decoder == nullptr) return;
-  const std::unique_ptr<fbs_decoder> closed(*decoder);
-  *decoder = nullptr;
+  close_object(decoder);
 }
 
 fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
@@ -152,7 +151,7 @@ fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info) {
       return d.error.set(status_of(status.error().code), status.error().text.c_str(),
                          d.entry.fed_offset(status.error().byte_offset));
     if (*status != DecodeStatus::kPicture) return *status == DecodeStatus::kEnd ? FBS_END : FBS_NEED_DATA;
-    if (!d.stream->held()) d.is_drawn = false;
+    if (!d.stream->held()) d.drawn_with.reset();
     if (info != nullptr)
       *info = {d.stream->position().pictures, d.stream->position().time, d.stream->duration(),
                d.stream->held() ? 1 : 0, !d.stream->held() && d.stream->state().picture == 0 ? 1 : 0};
@@ -166,7 +165,8 @@ fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
   return guarded(d.error, [&] {
     d.stream = new_stream(d.settings);
     d.entry = StreamEntry(true);
-    d.finished = d.broken = d.is_drawn = false;
+    d.finished = d.broken = false;
+    d.drawn_with.reset();
     d.error = {};
     return FBS_OK;
   });
@@ -177,7 +177,6 @@ fbs_status fbs_decoder_set_edit(fbs_decoder* decoder, const fbs_face_edit* edit)
   const auto wanted = edit_of(edit != nullptr ? *edit : fbs_face_edit{});
   if (!wanted) return decoder->error.set_argument("the edit has something that is not a number");
   decoder->edit = *wanted;
-  decoder->is_drawn = false;
   return FBS_OK;
 }
 
@@ -187,9 +186,11 @@ fbs_status fbs_decoder_get_picture(fbs_decoder* decoder, fbs_const_picture* out)
   if (out == nullptr) return d.error.set_argument(kNullPointer);
   if (!d.has_picture()) return d.error.set_argument(kNoPicture);
   return guarded(d.error, [&] {
-    if (!d.is_drawn)
+    if (d.drawn_with != d.edit) {
+      d.drawn_with.reset();
       if (const auto drawn = d.render(d.picture); !drawn) return d.error.set(drawn.error());
-    d.is_drawn = true;
+      d.drawn_with = d.edit;
+    }
     *out = {static_cast<uint32_t>(d.picture.width()), static_cast<uint32_t>(d.picture.height()), {}, {}};
     const Plane* const planes[] = {&d.picture.y, &d.picture.u, &d.picture.v};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -82,9 +82,7 @@ fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* setti
 }
 
 void fbs_encoder_close(fbs_encoder** encoder) {
-  if (encoder == nullptr) return;
-  const std::unique_ptr<fbs_encoder> closed(*encoder);
-  *encoder = nullptr;
+  close_object(encoder);
 }
 
 fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture, uint32_t duration) {

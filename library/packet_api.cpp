@@ -25,19 +25,11 @@ struct fbs_packet_reader {  // NOLINT(readability-identifier-naming): the interf
 };
 
 fbs_status fbs_packet_reader_open(fbs_packet_reader** out) {
-  if (out == nullptr) return FBS_ERROR_ARGUMENT;
-  *out = nullptr;
-  LastError ignored;
-  return guarded(ignored, [&] {
-    *out = std::make_unique<fbs_packet_reader>().release();
-    return FBS_OK;
-  });
+  return open_object(out);
 }
 
 void fbs_packet_reader_close(fbs_packet_reader** reader) {
-  if (reader == nullptr) return;
-  const std::unique_ptr<fbs_packet_reader> closed(*reader);
-  *reader = nullptr;
+  close_object(reader);
 }
 
 fbs_status fbs_packet_reader_feed(fbs_packet_reader* reader, const uint8_t* bytes, size_t size) {

@@ -39,14 +39,15 @@ struct fbs_sound {  // NOLINT(readability-identifier-naming): the interface is C
 };
 
 bool fbs_sound::begin() {
+  if (cursor) return true;
   for (const SoundPart& part : parts.all()) {
-    if (cursor) break;
     const auto codec = SoundDecoder::create(part.setup);
     if (!codec) continue;  // SPEC 4.9: left out
     cursor.emplace(parts, (*codec)->sample_rate(), (*codec)->channels());
     cursor->seek(from);
+    return true;
   }
-  return cursor.has_value();
+  return false;
 }
 
 std::int64_t fbs_sound::known() const {
@@ -55,19 +56,11 @@ std::int64_t fbs_sound::known() const {
 }
 
 fbs_status fbs_sound_open(fbs_sound** out) {
-  if (out == nullptr) return FBS_ERROR_ARGUMENT;
-  *out = nullptr;
-  LastError ignored;
-  return guarded(ignored, [&] {
-    *out = std::make_unique<fbs_sound>().release();
-    return FBS_OK;
-  });
+  return open_object(out);
 }
 
 void fbs_sound_close(fbs_sound** sound) {
-  if (sound == nullptr) return;
-  const std::unique_ptr<fbs_sound> closed(*sound);
-  *sound = nullptr;
+  close_object(sound);
 }
 
 fbs_status fbs_sound_feed(fbs_sound* sound, const uint8_t* bytes, size_t size) {

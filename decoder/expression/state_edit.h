@@ -37,6 +37,7 @@ class StateEdit {
   /// The same in units of the part.
   void add(EditPart part, std::int32_t offset);
   void reset() { values_ = {}; }
+  [[nodiscard]] bool operator==(const StateEdit&) const = default;
 
   [[nodiscard]] std::int32_t value(EditPart part) const { return values_[static_cast<std::size_t>(part)]; }
   [[nodiscard]] bool any() const { return values_ != Values{}; }
