@@ -123,6 +123,10 @@ export class FbsDecoder {
   constructor(module) {
     this.module = module;
     this.functions = module.functions;
+    /** All bytes that have come, for seeking. */
+    this.stream = { address: 0, size: 0, capacity: 0, finished: false };
+    /** Where in it the decoder began. */
+    this.origin = this.decoder = this.soundReader = 0;
     this.block = this.functions.malloc(BLOCK_BYTES);
     this.functions.fbs_decoder_default_settings(this.block + ANY, 24);
     this.view.setBigUint64(ANY + 8, MAX_PIXELS, true);
@@ -130,10 +134,6 @@ export class FbsDecoder {
     this.decoder = this.view.getUint32(0, true);
     this.check(this.functions.fbs_sound_open(this.block));
     this.soundReader = this.view.getUint32(0, true);
-    /** All bytes that have come, for seeking. */
-    this.stream = { address: 0, size: 0, capacity: 0, finished: false };
-    /** Where in it the decoder began. */
-    this.origin = 0;
   }
 
   close() {
