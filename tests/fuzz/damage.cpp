@@ -1,4 +1,5 @@
-// Decodes damaged versions of streams, each with a bounded amount of work: damage MUTATIONS STREAM...
+// Decodes damaged versions of streams, each with a bounded amount of work: damage STEP MUTATIONS STREAM...
+// A stream is cut at every STEP-th byte.
 //
 // One process per stream decodes its versions in order. Where it crashes or hangs, the version is saved as
 // damage_NAME_NUMBER.fbs and another process continues after it. Exit code 1 after any such failure, or if
@@ -115,16 +116,17 @@ void print(const std::string& name, const Report& r, const std::string& slowest)
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return 2;
-  const std::size_t mutations = std::stoul(argv[1]);
+  if (argc < 4) return 2;
+  const std::size_t cut_step = std::stoul(argv[1]), mutations = std::stoul(argv[2]);
+  if (cut_step == 0) return 2;
   std::vector<Bytes> streams;
-  for (int i = 2; i < argc; ++i) streams.push_back(fbs::read_bytes(argv[i]));
+  for (int i = 3; i < argc; ++i) streams.push_back(fbs::read_bytes(argv[i]));
   std::printf("%-26s %9s %9s %9s %9s %7s %9s %9s  %s\n", "stream", "versions", "shown", "pictures", "errors",
               "crashes", "ms", "peak MiB", "slowest");
   Report total;
   for (std::size_t i = 0; i < streams.size(); ++i) {
-    const std::string name = std::filesystem::path(argv[i + 2]).stem().string();
-    const DamagedStreams versions(streams[i], streams, mutations);
+    const std::string name = std::filesystem::path(argv[i + 3]).stem().string();
+    const DamagedStreams versions(streams[i], streams, cut_step, mutations);
     const Report r = decode_all(name, versions);
     print(name, r, versions.what(r.decoded.slowest));
     total.crashes += r.crashes;

@@ -11,8 +11,13 @@ constexpr auto kWords = std::to_array<const char*>({"left out", "repeated", "swa
 
 }  // namespace
 
-DamagedStreams::DamagedStreams(const Bytes& stream, const std::vector<Bytes>& others, std::size_t mutations)
-    : stream_(stream), others_(others), mutations_(mutations), borders_(packet_borders(stream)) {}
+DamagedStreams::DamagedStreams(const Bytes& stream, const std::vector<Bytes>& others, std::size_t cut_step,
+                               std::size_t mutations)
+    : stream_(stream),
+      others_(others),
+      cut_step_(cut_step),
+      mutations_(mutations),
+      borders_(packet_borders(stream)) {}
 
 Bytes DamagedStreams::with_damaged_packet(std::size_t packet, std::size_t damage) const {
   const auto at = [&](std::size_t border) {
@@ -41,7 +46,8 @@ Bytes DamagedStreams::with_damaged_packet(std::size_t packet, std::size_t damage
 }
 
 Bytes DamagedStreams::operator[](std::size_t number) const {
-  if (number < cuts()) return {stream_.begin(), stream_.begin() + static_cast<std::ptrdiff_t>(number)};
+  if (number < cuts())
+    return {stream_.begin(), stream_.begin() + static_cast<std::ptrdiff_t>(number * cut_step_)};
   number -= cuts();
   if (number < kPacketDamages * packets())
     return with_damaged_packet(number / kPacketDamages, number % kPacketDamages);
@@ -50,7 +56,7 @@ Bytes DamagedStreams::operator[](std::size_t number) const {
 }
 
 std::string DamagedStreams::what(std::size_t number) const {
-  if (number < cuts()) return "cut at byte " + std::to_string(number);
+  if (number < cuts()) return "cut at byte " + std::to_string(number * cut_step_);
   number -= cuts();
   if (number >= kPacketDamages * packets())
     return "mutation " + std::to_string(number - kPacketDamages * packets());

@@ -7,13 +7,15 @@
 
 namespace fbs::fuzz {
 
-/// Every truncation; every packet left out, repeated, or swapped with the next, once with the original checks
+/// Truncations; every packet left out, repeated, or swapped with the next, once with the original checks
 /// and once with right ones; then mutations.
 class DamagedStreams {
  public:
   /// @param stream, others  must outlive the object; mutations take packets from `others`, at least one
   ///                        stream
-  DamagedStreams(const Bytes& stream, const std::vector<Bytes>& others, std::size_t mutations);
+  /// @param cut_step        bytes from one truncation to the next; at least 1
+  DamagedStreams(const Bytes& stream, const std::vector<Bytes>& others, std::size_t cut_step,
+                 std::size_t mutations);
 
   [[nodiscard]] std::size_t count() const { return cuts() + kPacketDamages * packets() + mutations_; }
 
@@ -25,13 +27,13 @@ class DamagedStreams {
 
  private:
   static constexpr std::size_t kPacketDamages = 6;
-  [[nodiscard]] std::size_t cuts() const { return stream_.size(); }
+  [[nodiscard]] std::size_t cuts() const { return (stream_.size() + cut_step_ - 1) / cut_step_; }
   [[nodiscard]] std::size_t packets() const { return borders_.size() - 1; }
   [[nodiscard]] Bytes with_damaged_packet(std::size_t packet, std::size_t damage) const;
 
   const Bytes& stream_;
   const std::vector<Bytes>& others_;
-  std::size_t mutations_;
+  std::size_t cut_step_, mutations_;
   std::vector<std::size_t> borders_;  // of the packets
 };
 
