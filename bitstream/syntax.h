@@ -14,7 +14,7 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 7;
+inline constexpr int kFormatVersion = 8;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;

@@ -1,14 +1,23 @@
 #include "decoder/pattern/contrast_map.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
 
 #include "bitstream/syntax.h"
+#include "decoder/head/head_projection.h"
 #include "decoder/raster/rasteriser.h"
 
 namespace fbs {
 namespace {
 
 constexpr int kMiddle = 128, kFaceShareOne = 255, kInverseOneLog2 = 16;
+
+/// Luma samples of a cell, each way.
+constexpr int kCellLog2 = 2, kCell = 1 << kCellLog2;
+
+constexpr int kBlurPasses = 3, kMaxBlurRadius = 64;
 
 using Contrasts = std::array<std::int32_t, kFaceShareOne + 1>;
 
@@ -26,64 +35,91 @@ Contrasts inverse(Contrasts contrast) {
   return contrast;
 }
 
-/// Shares of the face: two constant textures blended over the head and the ring round it.
-Plane draw_shares(int width, int height, PlaneScale scale, const HeadMesh& head, const TextureMesh& texture) {
-  Plane out(width, height), unused = out;
-  const Plane face(1, 1, kFaceShareOne), surround(1, 1, 0);
-  const std::array<ConstPlaneView, 2> face_planes{face, face}, surround_planes{surround, surround};
-  const std::array<PlaneView, 2> target_planes{out, unused};
-  const std::size_t count = plane_count(scale);
-  std::array<TextureSource, 2> sources{};  // one sample each: any corners will do, but not undefined ones
-  sources[0].planes = std::span(face_planes).first(count);
-  sources[1].planes = std::span(surround_planes).first(count);
-  const RasterTarget target{scale, std::span(target_planes).first(count), {0, 0, width, height}};
+/// Cells that the head covers in the pattern are kFaceShareOne, others 0.
+Plane draw_cells(int width, int height, const HeadMesh& head, const TextureMesh& texture) {
+  const auto cells = [](int samples) { return (samples + kCell - 1) / kCell; };
+  Plane out(cells(width), cells(height));
+  const Plane face(1, 1, kFaceShareOne);
+  const std::array<ConstPlaneView, 1> face_planes{face};
+  const std::array<PlaneView, 1> target_planes{out};
+  const TextureSource source{face_planes, {}, {}};  // one sample: any corners will do
+  const RasterTarget target{PlaneScale::kLuma, target_planes, {0, 0, out.width, out.height}};
   for (const HeadTriangle& triangle : head.triangles) {
+    if (std::ranges::any_of(triangle, [&](std::size_t v) { return v >= head.head_count; })) continue;
     ScreenTriangle t;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      t[i] = {texture.head[triangle[i]], 0};
-      sources[0].weight[i] = triangle[i] < head.head_count ? kWeightOne : 0;
-    }
-    draw_triangle(t, sources, target);
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = {texture.head[triangle[i]] >> kCellLog2, 0};
+    draw_triangle(t, {&source, 1}, target);
   }
   return out;
 }
 
-/// Replaces each sample by change(sample - 128, contrast). Most samples lie wholly inside or outside the
-/// face: tables cover those.
-template <class Change>
-void for_each_sample(Plane& plane, const Plane& shares, const Contrasts& contrast, Change&& change) {
-  const auto changed = [&](int v, int share) {
-    return static_cast<std::uint8_t>(std::clamp(kMiddle + change(v - kMiddle, contrast[share]), 0, 255));
-  };
-  std::array<std::uint8_t, 256> outside, inside;
-  for (int v = 0; v < 256; ++v) {
-    outside[v] = changed(v, 0);
-    inside[v] = changed(v, kFaceShareOne);
+/// Replaces values by means over 2 * radius + 1 of them; beyond the ends the last is repeated.
+/// @param values, step  the first one, and the distance to the next
+void blur(std::uint8_t* values, std::ptrdiff_t step, int count, int radius) {
+  std::vector<std::int32_t> before(count);
+  for (int i = 0; i < count; ++i) before[i] = values[i * step];
+  const auto at = [&](int i) { return before[std::clamp(i, 0, count - 1)]; };
+  const std::int32_t n = 2 * radius + 1;
+  std::int32_t sum = n / 2;
+  for (int i = -radius; i <= radius; ++i) sum += at(i);
+  for (int i = 0; i < count; ++i) {
+    values[i * step] = static_cast<std::uint8_t>(sum / n);
+    sum += at(i + radius + 1) - at(i - radius);
   }
-  for (std::size_t i = 0; i < plane.samples.size(); ++i) {
-    std::uint8_t& v = plane.samples[i];
-    const std::uint8_t share = shares.samples[i];
-    v = share == 0 ? outside[v] : share == kFaceShareOne ? inside[v] : changed(v, share);
+}
+
+/// Cells on each side over which shares are blurred, three times: a sixteenth of the head's width.
+int blur_radius(const HeadMesh& head, const TextureMesh& texture) {
+  const auto [left, right] = std::ranges::minmax(std::span(texture.head).first(head.head_count), {},
+                                                 [](const glm::ivec2& p) { return p.x; });
+  return std::clamp((right.x - left.x) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
+}
+
+/// Replaces each sample by change(sample - 128, contrast).
+/// @param samples_per_cell  each way, 4 or 2
+template <class Change>
+void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, const Contrasts& contrast,
+                     Change&& change) {
+  const int step = 16 / samples_per_cell;  // places are in 1/16 cell from the centre of the first one
+  const auto place = [&](int i) { return step * i + step / 2 - 8; };
+  for (int y = 0; y < plane.height; ++y) {
+    const int v = place(y), q = v & 15;
+    const std::uint8_t* const top = cells.row(std::clamp(v >> 4, 0, cells.height - 1));
+    const std::uint8_t* const bottom = cells.row(std::clamp((v >> 4) + 1, 0, cells.height - 1));
+    const auto column = [&](int i) {
+      const int x = std::clamp(i, 0, cells.width - 1);
+      return top[x] * (16 - q) + bottom[x] * q;
+    };
+    std::uint8_t* const row = plane.row(y);
+    for (int x = 0; x < plane.width; ++x) {
+      const int u = place(x), p = u & 15;
+      const int share = (column(u >> 4) * (16 - p) + column((u >> 4) + 1) * p + 128) >> 8;
+      row[x] =
+          static_cast<std::uint8_t>(std::clamp(kMiddle + change(row[x] - kMiddle, contrast[share]), 0, 255));
+    }
   }
 }
 
 }  // namespace
 
 ContrastMap::ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture)
-    : luma_(draw_shares(setup.format.width, setup.format.height, PlaneScale::kLuma, head, texture)),
-      chroma_(draw_shares((setup.format.width + 1) / 2, (setup.format.height + 1) / 2, PlaneScale::kChroma,
-                          head, texture)),
+    : cells_(draw_cells(setup.format.width, setup.format.height, head, texture)),
       surround_(setup.contrast),
-      face_chroma_(setup.chroma_contrast) {}
+      face_chroma_(setup.chroma_contrast) {
+  const int radius = blur_radius(head, texture);
+  for (int pass = 0; pass < kBlurPasses; ++pass) {
+    for (int y = 0; y < cells_.height; ++y) blur(cells_.row(y), 1, cells_.width, radius);
+    for (int x = 0; x < cells_.width; ++x) blur(cells_.row(0) + x, cells_.width, cells_.height, radius);
+  }
+}
 
 void ContrastMap::expand(Picture& picture) const {
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + (1 << (kInverseOneLog2 - 1))) >> kInverseOneLog2;
   };
   const Contrasts chroma = inverse(contrasts(face_chroma_, surround_));
-  for_each_sample(picture.y, luma_, inverse(contrasts(kContrastOne, surround_)), change);
-  for_each_sample(picture.u, chroma_, chroma, change);
-  for_each_sample(picture.v, chroma_, chroma, change);
+  for_each_sample(picture.y, cells_, kCell, inverse(contrasts(kContrastOne, surround_)), change);
+  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
 }
 
 void ContrastMap::reduce(Picture& picture) const {
@@ -91,9 +127,8 @@ void ContrastMap::reduce(Picture& picture) const {
     return (v * by + kContrastOne / 2) >> kContrastOneLog2;
   };
   const Contrasts chroma = contrasts(face_chroma_, surround_);
-  for_each_sample(picture.y, luma_, contrasts(kContrastOne, surround_), change);
-  for_each_sample(picture.u, chroma_, chroma, change);
-  for_each_sample(picture.v, chroma_, chroma, change);
+  for_each_sample(picture.y, cells_, kCell, contrasts(kContrastOne, surround_), change);
+  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
 }
 
 }  // namespace fbs

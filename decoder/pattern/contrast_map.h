@@ -20,8 +20,8 @@ class ContrastMap {
   }
 
   /// @param setup    its picture size and contrasts
-  /// @param texture  the pattern's: the face's contrast applies inside its outline, the surround's from the
-  ///                 ring outwards, linear between
+  /// @param texture  the pattern's: contrast changes over a wide band along the outline of its head, since a
+  ///                 step would leave a coloured line where AV1 has smoothed it
   ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture);
 
   /// Converts a coded pattern to the picture it shows.
@@ -31,7 +31,7 @@ class ContrastMap {
   void reduce(Picture& picture) const;
 
  private:
-  Plane luma_, chroma_;                  ///< share of the face, 0..255
+  Plane cells_;                          ///< share of the face in blocks of 4 x 4 luma samples, 0..255
   std::int32_t surround_, face_chroma_;  ///< contrasts; the face's luma has contrast one
 };
 

@@ -6,8 +6,9 @@ from .atlas import atlas_weights
 from .integers import clamp
 from .nodes import Nodes, rounded_weights
 from .patches import NODE_ONE, blended, displacements, warped
-from .raster import NO_TRIANGLE, Fragments, Triangles, planes
-from .samples import MAX_AMOUNT, WEIGHT_ONE, Blend, light, mouth_interior, restore_contrast, sample_texture
+from .raster import NO_TRIANGLE, Fragments, Plane, Triangles, planes
+from .samples import (MAX_AMOUNT, Blend, blur, cell_shares, light, mouth_interior, restore_contrast,
+                      sample_texture)
 from .weights import ground_weights, point_weights
 from .wire_frame import MOUTH
 
@@ -118,25 +119,24 @@ class _PictureDrawing:
         return (sum(w * a for w, a in zip(weights, amounts)) + total // 2) // total if total else 0
 
 
-def face_shares(mesh, seen, plane):
-    """Share of the face in the samples of a pattern, 1/255; `seen` is the pattern's placement (SPEC 11.7)."""
-    corners = mesh.head_triangles
-    triangles = Triangles(seen.x[corners], seen.y[corners])
+def face_cells(setup, mesh, seen):
+    """Share of the face in cells of a pattern, 1/255; `seen` is the pattern's placement (SPEC 11.7)."""
+    vertices = slice(mesh.grid_points, mesh.grid_points + mesh.frame.vertices)
+    corners = mesh.head_triangles[(mesh.head_triangles < vertices.stop).all(axis=1)]
+    triangles = Triangles(seen.x[corners] >> 2, seen.y[corners] >> 2)
+    plane = Plane((setup.width + 3) // 4, (setup.height + 3) // 4, 6)
     shown = np.full((plane.height, plane.width), NO_TRIANGLE)
     triangles.draw(shown, plane)
-    fragments = Fragments(triangles, shown, plane)
-    weight = np.where(corners < mesh.grid_points + mesh.frame.vertices, WEIGHT_ONE, 0)
-    blend = Blend(len(fragments.triangle))
-    blend.add(np.arange(len(fragments.triangle)), 255, fragments.quantities(weight), is_last=False)
-    shares = np.zeros(shown.shape, np.int64)
-    shares[fragments.rows, fragments.columns] = blend.result()
-    return shares
+    cells = np.where(shown == NO_TRIANGLE, 0, 255)
+    radius = int(clamp((seen.x[vertices].max() - seen.x[vertices].min()) >> 12, 1, 64))
+    for _ in range(3):
+        cells = blur(blur(cells, radius, 1), radius, 0)
+    return cells
 
 
 def with_full_contrast(setup, mesh, seen, coded):
     """The planes of a pattern as they were before the encoder lessened their contrast."""
-    luma, chroma, _ = planes(setup.width, setup.height)
     outside, chroma_inside = 256 - setup.contrast, 256 + 2 * setup.chroma_contrast
-    face, chroma_face = face_shares(mesh, seen, luma), face_shares(mesh, seen, chroma)
-    return [restore_contrast(coded[0], face, outside, 256)] + [
-        restore_contrast(plane, chroma_face, outside, chroma_inside) for plane in coded[1:]]
+    cells = face_cells(setup, mesh, seen)
+    return [restore_contrast(coded[0], cell_shares(cells, coded[0].shape, 4), outside, 256)] + [
+        restore_contrast(plane, cell_shares(cells, plane.shape, 8), outside, chroma_inside) for plane in coded[1:]]

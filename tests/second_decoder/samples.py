@@ -81,6 +81,23 @@ class Blend:
         return (self._sum + 2**11) >> 12
 
 
+def blur(cells, radius, axis):
+    """Means over 2 * radius + 1 cells along an axis; beyond the ends the last one is repeated (SPEC 11.7)."""
+    places, count = np.arange(cells.shape[axis]), cells.shape[axis]
+    total = sum(cells.take(clamp(places + offset, 0, count - 1), axis) for offset in range(-radius, radius + 1))
+    return (total + radius) // (2 * radius + 1)
+
+
+def cell_shares(cells, shape, step):
+    """The share of the face at the samples of a plane, of which each way `step` sixteenths of a cell are apart."""
+    def between(values, size, axis):
+        place = step * np.arange(size) + step // 2 - 8
+        low, high = (values.take(clamp((place >> 4) + k, 0, values.shape[axis] - 1), axis) for k in (0, 1))
+        part = (place % 16).reshape((-1, 1) if axis == 0 else (1, -1))
+        return low * (16 - part) + high * part
+    return (between(between(cells, shape[0], 0), shape[1], 1) + 128) >> 8
+
+
 def restore_contrast(plane, face, outside, inside):
     """A plane with its full contrast (SPEC 11.7).
 

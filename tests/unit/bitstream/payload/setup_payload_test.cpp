@@ -113,7 +113,7 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
 // Payload by hand: version, head, pictures before, time before, width, height, rate, aspect, colour, steps,
 // parts, mouth.
 TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {7, 3, 2, 9, 64, 65, 25,  1,   1,  1,   0,  1,
+  const std::vector<std::uint8_t> good = {8, 3, 2, 9, 64, 65, 25,  1,   1,  1,   0,  1,
                                           2, 3, 4, 5, 12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->before, (StreamPosition{2, 9}));

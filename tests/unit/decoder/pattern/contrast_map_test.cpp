@@ -112,7 +112,7 @@ TEST(ContrastMap, LargestDeviationsStayInRange) {
   EXPECT_EQ(p.y.row(1)[1], 255);
 }
 
-TEST(ContrastMap, GoesOverFromFaceToSurroundAcrossTheRing) {
+TEST(ContrastMap, ChangesOverAWideBand) {
   const TextureMesh mesh = texture();
   Picture p = two_levels(228, 228);
   ContrastMap(setup(kMinContrast), generic_head_mesh(), mesh).reduce(p);
