@@ -113,8 +113,8 @@ TEST(SetupPayload, EachBoundIsCheckedBothWays) {
 // Payload by hand: version, head, pictures before, time before, width, height, rate, aspect, colour, steps,
 // parts, mouth.
 TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
-  const std::vector<std::uint8_t> good = {8, 3, 2, 9, 64, 65, 25,  1,   1,  1,   0,  1,
-                                          2, 3, 4, 5, 12, 70, 126, 138, 45, 126, 139};
+  const std::vector<std::uint8_t> good = {
+      kFormatVersion, 3, 2, 9, 64, 65, 25, 1, 1, 1, 0, 1, 2, 3, 4, 5, 12, 70, 126, 138, 45, 126, 139};
   ASSERT_TRUE(decode_setup(good));
   EXPECT_EQ(decode_setup(good)->before, (StreamPosition{2, 9}));
   EXPECT_EQ(decode_setup(good)->format.height, 65);
@@ -128,8 +128,9 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
     const auto read = decode_setup(bytes);
     return read ? ErrorCode::kInternal : read.error().code;
   };
-  EXPECT_EQ(code_with(0, 8), ErrorCode::kUnsupported);
-  for (const std::uint8_t older : {1, 2, 3, 4, 5, 6}) EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_with(0, kFormatVersion + 1), ErrorCode::kUnsupported);
+  for (std::uint8_t older = 1; older < kFormatVersion; ++older)
+    EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(3, 1), ErrorCode::kInvalidStream) << "two pictures in 1/90000 s";
