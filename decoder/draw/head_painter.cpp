@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "decoder/draw/mouth_painter.h"
 #include "decoder/head/head_projection.h"
-#include "decoder/head/mouth_interior.h"
 
 namespace fbs {
 
@@ -26,20 +26,6 @@ SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleAr
           std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
 }
 
-/// Opacity of the mouth's interior, which grows with the parting of the lips since the patterns were seen:
-/// the mean over the warped sources of the mouth.
-std::int32_t blended_opacity(const Drawing& d) {
-  const auto& weights = d.blend.regions[static_cast<std::size_t>(Region::kMouth)];
-  std::int32_t sum = 0, of_all = 0;
-  for (std::size_t s = 0; s < weights.size(); ++s) {
-    const TextureMesh* const texture = d.sources[s].texture;
-    if (texture == nullptr) continue;
-    sum += weights[s] * interior_opacity(d.mesh.mouth_gap, texture->mouth_gap);
-    of_all += weights[s];
-  }
-  return of_all == 0 ? 0 : (sum + of_all / 2) / of_all;
-}
-
 /// A value for each corner of a triangle.
 template <class At>
 auto at_corners(const HeadTriangle& triangle, At&& at) {
@@ -50,7 +36,7 @@ auto at_corners(const HeadTriangle& triangle, At&& at) {
 
 HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale,
                          DepthPlane& depth)
-    : d_(drawing), texture_(texture), scale_(scale), opacity_(blended_opacity(drawing)) {
+    : d_(drawing), texture_(texture), scale_(scale) {
   const auto planes = planes_of_scale(drawing.target, scale);
   const int width = planes[0].width, height = planes[0].height;
   target_ = {scale, planes, area_of_head(drawing.mesh, scale, drawing.area(scale)), &depth};
@@ -60,6 +46,7 @@ HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, Pla
 void HeadPainter::draw() {
   if (target_.area.empty()) return;
   for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
+  draw_mouth(d_, texture_.geometry.geometry().wire_frame(), scale_);
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {
@@ -74,7 +61,6 @@ void HeadPainter::draw(const HeadTriangle& triangle) {
 
   sources_.clear();
   Light light;
-  InteriorMix interior{{}, opacity_, planes_of_scale(d_.interior, scale_)};
   if (const auto weight = weight_of(0); shows(weight)) {
     sources_.push_back({planes_of_scale(texture_.atlas, scale_),
                         at_corners(triangle, [&](std::size_t v) { return texture_.layout.points[v]; }),
@@ -85,11 +71,6 @@ void HeadPainter::draw(const HeadTriangle& triangle) {
       light = {at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].offset; }),
                at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].gain; })};
       finish.light = &light;
-    }
-    const WireFrame& head = texture_.geometry.geometry().wire_frame();
-    if (opacity_ != 0 && is_mouth(head, triangle)) {
-      interior.ramp = at_corners(triangle, [&](std::size_t v) { return mouth_ramp(head, v); });
-      finish.interior = &interior;
     }
   }
   for (std::size_t k = 0; k < texture_.weights.still.size(); ++k)

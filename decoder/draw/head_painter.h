@@ -37,7 +37,6 @@ class HeadPainter {
   const HeadTexture& texture_;
   PlaneScale scale_;
   RasterTarget target_;
-  std::int32_t opacity_;                ///< of the mouth's interior
   std::vector<TextureSource> sources_;  ///< of one triangle
 };
 

@@ -50,6 +50,18 @@ std::int32_t mouth_ramp(const WireFrame& head, std::size_t inner_lip_vertex) {
   return ramp;
 }
 
+InnerLips inner_lips(const WireFrame& head) {
+  InnerLips out;
+  const auto& vertices = head.feature(FeatureId::kMouthInner).vertices;
+  const std::size_t left = head.vertex_of_landmark(kLeftCorner);
+  std::size_t k = 0;
+  do out.upper.push_back(vertices[k].vertex);
+  while (vertices[k++].vertex != left);
+  out.lower.push_back(vertices.front().vertex);
+  for (std::size_t i = vertices.size(); i-- > k - 1;) out.lower.push_back(vertices[i].vertex);
+  return out;
+}
+
 std::int32_t mouth_gap(const WireFrame& head, std::span<const glm::ivec3> vertices) {
   const auto y_of = [&](std::size_t landmark) { return vertices[head.vertex_of_landmark(landmark)].y; };
   return y_of(kLowerMiddle) - y_of(kUpperMiddle);
@@ -68,6 +80,17 @@ std::array<std::int32_t, kInteriorCount> interior_base(const MouthInterior& mout
   const std::int32_t upper = (mouth.upper.*component) << kLevelOneLog2, lower = (mouth.lower.*component)
                                                                                 << kLevelOneLog2;
   return {upper, (upper + lower) / 2, lower};
+}
+
+std::uint8_t with_interior(std::uint8_t sample, const InteriorColours& colours, std::int32_t ramp,
+                           std::int32_t opacity) {
+  constexpr std::int32_t kHalf = kMouthRampEnd / 2;
+  const std::size_t upper = ramp < kHalf ? 0 : 1;
+  const std::int32_t share = ramp < kHalf ? ramp : ramp - kHalf;  // of the lower of the two colours
+  const std::int32_t colour =
+      (colours[upper] * (kHalf - share) + colours[upper + 1] * share + kHalf / 2) / kHalf;
+  return static_cast<std::uint8_t>(
+      (sample * (kInteriorOpaque - opacity) + colour * opacity + kInteriorOpaque / 2) / kInteriorOpaque);
 }
 
 std::array<InteriorColours, 3> interior_colours(const MouthInterior& mouth,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "bitstream/syntax.h"
 #include "common/generic_head.h"
@@ -16,6 +17,10 @@ inline constexpr std::int32_t kInteriorOpaque = 256;  ///< opacity: the pattern 
 inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0 at the upper lip, this at the
                                                       ///< lower
 
+/// The colours fade towards the lips over this share of the opening, 1/256, on either side, and over one luma
+/// sample at least: no hard edge, and none of a line where lips only just part.
+inline constexpr std::int32_t kInteriorFade = 77;
+
 /// Whether the vertex lies on the inner lips; never on the ring. A triangle of three such vertices is mouth
 /// interior.
 [[nodiscard]] bool is_inner_lip(const WireFrame& head, std::size_t vertex);
@@ -26,6 +31,12 @@ inline constexpr std::int32_t kMouthRampEnd = 256;    ///< place in the mouth: 0
 /// Whether a triangle is mouth interior.
 /// @param corners  vertices of a HeadMesh
 [[nodiscard]] bool is_mouth(const WireFrame& head, const HeadTriangle& corners);
+
+/// Vertices of the inner lips, from the right corner to the left one, corners included.
+struct InnerLips {
+  std::vector<std::uint16_t> upper, lower;
+};
+[[nodiscard]] InnerLips inner_lips(const WireFrame& head);
 
 /// Distance between the middles of the inner lips of a head as deform() returns it, head units.
 [[nodiscard]] std::int32_t mouth_gap(const WireFrame& head, std::span<const glm::ivec3> vertices);
@@ -50,5 +61,11 @@ using InteriorColours = std::array<std::uint8_t, kInteriorCount>;
 /// @param added_luma  State::interior, 1/16 grey level
 [[nodiscard]] std::array<InteriorColours, 3> interior_colours(
     const MouthInterior& mouth, const std::array<std::int32_t, kInteriorCount>& added_luma);
+
+/// A sample with the colour of a place in the mouth mixed in.
+/// @param ramp     place between upper and lower lip, 0..kMouthRampEnd
+/// @param opacity  0..kInteriorOpaque
+[[nodiscard]] std::uint8_t with_interior(std::uint8_t sample, const InteriorColours& colours,
+                                         std::int32_t ramp, std::int32_t opacity);
 
 }  // namespace fbs

@@ -68,17 +68,6 @@ void light_row(std::uint8_t* luma, const LinearRow& offset, const LinearRow& gai
   for (int i = 0; i < count; ++i) luma[i] = lit(luma[i], limited(offset.at(i)), limited(gain.at(i)));
 }
 
-void mix_interior_row(std::uint8_t* samples, const std::array<std::uint8_t, kInteriorCount>& colours,
-                      std::int32_t opacity, const LinearRow& ramp, int count) {
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::int32_t>(std::clamp<std::int64_t>(ramp.at(i) >> 16, 0, 256));
-    const std::size_t upper = at < 128 ? 0 : 1;
-    const std::int32_t share = at < 128 ? at : at - 128;  // of the lower of the two colours, 1/128
-    const std::int32_t colour = (colours[upper] * (128 - share) + colours[upper + 1] * share + 64) >> 7;
-    samples[i] = static_cast<std::uint8_t>((samples[i] * (256 - opacity) + colour * opacity + 128) >> 8);
-  }
-}
-
 LightPainter::LightPainter(const TriangleSetup& setup, const Light& light)
     : offset_(setup.gradient(light.offset, 0)),
       gain_(setup.gradient(light.gain, 0)),

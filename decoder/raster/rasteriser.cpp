@@ -18,11 +18,11 @@ namespace {
 constexpr int kDepthBits = 16;  // depth keeps its unit
 
 bool is_finished(const TextureSource& s) {
-  return s.finish.light != nullptr || s.finish.light_before != nullptr || s.finish.interior != nullptr;
+  return s.finish.light != nullptr || s.finish.light_before != nullptr;
 }
 
 /// The samples of one source: everything linear over the triangle except depth.
-/// @param kFinished  whether there may be light or interior
+/// @param kFinished  whether there may be light
 template <PlaneScale kScale, bool kFinished>
 class SourcePainter {
  public:
@@ -33,7 +33,6 @@ class SourcePainter {
         finish_.light.emplace(setup, *source.finish.light);
       if (kScale == PlaneScale::kLuma && source.finish.light_before != nullptr)
         finish_.light_before.emplace(setup, *source.finish.light_before);
-      if (source.finish.interior != nullptr) finish_.interior.emplace(setup, *source.finish.interior);
     }
   }
 
@@ -44,7 +43,6 @@ class SourcePainter {
         if (finish_.light_before) samples[0] = finish_.light_before->take_back(block, samples[0]);
         if (finish_.light) samples[0] = finish_.light->paint(block, samples[0]);
       }
-      if (finish_.interior) finish_.interior->paint(block, samples);
     }
     return samples;
   }
@@ -52,7 +50,6 @@ class SourcePainter {
  private:
   struct Painters {
     std::optional<LightPainter> light_before, light;  ///< luma
-    std::optional<InteriorPainter<kScale>> interior;
   };
   struct Nothing {};
 

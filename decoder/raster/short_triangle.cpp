@@ -44,7 +44,7 @@ bool is_faint(const std::array<std::int32_t, 3>& light) {
 }
 
 bool is_plain(const Finish& finish) {
-  return finish.light_before == nullptr && finish.interior == nullptr;
+  return finish.light_before == nullptr;
 }
 
 /// Whether a source shows the picture's own samples in place.

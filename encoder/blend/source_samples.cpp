@@ -48,7 +48,8 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
       2.0F * static_cast<float>(ramp) / (3.0F * kMouthRampEnd);  // 0 upper lip, 1 half way, 2 lower
   const auto upper = static_cast<std::size_t>(at < 1 ? 0 : 1);
   const float share = at - static_cast<float>(upper);
-  out.opacity = static_cast<float>(opacity) / kInteriorOpaque;
+  constexpr float kMeanCover = 1 - kInteriorFade / 256.0F;
+  out.opacity = kMeanCover * static_cast<float>(opacity) / kInteriorOpaque;
   for (std::size_t i = 0; i < colours.size(); ++i)
     out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
 }

@@ -16,6 +16,11 @@ std::array<double, kInteriorCount> interior_basis(double ramp) {
   return {std::max(0.0, 1 - 2 * ramp), 1 - std::abs(2 * ramp - 1), std::max(0.0, 2 * ramp - 1)};
 }
 
+double interior_cover(double ramp) {
+  constexpr double kFade = kInteriorFade / 256.0;
+  return std::min(1.0, std::min(ramp, 1 - ramp) / kFade);
+}
+
 Appearance::Appearance(const SamplePoints& points, const PatternSamples& pattern, const MouthInterior& mouth,
                        const Fit& fit, const HeadVertices& vertices)
     : points_(points),
@@ -43,7 +48,8 @@ double Appearance::at(std::size_t point, int level) const {
     brighter += shares[i] * (added_[i] - pattern_.interior()[i]);
   }
   value += pattern_.interior_opacity() * brighter;
-  return (value * (kShadeOne - shade_) + inside * shade_) / kShadeOne;
+  const double shade = shade_ * interior_cover(ramp);
+  return (value * (kShadeOne - shade) + inside * shade) / kShadeOne;
 }
 
 }  // namespace fbs

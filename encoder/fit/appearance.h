@@ -16,6 +16,9 @@ namespace fbs {
 /// @param ramp  0 at the upper lip to 1 at the lower
 [[nodiscard]] std::array<double, kInteriorCount> interior_basis(double ramp);
 
+/// How much of the mouth's colours shows at a place of the ramp, 0..1: they fade towards the lips.
+[[nodiscard]] double interior_cover(double ramp);
+
 /// One state drawn from one pattern. Borrows points and pattern.
 class Appearance {
  public:
@@ -27,8 +30,8 @@ class Appearance {
 
   /// Share of the mouth interior in the picture, 0..1: already in the pattern, or added.
   [[nodiscard]] double interior_share(std::size_t point) const {
-    const double shade = shade_ / kShadeOne;
-    return points_.mouth_ramp(point) < 0 ? 0 : shade + (1 - shade) * pattern_.interior_opacity();
+    const double ramp = points_.mouth_ramp(point), shade = shade_ * interior_cover(ramp) / kShadeOne;
+    return ramp < 0 ? 0 : shade + (1 - shade) * pattern_.interior_opacity();
   }
 
  private:

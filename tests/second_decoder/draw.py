@@ -4,13 +4,12 @@ import numpy as np
 
 from .atlas import atlas_weights
 from .integers import clamp
+from .mouth import Opening, amount
 from .nodes import Nodes, rounded_weights
 from .patches import NODE_ONE, blended, displacements, warped
 from .raster import NO_TRIANGLE, Fragments, Plane, Triangles, planes
-from .samples import (MAX_AMOUNT, Blend, blur, cell_shares, light, mouth_interior, restore_contrast,
-                      sample_texture)
+from .samples import Blend, blur, cell_shares, light, restore_contrast, sample_texture
 from .weights import ground_weights, point_weights
-from .wire_frame import MOUTH
 
 
 def draw_without_geometry(setup, sources):
@@ -79,6 +78,18 @@ class _PictureDrawing:
             samples = [self._from_atlas(texture[k], k, fragments) if texture else None]
             samples += [self._from_still(plane_of_still, fragments) for plane_of_still in stills]
             picture[k][fragments.rows, fragments.columns] = self._blend(fragments, samples, weights)
+        self._mix_mouth(picture)
+
+    def _mix_mouth(self, picture):
+        head = slice(self._mesh.grid_points, None)
+        opening = Opening(self._mesh.frame, self._now.x[head], self._now.y[head])
+        most = amount(self._sources, self._now)
+        if most == 0 or not opening.is_drawn:
+            return
+        for k, plane in enumerate(self._planes):
+            colours = self._setup.upper_lip[k], self._setup.lower_lip[k]
+            offsets = self._state.mouth_interior if k == 0 else (0, 0, 0)
+            picture[k][:] = opening.mix(picture[k], plane, colours, offsets, most)
 
     def _blend(self, fragments, samples, weights):
         corners = self._mesh.head_triangles
@@ -97,26 +108,14 @@ class _PictureDrawing:
                               fragments.texture_positions(self._now.y[corners]))
 
     def _from_atlas(self, texture, plane, fragments):
-        """Samples of plane 0, 1 or 2 from the blended atlas, with light and mouth."""
+        """Samples of plane 0, 1 or 2 from the blended atlas, with light."""
         atlas, corners = self._mesh.atlas, self._mesh.head_triangles - self._mesh.grid_points
         samples = sample_texture(texture, fragments.texture_positions(atlas.x[corners]),
                                  fragments.texture_positions(atlas.y[corners]))
         if plane == 0:
             offset, gain = (at[self._mesh.head_triangles] for at in (self._now.offset, self._now.gain))
             samples = light(samples, fragments.quantities(offset), fragments.quantities(gain))
-        colours = self._setup.upper_lip[plane], self._setup.lower_lip[plane]
-        offsets = self._state.mouth_interior if plane == 0 else (0, 0, 0)
-        ramp = fragments.quantities(self._mesh.frame.mouth_ramp[corners])
-        mixed = mouth_interior(samples, ramp, self._mouth_amount(), colours, offsets)
-        return np.where(self._mesh.frame.mouth_interior[fragments.triangle], mixed, samples)
-
-    def _mouth_amount(self):
-        """How much of the mouth colours shows (SPEC 10.10)."""
-        weights = [source.regions[MOUTH] for source in self._sources if not source.still]
-        amounts = [clamp(self._now.gap - source.pattern.placement.gap, 0, MAX_AMOUNT)
-                   for source in self._sources if not source.still]
-        total = sum(weights)
-        return (sum(w * a for w, a in zip(weights, amounts)) + total // 2) // total if total else 0
+        return samples
 
 
 def face_cells(setup, mesh, seen):

@@ -1,4 +1,4 @@
-"""Arithmetic of samples: textures, light, mouth interior, blending and contrast.
+"""Arithmetic of samples: textures, light, blending and contrast.
 
 The formulas of SPEC 4.4 (double), 10.8, 10.10, 10.11, 11.6 and 11.7, and nothing of them is elsewhere. All arrays are
 of 64-bit integers with one element for each sample to be drawn, unless stated otherwise.
@@ -10,7 +10,6 @@ from .integers import clamp
 from .limits import MAX_LIGHT
 
 WEIGHT_ONE = 4096
-MAX_AMOUNT = 256  # of mouth colour
 _DOUBLE_EVEN = ((-3, 1), (-2, -9), (-1, 35), (0, 114), (1, -17), (2, 4))  # offset, factor
 _DOUBLE_ODD = ((-2, 4), (-1, -17), (0, 114), (1, 35), (2, -9), (3, 1))
 
@@ -40,22 +39,6 @@ def take_back_light(samples, offset, gain):
     o = clamp(offset, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8
     d = np.maximum(2**18 + (clamp(gain, -MAX_LIGHT * 2**16, MAX_LIGHT * 2**16) >> 8), 2**16)
     return clamp(128 + (((samples - 128) << 18) - (o << 6) + d // 2 + 2**11 * d) // d - 2**11, 0, 255)
-
-
-def mouth_interior(samples, ramp, amount, colours, offsets):
-    """Samples mixed with the colours of the mouth interior (SPEC 10.10).
-
-    ramp     2^-16 of 0 at the upper lip to 256 at the lower lip
-    amount   of the colours, 1/256; one number
-    colours  of the plane at the upper and at the lower lip
-    offsets  upper, middle and lower, 1/16 grey level
-    """
-    upper, lower = colours
-    base = (16 * upper, 8 * (upper + lower), 16 * lower)
-    c0, c1, c2 = (clamp((colour + offset + 8) >> 4, 0, 255) for colour, offset in zip(base, offsets))
-    at = clamp(ramp >> 16, 0, 256)
-    colour = np.where(at < 128, (c0 * (128 - at) + c1 * at + 64) >> 7, (c1 * (256 - at) + c2 * (at - 128) + 64) >> 7)
-    return (samples * (MAX_AMOUNT - amount) + colour * amount + 128) >> 8
 
 
 class Blend:

@@ -72,21 +72,6 @@ class WireFrame:
         return np.array(triangles)
 
     @cached_property
-    def mouth_interior(self):
-        """Which of all triangles belong to it."""
-        return np.isin(self.all_triangles, self.features[INNER_LIPS].vertices).all(axis=1)
-
-    @cached_property
-    def mouth_ramp(self):
-        """Of the mouth colours, at the vertices of head and ring; it is used on the inner lips only."""
-        ramp = np.zeros(self.vertices + self.ring, np.int64)
-        lips = self.features[INNER_LIPS].vertices
-        left_corner = lips.index(self.landmark_vertices[LEFT_MOUTH_CORNER])
-        ramp[lips[left_corner + 1:]] = 256
-        ramp[[self.landmark_vertices[k] for k in (RIGHT_MOUTH_CORNER, LEFT_MOUTH_CORNER)]] = 128
-        return ramp
-
-    @cached_property
     def shares(self):
         """Shares of the regions at the vertices of the head."""
         shares = np.zeros((self.vertices, REGIONS), np.int64)

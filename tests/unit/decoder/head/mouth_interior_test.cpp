@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "decoder/head/head_deformation.h"
 #include "decoder/head/head_mesh.h"
 #include "tests/unit/toy_scene.h"
@@ -35,6 +37,32 @@ TEST(MouthInterior, RampGoesFromTheUpperToTheLowerInnerLip) {
   for (const std::size_t upper : {61U, 62U, 63U}) EXPECT_EQ(at(upper), 0);
   for (const std::size_t corner : {60U, 64U}) EXPECT_EQ(at(corner), kMouthRampEnd / 2);
   for (const std::size_t lower : {65U, 66U, 67U}) EXPECT_EQ(at(lower), kMouthRampEnd);
+}
+
+TEST(MouthInterior, InnerLipsGoFromCornerToCorner) {
+  const InnerLips lips = inner_lips(generic_head());
+  const auto vertices = [](std::initializer_list<std::size_t> landmarks) {
+    std::vector<std::uint16_t> out;
+    for (const std::size_t k : landmarks)
+      out.push_back(static_cast<std::uint16_t>(generic_head().vertex_of_landmark(k)));
+    return out;
+  };
+  EXPECT_EQ(lips.upper, vertices({60, 61, 62, 63, 64}));
+  EXPECT_EQ(lips.lower, vertices({60, 67, 66, 65, 64}));
+}
+
+// SPEC 10.10, word for word.
+TEST(MouthInterior, SampleIsMixedByTheFormatsFormula) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 20000; ++i) {
+    const auto level = [&] { return static_cast<std::uint8_t>(random()); };
+    const InteriorColours c = {level(), level(), level()};
+    const int v = level(), at = static_cast<int>(random() % 257), opacity = static_cast<int>(random() % 257);
+    const int colour = at < 128 ? (c[0] * (128 - at) + c[1] * at + 64) >> 7
+                                : (c[1] * (256 - at) + c[2] * (at - 128) + 64) >> 7;
+    ASSERT_EQ(with_interior(static_cast<std::uint8_t>(v), c, at, opacity),
+              (v * (256 - opacity) + colour * opacity + 128) >> 8);
+  }
 }
 
 // SPEC 10.10: 1/16 grey level, rounded to nearest with halves up.

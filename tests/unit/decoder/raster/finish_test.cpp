@@ -19,12 +19,6 @@ int64_t between(std::mt19937& random, int64_t low, int64_t high) {
   return low + static_cast<int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-/// From anywhere to anywhere in [low, high] along a run.
-LinearRow linear_within(std::mt19937& random, int64_t low, int64_t high, int count) {
-  const int64_t first = between(random, low, high), last = between(random, low, high);
-  return {first, count > 1 ? (last - first) / (count - 1) : between(random, -(1 << 30), 1 << 30)};
-}
-
 Row noise_row(std::mt19937& random) {
   Row row(kMaxCount + 2);
   for (std::uint8_t& s : row) s = static_cast<std::uint8_t>(random());
@@ -113,30 +107,6 @@ TEST(LightPainter, AgreesWithLightRow) {
     beyond += std::abs(offset.first) > kMaxLit ? 1 : 0;
   }
   EXPECT_GT(beyond, 2000);
-}
-
-// SPEC 10.10, word for word.
-TEST(MixInteriorRow, IsTheFormatsFormula) {
-  std::mt19937 random(10);
-  for (int i = 0; i < 5000; ++i) {
-    const int count = 1 + static_cast<int>(random() % kMaxCount);
-    const LinearRow ramp = linear_within(random, -(300 << 16), 600 << 16, count);
-    const std::array<std::uint8_t, kInteriorCount> c = {static_cast<std::uint8_t>(random()),
-                                                        static_cast<std::uint8_t>(random()),
-                                                        static_cast<std::uint8_t>(random())};
-    const auto opacity = static_cast<int>(between(random, 0, 256));
-    const Row before = noise_row(random);
-    Row out = before;
-    mix_interior_row(out.data() + 1, c, opacity, ramp, count);
-    for (int k = 0; k < kMaxCount; ++k) {
-      const int64_t at = std::clamp<int64_t>(ramp.at(k) >> 16, 0, 256);
-      const int64_t colour = at < 128 ? (c[0] * (128 - at) + c[1] * at + 64) >> 7
-                                      : (c[1] * (256 - at) + c[2] * (at - 128) + 64) >> 7;
-      const int64_t expected = (before[k + 1] * (256 - opacity) + colour * opacity + 128) >> 8;
-      ASSERT_EQ(out[k + 1], k < count ? expected : before[k + 1]) << i;
-    }
-    ASSERT_EQ(out[0], before[0]);
-  }
 }
 
 }  // namespace

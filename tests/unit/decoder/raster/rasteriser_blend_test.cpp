@@ -170,15 +170,6 @@ TEST(RasteriserBlend, LightFallsOnItsSourceBeforeTheBlend) {
   EXPECT_EQ(out, Plane(kWidth, kHeight, 103)) << "2.5 levels";
 }
 
-TEST(RasteriserBlend, InteriorIsMixedIntoItsSourceBeforeTheBlend) {
-  const Plane grey(kWidth, kHeight, 100);
-  const std::array<std::array<std::uint8_t, kInteriorCount>, 2> colours = {{{20, 20, 20}, {20, 20, 20}}};
-  const InteriorMix all{even(0), 256, colours};
-  for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma})
-    EXPECT_EQ(blended({{kWhole, grey, even(1024), {.interior = &all}}, {kWhole, grey}}, scale),
-              Plane(kWidth, kHeight, 80));
-}
-
 TEST(RasteriserBlend, KeepsToTheNearestTriangle) {
   TexturedTriangle near_one = in_place({300, 200}, {1000, 300}, {500, 900}), far_one = kWhole;
   for (TexturedVertex& v : far_one) v.depth = 10;

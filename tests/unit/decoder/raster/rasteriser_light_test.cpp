@@ -15,12 +15,11 @@ namespace {
 constexpr int kWidth = 24, kHeight = 20;
 
 /// Draws a pattern in its place under a light, over the lower left half of the picture.
-Plane lit(const Plane& pattern, const Light& light, const InteriorMix* interior = nullptr) {
+Plane lit(const Plane& pattern, const Light& light) {
   Plane target(pattern.width, pattern.height);
   const int right = 64 * pattern.width, bottom = 64 * pattern.height;
   const std::array<glm::ivec2, 3> p = {glm::ivec2(0, 0), {right, bottom}, {0, bottom}};
-  draw(in_place(p[0], p[1], p[2]), PlaneScale::kLuma, pattern, target, nullptr,
-       {.light = &light, .interior = interior});
+  draw(in_place(p[0], p[1], p[2]), PlaneScale::kLuma, pattern, target, nullptr, {.light = &light});
   return target;
 }
 
@@ -88,15 +87,6 @@ TEST(RasteriserLight, FallsOnLumaAlone) {
   draw(kLarge, PlaneScale::kChroma, grey, chroma, nullptr, {.light = &light});
   EXPECT_EQ(luma.row(2)[2], 100);
   EXPECT_EQ(chroma.row(2)[2], 90);
-}
-
-TEST(RasteriserLight, FallsOnThePatternAndNotOnTheMouthInterior) {
-  const Plane grey(kWidth, kHeight, 100);
-  const Light light = even(16 * 40, 0);
-  const std::array<std::uint8_t, kInteriorCount> colours = {50, 50, 50};
-  const InteriorMix half{{0, 0, 0}, 128, {&colours, 1}}, all{{0, 0, 0}, 256, {&colours, 1}};
-  EXPECT_EQ(lit(grey, light, &all).row(15)[3], 50);
-  EXPECT_EQ(lit(grey, light, &half).row(15)[3], (140 + 50) / 2);
 }
 
 /// A triangle a unit or two wide and as long as the screen allows, about a sample's centre.

@@ -347,11 +347,6 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
     depth.reset(32, 24, whole(drawn));
     draw(t, scale, white, covered);
     draw(t, scale, pattern, drawn, &depth);
-    const std::array<std::uint8_t, kInteriorCount> colours = {3, 90, 250};
-    const std::array<std::array<std::uint8_t, kInteriorCount>, 2> both = {colours, colours};
-    const InteriorMix mix{{256, 0, 128}, 200, both};
-    depth.reset(32, 24, whole(drawn));
-    draw(t, scale, pattern, drawn, &depth, {.interior = &mix});
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 32; ++x) ASSERT_EQ(covered.row(y)[x] != 0, covers(t, scale, x, y)) << i;
   }

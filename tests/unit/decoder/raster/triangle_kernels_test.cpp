@@ -35,9 +35,6 @@ struct Drawn {
   }
 };
 
-/// Colours of the mouth in both planes.
-constexpr std::array<std::array<std::uint8_t, kInteriorCount>, 2> kColours{{{10, 90, 200}, {250, 40, 130}}};
-
 /// Everything that a triangle is drawn from.
 struct Case {
   PlaneScale scale = PlaneScale::kLuma;
@@ -45,8 +42,7 @@ struct Case {
   std::array<Plane, 2> textures;
   SampleArea area{0, 0, kWidth, kHeight};
   Light light, light_before;
-  InteriorMix interior{{0, 128, 256}, 100, kColours};
-  bool has_light = false, has_light_before = false, has_interior = false;
+  bool has_light = false, has_light_before = false;
   /// Still sources that are blended with it, and the weights of all but the last.
   std::vector<std::array<Plane, 2>> stills;
   std::array<std::array<std::int32_t, 3>, 2> weights{};
@@ -62,7 +58,6 @@ struct Case {
     Finish finish;
     if (has_light) finish.light = &light;
     if (has_light_before) finish.light_before = &light_before;
-    if (has_interior) finish.interior = &interior;
     std::vector<TextureSource> sources{source_of(triangle, std::span(from).first(planes), finish)};
     std::vector<std::array<ConstPlaneView, 2>> still_planes;
     for (const auto& still : stills) still_planes.push_back({still[0], still[1]});
@@ -233,8 +228,7 @@ TEST(TriangleKernels, EqualThePlainOneAndTheLoopsOfTheRasteriser) {
   });
 }
 
-// draw_triangle() takes the kernels; its own loops for textures at the border, light that is taken back and
-// the interior of the mouth.
+// draw_triangle() takes the kernels; its own loops for textures at the border and light that is taken back.
 TEST(TriangleKernels, DrawTriangleIsTheSameWithThemAndWithout) {
   const std::array<Plane, 4> textures = random_textures();
   on_every_target([&] {
@@ -246,7 +240,6 @@ TEST(TriangleKernels, DrawTriangleIsTheSameWithThemAndWithout) {
         for (TexturedVertex& v : c.triangle) v.texture -= glm::ivec2(200 << static_cast<int>(c.scale), 0);
       c.has_light_before = i % 7 == 1;
       c.light_before = random_light(random);
-      c.has_interior = i % 7 == 3;
       const Drawn out = c.after([&](std::span<const TextureSource> sources, const RasterTarget& target) {
         draw_triangle(screen_of(c.triangle), sources, target);
       });
