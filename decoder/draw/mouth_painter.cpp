@@ -149,6 +149,7 @@ class Opening {
     if (frame_.empty()) return;
     const auto curve = [&](const std::vector<std::uint16_t>& vertices) {
       std::vector<Place> points;
+      points.reserve(vertices.size());
       for (const std::uint16_t v : vertices)
         points.push_back(frame_.at(Place(mesh.head[v].x, mesh.head[v].y)));
       points.front() = Place(0);
