@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(
     reason="needs the program, the talker (FBS_BUILD) and ffmpeg",
 )
 
-QUALITIES = ["20", "40", "60", "80"]
+QUALITIES = ["20", "40", "60", "90"]
 
 
 @pytest.fixture(scope="module")
