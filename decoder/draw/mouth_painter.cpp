@@ -124,8 +124,8 @@ class Opening {
 
   /// Samples of a plane that may be inside, within `limit`.
   [[nodiscard]] SampleArea box(PlaneScale scale, const SampleArea& limit) const {
-    const std::int64_t top = std::ranges::min(upper_), bottom = std::ranges::max(lower_),
-                       width = 1 << kWidthLog2;
+    const std::int64_t top = *std::min_element(upper_.begin(), upper_.end()),
+                       bottom = *std::max_element(lower_.begin(), lower_.end()), width = 1 << kWidthLog2;
     Place low(INT32_MAX), high(INT32_MIN);
     for (const Place corner : {Place(0, top), Place(width, top), Place(0, bottom), Place(width, bottom)}) {
       const Place p = frame_.on_screen(corner);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "bitstream/syntax.h"
@@ -45,7 +45,8 @@ Plane draw_cells(int width, int height, const HeadMesh& head, const TextureMesh&
   const TextureSource source{face_planes, {}, {}};  // one sample: any corners will do
   const RasterTarget target{PlaneScale::kLuma, target_planes, {0, 0, out.width, out.height}};
   for (const HeadTriangle& triangle : head.triangles) {
-    if (std::ranges::any_of(triangle, [&](std::size_t v) { return v >= head.head_count; })) continue;
+    if (std::any_of(triangle.begin(), triangle.end(), [&](std::size_t v) { return v >= head.head_count; }))
+      continue;
     ScreenTriangle t;
     for (std::size_t i = 0; i < t.size(); ++i) t[i] = {texture.head[triangle[i]] >> kCellLog2, 0};
     draw_triangle(t, {&source, 1}, target);
@@ -70,9 +71,10 @@ void blur(std::uint8_t* values, std::ptrdiff_t step, int count, int radius) {
 
 /// Cells on each side over which shares are blurred, three times: a sixteenth of the head's width.
 int blur_radius(const HeadMesh& head, const TextureMesh& texture) {
-  const auto [left, right] = std::ranges::minmax(std::span(texture.head).first(head.head_count), {},
-                                                 [](const glm::ivec2& p) { return p.x; });
-  return std::clamp((right.x - left.x) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
+  const auto end = texture.head.begin() + static_cast<std::ptrdiff_t>(head.head_count);
+  const auto [left, right] = std::minmax_element(
+      texture.head.begin(), end, [](const glm::ivec2& a, const glm::ivec2& b) { return a.x < b.x; });
+  return std::clamp((right->x - left->x) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
 }
 
 /// Replaces each sample by change(sample - 128, contrast).
