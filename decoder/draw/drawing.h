@@ -1,7 +1,9 @@
 // Everything that one picture is drawn from.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,15 @@ struct Drawing {
     return scale == PlaneScale::kLuma ? luma_area : chroma_area;
   }
 };
+
+/// Samples within `limit` whose centres may lie in a box of positions, 1/64 luma pixel.
+[[nodiscard]] inline SampleArea samples_in_box(glm::ivec2 low, glm::ivec2 high, PlaneScale scale,
+                                               const SampleArea& limit) {
+  const int bits = static_cast<int>(scale);
+  return {std::clamp(low.x >> bits, limit.x0, limit.x1), std::clamp(low.y >> bits, limit.y0, limit.y1),
+          std::clamp((high.x >> bits) + 1, limit.x0, limit.x1),
+          std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
+}
 
 /// The planes of Y, U, V that have the scale.
 template <class T>

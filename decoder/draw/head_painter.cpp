@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "decoder/draw/mouth_painter.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -20,10 +19,7 @@ SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleAr
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  const int bits = static_cast<int>(scale);
-  return {std::clamp(low.x >> bits, limit.x0, limit.x1), std::clamp(low.y >> bits, limit.y0, limit.y1),
-          std::clamp((high.x >> bits) + 1, limit.x0, limit.x1),
-          std::clamp((high.y >> bits) + 1, limit.y0, limit.y1)};
+  return samples_in_box(low, high, scale, limit);
 }
 
 /// A value for each corner of a triangle.
@@ -46,7 +42,6 @@ HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, Pla
 void HeadPainter::draw() {
   if (target_.area.empty()) return;
   for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
-  draw_mouth(d_, texture_.geometry.geometry().wire_frame(), scale_);
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {

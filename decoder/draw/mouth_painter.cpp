@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/vec2.hpp>
-#include <span>
+#include <utility>
 #include <vector>
 
+#include "decoder/head/head_projection.h"
 #include "decoder/head/mouth_interior.h"
 
 namespace fbs {
@@ -20,7 +21,7 @@ constexpr int kWidthLog2 = 12, kStepLog2 = 6, kSteps = 1 << (kWidthLog2 - kStepL
 constexpr std::int64_t kMaxDown = std::int64_t{8} << kWidthLog2;
 
 /// Narrower mouths, 1/64 luma sample, are not drawn.
-constexpr std::int64_t kLeastWidth = 64;
+constexpr std::int64_t kLeastWidth = 1 << kScreenOneLog2;
 
 /// The frame of the mouth's corners.
 class MouthFrame {
@@ -43,7 +44,8 @@ class MouthFrame {
   }
   /// One luma sample along the mouth.
   [[nodiscard]] std::int64_t sample() const {
-    return (std::int64_t{64} << kWidthLog2) / std::max(std::abs(axis_.x), std::abs(axis_.y));
+    return (std::int64_t{1} << (kScreenOneLog2 + kWidthLog2)) /
+           std::max(std::abs(axis_.x), std::abs(axis_.y));
   }
 
  private:
@@ -126,21 +128,14 @@ class Opening {
   [[nodiscard]] SampleArea box(PlaneScale scale, const SampleArea& limit) const {
     const std::int64_t top = *std::min_element(upper_.begin(), upper_.end()),
                        bottom = *std::max_element(lower_.begin(), lower_.end()), width = 1 << kWidthLog2;
-    Place low(INT32_MAX), high(INT32_MIN);
+    glm::ivec2 low(INT32_MAX), high(INT32_MIN);
     for (const Place corner : {Place(0, top), Place(width, top), Place(0, bottom), Place(width, bottom)}) {
-      const Place p = frame_.on_screen(corner);
+      const glm::ivec2 p(frame_.on_screen(corner));
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-    const int bits = static_cast<int>(scale);
-    const auto first = [&](std::int64_t at, int from, int to) {
-      return static_cast<int>(std::clamp<std::int64_t>((at >> bits) - 1, from, to));
-    };
-    const auto end = [&](std::int64_t at, int from, int to) {
-      return static_cast<int>(std::clamp<std::int64_t>((at >> bits) + 2, from, to));
-    };
-    return {first(low.x, limit.x0, limit.x1), first(low.y, limit.y0, limit.y1),
-            end(high.x, limit.x0, limit.x1), end(high.y, limit.y0, limit.y1)};
+    constexpr int kInexact = 2 << kScreenOneLog2;  // on_screen()
+    return samples_in_box(low - kInexact, high + kInexact, scale, limit);
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "decoder/blend/mesh_blend.h"
 #include "decoder/draw/head_painter.h"
+#include "decoder/draw/mouth_painter.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/head/head_mesh.h"
 #include "decoder/head/mouth_interior.h"
@@ -150,9 +151,9 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   if (!has_head) return;
   const HeadTexture texture{*scene.geometry, *layout, atlas_.planes(), weights};
   workers_->run(chroma.empty() ? 1 : 2, [&](int k, int) {
-    HeadPainter(drawing, texture, k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma,
-                k == 0 ? luma_depth_ : chroma_depth_)
-        .draw();
+    const PlaneScale scale = k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
+    HeadPainter(drawing, texture, scale, k == 0 ? luma_depth_ : chroma_depth_).draw();
+    draw_mouth(drawing, scene.geometry->geometry().wire_frame(), scale);
   });
 }
 

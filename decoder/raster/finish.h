@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "common/state.h"
 #include "decoder/raster/row_block.h"

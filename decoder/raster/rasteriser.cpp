@@ -17,44 +17,41 @@ namespace {
 
 constexpr int kDepthBits = 16;  // depth keeps its unit
 
-bool is_finished(const TextureSource& s) {
+bool is_lit(const TextureSource& s) {
   return s.finish.light != nullptr || s.finish.light_before != nullptr;
 }
 
 /// The samples of one source: everything linear over the triangle except depth.
-/// @param kFinished  whether there may be light
-template <PlaneScale kScale, bool kFinished>
+/// @param kLit  whether there may be light: luma only
+template <PlaneScale kScale, bool kLit>
 class SourcePainter {
  public:
   SourcePainter(const TriangleSetup& setup, const ScreenTriangle& t, const TextureSource& source)
       : sampler_(setup, t, source.planes, source.corners) {
-    if constexpr (kFinished) {
-      if (kScale == PlaneScale::kLuma && source.finish.light != nullptr)
-        finish_.light.emplace(setup, *source.finish.light);
-      if (kScale == PlaneScale::kLuma && source.finish.light_before != nullptr)
+    if constexpr (kLit) {
+      if (source.finish.light != nullptr) finish_.light.emplace(setup, *source.finish.light);
+      if (source.finish.light_before != nullptr)
         finish_.light_before.emplace(setup, *source.finish.light_before);
     }
   }
 
   [[nodiscard]] BlockSamples<kScale> paint(const RowBlock<kScale>& block) const {
     BlockSamples<kScale> samples = sampler_.sample(block);
-    if constexpr (kFinished) {
-      if constexpr (kScale == PlaneScale::kLuma) {
-        if (finish_.light_before) samples[0] = finish_.light_before->take_back(block, samples[0]);
-        if (finish_.light) samples[0] = finish_.light->paint(block, samples[0]);
-      }
+    if constexpr (kLit) {
+      if (finish_.light_before) samples[0] = finish_.light_before->take_back(block, samples[0]);
+      if (finish_.light) samples[0] = finish_.light->paint(block, samples[0]);
     }
     return samples;
   }
 
  private:
   struct Painters {
-    std::optional<LightPainter> light_before, light;  ///< luma
+    std::optional<LightPainter> light_before, light;
   };
   struct Nothing {};
 
   TextureSampler<kScale> sampler_;
-  [[no_unique_address]] std::conditional_t<kFinished, Painters, Nothing> finish_;
+  [[no_unique_address]] std::conditional_t<kLit, Painters, Nothing> finish_;
 };
 
 /// One object for each source of a triangle; unused memory is not touched.
@@ -91,7 +88,7 @@ bool all_constant_and_coarse(std::span<const TextureSource> sources) {
 }
 
 /// Weights constant over the triangle, 2^-8.
-template <PlaneScale kScale, bool kFinished>
+template <PlaneScale kScale, bool kLit>
 class CoarseBlend {
  public:
   CoarseBlend(const TriangleSetup& setup, const ScreenTriangle& t, std::span<const TextureSource> sources) {
@@ -117,12 +114,12 @@ class CoarseBlend {
   }
 
  private:
-  SourceArray<SourcePainter<kScale, kFinished>> painters_;
+  SourceArray<SourcePainter<kScale, kLit>> painters_;
   std::array<std::uint16_t, kMaxTriangleSources> weights_;
 };
 
 /// Weights linear over the triangle. SPEC 11.6.
-template <PlaneScale kScale, bool kFinished>
+template <PlaneScale kScale, bool kLit>
 class LinearBlend {
  public:
   LinearBlend(const TriangleSetup& setup, const ScreenTriangle& t, std::span<const TextureSource> sources) {
@@ -149,7 +146,7 @@ class LinearBlend {
   }
 
  private:
-  SourceArray<SourcePainter<kScale, kFinished>> painters_;
+  SourceArray<SourcePainter<kScale, kLit>> painters_;
   SourceArray<LinearWeight<kScale>> weights_;
 };
 
@@ -195,7 +192,7 @@ void paint_rows(const ScreenTriangle& t, const TriangleSetup& setup, const Raste
   }
 }
 
-template <PlaneScale kScale, bool kFinished>
+template <PlaneScale kScale, bool kLit>
 void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const RasterTarget& target) {
   const TriangleSetup setup(t, kScale);
   if (!setup.faces_viewer() || setup.last_row() < target.area.y0 || setup.first_row() >= target.area.y1)
@@ -203,19 +200,11 @@ void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const
   if (const auto triangle = shorten(setup, t, sources, target))
     return draw_short_triangle(*triangle, kScale, sources, target.planes, *target.depth);
   if (sources.size() == 1)
-    paint_rows<kScale>(t, setup, target, SourcePainter<kScale, kFinished>(setup, t, sources.front()));
+    paint_rows<kScale>(t, setup, target, SourcePainter<kScale, kLit>(setup, t, sources.front()));
   else if (all_constant_and_coarse(sources))
-    paint_rows<kScale>(t, setup, target, CoarseBlend<kScale, kFinished>(setup, t, sources));
+    paint_rows<kScale>(t, setup, target, CoarseBlend<kScale, kLit>(setup, t, sources));
   else
-    paint_rows<kScale>(t, setup, target, LinearBlend<kScale, kFinished>(setup, t, sources));
-}
-
-template <PlaneScale kScale>
-void draw(const ScreenTriangle& t, std::span<const TextureSource> sources, const RasterTarget& target) {
-  if (std::any_of(sources.begin(), sources.end(), is_finished))
-    draw<kScale, true>(t, sources, target);
-  else
-    draw<kScale, false>(t, sources, target);
+    paint_rows<kScale>(t, setup, target, LinearBlend<kScale, kLit>(setup, t, sources));
 }
 
 }  // namespace
@@ -224,10 +213,12 @@ void draw_triangle(const ScreenTriangle& t, std::span<const TextureSource> sourc
                    const RasterTarget& target) {
   assert(!sources.empty() && sources.size() <= kMaxTriangleSources);
   assert(target.planes.size() == plane_count(target.scale));
-  if (target.scale == PlaneScale::kLuma)
-    draw<PlaneScale::kLuma>(t, sources, target);
+  if (target.scale == PlaneScale::kChroma)
+    draw<PlaneScale::kChroma, false>(t, sources, target);
+  else if (std::any_of(sources.begin(), sources.end(), is_lit))
+    draw<PlaneScale::kLuma, true>(t, sources, target);
   else
-    draw<PlaneScale::kChroma>(t, sources, target);
+    draw<PlaneScale::kLuma, false>(t, sources, target);
 }
 
 }  // namespace fbs

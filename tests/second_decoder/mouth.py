@@ -3,7 +3,7 @@
 import numpy as np
 
 from .integers import clamp, quotient
-from .wire_frame import INNER_LIPS, LEFT_MOUTH_CORNER
+from .wire_frame import INNER_LIPS, LEFT_MOUTH_CORNER, MOUTH
 
 WIDTH_LOG2 = 12  # places are in 2^-12 of the mouth's width
 WIDTH = 1 << WIDTH_LOG2
@@ -13,7 +13,7 @@ MAX_AMOUNT = 256  # of mouth colour
 
 def amount(sources, now):
     """How much of the mouth colours shows, of MAX_AMOUNT; `now` is the placement of the mesh in the picture."""
-    total = sum(source.regions[0] * clamp(now.gap - source.pattern.placement.gap, 0, MAX_AMOUNT)
+    total = sum(source.regions[MOUTH] * clamp(now.gap - source.pattern.placement.gap, 0, MAX_AMOUNT)
                 for source in sources if not source.still)
     return (total + 128) // 256
 

@@ -1,6 +1,6 @@
 """Arithmetic of samples: textures, light, blending and contrast.
 
-The formulas of SPEC 4.4 (double), 10.8, 10.10, 10.11, 11.6 and 11.7, and nothing of them is elsewhere. All arrays are
+The formulas of SPEC 4.4 (double), 10.8, 10.11, 11.6 and 11.7, and nothing of them is elsewhere. All arrays are
 of 64-bit integers with one element for each sample to be drawn, unless stated otherwise.
 """
 
