@@ -1,6 +1,7 @@
 // The settings of an encoder.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -16,11 +17,18 @@ struct LiveSettings {
   double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate
 };
 
+/// What bytes are spent for.
+enum class Tune : std::uint8_t {
+  kEye,   ///< the face, where viewers look: mouth and eyes are nearer to the source, what surrounds them less
+  kPsnr,  ///< the frame as a whole: least squared difference
+};
+
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
   double bitrate = 0;          ///< total kbit/s, which determines quality; 0: quality decides
   double seconds = 0;          ///< length of the video, for bitrate; 0: unknown, ten are assumed
   double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: quality decides
+  Tune tune = Tune::kEye;      ///< of files: live patterns are all of one contrast
   int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
   int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion

@@ -107,6 +107,15 @@ void add_encode(CLI::App& app, Run& run) {
                    "1 % fewer bytes at equal quality")
       ->capture_default_str()
       ->check(CLI::Range(0, 2));
+  verb->add_option_function<std::string>(
+          "--tune",
+          [&settings = a.settings](const std::string& to) {
+            settings.tune = to == "psnr" ? Tune::kPsnr : Tune::kEye;
+          },
+          "What bytes are spent for: mouth and eyes that look right, or the PSNR of the whole frame")
+      ->check(CLI::IsMember({"eye", "psnr"}))
+      ->type_name("eye|psnr")
+      ->default_str("eye");
   verb->add_option(
       "--marks", a.marks,
       "JSON file with the positions of facial points in the first picture, {\"nose_tip\": [x, y], "

@@ -11,8 +11,8 @@ namespace {
 // lip.
 constexpr std::size_t kRightCorner = 60, kUpperMiddle = 62, kLeftCorner = 64, kLowerMiddle = 66;
 
-/// Lips that part by this much more than in the pattern, head units, show nothing of the pattern between
-/// them. A sixteenth of the eye distance; set by eye on the ten clips.
+/// Lips that part by this much more than twice as far as in the pattern, head units, show nothing of the
+/// pattern between them. A sixteenth of the eye distance; set by eye on the ten clips.
 constexpr std::int32_t kOpaqueGap = kUnitsPerEyeDistance / 16;
 static_assert(kOpaqueGap == kInteriorOpaque, "one head unit of gap is one step of opacity");
 
@@ -72,7 +72,7 @@ std::int32_t mouth_gap(const Geometry& neutral, const State& state) {
 }
 
 std::int32_t interior_opacity(std::int32_t gap, std::int32_t gap_seen) {
-  return std::clamp(gap - gap_seen, 0, kInteriorOpaque);
+  return std::clamp(gap - std::max(gap_seen, 2 * gap_seen), 0, kInteriorOpaque);
 }
 
 std::array<std::int32_t, kInteriorCount> interior_base(const MouthInterior& mouth,

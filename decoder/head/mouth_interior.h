@@ -44,8 +44,9 @@ struct InnerLips {
 /// The same for an adapted head in a state.
 [[nodiscard]] std::int32_t mouth_gap(const Geometry& neutral, const State& state);
 
-/// Opacity of the interior over the pattern between the lips: 0..kInteriorOpaque, reached once the lips have
-/// parted by a sixteenth of the eye distance more than in the pattern.
+/// Opacity of the interior over the pattern between the lips: 0..kInteriorOpaque. A pattern with parted lips
+/// shows teeth and tongue, which look better stretched than painted over: the colours begin where the lips
+/// part twice as far as in the pattern, and hide it at a sixteenth of the eye distance more.
 /// @param gap, gap_seen  mouth_gap() in the picture and in the pattern's seen state
 [[nodiscard]] std::int32_t interior_opacity(std::int32_t gap, std::int32_t gap_seen);
 

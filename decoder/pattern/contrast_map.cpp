@@ -107,6 +107,7 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
 ContrastMap::ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture)
     : cells_(draw_cells(setup.format.width, setup.format.height, head, texture)),
       surround_(setup.contrast),
+      surround_chroma_((kContrastOne + setup.contrast) / 2),
       face_chroma_(setup.chroma_contrast) {
   const int radius = blur_radius(head, texture);
   for (int pass = 0; pass < kBlurPasses; ++pass) {
@@ -119,7 +120,7 @@ void ContrastMap::expand(Picture& picture) const {
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + (1 << (kInverseOneLog2 - 1))) >> kInverseOneLog2;
   };
-  const Contrasts chroma = inverse(contrasts(face_chroma_, surround_));
+  const Contrasts chroma = inverse(contrasts(face_chroma_, surround_chroma_));
   for_each_sample(picture.y, cells_, kCell, inverse(contrasts(kContrastOne, surround_)), change);
   for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
 }
@@ -128,7 +129,7 @@ void ContrastMap::reduce(Picture& picture) const {
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + kContrastOne / 2) >> kContrastOneLog2;
   };
-  const Contrasts chroma = contrasts(face_chroma_, surround_);
+  const Contrasts chroma = contrasts(face_chroma_, surround_chroma_);
   for_each_sample(picture.y, cells_, kCell, contrasts(kContrastOne, surround_), change);
   for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
 }

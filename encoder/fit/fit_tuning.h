@@ -41,6 +41,9 @@ inline constexpr int kStepsOfLevel[kFitLevels] = {3, 2};  ///< fine level first
 /// start. Grey levels; in 2169 pictures of ten clips one changes by more than 8, and none by more than 12.
 inline constexpr double kMaxLightStep = 16;
 inline constexpr double kMaxOffset = 0.35 * kUnitsPerEyeDistance;  ///< head units, of a control point
+/// The same of a pupil, to the side and up or down: eyeballs, a fifth of the eye distance in radius, turn by
+/// less than 55 and 25 degrees. Beyond that the fit has mistaken lashes for the iris, and eyes are torn.
+inline constexpr double kMaxGazeX = 0.16 * kUnitsPerEyeDistance, kMaxGazeY = 0.08 * kUnitsPerEyeDistance;
 /// Inner lips farther than this from where the outer ones carry them are also tried from there. Eye
 /// distances.
 inline constexpr double kInnerLipsStray = 0.04;
@@ -62,7 +65,7 @@ inline constexpr double kLidOverlap = 0.01;
 
 // Gaze.
 /// Candidates of the search, eye distances from rest.
-inline constexpr double kGazes[] = {-0.24, -0.12, 0, 0.12, 0.24};
+inline constexpr double kGazes[] = {-0.16, -0.08, 0, 0.08, 0.16};
 /// The gaze stays unless another reduces the difference below this share.
 inline constexpr double kGazeKept = 0.8;
 

@@ -9,6 +9,13 @@
 namespace fbs {
 namespace {
 
+/// How far a control point may be from rest, head units.
+glm::dvec2 most(std::size_t control) {
+  for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
+    if (control == feature(id).first_control) return {kMaxGazeX, kMaxGazeY};
+  return glm::dvec2(kMaxOffset);
+}
+
 /// @param x  the unknowns' steps
 void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
   fit.pose = moved(fit.pose, {x(0), x(1), x(2), x(3), x(4), x(5)});
@@ -18,10 +25,9 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
     fit.interior[i] += x(static_cast<int>(FitColumns::kFirstInterior + i));
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (!columns.has(c)) continue;
-    for (int axis = 0; axis < 2; ++axis) {
-      double& offset = fit.offsets[c][axis];
-      offset = std::clamp(offset + x(static_cast<int>(columns.of(c)) + axis), -kMaxOffset, kMaxOffset);
-    }
+    const int column = static_cast<int>(columns.of(c));
+    const glm::dvec2 step(x(column), x(column + 1));
+    fit.offsets[c] = glm::clamp(fit.offsets[c] + step, -most(c), most(c));
   }
 }
 

@@ -11,6 +11,10 @@ struct PatternPoint {
   /// @param quality  0..100
   static PatternPoint at(int quality);
 
+  /// The same for patterns with less contrast outside the face, as for Tune::kEye: finer ones take as many
+  /// bytes.
+  static PatternPoint by_eye(int quality);
+
   /// The same for a scene without a face, where the patterns show all motion.
   static PatternPoint without_face(int quality);
 };

@@ -75,6 +75,7 @@ class FaceCoder {
   bool fixed_ = false;  ///< whether fix_head() has been called
   struct SecondPass {
     SegmentRefit refit;
+    std::int32_t contrast;     ///< of patterns outside the face
     FaceChroma face_chroma{};  ///< until the scene starts
   };
   std::optional<SecondPass> second_pass_;  ///< nothing with one pattern

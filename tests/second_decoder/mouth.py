@@ -13,7 +13,10 @@ MAX_AMOUNT = 256  # of mouth colour
 
 def amount(sources, now):
     """How much of the mouth colours shows, of MAX_AMOUNT; `now` is the placement of the mesh in the picture."""
-    total = sum(source.regions[MOUTH] * clamp(now.gap - source.pattern.placement.gap, 0, MAX_AMOUNT)
+    def colours_begin(seen):
+        return max(seen.gap, 2 * seen.gap)
+
+    total = sum(source.regions[MOUTH] * clamp(now.gap - colours_begin(source.pattern.placement), 0, MAX_AMOUNT)
                 for source in sources if not source.still)
     return (total + 128) // 256
 

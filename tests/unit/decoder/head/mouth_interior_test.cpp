@@ -14,7 +14,9 @@ namespace {
 TEST(MouthInterior, OpacityGrowsAsTheLipsPart) {
   EXPECT_EQ(interior_opacity(-500, 100), 0);
   EXPECT_EQ(interior_opacity(100, 100), 0) << "as the pattern saw it";
-  EXPECT_EQ(interior_opacity(228, 100), 128);
+  EXPECT_EQ(interior_opacity(200, 100), 0) << "the pattern's own, stretched";
+  EXPECT_EQ(interior_opacity(328, 100), 128);
+  EXPECT_EQ(interior_opacity(28, -100), 128) << "lips that overlap in the pattern";
   EXPECT_EQ(interior_opacity(5000, 100), 256);
 }
 

@@ -49,7 +49,7 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
   EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
   EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
   EXPECT_EQ(std::abs(p.y.row(1)[1] - 128), 50);
-  EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 50);
+  EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 75) << "half of what luma loses";
 }
 
 // At contrast c one level is 256 / c levels of the pattern, rounded twice.
@@ -79,7 +79,7 @@ TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
   const glm::ivec2 in = middle(mesh);
   EXPECT_EQ(p.y.row(in.y)[in.x], 168);
   EXPECT_EQ(p.u.row(in.y / 2)[in.x / 2], 128 + 60);
-  EXPECT_EQ(p.v.row(1)[1], 128 + 30);
+  EXPECT_EQ(p.v.row(1)[1], 128 + 35);
   map.expand(p);
   for (const std::uint8_t v : p.u.samples) EXPECT_NEAR(v, 168, 1);
 }
@@ -101,7 +101,8 @@ TEST(ContrastMap, ExpandsEachLevelByTheRule) {
     ASSERT_EQ(p.y.row(in.y)[in.x], level);
     ASSERT_EQ(p.u.row(in.y / 2)[in.x / 2], expanded(384)) << level;
     ASSERT_EQ(p.v.row(in.y / 2)[in.x / 2], expanded(384)) << level;
-    for (const Plane* plane : {&p.y, &p.u, &p.v}) ASSERT_EQ(plane->row(1)[1], expanded(200)) << level;
+    ASSERT_EQ(p.y.row(1)[1], expanded(200)) << level;
+    for (const Plane* plane : {&p.u, &p.v}) ASSERT_EQ(plane->row(1)[1], expanded(228)) << level;
   }
 }
 

@@ -41,9 +41,20 @@ TEST(MotionTarget, SeveralPatternsTakeWhatTheMotionLeaves) {
   EXPECT_EQ(target.quality, motion_quality_at(8));
 }
 
+TEST(PassSettings, PsnrKeepsContrastAndCoarserPatterns) {
+  EncoderSettings settings;
+  settings.tune = Tune::kPsnr;
+  const PatternPassSettings pass = pass_settings(settings, kMotion);
+  EXPECT_EQ(pass.point.quantiser, PatternPoint::at(50).quantiser);
+  EXPECT_EQ(pass.point_at(70).quantiser, PatternPoint::at(70).quantiser);
+  EXPECT_GT(pass.point.quantiser, PatternPoint::by_eye(50).quantiser);
+  EXPECT_GT(surround_contrast(Tune::kPsnr), surround_contrast(Tune::kEye));
+  EXPECT_EQ(planar_pass_settings({}, kMotion).point.quantiser, PatternPoint::without_face(50).quantiser);
+}
+
 TEST(PassSettings, QualityDecidesWhatIsNotAskedFor) {
   const PatternPassSettings pass = pass_settings({}, kMotion);
-  EXPECT_EQ(pass.point.quantiser, PatternPoint::at(50).quantiser);
+  EXPECT_EQ(pass.point.quantiser, PatternPoint::by_eye(50).quantiser);
   EXPECT_EQ(pass.lone_quantiser, kMotion.pattern_quantiser);
   EXPECT_EQ(pass.lambda, kMotion.lambda);
   EXPECT_FALSE(pass.quantiser);
