@@ -97,7 +97,7 @@ struct Setup {
   PartMask parts = kAllParts;  ///< parts of the state that are sent; always with the pose
   MouthInterior mouth;
   std::int32_t patterns = 1;  ///< kept by the decoder, 1..kMaxPatterns; 1: pictures need no blend packets
-  std::int32_t contrast = kContrastOne;  ///< of patterns outside the face, kMinContrast..kContrastOne
+  std::int32_t contrast = kContrastOne;  ///< of patterns' luma outside the face, kMinContrast..kContrastOne
   /// Contrast of the patterns' chroma in the face, kContrastOne..kMaxChromaContrast, even.
   std::int32_t chroma_contrast = kContrastOne;
   friend bool operator==(const Setup&, const Setup&) = default;

@@ -19,9 +19,8 @@ constexpr int kCellLog2 = 2, kCell = 1 << kCellLog2;
 
 constexpr int kBlurPasses = 3, kMaxBlurRadius = 64;
 
-using Contrasts = std::array<std::int32_t, kFaceShareOne + 1>;
+static_assert(std::tuple_size_v<Contrasts> == kFaceShareOne + 1);
 
-/// For each share of the face.
 Contrasts contrasts(std::int32_t face, std::int32_t surround) {
   Contrasts out{};
   for (int share = 0; share <= kFaceShareOne; ++share)
@@ -106,9 +105,8 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
 
 ContrastMap::ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture)
     : cells_(draw_cells(setup.format.width, setup.format.height, head, texture)),
-      surround_(setup.contrast),
-      surround_chroma_((kContrastOne + setup.contrast) / 2),
-      face_chroma_(setup.chroma_contrast) {
+      luma_(contrasts(kContrastOne, setup.contrast)),
+      chroma_(contrasts(setup.chroma_contrast, (kContrastOne + setup.contrast) / 2)) {
   const int radius = blur_radius(head, texture);
   for (int pass = 0; pass < kBlurPasses; ++pass) {
     for (int y = 0; y < cells_.height; ++y) blur(cells_.row(y), 1, cells_.width, radius);
@@ -120,8 +118,8 @@ void ContrastMap::expand(Picture& picture) const {
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + (1 << (kInverseOneLog2 - 1))) >> kInverseOneLog2;
   };
-  const Contrasts chroma = inverse(contrasts(face_chroma_, surround_chroma_));
-  for_each_sample(picture.y, cells_, kCell, inverse(contrasts(kContrastOne, surround_)), change);
+  const Contrasts chroma = inverse(chroma_);
+  for_each_sample(picture.y, cells_, kCell, inverse(luma_), change);
   for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
 }
 
@@ -129,9 +127,8 @@ void ContrastMap::reduce(Picture& picture) const {
   const auto change = [](std::int32_t v, std::int32_t by) {
     return (v * by + kContrastOne / 2) >> kContrastOneLog2;
   };
-  const Contrasts chroma = contrasts(face_chroma_, surround_chroma_);
-  for_each_sample(picture.y, cells_, kCell, contrasts(kContrastOne, surround_), change);
-  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
+  for_each_sample(picture.y, cells_, kCell, luma_, change);
+  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma_, change);
 }
 
 }  // namespace fbs

@@ -2,6 +2,7 @@
 // and with more contrast in the face's chroma: AV1 without a quantiser map. SPEC 11.7. Integers only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "bitstream/syntax.h"
@@ -10,6 +11,9 @@
 #include "decoder/head/head_mesh.h"
 
 namespace fbs {
+
+/// Contrasts by share of the face, 0..255.
+using Contrasts = std::array<std::int32_t, 256>;
 
 /// The contrast of each sample of a coded pattern.
 class ContrastMap {
@@ -32,9 +36,9 @@ class ContrastMap {
 
  private:
   Plane cells_;  ///< share of the face in blocks of 4 x 4 luma samples, 0..255
-  /// Contrasts; the face's luma has contrast one. The surround's chroma loses half of what its luma does:
-  /// what AV1 leaves wrong is multiplied, and coloured lines along a face are seen before grey ones.
-  std::int32_t surround_, surround_chroma_, face_chroma_;
+  /// The surround's chroma loses half of what its luma does: what AV1 leaves wrong is multiplied, and
+  /// coloured lines along a face are seen before grey ones.
+  Contrasts luma_, chroma_;
 };
 
 }  // namespace fbs

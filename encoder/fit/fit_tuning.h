@@ -64,8 +64,8 @@ inline constexpr double kLidsApartCost = 60;
 inline constexpr double kLidOverlap = 0.01;
 
 // Gaze.
-/// Candidates of the search, eye distances from rest.
-inline constexpr double kGazes[] = {-0.16, -0.08, 0, 0.08, 0.16};
+/// Candidates of the search, to the side, in shares of kMaxGazeX.
+inline constexpr double kGazes[] = {-1, -0.5, 0, 0.5, 1};
 /// The gaze stays unless another reduces the difference below this share.
 inline constexpr double kGazeKept = 0.8;
 

@@ -10,7 +10,7 @@ namespace fbs {
 namespace {
 
 /// How far a control point may be from rest, head units.
-glm::dvec2 most(std::size_t control) {
+glm::dvec2 farthest_of(std::size_t control) {
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
     if (control == feature(id).first_control) return {kMaxGazeX, kMaxGazeY};
   return glm::dvec2(kMaxOffset);
@@ -26,8 +26,8 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (!columns.has(c)) continue;
     const int column = static_cast<int>(columns.of(c));
-    const glm::dvec2 step(x(column), x(column + 1));
-    fit.offsets[c] = glm::clamp(fit.offsets[c] + step, -most(c), most(c));
+    const glm::dvec2 step(x(column), x(column + 1)), farthest = farthest_of(c);
+    fit.offsets[c] = glm::clamp(fit.offsets[c] + step, -farthest, farthest);
   }
 }
 

@@ -29,7 +29,7 @@ Fit GazeSearch::best(const Comparison& comparison, const Fit& start) const {
   Fit best = start;
   double least = difference(start) * kGazeKept;
   for (const double x : kGazes) {
-    Fit fit = looking(start, {x * kUnitsPerEyeDistance, 0});
+    Fit fit = looking(start, {x * kMaxGazeX, 0});
     if (const double d = difference(fit); d < least) {
       least = d;
       best = fit;

@@ -19,7 +19,12 @@ constexpr Hull kHull = {{{0.4, 63, 20}, {0.8, 60, 25}, {1.6, 58, 38}, {3.2, 55, 
 /// patterns gain more than finer ones; beyond, every picture of a busy scene should become one.
 constexpr Hull kHullWithoutFace = {{{1.5, 63, 20}, {4, 62, 25}, {7, 60, 38}, {13, 58, 38}, {30, 54, 45}}};
 
-/// Steps of the quantiser that pay for Tune::kEye's contrast outside the face.
+/// Contrast of patterns outside the face. Against full contrast, kPsnr's takes 3.5 % fewer bytes in the face
+/// at the same PSNR, and hardly more in the frame. kEye's goes on from there at the same mean rate: colours
+/// of mouth and eyes are 5 % nearer to the source, SSIM there rises by .007, false edges fall by a tenth, and
+/// the frame loses 0.13 dB (ten clips at quality 50).
+constexpr std::int32_t kPsnrContrast = 220, kEyeContrast = 170;
+/// Steps of the quantiser for which the bytes that kEyeContrast saves pay.
 constexpr int kFinerByEye = 2;
 
 /// Increase of the quantiser for twice the samples: blends of large pictures favour more patterns with fewer
@@ -58,6 +63,10 @@ PatternPoint PatternPoint::by_eye(int quality) {
 
 PatternPoint PatternPoint::without_face(int quality) {
   return on(kHullWithoutFace, quality);
+}
+
+std::int32_t surround_contrast(Tune tune) {
+  return tune == Tune::kEye ? kEyeContrast : kPsnrContrast;
 }
 
 int quantiser_of(const PatternPoint& point, int width, int height) {

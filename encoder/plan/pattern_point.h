@@ -1,6 +1,10 @@
 // What --quality means for a scene with several patterns: their number and quantiser.
 #pragma once
 
+#include <cstdint>
+
+#include "encoder/settings.h"
+
 namespace fbs {
 
 struct PatternPoint {
@@ -11,13 +15,15 @@ struct PatternPoint {
   /// @param quality  0..100
   static PatternPoint at(int quality);
 
-  /// The same for patterns with less contrast outside the face, as for Tune::kEye: finer ones take as many
-  /// bytes.
+  /// The same for patterns with less contrast outside the face: finer ones take as many bytes.
   static PatternPoint by_eye(int quality);
 
   /// The same for a scene without a face, where the patterns show all motion.
   static PatternPoint without_face(int quality);
 };
+
+/// Setup::contrast of a scene with look-ahead. by_eye() goes with that of Tune::kEye.
+[[nodiscard]] std::int32_t surround_contrast(Tune tune);
 
 /// Quantiser for patterns of another size: large ones get fewer bits per sample.
 [[nodiscard]] int quantiser_of(const PatternPoint& point, int width, int height);

@@ -8,6 +8,7 @@
 #include "bitstream/payload/surround_payload.h"
 #include "encoder/model/coded_numbers.h"
 #include "encoder/patterns/first_pattern.h"
+#include "encoder/plan/pattern_point.h"
 #include "encoder/segment/pass_settings.h"
 
 namespace fbs {

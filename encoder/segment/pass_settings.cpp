@@ -22,12 +22,6 @@ constexpr int kLiveFiner = 2;
 /// less rate in the face (three clips); at 352x288 25 % more with little motion, 13 % less with much.
 constexpr int kMostFullSize = 400 * 400;
 
-/// Contrast of patterns outside the face. Against full contrast, kPsnr's takes 3.5 % fewer bytes in the face
-/// at the same PSNR, and hardly more in the frame. kEye's goes on from there at the same rate: colours of
-/// mouth and eyes are 5 % nearer to the source, SSIM there rises by .007, false edges fall by a tenth, and
-/// the frame loses 0.13 dB (ten clips at quality 50).
-constexpr std::int32_t kPsnrContrast = 220, kEyeContrast = 170;
-
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
                                   const VideoFormat& format) {
   LivePatternSettings out;
@@ -45,10 +39,6 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
 }
 
 }  // namespace
-
-std::int32_t surround_contrast(Tune tune) {
-  return tune == Tune::kEye ? kEyeContrast : kPsnrContrast;
-}
 
 RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
   RateTarget target = rate_target(settings, eye_distance_px);

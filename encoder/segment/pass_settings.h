@@ -10,9 +10,6 @@
 
 namespace fbs {
 
-/// Setup::contrast of a scene with look-ahead.
-[[nodiscard]] std::int32_t surround_contrast(Tune tune);
-
 /// Target of the motion and the first pattern.
 [[nodiscard]] RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px);
 

@@ -13,11 +13,8 @@ MAX_AMOUNT = 256  # of mouth colour
 
 def amount(sources, now):
     """How much of the mouth colours shows, of MAX_AMOUNT; `now` is the placement of the mesh in the picture."""
-    def colours_begin(seen):
-        return max(seen.gap, 2 * seen.gap)
-
-    total = sum(source.regions[MOUTH] * clamp(now.gap - colours_begin(source.pattern.placement), 0, MAX_AMOUNT)
-                for source in sources if not source.still)
+    seen = [(source.regions[MOUTH], source.pattern.placement.gap) for source in sources if not source.still]
+    total = sum(weight * clamp(now.gap - max(gap, 2 * gap), 0, MAX_AMOUNT) for weight, gap in seen)
     return (total + 128) // 256
 
 

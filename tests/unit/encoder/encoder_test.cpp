@@ -158,6 +158,9 @@ TEST(Encoder, CodesAClipOfOnePicture) {
   const Coded c = coded(one);
   ASSERT_EQ(c.pictures.size(), 1u);
   EXPECT_GT(c.psnr(one), 29.5);
+  EncoderSettings settings;
+  settings.tune = Tune::kPsnr;
+  EXPECT_GT(coded(one, settings).psnr(one), 30);
 }
 
 TEST(Encoder, RefusesAClipWithoutAFace) {
