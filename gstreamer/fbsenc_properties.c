@@ -6,6 +6,7 @@ enum {
   PROP_QUALITY,
   PROP_BITRATE,
   PROP_EFFORT,
+  PROP_TUNE,
   PROP_PATTERNS,
   PROP_FACE,
   PROP_ALLOW_NO_FACE,
@@ -15,6 +16,17 @@ enum {
   PROP_BUFFER,
   PROP_THREADS,
 };
+
+static GType tune_type(void) {
+  static gsize type = 0;
+  static const GEnumValue values[] = {
+      {FBS_TUNE_EYE, "Mouth and eyes that look right", "eye"},
+      {FBS_TUNE_PSNR, "The PSNR of the whole frame", "psnr"},
+      {0, NULL, NULL},
+  };
+  if (g_once_init_enter(&type)) g_once_init_leave(&type, g_enum_register_static("GstFbsEncTune", values));
+  return type;
+}
 
 static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
@@ -28,6 +40,9 @@ static void set_property(GObject* object, guint id, const GValue* value, GParamS
       break;
     case PROP_EFFORT:
       s->effort = g_value_get_int(value);
+      break;
+    case PROP_TUNE:
+      s->tune = g_value_get_enum(value);
       break;
     case PROP_PATTERNS:
       s->patterns = g_value_get_int(value);
@@ -71,6 +86,9 @@ static void get_property(GObject* object, guint id, GValue* value, GParamSpec* s
       break;
     case PROP_EFFORT:
       g_value_set_int(value, s->effort);
+      break;
+    case PROP_TUNE:
+      g_value_set_enum(value, s->tune);
       break;
     case PROP_PATTERNS:
       g_value_set_int(value, s->patterns);
@@ -130,6 +148,10 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
       g_param_spec_uint("bitrate", "Bit rate", "Bit/s, from which quality follows (0 = quality decides)", 0,
                         1000000000, 0, PROPERTY_FLAGS));
   install_int(type, PROP_EFFORT, "effort", "Effort", "More takes longer and needs fewer bits", 0, 2, 1);
+  g_object_class_install_property(
+      type, PROP_TUNE,
+      g_param_spec_enum("tune", "Tune", "What bytes are spent for; without effect where live is set",
+                        tune_type(), FBS_TUNE_EYE, PROPERTY_FLAGS));
   install_int(type, PROP_PATTERNS, "patterns", "Patterns",
               "Pictures of the person that the decoder keeps (0 = chosen by the encoder)", 0, 64, 0);
   install_int(type, PROP_FACE, "face", "Face", "Which face is followed; the largest one is 0", 0, 99, 0);

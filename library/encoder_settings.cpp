@@ -43,11 +43,14 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
        {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer})
     if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
   if (settings.effort > kMaxEffort) return fail(ErrorCode::kInvalidArgument, "effort outside 0..2");
+  if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
+    return fail(ErrorCode::kInvalidArgument, "the tune is unknown");
   EncoderInput out{*format, {}};
   out.settings.quality = settings.quality;
   out.settings.bitrate = settings.bitrate;
   out.settings.seconds = settings.seconds;
   out.settings.effort = settings.effort;
+  out.settings.tune = settings.tune == FBS_TUNE_PSNR ? Tune::kPsnr : Tune::kEye;
   out.settings.patterns = settings.patterns;
   out.settings.face = settings.face;
   out.settings.allow_no_face = settings.allow_no_face != 0;

@@ -25,6 +25,12 @@
 extern "C" {
 #endif
 
+/** What bytes are spent for. */
+typedef enum fbs_tune {
+  FBS_TUNE_EYE, /**< mouth and eyes that look right, at some cost of the frame's PSNR */
+  FBS_TUNE_PSNR /**< the PSNR of the whole frame */
+} fbs_tune;
+
 /** Filled by fbs_encoder_default_settings(&settings, sizeof settings), after which width and height are 0 and
  * must be set. */
 typedef struct fbs_encoder_settings {
@@ -43,6 +49,7 @@ typedef struct fbs_encoder_settings {
   double live_buffer;  /**< live, with bitrate: longest time that data waits to be sent, seconds; default 2 */
   int threads;         /**< live: 1, or more to code while the next pictures are analysed; the stream is the
                             same. 0 (default): as many as there are cores */
+  int tune;            /**< fbs_tune, of files; default FBS_TUNE_EYE. No effect with `live` */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 Rate = Union[int, float, Fraction]
 
 _SIDES = range(64, 8193)
+_TUNES = ("eye", "psnr")
 _MAX_DURATION = 60.0  # s
 
 
@@ -70,6 +71,8 @@ class Encoder:
         Length of the video, if known; for `bitrate`.
     effort : {0, 1, 2}
         More takes longer and saves bits.
+    tune : {"eye", "psnr"}
+        What bytes are spent for: mouth and eyes that look right, or the PSNR of the whole frame. No effect with `live`.
     patterns : int
         Pictures of the person in a scene, 1 to 64; 0: chosen by the encoder.
     face : int
@@ -114,6 +117,7 @@ class Encoder:
         bitrate: float | None = None,
         seconds: float | None = None,
         effort: int = 1,
+        tune: str = "eye",
         patterns: int = 0,
         face: int = 0,
         allow_no_face: bool = False,
@@ -133,6 +137,7 @@ class Encoder:
         _require("bitrate", bitrate is None or bitrate > 0, bitrate, "positive")
         _require("seconds", seconds is None or seconds > 0, seconds, "positive")
         _require("effort", effort in (0, 1, 2), effort, "0 to 2")
+        _require("tune", tune in _TUNES, tune, "one of " + ", ".join(_TUNES))
         _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")
         _require("face", face >= 0, face, "not negative")
         _require("matrix", matrix in MATRICES, matrix, "one of " + ", ".join(MATRICES))
@@ -153,6 +158,7 @@ class Encoder:
                 "bitrate": float(bitrate or 0),
                 "seconds": float(seconds or 0),
                 "effort": effort,
+                "tune": _TUNES.index(tune),
                 "patterns": patterns,
                 "face": face,
                 "allow_no_face": int(allow_no_face),

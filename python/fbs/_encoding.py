@@ -29,6 +29,7 @@ def encode(
     bitrate: float | None = None,
     fps: Rate | None = None,
     effort: int = 1,
+    tune: str = "eye",
     patterns: int = 0,
     face: int = 0,
     allow_no_face: bool = False,
@@ -59,6 +60,8 @@ def encode(
         Pictures per second, for pictures and images; 25 unless given. A video file has its own.
     effort : {0, 1, 2}
         More takes longer and saves bits.
+    tune : {"eye", "psnr"}
+        What bytes are spent for: mouth and eyes that look right, or the PSNR of the whole frame. No effect with `live`.
     patterns : int
         Pictures of the person in a scene, 1 to 64; 0: chosen by the encoder.
     face : int
@@ -112,6 +115,7 @@ def encode(
             "quality": 50 if quality is None else quality,
             "bitrate": bitrate,
             "effort": effort,
+            "tune": tune,
             "patterns": patterns,
             "face": face,
             "allow_no_face": allow_no_face,
@@ -121,7 +125,7 @@ def encode(
         _encode_pictures(video, path, 25 if fps is None else fps, settings, on_progress)
         return path
 
-    arguments = ["encode", _program.argument(video), _program.argument(path), "--quiet", f"--effort={effort}"]
+    arguments = ["encode", _program.argument(video), _program.argument(path), "--quiet", f"--effort={effort}", f"--tune={tune}"]
     for name, value in (
         ("--quality", quality),
         ("--bitrate", bitrate),

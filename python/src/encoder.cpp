@@ -38,6 +38,7 @@ void open(Encoder* self, const nb::dict& settings) {
   take(settings, "bitrate", s.bitrate);
   take(settings, "seconds", s.seconds);
   take(settings, "effort", s.effort);
+  take(settings, "tune", s.tune);
   take(settings, "patterns", s.patterns);
   take(settings, "face", s.face);
   take(settings, "allow_no_face", s.allow_no_face);

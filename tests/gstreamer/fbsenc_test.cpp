@@ -50,6 +50,15 @@ TEST(FbsEnc, WithLookAheadItIsAWholeStreamToo) {
   EXPECT_EQ(pictures.pictures.size(), kPictures);
 }
 
+TEST(FbsEnc, TheTuneChangesTheStream) {
+  const auto tuned = [](const std::string& to) {
+    const Harness harness = encoder_harness("fbsenc live=false effort=0 tune=" + to);
+    for (int k = 0; k < kPictures; ++k) push(harness.get(), talker_buffer(k));
+    return joined(finish(harness.get()));
+  };
+  EXPECT_NE(tuned("eye"), tuned("psnr"));
+}
+
 TEST(FbsEnc, ReportsTheDelayOfAGroupAndOnePicture) {
   const Harness harness = encoder_harness("fbsenc threads=1 delay=0.3");
   push(harness.get(), talker_buffer(0));
