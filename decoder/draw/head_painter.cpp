@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "decoder/draw/silhouette.h"
 #include "decoder/head/head_projection.h"
 
 namespace fbs {
@@ -12,14 +13,15 @@ static_assert(kMaxTriangleSources ==
 
 namespace {
 
-/// Samples that the head can cover, within `limit`.
+/// Samples that the head can cover, and those round them that are softened, within `limit`.
 SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleArea& limit) {
   glm::ivec2 low(kMaxScreen), high(-kMaxScreen);
   for (const glm::ivec3& p : mesh.head) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  return samples_in_box(low, high, scale, limit);
+  const glm::ivec2 round(kMaxSoftened << static_cast<int>(scale));
+  return samples_in_box(low - round, high + round, scale, limit);
 }
 
 /// A value for each corner of a triangle.
@@ -42,6 +44,7 @@ HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, Pla
 void HeadPainter::draw() {
   if (target_.area.empty()) return;
   for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
+  soften_silhouettes(d_.mesh, texture_.geometry.head_mesh(), texture_.weights, target_);
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {

@@ -7,6 +7,7 @@
 #include "decoder/blend/mesh_blend.h"
 #include "decoder/draw/head_painter.h"
 #include "decoder/draw/mouth_painter.h"
+#include "decoder/draw/silhouette.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/head/head_mesh.h"
 #include "decoder/head/mouth_interior.h"
@@ -116,9 +117,11 @@ Result<void> Renderer::render_luma(const Scene& scene, const State& state, const
                                    const PlaneView& out) {
   if (auto checked = check(scene); !checked) return checked;
   if (!same_size(scene.patterns.front().picture.y, out)) return fail(another_size());
-  const SampleArea inside{std::max(area.x0, 0), std::max(area.y0, 0), std::min(area.x1, out.width),
-                          std::min(area.y1, out.height)};
-  if (!inside.empty()) draw(scene, state, blend_of_state(scene, state), {out, {}, {}}, inside, {});
+  const SampleArea inside{std::max(area.x0 - kSilhouetteReach, 0), std::max(area.y0 - kSilhouetteReach, 0),
+                          std::min(area.x1 + kSilhouetteReach, out.width),
+                          std::min(area.y1 + kSilhouetteReach, out.height)};
+  if (!area.empty() && !inside.empty())
+    draw(scene, state, blend_of_state(scene, state), {out, {}, {}}, inside, {});
   return {};
 }
 

@@ -1,5 +1,7 @@
 #include "decoder/head/head_mesh.h"
 
+#include <algorithm>
+
 #include "common/generic_head.h"
 
 namespace fbs {
@@ -16,6 +18,21 @@ HeadMesh::HeadMesh(const WireFrame& head)
     triangles.push_back({a, ring_b, b});
   }
   vertex_count = head_count + n;
+
+  const auto edge = [](const HeadTriangle& t, std::size_t k) {
+    const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+    return HeadEdge{low, high};
+  };
+  for (const HeadTriangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge(t, k));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const HeadTriangle& t : triangles) {
+    std::array<std::uint16_t, 3>& of = triangle_edges.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      of[k] = static_cast<std::uint16_t>(std::lower_bound(edges.begin(), edges.end(), edge(t, k)) -
+                                         edges.begin());
+  }
 }
 
 const HeadMesh& generic_head_mesh() {

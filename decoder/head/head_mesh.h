@@ -12,13 +12,18 @@ namespace fbs {
 /// Corners of a triangle of any mesh, clockwise; indices of points.
 using MeshTriangle = std::array<std::int32_t, 3>;
 
+/// An edge of the head's mesh: its vertices, rising.
+using HeadEdge = std::array<std::uint16_t, 2>;
+
 /// The vertices of a wire-frame and the ring around them: one vertex per outline vertex, farther out, that
 /// moves with the surround under it. The band between lets the jaw move against the neck without tearing the
 /// picture.
 struct HeadMesh {
-  std::vector<HeadTriangle> triangles;  ///< clockwise in the picture seen from the front
-  std::size_t head_count = 0;           ///< vertices of the wire-frame; the ring's follow
-  std::size_t vertex_count = 0;         ///< with the ring's
+  std::vector<HeadTriangle> triangles;                       ///< clockwise in the picture seen from the front
+  std::vector<HeadEdge> edges;                               ///< each once, rising
+  std::vector<std::array<std::uint16_t, 3>> triangle_edges;  ///< of each triangle, indices of `edges`
+  std::size_t head_count = 0;    ///< vertices of the wire-frame; the ring's follow
+  std::size_t vertex_count = 0;  ///< with the ring's
 
   explicit HeadMesh(const WireFrame& head);
 };

@@ -7,8 +7,9 @@ from .integers import clamp
 from .mouth import Opening, amount
 from .nodes import Nodes, rounded_weights
 from .patches import NODE_ONE, blended, displacements, warped
-from .raster import NO_TRIANGLE, Fragments, Plane, Triangles, planes
+from .raster import FARTHEST, NO_TRIANGLE, Fragments, Plane, Triangles, planes
 from .samples import Blend, blur, cell_shares, light, restore_contrast, sample_texture
+from .silhouette import silhouettes, soften
 from .weights import ground_weights, point_weights
 
 
@@ -68,16 +69,20 @@ class _PictureDrawing:
         if warped_ones:
             texture = self._mesh.atlas.blend([self._sources[k].pattern.atlas for k in warped_ones],
                                              atlas_weights(self._mesh.frame, self._weights[warped_ones, head]))
+        vertices = self._now.x[head][:self._mesh.frame.vertices]
         weights = [self._weights[warped_ones].sum(axis=0)]
+        edges = silhouettes(corners, self._now.x, self._now.y, weights[0])
         weights += [weight for weight, source in zip(self._weights, self._sources) if source.still]
         for k, plane in enumerate(self._planes):
             shown = np.full((plane.height, plane.width), NO_TRIANGLE)
-            triangles.draw_with_depth(shown, plane, self._now.z[corners])
+            depth = np.full(shown.shape, FARTHEST)
+            triangles.draw_with_depth(shown, depth, plane, self._now.z[corners])
             fragments = Fragments(triangles, shown, plane)
             stills = [source.pattern.planes[k] for source in self._sources if source.still]
             samples = [self._from_atlas(texture[k], k, fragments) if texture else None]
             samples += [self._from_still(plane_of_still, fragments) for plane_of_still in stills]
             picture[k][fragments.rows, fragments.columns] = self._blend(fragments, samples, weights)
+            soften(picture[k], plane, depth, edges, self._now, int(vertices.max() - vertices.min()))
         self._mix_mouth(picture)
 
     def _mix_mouth(self, picture):

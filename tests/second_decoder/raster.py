@@ -83,8 +83,8 @@ class Triangles:
         triangle, row, column = self.covered_samples(plane)
         np.maximum.at(shown, (row, column), triangle)
 
-    def draw_with_depth(self, shown, plane, z):
-        """Writes into `shown` the nearest triangle, the first of several; z are the depths of the corners."""
+    def draw_with_depth(self, shown, depths, plane, z):
+        """Writes into `shown` the nearest triangle, the first of several, and its depth; z are those of the corners."""
         triangle, row, column = self.covered_samples(plane)
         gx, gy = self.gradients(z, plane.bits)
         x, y = plane.centres(column) - self.x[triangle, 0], plane.centres(row) - self.y[triangle, 0]
@@ -93,6 +93,7 @@ class Triangles:
         order = np.lexsort((triangle, depth, place))
         _, nearest = np.unique(place[order], return_index=True)
         shown.flat[place[order][nearest]] = triangle[order][nearest]
+        depths.flat[place[order][nearest]] = depth[order][nearest]
 
 
 class Fragments:

@@ -28,7 +28,17 @@ inline int winding(const std::vector<glm::ivec2>& polygon, int x, int y) {
   return count;
 }
 
-/// One where a triangle of the head faces the viewer, zero elsewhere; luma samples.
+/// Sets the samples round (x, y) to 1.
+inline void mark_round(Plane& plane, int x, int y, int radius) {
+  for (int j = std::max(y - radius, 0); j <= std::min(y + radius, plane.height - 1); ++j)
+    for (int i = std::max(x - radius, 0); i <= std::min(x + radius, plane.width - 1); ++i)
+      plane.row(j)[i] = 1;
+}
+
+/// Luma samples round the head in which its silhouettes are softened; heads of these tests are small.
+inline constexpr int kSoftenedBand = 3;
+
+/// One where a triangle of the head faces the viewer and in the band round it, zero elsewhere; luma samples.
 inline Plane head_area(const Scene& scene, const State& state) {
   const ScreenMesh mesh = scene.geometry->screen_mesh(state);
   Plane out(scene.setup.format.width, scene.setup.format.height, 0);
@@ -43,7 +53,7 @@ inline Plane head_area(const Scene& scene, const State& state) {
     const auto [top, bottom] = range(std::minmax({corners[0].y, corners[1].y, corners[2].y}), out.height);
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < right; ++x)
-        if (winding(corners, x, y) > 0) out.row(y)[x] = 1;
+        if (winding(corners, x, y) > 0) mark_round(out, x, y, kSoftenedBand);
   }
   return out;
 }

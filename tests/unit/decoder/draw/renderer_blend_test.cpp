@@ -76,7 +76,7 @@ TEST(RendererBlend, StillPatternsInTheirOwnStateDrawThePattern) {
     state.picture = static_cast<int>(random() % 40);
     set_modes(random, state);
     SCOPED_TRACE(i);
-    expect_shows(rendered(scene, state), picture, head_area(scene, state), {2, 32});
+    expect_shows(rendered(scene, state), picture, head_area(scene, state), {2, 64});
   }
 }
 
