@@ -13,6 +13,11 @@ bool in_range(const RegionModes& modes) {
                      [](BlendMode m) { return static_cast<int>(m) < kBlendModeCount; });
 }
 
+const BlendMemory& before_a_scene() {
+  static const BlendMemory kTrained = trained<BlendMemory>(trained_blends());
+  return kTrained;
+}
+
 }  // namespace
 
 Result<std::vector<std::uint8_t>> BlendEncoder::encode(const BlendGroup& group) {
@@ -22,7 +27,7 @@ Result<std::vector<std::uint8_t>> BlendEncoder::encode(const BlendGroup& group) 
     return fail(ErrorCode::kInvalidArgument, "the first blend group must be a key group");
   if (!std::all_of(group.modes.begin(), group.modes.end(), in_range))
     return fail(ErrorCode::kInvalidArgument, "a blend mode is out of range");
-  if (group.key) memory_ = {};
+  if (group.key) memory_ = before_a_scene();
   RangeEncoder encoder;
   encoder.raw_bit(kNotKey, group.key);
   code_blend(encoder, memory_, group);
@@ -37,7 +42,7 @@ Result<BlendGroup> BlendDecoder::decode(std::span<const std::uint8_t> payload) {
   group.key = decoder.raw_bit(kNotKey);
   if (needed_key && !group.key)
     return fail(ErrorCode::kInvalidStream, "blend packet depends on a missing one");
-  if (group.key) memory_ = {};
+  if (group.key) memory_ = before_a_scene();
   const bool valid = code_blend(decoder, memory_, group);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "blend packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "blend packet has a value out of range");

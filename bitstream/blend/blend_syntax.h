@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "bitstream/entropy/adaptive_bit.h"
+#include "bitstream/entropy/trained_contexts.h"
 #include "bitstream/syntax.h"
 
 namespace fbs {
@@ -23,6 +24,14 @@ struct BlendMemory {
   /// Modes as a binary tree of four levels, for the head's regions and for the others.
   std::array<std::array<AdaptiveBit, 16>, 2> tree;
 };
+
+/// Calls f(context) for each context, in the order of SPEC 4.6.
+template <class F>
+void for_each_context(BlendMemory& memory, F&& f) {
+  f(memory.other_count);
+  for_each_context(memory.changed, f);
+  for_each_context(memory.tree, f);
+}
 
 inline constexpr int kModeBits = 4;
 static_assert(kBlendModeCount <= 1 << kModeBits);

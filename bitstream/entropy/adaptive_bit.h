@@ -14,6 +14,11 @@ inline constexpr std::uint32_t kMinProbability = 32;  ///< of either value, in 1
 /// Differs from CABAC and LZMA, which have one fixed rate: our contexts see tens of bits, not millions.
 class AdaptiveBit {
  public:
+  AdaptiveBit() = default;
+  /// As if it had coded bits already.
+  /// @param zero  probability of a zero, 1/65536; not 0  @param count  bits, 0..128
+  AdaptiveBit(std::uint16_t zero, std::uint8_t count) : fast_(zero), slow_(zero), count_(count) {}
+
   /// Probability of a zero in 1/65536; kMinProbability .. kProbabilityOne - kMinProbability.
   [[nodiscard]] std::uint32_t zero() const {
     const std::uint32_t mean = (std::uint32_t{fast_} + slow_ + 1) >> 1;
@@ -25,6 +30,8 @@ class AdaptiveBit {
     slow_ = moved(slow_, value, std::min<std::int32_t>(2 * count_ + 3, 2 * kSlowWindow));
     if (count_ < kSlowWindow) ++count_;
   }
+
+  [[nodiscard]] int count() const { return count_; }  ///< bits seen, up to 128
 
   /// Level of experience for Mixer: 0..5 for 0, 1, 2, 3..5, 6..15, 16 and more bits coded.
   [[nodiscard]] int experience() const {

@@ -16,7 +16,8 @@ MotionReference::MotionReference(const Setup& setup, const CodedState& seen_stat
 }
 
 void MotionReference::reset() {
-  memory = {};
+  static const MotionMemory kTrained = trained<MotionMemory>(trained_motion());
+  memory = kTrained;
   memory.duration_history = {nominal_duration, nominal_duration};
 }
 

@@ -24,6 +24,14 @@ struct MotionMemory {
   DurationHistory duration_history;
 };
 
+/// Calls f(context) for each context but those of durations, in the order of SPEC 5.4.
+template <class F>
+void for_each_context(MotionMemory& memory, F&& f) {
+  f(memory.other_count);
+  f(memory.has_durations);
+  for_each_context(memory.tracks, f);
+}
+
 /// What the next group of a scene is coded against. Writer, reader and counter of a scene each have one, and
 /// all are equal after the same groups. Plain data: a copy continues independently.
 struct MotionReference {
@@ -34,7 +42,8 @@ struct MotionReference {
   /// The state before the first picture of the next group. SPEC 5.2.
   [[nodiscard]] const CodedState& anchor(bool key) const { return key ? seen : last; }
 
-  /// Returns contexts, mixers and history to their initial values, as each key group does.
+  /// Returns contexts to what they know before a scene begins, and mixers and history to their initial
+  /// values, as each key group does.
   void reset();
 
   CodedLimits limits;

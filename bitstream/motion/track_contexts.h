@@ -9,6 +9,7 @@
 #include "bitstream/coded_state.h"
 #include "bitstream/entropy/adaptive_integer.h"
 #include "bitstream/entropy/mixer.h"
+#include "bitstream/entropy/trained_contexts.h"
 
 namespace fbs {
 
@@ -78,5 +79,24 @@ struct TrackContexts {
   std::array<Mixer<3>, 2> larger_mixer;
   std::array<ExponentialContexts, kPartCount> rest;
 };
+
+/// Calls f(context) for each context, in the order of SPEC 5.4.
+template <class F>
+void for_each_context(TrackContexts& t, F&& f) {
+  for_each_context(t.to_end, f);
+  for_each_context(t.length, f);
+  for_each_context(t.moves_by_history, f);
+  for_each_context(t.moves_by_span, f);
+  for_each_context(t.nonzero_by_number, f);
+  for_each_context(t.nonzero_by_span, f);
+  for_each_context(t.nonzero_by_past, f);
+  for_each_context(t.nonzero_by_others, f);
+  for_each_context(t.negative_by_past, f);
+  for_each_context(t.negative_by_history, f);
+  for_each_context(t.larger_by_place, f);
+  for_each_context(t.larger_by_span, f);
+  for_each_context(t.larger_by_number, f);
+  for_each_context(t.rest, f);
+}
 
 }  // namespace fbs

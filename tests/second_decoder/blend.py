@@ -1,7 +1,8 @@
-"""Blend packet: the modes of the regions of pictures (SPEC 4.6)."""
+"""Blend packet: the modes of the regions of pictures (SPEC 4.6, 5.6)."""
 
 from .errors import invalid
 from .range_decoder import Context, RangeDecoder, contexts
+from .trained import BLENDS, train
 
 KEY_ZERO = 61440  # probability of a zero of the flag `key`, in 1/65536
 REGIONS = 7
@@ -16,6 +17,7 @@ class Contexts:
         self.other_count = Context()
         self.changed = contexts(REGIONS, 3)
         self.tree = contexts(2, 16)
+        train(BLENDS, [self.other_count, self.changed, self.tree])
         self.last = [0] * REGIONS
         self.pictures = None  # in the packet before
 

@@ -1,10 +1,11 @@
-"""Motion packet: the states of a group of pictures (SPEC 4.5, 5.2, 5.4, 5.5)."""
+"""Motion packet: the states of a group of pictures (SPEC 4.5, 5.2, 5.4 to 5.6)."""
 
 from .errors import invalid
 from .limits import MAX_DURATION
 from .mixer import Mixer
 from .range_decoder import Context, Exponential, RangeDecoder, Wide, contexts
 from .state import NUMBERS, PARTS
+from .trained import MOTION, train
 
 KEY_ZERO = 61440  # probability of a zero of the flag `key`, in 1/65536
 
@@ -51,6 +52,10 @@ class Contexts:
         self.larger_by_span = contexts(6, 15)
         self.larger_by_number = contexts(NUMBERS, 2)
         self.rest = [Exponential() for _ in range(parts)]
+        train(MOTION, [self.other_count, self.has_durations, self.to_end, self.length, self.moves_by_history,
+                       self.moves_by_span, self.nonzero_by_number, self.nonzero_by_span, self.nonzero_by_past,
+                       self.nonzero_by_others, self.negative_by_past, self.negative_by_history, self.larger_by_place,
+                       self.larger_by_span, self.larger_by_number, self.rest])
         self.duration_differs = Context()
         self.duration_differs_from_second = Context()
         self.duration_change = Wide()

@@ -104,7 +104,7 @@ TEST(MotionSyntax, HeaderCostsLittleWhereItSaysNothingNew) {
   EXPECT_GT(fresh.encode(key)->size(), same.encode(held(30))->size());
 }
 
-TEST(MotionReference, ResetsToItsInitialState) {
+TEST(MotionReference, ResetsToWhatItKnowsBeforeAScene) {
   const auto setup = sample_setup();
   MotionReference reference(setup, sample_seen(setup));
   EXPECT_EQ(reference.memory.duration_history.last, 3000u);
@@ -115,7 +115,8 @@ TEST(MotionReference, ResetsToItsInitialState) {
   reference.reset();
   EXPECT_EQ(reference.memory.pictures, 0);
   EXPECT_EQ(reference.memory.duration_history.second_last, 3000u);
-  EXPECT_EQ(reference.memory.tracks.to_end[0][0].experience(), 0);
+  EXPECT_EQ(reference.memory.tracks.to_end[0][0].zero(), std::uint32_t{trained_motion()[2].zero} << 8)
+      << "behind other_count and has_durations";
   EXPECT_EQ(reference.memory.track_history.change[3], 0);
 }
 
