@@ -14,7 +14,8 @@
 namespace fbs {
 namespace {
 
-using Place = glm::vec<2, std::int64_t>;  ///< x along the mouth, y down from the line between its corners
+using MouthPoint =
+    glm::vec<2, std::int64_t>;  ///< x along the mouth, y down from the line between its corners
 
 /// Places are in 2^-12 of the mouth's width; curves have values at 65 of them.
 constexpr int kWidthLog2 = 12, kStepLog2 = 6, kSteps = 1 << (kWidthLog2 - kStepLog2);
@@ -26,21 +27,21 @@ constexpr std::int64_t kLeastWidth = 1 << kScreenOneLog2;
 /// The frame of the mouth's corners.
 class MouthFrame {
  public:
-  MouthFrame(glm::ivec2 right, glm::ivec2 left) : right_(right), axis_(Place(left) - Place(right)) {
+  MouthFrame(glm::ivec2 right, glm::ivec2 left) : right_(right), axis_(MouthPoint(left) - MouthPoint(right)) {
     const std::int64_t square = axis_.x * axis_.x + axis_.y * axis_.y;
     if (square < kLeastWidth * kLeastWidth) return;
-    unit_ = Place(axis_.x * kUnitOne / square, axis_.y * kUnitOne / square);
+    unit_ = MouthPoint(axis_.x * kUnitOne / square, axis_.y * kUnitOne / square);
   }
-  [[nodiscard]] bool empty() const { return unit_ == Place(0); }
-  [[nodiscard]] Place at(Place screen) const {
-    const Place v = screen - right_;
+  [[nodiscard]] bool empty() const { return unit_ == MouthPoint(0); }
+  [[nodiscard]] MouthPoint at(MouthPoint screen) const {
+    const MouthPoint v = screen - right_;
     return {(unit_.x * v.x + unit_.y * v.y) >> kUnitShift,
             std::clamp((unit_.x * v.y - unit_.y * v.x) >> kUnitShift, -kMaxDown, kMaxDown)};
   }
   /// The inverse, for a box around what is drawn: not exact.
-  [[nodiscard]] Place on_screen(Place p) const {
-    return right_ + Place((axis_.x * p.x - axis_.y * p.y) >> kWidthLog2,
-                          (axis_.y * p.x + axis_.x * p.y) >> kWidthLog2);
+  [[nodiscard]] MouthPoint on_screen(MouthPoint p) const {
+    return right_ + MouthPoint((axis_.x * p.x - axis_.y * p.y) >> kWidthLog2,
+                               (axis_.y * p.x + axis_.x * p.y) >> kWidthLog2);
   }
   /// One luma sample along the mouth.
   [[nodiscard]] std::int64_t sample() const {
@@ -52,8 +53,8 @@ class MouthFrame {
   static constexpr int kUnitShift = 16;
   static constexpr std::int64_t kUnitOne = std::int64_t{1} << (kWidthLog2 + kUnitShift);
 
-  Place right_, axis_;
-  Place unit_{0};
+  MouthPoint right_, axis_;
+  MouthPoint unit_{0};
 };
 
 /// Values of y at rising x, each 2^kStepLog2 apart.
@@ -61,7 +62,7 @@ using Curve = std::array<std::int32_t, kSteps + 1>;
 
 /// A cubic through points, with the slopes of Catmull and Rom.
 /// @param points  at least two; x is moved where it does not rise
-Curve curve_through(std::vector<Place> points) {
+Curve curve_through(std::vector<MouthPoint> points) {
   const std::size_t last = points.size() - 1;
   for (std::size_t k = 1; k < last; ++k)
     points[k].x = std::clamp<std::int64_t>(points[k].x, points[k - 1].x + 1,
@@ -80,7 +81,7 @@ Curve curve_through(std::vector<Place> points) {
   for (int i = 0; i <= kSteps; ++i) {
     const std::int64_t x = i << kStepLog2;
     while (k + 1 < last && points[k + 1].x <= x) ++k;
-    const Place a = points[k], b = points[k + 1];
+    const MouthPoint a = points[k], b = points[k + 1];
     const std::int64_t p = ((x - a.x) << kWidthLog2) / (b.x - a.x), q = (1 << kWidthLog2) - p;
     const std::int64_t share = p * p * ((3 << kWidthLog2) - 2 * p) >> 2 * kWidthLog2;
     const std::int64_t bend =
@@ -112,8 +113,8 @@ class Opening {
     std::int32_t opacity;  ///< 0..256; 0: not inside
     std::int32_t ramp;     ///< 0 at the upper lip to kMouthRampEnd at the lower
   };
-  [[nodiscard]] Inside at(Place screen) const {
-    const Place p = frame_.at(screen);
+  [[nodiscard]] Inside at(MouthPoint screen) const {
+    const MouthPoint p = frame_.at(screen);
     if (p.x < 0 || p.x >= 1 << kWidthLog2) return {0, 0};
     const std::int64_t upper = height(upper_, p.x), lower = height(lower_, p.x);
     const std::int64_t depth = std::min(p.y - upper, lower - p.y), gap = lower - upper;
@@ -129,7 +130,8 @@ class Opening {
     const std::int64_t top = *std::min_element(upper_.begin(), upper_.end()),
                        bottom = *std::max_element(lower_.begin(), lower_.end()), width = 1 << kWidthLog2;
     glm::ivec2 low(INT32_MAX), high(INT32_MIN);
-    for (const Place corner : {Place(0, top), Place(width, top), Place(0, bottom), Place(width, bottom)}) {
+    for (const MouthPoint corner :
+         {MouthPoint(0, top), MouthPoint(width, top), MouthPoint(0, bottom), MouthPoint(width, bottom)}) {
       const glm::ivec2 p(frame_.on_screen(corner));
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -143,12 +145,12 @@ class Opening {
       : frame_(mesh.head[lips.upper.front()], mesh.head[lips.upper.back()]) {
     if (frame_.empty()) return;
     const auto curve = [&](const std::vector<std::uint16_t>& vertices) {
-      std::vector<Place> points;
+      std::vector<MouthPoint> points;
       points.reserve(vertices.size());
       for (const std::uint16_t v : vertices)
-        points.push_back(frame_.at(Place(mesh.head[v].x, mesh.head[v].y)));
-      points.front() = Place(0);
-      points.back() = Place(1 << kWidthLog2, 0);
+        points.push_back(frame_.at(MouthPoint(mesh.head[v].x, mesh.head[v].y)));
+      points.front() = MouthPoint(0);
+      points.back() = MouthPoint(1 << kWidthLog2, 0);
       return curve_through(std::move(points));
     };
     upper_ = curve(lips.upper);
@@ -186,7 +188,7 @@ void draw_mouth(const Drawing& drawing, const WireFrame& head, PlaneScale scale)
   const SampleArea box = opening.box(scale, drawing.area(scale));
   for (int y = box.y0; y < box.y1; ++y)
     for (int x = box.x0; x < box.x1; ++x) {
-      const Opening::Inside at = opening.at(Place(centre(x), centre(y)));
+      const Opening::Inside at = opening.at(MouthPoint(centre(x), centre(y)));
       const std::int32_t share = (opacity * at.opacity + kInteriorOpaque / 2) / kInteriorOpaque;
       if (share == 0) continue;
       for (std::size_t k = 0; k < planes.size(); ++k) {
