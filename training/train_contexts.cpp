@@ -11,6 +11,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -154,13 +155,11 @@ void cross_validate(const Clips& clips) {
   }
 }
 
-void write(std::ostream& out, const char* function, const std::vector<TrainedContext>& table) {
-  out << "\nstd::span<const TrainedContext> " << function
-      << "() {\n  static constexpr TrainedContext kTable[] = {";
+void write(std::ostream& out, const char* name, const std::vector<TrainedContext>& table) {
+  out << "constexpr TrainedContext " << name << "[] = {";
   for (std::size_t k = 0; k < table.size(); ++k)
-    out << (k % 16 == 0 ? "\n      " : " ") << '{' << int{table[k].zero} << ", " << int{table[k].bits}
-        << "},";
-  out << "};\n  return kTable;\n}\n";
+    out << (k % 16 == 0 ? "\n    " : " ") << '{' << int{table[k].zero} << ", " << int{table[k].bits} << "},";
+  out << "};\n";
 }
 
 int run(const std::string& path, const std::vector<std::string>& streams) {
@@ -173,11 +172,15 @@ int run(const std::string& path, const std::vector<std::string>& streams) {
   const Tables tables = learn(clips, "");
   std::ofstream out(path);
   out << "// Written by training/train_contexts.cpp. SPEC 5.6.\n"
-         "#include \"bitstream/entropy/trained_contexts.h\"\n\nnamespace fbs {\n"
-         "// clang-format off\n";
-  write(out, "trained_motion", tables.motion);
-  write(out, "trained_blends", tables.blends);
-  out << "\n// clang-format on\n}  // namespace fbs\n";
+         "#include \"bitstream/entropy/trained_contexts.h\"\n\n"
+         "namespace fbs {\nnamespace {\n\n// clang-format off\n";
+  write(out, "kMotion", tables.motion);
+  write(out, "kBlends", tables.blends);
+  out << "// clang-format on\n\n}  // namespace\n";
+  for (const auto& [function, table] :
+       {std::pair{"trained_motion", "kMotion"}, {"trained_blends", "kBlends"}})
+    out << "\nstd::span<const TrainedContext> " << function << "() {\n  return " << table << ";\n}\n";
+  out << "\n}  // namespace fbs\n";
   return out ? 0 : 1;
 }
 

@@ -14,8 +14,8 @@ bool in_range(const RegionModes& modes) {
 }
 
 const BlendMemory& before_a_scene() {
-  static const BlendMemory kTrained = trained<BlendMemory>(trained_blends());
-  return kTrained;
+  static const auto memory = trained<BlendMemory>(trained_blends());
+  return memory;
 }
 
 }  // namespace

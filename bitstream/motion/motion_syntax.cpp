@@ -16,8 +16,8 @@ MotionReference::MotionReference(const Setup& setup, const CodedState& seen_stat
 }
 
 void MotionReference::reset() {
-  static const MotionMemory kTrained = trained<MotionMemory>(trained_motion());
-  memory = kTrained;
+  static const auto before_a_scene = trained<MotionMemory>(trained_motion());
+  memory = before_a_scene;
   memory.duration_history = {nominal_duration, nominal_duration};
 }
 

@@ -10,14 +10,14 @@ _TEXT = (pathlib.Path(__file__).parents[2] / "bitstream/entropy/trained_contexts
 
 
 def _table(name, expected_checksum):
-    body = re.search(name + r"\(\) \{(.*?)\n\}", _TEXT, re.DOTALL).group(1)
+    body = re.search(name + r"\[\] = \{(.*?)\};", _TEXT, re.DOTALL).group(1)
     pairs = [(int(zero), int(bits)) for zero, bits in re.findall(r"\{(\d+), (\d+)\}", body)]
     assert checksum(n for pair in pairs for n in pair) == expected_checksum
     return pairs
 
 
-MOTION = _table("trained_motion", 0xEEDD07B51948F25B)
-BLENDS = _table("trained_blends", 0xE28418AC21126469)
+MOTION = _table("kMotion", 0xEEDD07B51948F25B)
+BLENDS = _table("kBlends", 0xE28418AC21126469)
 
 
 def _in_order(contexts):
