@@ -14,8 +14,8 @@
 namespace fbs {
 namespace {
 
-using MouthPoint =
-    glm::vec<2, std::int64_t>;  ///< x along the mouth, y down from the line between its corners
+/// x along the mouth, y down from the line between its corners.
+using MouthPoint = glm::vec<2, std::int64_t>;
 
 /// Places are in 2^-12 of the mouth's width; curves have values at 65 of them.
 constexpr int kWidthLog2 = 12, kStepLog2 = 6, kSteps = 1 << (kWidthLog2 - kStepLog2);

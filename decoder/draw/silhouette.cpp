@@ -24,18 +24,17 @@ constexpr int kBandLog2 = 5;
 constexpr int kAlongLog2 = 12;
 constexpr std::int64_t kAlongOne = 1 << kAlongLog2;
 
-bool faces_viewer(const ScreenMesh& mesh, const HeadTriangle& t) {
-  return fbs::faces_viewer({{{mesh.head[t[0]]}, {mesh.head[t[1]]}, {mesh.head[t[2]]}}});
-}
-
 /// Edges of which one triangle is drawn and another is not, and which warped sources show.
 std::vector<HeadEdge> turning_edges(const ScreenMesh& mesh, const HeadMesh& head,
                                     const HeadWeights& weights) {
   constexpr std::uint8_t kDrawn = 1, kNotDrawn = 2;
   std::vector<std::uint8_t> sides(head.edges.size());
-  for (std::size_t t = 0; t < head.triangles.size(); ++t)
-    for (const std::uint16_t edge : head.triangle_edges[t])
-      sides[edge] |= faces_viewer(mesh, head.triangles[t]) ? kDrawn : kNotDrawn;
+  for (std::size_t t = 0; t < head.triangles.size(); ++t) {
+    const auto& [a, b, c] = head.triangles[t];
+    const std::uint8_t side =
+        faces_viewer({{{mesh.head[a]}, {mesh.head[b]}, {mesh.head[c]}}}) ? kDrawn : kNotDrawn;
+    for (const std::uint16_t edge : head.triangle_edges[t]) sides[edge] |= side;
+  }
   const auto is_warped = [&](std::uint16_t vertex) { return weights.screen.at(vertex)[0] != 0; };
   std::vector<HeadEdge> out;
   for (std::size_t e = 0; e < sides.size(); ++e) {
@@ -43,13 +42,6 @@ std::vector<HeadEdge> turning_edges(const ScreenMesh& mesh, const HeadMesh& head
     if (sides[e] == (kDrawn | kNotDrawn) && (is_warped(edge[0]) || is_warped(edge[1]))) out.push_back(edge);
   }
   return out;
-}
-
-std::int32_t face_width(const ScreenMesh& mesh, const HeadMesh& head) {
-  const auto end = mesh.head.begin() + static_cast<std::ptrdiff_t>(head.head_count);
-  const auto [low, high] = std::minmax_element(
-      mesh.head.begin(), end, [](const glm::ivec3& a, const glm::ivec3& b) { return a.x < b.x; });
-  return high->x - low->x;
 }
 
 /// Marks the samples to be softened in the planes of one scale.
@@ -150,7 +142,7 @@ void soften_silhouettes(const ScreenMesh& mesh, const HeadMesh& head, const Head
   if (edges.empty()) return;
   const std::int64_t sample = std::int64_t{1} << static_cast<int>(target.scale);
   const std::int64_t radius =
-      std::clamp<std::int64_t>(face_width(mesh, head) >> kBandLog2, sample, kMaxSoftened * sample);
+      std::clamp<std::int64_t>(face_width(head, mesh.head) >> kBandLog2, sample, kMaxSoftened * sample);
   Marker marker(target, radius);
   for (const HeadEdge& e : edges) marker.mark_along(mesh.head[e[0]], mesh.head[e[1]]);
   const std::int64_t passes = (radius + sample / 2) / sample;

@@ -1,7 +1,5 @@
 #include "decoder/head/head_mesh.h"
 
-#include <algorithm>
-
 #include "common/generic_head.h"
 
 namespace fbs {

@@ -1,7 +1,9 @@
 // The triangles of the head and of the ring around it. SPEC 8.7.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +29,16 @@ struct HeadMesh {
 
   explicit HeadMesh(const WireFrame& head);
 };
+
+/// Width of the wire-frame without the ring.
+/// @param vertices  of the mesh, in any plane
+template <class Point>
+[[nodiscard]] std::int32_t face_width(const HeadMesh& head, const std::vector<Point>& vertices) {
+  const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(head.head_count);
+  const auto [left, right] =
+      std::minmax_element(vertices.begin(), end, [](const Point& a, const Point& b) { return a.x < b.x; });
+  return right->x - left->x;
+}
 
 /// The generic head's mesh.
 [[nodiscard]] const HeadMesh& generic_head_mesh();

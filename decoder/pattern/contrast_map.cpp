@@ -70,10 +70,7 @@ void blur(std::uint8_t* values, std::ptrdiff_t step, int count, int radius) {
 
 /// Cells on each side over which shares are blurred, three times: a sixteenth of the head's width.
 int blur_radius(const HeadMesh& head, const TextureMesh& texture) {
-  const auto end = texture.head.begin() + static_cast<std::ptrdiff_t>(head.head_count);
-  const auto [left, right] = std::minmax_element(
-      texture.head.begin(), end, [](const glm::ivec2& a, const glm::ivec2& b) { return a.x < b.x; });
-  return std::clamp((right->x - left->x) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
+  return std::clamp(face_width(head, texture.head) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
 }
 
 /// Replaces each sample by change(sample - 128, contrast).

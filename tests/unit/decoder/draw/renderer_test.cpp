@@ -11,7 +11,7 @@
 namespace fbs {
 namespace {
 
-constexpr Closeness kOnceMoreSampled{2, 64};
+constexpr Closeness kOnceMoreSampled{2, 24}, kSoftenedToo{2, 64};
 
 TEST(Renderer, StateOfThePatternReproducesIt) {
   for (const auto& [w, h] : {std::pair{160, 128}, {161, 127}, {64, 64}, {97, 200}}) {
@@ -37,7 +37,7 @@ TEST(Renderer, StateOfThePatternReproducesItWhateverThePoseWas) {
     scene.patterns.push_back(make_pattern(smooth_picture(160, 128, 3), seen, scene.geometry));
     ASSERT_TRUE(renderer.render(scene, seen, out));
     SCOPED_TRACE(i);
-    expect_shows(out, scene.patterns[0].picture, head_area(scene, seen), kOnceMoreSampled);
+    expect_shows(out, scene.patterns[0].picture, head_area(scene, seen), kSoftenedToo);
   }
 }
 
