@@ -9,12 +9,36 @@
 namespace fbs {
 namespace {
 
-/// Whether the check of such a packet covers that packet alone. SPEC 3.1.
-bool begins_chain(PacketType type) {
-  return type == PacketType::kSetup || type == PacketType::kEnd;
+/// Whether a packet of this type is looked for behind damage. SPEC 3.2.
+bool is_known(PacketType type) {
+  return type >= PacketType::kSetup && type <= PacketType::kUnit;
 }
 
 }  // namespace
+
+bool is_of_scene(PacketType type) {
+  switch (type) {
+    case PacketType::kWireFrame:
+    case PacketType::kGeometry:
+    case PacketType::kSurround:
+    case PacketType::kPattern:
+    case PacketType::kMotion:
+    case PacketType::kBlend:
+    case PacketType::kUnit:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void CheckChain::add(PacketType type, std::uint16_t check) {
+  if (type == PacketType::kSetup)
+    in_head_ = true;
+  else if (!in_head_ || !is_of_scene(type))
+    return;
+  check_ = check;
+  if (type == PacketType::kPattern) in_head_ = false;
+}
 
 void write_signature(std::vector<std::uint8_t>& stream) {
   stream.insert(stream.end(), kSignature.begin(), kSignature.end());
@@ -28,8 +52,9 @@ std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType ty
   writer.u8(static_cast<std::uint8_t>(type));
   writer.varint(payload.size());
   writer.bytes(payload);
-  check_ = crc16(std::span(stream).subspan(begin), begins_chain(type) ? kCrc16Start : check_);
-  writer.u16(check_);
+  const std::uint16_t check = crc16(std::span(stream).subspan(begin), checks_.before(type));
+  checks_.add(type, check);
+  writer.u16(check);
   return stream.size() - begin;
 }
 
@@ -38,9 +63,9 @@ struct PacketReader::Impl {
   std::uint64_t dropped = 0;  // bytes of the stream before `buffer`
   std::size_t position = 0;   // of next(), in `buffer`
   bool closed = false;
-  bool begun = false;                 // the signature has been read or is not required any more
-  bool searching = false;             // for a packet behind the damage
-  std::uint16_t check = kCrc16Start;  // of the packet before
+  bool begun = false;      // the signature has been read or is not required any more
+  bool searching = false;  // for a packet behind the damage
+  CheckChain checks;
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
   [[nodiscard]] std::uint64_t offset() const { return dropped + position; }
@@ -90,37 +115,41 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   const std::size_t checked = reader.offset();
   const std::uint16_t stored = reader.u16();
   if (reader.past_end()) return need_more("stream ends inside a packet");
-  const bool alone = begins_chain(static_cast<PacketType>(type));
-  if (crc16(bytes.first(checked), alone ? kCrc16Start : check) != stored)
-    return refuse(ErrorCode::kInvalidStream,
-                  alone ? "packet is damaged" : "packet is damaged, or one before it is missing");
-
   const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset()};
+  if (crc16(bytes.first(checked), checks.before(packet.type)) != stored)
+    return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
   position += packet.size;
-  check = stored;
+  checks.add(packet.type, stored);
   return ReadResult{ReadStatus::kPacket, packet};
 }
 
-// SPEC 3.2. A candidate is as short as its length, one byte, can say: so it is tested at once, and bytes that
-// are nothing but candidates take linear time as well.
+// SPEC 3.2. The candidate that ends first is taken, so none has to wait for bytes that have not come.
 Result<ReadResult> PacketReader::Impl::search() {
-  for (; position < buffer.size(); ++position) {
-    const auto bytes = ahead();
-    if (!begins_chain(static_cast<PacketType>(bytes[0]))) continue;
+  std::size_t found = buffer.size(), end = buffer.size() + 1;
+  std::optional<std::size_t> incomplete;  // first candidate that may still come
+  for (std::size_t at = position; at < std::min(end, buffer.size()); ++at) {
+    const auto bytes = std::span(buffer).subspan(at);
+    const auto type = static_cast<PacketType>(bytes[0]);
+    if (!is_known(type)) continue;
     ByteReader reader(bytes);
     (void)reader.u8();
-    const std::size_t size = reader.u8();
-    if (size > kMaxSearchedPayload) continue;
+    const std::uint64_t size = reader.varint();
+    if (reader.malformed() || size > kMaxSearchedPayload) continue;
     (void)reader.bytes(size);
     const std::size_t checked = reader.offset();
     const std::uint16_t stored = reader.u16();
     if (reader.past_end()) {
-      if (!closed) return ReadResult{};
-    } else if (crc16(bytes.first(checked)) == stored) {
-      break;
+      if (!incomplete) incomplete = at;
+    } else if (at + reader.offset() < end && crc16(bytes.first(checked), checks.before(type)) == stored) {
+      found = at;
+      end = at + reader.offset();
     }
   }
-  if (position == buffer.size() && !closed) return ReadResult{};
+  if (found == buffer.size() && !closed) {
+    position = incomplete.value_or(found);
+    return ReadResult{};
+  }
+  position = found;
   begun = true;
   searching = false;
   return read_packet();

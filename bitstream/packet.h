@@ -20,8 +20,27 @@ inline constexpr std::size_t kMaxPayload = std::size_t{1} << 24;  ///< bytes
 /// Appends the signature that begins every stream.
 void write_signature(std::vector<std::uint8_t>& stream);
 
-/// Writes packets in stream order: the check of a packet continues from the check of the packet before (SPEC
-/// 3.1). A setup packet or the end packet may follow any writer's packets.
+/// Whether a packet counts for the pictures of a scene.
+[[nodiscard]] bool is_of_scene(PacketType type);
+
+/// With what the check of a packet begins. Through the head of a scene, up to its first pattern, checks run
+/// on from packet to packet; every later packet of the scene begins with the check of that pattern packet. So
+/// one that is lost does no harm to others, and none passes for a packet of another scene. SPEC 3.1.
+class CheckChain {
+ public:
+  /// With what the check of the next packet begins if it is of this type.
+  [[nodiscard]] std::uint16_t before(PacketType type) const {
+    return is_of_scene(type) ? check_ : kCrc16Start;
+  }
+  /// Goes on behind a packet.
+  void add(PacketType type, std::uint16_t check);
+
+ private:
+  std::uint16_t check_ = kCrc16Start;  // of the last packet of the head
+  bool in_head_ = true;
+};
+
+/// Writes packets in stream order. A setup packet, an end packet or sound may follow any writer's packets.
 class PacketWriter {
  public:
   /// Appends the next packet.
@@ -31,7 +50,7 @@ class PacketWriter {
                     std::span<const std::uint8_t> payload);
 
  private:
-  std::uint16_t check_ = kCrc16Start;  // of the packet before
+  CheckChain checks_;
 };
 
 /// Bytes of a packet with this many bytes of payload.
@@ -41,8 +60,8 @@ class PacketWriter {
   return size;
 }
 
-/// Longest payload of a setup packet or an end packet that is found behind damage. SPEC 3.2.
-inline constexpr std::size_t kMaxSearchedPayload = 127;  ///< bytes
+/// Longest payload of a packet that is found behind damage. SPEC 3.2.
+inline constexpr std::size_t kMaxSearchedPayload = 2047;  ///< bytes
 
 /// One packet whose check is right. Its payload still has to be parsed.
 struct Packet {
@@ -92,13 +111,13 @@ class PacketReader {
   /// No more bytes will come.
   void close();
 
-  /// Reads the next packet. An error is reported once. The next call searches past the damage for a setup
-  /// packet or an end packet with the right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream
-  /// that is joined in its middle begins so, with kNotFbs.
+  /// Reads the next packet. An error is reported once. The next call searches past the damage for a packet of
+  /// a known type with the right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream that is
+  /// joined in its middle begins so, with kNotFbs.
   /// @return kNotFbs         the stream does not begin with the signature, or is empty
   ///         kTruncated      closed inside the signature or a packet; offset of that packet
-  ///         kInvalidStream  check or length field wrong: the packet is damaged, or one before it is missing;
-  ///                         offset of the packet
+  ///         kInvalidStream  check or length field wrong: the packet is damaged, or the head of its scene
+  ///                         is incomplete; offset of the packet
   ///         kTooLarge       payload beyond kMaxPayload; offset of the packet
   [[nodiscard]] Result<ReadResult> next();
 

@@ -22,7 +22,10 @@ inline constexpr int kContrastOneLog2 = 8;
 inline constexpr int kContrastOne = 1 << kContrastOneLog2;  ///< contrast of patterns as they are
 inline constexpr int kMinContrast = 128;
 inline constexpr int kMaxChromaContrast = 2 * kContrastOne;
-inline constexpr int kMaxPatterns = 64;                             ///< patterns that a decoder keeps
+inline constexpr int kMaxPatterns = 64;  ///< patterns that a decoder keeps
+inline constexpr int kNumberBits = 10;   ///< of the number of a group's first picture that are sent
+/// Missing pictures through which the motion goes on; before them the last known state is held. SPEC 6.2.
+inline constexpr std::int32_t kMaxBridged = 32;
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< pictures whose motion has arrived but not their blend
 inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose states a pattern may still have
@@ -73,7 +76,8 @@ enum class PacketType : std::uint8_t {
   kBlend = 7,       ///< how consecutive pictures are blended from patterns
   kWireFrame = 8,   ///< the wire-frame of the geometry that follows, in the place of the generic head
   kSoundSetup = 9,  ///< what a decoder of the sound must know
-  kSound = 10       ///< sound of the pictures that follow
+  kSound = 10,      ///< sound of the pictures that follow
+  kUnit = 11        ///< kMotion and kBlend of the same pictures
 };
 
 /// A colour in the video's own range and matrix.
@@ -128,6 +132,7 @@ struct PatternSyntax {
   std::int32_t picture = 0;       ///< number of the picture in the scene, whose state is the seen state
   CodedState state{};             ///< of picture 0 only, which is coded before all motion
   std::vector<std::uint8_t> av1;  ///< one coded AV1 frame (low-overhead OBU format)
+  bool alone = false;             ///< it needs the scene's first pattern and no other
   friend bool operator==(const PatternSyntax&, const PatternSyntax&) = default;
 };
 
@@ -144,12 +149,15 @@ using Track = std::vector<Knot>;
 
 /// Consecutive pictures.
 struct MotionGroup {
-  bool key = false;     ///< coded without reference to earlier groups
-  CodedState anchor{};  ///< state before the first picture: the last picture of the group before, or in a key
-                        ///< group the seen state of the first pattern. Not coded, since both sides know it
+  bool key = false;           ///< coded without reference to earlier groups
+  std::int32_t first = 0;     ///< number of its first picture in the scene
+  std::int32_t missing = 0;   ///< pictures before it whose groups have not come; 0 for who writes
+  CodedState anchor{};        ///< state before them: of the last picture of the group before or, if there is
+                              ///< none, of the first pattern. Not coded
   std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
   /// Each part that is sent has at least one knot, the last in the last picture; the others have none.
   std::array<Track, kPartCount> tracks;
+  std::uint32_t missing_time = 0;  ///< of the missing pictures together, 1/90000 s
   std::vector<std::uint32_t>
       durations;  ///< of each picture, 1..kMaxDuration, 1/90000 s; empty: constant frame rate
   friend bool operator==(const MotionGroup&, const MotionGroup&) = default;
@@ -158,8 +166,16 @@ struct MotionGroup {
 /// How consecutive pictures are blended.
 struct BlendGroup {
   bool key = false;                ///< coded without reference to earlier groups
+  std::int32_t first = 0;          ///< number of its first picture in the scene
+  std::int32_t missing = 0;        ///< pictures before it whose groups have not come; 0 for who writes
   std::vector<RegionModes> modes;  ///< of each picture, 1..kMaxGroupPictures
   friend bool operator==(const BlendGroup&, const BlendGroup&) = default;
+};
+
+/// A group's states and modes in one packet.
+struct Unit {
+  MotionGroup motion;
+  BlendGroup blend;  ///< of the same pictures
 };
 
 /// Closes a complete file.

@@ -19,16 +19,22 @@ Knot anchor_knot(const CodedState& anchor, std::size_t part) {
 }
 
 std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps) {
-  std::vector<CodedState> values(group.pictures, CodedState{});
+  // Motion goes on through the last of the missing pictures; before them the anchor is held.
+  const std::int32_t bridged = std::min(group.missing, kMaxBridged);
+  std::vector<CodedState> values(group.missing + group.pictures, CodedState{});
   for (std::size_t part = 0; part < kPartCount; ++part) {
     const auto first = kPartFirst[part];
     Knot last = anchor_knot(group.anchor, part);
+    last.picture -= bridged;
+    for (std::size_t i = 0; i < kPartSizes[part]; ++i)
+      for (std::int32_t t = 0; t < group.missing - bridged; ++t)
+        values[t][first + i] = last.value[i] * step_of(steps, first + i);
     for (const Knot& knot : group.tracks[part]) {
       const std::int32_t length = knot.picture - last.picture;
       for (std::size_t i = 0; i < kPartSizes[part]; ++i) {
         const std::int64_t step = step_of(steps, first + i);
         for (std::int32_t elapsed = 1; elapsed <= length; ++elapsed)
-          values[last.picture + elapsed][first + i] =
+          values[group.missing + last.picture + elapsed][first + i] =
               interpolate(last.value[i] * step, knot.value[i] * step, elapsed, length);
       }
       last = knot;
@@ -38,6 +44,17 @@ std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& ste
   states.reserve(values.size());
   std::transform(values.begin(), values.end(), std::back_inserter(states), state_of_values);
   return states;
+}
+
+std::vector<std::uint32_t> durations_of(const MotionGroup& group, const Rational& rate) {
+  std::vector<std::uint32_t> out;
+  const auto missing = static_cast<std::uint32_t>(group.missing);
+  for (std::uint32_t k = 0; k < missing; ++k)  // they share their time evenly
+    out.push_back(static_cast<std::uint32_t>(group.missing_time * std::uint64_t{k + 1} / missing -
+                                             group.missing_time * std::uint64_t{k} / missing));
+  out.insert(out.end(), group.durations.begin(), group.durations.end());
+  if (group.durations.empty()) out.insert(out.end(), group.pictures, nominal_duration(rate));
+  return out;
 }
 
 CodedState last_of(const MotionGroup& group) {

@@ -15,8 +15,12 @@ namespace fbs {
 /// One part of the anchor as a knot at picture -1.
 [[nodiscard]] Knot anchor_knot(const CodedState& anchor, std::size_t part);
 
-/// The state of each picture of a group.
+/// The state of each picture of a group, the missing ones before it first. SPEC 6.2.
 [[nodiscard]] std::vector<State> states_of(const MotionGroup& group, const QuantiserSteps& steps);
+
+/// The duration of each of them, 1/90000 s.
+/// @param rate  pictures per second
+[[nodiscard]] std::vector<std::uint32_t> durations_of(const MotionGroup& group, const Rational& rate);
 
 /// The coded state at a group's last picture: the anchor of the next.
 [[nodiscard]] CodedState last_of(const MotionGroup& group);

@@ -50,6 +50,10 @@ std::vector<SceneStates> read_scenes(const std::string& path) {
     if (auto* const group = std::get_if<MotionGroup>(&*syntax))
       out.back().motion.push_back(std::move(*group));
     if (auto* const group = std::get_if<BlendGroup>(&*syntax)) out.back().blends.push_back(std::move(*group));
+    if (auto* const unit = std::get_if<Unit>(&*syntax)) {
+      out.back().motion.push_back(std::move(unit->motion));
+      out.back().blends.push_back(std::move(unit->blend));
+    }
   }
 }
 
@@ -70,7 +74,10 @@ double code(const SceneStates& scene, Memories& memories) {
   reference.memory = memories.motion;
   for (const MotionGroup& group : scene.motion) code_body(counter, reference, group, [](std::size_t) {});
   memories.motion = reference.memory;
-  for (const BlendGroup& group : scene.blends) code_blend(counter, memories.blends, group);
+  for (const BlendGroup& group : scene.blends) {
+    code_count(counter, memories.blends, static_cast<std::int32_t>(group.modes.size()));
+    code_modes(counter, memories.blends, group);
+  }
   return static_cast<double>(counter.bits_x256()) / 256;
 }
 

@@ -8,7 +8,7 @@ trap 'rm -rf "$streams"' EXIT
 cmake --build "$build" --target fbs train_contexts
 for video; do
   name=$streams/$(basename "${video%.*}")
-  for options in "--quality 20" "--quality 50" "--quality 80" "--quality 30 --live" "--quality 50 --live"; do
+  for options in "--quality 20" "--quality 70" "--quality 50 --live" "--quality 40 --live --resilience packet"; do
     # shellcheck disable=SC2086  # several options
     "$build/fbs" encode "$video" "$name.$(echo $options | tr -d ' -').fbs" $options --allow-no-face --no-sound --quiet
   done

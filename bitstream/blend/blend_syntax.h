@@ -10,6 +10,7 @@
 
 #include "bitstream/entropy/adaptive_bit.h"
 #include "bitstream/entropy/trained_contexts.h"
+#include "bitstream/group_number.h"
 #include "bitstream/syntax.h"
 
 namespace fbs {
@@ -19,8 +20,11 @@ struct BlendMemory {
   AdaptiveBit other_count;
   std::int32_t pictures = 0;  ///< of the last group
   RegionModes last{};         ///< of the last picture
-  /// By region, and by how many of the regions before it have changed in this picture: none, one, more.
-  std::array<std::array<AdaptiveBit, 3>, kRegionCount> changed;
+  std::int32_t next = 0;      ///< number of the first picture of the next group
+  bool first = false;         ///< the picture is the first of a key group
+  /// Whether it is that, by region, and by how many of the regions before it have changed in this picture:
+  /// none, one, more.
+  std::array<std::array<std::array<AdaptiveBit, 3>, kRegionCount>, 2> changed;
   /// Modes as a binary tree of four levels, for the head's regions and for the others.
   std::array<std::array<AdaptiveBit, 16>, 2> tree;
 };
@@ -40,7 +44,8 @@ static_assert(kBlendModeCount <= 1 << kModeBits);
 /// @return false when what was read is not a mode
 template <class Coder>
 bool code_mode(Coder& coder, BlendMemory& memory, std::size_t region, int changes, BlendMode& mode) {
-  if (!coder.bit(memory.changed[region][std::min(changes, 2)], mode != memory.last[region])) {
+  if (!coder.bit(memory.changed[memory.first ? 1 : 0][region][std::min(changes, 2)],
+                 mode != memory.last[region])) {
     if constexpr (Coder::kReads) mode = memory.last[region];
     return true;
   }
@@ -53,21 +58,23 @@ bool code_mode(Coder& coder, BlendMemory& memory, std::size_t region, int change
   return value < static_cast<unsigned>(kBlendModeCount);
 }
 
-/// Codes all that follows the key flag.
+/// Codes the number of pictures.
+/// @return it; 0 for that of the group before if there was none
+template <class Coder>
+std::int32_t code_count(Coder& coder, BlendMemory& memory, std::int32_t pictures) {
+  static_assert(kMaxGroupPictures == 1 << 8);
+  if (coder.bit(memory.other_count, pictures != memory.pictures))
+    memory.pictures =
+        static_cast<std::int32_t>(coder.bypass(8, static_cast<std::uint32_t>(pictures - 1))) + 1;
+  return memory.pictures;
+}
+
+/// Codes the modes of a group, which has as many as pictures.
 /// @return false when what was read is out of range or ends early
 template <class Coder, class Group>
-bool code_blend(Coder& coder, BlendMemory& memory, Group& group) {
-  auto pictures = static_cast<std::int32_t>(group.modes.size());
-  const bool other = coder.bit(memory.other_count, pictures != memory.pictures);
-  static_assert(kMaxGroupPictures == 1 << 8);
-  if (other)
-    pictures = static_cast<std::int32_t>(coder.bypass(8, static_cast<std::uint32_t>(pictures - 1))) + 1;
-  else
-    pictures = memory.pictures;
-  if (pictures < 1) return false;
-  memory.pictures = pictures;
-  if constexpr (Coder::kReads) group.modes.resize(pictures);
+bool code_modes(Coder& coder, BlendMemory& memory, Group& group) {
   for (auto& modes : group.modes) {
+    memory.first = group.key && group.first > 0 && &modes == group.modes.data();
     int changes = 0;
     for (std::size_t region = 0; region < kRegionCount; ++region) {
       BlendMode mode = modes[region];

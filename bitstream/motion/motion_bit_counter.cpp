@@ -6,6 +6,7 @@ namespace fbs {
 
 PartBitsX256 MotionBitCounter::count(const MotionGroup& group) {
   if (group.key) reference_.reset();
+  reference_.last = group.anchor;
   PartBitsX256 bits{};
   BitCounter counter;
   std::uint64_t before = 0;
@@ -13,6 +14,7 @@ PartBitsX256 MotionBitCounter::count(const MotionGroup& group) {
     bits[part] = counter.bits_x256() - before;
     before = counter.bits_x256();
   });
+  reference_.end(group);
   return bits;
 }
 

@@ -6,22 +6,27 @@
 
 namespace fbs {
 
-Result<MotionGroup> MotionDecoder::decode(std::span<const std::uint8_t> payload) {
-  const bool needed_key = std::exchange(reference_.needs_key, true);  // until the whole group has been read
+Result<std::optional<MotionGroup>> MotionDecoder::decode(std::span<const std::uint8_t> payload) {
   RangeDecoder decoder(payload);
   MotionGroup group;
   group.key = decoder.raw_bit(kNotKey);
-  if (needed_key && !group.key)
-    return fail(ErrorCode::kInvalidStream, "motion packet depends on a missing one");
+  group.first = code_first(decoder, 0, reference_.next);
+  if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
+  if (!group.key && group.first == 0)
+    return fail(ErrorCode::kInvalidStream, "the first motion packet of a scene is not key");
+  group.missing = group.first - reference_.next;
+  if (group.missing < 0) return std::nullopt;
+  if (group.missing > 0) reference_.needs_key = true;
+  if (reference_.needs_key && !group.key) return std::nullopt;
 
+  reference_.needs_key = true;  // until the whole group has been read
   if (group.key) reference_.reset();
-  group.anchor = reference_.anchor(group.key);
+  group.anchor = reference_.last;
   const bool valid = code_body(decoder, reference_, group, [](std::size_t) {});
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "motion packet has a value out of range");
   if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "motion packet has excess bytes");
-  reference_.last = last_of(group);
-  reference_.needs_key = false;
+  reference_.end(group);
   return group;
 }
 

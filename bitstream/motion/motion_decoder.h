@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "bitstream/motion/motion_syntax.h"
@@ -9,19 +10,20 @@
 
 namespace fbs {
 
-/// Reads the motion packets of one scene, in stream order.
+/// Reads the motion packets of one scene. Some may be missing; what comes twice or too late is skipped.
 class MotionDecoder {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
   /// @param seen   seen state of the first pattern: the anchor of key groups
   MotionDecoder(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
 
-  /// Reads the next group. After an error only a key group can be read.
-  /// @return kTruncated      the payload ends early
-  ///         kInvalidStream  damaged, or not a key group where one is needed
-  [[nodiscard]] Result<MotionGroup> decode(std::span<const std::uint8_t> payload);
+  /// Reads the next group. After an error or a missing group only a key group can be read.
+  /// @return nothing if the group has come before, or needs one that is missing
+  ///         kTruncated      the payload ends early
+  ///         kInvalidStream  damaged, or the scene does not begin with a key group
+  [[nodiscard]] Result<std::optional<MotionGroup>> decode(std::span<const std::uint8_t> payload);
 
-  /// True before the first group and after an error.
+  /// True before the first group, after an error and after a missing group.
   [[nodiscard]] bool needs_key() const { return reference_.needs_key; }
 
  private:

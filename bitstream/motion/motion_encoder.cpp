@@ -44,17 +44,18 @@ Result<void> check_group(const MotionGroup& group, const CodedLimits& limits) {
 
 Result<std::vector<std::uint8_t>> MotionEncoder::encode(const MotionGroup& group) {
   if (auto checked = check_group(group, reference_.limits); !checked) return fail(checked.error());
-  if (reference_.needs_key && !group.key)
+  if (groups_ == 0 && !group.key)
     return fail(ErrorCode::kInvalidArgument, "the first motion group must be a key group");
-  if (group.anchor != anchor(group.key))
-    return fail(ErrorCode::kInvalidArgument, "a motion group has another anchor than the state before it");
+  if (group.anchor != anchor() || group.first != next() || group.missing != 0)
+    return fail(ErrorCode::kInvalidArgument, "a motion group does not begin where the one before it ends");
 
   if (group.key) reference_.reset();
   RangeEncoder encoder;
   encoder.raw_bit(kNotKey, group.key);
+  code_first(encoder, group.first, reference_.next);
   code_body(encoder, reference_, group, [](std::size_t) {});
-  reference_.last = last_of(group);
-  reference_.needs_key = false;
+  reference_.end(group);
+  ++groups_;
   return encoder.finish();
 }
 

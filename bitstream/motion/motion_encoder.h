@@ -19,21 +19,24 @@ class MotionEncoder {
 
   /// Codes the next group.
   /// @return kInvalidArgument  a number of pictures outside 1..kMaxGroupPictures; not a key group where one
-  ///                           is needed; another anchor than anchor(); tracks that are not as defined in
-  ///                           MotionGroup; durations neither empty nor one for each picture, or outside
-  ///                           1..kMaxDuration; numbers outside limits(). The encoder is then unchanged.
+  ///                           is needed; another first picture or anchor than next() and anchor(); tracks
+  ///                           that are not as defined in MotionGroup; durations neither empty nor one for
+  ///                           each picture, or outside 1..kMaxDuration; numbers outside limits(). The
+  ///                           encoder is then unchanged.
   [[nodiscard]] Result<std::vector<std::uint8_t>> encode(const MotionGroup& group);
 
-  /// The state before the first picture of the next group.
-  [[nodiscard]] const CodedState& anchor(bool key) const { return reference_.anchor(key); }
+  /// The state before the first picture of the next group, and the number of that picture.
+  [[nodiscard]] const CodedState& anchor() const { return reference_.last; }
+  [[nodiscard]] std::int32_t next() const { return reference_.next; }
 
-  /// True before the first group.
-  [[nodiscard]] bool needs_key() const { return reference_.needs_key; }
+  /// Groups coded so far. The first is a key group.
+  [[nodiscard]] int groups() const { return groups_; }
 
   [[nodiscard]] const CodedLimits& limits() const { return reference_.limits; }
 
  private:
   MotionReference reference_;
+  int groups_ = 0;
 };
 
 }  // namespace fbs

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "bitstream/group_number.h"
 #include "bitstream/motion/duration_coder.h"
 #include "bitstream/motion/track_coder.h"
 #include "bitstream/syntax.h"
@@ -19,6 +20,8 @@ struct MotionMemory {
   AdaptiveBit has_durations;
   std::int32_t pictures = 0;  ///< of the last group
   TrackContexts tracks;
+  std::array<AdaptiveBit, kPartCount> held;  ///< whether the first knots of a key group are as before it
+  TrackContexts from_rest;                   ///< of those that are not
   TrackHistory track_history;
   DurationContexts durations;
   DurationHistory duration_history;
@@ -30,6 +33,8 @@ void for_each_context(MotionMemory& memory, F&& f) {
   f(memory.other_count);
   f(memory.has_durations);
   for_each_context(memory.tracks, f);
+  for_each_context(memory.held, f);
+  for_each_context(memory.from_rest, f);
 }
 
 /// What the next group of a scene is coded against. Writer, reader and counter of a scene each have one, and
@@ -39,20 +44,39 @@ struct MotionReference {
   /// @param seen_state  of the first pattern
   MotionReference(const Setup& setup, const CodedState& seen_state);
 
-  /// The state before the first picture of the next group. SPEC 5.2.
-  [[nodiscard]] const CodedState& anchor(bool key) const { return key ? seen : last; }
-
   /// Returns contexts to what they know before a scene begins, and mixers and history to their initial
   /// values, as each key group does.
   void reset();
+  /// A group has been coded.
+  void end(const MotionGroup& group);
 
   CodedLimits limits;
   std::uint32_t nominal_duration;  ///< 1/90000 s
   CodedState seen;                 ///< of the first pattern
-  CodedState last;                 ///< of the last picture
+  CodedState last;                 ///< of the last picture: the anchor of the next group. SPEC 5.2
+  std::int32_t next = 0;           ///< number of the first picture of the next group
+  std::uint32_t time = 0;          ///< of that picture, 1/90000 s since the start of the scene, modulo 2^32
   bool needs_key = true;           ///< only a key group can follow
+  /// Of each part, key groups in a row that have left it as it was.
+  std::array<int, kPartCount> held{};
   MotionMemory memory;
 };
+
+inline constexpr int kTimeBits = 22;  ///< of the time of a key group, 1/90000 s
+
+/// Codes when a key group with durations begins, so that it gets its time even if groups before it are
+/// missing.
+/// @param time  sum of the durations before it in the scene as far as they are known, 1/90000 s
+template <class Coder>
+void code_time(Coder& coder, std::uint32_t time, MotionGroup& group) {
+  constexpr std::uint32_t kLow = (1u << kTimeBits) - 1;
+  const std::uint32_t low = coder.bypass(kTimeBits, time & kLow);
+  group.missing_time = (low - time) & kLow;
+}
+template <class Coder>
+void code_time(Coder& coder, std::uint32_t time, const MotionGroup& group) {
+  coder.bypass(kTimeBits, (time + group.missing_time) & ((1u << kTimeBits) - 1));
+}
 
 /// Codes the number of pictures and whether there are durations; returns the latter.
 template <class Coder, class Group>
@@ -66,12 +90,33 @@ bool code_header(Coder& coder, MotionMemory& memory, Group& group) {
   return coder.bit(memory.has_durations, !group.durations.empty());
 }
 
+/// A part that does not move is sent again after so many key groups, for those who have missed it.
+inline constexpr int kMaxHeld = 5;
+
+/// Codes the first knot of a part in a key group: as it was, or what it differs by from the rest state.
+/// @param last  the anchor
+/// @return false when what was read is out of range
+template <class Coder>
+bool code_key_knot(Coder& coder, MotionReference& reference, std::size_t part, const Knot& last, Knot& next) {
+  int& held = reference.held[part];
+  const bool holds = coder.bit(reference.memory.held[part], next.value == last.value && held < kMaxHeld);
+  held = holds ? held + 1 : 0;
+  if (holds) {
+    next.value = last.value;
+    return true;
+  }
+  TrackHistory none;
+  TrackCoder<Coder> tracks(coder, reference.limits, reference.memory.from_rest, none);
+  return tracks.knot(part, 1, anchor_knot(reference.seen, part), next);
+}
+
 /// Codes the track of one part.
 /// @return false when what was read is out of range or ends early
 template <class Coder, class Group>
 bool code_track(Coder& coder, MotionReference& reference, std::size_t part, Group& group) {
   TrackCoder<Coder> tracks(coder, reference.limits, reference.memory.tracks, reference.memory.track_history);
   auto& track = group.tracks[part];
+  const bool key = group.key && group.first > 0;  // at the start of a scene the anchor is the rest state
   Knot last = anchor_knot(group.anchor, part);
   for (std::size_t k = 0; last.picture + 1 < group.pictures; ++k) {
     Knot next;
@@ -80,7 +125,11 @@ bool code_track(Coder& coder, MotionReference& reference, std::size_t part, Grou
     const std::int32_t length = tracks.span(part, left, k == 0, next.picture - last.picture);
     if (length > left) return false;
     next.picture = last.picture + length;
-    if (!tracks.knot(part, length, last, next)) return false;
+    if (key && k == 0) {
+      if (!code_key_knot(coder, reference, part, last, next)) return false;
+    } else if (!tracks.knot(part, length, last, next)) {
+      return false;
+    }
     if constexpr (Coder::kReads) {
       if (!coder.ok()) return false;
       track.push_back(next);
@@ -104,14 +153,21 @@ bool code_durations(Coder& coder, MotionMemory& memory, Group& group) {
   return true;
 }
 
-/// Codes all that follows the key flag.
-/// @param group  its anchor is set; all else too, with a Coder that does not read
+/// Codes all that follows the number of the first picture.
+/// @param group  its key flag, first picture and anchor are set; all else too, with a Coder that does not
+/// read
 /// @param after  called with each part after it is coded, and with kPartCount after the durations
 /// @return false when what was read is out of range or ends early
 template <class Coder, class Group, class After>
 bool code_body(Coder& coder, MotionReference& reference, Group& group, After&& after) {
   const bool has_durations = code_header(coder, reference.memory, group);
   if (group.pictures < 1) return false;
+  if constexpr (Coder::kReads)
+    group.missing_time = static_cast<std::uint32_t>(group.missing) * reference.nominal_duration;
+  if (has_durations && group.key && group.first > 0) {
+    code_time(coder, reference.time, group);
+    if (group.missing_time < static_cast<std::uint32_t>(group.missing)) return false;
+  }
   for (std::size_t part = 0; part < kPartCount; ++part) {
     if (!has_part(reference.limits.parts, part)) continue;
     if (!code_track(coder, reference, part, group)) return false;

@@ -13,7 +13,7 @@ namespace {
 Result<void> check(const PatternSyntax& pattern, const Setup& setup, std::int32_t pictures) {
   if (pattern.slot < 0 || pattern.slot >= setup.patterns || (pattern.picture == 0 && pattern.slot != 0))
     return fail(ErrorCode::kInvalidArgument, "pattern's slot is out of range");
-  if (pattern.picture < 0 ||
+  if (pattern.picture < (pattern.alone ? 1 : 0) ||
       (pattern.picture > 0 && (pattern.picture < first_with_state(pictures) || pattern.picture >= pictures)))
     return fail(ErrorCode::kInvalidArgument, "pattern's picture is out of range");
   if (pattern.av1.empty() || pattern.av1.size() >= kMaxPayload)
@@ -28,16 +28,22 @@ Result<void> check(const PatternSyntax& pattern, const Setup& setup, std::int32_
 std::optional<std::vector<std::uint8_t>> written(std::span<const PatternSyntax> patterns, const Setup& setup,
                                                  std::int32_t pictures, bool open, PatternMemory& memory) {
   RangeEncoder encoder;
-  const bool first = patterns.front().picture == 0;
+  const bool first = patterns.front().picture == 0, alone = patterns.front().alone;
   encoder.raw_bit(kNotKey, first);
   if (first) {
     memory = {};
     CodedState state = patterns.front().state;
     code_whole_state(encoder, CodedLimits(setup.steps, setup.parts), state);
+  } else {
+    encoder.raw_bit(kNotKey, alone);
+    if (!alone) code_chain(encoder, memory, pictures);
   }
   for (const PatternSyntax& pattern : patterns) {
     const bool last = &pattern == &patterns.back();
-    if (!first) code_place(encoder, memory, pictures, pattern);
+    if (alone)
+      code_place_alone(encoder, pictures, pattern);
+    else if (!first)
+      code_place(encoder, memory, pictures, pattern);
     memory.add(pattern);
     if (!encoder.bit(memory.has_length, !(open && last)))
       return write_open_frame(encoder, memory, pattern) ? std::optional(encoder.finish_open()) : std::nullopt;
@@ -59,18 +65,22 @@ Result<std::vector<std::uint8_t>> PatternPacketWriter::encode(std::span<const Pa
     return fail(ErrorCode::kInvalidArgument, "a pattern packet has 1 to 64 patterns");
   for (const PatternSyntax& pattern : patterns) {
     if (auto checked = check(pattern, setup, pictures); !checked) return fail(checked.error());
-    if (pattern.picture == 0 && patterns.size() > 1)
-      return fail(ErrorCode::kInvalidArgument, "the first pattern is not alone in its packet");
+    if ((pattern.picture == 0 || pattern.alone) && patterns.size() > 1)
+      return fail(ErrorCode::kInvalidArgument, "a pattern is not alone in its packet");
   }
-  PatternMemory memory = memory_;
+  const bool alone = patterns.front().alone;
+  const PatternMemory before = alone ? PatternMemory{} : memory_;
+  PatternMemory memory = before;
   auto payload = written(patterns, setup, pictures, true, memory);
   if (!payload) {
-    memory = memory_;
+    memory = before;
     payload = written(patterns, setup, pictures, false, memory);
   }
   if (payload->size() > kMaxPayload)
     return fail(ErrorCode::kInvalidArgument, "pattern packet has too many bytes");
+  if (alone) return std::move(*payload);
   memory_ = memory;
+  ++memory_.packets;
   return std::move(*payload);
 }
 
@@ -81,36 +91,57 @@ Result<std::vector<std::uint8_t>> encode_first_pattern(const PatternSyntax& patt
 
 Result<std::vector<PatternSyntax>> PatternPacketReader::decode(std::span<const std::uint8_t> payload,
                                                                const Setup& setup, std::int32_t pictures) {
-  const bool needed_first = std::exchange(needs_first_, true);  // until the whole packet has been read
   RangeDecoder decoder(payload);
   const bool first = decoder.raw_bit(kNotKey);
-  if (needed_first && !first)
+  if (needs_first_ && !first)
     return fail(ErrorCode::kInvalidStream, "a pattern before the first of its scene");
+  const bool alone = !first && decoder.raw_bit(kNotKey);
+  if (!first && !alone) broken_ = !code_chain(decoder, memory_, pictures) || broken_;
+  if (!first && !alone && broken_) return std::vector<PatternSyntax>{};
+
+  PatternMemory memory;
+  if (!first && !alone) memory = memory_;
+  auto patterns = read(decoder, setup, pictures, first, alone, memory);
+  if (patterns && !decoder.at_end())
+    patterns = fail(ErrorCode::kInvalidStream, "pattern packet has excess bytes");
+  if (alone) return patterns;
+  broken_ = !patterns;
+  if (!patterns) return patterns;
+  needs_first_ = false;
+  memory_ = memory;
+  ++memory_.packets;
+  return patterns;
+}
+
+Result<std::vector<PatternSyntax>> PatternPacketReader::read(RangeDecoder& decoder, const Setup& setup,
+                                                             std::int32_t pictures, bool first, bool alone,
+                                                             PatternMemory& memory) {
   std::vector<PatternSyntax> patterns;
   PatternSyntax pattern;
-  if (first) {
-    memory_ = {};
-    if (!code_whole_state(decoder, CodedLimits(setup.steps, setup.parts), pattern.state))
-      return out_of_range();
-  }
+  if (first && !code_whole_state(decoder, CodedLimits(setup.steps, setup.parts), pattern.state))
+    return out_of_range();
   bool more = true;
   while (more) {
     if (patterns.size() == kMaxPatterns)
       return fail(ErrorCode::kTooLarge, "pattern packet has more patterns than a store");
-    if (!first && !code_place(decoder, memory_, pictures, pattern)) return out_of_range();
+    pattern.alone = alone;
+    if (alone)
+      code_place_alone(decoder, pictures, pattern);
+    else if (!first && !code_place(decoder, memory, pictures, pattern))
+      return out_of_range();
     if (pattern.slot >= setup.patterns) return fail(ErrorCode::kTooLarge, "pattern's slot is out of range");
-    memory_.add(pattern);
-    more = decoder.bit(memory_.has_length);
+    if (alone && pattern.picture < 1) return out_of_range();
+    memory.add(pattern);
+    more = decoder.bit(memory.has_length);
     if (more) {
-      if (code_frame(decoder, memory_, pattern)) more = !first && decoder.bit(memory_.has_next);
+      if (code_frame(decoder, memory, pattern)) more = !first && decoder.bit(memory.has_next);
     } else {
-      read_open_frame(decoder, memory_, pattern);
+      read_open_frame(decoder, memory, pattern);
     }
-    if (!decoder.ok()) return fail(ErrorCode::kTruncated, "pattern packet ends early", payload.size());
+    if (!decoder.ok()) return fail(ErrorCode::kTruncated, "pattern packet ends early");
     patterns.push_back(std::exchange(pattern, {}));
+    if (alone) break;
   }
-  if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "pattern packet has excess bytes");
-  needs_first_ = false;
   return patterns;
 }
 

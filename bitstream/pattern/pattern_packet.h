@@ -10,14 +10,14 @@
 
 namespace fbs {
 
-/// Limit for several patterns in one packet: behind damage, readers search for packets of up to 2^20 bytes.
+/// Limit for several patterns in one packet, all of which are lost if one bit of it is wrong.
 inline constexpr std::size_t kMaxPatternsTogether = std::size_t{1} << 19;
 
 /// Writes the pattern packets of one scene, in stream order. A value: a copy continues independently.
 class PatternPacketWriter {
  public:
   /// Codes the next packet.
-  /// @param patterns  1..kMaxPatterns; the first of the scene alone
+  /// @param patterns  1..kMaxPatterns; the first of the scene, and one that is `alone`, by itself
   /// @param setup     of the scene: parts and steps define which numbers are coded and their limits
   /// @param pictures  of the scene that have a state
   /// @return kInvalidArgument  another number of patterns, a slot that the setup does not have, a picture
@@ -37,19 +37,31 @@ class PatternPacketWriter {
 [[nodiscard]] Result<std::vector<std::uint8_t>> encode_first_pattern(const PatternSyntax& pattern,
                                                                      const Setup& setup);
 
-/// Reads the pattern packets of one scene, in stream order.
+/// Reads the pattern packets of one scene. Some may be missing.
 class PatternPacketReader {
  public:
-  /// Reads the next packet; copies the AV1 bytes without decoding them. After an error only a scene's first
-  /// pattern can be read.
+  /// Reads the next packet; copies the AV1 bytes without decoding them. After an error or a missing packet
+  /// only a scene's first pattern and patterns that are `alone` can be read.
   /// @param pictures  of the scene that have a state
-  /// @return kTruncated, kTooLarge (slot, number of patterns), kInvalidStream
+  /// @return nothing if the patterns need one that is missing; kTruncated, kTooLarge (slot, number of
+  /// patterns),
+  ///         kInvalidStream
   [[nodiscard]] Result<std::vector<PatternSyntax>> decode(std::span<const std::uint8_t> payload,
                                                           const Setup& setup, std::int32_t pictures);
 
+  /// A pattern in the chain is missing.
+  void lose() { broken_ = true; }
+  /// Whether one is known to be missing.
+  [[nodiscard]] bool is_broken() const { return broken_; }
+
  private:
+  [[nodiscard]] Result<std::vector<PatternSyntax>> read(RangeDecoder& decoder, const Setup& setup,
+                                                        std::int32_t pictures, bool first, bool alone,
+                                                        PatternMemory& memory);
+
   PatternMemory memory_;
   bool needs_first_ = true;
+  bool broken_ = false;  // the chain of patterns
 };
 
 }  // namespace fbs

@@ -28,6 +28,7 @@ struct PatternMemory {
   std::array<std::int32_t, kMaxPatterns> store{};  ///< picture of the pattern in each slot
   std::int32_t stored = 0;                         ///< slots that are not empty
   std::int32_t slot = -1, picture = 0;             ///< of the last pattern
+  std::int32_t packets = 0;                        ///< before the next one, those of patterns alone left out
 
   void add(const PatternSyntax& pattern) {
     slot = pattern.slot;
@@ -37,7 +38,37 @@ struct PatternMemory {
   }
 };
 
-/// Codes slot and picture of a pattern that is not the first.
+/// The modulus divides no usual number of pictures of groups that may be missing.
+inline constexpr int kPacketBits = 4, kPicturesBits = 6, kPicturesModulus = 61, kAlonePictureBits = 13;
+
+/// Codes what tells whether all has come that a packet in the chain of patterns needs.
+/// @param pictures  that have a state
+/// @return whether it has
+template <class Coder>
+bool code_chain(Coder& coder, const PatternMemory& memory, std::int32_t pictures) {
+  constexpr std::uint32_t kPackets = (1u << kPacketBits) - 1;
+  const std::uint32_t packets = static_cast<std::uint32_t>(memory.packets) & kPackets;
+  const auto now = static_cast<std::uint32_t>(pictures % kPicturesModulus);
+  const bool same_packets = coder.bypass(kPacketBits, packets) == packets;
+  return coder.bypass(kPicturesBits, now) == now && same_packets;
+}
+
+/// Codes slot and picture of a pattern that needs the first alone.
+/// @param pictures  that have a state
+template <class Coder, class Pattern>
+void code_place_alone(Coder& coder, std::int32_t pictures, Pattern& pattern) {
+  constexpr std::int32_t kNumbers = 1 << kAlonePictureBits, kAhead = kNumbers / 4;
+  const auto slot = static_cast<std::int32_t>(coder.bypass(6, static_cast<std::uint32_t>(pattern.slot)));
+  const auto low = static_cast<std::int32_t>(
+      coder.bypass(kAlonePictureBits, static_cast<std::uint32_t>(pattern.picture & (kNumbers - 1))));
+  if constexpr (Coder::kReads) {
+    const std::int32_t last = pictures + kAhead;
+    pattern.slot = slot;
+    pattern.picture = last - ((last - low) & (kNumbers - 1));
+  }
+}
+
+/// Codes slot and picture of a pattern in the chain that is not the first.
 /// @param pictures  that have a state; not zero
 /// @return false when what was read is out of range
 template <class Coder, class Pattern>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bitstream/byte_io.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/setup_payload.h"
@@ -25,38 +26,38 @@ Result<SceneSyntax> as_syntax(Result<Syntax> read) {
   return SceneSyntax(std::move(*read));
 }
 
-}  // namespace
-
-bool is_of_scene(PacketType type) {
-  switch (type) {
-    case PacketType::kWireFrame:
-    case PacketType::kGeometry:
-    case PacketType::kSurround:
-    case PacketType::kPattern:
-    case PacketType::kMotion:
-    case PacketType::kBlend:
-      return true;
-    default:
-      return false;
-  }
+/// How many of the first states of a group are uncertain, the missing pictures included. SPEC 6.2.
+std::int32_t guesses_of(const MotionGroup& group) {
+  if (group.missing == 0) return 0;
+  std::int32_t before_knots = 0;
+  for (const Track& track : group.tracks)
+    if (!track.empty()) before_knots = std::max(before_knots, track.front().picture);
+  return group.missing + before_knots;
 }
+
+}  // namespace
 
 Result<SceneSyntax> SceneReader::read(const Packet& packet) {
   auto syntax = read_payload(packet);
   if (syntax) return syntax;
-  if (is_of_scene(packet.type)) lose();
+  if (is_of_scene(packet.type) || packet.type == PacketType::kSetup) lose();
   Error error = std::move(syntax.error());
   error.byte_offset = packet.offset;
   return fail(std::move(error));
 }
 
+void SceneReader::lose() {
+  has_losses_ = true;
+  lost_ = lost_ || !motion_;
+}
+
 Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
   if (packet.type == PacketType::kSetup) return read_setup(packet);
   if (packet.type == PacketType::kEnd) return as_syntax(decode_end(packet.payload));
-  const bool known = is_of_scene(packet.type) || is_sound(packet.type);
-  if (!known || lost_) return SceneSyntax{};  // SPEC 3.1, 6.2: skipped
   if (packet.type == PacketType::kSound) return read_sound(packet);
-  if (!has_setup_) return refuse("a packet before the setup");
+  if (packet.type != PacketType::kSoundSetup && (!is_of_scene(packet.type) || lost_))
+    return SceneSyntax{};  // SPEC 3.1, 6.2: skipped
+  if (!has_setup_) return has_losses_ ? Result<SceneSyntax>{} : refuse("a packet before the setup");
   switch (packet.type) {
     case PacketType::kWireFrame:
       return read_wire_frame(packet);
@@ -70,14 +71,21 @@ Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
       return read_motion(packet);
     case PacketType::kBlend:
       return read_blend(packet);
+    case PacketType::kUnit:
+      return read_unit(packet);
     default:
       return read_sound_setup(packet);
   }
 }
 
+Result<SceneSyntax> SceneReader::skip(bool needs_missing) const {
+  if (needs_missing && !has_losses_) return refuse("a packet is missing");
+  return SceneSyntax{};
+}
+
 // SPEC 6.1
 Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
-  lose();
+  lost_ = true;  // until it has been read
   const auto setup = decode_setup(packet.payload);
   if (!setup) return fail(setup.error());
   const std::int64_t next_sound = next_sound_;
@@ -108,44 +116,88 @@ Result<SceneSyntax> SceneReader::read_patterns(const Packet& packet) {
   std::vector<ScenePattern> patterns;
   for (PatternSyntax& pattern : *read) {
     auto placed = place(std::move(pattern));
-    if (!placed) return fail(placed.error());
-    patterns.push_back(std::move(*placed));
+    if (!placed) {
+      lose_patterns();
+      return fail(placed.error());
+    }
+    if (!*placed) break;  // those behind it need it
+    patterns.push_back(std::move(**placed));
   }
+  if (patterns.empty()) return skip(patterns_.is_broken());
   return SceneSyntax(std::move(patterns));
 }
 
-Result<ScenePattern> SceneReader::place(PatternSyntax pattern) {
-  const bool first = slots_ == 0;
-  if (first != (pattern.picture == 0) || pattern.slot > slots_) return refuse("a pattern out of order");
-  const Timeline::Entry* const known = first ? nullptr : pictures_.find(pattern.picture);
-  if (!first && known == nullptr) return refuse("a pattern of a picture without a state");
-  const State seen = first ? state_of(pattern.state, setup_.steps) : known->state;
+// SPEC 6
+Result<std::optional<ScenePattern>> SceneReader::place(PatternSyntax pattern) {
+  const bool first = !motion_;
+  if (first != (pattern.picture == 0)) return refuse("a pattern out of order");
   if (first) {
     motion_.emplace(setup_, pattern.state);
     if (setup_.patterns > 1) blend_.emplace();
+    const State seen = state_of(pattern.state, setup_.steps);
+    return ScenePattern{std::move(pattern), seen};
   }
-  slots_ = std::max(slots_, pattern.slot + 1);
-  return ScenePattern{std::move(pattern), seen};
+  std::int32_t& stored = stored_[pattern.slot];
+  if (pattern.alone && pattern.picture <= stored) return std::nullopt;
+  const Timeline::Entry* const known = pictures_.find(pattern.picture);
+  if (known != nullptr && !known->guessed) {
+    stored = pattern.picture;
+    return ScenePattern{std::move(pattern), known->state};
+  }
+  if (!has_losses_) return refuse("a pattern of a picture without a state");
+  if (!pattern.alone) lose_patterns();
+  return std::nullopt;
+}
+
+Result<std::optional<MotionGroup>> SceneReader::add_motion(std::span<const std::uint8_t> payload) {
+  if (!motion_) return refuse("motion before the first pattern");
+  auto group = motion_->decode(payload);
+  if (!group || !*group) return group;
+  const std::vector<State> states = states_of(**group, setup_.steps);
+  const std::vector<std::uint32_t> durations = durations_of(**group, setup_.format.frame_rate);
+  if ((*group)->missing > 0) has_losses_ = true;
+  if (auto added = pictures_.add(states, durations, guesses_of(**group)); !added) {
+    lose_scene();  // its pictures have lost their numbers
+    return fail(added.error());
+  }
+  return group;
 }
 
 Result<SceneSyntax> SceneReader::read_motion(const Packet& packet) {
-  if (!motion_) return refuse("motion before the first pattern");
-  auto group = motion_->decode(packet.payload);
+  auto group = add_motion(packet.payload);
   if (!group) return fail(group.error());
-  const std::vector<State> states = states_of(*group, setup_.steps);
-  std::vector<std::uint32_t> durations = group->durations;
-  if (durations.empty()) durations.assign(states.size(), nominal_duration(setup_.format.frame_rate));
-  if (auto added = pictures_.add(states, durations); !added) return fail(added.error());
+  if (!*group) return skip(motion_->needs_key());
   if (!blend_) pictures_.release_all();
-  return SceneSyntax(std::move(*group));
+  return SceneSyntax(std::move(**group));
 }
 
 Result<SceneSyntax> SceneReader::read_blend(const Packet& packet) {
   if (!blend_) return refuse("a blend packet where nothing is blended");
   auto group = blend_->decode(packet.payload);
   if (!group) return fail(group.error());
-  if (auto released = pictures_.release(group->modes); !released) return fail(released.error());
-  return SceneSyntax(std::move(*group));
+  if (!*group) return skip(blend_->needs_key());
+  if (auto released = pictures_.release((*group)->first, (*group)->modes); !released)
+    return fail(released.error());
+  return SceneSyntax(std::move(**group));
+}
+
+// SPEC 4.11
+Result<SceneSyntax> SceneReader::read_unit(const Packet& packet) {
+  if (!blend_) return refuse("a unit where nothing is blended");
+  ByteReader reader(packet.payload);
+  const std::uint64_t size = reader.varint();
+  const auto motion = reader.bytes(size);
+  if (reader.malformed()) return refuse("a unit has a damaged length");
+  if (reader.past_end()) return fail(ErrorCode::kTruncated, "a unit ends early");
+  auto group = add_motion(motion);
+  if (!group) return fail(group.error());
+  if (!*group) return skip(motion_->needs_key());
+  auto blend = blend_->decode_in_unit(packet.payload.subspan(reader.offset()), **group);
+  if (!blend) return fail(blend.error());
+  if (!*blend) return SceneSyntax(std::move(**group));
+  if (auto released = pictures_.release((*blend)->first, (*blend)->modes); !released)
+    return fail(released.error());
+  return SceneSyntax(Unit{std::move(**group), std::move(**blend)});
 }
 
 // SPEC 6.3

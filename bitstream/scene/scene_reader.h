@@ -1,9 +1,11 @@
 // Packets to checked syntax: what may follow what, and which pictures a packet releases. SPEC 6.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -27,27 +29,34 @@ struct ScenePattern {
   [[nodiscard]] bool is_first() const { return coded.picture == 0; }
 };
 
-/// What a packet says. monostate: nothing that can be used, since its type is unknown, something was lost
-/// before it, or it has no effect where it is.
-using SceneSyntax =
-    std::variant<std::monostate, Setup, End, std::shared_ptr<const WireFrame>, Geometry, SurroundMap,
-                 std::vector<ScenePattern>, MotionGroup, BlendGroup, std::optional<SoundSetup>, SoundGroup>;
-
-/// Whether a packet counts for the pictures of a scene: an error in it loses the rest of the scene.
-[[nodiscard]] bool is_of_scene(PacketType type);
+/// What a packet says. monostate: nothing that can be used, since its type is unknown, it needs something
+/// that was lost, it has come before, or it has no effect where it is.
+using SceneSyntax = std::variant<std::monostate, Setup, End, std::shared_ptr<const WireFrame>, Geometry,
+                                 SurroundMap, std::vector<ScenePattern>, MotionGroup, BlendGroup, Unit,
+                                 std::optional<SoundSetup>, SoundGroup>;
 
 /// Reads the packets of a stream in their order, without pixels.
 class SceneReader {
  public:
   /// Reads the next packet. A setup packet begins another scene at once, even if it is refused later on.
   /// @return errors of the payloads, and kInvalidStream for a packet that may not stand where it does; with
-  ///         the offset of the packet. After an error in a setup packet or one that is_of_scene(), the scene
-  ///         is lost(). Errors in sound do no harm to pictures (SPEC 6.3)
+  ///         the offset of the packet. An error in a setup packet or one that is_of_scene() is a loss, as if
+  ///         lose() had been called. Errors in sound do no harm to pictures (SPEC 6.3)
   [[nodiscard]] Result<SceneSyntax> read(const Packet& packet);
 
-  /// Something is missing: nothing is of use up to the next setup packet (SPEC 6.2).
-  void lose() { lost_ = true; }
+  /// Packets are missing. In the head of a scene, up to its first pattern, nothing is of use up to the next
+  /// setup packet: the scene is lost(). Later on only what needs them is of no use (SPEC 6.2).
+  void lose();
+  /// The scene cannot be used.
+  void lose_scene() { lost_ = has_losses_ = true; }
   [[nodiscard]] bool lost() const { return lost_; }
+  /// Whether something is known to be missing since the last setup packet.
+  [[nodiscard]] bool has_losses() const { return has_losses_; }
+  /// A pattern could not be decoded: those that need it are of no use.
+  void lose_patterns() {
+    has_losses_ = true;
+    patterns_.lose();
+  }
 
   /// Whether a setup packet has been read.
   [[nodiscard]] bool has_setup() const { return has_setup_; }
@@ -65,20 +74,27 @@ class SceneReader {
   [[nodiscard]] Result<SceneSyntax> read_geometry(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_wire_frame(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_patterns(const Packet& packet);
-  [[nodiscard]] Result<ScenePattern> place(PatternSyntax pattern);
+  /// Leaves a packet out.
+  /// @param needs_missing  not since it came twice or late: a loss if none is known
+  [[nodiscard]] Result<SceneSyntax> skip(bool needs_missing) const;
+  [[nodiscard]] Result<std::optional<ScenePattern>> place(PatternSyntax pattern);
   [[nodiscard]] Result<SceneSyntax> read_motion(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_blend(const Packet& packet);
+  [[nodiscard]] Result<SceneSyntax> read_unit(const Packet& packet);
+  /// Adds the pictures of a motion payload. @return nothing if it is skipped
+  [[nodiscard]] Result<std::optional<MotionGroup>> add_motion(std::span<const std::uint8_t> payload);
   [[nodiscard]] Result<SceneSyntax> read_sound_setup(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_sound(const Packet& packet);
 
   bool has_setup_ = false;
-  bool lost_ = false;
+  bool lost_ = false, has_losses_ = false;
   std::int64_t next_sound_ = 0;  // number of the first frame that has not come
   // Of the scene:
   Setup setup_;
   std::shared_ptr<const WireFrame> wire_frame_;  // null: the generic head
   PatternPacketReader patterns_;
-  std::int32_t slots_ = 0;               // that patterns fill
+  std::array<std::int32_t, kMaxPatterns>
+      stored_{};                         // picture of the last pattern for each slot; 0: none, or the first
   std::optional<MotionDecoder> motion_;  // from the first pattern on
   std::optional<BlendDecoder> blend_;    // the same, where several patterns are blended
   std::optional<SoundSetup> sound_;

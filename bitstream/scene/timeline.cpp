@@ -1,28 +1,44 @@
 #include "bitstream/scene/timeline.h"
 
+#include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace fbs {
 
-Result<void> Timeline::add(std::span<const State> states, std::span<const std::uint32_t> durations) {
+Result<void> Timeline::add(std::span<const State> states, std::span<const std::uint32_t> durations,
+                           std::int32_t guessed) {
   assert(states.size() == durations.size());
   const std::int64_t new_end = end() + static_cast<std::int64_t>(states.size());
   if (new_end - next_ > kMaxWaitingPictures || new_end > static_cast<std::int64_t>(kMaxPictureNumber))
     return fail(ErrorCode::kTooLarge, "too many pictures wait for their patterns");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    entries_.push_back({states[i], end_time_, durations[i]});
-    entries_.back().state.picture = end() - 1;
+    entries_.push_back({states[i], end_time_, durations[i], std::cmp_less(i, guessed)});
+    State& state = entries_.back().state;
+    state.picture = end() - 1;
+    if (!ahead_.empty()) {
+      state.blend = ahead_.front();
+      ahead_.pop_front();
+    }
     end_time_ += durations[i];
   }
+  released_ = std::max(released_, std::min(with_modes_, end()));
   return {};
 }
 
-Result<void> Timeline::release(std::span<const RegionModes> modes) {
-  const std::size_t begin = released_ - first_;
-  if (modes.size() > entries_.size() - begin)
-    return fail(ErrorCode::kInvalidStream, "a blend packet is ahead of the motion");
-  for (std::size_t i = 0; i < modes.size(); ++i) entries_[begin + i].state.blend = modes[i];
-  released_ += static_cast<std::int32_t>(modes.size());
+Result<void> Timeline::release(std::int32_t first, std::span<const RegionModes> modes) {
+  assert(first >= with_modes_);
+  const std::int64_t new_end = first + static_cast<std::int64_t>(modes.size());
+  if (new_end - end() > kMaxWaitingPictures)
+    return fail(ErrorCode::kTooLarge, "a blend packet is too far ahead of the motion");
+  for (; with_modes_ < new_end; ++with_modes_) {
+    if (with_modes_ >= first) last_modes_ = modes[with_modes_ - first];
+    if (with_modes_ < end())
+      entries_[with_modes_ - first_].state.blend = last_modes_;
+    else
+      ahead_.push_back(last_modes_);
+  }
+  released_ = std::min(with_modes_, end());
   return {};
 }
 

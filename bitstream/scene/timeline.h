@@ -19,21 +19,26 @@ class Timeline {
     State state;
     std::uint64_t time = 0;      ///< of the stream, 1/90000 s
     std::uint32_t duration = 0;  ///< 1/90000 s
+    bool guessed = false;        ///< the state may be wrong, since a group is missing
   };
 
   /// @param begin  time of the first picture, 1/90000 s
   explicit Timeline(std::uint64_t begin = 0) : end_time_(begin) {}
 
   /// Adds the states of the next pictures and numbers them.
+  /// @param guessed  how many of the first of them may be wrong, since a group is missing
   /// @return kTooLarge when more than kMaxWaitingPictures would wait, or their numbers exceed
   /// kMaxPictureNumber
-  [[nodiscard]] Result<void> add(std::span<const State> states, std::span<const std::uint32_t> durations);
+  [[nodiscard]] Result<void> add(std::span<const State> states, std::span<const std::uint32_t> durations,
+                                 std::int32_t guessed);
 
-  /// Releases the next pictures for display, blended in these modes.
-  /// @return kInvalidStream when fewer pictures wait
-  [[nodiscard]] Result<void> release(std::span<const RegionModes> modes);
+  /// Releases pictures for display, blended in these modes, as soon as they have states. Pictures before
+  /// `first` that have no modes get those of the picture before.
+  /// @param first  number of the first of them, not below that of any picture with modes (assert)
+  /// @return kTooLarge when modes would be more than kMaxWaitingPictures ahead of the states
+  [[nodiscard]] Result<void> release(std::int32_t first, std::span<const RegionModes> modes);
   /// Releases all pictures.
-  void release_all() { released_ = end(); }
+  void release_all() { with_modes_ = released_ = end(); }
 
   [[nodiscard]] bool has_next() const { return next_ < released_; }
   /// The next picture to be displayed; has_next() is true.
@@ -49,10 +54,13 @@ class Timeline {
   [[nodiscard]] const Entry* find(std::int32_t picture) const;
 
  private:
-  std::deque<Entry> entries_;  // pictures first_, first_ + 1, ...
-  std::int32_t first_ = 0;     // number of the oldest picture that is kept
-  std::int32_t next_ = 0;      // to be displayed
-  std::int32_t released_ = 0;  // pictures below this may be displayed
+  std::deque<Entry> entries_;      // pictures first_, first_ + 1, ...
+  std::int32_t first_ = 0;         // number of the oldest picture that is kept
+  std::int32_t next_ = 0;          // to be displayed
+  std::int32_t released_ = 0;      // pictures below this may be displayed
+  std::int32_t with_modes_ = 0;    // pictures below this have modes
+  std::deque<RegionModes> ahead_;  // of those that have no state yet
+  RegionModes last_modes_{};
   std::uint64_t end_time_;
 };
 

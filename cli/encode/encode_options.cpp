@@ -46,6 +46,17 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
           "With --live: with 2 or more, pictures are encoded while the next ones are analysed (default: "
           "one for each core)")
       ->check(CLI::Range(1, 64));
+  verb.add_option_function<std::string>(
+          "--resilience",
+          [&a](const std::string& to) {
+            a.resilience = to == "packet" ? Resilience::kPacket : Resilience::kNone;
+          },
+          "With --live: none takes the fewest bytes; packet makes each packet of use without those before "
+          "it, "
+          "for links that lose some")
+      ->check(CLI::IsMember({"none", "packet"}))
+      ->type_name("none|packet")
+      ->default_str("none");
   verb.add_option("--key-interval", a.settings.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
                   "40 with several patterns; none with --patterns 1; 10 with --live)")

@@ -67,6 +67,7 @@ Result<void> check_live(const EncodeArguments& a) {
   if (!is_live(a)) {
     const char* option = a.delay                  ? "--delay"
                          : a.buffer               ? "--buffer"
+                         : a.resilience           ? "--resilience"
                          : a.settings.threads > 0 ? "--threads"
                                                   : nullptr;
     if (option != nullptr) return refuse(std::string(option) + " needs --live");
@@ -81,6 +82,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     LiveSettings& live = settings.live.emplace();
     live.delay = arguments.delay.value_or(live.delay);
     live.buffer = arguments.buffer.value_or(live.buffer);
+    live.resilience = arguments.resilience.value_or(live.resilience);
   }
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);

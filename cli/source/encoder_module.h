@@ -19,13 +19,14 @@ inline constexpr const char* kEvaluateSymbol = "fbs_run_evaluate";
 
 struct EncodeArguments {
   std::string input, output;
-  EncoderSettings settings;             ///< but for what the members below say
-  std::optional<bool> live;             ///< whether it is; nothing: a camera is
-  std::optional<double> delay;          ///< s, of a live source
-  std::optional<double> buffer;         ///< s, of a live source with a bitrate
-  std::optional<std::string> sound;     ///< "opus" or "codec2"; nothing: by the bitrates
-  std::optional<double> sound_bitrate;  ///< kbit/s; nothing: chosen by that of the pictures
-  std::optional<int> track;             ///< of the source's sound, from 0; nothing: the main one
+  EncoderSettings settings;              ///< but for what the members below say
+  std::optional<bool> live;              ///< whether it is; nothing: a camera is
+  std::optional<double> delay;           ///< s, of a live source
+  std::optional<double> buffer;          ///< s, of a live source with a bitrate
+  std::optional<Resilience> resilience;  ///< of a live source
+  std::optional<std::string> sound;      ///< "opus" or "codec2"; nothing: by the bitrates
+  std::optional<double> sound_bitrate;   ///< kbit/s; nothing: chosen by that of the pictures
+  std::optional<int> track;              ///< of the source's sound, from 0; nothing: the main one
   bool no_sound = false;
   std::string pattern;                  ///< image file: the first pattern; empty: the first picture
   std::string marks;                    ///< file; empty: automatic

@@ -10,9 +10,12 @@ namespace {
 
 std::vector<std::size_t> numbers_in_slots(const StreamDecoder& decoder) {
   const std::vector<PatternRecord>& records = decoder.pattern_records();
-  std::vector<std::size_t> out(decoder.scene().patterns.size());
-  for (std::size_t k = 0; k < records.size(); ++k)
-    if (const auto slot = static_cast<std::size_t>(records[k].slot); slot < out.size()) out[slot] = k;
+  std::vector<std::size_t> out;
+  for (const Pattern& pattern : decoder.scene().patterns) {
+    std::size_t k = records.size();
+    while (k > 0 && records[k - 1].slot != pattern.slot) --k;
+    out.push_back(k > 0 ? k - 1 : 0);
+  }
   return out;
 }
 

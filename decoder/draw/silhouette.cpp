@@ -74,7 +74,8 @@ class Marker {
     // Places of the edge no farther away than the radius in y, and a little more.
     std::int64_t begin = 0, end = kAlongOne;
     if (const std::int64_t dy = std::int64_t{to.y} - from.y; dy != 0) {
-      const std::int64_t above = centre(y) - radius_ - from.y, below = centre(y) + radius_ - from.y;
+      // is_near() rounds places of the edge down.
+      const std::int64_t above = centre(y) - radius_ - from.y, below = centre(y) + radius_ + 1 - from.y;
       const std::int64_t s = above * kAlongOne / dy, t = below * kAlongOne / dy;
       begin = std::clamp<std::int64_t>(std::min(s, t) - 1, 0, kAlongOne);
       end = std::clamp<std::int64_t>(std::max(s, t) + 1, 0, kAlongOne);

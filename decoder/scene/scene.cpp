@@ -1,5 +1,6 @@
 #include "decoder/scene/scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "decoder/pattern/contrast_map.h"
@@ -16,7 +17,7 @@ void Pattern::set_geometry(const SceneGeometry& geometry) {
 }
 
 Pattern make_pattern(Picture picture, const State& seen, const std::optional<SceneGeometry>& geometry) {
-  Pattern out{std::move(picture), seen, {}, {}, {}};
+  Pattern out{0, std::move(picture), seen, {}, {}, {}};
   if (geometry) out.set_geometry(*geometry);
   return out;
 }
@@ -31,6 +32,15 @@ Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional
 void Scene::set_geometry(SceneGeometry replacement) {
   geometry.emplace(std::move(replacement));
   for (Pattern& p : patterns) p.set_geometry(*geometry);
+}
+
+void Scene::store(Pattern pattern) {
+  const auto place = std::lower_bound(patterns.begin(), patterns.end(), pattern.slot,
+                                      [](const Pattern& p, std::int32_t slot) { return p.slot < slot; });
+  if (place != patterns.end() && place->slot == pattern.slot)
+    *place = std::move(pattern);
+  else
+    patterns.insert(place, std::move(pattern));
 }
 
 }  // namespace fbs

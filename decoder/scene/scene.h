@@ -1,6 +1,7 @@
 // What the pictures between two setup packets are drawn from.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace fbs {
 
 /// A decoded picture of the person, and everything needed to draw from it.
 struct Pattern {
+  std::int32_t slot = 0;  ///< its place in the store
   Picture picture;
   State seen;                           ///< the state it was seen in
   TextureMesh texture;                  ///< of `seen` by the scene's geometry; empty without a face
@@ -35,7 +37,10 @@ struct Pattern {
 struct Scene {
   Setup setup;
   std::optional<SceneGeometry> geometry;  ///< absent: patterns are shown as they are
-  std::vector<Pattern> patterns;          ///< at least one once pictures are drawn
+  std::vector<Pattern> patterns;          ///< by rising slot; at least one once pictures are drawn
+
+  /// Puts a pattern into the store, in the place of one with the same slot.
+  void store(Pattern pattern);
 
   /// Replaces the geometry; texture meshes of the patterns follow.
   void set_geometry(SceneGeometry replacement);

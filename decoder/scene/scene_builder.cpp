@@ -21,9 +21,10 @@ Result<SceneBuilder::MadePattern> SceneBuilder::make(const ScenePattern& pattern
     rest_ = pattern.seen;
     apply_surround();
   }
-  return MadePattern{
-      make_coded_pattern(std::move(frame->picture), pattern.seen, scene_.geometry, scene_.setup),
-      frame->reduced};
+  MadePattern made{make_coded_pattern(std::move(frame->picture), pattern.seen, scene_.geometry, scene_.setup),
+                   frame->reduced};
+  made.pattern.slot = pattern.coded.slot;
+  return made;
 }
 
 }  // namespace fbs

@@ -26,11 +26,11 @@ void HeldPicture::end_scene(Scene& scene) {
   arrivals_.clear();
 }
 
-Result<void> HeldPicture::add(std::size_t slot, Pattern pattern, Scene& scene, Renderer& renderer) {
+Result<void> HeldPicture::add(Pattern pattern, Scene& scene, Renderer& renderer) {
   const bool waits = announced_ > 0 && !past_ && !kept_;
   if (waits && arrivals_.size() == kMaxArrivals)
     if (auto drawn = draw(scene, renderer); !drawn) return drawn;
-  arrivals_.push_back({slot, std::move(pattern)});
+  arrivals_.push_back(std::move(pattern));
   if (!waits || kept_) store_arrivals(scene);
   return {};
 }
@@ -51,12 +51,7 @@ Result<void> HeldPicture::draw(const Scene& scene, Renderer& renderer) {
 }
 
 void HeldPicture::store_arrivals(Scene& scene) {
-  for (Arrival& a : arrivals_) {
-    if (a.slot < scene.patterns.size())
-      scene.patterns[a.slot] = std::move(a.pattern);
-    else
-      scene.patterns.push_back(std::move(a.pattern));
-  }
+  for (Pattern& pattern : arrivals_) scene.store(std::move(pattern));
   arrivals_.clear();
 }
 

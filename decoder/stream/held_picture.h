@@ -25,7 +25,7 @@ class HeldPicture {
   void end_scene(Scene& scene);
 
   /// Puts a pattern into the scene, or has it wait as long as the picture may be drawn again.
-  [[nodiscard]] Result<void> add(std::size_t slot, Pattern pattern, Scene& scene, Renderer& renderer);
+  [[nodiscard]] Result<void> add(Pattern pattern, Scene& scene, Renderer& renderer);
   /// Ahead of another change of the scene: keeps the picture as it is drawn now. No pattern waits afterwards.
   [[nodiscard]] Result<void> keep(Scene& scene, Renderer& renderer);
 
@@ -42,10 +42,6 @@ class HeldPicture {
   [[nodiscard]] const Scene& drawn_from(const Scene& now) const { return kept_ ? *kept_ : scene(now); }
 
  private:
-  struct Arrival {
-    std::size_t slot;
-    Pattern pattern;
-  };
   static constexpr std::size_t kMaxArrivals = 4;
 
   Result<void> draw(const Scene& scene, Renderer& renderer);
@@ -59,7 +55,7 @@ class HeldPicture {
   std::optional<Scene> past_;  ///< its scene, if another one has begun
   std::optional<Scene> kept_;  ///< the picture itself, if its sources have changed
   /// Come into the scene with the next picture; a picture is only kept when there are too many.
-  std::vector<Arrival> arrivals_;
+  std::vector<Pattern> arrivals_;
 };
 
 }  // namespace fbs

@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kNames =
     std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend",
-                                "wire-frame", "sound setup", "sound"});  // by PacketType
+                                "wire-frame", "sound setup", "sound", "unit"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);
@@ -20,7 +20,7 @@ std::string name_of(PacketType type) {
 
 PacketEntry entry_of(const Packet& packet, PacketTimes& times) {
   PacketEntry entry{packet.offset, packet.size, name_of(packet.type), false, std::nullopt, {}};
-  const bool lost = times.lost();
+  const bool lost = times.has_losses();
   const auto timed = times.take(packet);
   if (!timed) {
     entry.error = timed.error().text;

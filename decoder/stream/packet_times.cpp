@@ -27,7 +27,7 @@ Result<TimedPacket> PacketTimes::take(const Packet& packet) {
 Result<void> PacketTimes::place(const Setup& setup, TimedPacket& out) {
   out.key = true;
   auto jumped = jump(clock_.go_to(setup.before), out);
-  if (!jumped) reader_.lose();
+  if (!jumped) reader_.lose_scene();
   return jumped;
 }
 
@@ -54,6 +54,8 @@ Result<void> PacketTimes::place(const std::vector<ScenePattern>& patterns, Timed
 Result<void> PacketTimes::place(const MotionGroup& group, TimedPacket& out) {
   out.key = group.key;
   const std::int32_t first = reader_.pictures().end() - group.pictures;
+  out.missing = static_cast<std::uint64_t>(group.missing);
+  if (group.missing > 0) clock_.lose();
   out.first = {reader_.setup().before.pictures + static_cast<std::uint64_t>(first),
                reader_.pictures().find(first)->time};
   out.time = out.first.time;

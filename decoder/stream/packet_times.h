@@ -19,7 +19,7 @@ struct TimedPacket {
   /// When it counts, 1/90000 s; none if not known. A pattern packet: the picture that its first pattern
   /// shows; sound: its first sample; any other: `first`.
   std::optional<std::uint64_t> time;
-  std::uint64_t missing = 0;  ///< pictures that a setup or end packet says are missing
+  std::uint64_t missing = 0;  ///< pictures that a setup, end or motion packet says are missing
 };
 
 /// Follows a stream packet by packet. AV1 data is not decoded.
@@ -27,9 +27,9 @@ class PacketTimes {
  public:
   /// @return errors of SceneReader::read() and of StreamClock, with the offset of the packet
   [[nodiscard]] Result<TimedPacket> take(const Packet& packet);
-  /// Packets are missing: those up to the next setup packet are of no use.
+  /// Packets are missing.
   void lose();
-  [[nodiscard]] bool lost() const { return reader_.lost(); }
+  [[nodiscard]] bool has_losses() const { return reader_.has_losses(); }
 
   [[nodiscard]] bool has_setup() const { return reader_.has_setup(); }
   [[nodiscard]] const Setup& setup() const { return reader_.setup(); }  ///< the last one; has_setup() is true
@@ -43,6 +43,7 @@ class PacketTimes {
   Result<void> place(const End& end, TimedPacket& out);
   Result<void> place(const std::vector<ScenePattern>& patterns, TimedPacket& out);
   Result<void> place(const MotionGroup& group, TimedPacket& out);
+  Result<void> place(const Unit& unit, TimedPacket& out) { return place(unit.motion, out); }
   static Result<void> place(const BlendGroup& group, TimedPacket& out);
   Result<void> place(const SoundGroup& group, TimedPacket& out);
   static Result<void> place(std::monostate /*unused*/, TimedPacket& out);

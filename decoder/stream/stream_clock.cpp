@@ -23,11 +23,13 @@ Result<std::uint64_t> StreamClock::go_to(const StreamPosition& target) {
   if (target.pictures < now_.pictures)
     return fail(ErrorCode::kInvalidStream, "fewer pictures than have been shown");
   const std::uint64_t missing = target.pictures - now_.pictures;
-  if (target.time < now_.time || !can_last(missing, target.time - now_.time))
+  const bool fits = target.time >= now_.time && can_last(missing, target.time - now_.time);
+  if (!fits && !lost_)
     return fail(ErrorCode::kInvalidStream, "a time that does not fit the number of pictures");
+  lost_ = false;
   missing_ += missing;
   target_ = target;
-  if (!has_picture_ || held_in_a_row_ + missing > kMaxHeldPictures) now_ = target;
+  if (!fits || !has_picture_ || held_in_a_row_ + missing > kMaxHeldPictures) now_ = target;
   return missing;
 }
 

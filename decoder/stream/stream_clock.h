@@ -17,8 +17,9 @@ class StreamClock {
   /// Position of the next picture.
   [[nodiscard]] const StreamPosition& now() const { return now_; }
 
-  /// Records a loss. If the start of the stream is not known yet, it is 0, 0.
-  void lose() { started_ = true; }
+  /// Records a loss: times may be wrong up to the next target. If the start of the stream is not known yet,
+  /// it is 0, 0.
+  void lose() { started_ = lost_ = true; }
 
   /// Advances past the next picture of a scene. Not while is_behind() (assert).
   /// @param duration  1/90000 s
@@ -28,7 +29,7 @@ class StreamClock {
   /// left out: if no picture has been shown, or if more than kMaxHeldPictures would be held in a row.
   /// @return how many are missing; kInvalidStream, and nothing changes, if more pictures than the target's
   /// have
-  ///         been shown, or if the missing ones cannot take the time up to it
+  ///         been shown or, where nothing is lost, if the missing ones cannot take the time up to it
   [[nodiscard]] Result<std::uint64_t> go_to(const StreamPosition& target);
 
   /// The same for the end of the stream, where only the number of pictures is known.
@@ -46,7 +47,7 @@ class StreamClock {
   [[nodiscard]] std::uint64_t missing() const { return missing_; }  ///< of the stream, held or not
 
  private:
-  bool started_ = false;
+  bool started_ = false, lost_ = false;
   StreamPosition start_, now_;
   StreamPosition target_;  // no earlier than now_
   bool has_picture_ = false;

@@ -8,6 +8,10 @@ namespace {
 
 constexpr const char* kNoPicture = "no picture has been decoded yet";
 
+std::string missing_text(std::uint64_t pictures) {
+  return std::to_string(pictures) + (pictures == 1 ? " picture is" : " pictures are") + " missing";
+}
+
 }  // namespace
 
 Result<DecodeStatus> StreamDecoder::next() {
@@ -24,7 +28,7 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
     if (read->status == ReadStatus::kEnd) {
-      if (reader_.has_setup() || reader_.lost()) return DecodeStatus::kEnd;
+      if (reader_.has_setup() || reader_.has_losses()) return DecodeStatus::kEnd;
       reader_.lose();  // reported once
       return fail(ErrorCode::kTruncated, "the stream ends before its setup", packets_.offset());
     }
@@ -70,7 +74,7 @@ Result<void> StreamDecoder::render_state(const State& state, const PictureView& 
 }
 
 Result<void> StreamDecoder::take(const Packet& packet) {
-  const Arrived arrived{packet, reader_.lost()};
+  const Arrived arrived{packet, reader_.has_losses()};
   auto syntax = reader_.read(packet);
   auto taken = syntax ? std::visit([&](auto& s) { return take(s, arrived); }, *syntax)
                       : Result<void>(fail(syntax.error()));
@@ -86,12 +90,12 @@ Result<void> StreamDecoder::take(const Packet& packet) {
 Result<void> StreamDecoder::take(const Setup& setup, const Arrived& arrived) {
   auto next = next_scene(setup);
   if (!next) {
-    reader_.lose();
+    reader_.lose_scene();
     return fail(next.error());
   }
   const auto missing = clock_.go_to(setup.before);
   if (!missing) {
-    reader_.lose();
+    reader_.lose_scene();
     return fail(missing.error());
   }
   next_scene_ = std::move(*next);
@@ -122,8 +126,7 @@ Result<void> StreamDecoder::take(const End& end, const Arrived& arrived) {
 Result<void> StreamDecoder::report_missing(std::uint64_t missing, bool reported) const {
   const bool left_out = missing > 0 && pictures() > 0 && !clock_.is_behind();
   if (missing == 0 || (reported && !left_out)) return {};
-  const std::string text =
-      std::to_string(missing) + (missing == 1 ? " picture is" : " pictures are") + " missing";
+  const std::string text = missing_text(missing);
   if (left_out) return fail(ErrorCode::kTooLarge, text + ", too many to be held");
   return fail(ErrorCode::kInvalidStream, text);
 }
@@ -151,19 +154,30 @@ Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, cons
   std::vector<bool> reduced;
   for (const ScenePattern& pattern : patterns) {
     auto made = scene_.make(pattern);
-    if (!made) return fail(made.error());
+    if (!made) {
+      if (pattern.is_first())
+        reader_.lose_scene();
+      else if (!pattern.coded.alone)
+        reader_.lose_patterns();
+      return fail(made.error());
+    }
     reduced.push_back(made->reduced);
-    const auto slot = static_cast<std::size_t>(pattern.coded.slot);
-    if (auto added = picture_.add(slot, std::move(made->pattern), scene_.scene(), renderer_); !added)
-      return added;
+    if (auto added = picture_.add(std::move(made->pattern), scene_.scene(), renderer_); !added) return added;
   }
   tally_.add(arrived.packet, reader_.setup(), patterns, reduced);
   return {};
 }
 
-Result<void> StreamDecoder::take(const MotionGroup& group, const Arrived& /*arrived*/) {
+Result<void> StreamDecoder::take(const MotionGroup& group, const Arrived& arrived) {
   tally_.add(group);
-  return {};
+  if (group.missing > 0) clock_.lose();
+  if (group.missing == 0 || arrived.lost) return {};
+  return fail(ErrorCode::kInvalidStream, missing_text(static_cast<std::uint64_t>(group.missing)));
+}
+
+Result<void> StreamDecoder::take(const BlendGroup& group, const Arrived& arrived) {
+  if (group.missing == 0 || arrived.lost) return {};
+  return fail(ErrorCode::kInvalidStream, "it is not known how pictures are blended");
 }
 
 Result<void> StreamDecoder::take(SoundGroup& group, const Arrived& /*arrived*/) {

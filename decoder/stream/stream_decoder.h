@@ -122,7 +122,7 @@ class StreamDecoder {
 
   struct Arrived {
     const Packet& packet;
-    bool lost;  ///< something since the last setup packet before it
+    bool lost;  ///< something since the last setup packet before it is known to be missing
   };
 
   DecodeStatus show();
@@ -135,6 +135,11 @@ class StreamDecoder {
   Result<void> take(const SurroundMap& surround, const Arrived& arrived);
   Result<void> take(const std::vector<ScenePattern>& patterns, const Arrived& arrived);
   Result<void> take(const MotionGroup& group, const Arrived& arrived);
+  static Result<void> take(const BlendGroup& group, const Arrived& arrived);
+  Result<void> take(const Unit& unit, const Arrived& arrived) {
+    auto taken = take(unit.motion, arrived);
+    return taken ? take(unit.blend, arrived) : taken;
+  }
   Result<void> take(SoundGroup& group, const Arrived& arrived);
   /// Any other is known to the reader alone.
   template <class Syntax>

@@ -3,7 +3,20 @@
 #include <algorithm>
 #include <functional>
 
+#include "bitstream/byte_io.h"
+
 namespace fbs {
+
+namespace {
+
+/// Bytes of a unit's payload before its blend.
+std::size_t motion_bytes(std::span<const std::uint8_t> payload) {
+  ByteReader reader(payload);
+  const std::uint64_t size = reader.varint();
+  return reader.offset() + static_cast<std::size_t>(size);
+}
+
+}  // namespace
 
 StreamTally::StreamTally() {
   bytes_.other = bytes_.total = kSignature.size();
@@ -27,6 +40,10 @@ void StreamTally::count(const Packet& packet) {
     case PacketType::kBlend:
       bytes_.motion += packet.size;
       bytes_.blend += packet.size;
+      break;
+    case PacketType::kUnit:
+      bytes_.motion += packet.size;
+      bytes_.blend += packet.payload.size() - std::min(packet.payload.size(), motion_bytes(packet.payload));
       break;
     case PacketType::kSoundSetup:
     case PacketType::kSound:

@@ -123,14 +123,17 @@ Result<bool> Av1Encoder::Context::take(Frames& out) {
   return any;
 }
 
-Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture) {
+Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture, bool alone) {
   Context& c = *context_;
   if (picture.width() != static_cast<int>(c.image.d_w) || picture.height() != static_cast<int>(c.image.d_h))
     return fail(ErrorCode::kInvalidArgument, "a pattern of another size");
   copy_plane(picture.y, c.image, 0);
   copy_plane(picture.u, c.image, 1);
   copy_plane(picture.v, c.image, 2);
-  if (aom_codec_encode(&c.codec, &c.image, c.count++, 1, 0) != AOM_CODEC_OK)
+  constexpr aom_enc_frame_flags_t kNoUpdate =
+      AOM_EFLAG_NO_UPD_LAST | AOM_EFLAG_NO_UPD_GF | AOM_EFLAG_NO_UPD_ARF | AOM_EFLAG_NO_UPD_ENTROPY;
+  const aom_enc_frame_flags_t flags = alone && c.count > 0 ? kNoUpdate : 0;
+  if (aom_codec_encode(&c.codec, &c.image, c.count++, 1, flags) != AOM_CODEC_OK)
     return fail(ErrorCode::kInternal, "libaom cannot encode a pattern");
   Frames out;
   if (auto taken = c.take(out); !taken) return fail(taken.error());

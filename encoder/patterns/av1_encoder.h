@@ -36,8 +36,10 @@ class Av1Encoder {
   static Result<Av1Encoder> create(const VideoFormat& format, const Av1Settings& settings);
 
   /// @param picture  of the format's size; copied
+  /// @param alone    nothing later refers to it, unless it is the first. If all are, each needs the first
+  /// alone
   /// @return the frames coded since the last call, in coding order; without look-ahead exactly one
-  Result<Frames> encode(const Picture& picture);
+  Result<Frames> encode(const Picture& picture, bool alone = false);
 
   /// Changes settings for the pictures that follow, without look-ahead.
   /// @param quantiser  libaom's scale, 0..63

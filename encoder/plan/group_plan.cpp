@@ -26,9 +26,9 @@ double seconds_of(std::span<const std::uint32_t> durations, std::uint32_t nomina
 }
 
 MotionGroup plan_group(const TrackPlanner& planner, const GroupInput& input, double lambda) {
-  const bool key = input.coder.needs_key();
-  MotionGroup group = planner.plan(input.coder.anchor(key), input.pictures, input.rate, lambda);
-  group.key = key;
+  MotionGroup group = planner.plan(input.coder.anchor(), input.pictures, input.rate, lambda);
+  group.key = input.key;
+  group.first = input.coder.next();
   group.durations = group_durations(input.durations, input.nominal_duration);
   return group;
 }

@@ -14,6 +14,7 @@ namespace fbs {
 /// Inputs of a group's plan.
 struct GroupInput {
   const MotionEncoder& coder;  ///< before the group: anchor and contexts
+  bool key;                    ///< whether the group is to be key
   std::span<const PictureCost> pictures;
   std::span<const std::uint32_t> durations;  ///< of each picture, 1/90000 s; 0: nominal
   std::uint32_t nominal_duration;            ///< 1/90000 s

@@ -8,9 +8,9 @@
 namespace fbs {
 
 MotionTrack::MotionTrack(const Setup& setup, const CodedState& seen, const RatePlan& rate,
-                         std::uint32_t nominal_duration)
+                         const SceneTiming& timing)
     : steps_(setup.steps),
-      nominal_duration_(nominal_duration),
+      timing_(timing),
       coder_(setup, seen),
       planner_(setup.steps, setup.parts, expression_penalty(rate.point.lambda)),
       base_lambda_(rate.point.lambda),
@@ -29,9 +29,10 @@ Result<MotionTrack::Group> MotionTrack::add(std::span<const PictureCost> picture
 
 MotionGroup MotionTrack::plan(std::span<const PictureCost> pictures,
                               std::span<const std::uint32_t> durations) {
-  const GroupInput input{coder_, pictures, durations, nominal_duration_, rate_};
+  const bool key = coder_.groups() % timing_.groups_per_key == 0;
+  const GroupInput input{coder_, key, pictures, durations, timing_.nominal_duration, rate_};
   if (!budget_) return plan_group(planner_, input, lambda_);
-  const double seconds = seconds_of(durations, nominal_duration_);
+  const double seconds = seconds_of(durations, timing_.nominal_duration);
   PlannedGroup planned = plan_group_within(planner_, input, budget_->allowed(seconds), lambda_, base_lambda_);
   budget_->spend(planned.bits, seconds);
   lambda_ = planned.lambda;

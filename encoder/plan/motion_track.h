@@ -9,6 +9,7 @@
 #include "common/result.h"
 #include "encoder/plan/group_plan.h"
 #include "encoder/plan/rate_control.h"
+#include "encoder/plan/scene_timing.h"
 
 namespace fbs {
 
@@ -17,9 +18,7 @@ namespace fbs {
 class MotionTrack {
  public:
   /// @param seen  of pattern 0
-  /// @param nominal_duration  1/90000 s
-  MotionTrack(const Setup& setup, const CodedState& seen, const RatePlan& rate,
-              std::uint32_t nominal_duration);
+  MotionTrack(const Setup& setup, const CodedState& seen, const RatePlan& rate, const SceneTiming& timing);
 
   struct Group {
     std::vector<State> states;          ///< of each picture, as coded
@@ -36,7 +35,7 @@ class MotionTrack {
                                  std::span<const std::uint32_t> durations);
 
   QuantiserSteps steps_;
-  std::uint32_t nominal_duration_;
+  SceneTiming timing_;
   MotionEncoder coder_;
   TrackPlanner planner_;
   TrackRate rate_;

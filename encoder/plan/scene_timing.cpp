@@ -12,6 +12,9 @@ namespace {
 /// mouths and more motion, but delays the first bytes.
 constexpr double kLookaheadSeconds = 2;
 
+/// How long the motion of a damaged stream stands still at most.
+constexpr double kKeySeconds = 8;
+
 }  // namespace
 
 SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& settings)
@@ -27,6 +30,9 @@ SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& setti
     const double others = std::floor(fps * settings.key_interval) - 1;  // the first has a group of its own
     group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));
   }
+  const bool each = settings.live && settings.live->resilience != Resilience::kNone;
+  groups_per_key =
+      each ? 1 : std::max(1, static_cast<int>(kKeySeconds * fps / static_cast<double>(group_pictures)));
   lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));
 }
 

@@ -100,9 +100,9 @@ class SceneWriter {
   }
 
   Result<void> write_group(std::span<const StateNumbers> pictures, std::span<const std::uint32_t> durations) {
-    const bool key = motion_.needs_key();
-    MotionGroup group = fitted_tracks(pictures, motion_.anchor(key), setup_);
-    group.key = key;
+    MotionGroup group = fitted_tracks(pictures, motion_.anchor(), setup_);
+    group.key = motion_.groups() == 0;
+    group.first = motion_.next();
     if (std::ranges::any_of(durations,
                             [&](auto d) { return d != nominal_duration(setup_.format.frame_rate); }))
       group.durations.assign(durations.begin(), durations.end());
@@ -155,7 +155,7 @@ class SceneWriter {
   Result<void> write_blend(std::size_t pictures) {
     BlendEncoder blend;
     for (std::size_t done = 0; done < pictures; done += kGroupPictures) {
-      BlendGroup group{.key = blend.needs_key(), .modes = {}};
+      BlendGroup group{.key = blend.groups() == 0, .first = blend.next(), .missing = 0, .modes = {}};
       group.modes.assign(std::min<std::size_t>(kGroupPictures, pictures - done), modes());
       const auto payload = blend.encode(group);
       if (!payload) return fail(payload.error());

@@ -13,7 +13,7 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       live_(settings.live.has_value()),
       key_interval_(key_interval_of(settings, setup.format)),
       patterns_(std::move(patterns)),
-      motion_(setup, seen, rate, timing_.nominal_duration),
+      motion_(setup, seen, rate, timing_),
       position_(setup.before) {}
 
 Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
@@ -57,7 +57,7 @@ void SceneLedger::begin_again(Setup& setup) {
 }
 
 void SceneLedger::begin_motion(const Setup& setup, const CodedState& seen) {
-  motion_ = MotionTrack(setup, seen, rate_, timing_.nominal_duration);
+  motion_ = MotionTrack(setup, seen, rate_, timing_);
   if (patterns_) patterns_->begin_scene(seen);
 }
 

@@ -55,10 +55,10 @@ Result<void> StillScene::push(const Picture&, std::uint32_t duration) {
 
 Result<void> StillScene::end_group() {
   if (durations_.empty()) return {};
-  const bool key = coder_.needs_key();
-  const CodedState& anchor = coder_.anchor(key);
+  const CodedState& anchor = coder_.anchor();
   MotionGroup group = knots_everywhere(anchor, std::vector(durations_.size(), anchor), parts_);
-  group.key = key;
+  group.key = coder_.groups() == 0;
+  group.first = coder_.next();
   group.durations = group_durations(durations_, timing_.nominal_duration);
   const auto payload = coder_.encode(group);
   if (!payload) return fail(payload.error());

@@ -75,7 +75,7 @@ double least_error(const ModeErrors& errors) {
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
-    : settings_(settings), store_(format, rest) {
+    : settings_(settings), store_(format, rest, settings.groups_per_key) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
@@ -173,7 +173,7 @@ Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t ti
   auto picture = store_.segment().pictures.read(time);
   if (!picture) return fail(picture.error());
   store_.reduce_contrast(scene, time, *picture);
-  auto frames = codec_->encoder.encode(settings_.reduced ? downscaled(*picture) : *picture);
+  auto frames = codec_->encoder.encode(settings_.reduced ? downscaled(*picture) : *picture, settings_.alone);
   if (!frames) return fail(frames.error());
   if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
   auto decoded = codec_->decoder.decode(frames->front());
@@ -198,7 +198,9 @@ void LivePatterns::learn(std::size_t bytes, int quantiser) {
 void LivePatterns::place(Scene& scene, const Sent& sent) {
   errors_ = {};
   const State& seen = store_.seen_state(scene, sent.time);
-  SegmentStore::put(scene, sent.slot, make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup));
+  Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
+  pattern.slot = static_cast<std::int32_t>(sent.slot);
+  scene.store(std::move(pattern));
 }
 
 Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
@@ -216,22 +218,34 @@ Result<void> LivePatterns::choose(const Scene& scene, std::size_t shared) {
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
+  // A pattern comes between the motion and the modes of its picture, but the scene's first, which carries its
+  // state and to which motion is relative, before both.
+  const bool apart = sent && !store_.is_first();
+  SegmentStore::Coders& coders = store_.coders();
   std::vector<TypedPayload> out;
-  for (Segment::Group& group : store_.segment().groups)
-    out.emplace_back(PacketType::kMotion, std::move(group.payload));
-  if (sent) {
-    const PatternSyntax pattern = store_.pattern_syntax(sent->slot, sent->time, sent->av1);
-    auto payload = store_.coders().patterns.encode(std::span(&pattern, 1), setup,
-                                                   store_.number_of(store_.segment().states.size()));
+  const auto add_pattern = [&]() -> Result<void> {
+    if (!sent) return {};
+    PatternSyntax pattern = store_.pattern_syntax(sent->slot, sent->time, sent->av1);
+    pattern.alone = settings_.alone && !store_.is_first();
+    auto payload = coders.patterns.encode(std::span(&pattern, 1), setup,
+                                          store_.number_of(store_.segment().states.size()));
     if (!payload) return fail(payload.error());
-    // The scene's first pattern carries its state, to which motion is relative.
-    out.emplace(store_.is_first() ? out.begin() : out.end(), PacketType::kPattern, std::move(*payload));
-  }
+    out.emplace_back(PacketType::kPattern, std::move(*payload));
+    return {};
+  };
+  if (apart)
+    for (Segment::Group& group : store_.segment().groups)
+      out.emplace_back(PacketType::kMotion, std::move(group.payload));
+  if (auto added = add_pattern(); !added) return fail(added.error());
   std::size_t first = 0;
   for (const Segment::Group& group : store_.segment().groups) {
-    auto payload = store_.blend_payload(store_.coders().blends, first, group.pictures);
+    const BlendGroup blend = store_.blend_group(coders.blends, first, group.pictures);
+    auto payload = apart ? coders.blends.encode(blend) : coders.blends.encode_in_unit(blend);
     if (!payload) return fail(payload.error());
-    out.emplace_back(PacketType::kBlend, std::move(*payload));
+    if (apart)
+      out.emplace_back(PacketType::kBlend, std::move(*payload));
+    else
+      out.emplace_back(PacketType::kUnit, unit_payload(group.payload, *payload));
     first += group.pictures;
   }
   return out;

@@ -24,6 +24,8 @@ struct LivePatternSettings {
   bool refits = true;       ///< states are fitted to the blend
   double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
   double buffer = 0;        ///< LiveSettings::buffer
+  int groups_per_key = 1;   ///< SceneTiming::groups_per_key
+  bool alone = false;       ///< each pattern needs the first alone
 };
 
 /// Each group is a segment: its packets are ready as soon as its pictures are known. A pattern shows the last

@@ -35,7 +35,15 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.refits = settings.effort > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
+  out.groups_per_key = SceneTiming(format, settings).groups_per_key;
+  out.alone = settings.live->resilience != Resilience::kNone;
   return out;
+}
+
+std::unique_ptr<PatternStage> file_patterns(PatternPassSettings pass, const EncoderSettings& settings,
+                                            const VideoFormat& format, const CodedState& rest) {
+  pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
+  return std::make_unique<PatternPass>(format, pass, rest);
 }
 
 }  // namespace
@@ -78,14 +86,14 @@ std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings, con
                                             const VideoFormat& format, const CodedState& rest) {
   if (settings.live)
     return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
-  return std::make_unique<PatternPass>(format, pass_settings(settings, motion), rest);
+  return file_patterns(pass_settings(settings, motion), settings, format, rest);
 }
 
 std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
                                               const VideoFormat& format, const CodedState& rest) {
   if (settings.live)
     return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
-  return std::make_unique<PatternPass>(format, planar_pass_settings(settings, motion), rest);
+  return file_patterns(planar_pass_settings(settings, motion), settings, format, rest);
 }
 
 double key_interval_of(const EncoderSettings& settings, const VideoFormat& format) {

@@ -38,7 +38,10 @@ constexpr double kRateTolerance = 0.02;
 
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
                          const CodedState& rest)
-    : settings_(settings), store_(format, rest), most_(store_.slots()), point_(settings.point) {
+    : settings_(settings),
+      store_(format, rest, settings.groups_per_key),
+      most_(store_.slots()),
+      point_(settings.point) {
   if (!settings.without_face) return;
   const double bytes = 1.5 * format.width * format.height;
   most_ = static_cast<std::int32_t>(
@@ -243,7 +246,7 @@ Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup,
       payload = group.payload;
       moved += group.pictures;
     } else {
-      payload = store_.blend_payload(coders.blends, drawn, group.pictures);
+      payload = coders.blends.encode(store_.blend_group(coders.blends, drawn, group.pictures));
       drawn += group.pictures;
     }
     if (!payload) return fail(payload.error());
@@ -265,8 +268,11 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
   // The decoder's slots after the segment.
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   if (store_.is_first()) scene.patterns.clear();
-  for (std::size_t k = 0; k < draft.coded.size(); ++k)
-    SegmentStore::put(scene, k % store_.slots(), std::move(draft.patterns[old + k]));
+  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
+    Pattern& pattern = draft.patterns[old + k];
+    pattern.slot = static_cast<std::int32_t>(k % store_.slots());
+    scene.store(std::move(pattern));
+  }
   store_.end_segment();
   return out;
 }

@@ -21,6 +21,7 @@ struct PatternPassSettings {
   /// Operating point of a quality, 0..100, where a bitrate decides.
   PatternPoint (*point_at)(int quality) = &PatternPoint::at;
   std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
+  int groups_per_key = 1;        ///< SceneTiming::groups_per_key
   double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
   int lone_quantiser = 40;       ///< for a scene too short for a second pattern
   std::optional<int> quantiser;  ///< of the patterns; empty: as the point says

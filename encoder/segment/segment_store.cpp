@@ -9,8 +9,8 @@
 
 namespace fbs {
 
-SegmentStore::SegmentStore(const VideoFormat& format, const CodedState& rest)
-    : format_(format), rest_(rest), slots_(pattern_store(format)) {}
+SegmentStore::SegmentStore(const VideoFormat& format, const CodedState& rest, int groups_per_key)
+    : format_(format), rest_(rest), groups_per_key_(groups_per_key), slots_(pattern_store(format)) {}
 
 void SegmentStore::begin_scene(const CodedState& rest) {
   assert(segment_.states.empty());
@@ -58,23 +58,17 @@ PatternSyntax SegmentStore::pattern_syntax(std::size_t slot, std::size_t time,
   return {static_cast<std::int32_t>(slot), number_of(time), rest_, std::move(av1)};
 }
 
-void SegmentStore::put(Scene& scene, std::size_t slot, Pattern pattern) {
-  if (slot < scene.patterns.size())
-    scene.patterns[slot] = std::move(pattern);
-  else
-    scene.patterns.push_back(std::move(pattern));
-}
-
 void SegmentStore::set_modes(std::span<const RegionModes> modes) {
   for (std::size_t t = 0; t < modes.size(); ++t) segment_.states[t].blend = modes[t];
 }
 
-Result<std::vector<std::uint8_t>> SegmentStore::blend_payload(BlendEncoder& encoder, std::size_t begin,
-                                                              std::size_t pictures) const {
+BlendGroup SegmentStore::blend_group(const BlendEncoder& encoder, std::size_t begin,
+                                     std::size_t pictures) const {
   BlendGroup group;
-  group.key = encoder.needs_key();
+  group.key = encoder.groups() % groups_per_key_ == 0;
+  group.first = encoder.next();
   for (std::size_t t = begin; t < begin + pictures; ++t) group.modes.push_back(segment_.states[t].blend);
-  return encoder.encode(group);
+  return group;
 }
 
 std::size_t bytes_of(std::span<const TypedPayload> packets) {

@@ -24,7 +24,8 @@ class SegmentStore {
   };
 
   /// @param rest  seen state of pattern 0 as coded
-  SegmentStore(const VideoFormat& format, const CodedState& rest);
+  /// @param groups_per_key  SceneTiming::groups_per_key
+  SegmentStore(const VideoFormat& format, const CodedState& rest, int groups_per_key);
 
   /// Another scene begins; the segment before has ended.
   void begin_scene(const CodedState& rest);
@@ -60,19 +61,18 @@ class SegmentStore {
   void reduce_contrast(const Scene& scene, std::size_t time, Picture& picture) const;
   [[nodiscard]] PatternSyntax pattern_syntax(std::size_t slot, std::size_t time,
                                              std::vector<std::uint8_t> av1) const;
-  /// Puts a pattern into a slot of the decoder's, or into the next free one.
-  static void put(Scene& scene, std::size_t slot, Pattern pattern);
 
   /// Sets the blend modes of all pictures.
   void set_modes(std::span<const RegionModes> modes);
-  /// The blend packet of a group.
+  /// The modes of a group, as the encoder's next.
   /// @param begin  its first picture
-  [[nodiscard]] Result<std::vector<std::uint8_t>> blend_payload(BlendEncoder& encoder, std::size_t begin,
-                                                                std::size_t pictures) const;
+  [[nodiscard]] BlendGroup blend_group(const BlendEncoder& encoder, std::size_t begin,
+                                       std::size_t pictures) const;
 
  private:
   VideoFormat format_;
   CodedState rest_;
+  int groups_per_key_;
   std::int32_t slots_;
   std::int32_t picture_ = 0;  ///< number of the segment's first
   Segment segment_;

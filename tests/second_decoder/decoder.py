@@ -4,11 +4,9 @@ from .byte_reader import ByteReader
 from .errors import StreamError, invalid, too_large, truncated, unsupported
 from .integers import clamp
 from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
-from .packets import BLEND, END, GEOMETRY, MOTION, PATTERN, SETUP, SURROUND, WIRE_FRAME, Damage, packets
+from .packets import END, SCENE_PACKETS, SETUP, Damage, packets
 from .scene import Scene
 from .setup import read_setup
-
-_SCENE_PACKETS = (WIRE_FRAME, GEOMETRY, SURROUND, PATTERN, MOTION, BLEND)
 
 
 class Decoder:
@@ -21,6 +19,7 @@ class Decoder:
         self._is_lost = False  # everything up to the next setup packet
         self._position = None  # pictures that have been shown, those before the place of joining included
         self._time = 0  # sum of their durations, 1/90000 s
+        self._guesses = False  # durations of lost pictures, since the last position
         self._last = None  # the last picture shown
         self._held = 0  # times that it has been shown in the place of others
         self._held_duration = 0  # nominal duration in its scene, or while there is none in the last scene
@@ -38,22 +37,29 @@ class Decoder:
                     raise packet.error
                 yield from self._take(packet)
             except StreamError as error:
-                self._report(error)
-                self._is_lost |= isinstance(packet, Damage) or packet.type != END
-        if not self._scene:
-            self._report(truncated("the stream ends before its first scene"))
+                self.errors.append(error)
+                if packet.type != END:
+                    self._lose(packet.type == SETUP)
+        if not self._scene and not self.errors:
+            self.errors.append(truncated("the stream ends before its first scene"))
 
-    def _report(self, error):
-        """Notes an error, unless it follows from one before."""
-        if not self._is_lost:
-            self.errors.append(error)
+    def _lose(self, is_setup):
+        """Notes a loss; without its first pattern, or the setup packet, nothing of a scene is of use."""
+        self._guesses = True
+        self._is_lost |= is_setup or not self._scene or not self._scene.is_complete
+        if self._scene:
+            self._scene.has_losses = True
+
+    def _has_losses(self):
+        """Whether an error has told of a loss since the last setup packet."""
+        return self._is_lost or self._scene.has_losses
 
     def _take(self, packet):
         if packet.type == SETUP:
             yield from self._take_setup(packet.payload)
         elif packet.type == END:
             yield from self._take_end(packet.payload)
-        elif packet.type in _SCENE_PACKETS and not self._is_lost:
+        elif packet.type in SCENE_PACKETS and not self._is_lost:
             if not self._scene:
                 raise invalid("a packet before the first setup packet")
             for picture, duration in self._scene.take(packet):
@@ -93,14 +99,16 @@ class Decoder:
         """Holds the last picture in the place of missing ones before a position."""
         missing = position - self._position
         left = time - self._time
-        if missing < 0 or not missing <= left <= missing * MAX_DURATION:
+        fits = missing <= left <= missing * MAX_DURATION
+        if missing < 0 or not (fits or self._guesses):
             raise invalid("a position contradicts the pictures that were shown")
+        self._guesses = False
         too_many = self._last is not None and self._held + missing > MAX_HELD_PICTURES
         if too_many:
             self.errors.append(too_large("too many pictures are missing to be held"))
-        elif missing:
-            self._report(invalid("pictures are missing"))
-        if too_many or self._last is None:
+        elif missing and not self._has_losses():
+            self.errors.append(invalid("pictures are missing"))
+        if too_many or not fits or self._last is None:
             self._position, self._time = position, time
             return
         for r in range(missing, 0, -1):

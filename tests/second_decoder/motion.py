@@ -1,13 +1,16 @@
-"""Motion packet: the states of a group of pictures (SPEC 4.5, 5.2, 5.4 to 5.6)."""
+"""Motion packet: the states of a group of pictures (SPEC 4.5, 5.2, 5.4 to 5.6, 6.2)."""
 
-from .errors import invalid
-from .limits import MAX_DURATION
+from dataclasses import dataclass
+
+from .errors import invalid, too_large
+from .group import GroupReader
+from .limits import MAX_BRIDGED, MAX_DURATION
 from .mixer import Mixer
-from .range_decoder import Context, Exponential, RangeDecoder, Wide, contexts
+from .range_decoder import Context, Exponential, Wide, contexts
 from .state import NUMBERS, PARTS
 from .trained import MOTION, train
 
-KEY_ZERO = 61440  # probability of a zero of the flag `key`, in 1/65536
+_TIME_BITS = 22
 
 
 def _bucket(x, limits):
@@ -31,13 +34,11 @@ def _place_class(k):
     return _bucket(k, (1, 2, 4, 8, 16))
 
 
-class Contexts:
-    """Everything that a key group resets (SPEC 5.4)."""
+class TrackContexts:
+    """Contexts and mixers of tracks (SPEC 5.4)."""
 
-    def __init__(self, nominal_duration):
+    def __init__(self):
         parts = len(PARTS)
-        self.other_count = Context()
-        self.has_durations = Context()
         self.to_end = contexts(parts, 4)
         self.length = [Exponential() for _ in range(parts)]
         self.moves_by_history = contexts(parts, 4)
@@ -52,110 +53,74 @@ class Contexts:
         self.larger_by_span = contexts(6, 15)
         self.larger_by_number = contexts(NUMBERS, 2)
         self.rest = [Exponential() for _ in range(parts)]
-        train(MOTION, [self.other_count, self.has_durations, self.to_end, self.length, self.moves_by_history,
-                       self.moves_by_span, self.nonzero_by_number, self.nonzero_by_span, self.nonzero_by_past,
-                       self.nonzero_by_others, self.negative_by_past, self.negative_by_history, self.larger_by_place,
-                       self.larger_by_span, self.larger_by_number, self.rest])
-        self.duration_differs = Context()
-        self.duration_differs_from_second = Context()
-        self.duration_change = Wide()
+        self.trained = [self.to_end, self.length, self.moves_by_history, self.moves_by_span, self.nonzero_by_number,
+                        self.nonzero_by_span, self.nonzero_by_past, self.nonzero_by_others, self.negative_by_past,
+                        self.negative_by_history, self.larger_by_place, self.larger_by_span, self.larger_by_number,
+                        self.rest]
 
         self.moves_mixer = Mixer(2)
         self.nonzero_mixer = [Mixer(4) for _ in range(parts)]
         self.negative_mixer = Mixer(2)
         self.larger_mixer = [Mixer(3) for _ in range(2)]
 
+
+class History:
+    """Of the spans before (SPEC 5.4)."""
+
+    def __init__(self):
         self.change = [0] * NUMBERS  # R1: over the last span in which the part moved
         self.change_before = [0] * NUMBERS  # R2: over the span before that
-        self.moved = [0] * parts  # V: bit 0 over the last span, bit 1 over the one before
+        self.moved = [0] * len(PARTS)  # V: bit 0 over the last span, bit 1 over the one before
+
+
+class Memory:
+    """Everything that a key group resets."""
+
+    def __init__(self, nominal_duration):
+        self.other_count = Context()
+        self.has_durations = Context()
+        self.tracks = TrackContexts()
+        self.held = contexts(len(PARTS))
+        self.first_knots = TrackContexts()  # of key groups
+        train(MOTION, [self.other_count, self.has_durations, self.tracks.trained, self.held,
+                       self.first_knots.trained])
+        self.duration_differs = Context()
+        self.duration_differs_from_second = Context()
+        self.duration_change = Wide()
+
+        self.history = History()
         self.duration = self.duration_before = nominal_duration  # D1, D2
-        self.pictures = None  # in the group before
+        # In the group before; a live stream's groups last 0.2 s as a rule.
+        self.pictures = min(max((36000 + nominal_duration) // (2 * nominal_duration), 1), 256)
 
 
-class MotionDecoder:
-    """Decodes the motion packets of a scene."""
+class KnotReader:
+    """Reads knots of tracks with one set of contexts, which it changes like the history (SPEC 5.4)."""
 
-    def __init__(self, setup, layout, rest_numbers):
+    def __init__(self, decoder, layout, track_contexts, history):
+        self._d = decoder
         self._layout = layout
-        self._rest_numbers = rest_numbers
-        self._nominal_duration = setup.nominal_duration()
-        self._last_numbers = None  # of the last picture of the group before
-        self._c = None
-        self._d = None
+        self._c = track_contexts
+        self._h = history
 
-    def decode(self, payload):
-        """The (state, duration in 1/90000 s) pairs of the group."""
-        d = self._d = RangeDecoder(payload)
-        anchor = self._read_anchor()
-        c = self._c
-        if d.flag(c.other_count):
-            c.pictures = d.bypass(8) + 1
-        elif c.pictures is None:
-            raise invalid("a group has the size of one that there is not")
-        timed = d.flag(c.has_durations)
-        values = [[0] * NUMBERS for _ in range(c.pictures)]
-        numbers = list(anchor)
-        for p in self._layout.sent_parts:
-            self._read_track(p, numbers, values)
-        durations = [self._read_duration() if timed else self._nominal_duration for _ in range(c.pictures)]
-        d.finish()
-        self._last_numbers = numbers
-        return list(zip(values, durations))
-
-    def _read_anchor(self):
-        """Reads `key`; the numbers at picture -1."""
-        if self._d.bit(KEY_ZERO):
-            self._c = Contexts(self._nominal_duration)
-            return self._rest_numbers
-        if self._last_numbers is None:
-            raise invalid("the first group of a scene is not a key group")
-        return self._last_numbers
-
-    def _read_track(self, p, numbers, values):
-        """Moves `numbers` of part p from the anchor to the last picture, and fills `values` of all pictures."""
-        last = -1
-        end = len(values) - 1
-        while last < end:
-            before = [numbers[i] for i in PARTS[p]]
-            length = self._read_span(p, end - last, last == -1)
-            self._read_knot(p, length, numbers)
-            for i, number in zip(PARTS[p], before):
-                step = self._layout.steps[i]
-                a, b = number * step, numbers[i] * step
-                for t in range(1, length + 1):
-                    values[last + t][i] = a + (2 * (b - a) * t + length) // (2 * length)
-            last += length
-
-    def _read_span(self, p, left, first):
-        """Pictures to the next knot."""
-        if left == 1:
-            return 1
-        if self._d.flag(self._c.to_end[p][2 * first + (self._c.moved[p] & 1)]):
-            return left
-        length = 1 + self._d.exponential(self._c.length[p])
-        if length > left:
-            raise invalid("a span ends after its group")
-        return length
-
-    def _read_knot(self, p, length, numbers):
-        c = self._c
-        span = _length_class(length)
-        moves = self._d.mixed(c.moves_mixer, c.moves_by_history[p][c.moved[p]], c.moves_by_span[p][span])
-        c.moved[p] = (2 * c.moved[p] + moves) & 3
+    def read(self, p, span, before):
+        """The numbers of part p at the end of a span of this class; `before` are those of the knot before."""
+        c, h = self._c, self._h
+        moves = self._d.mixed(c.moves_mixer, c.moves_by_history[p][h.moved[p]], c.moves_by_span[p][span])
+        h.moved[p] = (2 * h.moved[p] + moves) & 3
         if not moves:
-            return
+            return before
         changes = []  # of the numbers before, in this knot
-        for i in PARTS[p]:
-            change = self._read_change(p, i, span, changes)
-            changes.append(change)
-            numbers[i] += change
-            self._layout.check(i, numbers[i])
-            c.change_before[i] = c.change[i]
-            c.change[i] = change
+        for i, number in zip(PARTS[p], before):
+            changes.append(self._read_change(p, i, span, changes))
+            self._layout.check(i, number + changes[-1])
+            h.change_before[i] = h.change[i]
+            h.change[i] = changes[-1]
+        return [number + change for number, change in zip(before, changes)]
 
     def _read_change(self, p, i, span, changes):
         c, d = self._c, self._d
-        past, past_before = c.change[i], c.change_before[i]
+        past, past_before = self._h.change[i], self._h.change_before[i]
         place = _place_class(len(changes))
         nonzero_so_far = len(changes) - changes.count(0)
         if nonzero_so_far > 0 or i != PARTS[p][-1]:
@@ -187,16 +152,137 @@ class MotionDecoder:
                 return 1 + j
         return 7 + self._d.exponential(c.rest[p])
 
+
+@dataclass
+class Group:
+    pictures: list  # (state, duration in 1/90000 s) of each, those that are missing before the group first
+    missing: int
+    uncertain: int  # pictures before a knot of each part, those that are missing included
+    beginning: tuple  # key, number of the first picture behind the missing ones, number of pictures behind them
+
+
+class MotionDecoder:
+    """Decodes the motion packets of a scene."""
+
+    def __init__(self, setup, layout, rest_numbers):
+        self._layout = layout
+        self._rest_numbers = rest_numbers
+        self._nominal_duration = setup.nominal_duration()
+        self._groups = GroupReader()
+        self._last_numbers = rest_numbers  # of the last picture of the group before
+        self._time = 0  # of the picture after it, from the start of the scene, as far as it is known
+        self._m = None
+        self._d = None
+
+    @property
+    def needs_key(self):
+        return self._groups.needs_key
+
+    def decode(self, payload, most):
+        """The group, with those missing before it at most `most` pictures; None if it is skipped."""
+        beginning = self._groups.begin(payload)
+        if not beginning:
+            return None
+        self._d, key, missing = beginning
+        if key:
+            self._m = Memory(self._nominal_duration)
+        return self._read_group(key, missing, most)
+
+    def _read_group(self, key, missing, most):
+        """All behind `first`."""
+        first = self._groups.next + missing
+        is_later_key = key and first > 0
+        pictures = self._read_count()
+        if missing + pictures > most:
+            raise too_large("too many pictures wait, or are in a scene")
+        timed = self._d.flag(self._m.has_durations)
+        missing_time = self._read_missing_time(missing) if timed and is_later_key else missing * self._nominal_duration
+        numbers = list(self._last_numbers)
+        anchor = [number * step for number, step in zip(numbers, self._layout.steps)]
+        values = [list(anchor) for _ in range(missing + pictures)]
+        first_knots = [self._read_track(p, is_later_key, missing, numbers, values) for p in self._layout.sent_parts]
+        durations = [self._read_duration() if timed else self._nominal_duration for _ in range(pictures)]
+        self._d.finish()
+        self._groups.end(missing + pictures)
+        self._last_numbers = numbers
+        self._time += missing_time + sum(durations)
+        return Group(list(zip(values, _shared(missing_time, missing) + durations)), missing,
+                     missing + max(first_knots) if missing else 0, (key, first, pictures))
+
+    def _read_count(self):
+        if self._d.flag(self._m.other_count):
+            self._m.pictures = self._d.bypass(8) + 1
+        return self._m.pictures
+
+    def _read_missing_time(self, missing):
+        """How long the missing pictures before a key group last."""
+        time = (self._d.bypass(_TIME_BITS) - self._time) % 2**_TIME_BITS
+        if time < missing:
+            raise invalid("missing pictures have no time")
+        return time
+
+    def _read_track(self, p, is_later_key, missing, numbers, values):
+        """Moves `numbers` of part p from the anchor to the last picture, and fills `values` from where it moves on.
+
+        Returns the picture of its first knot.
+        """
+        first_knot = None
+        reader = KnotReader(self._d, self._layout, self._m.tracks, self._m.history)
+        last, end = -1, len(values) - missing - 1
+        while last < end:
+            before = [numbers[i] for i in PARTS[p]]
+            length = self._read_span(p, end - last, last == -1)
+            after = (self._read_first_knot(p, before) if is_later_key and last == -1 else
+                     reader.read(p, _length_class(length), before))
+            begin = missing + last if last >= 0 else missing - 1 - min(missing, MAX_BRIDGED)
+            self._fill(p, values, begin, before, missing + last + length, after)
+            numbers[PARTS[p].start:PARTS[p].stop] = after
+            last += length
+            first_knot = last if first_knot is None else first_knot
+        return first_knot
+
+    def _read_first_knot(self, p, anchor):
+        """The first knot of a key group after the first: the anchor, or from the rest state, without history."""
+        if self._d.flag(self._m.held[p]):
+            return anchor
+        reader = KnotReader(self._d, self._layout, self._m.first_knots, History())
+        return reader.read(p, _length_class(1), [self._rest_numbers[i] for i in PARTS[p]])
+
+    def _fill(self, p, values, begin, before, end, after):
+        """Values of part p from one knot to the next, which are in the places `begin` and `end` of `values`."""
+        length = end - begin
+        for i, from_number, to_number in zip(PARTS[p], before, after):
+            a, b = from_number * self._layout.steps[i], to_number * self._layout.steps[i]
+            for t in range(1, length + 1):
+                values[begin + t][i] = a + (2 * (b - a) * t + length) // (2 * length)
+
+    def _read_span(self, p, left, first):
+        """Pictures to the next knot."""
+        c = self._m.tracks
+        if left == 1:
+            return 1
+        if self._d.flag(c.to_end[p][2 * first + (self._m.history.moved[p] & 1)]):
+            return left
+        length = 1 + self._d.exponential(c.length[p])
+        if length > left:
+            raise invalid("a span ends after its group")
+        return length
+
     def _read_duration(self):
-        c, d = self._c, self._d
-        duration = c.duration
-        if d.flag(c.duration_differs):
-            if d.flag(c.duration_differs_from_second):
-                duration += d.wide(c.duration_change)
+        m, d = self._m, self._d
+        duration = m.duration
+        if d.flag(m.duration_differs):
+            if d.flag(m.duration_differs_from_second):
+                duration += d.wide(m.duration_change)
                 if not 1 <= duration <= MAX_DURATION:
                     raise invalid("a duration is out of its range")
             else:
-                duration = c.duration_before
-        c.duration_before = c.duration
-        c.duration = duration
+                duration = m.duration_before
+        m.duration_before = m.duration
+        m.duration = duration
         return duration
+
+
+def _shared(time, pictures):
+    """The durations of pictures that share a time."""
+    return [time * (k + 1) // pictures - time * k // pictures for k in range(pictures)]

@@ -1,4 +1,4 @@
-"""Packets, their checks, and the search for the next usable one after damage (SPEC 3)."""
+"""Packets, their checks, and the search for the next one after damage (SPEC 3)."""
 
 from dataclasses import dataclass
 
@@ -7,8 +7,10 @@ from .errors import StreamError, invalid, too_large, truncated
 from .limits import MAX_PAYLOAD
 
 SIGNATURE = b"\x89fbs"
-SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME = range(1, 9)
-MAX_RESUME_PAYLOAD = 127  # bytes of a setup or end packet at which a reader goes on after damage
+KNOWN_TYPES = range(1, 12)
+SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME, SOUND_SETUP, SOUND, UNIT = KNOWN_TYPES
+SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND, WIRE_FRAME, UNIT)
+MAX_SEARCHED_PAYLOAD = 2047  # bytes of a packet at which a reader goes on after damage
 
 
 @dataclass
@@ -21,6 +23,7 @@ class Packet:
 class Damage:
     """In the place of a packet that cannot be read."""
     error: StreamError
+    type = None  # not known
 
 
 def _crc_table():
@@ -43,48 +46,68 @@ def crc16(data, crc=0xFFFF):
     return crc
 
 
-def _read_packet(data, position, previous_check):
+class Checks:
+    """With what the checks of packets begin (SPEC 3.1)."""
+
+    def __init__(self):
+        self._check = 0xFFFF  # of the last packet of the head
+        self._in_head = False
+
+    def before(self, kind):
+        return self._check if kind in SCENE_PACKETS else 0xFFFF
+
+    def add(self, kind, check):
+        """Goes on behind a packet."""
+        if kind == SETUP or self._in_head and kind in SCENE_PACKETS:
+            self._check = check
+            self._in_head = kind != PATTERN
+
+
+def _read_packet(data, position, checks, max_payload=MAX_PAYLOAD):
     """The packet at `position`, its check and where it ends."""
     reader = ByteReader(data, position)
     kind = reader.u8()
     length = reader.varint()
-    if length > MAX_PAYLOAD:
+    if length > max_payload:
         raise too_large("a packet is too long")
     payload = reader.bytes(length)
-    initial = 0xFFFF if kind in (SETUP, END) else previous_check
-    check = crc16(data[position:reader.position], initial)
-    if reader.u16() != check:
+    end = reader.position
+    check = reader.u16()
+    if check != crc16(data[position:end], checks.before(kind)):
         raise invalid("the check of a packet is wrong")
     return Packet(kind, payload), check, reader.position
 
 
-def _next_start(data, position):
-    """The first place from `position` on where a short setup or end packet with a right check begins."""
+def _next_start(data, position, checks):
+    """Where, from `position` on, the packet of a known type begins that ends first (SPEC 3.2)."""
+    best, best_end = len(data), len(data) + 1
     for start in range(position, len(data)):
-        if data[start] not in (SETUP, END):
+        if start >= best_end:
+            break
+        if data[start] not in KNOWN_TYPES:
             continue
         try:
-            packet, _, _ = _read_packet(data, start, 0xFFFF)
+            _, _, end = _read_packet(data, start, checks, MAX_SEARCHED_PAYLOAD)
         except StreamError:
             continue
-        if len(packet.payload) <= MAX_RESUME_PAYLOAD:
-            return start
-    return len(data)
+        if end < best_end:
+            best, best_end = start, end
+    return best
 
 
 def packets(data):
     """Yields a Packet or a Damage for each part of a stream."""
     position = len(SIGNATURE)
+    checks = Checks()
     if not data.startswith(SIGNATURE):
         is_cut = data and SIGNATURE.startswith(data)
         yield Damage(truncated("the signature is cut") if is_cut else StreamError("kNotFbs", "there is no signature"))
-        position = _next_start(data, 0)
-    check = 0xFFFF
+        position = _next_start(data, 0, checks)
     while position < len(data):
         try:
-            packet, check, end = _read_packet(data, position, check)
+            packet, check, position = _read_packet(data, position, checks)
+            checks.add(packet.type, check)
             yield packet
-            position = end
         except StreamError as error:
             yield Damage(error)
-            position = _next_start(data, position + 1)
+            position = _next_start(data, position + 1, checks)

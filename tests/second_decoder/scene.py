@@ -1,4 +1,4 @@
-"""A scene: what its packets say, and its pictures (SPEC 6)."""
+"""A scene: what its packets say, and its pictures (SPEC 6, 6.2)."""
 
 from dataclasses import dataclass
 
@@ -6,15 +6,16 @@ import numpy as np
 
 from .atlas import Atlas
 from .av1 import Av1Decoder
+from .byte_reader import ByteReader
 from .blend import REGIONS, BlendDecoder
 from .draw import draw, draw_without_geometry, with_full_contrast
-from .errors import invalid, too_large
+from .errors import StreamError, invalid
 from .geometry import read_geometry
 from .head import HEAD
 from .limits import KEPT_PICTURES, MAX_PICTURE_NUMBER, MAX_WAITING_PICTURES
 from .mesh import Mesh, Placement
 from .motion import MotionDecoder
-from .packets import BLEND, GEOMETRY, MOTION, PATTERN, SURROUND, WIRE_FRAME
+from .packets import BLEND, GEOMETRY, MOTION, PATTERN, SURROUND, UNIT, WIRE_FRAME
 from .pattern import PatternDecoder
 from .raster import planes
 from .samples import enlarge
@@ -38,6 +39,7 @@ class Scene:
 
     def __init__(self, setup):
         self.setup = setup
+        self.has_losses = False  # an error has told of something that is missing
         self._layout = Layout(setup)
         self._next_frame = HEAD  # of the geometry packets to come
         self._frame = None  # of the geometry
@@ -46,7 +48,10 @@ class Scene:
         self._mesh = None
         self._rest = None  # state of the first pattern, which completes the scene
         self._store = {}  # patterns by slot
+        self._stored_numbers = {}  # by slot, of the last pattern other than the first
         self._states = []  # of all pictures, with their durations
+        self._missing = set()  # numbers of pictures whose states are interpolated
+        self._modes = []  # of all pictures that have any
         self._released = 0
         self._av1 = Av1Decoder()
         self._patterns = PatternDecoder(setup, self._layout)
@@ -54,7 +59,12 @@ class Scene:
         self._blend = BlendDecoder()
         self._takers = {WIRE_FRAME: self._take_wire_frame, GEOMETRY: self._take_geometry,
                         SURROUND: self._take_surround, PATTERN: self._take_pattern, MOTION: self._take_motion,
-                        BLEND: self._take_blend}
+                        BLEND: self._take_blend, UNIT: self._take_unit}
+
+    @property
+    def is_complete(self):
+        """Whether the first pattern has been read."""
+        return bool(self._store)
 
     def take(self, packet):
         """Yields the pictures that a packet releases: planes Y, U, V, and duration in 1/90000 s."""
@@ -90,12 +100,40 @@ class Scene:
                                                   seen.gain[head])
 
     def _take_pattern(self, payload):
-        numbers = {slot: pattern.number for slot, pattern in self._store.items()}
-        for coded in self._patterns.decode(payload, numbers, len(self._states)):
-            if coded.numbers:
-                self._complete(coded.numbers)
-            self._check_order(coded)
-            self._store[coded.slot] = self._decode_pattern(coded)
+        patterns = self._patterns.decode(payload, len(self._states))
+        self._skip_unless(patterns, self._patterns.is_broken)
+        for coded in patterns:
+            if coded.alone and coded.number <= self._stored_numbers.get(coded.slot, 0):
+                return
+            if not coded.numbers and not self._has_state(coded.number):
+                knows = self.has_losses
+                self._break_chain(coded)
+                if knows:
+                    return
+                raise invalid("a pattern of a picture that has no state or is not kept")
+            self._put(coded)
+
+    def _has_state(self, number):
+        """Whether a picture has a state that was sent and is kept."""
+        return (max(0, self._released - KEPT_PICTURES) <= number < len(self._states)
+                and number not in self._missing)
+
+    def _break_chain(self, coded):
+        if not coded.alone:
+            self._patterns.break_chain()
+
+    def _put(self, coded):
+        """Puts a pattern into the store."""
+        if not coded.numbers:
+            self._stored_numbers[coded.slot] = coded.number
+        try:
+            frame = self._full_size(self._av1.decode(coded.frame))
+        except StreamError:
+            self._break_chain(coded)
+            raise
+        if coded.numbers:
+            self._complete(coded.numbers)
+        self._store[coded.slot] = self._build_pattern(coded, frame)
 
     def _complete(self, rest_numbers):
         """The first pattern is here."""
@@ -104,14 +142,7 @@ class Scene:
         if self._adapted is not None:
             self._build_mesh()
 
-    def _check_order(self, coded):
-        if coded.slot > len(self._store):
-            raise invalid("a pattern for a slot after an empty one")
-        if coded.number < self._released - KEPT_PICTURES:
-            raise invalid("a pattern of a picture that is not kept")
-
-    def _decode_pattern(self, coded):
-        frame = self._full_size(self._av1.decode(coded.frame))
+    def _build_pattern(self, coded, frame):
         state = self._rest if coded.numbers else State(self._states[coded.number][0])
         if not self._mesh:
             return Pattern(coded.number, state, frame)
@@ -131,29 +162,77 @@ class Scene:
             raise invalid("a pattern of a wrong size")
         return [enlarge(plane, form.width, form.height) for plane, form in zip(frame, planes(width, height))]
 
+    def _skip_unless(self, read, needs_missing):
+        """A packet that is skipped since it needs a missing one is a loss if none is known."""
+        if not read and needs_missing and not self.has_losses:
+            raise invalid("a packet is missing")
+
     def _take_motion(self, payload):
+        yield from self._add_motion(payload)
+
+    def _take_unit(self, payload):
+        if self.setup.patterns == 1:
+            raise invalid("a unit with one slot")
+        reader = ByteReader(payload)
+        motion = reader.bytes(reader.varint())
+        knows = self.has_losses
+        group = self._read_motion(motion)
+        if not group:
+            return
+        blend = self._blend.decode_in_unit(payload[reader.position:], group.beginning,
+                                           len(self._states) + MAX_WAITING_PICTURES)
+        if blend:
+            yield from self._add_modes(blend)
+        if group.missing and not knows:
+            raise invalid("pictures are missing")
+        if blend and blend[0] and not knows:
+            raise invalid("modes are missing")
+
+    def _add_motion(self, payload):
+        knows = self.has_losses
+        group = self._read_motion(payload)
+        yield from self._release()
+        if group and group.missing and not knows:
+            raise invalid("pictures are missing")
+
+    def _read_motion(self, payload):
+        """Adds the states of a group, which is returned; None if it is skipped."""
         if not self._motion:
             raise invalid("motion before the first pattern")
-        self._states += self._motion.decode(payload)
-        if len(self._states) > MAX_PICTURE_NUMBER:
-            raise too_large("too many pictures in a scene")
+        begin = len(self._states)
+        most = min(MAX_WAITING_PICTURES - (begin - self._released), MAX_PICTURE_NUMBER - begin)
+        group = self._motion.decode(payload, most)
+        self._skip_unless(group, self._motion.needs_key)
+        if not group:
+            return None
+        self._states += group.pictures
+        self._missing.update(range(begin, begin + group.uncertain))
         if self.setup.patterns == 1:
-            return self._release([(0,) * REGIONS] * (len(self._states) - self._released))
-        if len(self._states) - self._released > MAX_WAITING_PICTURES:
-            raise too_large("too many pictures wait")
+            self._modes += [(0,) * REGIONS] * len(group.pictures)
+        return group
 
     def _take_blend(self, payload):
         if not self._motion or self.setup.patterns == 1:
             raise invalid("a blend packet before the first pattern, or with one slot")
-        modes = self._blend.decode(payload)
-        if len(modes) > len(self._states) - self._released:
-            raise invalid("a blend packet is ahead of the motion")
-        return self._release(modes)
+        group = self._blend.decode(payload, len(self._states) + MAX_WAITING_PICTURES)
+        self._skip_unless(group, self._blend.needs_key)
+        if not group:
+            return
+        knows = self.has_losses
+        yield from self._add_modes(group)
+        if group[0] and not knows:
+            raise invalid("modes are missing")
 
-    def _release(self, modes_of_pictures):
-        for modes in modes_of_pictures:
+    def _add_modes(self, group):
+        missing, modes = group
+        self._modes += (self._modes[-1:] or [(0,) * REGIONS]) * missing + modes
+        yield from self._release()
+
+    def _release(self):
+        """Yields the pictures that have a state and modes, and have not been shown."""
+        while self._released < min(len(self._states), len(self._modes)):
             values, duration = self._states[self._released]
-            picture = self._draw(State(values), self._released, modes)
+            picture = self._draw(State(values), self._released, self._modes[self._released])
             self._released += 1
             yield picture, duration
 

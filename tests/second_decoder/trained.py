@@ -16,8 +16,8 @@ def _table(name, expected_checksum):
     return pairs
 
 
-MOTION = _table("kMotion", 0xEEDD07B51948F25B)
-BLENDS = _table("kBlends", 0xE28418AC21126469)
+MOTION = _table("kMotion", 0xAC3D72B2F8018E27)
+BLENDS = _table("kBlends", 0xAF41CDF08A40AA87)
 
 
 def _in_order(contexts):

@@ -67,7 +67,7 @@ class HandMade {
   void motion(int groups) {
     for (; groups > 0; --groups, ++groups_) {
       add(PacketType::kMotion, motion_[place_of(motion_, PacketType::kMotion, groups_)].payload);
-      pictures_ += must(motion_decoder_->decode(pieces_.back().payload)).pictures;
+      pictures_ += must(motion_decoder_->decode(pieces_.back().payload))->pictures;
     }
   }
 
@@ -75,6 +75,7 @@ class HandMade {
   void blend(int pictures, int first_mode, bool key = false) {
     BlendGroup group;
     group.key = key;
+    group.first = blend_.next();
     for (int i = 0; i < pictures; ++i) {
       RegionModes modes;
       for (std::size_t r = 0; r < kRegionCount; ++r)
@@ -243,7 +244,8 @@ Bytes blend_of_unknown_mode() {
   BlendMemory memory;
   RangeEncoder coder;
   coder.raw_bit(kNotKey, true);
-  code_blend(coder, memory, std::as_const(group));
+  code_count(coder, memory, static_cast<std::int32_t>(group.modes.size()));
+  code_modes(coder, memory, std::as_const(group));
   return coder.finish();
 }
 
@@ -285,22 +287,22 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   const auto invalid = [&](const std::string& file, const Bytes& bytes, std::uint64_t pictures) {
     folder.add(file, bytes, pictures, "kInvalidStream");
   };
-  invalid("blend_ahead.fbs", blend_ahead(), 2);
+  folder.add("blend_ahead.fbs", blend_ahead(), 17);
   auto of_one = pieces_of(talk);
   of_one.insert(of_one.begin() + place_of(of_one, PacketType::kMotion, 1),
                 made[place_of(made, PacketType::kBlend)]);
   invalid("blend_of_one.fbs", joined(of_one), 20);
   auto unknown_mode = made;
   unknown_mode[place_of(made, PacketType::kBlend)].payload = blend_of_unknown_mode();
-  invalid("blend_mode.fbs", joined(unknown_mode), 0);
+  invalid("blend_mode.fbs", joined(unknown_mode), kPictures);
 
-  invalid("old_picture.fbs", joined(cross_fade(300 - kKeptPictures - 1)), 300);
+  invalid("old_picture.fbs", joined(cross_fade(300 - kKeptPictures - 1)), kBars);
   auto far_picture = made;
   far_picture[place_of(made, PacketType::kPattern, 1)].payload = pattern_of_no_picture();
-  invalid("far_picture.fbs", joined(far_picture), 2);
-  folder.add("far_slot.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = kSlots; }), 2,
+  invalid("far_picture.fbs", joined(far_picture), kPictures);
+  folder.add("far_slot.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = kSlots; }), kPictures,
              "kTooLarge");
-  invalid("slot_gap.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = 2; }), 2);
+  folder.add("slot_gap.fbs", with_pattern(made, 1, [](PatternSyntax& p) { p.slot = 2; }), kPictures);
   const auto twice = [](PatternSyntax& p) {
     const Bytes frame(p.av1.begin() + 1, p.av1.end());  // without its OBU header, which has no size field
     if (frame.size() > 0x7F) give_up("a frame is longer than its size field here");
@@ -310,21 +312,21 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
     const Bytes one = p.av1;
     p.av1.insert(p.av1.end(), one.begin(), one.end());
   };
-  invalid("two_frames.fbs", with_pattern(made, 1, twice), 2);
+  invalid("two_frames.fbs", with_pattern(made, 1, twice), kPictures);
   // A frame header OBU of one byte: show_existing_frame of the first of AV1's slots.
   invalid("show_existing.fbs",
           with_pattern(made, 1,
                        [](PatternSyntax& p) {
                          p.av1 = {0x1A, 0x01, 0x80};
                        }),
-          2);
+          kPictures);
   auto lost = made;
   lost.erase(lost.begin() + place_of(lost, PacketType::kPattern, 1));
-  invalid("lost_pattern.fbs", joined(lost), 8);  // up to the next pattern, whose contexts are others
+  invalid("lost_pattern.fbs", joined(lost), kPictures);
   Bytes flipped = joined(made);
   flipped[offset_of(made, place_of(made, PacketType::kBlend, 1)) + 4] ^= 0x10;
-  invalid("flipped_blend.fbs", flipped, 2);
-  invalid("removed_blend.fbs", joined_without(made, place_of(made, PacketType::kBlend, 1)), 2);
+  invalid("flipped_blend.fbs", flipped, kPictures);
+  invalid("removed_blend.fbs", joined_without(made, place_of(made, PacketType::kBlend, 1)), kPictures);
 }
 
 }  // namespace fbs

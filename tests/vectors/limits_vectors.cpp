@@ -80,9 +80,9 @@ std::vector<Piece> beginning(const Setup& setup, const CodedState& seen, std::mt
 }
 
 Piece motion_at_limits(MotionEncoder& coder, std::mt19937& random) {
-  const bool key = coder.needs_key();
-  MotionGroup group = group_at_limits(random, coder.limits(), coder.anchor(key));
-  group.key = key;
+  MotionGroup group = group_at_limits(random, coder.limits(), coder.anchor());
+  group.key = coder.groups() == 0;
+  group.first = coder.next();
   return {PacketType::kMotion, must(coder.encode(group))};
 }
 
@@ -134,7 +134,8 @@ Bytes blended_limits_stream() {
     pieces.push_back(
         {PacketType::kPattern, must(writer.encode(patterns, setup, (group + 1) * kGroupPictures))});
     BlendGroup modes;
-    modes.key = blend.needs_key();
+    modes.key = blend.groups() == 0;
+    modes.first = blend.next();
     for (int i = 0; i < kGroupPictures; ++i) modes.modes.push_back(random_modes(random));
     pieces.push_back({PacketType::kBlend, must(blend.encode(modes))});
   }

@@ -99,7 +99,7 @@ std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {
   std::optional<MotionDecoder> motion;
   std::int32_t pictures = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].type == PacketType::kMotion) pictures += must(motion->decode(pieces[i].payload)).pictures;
+    if (pieces[i].type == PacketType::kMotion) pictures += must(motion->decode(pieces[i].payload))->pictures;
     if (pieces[i].type != PacketType::kPattern) continue;
     out.push_back({i, must(reader.decode(pieces[i].payload, setup, pictures)), pictures});
     if (!motion) motion.emplace(setup, out.front().patterns.front().state);

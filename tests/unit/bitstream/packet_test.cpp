@@ -38,9 +38,17 @@ struct Stream {
     const auto end = k + 1 < begins.size() ? begins[k + 1] : bytes.size();
     return {bytes.begin() + begins[k], bytes.begin() + end};
   }
-  /// The first packet from `k` on that a search can find.
-  [[nodiscard]] std::size_t next_found(std::size_t k) const {
-    while (types[k] != PacketType::kSetup && types[k] != PacketType::kEnd) ++k;
+  /// Whether a packet belongs to the head of its scene.
+  [[nodiscard]] bool in_head(std::size_t k) const {
+    while (types[k] != PacketType::kSetup)
+      if (types[--k] == PacketType::kPattern) return false;
+    return true;
+  }
+  /// The packet that a search finds behind this one, which is damaged.
+  [[nodiscard]] std::size_t next_found(std::size_t damaged) const {
+    std::size_t k = damaged + 1;
+    if (in_head(damaged))
+      while (types[k] != PacketType::kSetup && types[k] != PacketType::kEnd) ++k;
     return k;
   }
   /// The packets with these numbers.
@@ -61,14 +69,16 @@ struct Stream {
 /// A stream of two scenes of different packets.
 Stream sample_stream() {
   Stream s;
-  const std::array<std::pair<PacketType, std::size_t>, 8> packets = {{{PacketType::kSetup, 18},
-                                                                      {PacketType::kPattern, 700},
-                                                                      {PacketType::kMotion, 0},
-                                                                      {PacketType::kMotion, 60},
-                                                                      {PacketType::kSetup, 19},
-                                                                      {PacketType::kPattern, 300},
-                                                                      {PacketType::kMotion, 20},
-                                                                      {PacketType::kEnd, 2}}};
+  const std::array<std::pair<PacketType, std::size_t>, 10> packets = {{{PacketType::kSetup, 18},
+                                                                       {PacketType::kGeometry, 90},
+                                                                       {PacketType::kPattern, 700},
+                                                                       {PacketType::kMotion, 0},
+                                                                       {PacketType::kPattern, 200},
+                                                                       {PacketType::kMotion, 60},
+                                                                       {PacketType::kSetup, 19},
+                                                                       {PacketType::kPattern, 300},
+                                                                       {PacketType::kMotion, 20},
+                                                                       {PacketType::kEnd, 2}}};
   for (const auto& [type, size] : packets) s.add(type, random_bytes(size, static_cast<unsigned>(size)));
   return s;
 }
@@ -98,20 +108,27 @@ TEST(Packet, WritesFourBytesBesideAShortPayload) {
 }
 
 // SPEC 3.1
-TEST(Packet, CheckGoesOnFromThePacketBefore) {
-  const Bytes setup = {1, 2, 0x5A, 0x5A}, motion = {5, 1, 0xA5};
+TEST(CheckChain, RunsThroughTheHeadOfASceneAndThenBeginsWithIt) {
+  using enum PacketType;
   PacketWriter writer;
-  Bytes bytes;
+  std::uint16_t head = 0;
+  const auto expect_check = [&](PacketType type, std::uint16_t before) {
+    Bytes bytes;
+    writer.write(bytes, type, Bytes{0x5A});
+    const std::uint16_t check = crc16(std::span(bytes).first(3), before);
+    EXPECT_EQ(ByteReader(std::span(bytes).subspan(3)).u16(), check) << static_cast<int>(type);
+    return check;
+  };
   for (int scene = 0; scene < 2; ++scene) {
-    bytes.clear();
-    writer.write(bytes, PacketType::kSetup, std::span(setup).subspan(2));
-    writer.write(bytes, PacketType::kMotion, std::span(motion).subspan(2));
-    ByteReader reader(bytes);
-    (void)reader.bytes(setup.size());
-    const std::uint16_t check = crc16(setup);
-    EXPECT_EQ(reader.u16(), check) << "a setup packet begins anew";
-    (void)reader.bytes(motion.size());
-    EXPECT_EQ(reader.u16(), crc16(motion, check));
+    head = expect_check(kSetup, kCrc16Start);
+    for (const PacketType type : {kWireFrame, kGeometry, kSurround, kPattern}) {
+      for (const PacketType other : {kSoundSetup, kSound, kEnd, static_cast<PacketType>(200)})
+        expect_check(other, kCrc16Start);
+      head = expect_check(type, head);
+    }
+    for (const PacketType type : {kMotion, kPattern, kBlend, kSurround, kGeometry, kWireFrame, kMotion})
+      expect_check(type, head);
+    expect_check(kSound, kCrc16Start);
   }
 }
 
@@ -227,29 +244,61 @@ void expect_error_at(const Bytes& stream, std::size_t bad, const char* what) {
 
 TEST(PacketReader, NoticesPacketsThatAreNotInTheirPlace) {
   const Stream s = sample_stream();
-  expect_error_at(s.with({0, 2, 3, 4, 5}), 1, "one is missing");
-  expect_error_at(s.with({0, 1, 3, 4, 5}), 2, "one without a payload is missing");
-  expect_error_at(s.with({0, 3, 4, 5}), 1, "two are missing");
-  expect_error_at(s.with({0, 1, 1, 2, 3}), 2, "one is doubled");
-  expect_error_at(s.with({0, 2, 1, 3, 4}), 1, "two have changed places");
+  expect_error_at(s.with({0, 2, 3, 4, 5}), 1, "one of the head is missing");
+  expect_error_at(s.with({0, 1, 3, 4, 5}), 2, "the first pattern is missing");
+  expect_error_at(s.with({0, 1, 1, 2, 3}), 2, "one of the head is doubled");
+  expect_error_at(s.with({0, 2, 1, 3, 4}), 1, "two of the head have changed places");
+  expect_error_at(s.with({0, 1, 2, 2, 3}), 3, "the first pattern is doubled");
   expect_error_at(s.with({1, 2, 3, 4, 5}), 0, "a setup packet is missing at the beginning");
-  expect_error_at(s.with({0, 1, 2, 3, 5, 6}), 4, "a setup packet is missing");
-  expect_error_at(s.with({0, 1, 2, 6, 4, 5}), 3, "one is of another scene");
+  expect_error_at(s.with({0, 1, 2, 3, 7, 8}), 4, "a setup packet is missing");
+  expect_error_at(s.with({0, 1, 2, 8, 6, 7}), 3, "one is of another scene");
+  expect_error_at(s.with({6, 7, 3, 8}), 2, "one is of the scene before");
 }
 
-TEST(PacketReader, NoticesThatAnUnknownPacketIsMissing) {
+// SPEC 3.1
+TEST(PacketReader, WhatIsMissingBehindTheHeadDoesNoHarm) {
+  const Stream s = sample_stream();
+  const auto read_all = [&](std::initializer_list<std::size_t> numbers) {
+    PacketReader reader(s.with(numbers));
+    Result<ReadResult> last;
+    return offsets_until_stop(reader, last).size() == numbers.size() && last.has_value();
+  };
+  EXPECT_TRUE(read_all({0, 1, 2, 4, 5, 6, 7, 8, 9})) << "without a motion packet";
+  EXPECT_TRUE(read_all({0, 1, 2, 3, 5, 6, 7, 8, 9})) << "without a pattern";
+  EXPECT_TRUE(read_all({0, 1, 2, 6, 7, 9})) << "without all";
+  EXPECT_TRUE(read_all({0, 1, 2, 3, 3, 5, 5})) << "doubled";
+  EXPECT_TRUE(read_all({0, 1, 2, 5, 4, 3})) << "in another order";
+}
+
+TEST(PacketReader, AHeadWithAGapLosesItsScene) {
+  const Stream s = sample_stream();
+  PacketReader reader(s.with({0, 2, 3, 4, 5, 6, 7, 8}));
+  Result<ReadResult> last;
+  EXPECT_EQ(offsets_until_stop(reader, last).size(), 1U);
+  EXPECT_FALSE(last);
+  const auto rest = offsets_until_stop(reader, last);
+  ASSERT_EQ(rest.size(), 3U);
+  EXPECT_EQ(rest[0], s.begins[6] - s.packet(1).size()) << "the next setup packet";
+  EXPECT_TRUE(last);
+}
+
+TEST(PacketReader, UnknownPacketsAndSoundMayBeMissing) {
   Stream s;
   s.add(PacketType::kSetup, Bytes{1});
   s.add(static_cast<PacketType>(200), Bytes{2});
-  s.add(PacketType::kMotion, Bytes{3});
-  expect_error_at(s.with({0, 2}), 1, "the unknown one");
+  s.add(PacketType::kSoundSetup, Bytes{3});
+  s.add(PacketType::kPattern, Bytes{4});
+  PacketReader reader(s.with({0, 3}));
+  Result<ReadResult> last;
+  EXPECT_EQ(offsets_until_stop(reader, last).size(), 2U);
+  EXPECT_TRUE(last);
 }
 
 // Only the number of pictures can tell what is missing before them: SPEC 6.2.
 TEST(PacketReader, SetupAndEndFollowAnything) {
   const Stream s = sample_stream();
   PacketReader reader;
-  reader.feed(s.with({0, 1, 4, 5, 7, 4, 4, 7}));
+  reader.feed(s.with({0, 1, 6, 7, 9, 6, 6, 9}));
   reader.close();
   Result<ReadResult> last;
   EXPECT_EQ(offsets_until_stop(reader, last).size(), 8u);
@@ -269,7 +318,7 @@ TEST(PacketReader, ResyncsBehindAnyDamagedByte) {
     ASSERT_FALSE(last.has_value()) << place;
     EXPECT_EQ(last.error().byte_offset, s.begins[damaged]);
     const auto found = reader.next();
-    const std::size_t next = s.next_found(damaged + 1);
+    const std::size_t next = s.next_found(damaged);
     ASSERT_TRUE(found.has_value() && found->status == ReadStatus::kPacket) << place;
     EXPECT_EQ(found->packet.offset, s.begins[next]) << place;
     const auto rest = offsets_until_stop(reader, last);
@@ -280,7 +329,7 @@ TEST(PacketReader, ResyncsBehindAnyDamagedByte) {
 
 TEST(PacketReader, ResyncsInAPipeAndMayJoinInTheMiddle) {
   const Stream s = sample_stream();
-  const std::size_t joined_at = s.begins[1] + 100;
+  const std::size_t joined_at = s.begins[2] + 100;
   PacketReader reader;
   std::vector<std::size_t> offsets;
   for (std::size_t i = joined_at; i < s.bytes.size(); ++i) {
@@ -295,7 +344,7 @@ TEST(PacketReader, ResyncsInAPipeAndMayJoinInTheMiddle) {
       offsets.push_back(read->packet.offset + joined_at);
     }
   }
-  EXPECT_EQ(offsets, (std::vector(s.begins.begin() + 4, s.begins.end())));
+  EXPECT_EQ(offsets, (std::vector(s.begins.begin() + 6, s.begins.end())));
 }
 
 TEST(PacketReader, SearchEndsWhereNothingIsLeft) {
@@ -319,12 +368,28 @@ std::optional<std::size_t> found_behind(std::size_t noise, PacketType type, std:
 }
 
 // SPEC 3.2
-TEST(PacketReader, SearchesForSetupAndEndAlone) {
-  for (int type = 0; type < 256; ++type) {
-    const bool wanted =
-        type == static_cast<int>(PacketType::kSetup) || type == static_cast<int>(PacketType::kEnd);
-    EXPECT_EQ(found_behind(0, static_cast<PacketType>(type), 9).has_value(), wanted) << type;
-  }
+TEST(PacketReader, SearchesForKnownTypes) {
+  for (int type = 0; type < 256; ++type)
+    EXPECT_EQ(found_behind(0, static_cast<PacketType>(type), 9).has_value(), type >= 1 && type <= 11) << type;
+}
+
+TEST(PacketReader, OfNestedCandidatesTheOneThatEndsFirstIsFound) {
+  const auto packet = [](const Bytes& payload) {
+    Bytes bytes;
+    PacketWriter().write(bytes, PacketType::kEnd, payload);
+    return bytes;
+  };
+  const Bytes inner = packet(Bytes(30, 0xEE));
+  Bytes payload(20, 0xEE);
+  payload.insert(payload.end(), inner.begin(), inner.end());
+  payload.insert(payload.end(), 20, 0xEE);
+  const Bytes outer = packet(payload);
+  PacketReader reader(outer);
+  EXPECT_FALSE(reader.next());
+  const auto found = reader.next();
+  ASSERT_EQ(found->status, ReadStatus::kPacket);
+  EXPECT_EQ(found->packet.offset, 22U);
+  EXPECT_EQ(found->packet.payload.size(), 30U);
 }
 
 TEST(PacketReader, SearchesBehindNoise) {
@@ -338,13 +403,55 @@ TEST(PacketReader, SearchesForShortPayloads) {
   EXPECT_FALSE(found_behind(0, PacketType::kSetup, kMaxSearchedPayload + 1));
 }
 
-// Every second byte begins the longest candidate: 16 MB of them take seconds, not hours.
+// Every third byte begins the longest candidate: 16 MB of them take seconds, not hours.
 TEST(PacketReader, SearchIsLinearOnHostileBytes) {
-  Bytes bytes(std::size_t{1} << 20);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = i % 2 == 0 ? 6 : 127;
+  Bytes bytes(std::size_t{1} << 18);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = Bytes{6, 0xFF, 0x0F}[i % 3];
   PacketReader reader(bytes);
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_EQ(reader.next()->status, ReadStatus::kEnd);
+}
+
+/// Offsets of packets, and of errors with their codes, in the order in which a reader yields them.
+using Yields = std::vector<std::pair<std::uint64_t, int>>;
+
+/// @return whether the stream has ended
+bool take_yields(PacketReader& reader, Yields& out) {
+  for (;;) {
+    const auto read = reader.next();
+    if (!read)
+      out.emplace_back(read.error().byte_offset, static_cast<int>(read.error().code));
+    else if (read->status != ReadStatus::kPacket)
+      return read->status == ReadStatus::kEnd;
+    else
+      out.emplace_back(read->packet.offset, -1);
+  }
+}
+
+TEST(PacketReader, ReadsTheSameHoweverTheBytesAreCut) {
+  std::mt19937 random(78);
+  for (int round = 0; round < 500; ++round) {
+    Stream s = sample_stream();
+    for (unsigned k = 1 + random() % 8; k > 0; --k)
+      s.bytes[random() % s.bytes.size()] = static_cast<std::uint8_t>(random());
+    const std::size_t removed = random() % s.bytes.size();
+    if (round % 2 == 0)
+      s.bytes.erase(s.bytes.begin() + removed,
+                    s.bytes.begin() + std::min(s.bytes.size(), removed + random() % 200));
+    Yields whole, cut;
+    PacketReader at_once(s.bytes), reader;
+    ASSERT_TRUE(take_yields(at_once, whole));
+    const unsigned longest = round % 3 == 0 ? 1 : 90;
+    for (std::size_t at = 0; at < s.bytes.size();) {
+      const std::size_t size = std::min<std::size_t>(1 + random() % longest, s.bytes.size() - at);
+      reader.feed(std::span(s.bytes).subspan(at, size));
+      at += size;
+      EXPECT_FALSE(take_yields(reader, cut));
+    }
+    reader.close();
+    ASSERT_TRUE(take_yields(reader, cut));
+    ASSERT_EQ(cut, whole) << round;
+  }
 }
 
 TEST(PacketReader, SurvivesRandomBytesInRandomPieces) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -99,6 +100,32 @@ TEST(StatesOf, PartsHaveTheirOwnKnots) {
   whole[kPartFirst[gaze]] = 4096;
   EXPECT_EQ(states[0].control, state_of_values(a_quarter).control);
   EXPECT_EQ(states[3].control, state_of_values(whole).control);
+}
+
+// SPEC 6.2
+TEST(StatesOf, MotionGoesOnThroughMissingPictures) {
+  MotionGroup group = yaw_group(4, {{3, 16}});
+  group.missing = 4;
+  EXPECT_EQ(yaws(states_of(group, kFinest)), (std::vector{2, 4, 6, 8, 10, 12, 14, 16}));
+  group = yaw_group(2, {{0, 33}, {1, 5}});
+  group.missing = kMaxBridged + 3;
+  const auto bridged = yaws(states_of(group, kFinest));
+  ASSERT_EQ(bridged.size(), kMaxBridged + 5U);
+  for (int t = 0; t < kMaxBridged + 4; ++t) EXPECT_EQ(bridged[t], std::max(0, t - 2)) << "held, then linear";
+  EXPECT_EQ(bridged.back(), 5);
+}
+
+TEST(DurationsOf, MissingPicturesShareTheirTime) {
+  MotionGroup group = yaw_group(2, {{1, 0}});
+  const Rational rate{30, 1};
+  EXPECT_EQ(durations_of(group, rate), (std::vector<std::uint32_t>{3000, 3000}));
+  group.durations = {5, 6};
+  EXPECT_EQ(durations_of(group, rate), (std::vector<std::uint32_t>{5, 6}));
+  group.missing = 3;
+  group.missing_time = 10;
+  EXPECT_EQ(durations_of(group, rate), (std::vector<std::uint32_t>{3, 3, 4, 5, 6}));
+  group.durations.clear();
+  EXPECT_EQ(durations_of(group, rate), (std::vector<std::uint32_t>{3, 3, 4, 3000, 3000}));
 }
 
 TEST(KnotsEverywhere, GiveTheStatesTheyWereMadeFrom) {

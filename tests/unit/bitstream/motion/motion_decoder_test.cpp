@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -12,37 +14,149 @@
 namespace fbs {
 namespace {
 
+/// Groups of 20 pictures, of which every third is key, and their packets.
+struct Groups {
+  explicit Groups(const Setup& setup, int count = 7, unsigned seed = 3) : sender(setup, seed) {
+    for (int g = 0; g < count; ++g) {
+      groups.push_back(sender.next({.knot_one_in = 4, .moves_one_in = 1, .reach = 20}, 20, g % 3 == 0));
+      payloads.push_back(*sender.encoder.encode(groups.back()));
+    }
+  }
+  Sender sender;
+  std::vector<MotionGroup> groups;
+  std::vector<std::vector<std::uint8_t>> payloads;
+};
+
+/// What a decoder makes of a group behind `missing` pictures without durations.
+MotionGroup behind_gap(MotionGroup group, std::int32_t missing, const CodedState& known) {
+  group.missing = missing;
+  group.missing_time = static_cast<std::uint32_t>(missing) * 3000;
+  group.anchor = known;
+  return group;
+}
+
 TEST(MotionDecoder, KeyGroupDecodesWithoutTheGroupsBefore) {
   const auto setup = sample_setup();
-  Sender sender(setup, 3);
-  MotionDecoder late(setup, sender.seen);
-  for (int g = 0; g < 6; ++g) {
-    const MotionGroup group = sender.next({}, 20, g % 3 == 0);
-    const auto payload = *sender.encoder.encode(group);
-    if (g < 3) continue;
-    EXPECT_EQ(*late.decode(payload), group);
+  const Groups s(setup);
+  MotionDecoder late(setup, s.sender.seen);
+  EXPECT_EQ(**late.decode(s.payloads[3]), behind_gap(s.groups[3], 60, s.sender.seen));
+  for (std::size_t g = 4; g < 7; ++g) EXPECT_EQ(**late.decode(s.payloads[g]), s.groups[g]) << g;
+}
+
+TEST(MotionDecoder, ALostGroupCostsThoseUpToTheNextKeyGroup) {
+  const auto setup = sample_setup();
+  const Groups s(setup);
+  for (const std::size_t lost : {1U, 2U}) {
+    MotionDecoder reader(setup, s.sender.seen);
+    for (std::size_t g = 0; g < lost; ++g) ASSERT_EQ(**reader.decode(s.payloads[g]), s.groups[g]);
+    for (std::size_t g = lost + 1; g < 3; ++g) {
+      EXPECT_EQ(*reader.decode(s.payloads[g]), std::nullopt);
+      EXPECT_TRUE(reader.needs_key());
+    }
+    const auto missing = static_cast<std::int32_t>(20 * (3 - lost));
+    const auto key = **reader.decode(s.payloads[3]);
+    EXPECT_EQ(key, behind_gap(s.groups[3], missing, last_of(s.groups[lost - 1])));
+    EXPECT_EQ(last_of(key), last_of(s.groups[3])) << "as without loss";
+    EXPECT_FALSE(reader.needs_key());
+    for (std::size_t g = 4; g < 7; ++g) EXPECT_EQ(**reader.decode(s.payloads[g]), s.groups[g]) << g;
   }
 }
 
-TEST(MotionDecoder, GroupThatIsNotKeyNeedsTheOneBefore) {
+TEST(MotionDecoder, WhatComesTwiceOrLateIsSkippedAndDoesNoHarm) {
+  const auto setup = sample_setup();
+  const Groups s(setup);
+  MotionDecoder reader(setup, s.sender.seen);
+  std::size_t read = 0;
+  for (const std::size_t g : {0U, 0U, 1U, 0U, 1U, 3U, 2U, 3U, 4U, 2U, 5U}) {
+    const auto group = reader.decode(s.payloads[g]);
+    ASSERT_TRUE(group) << group.error().text;
+    EXPECT_FALSE(reader.needs_key());
+    if (!*group) continue;
+    EXPECT_EQ((*group)->tracks, s.groups[g].tracks);
+    ++read;
+  }
+  EXPECT_EQ(read, 5U) << "0, 1, 3, 4, 5";
+}
+
+TEST(MotionDecoder, AfterAnErrorOnlyAKeyGroupIsRead) {
+  const auto setup = sample_setup();
+  const Groups s(setup);
+  MotionDecoder reader(setup, s.sender.seen);
+  ASSERT_TRUE(reader.decode(s.payloads[0]));
+  auto longer = s.payloads[1];
+  longer.insert(longer.end(), 8, 0x55);
+  EXPECT_EQ(reader.decode(longer).error().code, ErrorCode::kInvalidStream);
+  EXPECT_TRUE(reader.needs_key());
+  EXPECT_EQ(*reader.decode(s.payloads[1]), std::nullopt);
+  EXPECT_EQ(*reader.decode(s.payloads[2]), std::nullopt);
+  EXPECT_EQ(**reader.decode(s.payloads[3]), behind_gap(s.groups[3], 40, last_of(s.groups[0])));
+}
+
+TEST(MotionDecoder, ASceneBeginsWithAKeyGroup) {
+  const auto setup = sample_setup();
+  Groups s(setup);
+  MotionGroup first = s.groups[0];
+  first.key = false;
+  EXPECT_EQ(MotionEncoder(setup, s.sender.seen).encode(first).error().code, ErrorCode::kInvalidArgument);
+  RangeEncoder encoder;
+  encoder.raw_bit(kNotKey, false);
+  code_first(encoder, 0, 0);
+  const auto not_key = encoder.finish();
+  EXPECT_EQ(MotionDecoder(setup, s.sender.seen).decode(not_key).error().code, ErrorCode::kInvalidStream);
+  EXPECT_EQ(*MotionDecoder(setup, s.sender.seen).decode(s.payloads[1]), std::nullopt)
+      << "the key group is lost";
+}
+
+// SPEC 4.5: a key group says when it begins if it has durations.
+TEST(MotionDecoder, MissingPicturesTakeTheTimeThatTheyHad) {
   const auto setup = sample_setup();
   Sender sender(setup);
   MotionDecoder reader(setup, sender.seen);
-  MotionGroup first = sender.next({}, 20);
-  first.key = false;
-  EXPECT_EQ(sender.encoder.encode(first).error().code, ErrorCode::kInvalidArgument);
-  first.key = true;
-  const auto one = *sender.encoder.encode(first);
-  const auto two = *sender.encoder.encode(sender.next({}, 20));
-  const MotionGroup third = sender.next({}, 20, true);
-  const auto three = *sender.encoder.encode(third);
-  EXPECT_EQ(reader.decode(two).error().code, ErrorCode::kInvalidStream);
-  ASSERT_TRUE(reader.decode(one));
-  EXPECT_FALSE(reader.decode({}));
-  EXPECT_TRUE(reader.needs_key());
-  EXPECT_EQ(reader.decode(two).error().code, ErrorCode::kInvalidStream);
-  EXPECT_EQ(*reader.decode(three), third) << "a key group can follow an error";
-  EXPECT_FALSE(reader.needs_key());
+  std::vector<std::vector<std::uint8_t>> payloads;
+  for (int g = 0; g < 6; ++g) {
+    MotionGroup group = sender.next({}, 10, g % 2 == 0);
+    if (g != 3) group.durations.assign(10, static_cast<std::uint32_t>(2000 + 100 * g));
+    payloads.push_back(*sender.encoder.encode(group));
+  }
+  ASSERT_TRUE(reader.decode(payloads[0]));
+  const auto second = **reader.decode(payloads[2]);  // without 1
+  EXPECT_EQ(second.missing, 10);
+  EXPECT_EQ(second.missing_time, 21000U);
+  const auto third = **reader.decode(payloads[4]);  // without 3, which has the nominal duration
+  EXPECT_EQ(third.missing_time, 30000U);
+  EXPECT_EQ(durations_of(third, setup.format.frame_rate), [] {
+    std::vector<std::uint32_t> all(10, 3000);
+    all.insert(all.end(), 10, 2400);
+    return all;
+  }());
+  EXPECT_EQ((**reader.decode(payloads[5])).missing_time, 0U);
+}
+
+// Twenty bits are 11.65 s: the time that is nearest to the nominal one would be right.
+TEST(MotionDecoder, MissingPicturesMayTakeLongerThanTheBitsOfTime) {
+  const auto setup = sample_setup(kPoseOnly);
+  Sender sender(setup);
+  for (int g = 0; g < 2; ++g) ASSERT_TRUE(sender.encoder.encode(sender.next({}, 200)));
+  MotionGroup key = sender.next({}, 1, true);
+  key.durations = {3001};
+  const auto read = MotionDecoder(setup, sender.seen).decode(*sender.encoder.encode(key));
+  EXPECT_EQ((**read).missing, 400);
+  EXPECT_EQ((**read).missing_time, 400U * 3000);
+}
+
+TEST(MotionDecoder, RefusesATimeThatIsTooShortForTheMissingPictures) {
+  const auto setup = sample_setup(kPoseOnly);
+  for (const std::uint32_t beyond : {19U, 20U}) {  // twenty pictures
+    Sender sender(setup);
+    MotionGroup lost = sender.next({}, 20), key;
+    lost.durations.assign(20, 1);
+    lost.durations.back() = (1U << kTimeBits) + beyond - 19;
+    ASSERT_TRUE(sender.encoder.encode(lost));
+    key = sender.next({}, 1, true);
+    key.durations = {3000};
+    const auto read = MotionDecoder(setup, sender.seen).decode(*sender.encoder.encode(key));
+    EXPECT_EQ(read.has_value(), beyond == 20);
+  }
 }
 
 TEST(MotionDecoder, ReportsTruncationOrDamageButNeverCrashes) {
@@ -59,7 +173,7 @@ TEST(MotionDecoder, ReportsTruncationOrDamageButNeverCrashes) {
   for (std::size_t size = 1; size + 20 < key.size(); ++size) {
     const auto read = MotionDecoder(setup, sender.seen).decode(std::span(key).first(size));
     truncated += !read && read.error().code == ErrorCode::kTruncated ? 1 : 0;
-    at_rest += read ? 1 : 0;
+    at_rest += read && *read ? 1 : 0;
   }
   EXPECT_GT(truncated, 0);
   EXPECT_LT(at_rest, static_cast<int>(key.size()) / 3);
@@ -78,14 +192,13 @@ TEST(MotionDecoder, ReportsTruncationOrDamageButNeverCrashes) {
       ASSERT_TRUE(reader.decode(key));
     }
     const auto read = reader.decode(bytes);
-    EXPECT_EQ(reader.needs_key(), !read.has_value());
-    if (!read) {
-      ++refused;
-      continue;
-    }
-    EXPECT_TRUE(sender.encoder.limits().hold(last_of(*read)));
-    if (read->key) {
-      EXPECT_TRUE(MotionEncoder(setup, sender.seen).encode(*read)) << "what was read can be written";
+    refused += read ? 0 : 1;
+    if (!read || !*read) continue;
+    const MotionGroup& group = **read;
+    EXPECT_FALSE(reader.needs_key());
+    EXPECT_TRUE(sender.encoder.limits().hold(last_of(group)));
+    if (group.first == 0) {
+      EXPECT_TRUE(MotionEncoder(setup, sender.seen).encode(group)) << "what was read can be written";
     }
   }
   EXPECT_GT(refused, 500);
@@ -100,10 +213,14 @@ TEST(MotionDecoder, SurvivesRandomPayloads) {
     if (!bytes.empty()) bytes[0] = static_cast<std::uint8_t>(bytes[0] | 0xF0);  // a key group
     const auto setup = sample_setup(static_cast<PartMask>((random() & kAllParts) | kPoseOnly));
     MotionDecoder reader(setup, sample_seen(setup));
-    if (const auto read = reader.decode(bytes)) {
-      EXPECT_EQ(std::ssize(states_of(*read, setup.steps)), read->pictures);
-      EXPECT_TRUE(CodedLimits(setup.steps, setup.parts).hold(last_of(*read)));
-    }
+    const auto read = reader.decode(bytes);
+    if (!read || !*read) continue;
+    const MotionGroup& group = **read;
+    EXPECT_EQ(std::ssize(states_of(group, setup.steps)), group.missing + group.pictures);
+    EXPECT_TRUE(CodedLimits(setup.steps, setup.parts).hold(last_of(group)));
+    const auto durations = durations_of(group, setup.format.frame_rate);
+    EXPECT_EQ(std::ssize(durations), group.missing + group.pictures);
+    EXPECT_TRUE(std::ranges::all_of(durations, [](auto d) { return d >= 1 && d <= kMaxDuration; }));
   }
 }
 
@@ -112,6 +229,7 @@ TEST(MotionDecoder, RefusesAGroupOfNoPictures) {
   RangeEncoder encoder;
   AdaptiveBit other_count;
   encoder.raw_bit(kNotKey, true);
+  code_first(encoder, 0, 0);
   encoder.bit(other_count, false);
   EXPECT_EQ(MotionDecoder(sample_setup(), {}).decode(encoder.finish()).error().code,
             ErrorCode::kInvalidStream);

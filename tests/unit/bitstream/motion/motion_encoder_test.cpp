@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bitstream/motion/motion_bit_counter.h"
-#include "bitstream/motion/motion_decoder.h"
 #include "bitstream/track.h"
 #include "tests/unit/bitstream/motion/motion_sample.h"
 
@@ -20,8 +19,9 @@ TEST(MotionEncoder, GroupAtRestCostsAlmostNothing) {
   // For each part a span to the end over which it does not move: two bits, until contexts have adapted.
   std::size_t size = 0;
   for (int g = 0; g < 6; ++g) {
-    const CodedState held = sender.encoder.anchor(false);
+    const CodedState held = sender.encoder.anchor();
     MotionGroup group = knots_everywhere(held, {held}, kAllParts);
+    group.first = sender.encoder.next();
     group.pictures = 30;
     for (Track& track : group.tracks) track.front().picture = 29;
     size = sender.encoder.encode(group)->size();
@@ -30,17 +30,35 @@ TEST(MotionEncoder, GroupAtRestCostsAlmostNothing) {
   EXPECT_LE(size, 3U);
 }
 
-TEST(MotionEncoder, KeyGroupBeginsAtTheSeenState) {
-  const auto setup = sample_setup();
-  Sender sender(setup);
+TEST(MotionEncoder, GroupsBeginWhereTheOneBeforeEnds) {
+  Sender sender(sample_setup());
   const TrackHabits wild{.knot_one_in = 1, .moves_one_in = 1, .reach = 50};
   const MotionGroup first = sender.next(wild, 5);
   EXPECT_EQ(first.anchor, sender.seen);
+  EXPECT_EQ(first.first, 0);
   ASSERT_TRUE(sender.encoder.encode(first));
-  EXPECT_EQ(sender.encoder.anchor(false), last_of(first));
-  EXPECT_EQ(sender.encoder.anchor(true), sender.seen);
-  const auto key = *sender.encoder.encode(sender.next(wild, 5, true));
-  EXPECT_EQ(MotionDecoder(setup, sender.seen).decode(key)->anchor, sender.seen);
+  EXPECT_EQ(sender.encoder.anchor(), last_of(first));
+  EXPECT_EQ(sender.encoder.next(), 5);
+  const MotionGroup key = sender.next(wild, 7, true);
+  EXPECT_EQ(key.anchor, last_of(first)) << "a key group as well";
+  ASSERT_TRUE(sender.encoder.encode(key));
+  EXPECT_EQ(sender.encoder.next(), 12);
+}
+
+// SPEC 4.5: whatever came before, the first knots of a key group are the same bits.
+TEST(MotionEncoder, KeyGroupIsCodedFromTheRestStateWhateverItsAnchor) {
+  const auto setup = sample_setup();
+  const TrackHabits habits{.knot_one_in = 3, .moves_one_in = 1, .reach = 40};
+  std::vector<std::vector<std::uint8_t>> keys;
+  for (const unsigned seed : {1U, 2U}) {
+    Sender sender(setup, seed), same(setup, 3);
+    ASSERT_TRUE(sender.encoder.encode(sender.next(habits, 5)));
+    MotionGroup key = same.next(habits, 20, true);
+    key.first = sender.encoder.next();
+    key.anchor = sender.encoder.anchor();
+    keys.push_back(*sender.encoder.encode(key));
+  }
+  EXPECT_EQ(keys[0], keys[1]);
 }
 
 TEST(MotionEncoder, ChecksEveryBoundAndStaysUnchanged) {
@@ -56,6 +74,9 @@ TEST(MotionEncoder, ChecksEveryBoundAndStaysUnchanged) {
       [](auto& g) { g.pictures = 4; },  // a knot after the end
       [](auto& g) { g.key = false; },
       [](auto& g) { ++g.anchor[kYaw]; },
+      [](auto& g) { ++g.first; },
+      [](auto& g) { --g.first; },
+      [](auto& g) { g.missing = 1; },
       [](auto& g) {
         g.durations = {1, 2};
       },
@@ -83,7 +104,7 @@ TEST(MotionEncoder, ChecksEveryBoundAndStaysUnchanged) {
     ASSERT_FALSE(payload) << i;
     EXPECT_EQ(payload.error().code, ErrorCode::kInvalidArgument) << i;
   }
-  EXPECT_TRUE(sender.encoder.needs_key());
+  EXPECT_EQ(sender.encoder.groups(), 0);
   EXPECT_EQ(*sender.encoder.encode(good), *MotionEncoder(setup, sender.seen).encode(good));
 }
 

@@ -36,9 +36,9 @@ struct Sender {
 
   /// A group that can be coded next.
   MotionGroup next(const TrackHabits& habits, std::int32_t pictures, bool key = false) {
-    const bool begins = key || encoder.needs_key();
-    MotionGroup group = random_group(random, encoder.limits(), encoder.anchor(begins), pictures, habits);
-    group.key = begins;
+    MotionGroup group = random_group(random, encoder.limits(), encoder.anchor(), pictures, habits);
+    group.key = key || encoder.groups() == 0;
+    group.first = encoder.next();
     return group;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -30,6 +31,11 @@ PatternSyntax first_pattern(Bytes frame = {0x12, 0x00, 0x0A}) {
 
 PatternSyntax later_pattern(std::int32_t slot = 1, std::int32_t picture = 300, Bytes frame = {0x32, 0x00}) {
   return {slot, picture, {}, std::move(frame)};
+}
+
+PatternSyntax alone(PatternSyntax pattern) {
+  pattern.alone = true;
+  return pattern;
 }
 
 Setup sample_setup() {
@@ -165,6 +171,9 @@ TEST(PatternPacket, RefusesPacketsOfNoneTooManyOrMoreThanTheFirst) {
   EXPECT_FALSE(refused(Patterns(kMaxPatterns, later_pattern())));
   EXPECT_TRUE(refused(Patterns(kMaxPatterns + 1, later_pattern())));
   EXPECT_TRUE(refused({first_pattern(), later_pattern()}));
+  EXPECT_FALSE(refused({alone(later_pattern())}));
+  EXPECT_TRUE(refused({alone(later_pattern()), later_pattern()}));
+  EXPECT_TRUE(refused({later_pattern(), alone(later_pattern())}));
 }
 
 TEST(PatternPacket, FirstPatternIsOfSlotZeroAndPictureZero) {
@@ -205,16 +214,15 @@ Bytes later_packet(const Patterns& patterns, const Setup& setup = sample_setup()
 }
 
 TEST(PatternPacket, NamesWhatIsWrong) {
-  const auto code_of = [](const Bytes& payload, int pictures = kPictures) {
-    const auto read = begun().decode(payload, sample_setup(), pictures);
+  const auto code_of = [](const Bytes& payload) {
+    const auto read = begun().decode(payload, sample_setup(), kPictures);
     return read ? ErrorCode::kInternal : read.error().code;
   };
   auto wide = sample_setup();
   wide.patterns = 7;
   EXPECT_EQ(code_of(later_packet({later_pattern(5)}, wide)), ErrorCode::kInternal) << "the last slot";
   EXPECT_EQ(code_of(later_packet({later_pattern(6)}, wide)), ErrorCode::kTooLarge) << "a slot after it";
-  EXPECT_EQ(code_of(later_packet({later_pattern()}), 0), ErrorCode::kInvalidStream)
-      << "no picture has a state";
+  EXPECT_EQ(code_of(later_packet({alone(later_pattern(6))}, wide)), ErrorCode::kTooLarge);
   const Bytes two = later_packet({later_pattern(1, 300, Bytes(1, 0)), later_pattern(2, 200, Bytes(2, 0))});
   EXPECT_EQ(code_of(two), ErrorCode::kInternal);
   EXPECT_EQ(code_of({0xFF, 0xFF, 0xFF, 0xFF}), ErrorCode::kInvalidStream) << "no range code";
@@ -231,13 +239,111 @@ TEST(PatternPacket, AFrameWhoseLengthIsSentMayNotEndEarly) {
   EXPECT_EQ(read.error().code, ErrorCode::kTruncated);
 }
 
-TEST(PatternPacket, NothingIsReadBeforeTheFirstPatternOrBehindAnError) {
-  const Bytes later = later_packet({later_pattern()});
-  EXPECT_FALSE(PatternPacketReader().decode(later, sample_setup(), kPictures));
+TEST(PatternPacket, NothingIsReadBeforeTheFirstPattern) {
+  for (const PatternSyntax& pattern : {later_pattern(), alone(later_pattern())})
+    EXPECT_FALSE(PatternPacketReader().decode(later_packet({pattern}), sample_setup(), kPictures));
+}
+
+/// A scene: its first pattern, and pairs of one in the chain and one alone.
+struct Packets {
+  explicit Packets(int pairs = 4) {
+    std::mt19937 random(6);
+    PatternPacketWriter writer;
+    const auto add = [&](const Patterns& more) {
+      patterns.push_back(more);
+      payloads.push_back(*writer.encode(more, sample_setup(), patterns.size() == 1 ? 0 : kPictures));
+    };
+    add({first_pattern()});
+    for (int k = 0; k < pairs; ++k) {
+      add(random_packet(random, 2, 60));
+      add({alone(random_packet(random, 1, 60)[0])});
+    }
+  }
+  std::vector<Patterns> patterns;
+  std::vector<Bytes> payloads;
+};
+
+/// What a reader makes of a packet: nothing for an error.
+std::optional<Patterns> read(PatternPacketReader& reader, const Bytes& payload, int pictures = kPictures) {
+  const auto out = reader.decode(payload, sample_setup(), pictures);
+  return out ? std::optional(*out) : std::nullopt;
+}
+
+TEST(PatternPacket, OneThatIsAloneNeedsTheFirstPatternOnly) {
+  const Packets s(20);
+  PatternPacketReader all, few = begun();
+  for (std::size_t k = 0; k < s.payloads.size(); ++k) {
+    EXPECT_EQ(read(all, s.payloads[k]), s.patterns[k]) << "between those of the chain";
+    if (k == 0 || k % 2 != 0) continue;
+    EXPECT_EQ(read(few, s.payloads[k]), s.patterns[k]) << "without the chain";
+    EXPECT_EQ(later_packet(s.patterns[k]), s.payloads[k]);
+  }
+}
+
+TEST(PatternPacket, LossOfOneInTheChainCostsTheChainOnly) {
+  const Packets s;
   PatternPacketReader reader = begun();
-  EXPECT_FALSE(reader.decode(later, sample_setup(), 0));
-  EXPECT_FALSE(reader.decode(later, sample_setup(), kPictures)) << "contexts are lost";
-  EXPECT_TRUE(reader.decode(first_packet(), sample_setup(), 0));
+  EXPECT_EQ(read(reader, s.payloads[1]), s.patterns[1]);
+  for (std::size_t k = 4; k < s.payloads.size(); ++k)  // without 3
+    EXPECT_EQ(read(reader, s.payloads[k]), k % 2 == 0 ? s.patterns[k] : Patterns{}) << k;
+  EXPECT_EQ(read(reader, s.payloads[0]), s.patterns[0]);
+  EXPECT_EQ(read(reader, s.payloads[1]), s.patterns[1]) << "another scene has another chain";
+}
+
+TEST(PatternPacket, LossOfOneThatIsAloneCostsNoOther) {
+  const Packets s;
+  PatternPacketReader reader = begun();
+  for (const std::size_t k : {1U, 3U, 4U, 4U, 5U, 7U}) EXPECT_EQ(read(reader, s.payloads[k]), s.patterns[k]);
+}
+
+TEST(PatternPacket, OneInTheChainComesOnceAndInItsOrder) {
+  const Packets s;
+  for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{1, 1}, {1, 5, 3}}) {
+    PatternPacketReader reader = begun();
+    EXPECT_EQ(read(reader, s.payloads[order[0]]), s.patterns[order[0]]);
+    for (std::size_t k = 1; k < order.size(); ++k) EXPECT_EQ(read(reader, s.payloads[order[k]]), Patterns{});
+  }
+}
+
+// SPEC 4.4: the place of a picture among those with a state is another if motion is missing.
+TEST(PatternPacket, OneInTheChainNeedsAllStates) {
+  const Packets s;
+  for (const int pictures : {0, kPictures - 20, kPictures + 1}) {
+    PatternPacketReader reader = begun();
+    EXPECT_EQ(read(reader, s.payloads[1], pictures), Patterns{});
+    EXPECT_EQ(read(reader, s.payloads[2], pictures), s.patterns[2]) << "alone";
+    EXPECT_EQ(read(reader, s.payloads[3]), Patterns{}) << "the chain is broken";
+  }
+}
+
+TEST(PatternPacket, OneThatIsAloneHasItsPictureHoweverManyHaveAState) {
+  const int pictures = 20000, oldest = first_with_state(pictures);
+  for (const int picture : {oldest, oldest + 100, pictures - 1}) {
+    const Patterns one = {alone(later_pattern(3, picture))};
+    const Bytes payload = *PatternPacketWriter().encode(one, sample_setup(), pictures);
+    for (const int known : {picture - 2000, picture + 1, pictures + 1000}) {
+      PatternPacketReader reader = begun();
+      EXPECT_EQ(read(reader, payload, known), one) << picture << ' ' << known;
+    }
+  }
+}
+
+TEST(PatternPacket, AnErrorBreaksTheChainOnlyWhereItIs) {
+  const Packets s;
+  auto wide = sample_setup();
+  wide.patterns = 7;
+  PatternPacketReader reader = begun();
+  EXPECT_EQ(read(reader, s.payloads[1]), s.patterns[1]);
+  EXPECT_EQ(read(reader, later_packet({alone(later_pattern(6))}, wide)), std::nullopt);
+  EXPECT_EQ(read(reader, s.payloads[3]), s.patterns[3]);
+  reader = begun();
+  EXPECT_EQ(read(reader, later_packet({later_pattern(6)}, wide)), std::nullopt);
+  EXPECT_EQ(read(reader, s.payloads[1]), Patterns{}) << "contexts are lost";
+  EXPECT_EQ(read(reader, s.payloads[2]), s.patterns[2]);
+  reader = begun();
+  reader.lose();
+  EXPECT_EQ(read(reader, s.payloads[1]), Patterns{});
+  EXPECT_EQ(read(reader, s.payloads[2]), s.patterns[2]);
 }
 
 /// Likely bits cost next to nothing: a small packet could hold any number of patterns.
@@ -248,7 +354,10 @@ TEST(PatternPacket, HasNoMorePatternsThanAStore) {
   RangeEncoder first, encoder;
   first.bit(memory.has_length, false);
   write_open_frame(first, memory, first_pattern());
+  memory.packets = 1;
   encoder.raw_bit(kNotKey, false);
+  encoder.raw_bit(kNotKey, false);
+  code_chain(encoder, memory, kPictures);
   for (int k = 0; k <= kMaxPatterns; ++k) {
     ASSERT_TRUE(code_place(encoder, memory, kPictures, pattern));
     memory.add(pattern);
@@ -266,19 +375,26 @@ TEST(PatternPacket, HasNoMorePatternsThanAStore) {
 TEST(PatternPacket, SurvivesRandomBytes) {
   std::mt19937 random(8);
   const Bytes first = first_packet();
-  const Bytes later = later_packet(random_packet(random, 5, 30));
-  for (int i = 0; i < 5000; ++i) {
-    Bytes payload = i % 2 == 0 ? first : later;
+  const Bytes later = later_packet(random_packet(random, 5, 30)),
+              lone = later_packet({alone(later_pattern())});
+  for (int i = 0; i < 6000; ++i) {
+    Bytes payload = i % 3 == 0 ? first : i % 3 == 1 ? later : lone;
     for (unsigned k = 1 + random() % 6; k > 0; --k)
       payload[random() % payload.size()] = static_cast<std::uint8_t>(random());
     PatternPacketReader reader = begun();
     const auto read = reader.decode(payload, sample_setup(), kPictures);
-    if (!read) continue;
+    if (!read || read->empty()) continue;
     std::size_t bytes = 0;
     for (const PatternSyntax& p : *read) bytes += p.av1.size();
     EXPECT_LE(bytes, payload.size() + kMaxVirtualBytes + read->size() * kHeaderBytes);
-    EXPECT_TRUE(PatternPacketWriter().encode(*read, sample_setup(), kPictures));
+    const bool ahead = read->front().picture >= kPictures;  // alone, of a picture whose motion may be missing
+    EXPECT_TRUE(PatternPacketWriter().encode(*read, sample_setup(), kPictures) || ahead);
   }
+}
+
+// A first pattern that says it is alone would leave the writer without a first pattern.
+TEST(PatternPacket, FirstPatternIsNotAlone) {
+  EXPECT_FALSE(PatternPacketWriter().encode(Patterns{alone(first_pattern())}, sample_setup(), 0));
 }
 
 }  // namespace

@@ -2,20 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace fbs {
 namespace {
 
 /// Pictures that can be told apart: yaw and duration are their number.
-Result<void> add(Timeline& timeline, int first, int count) {
+Result<void> add(Timeline& timeline, int first, int count, int missing = 0) {
   std::vector<State> states(static_cast<std::size_t>(count));
   std::vector<std::uint32_t> durations;
   for (int i = 0; i < count; ++i) {
     states[i].pose[kYaw] = first + i;
     durations.push_back(static_cast<std::uint32_t>(first + i));
   }
-  return timeline.add(states, durations);
+  return timeline.add(states, durations, missing);
 }
 
 std::vector<RegionModes> modes(std::size_t count, BlendMode mode = BlendMode::kByTime) {
@@ -29,7 +30,7 @@ TEST(Timeline, EndCountsPicturesThatAreShownAndForgottenToo) {
   for (int first = 0; first < 1000; first += 100) {
     EXPECT_EQ(t.end(), first);
     ASSERT_TRUE(add(t, first, 100));
-    ASSERT_TRUE(t.release(modes(100)));
+    ASSERT_TRUE(t.release(first, modes(100)));
     while (t.has_next()) t.next();
   }
   EXPECT_EQ(t.find(0), nullptr);
@@ -39,7 +40,7 @@ TEST(Timeline, PicturesWaitUntilTheyAreReleased) {
   Timeline t;
   ASSERT_TRUE(add(t, 0, 5));
   EXPECT_FALSE(t.has_next());
-  ASSERT_TRUE(t.release(modes(2)));
+  ASSERT_TRUE(t.release(0, modes(2)));
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(t.has_next());
     const Timeline::Entry picture = t.next();
@@ -62,19 +63,65 @@ TEST(Timeline, ReleaseGivesEachPictureItsModes) {
   ASSERT_TRUE(add(t, 0, 3));
   auto some = modes(3);
   some[1][2] = BlendMode::kStillAfter;
-  ASSERT_TRUE(t.release(some));
+  ASSERT_TRUE(t.release(0, some));
   for (const RegionModes& expected : some) EXPECT_EQ(t.next().state.blend, expected);
 }
 
-TEST(Timeline, ReleaseOfPicturesWithoutMotionIsAnErrorAndDoesNothing) {
+/// Modes of the pictures that may be displayed.
+std::vector<BlendMode> shown(Timeline& t) {
+  std::vector<BlendMode> out;
+  while (t.has_next()) out.push_back(t.next().state.blend[0]);
+  return out;
+}
+
+constexpr auto kFirst = BlendMode{}, kBefore = BlendMode::kStillBefore, kAfter = BlendMode::kStillAfter;
+
+TEST(Timeline, ModesMayComeAheadOfTheStates) {
   Timeline t;
-  EXPECT_EQ(t.release(modes(1)).error().code, ErrorCode::kInvalidStream);
-  ASSERT_TRUE(add(t, 0, 3));
-  EXPECT_FALSE(t.release(modes(4)));
+  ASSERT_TRUE(t.release(0, modes(4, kAfter)));
   EXPECT_FALSE(t.has_next());
-  EXPECT_TRUE(t.release(modes(2)));
-  EXPECT_FALSE(t.release(modes(2)));
-  EXPECT_TRUE(t.release(modes(1)));
+  ASSERT_TRUE(add(t, 0, 3));
+  EXPECT_EQ(shown(t), std::vector(3, kAfter));
+  ASSERT_TRUE(add(t, 3, 3));
+  EXPECT_EQ(shown(t), std::vector{kAfter}) << "two have no modes yet";
+  ASSERT_TRUE(t.release(4, modes(4, kBefore)));
+  EXPECT_EQ(shown(t), std::vector(2, kBefore));
+  ASSERT_TRUE(add(t, 6, 3));
+  EXPECT_EQ(shown(t), std::vector(2, kBefore));
+}
+
+// SPEC 6.2
+TEST(Timeline, PicturesWhoseModesAreMissingHaveTheLastOnes) {
+  for (const bool ahead : {false, true}) {
+    Timeline t;
+    if (!ahead) {
+      ASSERT_TRUE(add(t, 0, 8));
+    }
+    ASSERT_TRUE(t.release(1, modes(2, kBefore)));
+    ASSERT_TRUE(t.release(5, modes(1, kAfter)));
+    if (ahead) {
+      ASSERT_TRUE(add(t, 0, 8));
+    }
+    EXPECT_EQ(shown(t), (std::vector{kFirst, kBefore, kBefore, kBefore, kBefore, kAfter}));
+  }
+}
+
+TEST(Timeline, BoundsTheModesThatAreAhead) {
+  Timeline t;
+  ASSERT_TRUE(add(t, 0, 3));
+  const auto far = t.release(kMaxWaitingPictures + 3, modes(1));
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error().code, ErrorCode::kTooLarge);
+  EXPECT_FALSE(t.has_next()) << "nothing happened";
+  ASSERT_TRUE(t.release(kMaxWaitingPictures + 2, modes(1, kAfter)));
+  EXPECT_EQ(shown(t), std::vector(3, kFirst));
+}
+
+TEST(Timeline, KnowsWhichStatesAreGuesses) {
+  Timeline t;
+  ASSERT_TRUE(add(t, 0, 3));
+  ASSERT_TRUE(add(t, 3, 5, 2));
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(t.find(i)->guessed, i == 3 || i == 4) << i;
 }
 
 TEST(Timeline, FindsWaitingPictures) {
@@ -109,7 +156,7 @@ TEST(Timeline, BoundsThePicturesThatWait) {
   const auto more = add(t, kMaxWaitingPictures, 1);
   ASSERT_FALSE(more);
   EXPECT_EQ(more.error().code, ErrorCode::kTooLarge);
-  ASSERT_TRUE(t.release(modes(1)));
+  ASSERT_TRUE(t.release(0, modes(1)));
   t.next();
   EXPECT_TRUE(add(t, kMaxWaitingPictures, 1)) << "one has gone";
   EXPECT_FALSE(add(t, kMaxWaitingPictures + 1, 1));

@@ -75,6 +75,14 @@ TEST(PictureSources, WithoutAFaceAllIsStillGround) {
             (std::vector<PatternWeight>{{0, true, kBlendOne * 3 / 4}, {1, true, kBlendOne / 4}}));
 }
 
+// Slot 1 is empty: the pattern of slot 2 is the second of the scene.
+TEST(PictureSources, NumbersAreRightWhereASlotIsEmpty) {
+  Writer w;
+  w.setup(setup_of(3)).geometry().surround().pattern();
+  w.motion(0, 10, true).pattern(face_picture(1), 2, 4).blend(10, BlendMode::kStillAfter);
+  EXPECT_EQ(sources_at(w, 2).regions[kMouth], (std::vector<PatternWeight>{{1, true, kBlendOne}}));
+}
+
 TEST(PictureSources, BeforeTheFirstPatternThereAreNone) {
   StreamDecoder decoder;
   decoder.record_patterns();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "tests/unit/toy_scene.h"
 
 namespace fbs {
@@ -43,6 +46,29 @@ TEST(Scene, NewGeometryRenewsTheTextureOfEveryPattern) {
   scene.set_geometry(geometry_of(kFollowOne));
   EXPECT_FALSE(same(scene.patterns[1].texture, before.patterns[1].texture)) << "the case must occur";
   for (const Pattern& p : scene.patterns) EXPECT_TRUE(same(p.texture, scene.geometry->texture_mesh(p.seen)));
+}
+
+TEST(Scene, StoresPatternsBySlotWhateverIsMissingBetweenThem) {
+  Scene scene = toy_scene(noise_picture(160, 128, 1));
+  const auto store = [&](std::int32_t slot, std::int32_t picture) {
+    Pattern pattern = scene.patterns.front();
+    pattern.slot = slot;
+    pattern.seen.picture = picture;
+    scene.store(std::move(pattern));
+  };
+  const auto stored = [&] {
+    std::vector<std::pair<int, int>> out;
+    for (const Pattern& p : scene.patterns) out.emplace_back(p.slot, p.seen.picture);
+    return out;
+  };
+  using Stored = std::vector<std::pair<int, int>>;
+  store(5, 7);
+  store(2, 8);
+  EXPECT_EQ(stored(), (Stored{{0, 0}, {2, 8}, {5, 7}}));
+  store(5, 9);
+  store(0, 10);
+  store(6, 11);
+  EXPECT_EQ(stored(), (Stored{{0, 10}, {2, 8}, {5, 9}, {6, 11}}));
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "bitstream/payload/sound_payload.h"
 #include "cli/stream/sound_interleaver.h"
 #include "decoder/stream/stream_decoder.h"
+#include "tests/unit/decoder/stream/stream_writer.h"
+
 namespace fbs::cli {
 namespace {
 
@@ -65,7 +68,17 @@ TEST(SoundPartsOfStream, AreTheSameAfterDamageAnywhere) {
     EXPECT_EQ(parts, decoded(damaged)) << at;
     lost += parts.size() < read(stream).size() ? 1 : 0;
   }
-  EXPECT_GT(lost, 10U);
+  EXPECT_GT(lost, 5U);
+}
+
+// SPEC 6.2: behind the head of a scene a loss costs no sound.
+TEST(SoundPartsOfStream, AreTheSameBehindLostMotion) {
+  Writer w;
+  w.setup().packet(PacketType::kSoundSetup, encode_sound_setup(kVoice)).pattern().motion(0, 5, true);
+  w.motion(5, 10).packet(PacketType::kSound, encode_sound({0, {{1}}}, kVoice)).motion(10, 15, true);
+  w.bytes[w.begins[4] + 3] ^= 1;
+  EXPECT_EQ(decoded(w.bytes).size(), 1U);
+  EXPECT_EQ(read(w.bytes), decoded(w.bytes));
 }
 
 TEST(SoundPartsOfStream, PicturesAreReleasedWithTheirSound) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bitstream/entropy/range_coder.h"
 #include "decoder/stream/stream_decoder.h"
 #include "tests/unit/decoder/stream/stream_writer.h"
 #include "tests/unit/toy_scene.h"
@@ -141,16 +142,36 @@ TEST(StreamDecoderPatterns, RecordsShareTheBytesOfTheirPacket) {
   EXPECT_EQ(records[2].picture, 4U);
 }
 
-// A pattern that is invalid costs those behind it in the packet as well.
-TEST(StreamDecoderPatterns, DamagedFrameInAPacketOfSeveralCostsTheRestOfTheScene) {
-  Writer w = begun();
+// A pattern that is invalid costs those behind it in the chain, and no picture.
+TEST(StreamDecoderPatterns, DamagedFrameInAPacketOfSeveralCostsTheRestOfItsChain) {
+  Writer w = begun(), good = begun();
   w.motion(0, 10, true).blend(3);
-  w.patterns({{1, 7, {}, w.frame(face_picture(1))}, {2, 4, {}, Bytes(40, 0xAB)}}).blend(7);
+  w.patterns({{1, 7, {}, w.frame(face_picture(1))}, {2, 4, {}, Bytes(40, 0xAB)}});
+  w.pattern(face_picture(2), 2, 6).blend(7);
+  good.motion(0, 10, true).blend(3).pattern(face_picture(1), 1, 7).blend(7);
   const Played result = played(w.bytes);
-  EXPECT_EQ(result.pictures.size(), 3U);
-  ASSERT_FALSE(result.errors.empty());
+  ASSERT_EQ(result.errors.size(), 1U);
   EXPECT_EQ(result.errors[0].code, ErrorCode::kInvalidStream);
   EXPECT_EQ(result.errors[0].byte_offset, w.begins[6]);
+  EXPECT_EQ(result.pictures, played(good.bytes).pictures);
+}
+
+TEST(StreamDecoderPatterns, OneThatIsAloneIsDrawnFromWhateverBecameOfTheChain) {
+  Writer other = begun();
+  const Bytes after_first = other.frame(face_picture(4));
+  Writer w = begun(), expected = begun();
+  w.motion(0, 10, true);
+  const std::size_t lost = w.bytes.size();
+  w.pattern(face_picture(1), 1, 5);
+  const std::size_t found = w.bytes.size();
+  w.patterns({{2, 7, {}, after_first, true}}).pattern(face_picture(2), 1, 6).blend(10);
+  expected.motion(0, 10, true).patterns({{2, 7, {}, after_first}}).blend(10);
+  w.bytes.erase(w.bytes.begin() + static_cast<std::ptrdiff_t>(lost),
+                w.bytes.begin() + static_cast<std::ptrdiff_t>(found));
+  const Played result = played(w.bytes);
+  EXPECT_EQ(result.errors.size(), 1U);
+  EXPECT_EQ(result.pictures, played(expected.bytes).pictures);
+  EXPECT_NE(result.pictures[7], played(sample().bytes).pictures[7]) << "it counts";
 }
 
 TEST(StreamDecoderPatterns, ModesOfTheBlendPacketAreUsed) {
@@ -347,19 +368,29 @@ TEST(StreamDecoderPatterns, OrderIsChecked) {
     write(w);
     return errors_of(w);
   };
+  const std::vector<ErrorCode> none;
   EXPECT_EQ(errors([](Writer& w) {
               w.told_pictures = 1000;
-              w.pattern(face_picture(1), 1, 400);
+              w.patterns({{1, 400, {}, w.frame(face_picture(1)), true}});
             }),
             invalid)
       << "of a picture without motion";
-  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 2, 5); }), invalid) << "slot 1 is still empty";
+  EXPECT_EQ(errors([](Writer& w) {
+              w.told_pictures = 1000;
+              w.pattern(face_picture(1), 1, 5);
+            }),
+            invalid)
+      << "in a chain with more pictures: some are missing";
+  EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1), 2, 5); }), none) << "slot 1 is still empty";
   EXPECT_EQ(errors([](Writer& w) { w.pattern(face_picture(1)); }), invalid) << "the first pattern once more";
-  EXPECT_EQ(errors([](Writer& w) { w.blend(11); }), invalid) << "ahead of the motion";
-  EXPECT_EQ(errors([](Writer& w) { w.blend(10).blend(1); }), invalid);
+  EXPECT_EQ(errors([](Writer& w) { w.blend(11); }), none) << "ahead of the motion";
+  EXPECT_EQ(errors([](Writer& w) {
+              for (int n = 0; n <= kMaxWaitingPictures; n += kMaxGroupPictures) w.blend(kMaxGroupPictures);
+            }),
+            std::vector{ErrorCode::kTooLarge})
+      << "too far ahead";
   EXPECT_EQ(errors([](Writer& w) { w.blend(5); }, 1), invalid) << "nothing is blended";
-  EXPECT_EQ(errors([](Writer& w) { w.blend(5).pattern(face_picture(1), 1, 2).blend(5); }),
-            std::vector<ErrorCode>());
+  EXPECT_EQ(errors([](Writer& w) { w.blend(5).pattern(face_picture(1), 1, 2).blend(5); }), none);
   Writer early;
   early.setup(setup_of(3)).blend(1);
   EXPECT_EQ(errors_of(early), invalid) << "before the first pattern";
@@ -373,11 +404,19 @@ TEST(StreamDecoderPatterns, SlotBeyondTheStoreIsTooLarge) {
 }
 
 TEST(StreamDecoderPatterns, BlendsBeginWithAKeyGroup) {
-  Writer w = begun();
+  RangeEncoder not_key;
+  not_key.raw_bit(kNotKey, false);
+  code_first(not_key, 0, 0);
+  EXPECT_EQ(errors_of(begun().motion(0, 10, true).packet(PacketType::kBlend, not_key.finish())),
+            std::vector<ErrorCode>{ErrorCode::kInvalidStream});
   BlendEncoder encoder;
-  ASSERT_TRUE(encoder.encode({true, std::vector<RegionModes>(5)}));
-  w.motion(0, 10, true).packet(PacketType::kBlend, encoder.encode({false, std::vector<RegionModes>(5)}));
-  EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kInvalidStream});
+  ASSERT_TRUE(encoder.encode({true, 0, 0, std::vector<RegionModes>(5)}));
+  Writer lost = begun();
+  lost.motion(0, 10, true)
+      .packet(PacketType::kBlend, encoder.encode({false, 5, 0, std::vector<RegionModes>(5)}));
+  const Played result = played(lost.bytes);
+  EXPECT_EQ(result.errors.size(), 1U) << "the key group has been lost";
+  EXPECT_TRUE(result.pictures.empty());
 }
 
 TEST(StreamDecoderPatterns, OnlyRecentPicturesMayHaveAPattern) {
@@ -396,34 +435,45 @@ TEST(StreamDecoderPatterns, TooManyPicturesThatWaitAreAnError) {
   EXPECT_EQ(errors_of(w), std::vector<ErrorCode>{ErrorCode::kTooLarge});
 }
 
-// Which blend belongs to which picture is not known after a loss; a new scene is.
-TEST(StreamDecoderPatterns, LossCostsTheRestOfTheScene) {
-  for (const std::size_t lost : {5u, 6u, 7u}) {  // blend, pattern, blend
+// SPEC 6.2
+TEST(StreamDecoderPatterns, LossCostsWhatNeedsThePacket) {
+  const auto write = [](bool with_pattern) {
     Writer w = begun();
-    w.motion(0, 10, true)
-        .blend(2)
-        .pattern(face_picture(1), 1, 7)
-        .blend(3, {}, true)
-        .motion(10, 15, true)
-        .blend(5);
-    const std::size_t second = w.bytes.size();
+    w.motion(0, 10, true).blend(2);
+    if (with_pattern) w.pattern(face_picture(1), 1, 7);
+    w.blend(3, {}, true).motion(10, 15, true).blend(5);
     fbs::Setup next = setup_of(3);
     next.before = {10, 30000};
     w.setup(next).geometry().surround().pattern().motion(0, 5, true).blend(5);
+    return w;
+  };
+  const Writer w = write(true);
+  const Played whole = played(w.bytes), plain = played(write(false).bytes);
+  ASSERT_EQ(whole.pictures.size(), 15U);
+  const auto expect = [&](std::size_t lost, std::size_t shown, const Played& as) {
     Bytes bytes = w.bytes;
     bytes[w.begins[lost] + 3] ^= 1;
-    ASSERT_LT(w.begins[lost] + 3, second);
     const Played result = played(bytes);
-    EXPECT_EQ(result.errors.size(), 1U);
-    ASSERT_EQ(result.pictures.size(), lost == 5 ? 5U : 15U) << lost;
-    for (std::size_t t = 2; t + 5 < result.pictures.size(); ++t) {
-      EXPECT_TRUE(result.held[t]);
-      EXPECT_EQ(result.pictures[t], result.pictures[1])
-          << "as it was drawn, whatever patterns have come since";
+    EXPECT_EQ(result.errors.size(), 1U) << lost;
+    EXPECT_EQ(result.positions, whole.positions) << lost;
+    for (std::size_t t = 0; t < 15; ++t) {
+      const bool held = t >= shown && t < 10;
+      EXPECT_EQ(result.held[t], held) << lost << ' ' << t;
+      EXPECT_EQ(result.pictures[t], as.pictures[held ? shown - 1 : t])
+          << lost << ": held as it was drawn, whatever patterns have come since";
     }
-    const Played whole = played(sample().bytes);
-    EXPECT_TRUE(std::equal(whole.pictures.begin(), whole.pictures.begin() + 5, result.pictures.end() - 5));
-  }
+  };
+  // A blend in front of a key group: the pattern has come when its pictures are released.
+  Writer late = begun();
+  late.motion(0, 10, true).pattern(face_picture(1), 1, 7).blend(5).blend(5);
+  Played expected = whole;
+  const Played together = played(late.bytes);
+  std::copy_n(together.pictures.begin(), 2, expected.pictures.begin());
+  expect(5, 10, expected);
+  expect(6, 10, plain);  // the pattern
+  expect(7, 2, whole);   // a blend, and the next one is not key
+  expect(8, 10, whole);  // motion of pictures that are not shown
+  expect(9, 5, whole);   // the last blend
 }
 
 TEST(StreamDecoderPatterns, SceneWithoutGeometryCrossFades) {

@@ -111,8 +111,9 @@ class Writer {
   Writer& motion(int from, int end, bool key = false, std::vector<std::uint32_t> durations = {}) {
     std::vector<CodedState> states;
     for (int t = from; t < end; ++t) states.push_back(coded_at(t));
-    MotionGroup group = knots_everywhere(motion_->anchor(key), states, setup_.parts);
+    MotionGroup group = knots_everywhere(motion_->anchor(), states, setup_.parts);
     group.key = key;
+    group.first = motion_->next();
     group.durations = std::move(durations);
     pictures_ += end - from;
     return packet(PacketType::kMotion, motion_->encode(group));
@@ -121,7 +122,8 @@ class Writer {
   Writer& blend(std::size_t pictures, BlendMode mode = {}, bool key = false) {
     RegionModes modes;
     modes.fill(mode);
-    return packet(PacketType::kBlend, blend_.encode({key || blend_.needs_key(), {pictures, modes}}));
+    return packet(PacketType::kBlend,
+                  blend_.encode({key || blend_.groups() == 0, blend_.next(), 0, {pictures, modes}}));
   }
   /// A scene of one pattern: pictures 0..`pictures` - 1.
   Writer& scene(const StreamPosition& before, int pictures, std::vector<std::uint32_t> durations = {}) {

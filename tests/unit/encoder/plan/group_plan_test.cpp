@@ -43,12 +43,13 @@ TEST(GroupPlan, FirstGroupIsAKeyGroupAndCanBeCoded) {
   const TrackPlanner planner(kFlatSteps, kAllParts);
   const TrackRate rate;
   const Durations durations(10, 0);
-  const MotionGroup first = plan_group(planner, {coder, pictures, durations, 3000, rate}, 1);
+  const MotionGroup first = plan_group(planner, {coder, true, pictures, durations, 3000, rate}, 1);
   EXPECT_TRUE(first.key);
   ASSERT_TRUE(coder.encode(first));
-  const MotionGroup second = plan_group(planner, {coder, pictures, durations, 3000, rate}, 1);
+  const MotionGroup second = plan_group(planner, {coder, false, pictures, durations, 3000, rate}, 1);
   EXPECT_FALSE(second.key);
-  EXPECT_EQ(second.anchor, coder.anchor(false));
+  EXPECT_EQ(second.anchor, coder.anchor());
+  EXPECT_EQ(second.first, 10);
   EXPECT_TRUE(coder.encode(second));
 }
 
@@ -58,7 +59,7 @@ TEST(GroupPlan, IsWithinItsBitsAndLeavesTheCoderAsItWas) {
   const TrackPlanner planner(kFlatSteps, kAllParts);
   const TrackRate rate;
   const Durations durations(20, 0);
-  const GroupInput input{coder, pictures, durations, 3000, rate};
+  const GroupInput input{coder, coder.groups() == 0, pictures, durations, 3000, rate};
   double last = 0;
   for (const double allowed : {400.0, 800.0, 1600.0}) {
     const PlannedGroup planned = plan_group_within(planner, input, allowed, 1, 1);

@@ -16,10 +16,11 @@ MotionTrack track_at(double lambda, double motion_kbps = 0) {
   Setup setup;
   setup.format.width = 176;
   setup.format.height = 144;
+  setup.format.frame_rate = {30, 1};
   setup.steps = kFlatSteps;
   RatePlan rate{OperatingPoint::at(50, 32), motion_kbps};
   rate.point.lambda = lambda;
-  return {setup, flat_anchor(), rate, kNominal};
+  return {setup, flat_anchor(), rate, SceneTiming(setup.format, {})};
 }
 
 /// A head that shakes, from a phase on.

@@ -108,8 +108,9 @@ TEST(TrackRate, IsNearWhatTheCoderWrites) {
     std::mt19937 random(4);
     double guessed = 0, written = 0;
     for (int g = 0; g < 12; ++g) {
-      MotionGroup group = random_group(random, coder.limits(), coder.anchor(coder.needs_key()), 30, habits);
-      group.key = coder.needs_key();
+      MotionGroup group = random_group(random, coder.limits(), coder.anchor(), 30, habits);
+      group.key = coder.groups() == 0;
+      group.first = coder.next();
       const auto payload = coder.encode(group);
       ASSERT_TRUE(payload);
       if (g >= 4) {  // both have learned

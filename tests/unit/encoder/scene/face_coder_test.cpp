@@ -151,13 +151,13 @@ TEST(FaceCoder, ARequestEndsALiveSceneOnce) {
   EXPECT_EQ(head.before(), 5U);
 }
 
-TEST(FaceCoder, LivePatternsBringABlendWithEachGroup) {
+TEST(FaceCoder, LivePatternsBringAUnitWithEachGroup) {
   RestingHead head(live({}));
   ASSERT_TRUE(head.coder().has_several_patterns());
   head.add(1);
-  EXPECT_EQ(head.taken(), (std::vector{kSetup, kGeometry, kSurround, kPattern, kMotion, kBlend}));
+  EXPECT_EQ(head.taken(), (std::vector{kSetup, kGeometry, kSurround, kPattern, kUnit}));
   head.add(2);
-  EXPECT_EQ(head.taken(), (std::vector{kMotion, kBlend}));
+  EXPECT_EQ(head.taken(), (std::vector{kUnit}));
 }
 
 TEST(FaceCoder, SeveralPatternsComeWhenTheirSegmentEnds) {

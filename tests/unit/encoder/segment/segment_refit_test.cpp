@@ -20,7 +20,8 @@ struct StillSegment {
 
   StillSegment()
       : refit(setup(), toy_geometry(), s.scene.patterns[0], WorkFrame::kWorkEyeDistance,
-              MotionTrack(setup(), coded_rest(), RatePlan{OperatingPoint::at(100, 48), 0}, 3000)) {
+              MotionTrack(setup(), coded_rest(), RatePlan{OperatingPoint::at(100, 48), 0},
+                          SceneTiming(setup().format, {}))) {
     for (const std::int32_t t : {10, 20}) s.add_pattern(rest(t), 1);
     for (std::size_t t = 0; t < kPictures; ++t) {
       EXPECT_TRUE(segment.pictures.add(rendered(s.scene, truth(t))));

@@ -10,7 +10,7 @@ namespace {
 
 /// Two groups of two pictures, the last of which begins another shot.
 SegmentStore store() {
-  SegmentStore out(toy_setup().format, coded_pose(toy_state()));
+  SegmentStore out(toy_setup().format, coded_pose(toy_state()), 1);
   for (unsigned t = 0; t < 4; ++t) {
     if (t == 3) out.cut();
     EXPECT_TRUE(out.add(noise_picture(160, 128, t)));
@@ -50,24 +50,11 @@ TEST(SegmentStore, TheScenesFirstPatternHasAStateOfItsOwn) {
   EXPECT_EQ(s.seen_state(scene, 0).pose, toy_state(90).pose);
 }
 
-TEST(SegmentStore, APatternTakesItsSlotOrTheNextFreeOne) {
-  Scene scene = toy_scene(noise_picture(160, 128, 1));
-  Pattern other = scene.patterns.front();
-  other.seen.picture = 7;
-  SegmentStore::put(scene, 1, other);
-  ASSERT_EQ(scene.patterns.size(), 2U);
-  other.seen.picture = 8;
-  SegmentStore::put(scene, 0, other);
-  ASSERT_EQ(scene.patterns.size(), 2U);
-  EXPECT_EQ(scene.patterns[0].seen.picture, 8);
-  EXPECT_EQ(scene.patterns[1].seen.picture, 7);
-}
-
 TEST(SegmentStore, ATrialOfTheCodersLeavesThemUnchanged) {
   SegmentStore s = store();
   SegmentStore::Coders trial = s.coders();
-  const auto tried = s.blend_payload(trial.blends, 0, 2);
-  const auto coded = s.blend_payload(s.coders().blends, 0, 2);
+  const auto tried = trial.blends.encode(s.blend_group(trial.blends, 0, 2));
+  const auto coded = s.coders().blends.encode(s.blend_group(s.coders().blends, 0, 2));
   ASSERT_TRUE(tried && coded);
   EXPECT_EQ(*tried, *coded);
 }

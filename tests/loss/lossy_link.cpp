@@ -1,0 +1,314 @@
+// lossy_link: a live stream over a link that loses packets, through the real decoder. What does a viewer see?
+//
+//   lossy_link STREAM.fbs SOURCE [--loss 10] [--burst 0] [--round-trip 0] [--wait 0.2] [--copies 0] [--seeds
+//   5]
+//
+//   --loss        percent of packets
+//   --burst       s: losses come in runs of this mean length; 0: each by itself
+//   --round-trip  s: what is lost is asked for and sent again, as often as needed; 0: never
+//   --wait        s that the receiver holds packets back for those that are missing
+//   --copies      each packet is sent again so many times, one group later each
+//
+// A packet of the link is a group's motion, pattern and blend. The head of a scene is not lost, as it would
+// be sent until it is confirmed. A picture is due when its group and `wait` have passed; it is frozen if it
+// has not been released by then, and right if its luma is that of the whole stream. Prints one line of JSON.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bitstream/packet.h"
+#include "cli/video/open/open_video.h"
+#include "decoder/stream/packet_times.h"
+#include "decoder/stream/stream_decoder.h"
+
+namespace {
+
+using namespace fbs;
+using Bytes = std::vector<std::uint8_t>;
+
+struct Options {
+  double loss = 0.1, burst = 0, round_trip = 0, wait = 0.2;
+  int copies = 0, seeds = 5;
+};
+
+struct Box {
+  int left, top, right, bottom;
+};
+
+/// What one packet of the link carries.
+struct Unit {
+  Bytes head;             // of a scene
+  Bytes bytes;            // motion, patterns and blends
+  double begin = 0;       // s, of its first picture
+  double end = 0;         // s, behind its last
+  std::size_t first = 0;  // picture of the stream
+};
+
+[[noreturn]] void give_up(const std::string& text) {
+  std::fprintf(stderr, "lossy_link: %s\n", text.c_str());
+  std::exit(1);
+}
+
+double seconds(std::uint64_t time) {
+  return static_cast<double>(time) / kTicksPerSecond;
+}
+
+std::vector<Unit> units_of(const Bytes& stream) {
+  PacketReader reader(stream);
+  PacketTimes times;
+  std::vector<Unit> units;
+  bool in_head = false;
+  Bytes head(kSignature.begin(), kSignature.end());
+  for (;;) {
+    const auto read = reader.next();
+    if (!read) give_up(read.error().text);
+    if (read->status != ReadStatus::kPacket) break;
+    const auto packet = std::span(stream).subspan(read->packet.offset, read->packet.size);
+    const auto timed = times.take(read->packet);
+    if (!timed) give_up(timed.error().text);
+    if (read->packet.type == PacketType::kSetup) in_head = true;
+    if (read->packet.type == PacketType::kMotion) {
+      units.push_back({std::move(head), {}, seconds(timed->first.time), 0, timed->first.pictures});
+      head.clear();
+      in_head = false;
+    }
+    if (read->packet.type == PacketType::kEnd) break;
+    Bytes& to = in_head || units.empty() ? head : units.back().bytes;
+    to.insert(to.end(), packet.begin(), packet.end());
+    if (!units.empty()) units.back().end = seconds(times.released().time);
+  }
+  return units;
+}
+
+double psnr(const Plane& a, const Plane& b, const Box& box) {
+  double sum = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const int d = a.row(y)[x] - b.row(y)[x];
+      sum += d * d;
+    }
+  const double mse = sum / ((box.right - box.left) * (box.bottom - box.top));
+  return mse <= 0 ? 60 : std::min(60.0, 10 * std::log10(65025 / mse));
+}
+
+struct Reference {
+  Plane luma;  // of the whole stream
+  Box face{};
+  double frame_db = 0, face_db = 0;
+};
+
+Box face_of(const StreamDecoder& decoder, int width, int height) {
+  Box box{width, height, 0, 0};
+  if (!decoder.scene().geometry) return {0, 0, width, height};
+  for (const auto& v : decoder.scene().geometry->project_vertices(decoder.state()))
+    box = {std::min(box.left, v.x / 64), std::min(box.top, v.y / 64), std::max(box.right, v.x / 64 + 1),
+           std::max(box.bottom, v.y / 64 + 1)};
+  return {std::clamp(box.left, 0, width - 8), std::clamp(box.top, 0, height - 8),
+          std::clamp(box.right, 8, width), std::clamp(box.bottom, 8, height)};
+}
+
+struct Sums {
+  double pictures = 0, right = 0, current = 0, within = 0, frame = 0, face = 0, longest = 0, worst = 0;
+};
+
+class Link {
+ public:
+  Link(const Bytes& stream, const std::string& source) : units_(units_of(stream)) {
+    auto video = open_video_source(source, {});
+    if (!video) give_up(video.error().text);
+    while (auto picture = (*video)->next()) {
+      if (!*picture) break;
+      source_.push_back(std::move((*picture)->picture.y));
+    }
+    StreamDecoder decoder;
+    decoder.feed(stream);
+    decoder.close();
+    Picture picture;
+    for (;;) {
+      const auto status = decoder.next();
+      if (!status) give_up(status.error().text);
+      if (*status != DecodeStatus::kPicture) break;
+      if (!decoder.render(picture)) give_up("cannot draw");
+      const std::size_t n = references_.size();
+      if (n >= source_.size()) break;
+      const int w = picture.width(), h = picture.height();
+      Reference r{picture.y, face_of(decoder, w, h), 0, 0};
+      r.frame_db = psnr(r.luma, source_[n], {0, 0, w, h});
+      r.face_db = psnr(r.luma, source_[n], r.face);
+      references_.push_back(std::move(r));
+      times_.push_back(seconds(decoder.position().time));
+    }
+  }
+
+  void run(const Options& options, unsigned seed, Sums& sums) const {
+    const std::vector<double> fed = arrivals(options, seed);
+    // Order in which the receiver feeds its decoder: in the stream's order as long as it waits, late ones
+    // later.
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < units_.size(); ++k)
+      if (fed[k] < kNever) order.push_back({fed[k], k});
+    std::stable_sort(order.begin(), order.end());
+    StreamDecoder decoder;
+    Picture picture;
+    Plane shown;
+    std::size_t next = 0;  // picture to be shown
+    double frozen_since = -1;
+    std::map<std::size_t, Plane> waiting;  // released before they are due
+    const auto show_until = [&](double now) {
+      for (; next < references_.size() && due(next, options) < now; ++next) {
+        const auto released = waiting.find(next);
+        const bool current = released != waiting.end();
+        if (current) shown = std::move(released->second);
+        waiting.erase(waiting.begin(), waiting.upper_bound(next));
+        count(next, current, shown, sums);
+        if (!current && frozen_since < 0) frozen_since = due(next, options);
+        if (current && frozen_since >= 0) {
+          sums.longest = std::max(sums.longest, due(next, options) - frozen_since);
+          frozen_since = -1;
+        }
+      }
+    };
+    for (const auto& [time, k] : order) {
+      show_until(time);
+      if (!units_[k].head.empty()) decoder.feed(units_[k].head);
+      decoder.feed(units_[k].bytes);
+      for (;;) {
+        const auto status = decoder.next();
+        if (!status) continue;
+        if (*status != DecodeStatus::kPicture) break;
+        if (!decoder.render(picture)) give_up("cannot draw");
+        const auto n = static_cast<std::size_t>(decoder.position().pictures);
+        if (n >= next)
+          waiting[n] = picture.y;
+        else if (n + 1 == next)
+          shown = picture.y;  // late, but nearer than what is shown
+      }
+    }
+    show_until(kNever);
+  }
+
+ private:
+  static constexpr double kNever = 1e9, kOneWay = 0.05;
+
+  [[nodiscard]] std::size_t unit_of(std::size_t picture) const {
+    std::size_t k = 0;
+    while (k + 1 < units_.size() && units_[k + 1].first <= picture) ++k;
+    return k;
+  }
+
+  /// When a picture is to be shown: all of a unit wait for the last of it to be coded.
+  [[nodiscard]] double due(std::size_t picture, const Options& options) const {
+    return times_[picture] + longest_ + kOneWay + options.wait;
+  }
+
+  /// When each unit is fed to the decoder.
+  [[nodiscard]] std::vector<double> arrivals(const Options& o, unsigned seed) const {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double leave = o.burst > 0 ? std::min(1.0, group_ / o.burst) : 1;
+    const double enter = o.burst > 0 ? leave * o.loss / (1 - o.loss) : o.loss;
+    bool bad = false;
+    std::vector<bool> lost;
+    for (std::size_t k = 0; k < units_.size(); ++k) {
+      if (o.burst > 0)
+        bad = bad ? uniform(random) >= leave : uniform(random) < enter;
+      else
+        bad = uniform(random) < o.loss;
+      lost.push_back(bad && units_[k].head.empty());
+    }
+    std::vector<double> fed;
+    double last = 0;
+    for (std::size_t k = 0; k < units_.size(); ++k) {
+      double arrives = lost[k] ? kNever : units_[k].end + kOneWay;
+      for (int c = 1; c <= o.copies && k + c < units_.size(); ++c)
+        if (!lost[k + c]) arrives = std::min(arrives, units_[k + c].end + kOneWay);
+      if (o.round_trip > 0 && arrives >= kNever) {
+        // Noticed when the next one comes, asked for, and lost again perhaps.
+        arrives = units_[k].end + kOneWay;
+        do arrives += group_ + o.round_trip;
+        while (uniform(random) < o.loss);
+      }
+      const double deadline = due(units_[k].first, o) - 1e-6;
+      if (arrives <= std::max(deadline, last)) {
+        last = std::max(arrives, last);
+        fed.push_back(last);
+      } else {
+        last = std::max(deadline, last);  // what follows is not held back any longer
+        fed.push_back(arrives);
+      }
+    }
+    return fed;
+  }
+
+  void count(std::size_t n, bool current, const Plane& shown, Sums& sums) const {
+    const Reference& r = references_[n];
+    ++sums.pictures;
+    if (shown.samples.empty()) return;
+    const bool right = current && shown.samples == r.luma.samples;
+    double frame = 0, face = 0;
+    if (!right) {
+      frame = psnr(shown, source_[n], {0, 0, shown.width, shown.height}) - r.frame_db;
+      face = psnr(shown, source_[n], r.face) - r.face_db;
+    }
+    sums.right += right;
+    sums.current += current;
+    sums.within += frame >= -1 && face >= -1;
+    sums.frame += frame;
+    sums.face += face;
+    if (current) sums.worst = std::min(sums.worst, face);
+  }
+
+  std::vector<Unit> units_;
+  std::vector<Plane> source_;
+  std::vector<Reference> references_;
+  std::vector<double> times_;  // s
+  double group_ = units_.size() > 2 ? units_[2].end - units_[2].begin : 0.2;
+  double longest_ = group_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3)
+    give_up(
+        "usage: lossy_link STREAM.fbs SOURCE [--loss %] [--burst s] [--round-trip s] [--wait s] [--seeds n]");
+  Options options;
+  for (int i = 3; i + 1 < argc; i += 2) {
+    const std::string name = argv[i];
+    const double value = std::atof(argv[i + 1]);
+    if (name == "--loss")
+      options.loss = value / 100;
+    else if (name == "--burst")
+      options.burst = value;
+    else if (name == "--round-trip")
+      options.round_trip = value;
+    else if (name == "--wait")
+      options.wait = value;
+    else if (name == "--copies")
+      options.copies = static_cast<int>(value);
+    else if (name == "--seeds")
+      options.seeds = static_cast<int>(value);
+    else
+      give_up("unknown option " + name);
+  }
+  std::ifstream file(argv[1], std::ios::binary);
+  const Bytes stream{std::istreambuf_iterator<char>(file), {}};
+  const Link link(stream, argv[2]);
+  Sums s;
+  for (int seed = 1; seed <= options.seeds; ++seed) link.run(options, static_cast<unsigned>(seed), s);
+  std::printf(
+      "{\"pictures\": %.0f, \"right\": %.4f, \"current\": %.4f, \"within\": %.4f, \"frame\": %.3f, \"face\": "
+      "%.3f, "
+      "\"longest\": %.2f, \"worst\": %.2f}\n",
+      s.pictures, s.right / s.pictures, s.current / s.pictures, s.within / s.pictures, s.frame / s.pictures,
+      s.face / s.pictures, s.longest, s.worst);
+}
