@@ -64,7 +64,7 @@ class FrameReader {
   bool take_motion(const Packet& packet) {
     if (!motion_) return false;
     const auto group = motion_->decode(packet.payload);
-    if (group) pictures_ += group->pictures;
+    if (group && *group) pictures_ += (*group)->pictures;
     return group.has_value();
   }
 
