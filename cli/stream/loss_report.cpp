@@ -40,7 +40,7 @@ Outcome LossReport::finish(StreamFile& file) const {
                  file.name().c_str(), places_, number(missing), number(all), number(held));
   if (!ended) std::fprintf(stderr, "fbs: %s: %s\n", file.name().c_str(), missing_end_text(decoder).c_str());
   if (missing > 0 && missing * kMuch >= all) return Outcome::kMuchLost;
-  return missing > 0 || !ended ? Outcome::kLittleLost : Outcome::kComplete;
+  return places_ > 0 || missing > 0 || !ended ? Outcome::kLittleLost : Outcome::kComplete;
 }
 
 std::string missing_end_text(const StreamDecoder& decoder) {

@@ -64,6 +64,7 @@ Result<void> PacketTimes::place(const MotionGroup& group, TimedPacket& out) {
 
 Result<void> PacketTimes::place(const BlendGroup& group, TimedPacket& out) {
   out.key = group.key;
+  out.missing = static_cast<std::uint64_t>(group.missing);
   return {};
 }
 

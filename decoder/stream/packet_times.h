@@ -43,7 +43,11 @@ class PacketTimes {
   Result<void> place(const End& end, TimedPacket& out);
   Result<void> place(const std::vector<ScenePattern>& patterns, TimedPacket& out);
   Result<void> place(const MotionGroup& group, TimedPacket& out);
-  Result<void> place(const Unit& unit, TimedPacket& out) { return place(unit.motion, out); }
+  Result<void> place(const Unit& unit, TimedPacket& out) {
+    auto placed = place(unit.motion, out);
+    if (out.missing == 0) out.missing = static_cast<std::uint64_t>(unit.blend.missing);
+    return placed;
+  }
   static Result<void> place(const BlendGroup& group, TimedPacket& out);
   Result<void> place(const SoundGroup& group, TimedPacket& out);
   static Result<void> place(std::monostate /*unused*/, TimedPacket& out);

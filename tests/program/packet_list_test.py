@@ -70,9 +70,9 @@ class PacketList(ProgramTest):
         self.write("bad.fbs", bytes(stream))
         listed = self.listed("bad.fbs", LITTLE_LOST)
         self.assertEqual(listed[listed.index(second):], whole[whole.index(second):])
-        damage = listed[listed.index(second) - 1]
+        damage = next(p for p in listed if p["type"] == "damage")
         self.assertEqual((damage["type"], damage["offset"], damage["offset"] + damage["bytes"], damage["seconds"]),
-                         ("damage", bad["offset"], second["offset"], None))
+                         ("damage", bad["offset"], bad["offset"] + bad["bytes"], None))
         self.assertIn("damaged", damage["error"])
 
     def test_text_has_a_line_for_each_packet(self):
