@@ -232,17 +232,16 @@ class PlaySound(Play):
         begin, end = sounds[len(sounds) // 2]
         data[(begin + end) // 2] ^= 255
         self.write("broken.fbs", data)
-        # The pictures behind the damage are held, the sound is silent as long, and the end comes when it would.
+        # The sound is silent for the packet alone, and the end comes when it would.
         player = self.open("broken.fbs")
         self.wait_for_picture(PICTURES - 1)
         self.quit(player)
         rows = self.times()
         self.assert_in_step(rows)
         heard, sound = self.heard(), self.decoded_sound()
-        self.assertEqual(len(self.runs(heard)), 1)
-        first = self.runs(heard)[0]
-        self.assertGreater(first[1] - first[0], 0.5 * RATE)
-        self.assertLess(first[1] - first[0], len(sound) - 0.5 * RATE)
+        runs = self.runs(heard)
+        self.assertGreater(runs[0][1] - runs[0][0], 0.5 * RATE)
+        self.assertLess(sum(end - begin for begin, end in runs), len(sound))
 
     def test_without_a_device_the_pictures_play_on(self):
         self.screen.environment |= {"SDL_DISKAUDIOFILE": str(self.folder / "absent" / "heard.raw")}
