@@ -11,13 +11,13 @@
 
 namespace fbs {
 
-/// For a source that is encoded as it happens.
 /// What a live stream does to survive lost packets.
 enum class Resilience : std::uint8_t {
   kNone,    ///< nothing: least bytes
   kPacket,  ///< each packet can be used without those before it but for the head of its scene
 };
 
+/// For a source that is encoded as it happens.
 struct LiveSettings {
   double delay = 0.2;  ///< s; length of the groups in which pictures are coded
   double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate

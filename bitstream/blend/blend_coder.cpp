@@ -14,16 +14,14 @@ bool in_range(const RegionModes& modes) {
                      [](BlendMode m) { return static_cast<int>(m) < kBlendModeCount; });
 }
 
-/// As before a scene, but for the number of the next picture.
-void reset(BlendMemory& memory) {
-  static const auto before_a_scene = trained<BlendMemory>(trained_blends());
-  const std::int32_t next = memory.next;
-  memory = before_a_scene;
-  memory.next = next;
+const BlendMemory& before_a_scene() {
+  static const auto memory = trained<BlendMemory>(trained_blends());
+  return memory;
 }
 
-void end(BlendMemory& memory, const BlendGroup& group) {
-  memory.next = group.first + static_cast<std::int32_t>(group.modes.size());
+/// Number of the picture behind a group.
+std::int32_t behind(const BlendGroup& group) {
+  return group.first + static_cast<std::int32_t>(group.modes.size());
 }
 
 }  // namespace
@@ -41,19 +39,19 @@ Result<std::vector<std::uint8_t>> BlendEncoder::encode(const BlendGroup& group, 
     return fail(ErrorCode::kInvalidArgument, "a blend group has 1 to 256 pictures");
   if (groups_ == 0 && !group.key)
     return fail(ErrorCode::kInvalidArgument, "the first blend group must be a key group");
-  if (group.first != memory_.next)
+  if (group.first != next_)
     return fail(ErrorCode::kInvalidArgument, "a blend group does not begin where the one before it ends");
   if (!std::all_of(group.modes.begin(), group.modes.end(), in_range))
     return fail(ErrorCode::kInvalidArgument, "a blend mode is out of range");
-  if (group.key) reset(memory_);
+  if (group.key) memory_ = before_a_scene();
   RangeEncoder encoder;
   if (!in_unit) {
     encoder.raw_bit(kNotKey, group.key);
-    code_first(encoder, group.first, memory_.next);
+    code_first(encoder, group.first, next_);
     code_count(encoder, memory_, static_cast<std::int32_t>(group.modes.size()));
   }
   code_modes(encoder, memory_, group);
-  end(memory_, group);
+  next_ = behind(group);
   ++groups_;
   return encoder.finish();
 }
@@ -72,7 +70,7 @@ Result<std::optional<BlendGroup>> BlendDecoder::decode(std::span<const std::uint
   RangeDecoder decoder(payload);
   BlendGroup group;
   group.key = decoder.raw_bit(kNotKey);
-  group.first = code_first(decoder, 0, memory_.next);
+  group.first = code_first(decoder, 0, order_.next);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "blend packet ends early", payload.size());
   if (!group.key && group.first == 0)
     return fail(ErrorCode::kInvalidStream, "the first blend packet of a scene is not key");
@@ -87,20 +85,17 @@ Result<std::optional<BlendGroup>> BlendDecoder::decode_in_unit(std::span<const s
 
 Result<std::optional<BlendGroup>> BlendDecoder::decode(RangeDecoder& decoder, BlendGroup group,
                                                        std::int32_t pictures) {
-  if (group.first < memory_.next) return std::nullopt;
-  group.missing = group.first - memory_.next;
-  if (group.missing > 0) needs_key_ = true;
-  if (needs_key_ && !group.key) return std::nullopt;
-  needs_key_ = true;  // until the whole group has been read
-  if (group.key) reset(memory_);
+  const auto missing = order_.begin(group.key, group.first);
+  if (!missing) return std::nullopt;
+  group.missing = *missing;
+  if (group.key) memory_ = before_a_scene();
   if (pictures == 0) pictures = code_count(decoder, memory_, 0);
   if (pictures > 0) group.modes.resize(pictures);
   const bool valid = pictures > 0 && code_modes(decoder, memory_, group);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "blend packet ends early");
   if (!valid) return fail(ErrorCode::kInvalidStream, "blend packet has a value out of range");
   if (!decoder.at_end()) return fail(ErrorCode::kInvalidStream, "blend packet has excess bytes");
-  end(memory_, group);
-  needs_key_ = false;
+  order_.end(behind(group));
   return group;
 }
 

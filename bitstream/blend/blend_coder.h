@@ -26,12 +26,13 @@ class BlendEncoder {
   /// Groups coded so far. The first is a key group.
   [[nodiscard]] int groups() const { return groups_; }
   /// Number of the first picture of the next group.
-  [[nodiscard]] std::int32_t next() const { return memory_.next; }
+  [[nodiscard]] std::int32_t next() const { return next_; }
 
  private:
   [[nodiscard]] Result<std::vector<std::uint8_t>> encode(const BlendGroup& group, bool in_unit);
 
   BlendMemory memory_;
+  std::int32_t next_ = 0;
   int groups_ = 0;
 };
 
@@ -47,7 +48,7 @@ class BlendDecoder {
                                                                  const MotionGroup& motion);
 
   /// True before the first group, after an error and after a missing group.
-  [[nodiscard]] bool needs_key() const { return needs_key_; }
+  [[nodiscard]] bool needs_key() const { return order_.needs_key; }
 
  private:
   /// @param pictures  of the group; 0: the code says
@@ -55,7 +56,7 @@ class BlendDecoder {
                                                          std::int32_t pictures);
 
   BlendMemory memory_;
-  bool needs_key_ = true;
+  GroupOrder order_;
 };
 
 /// The payload of a unit.

@@ -20,10 +20,8 @@ struct BlendMemory {
   AdaptiveBit other_count;
   std::int32_t pictures = 0;  ///< of the last group
   RegionModes last{};         ///< of the last picture
-  std::int32_t next = 0;      ///< number of the first picture of the next group
-  bool first = false;         ///< the picture is the first of a key group
-  /// Whether it is that, by region, and by how many of the regions before it have changed in this picture:
-  /// none, one, more.
+  /// By whether the picture is the first of a key group, by region, and by how many of the regions before it
+  /// have changed in this picture: none, one, more.
   std::array<std::array<std::array<AdaptiveBit, 3>, kRegionCount>, 2> changed;
   /// Modes as a binary tree of four levels, for the head's regions and for the others.
   std::array<std::array<AdaptiveBit, 16>, 2> tree;
@@ -41,11 +39,12 @@ inline constexpr int kModeBits = 4;
 static_assert(kBlendModeCount <= 1 << kModeBits);
 
 /// Codes the mode of a region in a picture.
+/// @param changed  contexts of the region
 /// @return false when what was read is not a mode
 template <class Coder>
-bool code_mode(Coder& coder, BlendMemory& memory, std::size_t region, int changes, BlendMode& mode) {
-  if (!coder.bit(memory.changed[memory.first ? 1 : 0][region][std::min(changes, 2)],
-                 mode != memory.last[region])) {
+bool code_mode(Coder& coder, BlendMemory& memory, std::array<AdaptiveBit, 3>& changed, std::size_t region,
+               int changes, BlendMode& mode) {
+  if (!coder.bit(changed[std::min(changes, 2)], mode != memory.last[region])) {
     if constexpr (Coder::kReads) mode = memory.last[region];
     return true;
   }
@@ -74,11 +73,12 @@ std::int32_t code_count(Coder& coder, BlendMemory& memory, std::int32_t pictures
 template <class Coder, class Group>
 bool code_modes(Coder& coder, BlendMemory& memory, Group& group) {
   for (auto& modes : group.modes) {
-    memory.first = group.key && group.first > 0 && &modes == group.modes.data();
+    const bool first = group.key && group.first > 0 && &modes == group.modes.data();
     int changes = 0;
     for (std::size_t region = 0; region < kRegionCount; ++region) {
       BlendMode mode = modes[region];
-      if (!code_mode(coder, memory, region, changes, mode)) return false;
+      if (!code_mode(coder, memory, memory.changed[first ? 1 : 0][region], region, changes, mode))
+        return false;
       if (mode != memory.last[region]) ++changes;
       memory.last[region] = mode;
       if constexpr (Coder::kReads) modes[region] = mode;

@@ -10,16 +10,13 @@ Result<std::optional<MotionGroup>> MotionDecoder::decode(std::span<const std::ui
   RangeDecoder decoder(payload);
   MotionGroup group;
   group.key = decoder.raw_bit(kNotKey);
-  group.first = code_first(decoder, 0, reference_.next);
+  group.first = code_first(decoder, 0, reference_.order.next);
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!group.key && group.first == 0)
     return fail(ErrorCode::kInvalidStream, "the first motion packet of a scene is not key");
-  group.missing = group.first - reference_.next;
-  if (group.missing < 0) return std::nullopt;
-  if (group.missing > 0) reference_.needs_key = true;
-  if (reference_.needs_key && !group.key) return std::nullopt;
-
-  reference_.needs_key = true;  // until the whole group has been read
+  const auto missing = reference_.order.begin(group.key, group.first);
+  if (!missing) return std::nullopt;
+  group.missing = *missing;
   if (group.key) reference_.reset();
   group.anchor = reference_.last;
   const bool valid = code_body(decoder, reference_, group, [](std::size_t) {});

@@ -24,7 +24,7 @@ class MotionDecoder {
   [[nodiscard]] Result<std::optional<MotionGroup>> decode(std::span<const std::uint8_t> payload);
 
   /// True before the first group, after an error and after a missing group.
-  [[nodiscard]] bool needs_key() const { return reference_.needs_key; }
+  [[nodiscard]] bool needs_key() const { return reference_.order.needs_key; }
 
  private:
   MotionReference reference_;

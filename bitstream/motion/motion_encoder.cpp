@@ -52,7 +52,7 @@ Result<std::vector<std::uint8_t>> MotionEncoder::encode(const MotionGroup& group
   if (group.key) reference_.reset();
   RangeEncoder encoder;
   encoder.raw_bit(kNotKey, group.key);
-  code_first(encoder, group.first, reference_.next);
+  code_first(encoder, group.first, next());
   code_body(encoder, reference_, group, [](std::size_t) {});
   reference_.end(group);
   ++groups_;

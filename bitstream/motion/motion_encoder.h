@@ -27,7 +27,7 @@ class MotionEncoder {
 
   /// The state before the first picture of the next group, and the number of that picture.
   [[nodiscard]] const CodedState& anchor() const { return reference_.last; }
-  [[nodiscard]] std::int32_t next() const { return reference_.next; }
+  [[nodiscard]] std::int32_t next() const { return reference_.order.next; }
 
   /// Groups coded so far. The first is a key group.
   [[nodiscard]] int groups() const { return groups_; }

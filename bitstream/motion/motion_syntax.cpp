@@ -35,8 +35,7 @@ void MotionReference::end(const MotionGroup& group) {
   time += group.missing_time;
   for (const std::uint32_t duration : group.durations) time += duration;
   if (group.durations.empty()) time += static_cast<std::uint32_t>(group.pictures) * nominal_duration;
-  next = group.first + group.pictures;
-  needs_key = false;
+  order.end(group.first + group.pictures);
 }
 
 }  // namespace fbs

@@ -54,11 +54,9 @@ struct MotionReference {
   std::uint32_t nominal_duration;  ///< 1/90000 s
   CodedState seen;                 ///< of the first pattern
   CodedState last;                 ///< of the last picture: the anchor of the next group. SPEC 5.2
-  std::int32_t next = 0;           ///< number of the first picture of the next group
-  std::uint32_t time = 0;          ///< of that picture, 1/90000 s since the start of the scene, modulo 2^32
-  bool needs_key = true;           ///< only a key group can follow
-  /// Of each part, key groups in a row that have left it as it was.
-  std::array<int, kPartCount> held{};
+  std::uint32_t time = 0;          ///< of the next group, 1/90000 s since the start of the scene, modulo 2^32
+  GroupOrder order;
+  std::array<int, kPartCount> held{};  ///< key groups in a row that have left a part as it was
   MotionMemory memory;
 };
 

@@ -52,8 +52,7 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
             a.resilience = to == "packet" ? Resilience::kPacket : Resilience::kNone;
           },
           "With --live: none takes the fewest bytes; packet makes each packet of use without those before "
-          "it, "
-          "for links that lose some")
+          "it, for links that lose some")
       ->check(CLI::IsMember({"none", "packet"}))
       ->type_name("none|packet")
       ->default_str("none");

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "decoder/export/head_recording.h"
 #include "decoder/expression/expression_targets.h"
+#include "decoder/export/head_recording.h"
 
 namespace fbs {
 

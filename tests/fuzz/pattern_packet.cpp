@@ -13,13 +13,18 @@ std::vector<fbs::fuzz::Bytes> fbs::fuzz::seeds_of(const Bytes& stream) {
 namespace {
 
 constexpr std::int32_t kSlots = 8, kPictures = 40;
+constexpr std::int32_t kMostAhead =
+    2048;  // of a pattern that is alone: whether its picture has come is not asked
 
 void check(const std::vector<fbs::PatternSyntax>& patterns, std::size_t bytes) {
   require(!patterns.empty() && patterns.size() <= fbs::kMaxPatterns, "a number of patterns");
   std::size_t left = bytes + fbs::kMaxVirtualBytes + patterns.size() * (fbs::kHeaderBytes + 1);
   for (const fbs::PatternSyntax& p : patterns) {
     require(p.slot >= 0 && p.slot < kSlots, "a slot out of range");
-    require(p.picture >= 0 && p.picture < kPictures, "a picture without a state");
+    if (p.alone)
+      require(p.picture >= 1 && p.picture <= kPictures + kMostAhead, "a picture out of range");
+    else
+      require(p.picture >= 0 && p.picture < kPictures, "a picture without a state");
     require(!p.av1.empty() && p.av1.size() <= left, "frames of more bytes than there are");
     left -= p.av1.size();
   }
@@ -46,6 +51,7 @@ void decode(bool begun, std::span<const std::uint8_t> payload) {
     }
     if (read->empty()) return;  // skipped
     check(*read, payload.size());
+    if (read->front().picture >= kPictures) return;  // no writer sends it before its picture
     const auto written = writer.encode(*read, setup, kPictures);
     require(written.has_value(), "a packet that was read cannot be written");
     require(*again.decode(*written, setup, kPictures) == *read, "round trip");

@@ -21,7 +21,6 @@
 #include <map>
 #include <optional>
 #include <random>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -199,15 +198,9 @@ class Link {
  private:
   static constexpr double kNever = 1e9, kOneWay = 0.05;
 
-  [[nodiscard]] std::size_t unit_of(std::size_t picture) const {
-    std::size_t k = 0;
-    while (k + 1 < units_.size() && units_[k + 1].first <= picture) ++k;
-    return k;
-  }
-
   /// When a picture is to be shown: all of a unit wait for the last of it to be coded.
   [[nodiscard]] double due(std::size_t picture, const Options& options) const {
-    return times_[picture] + longest_ + kOneWay + options.wait;
+    return times_[picture] + group_ + kOneWay + options.wait;
   }
 
   /// When each unit is fed to the decoder.
@@ -272,7 +265,6 @@ class Link {
   std::vector<Reference> references_;
   std::vector<double> times_;  // s
   double group_ = units_.size() > 2 ? units_[2].end - units_[2].begin : 0.2;
-  double longest_ = group_;
 };
 
 }  // namespace

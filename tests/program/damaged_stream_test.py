@@ -63,6 +63,7 @@ class DamagedStream(ProgramTest):
         self.assertEqual(len(pictures), len(self.whole.pictures))
         self.assertEqual(pictures[:len(before)], before)
         self.assertTrue(any(message in done.stderr.decode() for message in messages), done.stderr)
+        self.assertIn(b"damaged places: 1;", done.stderr)
 
     def test_packets_cover_the_stream(self):
         ends = [4] + [end for _, _, end in packets(self.stream)]

@@ -241,7 +241,11 @@ class PlaySound(Play):
         heard, sound = self.heard(), self.decoded_sound()
         runs = self.runs(heard)
         self.assertGreater(runs[0][1] - runs[0][0], 0.5 * RATE)
-        self.assertLess(sum(end - begin for begin, end in runs), len(sound))
+        self.assertEqual(len(runs), 2)
+        silence = runs[1][0] - runs[0][1]
+        self.assertGreater(silence, 0.5 * RATE)
+        self.assertLess(silence, 1.5 * RATE)
+        self.assertGreater(runs[1][1], len(sound) - 0.1 * RATE)
 
     def test_without_a_device_the_pictures_play_on(self):
         self.screen.environment |= {"SDL_DISKAUDIOFILE": str(self.folder / "absent" / "heard.raw")}

@@ -113,10 +113,10 @@ TEST(MotionReference, ResetsToWhatItKnowsBeforeAScene) {
   reference.memory.duration_history = {1, 2};
   reference.memory.tracks.to_end[0][0].update(true);
   reference.memory.track_history.change[3] = 5;
-  reference.next = 20;
+  reference.order.next = 20;
   reference.time = 60000;
   reference.reset();
-  EXPECT_EQ(reference.next, 20) << "its place in the scene stays";
+  EXPECT_EQ(reference.order.next, 20) << "its place in the scene stays";
   EXPECT_EQ(reference.time, 60000U);
   EXPECT_EQ(reference.memory.pictures, 6) << "as a live stream has as a rule";
   EXPECT_EQ(reference.memory.duration_history.second_last, 3000u);
