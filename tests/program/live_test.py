@@ -3,7 +3,8 @@ import os
 import select
 import subprocess
 
-from harness import (BLEND, FBS, MAX_SECONDS, MOTION, PATTERN, SETUP, SURROUND, TALK_Y4M, ProgramTest, packets, read_y4m)
+from harness import (BLEND, FBS, MAX_SECONDS, MOTION, PATTERN, SETUP, SURROUND, TALK_Y4M, UNIT, ProgramTest, packets,
+                     read_y4m)
 
 PICTURE = len(b"FRAME\n") + 176 * 144 * 3 // 2     # bytes of the talker's
 RATE = 30
@@ -11,12 +12,12 @@ GROUP = 6                                          # pictures of the delay of 0.
 
 
 def arrivals(stream):
-    """(bytes, pictures) of each piece of a stream that ends with a blend packet: the pictures it releases come then."""
+    """(bytes, pictures) of each piece of a stream that ends with the blends of a group: the pictures it releases come then."""
     found, begin, in_scene, shown = [], 4, 0, 0
     for kind, _, end in packets(stream):
         if kind == SETUP:
             in_scene = 0
-        if kind == BLEND:
+        if kind in (BLEND, UNIT):
             count = 1 if in_scene == 0 else GROUP
             in_scene += count
             found.append((end - begin, count))
@@ -25,9 +26,9 @@ def arrivals(stream):
 
 
 def blends(stream):
-    """Whole blend packets in the beginning of a stream."""
+    """Groups whose blends are in the beginning of a stream."""
     try:
-        return sum(kind == BLEND and end <= len(stream) for kind, _, end in packets(stream))
+        return sum(kind in (BLEND, UNIT) and end <= len(stream) for kind, _, end in packets(stream))
     except IndexError:  # it ends inside the length of a packet
         return 0
 
