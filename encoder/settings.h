@@ -14,7 +14,9 @@ namespace fbs {
 /// What a live stream does to survive lost packets.
 enum class Resilience : std::uint8_t {
   kNone,    ///< nothing: least bytes
-  kPacket,  ///< each packet can be used without those before it but for the head of its scene
+  kPacket,  ///< motion needs the head of its scene alone; patterns need those before them, so that lost
+            ///< packets are to be sent again
+  kStrong,  ///< patterns, too, need the head of their scene alone: for links without a way back
 };
 
 /// For a source that is encoded as it happens.

@@ -14,6 +14,7 @@ enum {
   PROP_LIVE,
   PROP_DELAY,
   PROP_BUFFER,
+  PROP_RESILIENCE,
   PROP_THREADS,
 };
 
@@ -25,6 +26,19 @@ static GType tune_type(void) {
       {0, NULL, NULL},
   };
   if (g_once_init_enter(&type)) g_once_init_leave(&type, g_enum_register_static("GstFbsEncTune", values));
+  return type;
+}
+
+static GType resilience_type(void) {
+  static gsize type = 0;
+  static const GEnumValue values[] = {
+      {FBS_RESILIENCE_NONE, "Nothing: fewest bits", "none"},
+      {FBS_RESILIENCE_PACKET, "Motion goes on; lost packets are to be sent again", "packet"},
+      {FBS_RESILIENCE_STRONG, "Motion and patterns go on", "strong"},
+      {0, NULL, NULL},
+  };
+  if (g_once_init_enter(&type))
+    g_once_init_leave(&type, g_enum_register_static("GstFbsEncResilience", values));
   return type;
 }
 
@@ -64,6 +78,9 @@ static void set_property(GObject* object, guint id, const GValue* value, GParamS
       break;
     case PROP_BUFFER:
       s->live_buffer = g_value_get_double(value);
+      break;
+    case PROP_RESILIENCE:
+      s->resilience = g_value_get_enum(value);
       break;
     case PROP_THREADS:
       s->threads = g_value_get_int(value);
@@ -110,6 +127,9 @@ static void get_property(GObject* object, guint id, GValue* value, GParamSpec* s
       break;
     case PROP_BUFFER:
       g_value_set_double(value, s->live_buffer);
+      break;
+    case PROP_RESILIENCE:
+      g_value_set_enum(value, s->resilience);
       break;
     case PROP_THREADS:
       g_value_set_int(value, s->threads);
@@ -165,6 +185,10 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
                  8, 0.2);
   install_double(type, PROP_BUFFER, "buffer", "Buffer",
                  "Live, with a bit rate: nothing waits longer to be sent, seconds", 60, 2);
+  g_object_class_install_property(
+      type, PROP_RESILIENCE,
+      g_param_spec_enum("resilience", "Resilience", "Live: what is done to survive lost packets",
+                        resilience_type(), FBS_RESILIENCE_NONE, PROPERTY_FLAGS));
   install_int(type, PROP_THREADS, "threads", "Threads",
               "Live: more than 1 code while the next pictures are analysed (0 = as many as there are cores)",
               0, FBS_MAX_THREADS, 0);

@@ -128,6 +128,36 @@ fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t s
   });
 }
 
+fbs_status fbs_decoder_feed_packet(fbs_decoder* decoder, uint64_t number, const uint8_t* bytes, size_t size) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (bytes == nullptr && size > 0) return d.error.set_argument(kNullPointer);
+  if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
+  if (d.broken || size == 0) return FBS_OK;
+  return guarded(d.error, [&] {
+    d.stream->feed_packet(number, {bytes, size});
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_get_missing(fbs_decoder* decoder, uint64_t* out, size_t most, size_t* count) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_decoder& d = *decoder;
+  if (count == nullptr || (out == nullptr && most > 0)) return d.error.set_argument(kNullPointer);
+  return guarded(d.error, [&] {
+    const auto missing = d.stream->missing_packets(most);
+    std::copy(missing.begin(), missing.end(), out);
+    *count = missing.size();
+    return FBS_OK;
+  });
+}
+
+fbs_status fbs_decoder_packets_lost(fbs_decoder* decoder, uint64_t before) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  decoder->stream->give_up_packets(before);
+  return FBS_OK;
+}
+
 fbs_status fbs_decoder_finish(fbs_decoder* decoder) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
@@ -153,8 +183,12 @@ fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info) {
     if (*status != DecodeStatus::kPicture) return *status == DecodeStatus::kEnd ? FBS_END : FBS_NEED_DATA;
     if (!d.stream->held()) d.drawn_with.reset();
     if (info != nullptr)
-      *info = {d.stream->position().pictures, d.stream->position().time, d.stream->duration(),
-               d.stream->held() ? 1 : 0, !d.stream->held() && d.stream->state().picture == 0 ? 1 : 0};
+      *info = {d.stream->position().pictures,
+               d.stream->position().time,
+               d.stream->duration(),
+               d.stream->held() ? 1 : 0,
+               !d.stream->held() && d.stream->state().picture == 0 ? 1 : 0,
+               static_cast<int>(d.stream->quality())};
     return FBS_OK;
   });
 }

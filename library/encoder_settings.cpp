@@ -34,6 +34,9 @@ Result<VideoFormat> video_format(const fbs_format& format) {
 
 }  // namespace
 
+static_assert(static_cast<int>(Resilience::kPacket) == FBS_RESILIENCE_PACKET);
+static_assert(static_cast<int>(Resilience::kStrong) == FBS_RESILIENCE_STRONG);
+
 Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   const auto format = video_format(settings.format);
   if (!format) return fail(format.error());
@@ -45,6 +48,8 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   if (settings.effort > kMaxEffort) return fail(ErrorCode::kInvalidArgument, "effort outside 0..2");
   if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
     return fail(ErrorCode::kInvalidArgument, "the tune is unknown");
+  if (settings.resilience < FBS_RESILIENCE_NONE || settings.resilience > FBS_RESILIENCE_STRONG)
+    return fail(ErrorCode::kInvalidArgument, "the resilience is unknown");
   EncoderInput out{*format, {}};
   out.settings.quality = settings.quality;
   out.settings.bitrate = settings.bitrate;
@@ -55,7 +60,9 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   out.settings.face = settings.face;
   out.settings.allow_no_face = settings.allow_no_face != 0;
   out.settings.key_interval = settings.key_interval;
-  if (settings.live != 0) out.settings.live = LiveSettings{settings.live_delay, settings.live_buffer};
+  if (settings.live != 0)
+    out.settings.live =
+        LiveSettings{settings.live_delay, settings.live_buffer, static_cast<Resilience>(settings.resilience)};
   out.settings.threads = settings.threads;
   return out;
 }

@@ -11,6 +11,8 @@ namespace {
 
 using namespace fbs;
 
+static_assert(FBS_MAX_FOUND_PACKET == packet_size(kMaxSearchedPayload));
+
 }  // namespace
 
 struct fbs_packet_reader {  // NOLINT(readability-identifier-naming): the interface is C

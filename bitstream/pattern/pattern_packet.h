@@ -55,9 +55,9 @@ class PatternPacketReader {
   [[nodiscard]] bool is_broken() const { return broken_; }
 
  private:
-  [[nodiscard]] Result<std::vector<PatternSyntax>> read(RangeDecoder& decoder, const Setup& setup,
-                                                        std::int32_t pictures, bool first, bool alone,
-                                                        PatternMemory& memory);
+  [[nodiscard]] static Result<std::vector<PatternSyntax>> read(RangeDecoder& decoder, const Setup& setup,
+                                                               std::int32_t pictures, bool first, bool alone,
+                                                               PatternMemory& memory);
 
   PatternMemory memory_;
   bool needs_first_ = true;

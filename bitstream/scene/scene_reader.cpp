@@ -51,6 +51,15 @@ void SceneReader::lose() {
   lost_ = lost_ || !motion_;
 }
 
+void SceneReader::go_back(const SceneReader& before) {
+  const std::int32_t displayed = pictures_.displayed();
+  const std::int64_t next_sound = next_sound_;
+  *this = before;
+  pictures_.skip_displayed(displayed);
+  next_sound_ = next_sound;
+  has_losses_ = true;
+}
+
 Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
   if (packet.type == PacketType::kSetup) return read_setup(packet);
   if (packet.type == PacketType::kEnd) return as_syntax(decode_end(packet.payload));
@@ -213,7 +222,8 @@ Result<SceneSyntax> SceneReader::read_sound(const Packet& packet) {
   if (!sound_) return SceneSyntax{};
   auto group = decode_sound(packet.payload, *sound_);
   if (!group) return fail(group.error());
-  if (group->first < next_sound_) return refuse("sound comes out of order");
+  if (group->first < next_sound_)
+    return has_losses_ ? Result<SceneSyntax>{} : refuse("sound comes out of order");
   next_sound_ = group->first + static_cast<std::int64_t>(group->frames.size());
   return SceneSyntax(std::move(*group));
 }

@@ -52,6 +52,12 @@ class SceneReader {
   [[nodiscard]] bool lost() const { return lost_; }
   /// Whether something is known to be missing since the last setup packet.
   [[nodiscard]] bool has_losses() const { return has_losses_; }
+  /// Reads again what has been read since `before`, with what had not come then. Pictures that have been
+  /// displayed and sound are not repeated.
+  /// @param before  this reader as it was, in the same scene
+  void go_back(const SceneReader& before);
+  /// Whether a pattern that others need is missing.
+  [[nodiscard]] bool has_broken_patterns() const { return patterns_.is_broken(); }
   /// A pattern could not be decoded: those that need it are of no use.
   void lose_patterns() {
     has_losses_ = true;

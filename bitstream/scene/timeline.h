@@ -1,6 +1,7 @@
 // The pictures of a scene between the packets that announce them and their display.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -43,6 +44,11 @@ class Timeline {
   [[nodiscard]] bool has_next() const { return next_ < released_; }
   /// The next picture to be displayed; has_next() is true.
   Entry next();
+
+  /// How many have been displayed.
+  [[nodiscard]] std::int32_t displayed() const { return next_; }
+  /// So many have been displayed, whether they are known or not.
+  void skip_displayed(std::int32_t pictures) { next_ = std::max(next_, pictures); }
 
   /// Pictures of the scene whose states have arrived.
   [[nodiscard]] std::int32_t end() const { return first_ + static_cast<std::int32_t>(entries_.size()); }

@@ -49,12 +49,15 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
   verb.add_option_function<std::string>(
           "--resilience",
           [&a](const std::string& to) {
-            a.resilience = to == "packet" ? Resilience::kPacket : Resilience::kNone;
+            a.resilience = to == "packet"   ? Resilience::kPacket
+                           : to == "strong" ? Resilience::kStrong
+                                            : Resilience::kNone;
           },
-          "With --live: none takes the fewest bytes; packet makes each packet of use without those before "
-          "it, for links that lose some")
-      ->check(CLI::IsMember({"none", "packet"}))
-      ->type_name("none|packet")
+          "With --live: none takes the fewest bytes; packet suits links on which lost packets are sent "
+          "again: "
+          "motion goes on without them; strong suits one-way links: so do patterns")
+      ->check(CLI::IsMember({"none", "packet", "strong"}))
+      ->type_name("none|packet|strong")
       ->default_str("none");
   verb.add_option("--key-interval", a.settings.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "

@@ -1,5 +1,6 @@
 #include "decoder/scene/scene_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace fbs {
@@ -14,8 +15,19 @@ void SceneBuilder::apply_surround() {
   if (geometry_) scene_.set_geometry({scene_.setup, *geometry_, surround_, rest_});
 }
 
-Result<SceneBuilder::MadePattern> SceneBuilder::make(const ScenePattern& pattern) {
-  auto frame = patterns_->decode_frame(pattern.coded.av1);
+Result<DecodedFrame> SceneBuilder::decode(const PatternSyntax& pattern, bool keeps) {
+  const auto known = std::find_if(decoded_.begin(), decoded_.end(), [&](const Decoded& d) {
+    return d.picture == pattern.picture && d.slot == pattern.slot;
+  });
+  if (known != decoded_.end()) return known->frame;
+  if (!keeps) decoded_.clear();
+  auto frame = patterns_->decode_frame(pattern.av1);
+  if (frame && keeps) decoded_.push_back({pattern.picture, pattern.slot, *frame});
+  return frame;
+}
+
+Result<SceneBuilder::MadePattern> SceneBuilder::make(const ScenePattern& pattern, bool keeps) {
+  auto frame = decode(pattern.coded, keeps);
   if (!frame) return fail(frame.error());
   if (pattern.is_first()) {
     rest_ = pattern.seen;

@@ -1,7 +1,9 @@
 // Builds the scene that pictures are drawn from, as its packets come.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bitstream/scene/scene_reader.h"
 #include "common/result.h"
@@ -26,18 +28,26 @@ class SceneBuilder {
     bool reduced;  ///< coded at reduced size
   };
   /// Decodes the next pattern, which is yet to be put into the scene.
+  /// @param keeps  it may come again: its picture is kept until a call without it, and not decoded twice
   /// @return errors of PatternDecoder
-  [[nodiscard]] Result<MadePattern> make(const ScenePattern& pattern);
+  [[nodiscard]] Result<MadePattern> make(const ScenePattern& pattern, bool keeps = false);
 
   [[nodiscard]] Scene& scene() { return scene_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
 
  private:
+  struct Decoded {
+    std::int32_t picture, slot;  ///< of the pattern
+    DecodedFrame frame;
+  };
+  [[nodiscard]] Result<DecodedFrame> decode(const PatternSyntax& pattern, bool keeps);
+
   Scene scene_;
   std::optional<Geometry> geometry_;
   SurroundMap surround_ = still_surround();
   State rest_;  ///< in which the first pattern was seen
   std::optional<PatternDecoder> patterns_;
+  std::vector<Decoded> decoded_;  ///< that may come again
 };
 
 }  // namespace fbs

@@ -1,5 +1,6 @@
 #include "decoder/stream/stream_decoder.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,15 @@ std::string missing_text(std::uint64_t pictures) {
 
 }  // namespace
 
+void StreamDecoder::feed_packet(std::uint64_t number, std::span<const std::uint8_t> bytes) {
+  if (!late_.has_begun()) packets_.feed(kSignature);
+  const std::size_t begin = std::min(bytes.size(), kSignature.size());
+  if (std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(begin), kSignature.begin(),
+                 kSignature.end()))
+    bytes = bytes.subspan(begin);
+  late_.feed(number, bytes);
+}
+
 Result<DecodeStatus> StreamDecoder::next() {
   for (;;) {
     if (reader_.pictures().has_next()) return show();
@@ -26,13 +36,18 @@ Result<DecodeStatus> StreamDecoder::next() {
       reader_.lose();
       return fail(read.error());
     }
-    if (read->status == ReadStatus::kNeedMore) return DecodeStatus::kNeedMore;
+    if (read->status == ReadStatus::kNeedMore) {
+      const auto bytes = late_.next(reader_);
+      if (!bytes) return DecodeStatus::kNeedMore;
+      packets_.feed(*bytes);
+      continue;
+    }
     if (read->status == ReadStatus::kEnd) {
       if (reader_.has_setup() || reader_.has_losses()) return DecodeStatus::kEnd;
       reader_.lose();  // reported once
       return fail(ErrorCode::kTruncated, "the stream ends before its setup", packets_.offset());
     }
-    tally_.count(read->packet);
+    if (!late_.is_again()) tally_.count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
     if (reader_.pictures().has_next()) tally_.note_startup();
   }
@@ -42,6 +57,9 @@ DecodeStatus StreamDecoder::show() {
   const Timeline::Entry next = reader_.pictures().next();
   picture_.show(next.state, clock_.now(), next.duration, scene_.scene());
   clock_.show(next.duration);
+  quality_ = next.guessed                    ? PictureQuality::kInterpolated
+             : reader_.has_broken_patterns() ? PictureQuality::kPatternMissing
+                                             : PictureQuality::kExact;
   return DecodeStatus::kPicture;
 }
 
@@ -98,6 +116,7 @@ Result<void> StreamDecoder::take(const Setup& setup, const Arrived& arrived) {
     reader_.lose_scene();
     return fail(missing.error());
   }
+  late_.begin_scene();
   next_scene_ = std::move(*next);
   return report_missing(*missing, arrived.lost);
 }
@@ -153,7 +172,7 @@ Result<void> StreamDecoder::take(const SurroundMap& surround, const Arrived& /*a
 Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, const Arrived& arrived) {
   std::vector<bool> reduced;
   for (const ScenePattern& pattern : patterns) {
-    auto made = scene_.make(pattern);
+    auto made = scene_.make(pattern, late_.is_kept());
     if (!made) {
       if (pattern.is_first())
         reader_.lose_scene();

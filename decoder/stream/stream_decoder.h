@@ -12,6 +12,7 @@
 #include "decoder/draw/renderer.h"
 #include "decoder/scene/scene_builder.h"
 #include "decoder/stream/held_picture.h"
+#include "decoder/stream/late_packets.h"
 #include "decoder/stream/sound_inbox.h"
 #include "decoder/stream/stream_clock.h"
 #include "decoder/stream/stream_tally.h"
@@ -22,6 +23,14 @@ enum class DecodeStatus : std::uint8_t {
   kPicture,   ///< the next picture's state is known: state(), and render() draws it
   kNeedMore,  ///< feed more bytes, or close()
   kEnd,       ///< the stream is complete
+};
+
+/// What a picture has suffered from losses.
+enum class PictureQuality : std::uint8_t {
+  kExact,           ///< nothing that is known
+  kPatternMissing,  ///< a pattern that was sent is missing
+  kInterpolated,    ///< its motion is missing, and lies between that before and behind
+  kHeld,            ///< it is missing, and the one before is repeated
 };
 
 /// Decodes one stream.
@@ -41,6 +50,18 @@ class StreamDecoder {
  public:
   /// Copies `bytes`.
   void feed(std::span<const std::uint8_t> bytes) { packets_.feed(bytes); }
+  /// The same with what a packet of a link brings: whole packets of the stream. Some may be missing, come
+  /// twice or late; a late one cannot change pictures that have been announced, but those behind them are as
+  /// if it had come in order. Not mixed with feed(). The signature may be left out.
+  /// @param number  one more for each packet sent
+  void feed_packet(std::uint64_t number, std::span<const std::uint8_t> bytes);
+  /// Packets of the link that are known to be missing and still of use, by rising number.
+  /// @param most  how many at most
+  [[nodiscard]] std::vector<std::uint64_t> missing_packets(std::size_t most) const {
+    return late_.missing(most);
+  }
+  /// Packets of the link below this number that are missing will not come.
+  void give_up_packets(std::uint64_t number) { late_.give_up(number); }
   /// No more bytes will come.
   void close() { packets_.close(); }
 
@@ -98,6 +119,8 @@ class StreamDecoder {
   [[nodiscard]] std::uint32_t duration() const { return picture_.duration(); }
   /// Whether the previous picture is repeated in place of a missing one.
   [[nodiscard]] bool held() const { return picture_.is_held(); }
+  /// How far it is what was sent.
+  [[nodiscard]] PictureQuality quality() const { return held() ? PictureQuality::kHeld : quality_; }
 
   /// Position of the first picture: not 0, 0 if the stream was joined in its middle.
   [[nodiscard]] const StreamPosition& start() const { return clock_.start(); }
@@ -155,11 +178,13 @@ class StreamDecoder {
   Renderer renderer_;
   std::optional<std::uint64_t> max_pixels_;
   PacketReader packets_;
+  LatePackets late_;
   SceneReader reader_;
   StreamClock clock_;
   std::optional<NextScene> next_scene_;  ///< begins when the clock is not behind
   SceneBuilder scene_;                   ///< what packets build
   HeldPicture picture_;                  ///< announced last
+  PictureQuality quality_{};             ///< of it, unless it is held
   std::optional<std::uint64_t> end_;     ///< number of pictures, when the end packet has been read
   SoundInbox sound_;
   StreamTally tally_;

@@ -11,7 +11,7 @@ MotionTrack::MotionTrack(const Setup& setup, const CodedState& seen, const RateP
                          const SceneTiming& timing)
     : steps_(setup.steps),
       timing_(timing),
-      coder_(setup, seen),
+      coder_(setup, seen, timing.repeats_moved),
       planner_(setup.steps, setup.parts, expression_penalty(rate.point.lambda)),
       base_lambda_(rate.point.lambda),
       lambda_(base_lambda_) {

@@ -31,6 +31,7 @@ SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& setti
     group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));
   }
   const bool each = settings.live && settings.live->resilience != Resilience::kNone;
+  repeats_moved = settings.live && settings.live->resilience == Resilience::kStrong;
   groups_per_key =
       each ? 1 : std::max(1, static_cast<int>(kKeySeconds * fps / static_cast<double>(group_pictures)));
   lookahead = std::max(1, static_cast<int>(std::lround(fps * kLookaheadSeconds)));

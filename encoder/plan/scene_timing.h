@@ -16,6 +16,7 @@ namespace fbs {
 struct SceneTiming {
   std::size_t group_pictures;      ///< pictures in a motion packet, after the first, which has its own
   int groups_per_key;              ///< every so many groups one needs no group before it
+  bool repeats_moved;              ///< see MotionEncoder
   std::uint64_t lookahead;         ///< pictures observed before the scene's head is written
   std::uint32_t nominal_duration;  ///< of a picture, 1/90000 s
 

@@ -36,7 +36,7 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
-  out.alone = settings.live->resilience != Resilience::kNone;
+  out.alone = settings.live->resilience == Resilience::kStrong;
   return out;
 }
 

@@ -31,6 +31,13 @@ typedef enum fbs_tune {
   FBS_TUNE_PSNR /**< the PSNR of the whole frame */
 } fbs_tune;
 
+/** What a live stream does to survive lost packets. */
+typedef enum fbs_resilience {
+  FBS_RESILIENCE_NONE,   /**< nothing: fewest bytes */
+  FBS_RESILIENCE_PACKET, /**< motion goes on without what is lost; patterns wait until it is sent again */
+  FBS_RESILIENCE_STRONG  /**< patterns go on without it, too: for links without a way back */
+} fbs_resilience;
+
 /** Filled by fbs_encoder_default_settings(&settings, sizeof settings), after which width and height are 0 and
  * must be set. */
 typedef struct fbs_encoder_settings {
@@ -50,6 +57,7 @@ typedef struct fbs_encoder_settings {
   int threads;         /**< live: 1, or more to code while the next pictures are analysed; the stream is the
                             same. 0 (default): as many as there are cores */
   int tune;            /**< fbs_tune, of files; default FBS_TUNE_EYE. No effect with `live` */
+  int resilience;      /**< fbs_resilience, with `live`; default FBS_RESILIENCE_NONE */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

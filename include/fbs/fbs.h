@@ -115,6 +115,14 @@ typedef struct fbs_const_picture {
   ptrdiff_t stride[3];
 } fbs_const_picture;
 
+/** What a picture has suffered from losses. */
+typedef enum fbs_quality {
+  FBS_QUALITY_EXACT = 0,           /**< nothing that is known */
+  FBS_QUALITY_PATTERN_MISSING = 1, /**< a pattern that was sent is missing */
+  FBS_QUALITY_INTERPOLATED = 2,    /**< its motion is missing, and lies between that before and behind */
+  FBS_QUALITY_HELD = 3             /**< it is missing, and the one before is shown in its place */
+} fbs_quality;
+
 /** A picture's place in its stream. */
 typedef struct fbs_picture_info {
   uint64_t number;   /**< from 0; missing numbers were lost */
@@ -122,6 +130,7 @@ typedef struct fbs_picture_info {
   uint32_t duration; /**< ticks, at least 1 */
   int held;          /**< 1: this picture was lost, and the previous one is shown in its place */
   int new_scene;     /**< 1: the first of a scene: decoding can begin here */
+  int quality;       /**< fbs_quality */
 } fbs_picture_info;
 
 /* ---- the face ---- */
@@ -215,6 +224,27 @@ FBS_API void fbs_decoder_close(fbs_decoder** decoder);
  * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
  *         FBS_ERROR_NO_MEMORY, with nothing taken */
 FBS_API fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size);
+
+/** The same for a link that loses packets: copies what one of its packets brings, which is whole packets of
+ * the stream, such as what fbs_encoder_pull() returns. Packets may be missing, come twice or late. A late one
+ * does not change pictures that have been returned; those behind it are as if it had come in order. A stream
+ * is fed by one of the two functions.
+ * @param number  one more for each packet that is sent
+ * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
+ *         FBS_ERROR_NO_MEMORY, with nothing taken */
+FBS_API fbs_status fbs_decoder_feed_packet(fbs_decoder* decoder, uint64_t number, const uint8_t* bytes,
+                                           size_t size);
+
+/** Numbers of packets that are missing and still of use, by rising number: to be asked for.
+ * @param out    null when most is 0
+ * @param most   how many at most
+ * @param count  set to how many were written
+ * @return FBS_OK, FBS_ERROR_ARGUMENT */
+FBS_API fbs_status fbs_decoder_get_missing(fbs_decoder* decoder, uint64_t* out, size_t most, size_t* count);
+
+/** Packets below this number that are missing will not come: they are not kept a place for.
+ * @return FBS_OK, FBS_ERROR_ARGUMENT */
+FBS_API fbs_status fbs_decoder_packets_lost(fbs_decoder* decoder, uint64_t before);
 
 /** Ends the stream: the rest is returned, then FBS_END. Repeating the call has no effect.
  * @return FBS_OK, FBS_ERROR_NO_MEMORY */

@@ -54,6 +54,9 @@ class Decoder {
   }
 
   void feed(const std::uint8_t* bytes, std::size_t size) { check(fbs_decoder_feed(get(), bytes, size)); }
+  void feed_packet(std::uint64_t number, const std::uint8_t* bytes, std::size_t size) {
+    check(fbs_decoder_feed_packet(get(), number, bytes, size));
+  }
   void finish() { check(fbs_decoder_finish(get())); }
   void reset() { check(fbs_decoder_reset(get())); }
 

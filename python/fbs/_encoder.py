@@ -21,6 +21,7 @@ Rate = Union[int, float, Fraction]
 
 _SIDES = range(64, 8193)
 _TUNES = ("eye", "psnr")
+_RESILIENCES = ("none", "packet", "strong")
 _MAX_DURATION = 60.0  # s
 
 
@@ -87,6 +88,9 @@ class Encoder:
         Seconds of pictures that are encoded as a group.
     live_buffer : float
         With `bitrate`: longest time that data waits to be sent, s.
+    resilience : {"none", "packet", "strong"}
+        Live, for links that lose packets. packet: motion goes on without them, and patterns wait until they are sent
+        again. strong: patterns go on, too.
     threads : int
         Live: 1, or more to encode while the next pictures are analysed. 0: as many as there are cores.
     matrix : {"bt601", "bt709", "unspecified"}
@@ -125,6 +129,7 @@ class Encoder:
         live: bool = False,
         live_delay: float = 0.2,
         live_buffer: float = 2,
+        resilience: str = "none",
         threads: int = 0,
         matrix: str = "bt601",
         full_range: bool = False,
@@ -138,6 +143,7 @@ class Encoder:
         _require("seconds", seconds is None or seconds > 0, seconds, "positive")
         _require("effort", effort in (0, 1, 2), effort, "0 to 2")
         _require("tune", tune in _TUNES, tune, "one of " + ", ".join(_TUNES))
+        _require("resilience", resilience in _RESILIENCES, resilience, "one of " + ", ".join(_RESILIENCES))
         _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")
         _require("face", face >= 0, face, "not negative")
         _require("matrix", matrix in MATRICES, matrix, "one of " + ", ".join(MATRICES))
@@ -166,6 +172,7 @@ class Encoder:
                 "live": int(live),
                 "live_delay": float(live_delay),
                 "live_buffer": float(live_buffer),
+                "resilience": _RESILIENCES.index(resilience),
                 "threads": threads,
             }
         )

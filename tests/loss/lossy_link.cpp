@@ -75,7 +75,7 @@ std::vector<Unit> units_of(const Bytes& stream) {
     const auto timed = times.take(read->packet);
     if (!timed) give_up(timed.error().text);
     if (read->packet.type == PacketType::kSetup) in_head = true;
-    if (read->packet.type == PacketType::kMotion) {
+    if (read->packet.type == PacketType::kMotion || read->packet.type == PacketType::kUnit) {
       units.push_back({std::move(head), {}, seconds(timed->first.time), 0, timed->first.pictures});
       head.clear();
       in_head = false;
@@ -178,8 +178,9 @@ class Link {
     };
     for (const auto& [time, k] : order) {
       show_until(time);
-      if (!units_[k].head.empty()) decoder.feed(units_[k].head);
-      decoder.feed(units_[k].bytes);
+      Bytes bytes = units_[k].head;
+      bytes.insert(bytes.end(), units_[k].bytes.begin(), units_[k].bytes.end());
+      decoder.feed_packet(k, bytes);
       for (;;) {
         const auto status = decoder.next();
         if (!status) continue;
@@ -225,9 +226,9 @@ class Link {
       for (int c = 1; c <= o.copies && k + c < units_.size(); ++c)
         if (!lost[k + c]) arrives = std::min(arrives, units_[k + c].end + kOneWay);
       if (o.round_trip > 0 && arrives >= kNever) {
-        // Noticed when the next one comes, asked for, and lost again perhaps.
-        arrives = units_[k].end + kOneWay;
-        do arrives += group_ + o.round_trip;
+        // Noticed when the next one comes, and asked for until it is there.
+        arrives = units_[k].end + kOneWay + group_;
+        do arrives += o.round_trip;
         while (uniform(random) < o.loss);
       }
       const double deadline = due(units_[k].first, o) - 1e-6;

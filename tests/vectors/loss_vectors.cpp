@@ -13,7 +13,7 @@ Bytes live(const std::vector<std::uint32_t>& durations = {}) {
   turning.yaw_deg = 20;
   EncoderSettings settings;
   settings.quality = 60;
-  settings.live = LiveSettings{.resilience = Resilience::kPacket};
+  settings.live = LiveSettings{.resilience = Resilience::kStrong};
   return encoded(pictures_of(turning), settings, durations);
 }
 

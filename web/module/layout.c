@@ -12,6 +12,7 @@ MEMBER(fbs_picture_info, time, 8);
 MEMBER(fbs_picture_info, duration, 16);
 MEMBER(fbs_picture_info, held, 20);
 MEMBER(fbs_picture_info, new_scene, 24);
+MEMBER(fbs_picture_info, quality, 28);
 
 SIZE(fbs_format, 32); /* eight numbers of four bytes */
 

@@ -27,6 +27,9 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   EXPECT_EQ(fbs_decoder_open(nullptr, nullptr), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_feed(none, &byte, 1), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_finish(none), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_feed_packet(none, 0, nullptr, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_get_missing(none, nullptr, 0, nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_packets_lost(none, 0), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_next(none, &info), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_reset(none), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_picture(none, &picture), FBS_ERROR_ARGUMENT);
@@ -142,13 +145,17 @@ class RandomCalls {
     const auto& stream = streams_[stream_];
     if (random_() % 16 == 0) at_ = random_() % (stream.size() + 1);
     const std::size_t size = std::min<std::size_t>(stream.size() - at_, random_() % 900);
-    const fbs_status status = fbs_decoder_feed(get(), stream.data() + at_, size);
+    const bool in_packets = random_() % 4 == 0;
+    const fbs_status status =
+        in_packets ? fbs_decoder_feed_packet(get(), number_ + random_() % 4, stream.data() + at_, size)
+                   : fbs_decoder_feed(get(), stream.data() + at_, size);
+    if (in_packets) ++number_;
     EXPECT_EQ(status, finished_ ? FBS_ERROR_ARGUMENT : FBS_OK);
     at_ += size;
   }
 
   void next() {
-    fbs_picture_info info{1, 2, 0, 5, 5};
+    fbs_picture_info info{1, 2, 0, 5, 5, 5};
     const fbs_status status = fbs_decoder_next(get(), random_() % 2 == 0 ? &info : nullptr);
     EXPECT_NE(status, FBS_ERROR_INTERNAL) << fbs_decoder_error(get());
     EXPECT_NE(status, FBS_ERROR_ARGUMENT) << fbs_decoder_error(get());
@@ -235,6 +242,7 @@ class RandomCalls {
   std::span<const std::vector<std::uint8_t>> streams_;
   ApiDecoder decoder_;
   std::size_t stream_ = 0, at_ = 0;
+  std::uint64_t number_ = 0;  // of a packet of a link
   bool finished_ = false, has_picture_ = false;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -89,6 +90,49 @@ TEST(DecoderApi, HeldPicturesAreThoseBefore) {
     before = std::move(now);
   }
   EXPECT_GT(held, 0);
+}
+
+TEST(DecoderApi, PacketsOfALinkMayComeLate) {
+  const auto bytes = vector_bytes("live.fbs");
+  std::vector<std::vector<std::uint8_t>> packets;
+  PacketReader reader(bytes);
+  for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next()) {
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(read->packet.offset);
+    packets.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(read->packet.size));
+  }
+  ASSERT_GT(packets.size(), 9u);
+
+  const ApiDecoder decoder = api_decoder();
+  const auto feed = [&](std::size_t k) {
+    ASSERT_EQ(fbs_decoder_feed_packet(decoder.get(), k, packets[k].data(), packets[k].size()), FBS_OK);
+  };
+  const auto worst = [&] {
+    int found = FBS_QUALITY_EXACT;
+    fbs_picture_info info{};
+    for (fbs_status status{}; (status = fbs_decoder_next(decoder.get(), &info)) != FBS_NEED_DATA;)
+      if (status == FBS_OK) found = std::max(found, info.quality);
+    return found;
+  };
+  for (std::size_t k = 0; k < 6; ++k) feed(k);
+  EXPECT_EQ(worst(), FBS_QUALITY_EXACT);
+  feed(7);
+  EXPECT_EQ(worst(), FBS_QUALITY_INTERPOLATED);
+  std::uint64_t missing[2] = {};
+  std::size_t count = 0;
+  ASSERT_EQ(fbs_decoder_get_missing(decoder.get(), missing, 2, &count), FBS_OK);
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(missing[0], 6u);
+  feed(6);
+  feed(8);
+  EXPECT_EQ(worst(), FBS_QUALITY_EXACT);
+  ASSERT_EQ(fbs_decoder_get_missing(decoder.get(), missing, 2, &count), FBS_OK);
+  EXPECT_EQ(count, 0u);
+  feed(10);
+  (void)worst();
+  ASSERT_EQ(fbs_decoder_packets_lost(decoder.get(), 10), FBS_OK);
+  ASSERT_EQ(fbs_decoder_get_missing(decoder.get(), missing, 2, &count), FBS_OK);
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(fbs_decoder_get_missing(decoder.get(), nullptr, 2, &count), FBS_ERROR_ARGUMENT);
 }
 
 TEST(DecoderApi, TellsTheFormatOnceTheSetupHasArrived) {

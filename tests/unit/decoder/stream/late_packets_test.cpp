@@ -1,0 +1,178 @@
+// Packets of a link that come late, twice or never. SPEC 6.4.
+#include "decoder/stream/late_packets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "decoder/stream/stream_decoder.h"
+#include "tests/unit/decoder/stream/stream_writer.h"
+#include "tests/unit/toy_scene.h"
+
+namespace fbs {
+namespace {
+
+constexpr int kGroups = 8, kGroup = 5, kPictures = kGroups * kGroup;
+
+/// Key groups of five pictures. Every other one brings a pattern, which needs the pattern before.
+const Writer& call() {
+  static const Writer w = [] {
+    Writer s;
+    s.setup(setup_of(3)).geometry().surround().pattern();
+    for (int k = 0; k < kGroups; ++k) {
+      s.motion(k * kGroup, (k + 1) * kGroup, true);
+      if (k % 2 == 1) s.pattern(face_picture(k), k / 2 % 2 + 1, (k + 1) * kGroup - 1);
+      s.blend(kGroup, {}, true);
+    }
+    return s;
+  }();
+  return w;
+}
+
+/// Groups: what a packet of the link brings. The head comes with the first.
+std::vector<Bytes> link_packets() {
+  const Writer& w = call();
+  std::vector<std::size_t> cuts = {0};
+  for (std::size_t k = 4; k < w.begins.size(); ++k)
+    if (k > 4 && static_cast<PacketType>(w.bytes[w.begins[k]]) == PacketType::kMotion)
+      cuts.push_back(w.begins[k]);
+  cuts.push_back(w.bytes.size());
+  std::vector<Bytes> out;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    out.emplace_back(w.bytes.begin() + static_cast<std::ptrdiff_t>(cuts[k]),
+                     w.bytes.begin() + static_cast<std::ptrdiff_t>(cuts[k + 1]));
+  return out;
+}
+
+constexpr std::uint64_t kFirst = 70;  // of the link
+
+/// Plays packets in this order, each as soon as it comes.
+Played played_in(const std::vector<int>& order, StreamDecoder& decoder) {
+  const auto packets = link_packets();
+  Played result;
+  for (const int k : order) {
+    decoder.feed_packet(kFirst + static_cast<std::uint64_t>(k), packets[static_cast<std::size_t>(k)]);
+    EXPECT_FALSE(play(decoder, result));
+  }
+  return result;
+}
+Played played_in(const std::vector<int>& order) {
+  StreamDecoder decoder;
+  return played_in(order, decoder);
+}
+
+const std::vector<Picture>& right() {
+  static const std::vector<Picture> pictures = played(call().bytes).pictures;
+  return pictures;
+}
+
+/// Numbers of the pictures that are not as in the whole stream.
+std::vector<std::size_t> wrong_in(const Played& result) {
+  std::vector<std::size_t> wrong;
+  for (std::size_t k = 0; k < result.pictures.size(); ++k)
+    if (!(result.pictures[k] == right()[result.positions[k].pictures])) wrong.push_back(k);
+  return wrong;
+}
+
+TEST(LatePackets, InOrderTheyAreTheStream) {
+  ASSERT_EQ(link_packets().size(), static_cast<std::size_t>(kGroups));
+  const Played result = played_in({0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(result.pictures, right());
+  EXPECT_TRUE(result.errors.empty());
+}
+
+TEST(LatePackets, ThoseBehindALateOneAreRight) {
+  // 1 brings a pattern that those of 3 and 5 need.
+  const Played result = played_in({0, 2, 3, 1, 4, 5, 6, 7});
+  ASSERT_EQ(result.pictures.size(), static_cast<std::size_t>(kPictures));
+  const auto wrong = wrong_in(result);
+  ASSERT_FALSE(wrong.empty());
+  EXPECT_GE(wrong.front(), static_cast<std::size_t>(kGroup));
+  EXPECT_LT(wrong.back(), static_cast<std::size_t>(4 * kGroup));
+}
+
+TEST(LatePackets, OneThatNeverComesIsFelt) {
+  const auto wrong = wrong_in(played_in({0, 2, 3, 4, 5, 6, 7}));
+  ASSERT_FALSE(wrong.empty());
+  EXPECT_EQ(wrong.back(), static_cast<std::size_t>(kPictures - 1)) << "its pattern is needed to the end";
+}
+
+TEST(LatePackets, SeveralMayBeLateInAnyOrder) {
+  for (const auto& order : {std::vector<int>{0, 3, 5, 1, 4, 2, 6, 7},
+                            {0, 2, 4, 3, 1, 5, 6, 7},
+                            {0, 6, 5, 4, 3, 2, 1, 7},
+                            {0, 2, 2, 1, 1, 4, 3, 5, 4, 6, 7, 7, 0}}) {
+    StreamDecoder decoder;
+    const Played result = played_in(order, decoder);
+    const auto wrong = wrong_in(result);
+    EXPECT_EQ(result.pictures.size(), static_cast<std::size_t>(kPictures));
+    EXPECT_TRUE(wrong.empty() || wrong.back() < static_cast<std::size_t>(7 * kGroup));
+    EXPECT_TRUE(decoder.missing_packets(9).empty());
+  }
+}
+
+TEST(LatePackets, TellsWhatIsMissing) {
+  StreamDecoder decoder;
+  (void)played_in({0, 3, 5}, decoder);
+  const std::vector<std::uint64_t> both = {kFirst + 1, kFirst + 2, kFirst + 4};
+  EXPECT_EQ(decoder.missing_packets(9), both);
+  EXPECT_EQ(decoder.missing_packets(1).size(), 1U);
+  decoder.give_up_packets(kFirst + 3);
+  EXPECT_EQ(decoder.missing_packets(9), std::vector<std::uint64_t>{kFirst + 4});
+  (void)played_in({4}, decoder);
+  EXPECT_TRUE(decoder.missing_packets(9).empty());
+}
+
+TEST(LatePackets, QualityTellsWhatWasLost) {
+  StreamDecoder decoder;
+  const auto packets = link_packets();
+  std::vector<PictureQuality> qualities;
+  const auto feed = [&](std::size_t k) {
+    decoder.feed_packet(k, packets[k]);
+    for (auto status = decoder.next(); !status || *status == DecodeStatus::kPicture; status = decoder.next())
+      if (status) qualities.push_back(decoder.quality());
+  };
+  for (const std::size_t k : {0, 2, 3, 1, 4}) feed(k);
+  ASSERT_EQ(qualities.size(), 5U * kGroup);
+  EXPECT_EQ(qualities[kGroup - 1], PictureQuality::kExact);
+  EXPECT_EQ(qualities[kGroup], PictureQuality::kInterpolated);
+  EXPECT_EQ(qualities[4 * kGroup - 1], PictureQuality::kPatternMissing);
+  EXPECT_EQ(qualities[5 * kGroup - 1], PictureQuality::kExact);
+}
+
+// A packet is not waited for without end: memory is bounded.
+TEST(LatePackets, ThereIsAnEndToWaiting) {
+  LatePackets late;
+  SceneReader reader;
+  const Bytes bytes = {1};
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    if (k % 10 == 3) continue;
+    late.feed(k, bytes);
+    while (late.next(reader)) {
+    }
+    EXPECT_LT(late.missing(1000).size(), 10U);
+  }
+}
+
+// Any order of packets, some lost and some twice: no failure, no picture twice, and right at the end where
+// all have come.
+TEST(LatePackets, AnyOrderIsSafe) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<int> order(kGroups - 1);
+    for (int k = 1; k < kGroups; ++k) order[static_cast<std::size_t>(k - 1)] = k;
+    std::shuffle(order.begin(), order.end() - 1, random);
+    order.insert(order.begin(), 0);
+    StreamDecoder decoder;
+    const Played result = played_in(order, decoder);
+    ASSERT_EQ(result.pictures.size(), static_cast<std::size_t>(kPictures));
+    for (std::size_t k = 0; k < result.positions.size(); ++k) ASSERT_EQ(result.positions[k].pictures, k);
+    for (std::size_t k = kPictures - kGroup; k < kPictures; ++k) ASSERT_EQ(result.pictures[k], right()[k]);
+  }
+}
+
+}  // namespace
+}  // namespace fbs
