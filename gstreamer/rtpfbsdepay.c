@@ -2,8 +2,8 @@
  * SECTION:element-rtpfbsdepay
  * @title: rtpfbsdepay
  *
- * Takes fbs out of RTP packets, as docs/rtp.md says. After a loss it waits for the next scene, and asks the
- * sender for one.
+ * Takes fbs out of RTP packets, as docs/rtp.md says. When the loss of a packet is felt beyond its own group
+ * it asks the sender for a scene.
  */
 #include <gst/rtp/gstrtpbasedepayload.h>
 #include <gst/rtp/gstrtpbuffer.h>
@@ -25,10 +25,13 @@ typedef struct {
 
   gboolean request_keyframe; /* property */
 
-  GstAdapter* group;      /* payloads since the last start */
-  gboolean in_group;      /* its start has come, and all since */
-  gboolean key;           /* it begins a scene */
-  gboolean waiting;       /* for a scene: what comes before is of no use */
+  GstAdapter* group;   /* payloads since the last start */
+  gboolean in_group;   /* its start has come, and all since */
+  gboolean key;        /* it begins a scene */
+  gboolean waiting;    /* for a scene: what comes before is of no use */
+  gboolean goes_on;    /* groups are of use without those before them */
+  gboolean incomplete; /* what is missing is felt up to the next scene */
+  fbs_packet_reader* reader;
   guint64 number;         /* of the first picture of the last scene */
   gboolean restarted;     /* the group's scene is of a stream that has begun again */
   gboolean begun;         /* the signature has been sent */
@@ -60,6 +63,7 @@ static void drop_group(GstRtpFbsDepay* self) {
 static void join(GstRtpFbsDepay* self) {
   drop_group(self);
   self->waiting = TRUE;
+  self->goes_on = self->incomplete = FALSE;
   self->requested = GST_CLOCK_TIME_NONE;
 }
 
@@ -86,54 +90,69 @@ static void ask_for_scene(GstRtpFbsDepay* self, GstClockTime now) {
                      gst_video_event_new_upstream_force_key_unit(GST_CLOCK_TIME_NONE, TRUE, 0));
 }
 
-static void lose(GstRtpFbsDepay* self) {
+static void wait_for_scene(GstRtpFbsDepay* self) {
   if (!self->waiting) GST_INFO_OBJECT(self, "a packet is lost, and with it the rest of its scene");
   drop_group(self);
   self->waiting = TRUE;
 }
 
+/* A packet is missing. If groups stand alone only its own is lost, unless that begins a scene: then the next
+ * one is found damaged. */
+static void lose(GstRtpFbsDepay* self) {
+  if (!self->goes_on || (self->in_group && self->key)) {
+    wait_for_scene(self);
+    return;
+  }
+  GST_DEBUG_OBJECT(self, "a packet is lost, and with it its group");
+  drop_group(self);
+}
+
 /* ---- groups ---- */
 
-/* Reads the setup packet at the beginning of a scene.
- * @return FALSE: there is none */
-static gboolean read_setup(const guint8* data, gsize size, fbs_packet_info* setup, fbs_format* format) {
-  fbs_packet_reader* reader = NULL;
-  gboolean found = FALSE;
+/* Reads the packets of a group, as a decoder would.
+ * @return FALSE: they are damaged, or the beginning of their scene is missing */
+static gboolean read_packets(GstRtpFbsDepay* self, const guint8* data, gsize size) {
+  fbs_packet_info packet;
   fbs_status status;
-  if (fbs_packet_reader_open(&reader) != FBS_OK) return FALSE;
-  fbs_packet_reader_feed(reader, (const guint8*)FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
-  fbs_packet_reader_feed(reader, data, size);
-  while (!found && (status = fbs_packet_reader_next(reader, setup)) == FBS_OK)
-    found = setup->type == FBS_PACKET_SETUP && setup->fault == NULL &&
-            fbs_packet_reader_get_format(reader, format) == FBS_OK;
-  fbs_packet_reader_close(&reader);
-  return found;
+  gboolean begins = !self->key;
+  if (self->key) {
+    fbs_packet_reader_reset(self->reader);
+    fbs_packet_reader_feed(self->reader, (const guint8*)FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
+    self->incomplete = FALSE;
+  }
+  fbs_packet_reader_feed(self->reader, data, size);
+  while ((status = fbs_packet_reader_next(self->reader, &packet)) == FBS_OK) {
+    if (packet.fault != NULL || packet.skipped) self->incomplete = TRUE;
+    if (packet.type == FBS_PACKET_SETUP && packet.fault == NULL) {
+      begins = TRUE;
+      self->restarted = packet.number < self->number || (packet.number == 0 && self->begun);
+      self->number = packet.number;
+    }
+    if (!self->key && (packet.type == FBS_PACKET_MOTION || packet.type == FBS_PACKET_UNIT))
+      self->goes_on = packet.key != 0;
+  }
+  return begins && status == FBS_NEED_DATA;
 }
 
-/* @return FALSE: these bytes begin no scene */
-static gboolean set_caps(GstRtpFbsDepay* self, const guint8* data, gsize size) {
-  fbs_packet_info setup;
-  fbs_format format;
-  if (!read_setup(data, size, &setup, &format)) return FALSE;
-  self->restarted = setup.number < self->number || (setup.number == 0 && self->begun);
-  self->number = setup.number;
-  gst_fbs_set_format(GST_RTP_BASE_DEPAYLOAD_SRCPAD(self), &format);
-  return TRUE;
-}
-
-/* Reads the format from a group that begins a scene. */
-static gboolean take_format(GstRtpFbsDepay* self) {
+/* Reads a group, and tells the format of one that begins a scene.
+ * @return FALSE: it is of no use */
+static gboolean read_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
-  const gboolean taken = set_caps(self, gst_adapter_map(self->group, size), size);
+  fbs_format format;
+  const gboolean read = read_packets(self, gst_adapter_map(self->group, size), size);
   gst_adapter_unmap(self->group);
-  return taken;
+  if (read && self->key) {
+    if (fbs_packet_reader_get_format(self->reader, &format) != FBS_OK) return FALSE;
+    gst_fbs_set_format(GST_RTP_BASE_DEPAYLOAD_SRCPAD(self), &format);
+  }
+  return read;
 }
 
 /* @return null: it is none */
 static GstBuffer* whole_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
-  if (self->key && !take_format(self)) {
-    lose(self);
+  if (!read_group(self)) {
+    wait_for_scene(self);
     return NULL;
   }
   GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(self->group, size));
@@ -176,13 +195,14 @@ static GstBuffer* gst_rtp_fbs_depay_process(GstRTPBaseDepayload* depay, GstRTPBu
     begin_group(self, header);
   else if (!self->in_group || gst_adapter_available(self->group) > MAX_GROUP)
     lose(self);
-  if (self->waiting) {
-    drop_group(self);
-    ask_for_scene(self, now);
-    return NULL;
+  GstBuffer* out = NULL;
+  if (self->waiting) drop_group(self);
+  if (self->in_group) {
+    gst_adapter_push(self->group, gst_rtp_buffer_get_payload_subbuffer(rtp, GST_FBS_RTP_HEADER, (guint)-1));
+    if (gst_rtp_buffer_get_marker(rtp)) out = whole_group(self);
   }
-  gst_adapter_push(self->group, gst_rtp_buffer_get_payload_subbuffer(rtp, GST_FBS_RTP_HEADER, (guint)-1));
-  return gst_rtp_buffer_get_marker(rtp) ? whole_group(self) : NULL;
+  if (self->waiting || self->incomplete) ask_for_scene(self, now);
+  return out;
 }
 
 /* The jitter buffer (do-lost) says so when the packet should have been there, a group before the next one
@@ -196,7 +216,7 @@ static gboolean gst_rtp_fbs_depay_packet_lost(GstRTPBaseDepayload* depay, GstEve
   gst_structure_get_uint64(lost, "timestamp", &now);
   if (may_be_parity) return TRUE;
   lose(self);
-  ask_for_scene(self, now);
+  if (self->waiting) ask_for_scene(self, now);
   return TRUE; /* no gap: the picture is held */
 }
 
@@ -240,6 +260,7 @@ static void gst_rtp_fbs_depay_get_property(GObject* object, guint id, GValue* va
 
 static void gst_rtp_fbs_depay_finalize(GObject* object) {
   g_object_unref(GST_RTP_FBS_DEPAY(object)->group);
+  fbs_packet_reader_close(&GST_RTP_FBS_DEPAY(object)->reader);
   G_OBJECT_CLASS(gst_rtp_fbs_depay_parent_class)->finalize(object);
 }
 
@@ -271,6 +292,7 @@ static void gst_rtp_fbs_depay_class_init(GstRtpFbsDepayClass* type) {
 
 static void gst_rtp_fbs_depay_init(GstRtpFbsDepay* self) {
   self->group = gst_adapter_new();
+  fbs_packet_reader_open(&self->reader); /* null without memory: no group is read */
   self->request_keyframe = DEFAULT_REQUEST_KEYFRAME;
   join(self);
 }

@@ -1,5 +1,6 @@
 // The packet reader of fbs/packet.h.
 #include <memory>
+#include <variant>
 
 #include "bitstream/packet.h"
 #include "decoder/stream/packet_times.h"
@@ -89,8 +90,11 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
              static_cast<uint32_t>(until.pictures - from.pictures),
              from.time,
              until.time,
-             nullptr};
+             nullptr,
+             0};
     if (timed) {
+      info->skipped =
+          is_of_scene(packet.type) && std::holds_alternative<std::monostate>(timed->syntax) ? 1 : 0;
       info->key = timed->key ? 1 : 0;
       info->number = timed->first.pictures;
       info->time = timed->first.time;

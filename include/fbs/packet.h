@@ -57,6 +57,7 @@ typedef struct fbs_packet_info {
   /** Why a decoder leaves it out: its payload is damaged, or it may not stand where it does. Null: it does
    * not, unless something before it was lost. Valid until the next call. */
   const char* fault;
+  int skipped; /**< 1: a decoder leaves it out since it needs what was lost, or has come before */
 } fbs_packet_info;
 
 typedef struct fbs_packet_reader fbs_packet_reader;

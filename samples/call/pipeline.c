@@ -15,14 +15,15 @@
 static char* sending(const CallOptions* o) {
   return g_strdup_printf(
       "filesrc name=picture_file ! decodebin ! videoconvert ! video/x-raw,format=I420 ! queue ! clocksync "
-      " ! queue leaky=downstream max-size-buffers=2 ! fbsenc name=encoder bitrate=%d delay=%f ! rtpfbspay "
+      " ! queue leaky=downstream max-size-buffers=2 ! fbsenc name=encoder bitrate=%d delay=%f "
+      "resilience=%s ! rtpfbspay "
       "name=picture_out pt=%d "
       "filesrc name=sound_file ! decodebin ! audioconvert ! audioresample ! "
       "audio/x-raw,rate=48000,channels=1 "
       " ! audiobuffersplit output-buffer-duration=1/50 ! queue ! clocksync ts-offset=20000000 "
       " ! opusenc name=voice_encoder bitrate=%d audio-type=voice inband-fec=true packet-loss-percentage=%d "
       " ! rtpopuspay name=voice_out pt=%d ",
-      o->bitrate, o->delay, PAYLOAD_PICTURES, o->sound_bitrate, o->loss > 0 ? 10 : 0, PAYLOAD_VOICE);
+      o->bitrate, o->delay, o->repair == REPAIR_NONE ? "strong" : "packet", PAYLOAD_PICTURES, o->sound_bitrate, o->loss > 0 ? 10 : 0, PAYLOAD_VOICE);
 }
 
 static char* receiving(const CallOptions* o) {

@@ -82,6 +82,39 @@ TEST(RtpFbs, AfterALossNothingComesUpToTheNextScene) {
   }
 }
 
+TEST(RtpFbs, GroupsThatStandAloneGoOnAfterALoss) {
+  for (const char* settings : {"resilience=packet", "resilience=strong"}) {
+    const std::vector<Buffer> groups = encoded(kPictures, {}, 1, settings);
+    const std::size_t count = paid(groups, 100).size();
+    std::size_t last_of_head = 0;
+    for (const Buffer& packet : paid(groups, 100)) {
+      if (has_marker(packet)) break;
+      ++last_of_head;
+    }
+    for (std::size_t lost = last_of_head + 2; lost < count; ++lost) {
+      const Harness harness = depayloader();
+      const std::vector<Buffer> out = without(harness.get(), groups, lost);
+      EXPECT_EQ(out.size(), groups.size() - 1) << settings << ' ' << lost;
+      const Decoded shown = decoded(joined(out));
+      EXPECT_LE(shown.errors, 1) << settings << ' ' << lost;
+      EXPECT_GE(shown.pictures.size(), kPictures - 6U) << settings << ' ' << lost;
+    }
+  }
+}
+
+TEST(RtpFbs, ASceneThatIsLostWholeIsNoticed) {
+  const std::vector<Buffer> groups = encoded(kPictures, {30}, 1, "resilience=packet");
+  std::vector<Buffer> packets = paid(groups, 1 << 15);
+  ASSERT_EQ(packets.size(), groups.size());
+  const Harness harness = depayloader();
+  std::size_t lost = 1;
+  while (!is_key(groups[lost])) ++lost;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    if (k != lost) push(harness.get(), std::move(packets[k]));
+  EXPECT_EQ(finish(harness.get()).size(), lost);
+  EXPECT_GE(scene_requests(harness.get()), 1);
+}
+
 TEST(RtpFbs, AfterALossASceneIsAskedFor) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   const Harness asking = depayloader(), silent = depayloader("rtpfbsdepay request-keyframe=false");

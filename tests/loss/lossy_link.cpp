@@ -1,18 +1,20 @@
 // lossy_link: a live stream over a link that loses packets, through the real decoder. What does a viewer see?
 //
-//   lossy_link STREAM.fbs SOURCE [--loss 10] [--burst 0] [--round-trip 0] [--wait 0.2] [--copies 0] [--seeds
-//   5]
+//   lossy_link STREAM.fbs SOURCE [--loss 10] [--burst 0] [--round-trip 0] [--wait 0.2] [--copies 0]
+//              [--seeds 5] [--worst FILE.pgm]
 //
 //   --loss        percent of packets
 //   --burst       s: losses come in runs of this mean length; 0: each by itself
 //   --round-trip  s: what is lost is asked for and sent again, as often as needed; 0: never
 //   --wait        s that the receiver holds packets back for those that are missing
+//   --worst       PGM file: source, whole stream and what was shown, where the face was worst
 //   --copies      each packet is sent again so many times, one group later each
 //
 // A packet of the link is a group's motion, pattern and blend. The head of a scene is not lost, as it would
 // be sent until it is confirmed. A picture is due when its group and `wait` have passed; it is frozen if it
 // has not been released by then, and right if its luma is that of the whole stream. Prints one line of JSON.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -37,6 +39,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct Options {
   double loss = 0.1, burst = 0, round_trip = 0, wait = 0.2;
   int copies = 0, seeds = 5;
+  std::string worst;
 };
 
 struct Box {
@@ -117,6 +120,8 @@ Box face_of(const StreamDecoder& decoder, int width, int height) {
 
 struct Sums {
   double pictures = 0, right = 0, current = 0, within = 0, frame = 0, face = 0, longest = 0, worst = 0;
+  std::size_t worst_picture = 0;
+  Plane worst_shown;
 };
 
 class Link {
@@ -196,6 +201,18 @@ class Link {
     show_until(kNever);
   }
 
+  /// The worst picture that was current: source, the whole stream's and what was shown, side by side, as PGM.
+  void write_worst(const Sums& sums, const std::string& path) const {
+    if (sums.worst_shown.samples.empty()) return;
+    const std::array planes = {&source_[sums.worst_picture], &references_[sums.worst_picture].luma,
+                               &sums.worst_shown};
+    std::ofstream out(path, std::ios::binary);
+    out << "P5 " << 3 * sums.worst_shown.width << ' ' << sums.worst_shown.height << " 255\n";
+    for (int y = 0; y < sums.worst_shown.height; ++y)
+      for (const Plane* plane : planes)
+        out.write(reinterpret_cast<const char*>(plane->row(y)), sums.worst_shown.width);
+  }
+
  private:
   static constexpr double kNever = 1e9, kOneWay = 0.05;
 
@@ -258,7 +275,11 @@ class Link {
     sums.within += frame >= -1 && face >= -1;
     sums.frame += frame;
     sums.face += face;
-    if (current) sums.worst = std::min(sums.worst, face);
+    if (current && face < sums.worst) {
+      sums.worst = face;
+      sums.worst_picture = n;
+      sums.worst_shown = shown;
+    }
   }
 
   std::vector<Unit> units_;
@@ -273,7 +294,8 @@ class Link {
 int main(int argc, char** argv) {
   if (argc < 3)
     give_up(
-        "usage: lossy_link STREAM.fbs SOURCE [--loss %] [--burst s] [--round-trip s] [--wait s] [--seeds n]");
+        "usage: lossy_link STREAM.fbs SOURCE [--loss %] [--burst s] [--round-trip s] [--wait s] [--copies n]"
+        " [--seeds n] [--worst FILE.pgm]");
   Options options;
   for (int i = 3; i + 1 < argc; i += 2) {
     const std::string name = argv[i];
@@ -290,6 +312,8 @@ int main(int argc, char** argv) {
       options.copies = static_cast<int>(value);
     else if (name == "--seeds")
       options.seeds = static_cast<int>(value);
+    else if (name == "--worst")
+      options.worst = argv[i + 1];
     else
       give_up("unknown option " + name);
   }
@@ -298,6 +322,7 @@ int main(int argc, char** argv) {
   const Link link(stream, argv[2]);
   Sums s;
   for (int seed = 1; seed <= options.seeds; ++seed) link.run(options, static_cast<unsigned>(seed), s);
+  if (!options.worst.empty()) link.write_worst(s, options.worst);
   std::printf(
       "{\"pictures\": %.0f, \"right\": %.4f, \"current\": %.4f, \"within\": %.4f, \"frame\": %.3f, \"face\": "
       "%.3f, "

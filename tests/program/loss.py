@@ -54,7 +54,7 @@ class Whole:
         self.stream = path.read_bytes()
         self.packets = packets(self.stream)
         video, _ = decode(self.stream)
-        self.pictures, self.rate = video.pictures, video.rate
+        self.video, self.pictures, self.rate = video, video.pictures, video.rate
         self.digests = [digest_of(picture) for picture in self.pictures]
         inspected = subprocess.run([FBS, "inspect", path, "--json"], check=True, capture_output=True)
         self.scenes = [scene["picture"] for scene in json.loads(inspected.stdout)["scenes"]]
@@ -76,7 +76,8 @@ class Viewing:
 
     def __init__(self, whole, video, exit_code):
         self.exit_code = exit_code
-        decoded = video.pictures if video else []
+        self.video = video
+        self.decoded = decoded = video.pictures if video else []
         # The first of them begins a scene: the stream says its time, the Y4M does not.
         first = digest_of(decoded[0]) if decoded else None
         self.black = next((scene for scene in whole.scenes if whole.digests[scene] == first), len(whole.pictures))

@@ -2,7 +2,7 @@
 import random
 import subprocess
 
-from harness import END, FBS, KEYED_FBS, SETUP, TALK_Y4M, ProgramTest, read_y4m
+from harness import END, FBS, KEYED_FBS, PATTERN, SETUP, TALK_Y4M, ProgramTest, read_y4m
 from loss import Whole, burst_loss, decode, random_loss, with_flipped_bit, without
 
 
@@ -45,6 +45,21 @@ class Loss(ProgramTest):
             self.assertNotEqual(viewing.exit_code, 0, f"bit {bit} is not noticed")
             wrong = {self.whole.scene_of(i) for i, right in enumerate(viewing.right) if not right}
             self.assertLessEqual(len(wrong), 1, f"bit {bit}")
+
+    def test_a_resilient_stream_goes_on_without_what_is_lost(self):
+        source = read_y4m(TALK_Y4M)
+        for resilience, most in (("strong", 0.7), ("packet", 0.8)):
+            self.succeed("encode", TALK_Y4M, "live.fbs", "--live", "--resilience", resilience)
+            whole = Whole(self.folder / "live.fbs")
+            head = 1 + next(k for k, (kind, _, _) in enumerate(whole.packets) if kind == PATTERN)
+            right = source.luma_psnr(whole.video)
+            shown = []
+            for seed in range(4):
+                channel = random_loss(len(whole.packets) - head - 1, 0.1, random.Random(seed))
+                viewing = whole.seen(without(whole.stream, [False] * head + channel + [False]))
+                self.assertEqual(len(viewing.decoded), len(source.pictures), "motion that is lost is interpolated")
+                shown.append(source.luma_psnr(viewing.video))
+            self.assertGreater(sum(shown) / len(shown), right - most, resilience)
 
     def test_killed_encoder_leaves_what_can_be_played(self):
         encoder = subprocess.Popen([FBS, "encode", "-", "out.fbs", "--quiet", "--key-interval", "0.5"], cwd=self.folder,
