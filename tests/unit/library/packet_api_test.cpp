@@ -53,6 +53,28 @@ Packets packets_of(const std::vector<std::uint8_t>& bytes, std::size_t piece) {
   }
 }
 
+TEST(PacketApi, TellsWhatNeedsALostPacket) {
+  const auto skipped = [](const std::vector<std::uint8_t>& bytes) {
+    const Packets packets = packets_of(bytes, bytes.size());
+    return std::count_if(packets.infos.begin(), packets.infos.end(),
+                         [](const fbs_packet_info& p) { return p.skipped != 0; });
+  };
+  auto live = vector_bytes("live.fbs");
+  EXPECT_EQ(skipped(live), 0);
+  const Packets whole = packets_of(live, live.size());
+  const auto at = [&](std::size_t k) {
+    return live.begin() + static_cast<std::ptrdiff_t>(whole.infos[k].offset);
+  };
+  ASSERT_EQ(whole.infos[7].type, FBS_PACKET_UNIT);
+  auto without_unit = live;
+  without_unit.erase(without_unit.begin() + (at(7) - live.begin()),
+                     without_unit.begin() + (at(8) - live.begin()));
+  EXPECT_EQ(skipped(without_unit), 0) << "groups go on";
+  auto twice = live;
+  twice.insert(twice.begin() + (at(8) - live.begin()), at(7), at(8));
+  EXPECT_EQ(skipped(twice), 1);
+}
+
 TEST(PacketApi, PacketsOfSoundStreamsFillThem) {
   for (const Vector& vector : read_vectors(FBS_VECTORS)) {
     if (vector.expected.error != "-") continue;
