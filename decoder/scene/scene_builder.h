@@ -1,6 +1,7 @@
 // Builds the scene that pictures are drawn from, as its packets come.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -31,6 +32,9 @@ class SceneBuilder {
   /// @param keeps  it may come again: its picture is kept until a call without it, and not decoded twice
   /// @return errors of PatternDecoder
   [[nodiscard]] Result<MadePattern> make(const ScenePattern& pattern, bool keeps = false);
+
+  /// Patterns whose pictures are kept in case they come again.
+  [[nodiscard]] std::size_t kept() const { return decoded_.size(); }
 
   [[nodiscard]] Scene& scene() { return scene_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -32,7 +32,7 @@ class LatePackets {
   /// Whether the packet that next() returned last has been read before.
   [[nodiscard]] bool is_again() const { return again_; }
   /// Whether it may be read again.
-  [[nodiscard]] bool is_kept() const { return before_.has_value(); }
+  [[nodiscard]] bool is_kept() const { return before_ && given_up_ < *expected_; }
   /// It begins a scene: those before it are not waited for any longer.
   void begin_scene();
 
@@ -41,6 +41,8 @@ class LatePackets {
   [[nodiscard]] std::vector<std::uint64_t> missing(std::size_t most) const;
   /// Those below `number` that are missing will not come.
   void give_up(std::uint64_t number) { given_up_ = std::max(given_up_, number); }
+  /// None that is missing now will come.
+  void give_up() { give_up(expected_.value_or(0)); }
 
  private:
   struct Received {

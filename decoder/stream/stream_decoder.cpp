@@ -7,6 +7,9 @@
 namespace fbs {
 namespace {
 
+/// Patterns that are kept until a packet of the link comes late: for some ten seconds of a call.
+constexpr std::size_t kMostKept = 16;
+
 constexpr const char* kNoPicture = "no picture has been decoded yet";
 
 std::string missing_text(std::uint64_t pictures) {
@@ -172,6 +175,7 @@ Result<void> StreamDecoder::take(const SurroundMap& surround, const Arrived& /*a
 Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, const Arrived& arrived) {
   std::vector<bool> reduced;
   for (const ScenePattern& pattern : patterns) {
+    if (scene_.kept() >= kMostKept) late_.give_up();
     auto made = scene_.make(pattern, late_.is_kept());
     if (!made) {
       if (pattern.is_first())

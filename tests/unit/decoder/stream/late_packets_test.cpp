@@ -33,8 +33,7 @@ const Writer& call() {
 }
 
 /// Groups: what a packet of the link brings. The head comes with the first.
-std::vector<Bytes> link_packets() {
-  const Writer& w = call();
+std::vector<Bytes> link_packets(const Writer& w = call()) {
   std::vector<std::size_t> cuts = {0};
   for (std::size_t k = 4; k < w.begins.size(); ++k)
     if (k > 4 && static_cast<PacketType>(w.bytes[w.begins[k]]) == PacketType::kMotion)
@@ -155,6 +154,31 @@ TEST(LatePackets, ThereIsAnEndToWaiting) {
     }
     EXPECT_LT(late.missing(1000).size(), 10U);
   }
+}
+
+// Pictures of patterns that might come again take memory: there is an end to those, too.
+TEST(LatePackets, PatternsAreNotKeptWithoutEnd) {
+  Writer w;
+  w.setup(setup_of(3)).geometry().surround().pattern();
+  constexpr int kMany = 30;
+  for (int k = 0; k < kMany; ++k) {
+    w.motion(k * kGroup, (k + 1) * kGroup, true);
+    if (k != 1) w.pattern(face_picture(k), k % 3, (k + 1) * kGroup - 1);
+    w.blend(kGroup, {}, true);
+  }
+  const auto packets = link_packets(w);
+  ASSERT_EQ(packets.size(), static_cast<std::size_t>(kMany));
+  StreamDecoder decoder;
+  Played result;
+  for (std::size_t k = 0; k < packets.size(); ++k) {
+    if (k == 1) continue;  // only motion
+    decoder.feed_packet(k, packets[k]);
+    EXPECT_FALSE(play(decoder, result));
+    EXPECT_EQ(decoder.missing_packets(9).size(), k > 1 && k < 18 ? 1U : 0U) << k;
+  }
+  decoder.feed_packet(1, packets[1]);
+  EXPECT_FALSE(play(decoder, result));
+  EXPECT_EQ(result.pictures.size(), static_cast<std::size_t>(kMany * kGroup));
 }
 
 // Any order of packets, some lost and some twice: no failure, no picture twice, and right at the end where
