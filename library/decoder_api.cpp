@@ -116,28 +116,31 @@ void fbs_decoder_close(fbs_decoder** decoder) {
   close_object(decoder);
 }
 
-fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
+namespace {
+
+/// @param feed  of bytes that may be fed
+template <class Feed>
+fbs_status checked_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size, Feed&& feed) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
   if (bytes == nullptr && size > 0) return d.error.set_argument(kNullPointer);
   if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
   if (d.broken || size == 0) return FBS_OK;
   return guarded(d.error, [&] {
-    d.entry.feed(*d.stream, {bytes, size});
+    feed(d, std::span(bytes, size));
     return FBS_OK;
   });
 }
 
+}  // namespace
+
+fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
+  return checked_feed(decoder, bytes, size, [](fbs_decoder& d, auto data) { d.entry.feed(*d.stream, data); });
+}
+
 fbs_status fbs_decoder_feed_packet(fbs_decoder* decoder, uint64_t number, const uint8_t* bytes, size_t size) {
-  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
-  fbs_decoder& d = *decoder;
-  if (bytes == nullptr && size > 0) return d.error.set_argument(kNullPointer);
-  if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
-  if (d.broken || size == 0) return FBS_OK;
-  return guarded(d.error, [&] {
-    d.stream->feed_packet(number, {bytes, size});
-    return FBS_OK;
-  });
+  return checked_feed(decoder, bytes, size,
+                      [number](fbs_decoder& d, auto data) { d.stream->feed_packet(number, data); });
 }
 
 fbs_status fbs_decoder_get_missing(fbs_decoder* decoder, uint64_t* out, size_t most, size_t* count) {

@@ -57,7 +57,8 @@ struct MotionReference {
   std::uint32_t time = 0;          ///< of the next group, 1/90000 s since the start of the scene, modulo 2^32
   GroupOrder order;
   std::array<int, kPartCount> held{};  ///< key groups in a row that have left a part as it was
-  /// Of a writer: a key group sends each part that the group before it has moved, for those who missed that.
+  /// A key group sends each part that the group before it has moved, for those who missed that. Readers leave
+  /// it as it is.
   bool repeats_moved = false;
   MotionMemory memory;
 };

@@ -56,7 +56,6 @@ class LatePackets {
   void drop_complete(const SceneReader& reader);
   /// Takes in a packet that has come while one is missing. One that comes twice, or too late, is left out.
   void place(Received packet, SceneReader& reader);
-  void go_back(SceneReader& reader);
   [[nodiscard]] Bytes read(Received& packet);
 
   std::deque<Received> arrived_;           ///< not placed yet
