@@ -31,12 +31,18 @@ bool is_of_scene(PacketType type) {
   }
 }
 
-void CheckChain::add(PacketType type, std::uint16_t check) {
+// SPEC 3.1
+std::uint32_t CheckChain::of(std::span<const std::uint8_t> bytes, const Crc& crc) const {
+  const std::uint32_t before = is_of_scene(static_cast<PacketType>(bytes[0])) ? check_ : kStart;
+  return crc.of(bytes, crc.bits() == kCrc16.bits() ? before : before << 8 | 0xFF);
+}
+
+void CheckChain::add(PacketType type, std::uint32_t check) {
   if (type == PacketType::kSetup)
     in_head_ = true;
   else if (!in_head_ || !is_of_scene(type))
     return;
-  check_ = check;
+  check_ = static_cast<std::uint16_t>(check);
   if (type == PacketType::kPattern) in_head_ = false;
 }
 
@@ -52,9 +58,11 @@ std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType ty
   writer.u8(static_cast<std::uint8_t>(type));
   writer.varint(payload.size());
   writer.bytes(payload);
-  const std::uint16_t check = crc16(std::span(stream).subspan(begin), checks_.before(type));
+  const Crc& crc = crc_of(payload.size());
+  const std::uint32_t check = checks_.of(std::span(stream).subspan(begin), crc);
   checks_.add(type, check);
-  writer.u16(check);
+  for (unsigned bits = crc.bits(); bits > 0; bits -= 8)
+    writer.u8(static_cast<std::uint8_t>(check >> (bits - 8)));
   return stream.size() - begin;
 }
 
@@ -84,6 +92,13 @@ struct PacketReader::Impl {
 
   Result<ReadResult> read_signature();
   Result<ReadResult> read_packet();
+  struct Check {
+    std::uint32_t stored, difference;  ///< as it came, and that xor what it has to be
+  };
+  /// Reads the check of a packet that begins with `bytes`, behind its payload of this size.
+  Check read_check(ByteReader& reader, std::span<const std::uint8_t> bytes, std::size_t payload) const;
+  /// Inverts the wrong bit of a packet, if it is one.
+  bool repair(const Packet& packet, const Check& check);
   Result<ReadResult> search();
 };
 
@@ -112,15 +127,41 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   if (size > kMaxPayload) return refuse(ErrorCode::kTooLarge, "packet is too large");
 
   const auto payload = reader.bytes(size);
-  const std::size_t checked = reader.offset();
-  const std::uint16_t stored = reader.u16();
+  const Check check = read_check(reader, bytes, size);
   if (reader.past_end()) return need_more("stream ends inside a packet");
   const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset()};
-  if (crc16(bytes.first(checked), checks.before(packet.type)) != stored)
+  if (check.difference != 0) {
+    if (!closed && bytes.size() == packet.size) return ReadResult{};  // repair() looks at the byte behind it
+    if (repair(packet, check)) return read_packet();
     return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
+  }
   position += packet.size;
-  checks.add(packet.type, stored);
+  checks.add(packet.type, check.stored);
   return ReadResult{ReadStatus::kPacket, packet};
+}
+
+PacketReader::Impl::Check PacketReader::Impl::read_check(ByteReader& reader,
+                                                         std::span<const std::uint8_t> bytes,
+                                                         std::size_t payload) const {
+  const std::size_t checked = reader.offset();
+  const Crc& crc = crc_of(payload);
+  std::uint32_t stored = 0;
+  for (unsigned bits = 0; bits < crc.bits(); bits += 8) stored = stored << 8 | reader.u8();
+  if (reader.past_end()) return {};
+  return {stored, checks.of(bytes.first(checked), crc) ^ stored};
+}
+
+// SPEC 3.2. A length that is wrong seldom ends where another packet begins.
+bool PacketReader::Impl::repair(const Packet& packet, const Check& check) {
+  const std::size_t end = position + packet.size;
+  if (end < buffer.size() && !is_known(static_cast<PacketType>(buffer[end]))) return false;
+  if (packet.payload.size() > kMaxRepairedPayload) return false;
+  const Crc& crc = crc_of(packet.payload.size());
+  const auto bit = crc.wrong_bit(check.difference, 8 * packet.payload.size() + crc.bits());
+  if (!bit) return false;
+  std::uint8_t& byte = buffer[end - 1 - *bit / 8];
+  byte = static_cast<std::uint8_t>(byte ^ 1U << *bit % 8);
+  return true;
 }
 
 // SPEC 3.2. The candidate that ends first is taken, so none has to wait for bytes that have not come.
@@ -136,11 +177,10 @@ Result<ReadResult> PacketReader::Impl::search() {
     const std::uint64_t size = reader.varint();
     if (reader.malformed() || size > kMaxSearchedPayload) continue;
     (void)reader.bytes(size);
-    const std::size_t checked = reader.offset();
-    const std::uint16_t stored = reader.u16();
+    const Check check = read_check(reader, bytes, size);
     if (reader.past_end()) {
       if (!incomplete) incomplete = at;
-    } else if (at + reader.offset() < end && crc16(bytes.first(checked), checks.before(type)) == stored) {
+    } else if (at + reader.offset() < end && check.difference == 0) {
       found = at;
       end = at + reader.offset();
     }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bitstream/crc16.h"
+#include "bitstream/crc.h"
 #include "bitstream/syntax.h"
 #include "common/result.h"
 
@@ -16,6 +16,10 @@ namespace fbs {
 
 inline constexpr std::array<std::uint8_t, 4> kSignature = {0x89, 'f', 'b', 's'};
 inline constexpr std::size_t kMaxPayload = std::size_t{1} << 24;  ///< bytes
+/// Shortest payload with a check of 24 bits; all shorter ones have 16.
+inline constexpr std::size_t kLongPayload = 256;
+/// Longest payload of which a wrong bit is found.
+inline constexpr std::size_t kMaxRepairedPayload = 65535;
 
 /// Appends the signature that begins every stream.
 void write_signature(std::vector<std::uint8_t>& stream);
@@ -28,15 +32,15 @@ void write_signature(std::vector<std::uint8_t>& stream);
 /// one that is lost does no harm to others, and none passes for a packet of another scene. SPEC 3.1.
 class CheckChain {
  public:
-  /// With what the check of the next packet begins if it is of this type.
-  [[nodiscard]] std::uint16_t before(PacketType type) const {
-    return is_of_scene(type) ? check_ : kCrc16Start;
-  }
+  /// The check of the next packet.
+  /// @param bytes  its type, length and payload
+  [[nodiscard]] std::uint32_t of(std::span<const std::uint8_t> bytes, const Crc& crc) const;
   /// Goes on behind a packet.
-  void add(PacketType type, std::uint16_t check);
+  void add(PacketType type, std::uint32_t check);
 
  private:
-  std::uint16_t check_ = kCrc16Start;  // of the last packet of the head
+  static constexpr std::uint16_t kStart = 0xFFFF;
+  std::uint16_t check_ = kStart;  // the last 16 bits of that of the last packet of the head
   bool in_head_ = true;
 };
 
@@ -53,9 +57,14 @@ class PacketWriter {
   CheckChain checks_;
 };
 
+/// What checks a packet with this many bytes of payload.
+[[nodiscard]] constexpr const Crc& crc_of(std::size_t payload) {
+  return payload < kLongPayload ? kCrc16 : kCrc24;
+}
+
 /// Bytes of a packet with this many bytes of payload.
 [[nodiscard]] constexpr std::size_t packet_size(std::size_t payload) {
-  std::size_t size = payload + 4;
+  std::size_t size = payload + 2 + crc_of(payload).bits() / 8;
   for (; payload > 0x7F; payload >>= 7) ++size;
   return size;
 }
@@ -63,7 +72,8 @@ class PacketWriter {
 /// Longest payload of a packet that is found behind damage. SPEC 3.2.
 inline constexpr std::size_t kMaxSearchedPayload = 2047;  ///< bytes
 
-/// One packet whose check is right. Its payload still has to be parsed.
+/// One packet whose check is right, or has been once the one wrong bit was inverted. Its payload still has to
+/// be parsed.
 struct Packet {
   PacketType type{};                      ///< any byte; callers skip unknown types
   std::uint64_t offset = 0;               ///< of the type byte, from the start of the stream
@@ -111,9 +121,10 @@ class PacketReader {
   /// No more bytes will come.
   void close();
 
-  /// Reads the next packet. An error is reported once. The next call searches past the damage for a packet of
-  /// a known type with the right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream that is
-  /// joined in its middle begins so, with kNotFbs.
+  /// Reads the next packet. One wrong bit of a payload or check is set right and is no error (SPEC 3.2). An
+  /// error is reported once. The next call searches past the damage for a packet of a known type with the
+  /// right check and at most kMaxSearchedPayload bytes (SPEC 3.2); a stream that is joined in its middle
+  /// begins so, with kNotFbs.
   /// @return kNotFbs         the stream does not begin with the signature, or is empty
   ///         kTruncated      closed inside the signature or a packet; offset of that packet
   ///         kInvalidStream  check or length field wrong: the packet is damaged, or the head of its scene

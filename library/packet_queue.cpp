@@ -23,7 +23,7 @@ Result<std::optional<QueuedPacket>> PacketQueue::next() {
   if (!signed_) (void)reader.bytes(kSignature.size());
   const auto type = static_cast<PacketType>(reader.u8());
   const auto payload = reader.bytes(reader.varint());
-  (void)reader.u16();  // the check
+  (void)reader.bytes(crc_of(payload.size()).bits() / 8);  // the check
   if (reader.malformed()) return not_ours();
   if (reader.past_end()) return std::nullopt;
   const std::uint64_t before = times_.released().pictures;

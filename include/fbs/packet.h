@@ -24,7 +24,7 @@ extern "C" {
   "fbs"
 
 /** Most bytes of a packet with which reading goes on behind damage. */
-#define FBS_MAX_FOUND_PACKET 2052
+#define FBS_MAX_FOUND_PACKET 2053
 
 /** Kinds of packets, numbered as in the stream: bitstream/SPEC.md section 3.1. Other numbers are unknown, and
  * are passed over by decoders. */

@@ -99,6 +99,11 @@ def flat_y4m(width, height, pictures, luma=lambda x, y: 128):
     return b"YUV4MPEG2 W%d H%d F25:1 Ip C420jpeg\n" % (width, height) + pictures * (b"FRAME\n" + plane + chroma)
 
 
+def check_size(length):
+    """Bytes of the check of a packet with a payload of this length (SPEC 3.1)."""
+    return 2 if length < 256 else 3
+
+
 def packets(stream):
     """(type, begin, end) of each packet of a complete stream (SPEC 3.1), checksum included."""
     at, found = 4, []
@@ -111,7 +116,7 @@ def packets(stream):
             at += 1
             if stream[at - 1] < 128:
                 break
-        at += length + 2
+        at += length + check_size(length)
         found.append((kind, begin, at))
     return found
 

@@ -30,9 +30,10 @@ def without(stream, lost):
     return stream[:4] + b"".join(kept)
 
 
-def with_flipped_bit(stream, bit):
+def with_flipped_bits(stream, *bits):
     flipped = bytearray(stream)
-    flipped[bit // 8] ^= 1 << bit % 8
+    for bit in bits:
+        flipped[bit // 8] ^= 1 << bit % 8
     return bytes(flipped)
 
 

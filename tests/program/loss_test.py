@@ -3,7 +3,7 @@ import random
 import subprocess
 
 from harness import END, FBS, KEYED_FBS, PATTERN, SETUP, TALK_Y4M, ProgramTest, read_y4m
-from loss import Whole, burst_loss, decode, random_loss, with_flipped_bit, without
+from loss import Whole, burst_loss, decode, random_loss, with_flipped_bits, without
 
 
 class Loss(ProgramTest):
@@ -38,9 +38,16 @@ class Loss(ProgramTest):
                     self.assertTrue(right or self.whole.scene_of(i) in hit, f"{channel.__name__} {seed}: picture {i}")
                 self.assertEqual(viewing.exit_code == 0, not any(lost), "noticed")
 
-    def test_flipped_bit_costs_at_most_its_scene(self):
-        for bit in range(32 + 5, 8 * len(self.whole.stream), 8 * len(self.whole.stream) // 40):
-            viewing = self.whole.seen(with_flipped_bit(self.whole.stream, bit))
+    def test_a_flipped_bit_of_a_payload_or_check_is_set_right(self):
+        for kind, begin, end in self.whole.packets[::3]:
+            for byte in (begin + 3 if end - begin > 5 else end - 2, (begin + end) // 2, end - 1):
+                viewing = self.whole.seen(with_flipped_bits(self.whole.stream, 8 * byte + byte % 8))
+                self.assertTrue(all(viewing.right), f"byte {byte} of a packet {kind}")
+                self.assertEqual(viewing.exit_code, 0)
+
+    def test_flipped_bits_cost_at_most_their_scene(self):
+        for bit in range(32 + 5, 8 * len(self.whole.stream) - 9, 8 * len(self.whole.stream) // 40):
+            viewing = self.whole.seen(with_flipped_bits(self.whole.stream, bit, bit + 9))
             self.expect_right_or_held(viewing)
             self.assertNotEqual(viewing.exit_code, 0, f"bit {bit} is not noticed")
             wrong = {self.whole.scene_of(i) for i, right in enumerate(viewing.right) if not right}

@@ -33,7 +33,7 @@ import time
 
 from clips import CLIPS
 from harness import FBS, Y4m, ffmpeg
-from loss import Whole, burst_loss, decode, luma_psnr, random_loss, with_flipped_bit, without
+from loss import Whole, burst_loss, decode, luma_psnr, random_loss, with_flipped_bits, without
 
 CHANNELS = {"random": random_loss, "bursts": burst_loss}
 
@@ -108,8 +108,8 @@ def measure_packets(arguments, materials):
 def flip(whole, seed, of):
     """(share of pictures lost, whether fbs did not notice) with one wrong bit in part `seed` of `of` parts of the stream."""
     bits = 8 * (len(whole.stream) - 4)
-    viewing = whole.seen(with_flipped_bit(whole.stream, 32 + int(bits * (seed + random.Random(seed).random()) / of)))
-    return 1 - viewing.share_right, viewing.exit_code == 0
+    viewing = whole.seen(with_flipped_bits(whole.stream, 32 + int(bits * (seed + random.Random(seed).random()) / of)))
+    return 1 - viewing.share_right, viewing.exit_code == 0 and not all(viewing.right)
 
 
 def measure_flips(arguments, materials):

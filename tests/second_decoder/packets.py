@@ -11,6 +11,7 @@ KNOWN_TYPES = range(1, 12)
 SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME, SOUND_SETUP, SOUND, UNIT = KNOWN_TYPES
 SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND, WIRE_FRAME, UNIT)
 MAX_SEARCHED_PAYLOAD = 2047  # bytes of a packet at which a reader goes on after damage
+MAX_REPAIRED_PAYLOAD = 65535  # bytes of a packet in which a wrong bit is set right
 
 
 @dataclass
@@ -26,24 +27,43 @@ class Damage:
     type = None  # not known
 
 
-def _crc_table():
-    table = []
-    for byte in range(256):
-        crc = byte << 8
-        for _ in range(8):
-            crc = (crc << 1 ^ 0x1021) & 0xFFFF if crc & 0x8000 else crc << 1
-        table.append(crc)
-    return table
+class Crc:
+    """A check of `bits` bits."""
+
+    def __init__(self, bits, polynomial):
+        self.bits, self._mask, self._polynomial = bits, (1 << bits) - 1, polynomial
+        self._table = []
+        for value in range(256):
+            value <<= bits - 8
+            for _ in range(8):
+                value = self._shift(value)
+            self._table.append(value)
+
+    def _shift(self, value):
+        value <<= 1
+        return (value ^ self._polynomial) & self._mask if value >> self.bits else value
+
+    def of(self, data, value):
+        for byte in data:
+            value = value << 8 & self._mask ^ self._table[value >> self.bits - 8 ^ byte]
+        return value
+
+    def wrong_bit(self, difference, count):
+        """Of the last `count` bits of a packet, which to invert: counted from its end, or None."""
+        value = 1
+        for bit in range(count):
+            if value == difference:
+                return bit
+            value = self._shift(value)
+        return None
 
 
-_CRC = _crc_table()
+_SHORT, _LONG = Crc(16, 0x1021), Crc(24, 0x864CFB)
 
 
-def crc16(data, crc=0xFFFF):
-    """CRC-16/CCITT-FALSE."""
-    for byte in data:
-        crc = (crc << 8 ^ _CRC[crc >> 8 ^ byte]) & 0xFFFF
-    return crc
+def crc_of(length):
+    """What checks a packet with this many bytes of payload."""
+    return _SHORT if length < 256 else _LONG
 
 
 class Checks:
@@ -53,29 +73,43 @@ class Checks:
         self._check = 0xFFFF  # of the last packet of the head
         self._in_head = False
 
-    def before(self, kind):
-        return self._check if kind in SCENE_PACKETS else 0xFFFF
+    def of(self, data, crc):
+        """The check of the next packet, without its own."""
+        before = self._check if data[0] in SCENE_PACKETS else 0xFFFF
+        return crc.of(data, before if crc.bits == 16 else before << 8 | 0xFF)
 
     def add(self, kind, check):
         """Goes on behind a packet."""
         if kind == SETUP or self._in_head and kind in SCENE_PACKETS:
-            self._check = check
+            self._check = check & 0xFFFF
             self._in_head = kind != PATTERN
 
 
 def _read_packet(data, position, checks, max_payload=MAX_PAYLOAD):
-    """The packet at `position`, its check and where it ends."""
+    """The packet at `position`, its check, that xor what it has to be, and where it ends."""
     reader = ByteReader(data, position)
     kind = reader.u8()
     length = reader.varint()
     if length > max_payload:
         raise too_large("a packet is too long")
     payload = reader.bytes(length)
-    end = reader.position
-    check = reader.u16()
-    if check != crc16(data[position:end], checks.before(kind)):
-        raise invalid("the check of a packet is wrong")
-    return Packet(kind, payload), check, reader.position
+    crc = crc_of(length)
+    computed = checks.of(data[position:reader.position], crc)
+    check = int.from_bytes(reader.bytes(crc.bits // 8), "big")
+    return Packet(kind, payload), check, check ^ computed, reader.position
+
+
+def _repaired(data, length, difference, end):
+    """`data` with one bit inverted of the packet that ends at `end`, so that its check is right (SPEC 3.2)."""
+    if length > MAX_REPAIRED_PAYLOAD or end < len(data) and data[end] not in KNOWN_TYPES:
+        return None
+    crc = crc_of(length)
+    bit = crc.wrong_bit(difference, 8 * length + crc.bits)
+    if bit is None:
+        return None
+    out = bytearray(data)
+    out[end - 1 - bit // 8] ^= 1 << bit % 8
+    return bytes(out)
 
 
 def _next_start(data, position, checks):
@@ -87,10 +121,10 @@ def _next_start(data, position, checks):
         if data[start] not in KNOWN_TYPES:
             continue
         try:
-            _, _, end = _read_packet(data, start, checks, MAX_SEARCHED_PAYLOAD)
+            _, _, difference, end = _read_packet(data, start, checks, MAX_SEARCHED_PAYLOAD)
         except StreamError:
             continue
-        if end < best_end:
+        if difference == 0 and end < best_end:
             best, best_end = start, end
     return best
 
@@ -105,7 +139,14 @@ def packets(data):
         position = _next_start(data, 0, checks)
     while position < len(data):
         try:
-            packet, check, position = _read_packet(data, position, checks)
+            packet, check, difference, end = _read_packet(data, position, checks)
+            if difference:
+                repaired = _repaired(data, len(packet.payload), difference, end)
+                if repaired is None:
+                    raise invalid("the check of a packet is wrong")
+                data = repaired
+                continue
+            position = end
             checks.add(packet.type, check)
             yield packet
         except StreamError as error:

@@ -324,7 +324,7 @@ void add_broken_blends(Folder& folder, const Bytes& talk) {
   lost.erase(lost.begin() + place_of(lost, PacketType::kPattern, 1));
   invalid("lost_pattern.fbs", joined(lost), kPictures);
   Bytes flipped = joined(made);
-  flipped[offset_of(made, place_of(made, PacketType::kBlend, 1)) + 4] ^= 0x10;
+  flipped[offset_of(made, place_of(made, PacketType::kBlend, 1)) + 4] ^= 0x30;
   invalid("flipped_blend.fbs", flipped, kPictures);
   invalid("removed_blend.fbs", joined_without(made, place_of(made, PacketType::kBlend, 1)), kPictures);
 }

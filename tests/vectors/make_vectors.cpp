@@ -57,13 +57,22 @@ void add_removed(Folder& folder, const Bytes& talk) {
   folder.add("doubled_motion.fbs", joined_with_two(pieces, motion), 20);
 }
 
+/// One wrong bit in each packet, in its payload or its check.
+void add_repaired(Folder& folder, const Bytes& talk) {
+  const auto pieces = pieces_of(talk);
+  Bytes wrong = talk;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    wrong[offset_of(pieces, k + 1) - 1 - k % 3] ^= static_cast<std::uint8_t>(1U << k % 8);
+  folder.add("repaired.fbs", wrong, 20);
+}
+
 void add_broken(Folder& folder, const Bytes& talk) {
   const auto pieces = pieces_of(talk);
   const std::size_t third_motion = offset_of(pieces, place_of(pieces, PacketType::kMotion, 2));
   folder.add("truncated.fbs", {talk.begin(), talk.begin() + third_motion + 5}, 6, "kTruncated");
   Bytes flipped = talk;
-  flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x10;
-  folder.add("flipped_bit.fbs", flipped, 20, "kInvalidStream");
+  flipped[offset_of(pieces, place_of(pieces, PacketType::kMotion, 1)) + 4] ^= 0x30;
+  folder.add("flipped_bits.fbs", flipped, 20, "kInvalidStream");
   const std::string y4m = "YUV4MPEG2 W64 H64 F30:1 Ip A1:1 C420jpeg\nFRAME\n";
   folder.add("not_fbs.fbs", {y4m.begin(), y4m.end()}, 0, "kNotFbs");
 
@@ -122,6 +131,7 @@ int main(int argc, char** argv) {
   fbs::add_limits(folder);
   fbs::add_blends(folder);
   fbs::add_wire_frames(folder, talk);
+  fbs::add_repaired(folder, talk);
   fbs::add_broken(folder, talk);
   fbs::add_removed(folder, talk);
   fbs::add_broken_scenes(folder);

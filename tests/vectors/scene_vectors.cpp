@@ -71,7 +71,7 @@ void add_broken_scenes(Folder& folder) {
   folder.add("lost_scene.fbs", joined_scenes({scenes[0], moved(scenes[1], position(kThird))}, kAll), kAll,
              "kInvalidStream");
   Bytes flipped = joined_scenes(three(kThird), kAll);
-  flipped[offset_of(scenes[0], scenes[0].size()) + 5] ^= 0x10;
+  flipped[offset_of(scenes[0], scenes[0].size()) + 5] ^= 0x30;
   folder.add("flipped_setup.fbs", flipped, kAll, "kInvalidStream");
   folder.add("removed_second_setup.fbs",
              joined_without(pieces_of_scenes(three(kThird), kAll), scenes[0].size()), kAll, "kInvalidStream");

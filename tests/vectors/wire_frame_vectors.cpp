@@ -142,7 +142,7 @@ void add_broken_wire_frames(Folder& folder, const Bytes& talk) {
   const std::size_t place = place_of(pieces, PacketType::kWireFrame);
   folder.add("removed_wire_frame.fbs", joined_without(pieces, place), 0, "kInvalidStream");
   Bytes flipped = joined(pieces);
-  flipped[offset_of(pieces, place) + 100] ^= 0x10;
+  flipped[offset_of(pieces, place) + 100] ^= 0x30;
   folder.add("flipped_wire_frame.fbs", flipped, 0, "kInvalidStream");
   folder.add("wrong_wire_frame.fbs", with_outline_of_one(pieces), 0, "kInvalidStream");
   auto cut = pieces;

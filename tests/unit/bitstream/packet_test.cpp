@@ -93,7 +93,7 @@ std::vector<std::size_t> offsets_until_stop(PacketReader& reader, Result<ReadRes
 }
 
 TEST(Packet, SizeIsThatOfWhatIsWritten) {
-  for (const std::size_t payload : {0u, 1u, 127u, 128u, 16383u, 16384u, 300000u}) {
+  for (const std::size_t payload : {0u, 1u, 127u, 128u, 255u, 256u, 16383u, 16384u, 300000u}) {
     Bytes out;
     EXPECT_EQ(PacketWriter().write(out, PacketType::kEnd, Bytes(payload)), packet_size(payload));
     EXPECT_EQ(out.size(), packet_size(payload));
@@ -115,20 +115,20 @@ TEST(CheckChain, RunsThroughTheHeadOfASceneAndThenBeginsWithIt) {
   const auto expect_check = [&](PacketType type, std::uint16_t before) {
     Bytes bytes;
     writer.write(bytes, type, Bytes{0x5A});
-    const std::uint16_t check = crc16(std::span(bytes).first(3), before);
+    const auto check = static_cast<std::uint16_t>(kCrc16.of(std::span(bytes).first(3), before));
     EXPECT_EQ(ByteReader(std::span(bytes).subspan(3)).u16(), check) << static_cast<int>(type);
     return check;
   };
   for (int scene = 0; scene < 2; ++scene) {
-    head = expect_check(kSetup, kCrc16Start);
+    head = expect_check(kSetup, 0xFFFF);
     for (const PacketType type : {kWireFrame, kGeometry, kSurround, kPattern}) {
       for (const PacketType other : {kSoundSetup, kSound, kEnd, static_cast<PacketType>(200)})
-        expect_check(other, kCrc16Start);
+        expect_check(other, 0xFFFF);
       head = expect_check(type, head);
     }
     for (const PacketType type : {kMotion, kPattern, kBlend, kSurround, kGeometry, kWireFrame, kMotion})
       expect_check(type, head);
-    expect_check(kSound, kCrc16Start);
+    expect_check(kSound, 0xFFFF);
   }
 }
 
@@ -195,21 +195,54 @@ TEST(PacketReader, RefusesWhatIsNoStream) {
   EXPECT_EQ(empty.next().error().code, ErrorCode::kNotFbs);
 }
 
-TEST(PacketReader, DetectsEveryFlippedBitOfAPacket) {
-  Stream stream;
-  stream.add(PacketType::kMotion, random_bytes(40, 4));
-  const Bytes& good = stream.bytes;
-  for (std::size_t bit = 4 * 8; bit < good.size() * 8; ++bit) {
-    Bytes bytes = good;
-    bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1u << bit % 8);
-    PacketReader reader;
-    reader.feed(bytes);
-    reader.close();
+// SPEC 3.2
+TEST(PacketReader, SetsOneWrongBitOfAPayloadOrCheckRight) {
+  for (const std::size_t size : {0U, 40U, 255U, 256U, 3000U}) {
+    Stream s;
+    s.add(PacketType::kSetup, random_bytes(size, 4));
+    s.add(PacketType::kEnd, Bytes{1});
+    const std::size_t begin = s.begins[0] + packet_size(size) - size - crc_of(size).bits() / 8;
+    for (std::size_t bit = 8 * begin; bit < 8 * s.begins[1]; bit += size < 1000 ? 1 : 97) {
+      Bytes bytes = s.bytes;
+      bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
+      PacketReader reader(bytes);
+      const auto read = reader.next();
+      ASSERT_TRUE(read.has_value()) << bit;
+      EXPECT_TRUE(std::ranges::equal(read->packet.payload, random_bytes(size, 4))) << bit;
+      EXPECT_EQ(reader.next()->packet.offset, s.begins[1]) << bit;
+    }
+  }
+}
+
+TEST(PacketReader, RefusesAPacketWithMoreWrongBits) {
+  Stream s;
+  s.add(PacketType::kMotion, random_bytes(40, 4));
+  for (std::size_t bit = 4 * 8; bit < s.bytes.size() * 8; ++bit) {
+    const bool in_front = bit < 6 * 8;  // type and length
+    Bytes bytes = s.bytes;
+    bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
+    if (!in_front) bytes[20] = static_cast<std::uint8_t>(bytes[20] ^ (bit / 8 == 20 ? 0x66U : 1U));
+    PacketReader reader(bytes);
     const auto read = reader.next();
     ASSERT_FALSE(read.has_value()) << bit;
     EXPECT_EQ(read.error().byte_offset, 4u);
     EXPECT_EQ(reader.next()->status, ReadStatus::kEnd) << "the error is reported once";
   }
+}
+
+// Its length may be wrong.
+TEST(PacketReader, RepairsNoPacketThatNoneFollows) {
+  Stream s;
+  s.add(PacketType::kMotion, random_bytes(40, 4));
+  s.bytes[20] = static_cast<std::uint8_t>(s.bytes[20] ^ 8U);
+  Bytes other = s.bytes;
+  other.push_back(77);
+  EXPECT_FALSE(PacketReader(other).next());
+  PacketReader pipe;
+  pipe.feed(s.bytes);
+  EXPECT_EQ(pipe.next()->status, ReadStatus::kNeedMore) << "which is not known yet";
+  pipe.close();
+  EXPECT_EQ(pipe.next()->status, ReadStatus::kPacket);
 }
 
 TEST(PacketReader, RefusesTooLargeAPayloadBeforeItArrives) {

@@ -250,7 +250,7 @@ class RandomCalls {
 TEST(ApiCalls, ComeInAnyOrder) {
   std::vector<std::vector<std::uint8_t>> streams;
   for (const char* name : {"talk.fbs", "one.fbs", "nobody.fbs", "odd.fbs", "late.fbs", "joined.fbs",
-                           "patterns.fbs", "lost_scene.fbs", "flipped_bit.fbs", "not_fbs.fbs"})
+                           "patterns.fbs", "lost_scene.fbs", "flipped_bits.fbs", "not_fbs.fbs"})
     streams.push_back(vector_bytes(name));
   const char* const wished = std::getenv("FBS_SEQUENCES");  // NOLINT(concurrency-mt-unsafe)
   const unsigned sequences = wished != nullptr ? static_cast<unsigned>(std::atoi(wished)) : 300;

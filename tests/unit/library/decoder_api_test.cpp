@@ -253,7 +253,7 @@ TEST(DecoderApi, AfterResetTheSignatureMayBeLeftOut) {
 }
 
 TEST(DecoderApi, OffsetsCountFedBytes) {
-  auto bytes = vector_bytes("flipped_bit.fbs");
+  auto bytes = vector_bytes("flipped_bits.fbs");
   const Heard whole = heard(bytes);
   const ApiDecoder decoder = api_decoder();
   ASSERT_EQ(fbs_decoder_reset(decoder.get()), FBS_OK);

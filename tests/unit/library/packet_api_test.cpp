@@ -130,7 +130,7 @@ TEST(PacketApi, DamageIsReportedOnceAndPassedOver) {
   const auto second = std::find_if(whole.infos.begin() + 1, whole.infos.end(), [](const fbs_packet_info& p) {
     return p.type == FBS_PACKET_SETUP || p.type == FBS_PACKET_END;
   });
-  bytes[whole.infos[2].offset + 3] ^= 1;
+  bytes[whole.infos[2].offset + 3] ^= 3;
   const Packets damaged = packets_of(bytes, 50);
   EXPECT_EQ(damaged.errors, std::vector{FBS_ERROR_DAMAGED});
   ASSERT_GT(damaged.infos.size(), 2u);

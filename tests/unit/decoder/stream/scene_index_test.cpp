@@ -44,7 +44,7 @@ TEST(SceneIndex, SkipsDamage) {
   const auto& b = three_scenes().begins;
   for (const std::size_t damaged : {5U, 6U}) {
     Bytes bytes = three_scenes().bytes;
-    bytes[b[damaged] + 4] ^= 1;
+    bytes[b[damaged] + 4] ^= 3;
     const auto scenes = index_scenes(bytes);
     ASSERT_EQ(scenes.size(), damaged == 5 ? 2U : 3U);
     EXPECT_EQ(scenes.front().bytes, (damaged == 5 ? b[8] : b[5]) - b[0]);

@@ -50,10 +50,11 @@ void expect_without(std::size_t lost, const Played& result) {
   }
 }
 
-TEST(StreamDecoderDamage, GoesOnBehindAFlippedBit) {
-  for (std::size_t bit = 4 * 8; bit < sample().bytes.size() * 8; bit += 53) {
+TEST(StreamDecoderDamage, GoesOnBehindFlippedBits) {
+  for (std::size_t bit = 4 * 8; bit + 1 < sample().bytes.size() * 8; bit += 53) {
     Bytes bytes = sample().bytes;
-    bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
+    for (const std::size_t wrong : {bit, bit + 1})
+      bytes[wrong / 8] = static_cast<std::uint8_t>(bytes[wrong / 8] ^ 1U << wrong % 8);
     const Played result = played(bytes);
     ASSERT_EQ(result.errors.size(), 1U) << bit << ": a loss is reported once";
     expect_without(
@@ -65,7 +66,7 @@ TEST(StreamDecoderDamage, GoesOnBehindAFlippedBit) {
 
 TEST(StreamDecoderDamage, ErrorsNameTheByteOfTheirPacket) {
   Bytes bytes = sample().bytes;
-  bytes[sample().begins[5] + 3] ^= 1;
+  bytes[sample().begins[5] + 3] ^= 3;
   const Played result = played(bytes);
   ASSERT_GE(result.errors.size(), 1u);
   EXPECT_EQ(result.errors[0].byte_offset, sample().begins[5]);
@@ -77,7 +78,7 @@ TEST(StreamDecoderDamage, LossInTheHeadCostsTheScene) {
     w.scene({}, 5).motion(5, 10).motion(10, 15, true).motion(15, 20);
     w.scene({20, 60000}, 3).end(23);
     Bytes bytes = w.bytes;
-    bytes[w.begins[lost] + 3] ^= 1;
+    bytes[w.begins[lost] + 3] ^= 3;
     const Played result = played(bytes), whole = played(w.bytes);
     ASSERT_EQ(result.errors.size(), 1u) << "a loss is reported once";
     EXPECT_EQ(result.errors[0].byte_offset, w.begins[lost]);

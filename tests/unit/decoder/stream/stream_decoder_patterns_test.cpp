@@ -452,7 +452,7 @@ TEST(StreamDecoderPatterns, LossCostsWhatNeedsThePacket) {
   ASSERT_EQ(whole.pictures.size(), 15U);
   const auto expect = [&](std::size_t lost, std::size_t shown, const Played& as) {
     Bytes bytes = w.bytes;
-    bytes[w.begins[lost] + 3] ^= 1;
+    bytes[w.begins[lost] + 3] ^= 3;
     const Played result = played(bytes);
     EXPECT_EQ(result.errors.size(), 1U) << lost;
     EXPECT_EQ(result.positions, whole.positions) << lost;

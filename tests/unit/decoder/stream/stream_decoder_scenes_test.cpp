@@ -88,7 +88,7 @@ TEST(StreamDecoderScenes, LostSceneIsHeld) {
 TEST(StreamDecoderScenes, PictureOfAnEarlierSceneIsHeldWhereASceneHasNone) {
   const Writer& w = three_scenes();
   Bytes bytes = w.bytes;
-  bytes[w.begins[8] + 20] ^= 1;
+  bytes[w.begins[8] + 20] ^= 3;
   StreamDecoder decoder;
   decoder.feed(bytes);
   decoder.close();
@@ -112,7 +112,7 @@ TEST(StreamDecoderScenes, PictureOfAnEarlierSceneIsHeldWhereASceneHasNone) {
 TEST(StreamDecoderScenes, LostSetupCostsItsSceneOnly) {
   const Writer& w = three_scenes();
   Bytes bytes = w.bytes;
-  bytes[w.begins[5] + 4] ^= 1;
+  bytes[w.begins[5] + 4] ^= 3;
   const Played result = played(bytes), whole = played(w.bytes);
   EXPECT_EQ(result.errors.size(), 1U);
   ASSERT_EQ(result.pictures.size(), 15U);

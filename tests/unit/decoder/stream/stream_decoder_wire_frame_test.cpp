@@ -110,7 +110,7 @@ TEST(StreamDecoderWireFrame, TakesItsSceneWithItWhenItIsLost) {
   add_split_scene(w).scene({10, 30000}, 5).end(15);
   const std::size_t begin = w.begins[1], end = w.begins[2];
   Bytes flipped = w.bytes, removed = w.bytes;
-  flipped[begin + 100] ^= 4;
+  flipped[begin + 100] ^= 6;
   removed.erase(removed.begin() + static_cast<std::ptrdiff_t>(begin),
                 removed.begin() + static_cast<std::ptrdiff_t>(end));
   for (const Bytes& bytes : {flipped, removed}) {

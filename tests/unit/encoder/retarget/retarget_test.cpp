@@ -74,7 +74,7 @@ TEST(ReadFaceStream, LeavesOutPatternsThatReplaceOthers) {
 }
 
 TEST(ReadFaceStream, FailsWhereTheStreamIsDamaged) {
-  for (const char* name : {"truncated.fbs", "flipped_bit.fbs", "not_fbs.fbs", "newer.fbs", "lost_key.fbs"})
+  for (const char* name : {"truncated.fbs", "flipped_bits.fbs", "not_fbs.fbs", "newer.fbs", "lost_key.fbs"})
     EXPECT_FALSE(read_face_stream(vector_file(name))) << name;
 }
 
