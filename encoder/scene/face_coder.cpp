@@ -130,6 +130,7 @@ Result<void> FaceCoder::end_lookahead() {
   auto surround = encode_surround(surround_.map());
   if (!surround) return fail(surround.error());
   ledger_.packets().add(PacketType::kSurround, *surround);
+  if (ledger_.timing().repeats_moved) surround_again_ = std::move(*surround);
   return {};
 }
 
@@ -158,6 +159,8 @@ Result<void> FaceCoder::end_segment() {
     return refit.run(segment, drawn_from);
   });
   if (!ended) return ended;
+  if (!surround_again_.empty())
+    ledger_.packets().add(PacketType::kSurround, std::exchange(surround_again_, {}));
   if (refit.motion()) ledger_.set_motion(*refit.motion());
   refit.begin_segment(ledger_.motion());
   if (ledger_.scene_ends(pictures)) ledger_.end_scene();

@@ -78,7 +78,8 @@ class FaceCoder {
     std::int32_t contrast;     ///< of patterns outside the face
     FaceChroma face_chroma{};  ///< until the scene starts
   };
-  std::optional<SecondPass> second_pass_;  ///< nothing with one pattern
+  std::optional<SecondPass> second_pass_;     ///< nothing with one pattern
+  std::vector<std::uint8_t> surround_again_;  ///< payload to be sent once more, behind the next group
   std::vector<std::uint8_t> geometry_payload_;
   std::vector<std::uint8_t> pattern_payload_;  ///< of pattern 0; empty where segments bring their own
 };

@@ -238,6 +238,7 @@ class Link {
     }
     std::vector<double> fed;
     double last = 0;
+    std::optional<double> patience;  // until when those that are missing in a row are waited for
     for (std::size_t k = 0; k < units_.size(); ++k) {
       double arrives = lost[k] ? kNever : units_[k].end + kOneWay;
       for (int c = 1; c <= o.copies && k + c < units_.size(); ++c)
@@ -248,11 +249,13 @@ class Link {
         do arrives += o.round_trip;
         while (uniform(random) < o.loss);
       }
-      const double deadline = due(units_[k].first, o) - 1e-6;
+      const double deadline = patience.value_or(due(units_[k].first, o) - 1e-6);
       if (arrives <= std::max(deadline, last)) {
         last = std::max(arrives, last);
         fed.push_back(last);
+        patience.reset();
       } else {
+        patience = deadline;
         last = std::max(deadline, last);  // what follows is not held back any longer
         fed.push_back(arrives);
       }
