@@ -18,8 +18,8 @@ void LatePackets::feed(std::uint64_t number, std::span<const std::uint8_t> bytes
 
 LatePackets::Bytes LatePackets::next(SceneReader& reader) {
   drop_complete(reader);
-  while (position_ == kept_.size()) {
-    if (arrived_.empty()) return std::nullopt;
+  // All that are there are put in order before one is read behind a gap.
+  while (!arrived_.empty() && (position_ == kept_.size() || kept_.size() < kMaxKept)) {
     Received packet = std::move(arrived_.front());
     arrived_.pop_front();
     if (!before_ && packet.number == expected_.value_or(packet.number)) {
@@ -29,6 +29,7 @@ LatePackets::Bytes LatePackets::next(SceneReader& reader) {
     }
     place(std::move(packet), reader);
   }
+  if (position_ == kept_.size()) return std::nullopt;
   return read(kept_[position_++]);
 }
 

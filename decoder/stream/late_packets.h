@@ -21,6 +21,9 @@ class LatePackets {
   /// @param number  of the packet on the link: one more for each that was sent
   void feed(std::uint64_t number, std::span<const std::uint8_t> bytes);
 
+  /// No more will come: the stream ends behind what waits.
+  void close() { closed_ = true; }
+  [[nodiscard]] bool is_closed() const { return closed_; }
   /// Whether one has been fed.
   [[nodiscard]] bool has_begun() const { return expected_ || !arrived_.empty(); }
 
@@ -66,7 +69,7 @@ class LatePackets {
   std::size_t position_ = 0;               ///< in kept_, of the next to be read
   std::uint64_t given_up_ = 0;             ///< numbers below are not waited for
   Received current_{};                     ///< read last, where none is missing
-  bool again_ = false;
+  bool again_ = false, closed_ = false;
 };
 
 }  // namespace fbs

@@ -41,8 +41,12 @@ Result<DecodeStatus> StreamDecoder::next() {
     }
     if (read->status == ReadStatus::kNeedMore) {
       const auto bytes = late_.next(reader_);
-      if (!bytes) return DecodeStatus::kNeedMore;
-      packets_.feed(*bytes);
+      if (bytes)
+        packets_.feed(*bytes);
+      else if (late_.is_closed())
+        packets_.close();
+      else
+        return DecodeStatus::kNeedMore;
       continue;
     }
     if (read->status == ReadStatus::kEnd) {

@@ -63,7 +63,7 @@ class StreamDecoder {
   /// Packets of the link below this number that are missing will not come.
   void give_up_packets(std::uint64_t number) { late_.give_up(number); }
   /// No more bytes will come.
-  void close() { packets_.close(); }
+  void close() { late_.has_begun() ? late_.close() : packets_.close(); }
 
   /// Counts the bits of motion from the next scene on, which doubles the time to read it. Off by default.
   void count_motion_bits() { tally_.count_motion_bits(); }

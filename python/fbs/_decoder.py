@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float32]
 
 _OK, _NEED_DATA, _END = 0, 1, 2
+_QUALITIES = ("exact", "pattern missing", "interpolated", "held")  # by fbs_quality
+_MOST_MISSING = 1024
 _LAST_TIME = (1 << 64) - 1
 
 
@@ -31,6 +33,7 @@ class PictureInfo(NamedTuple):
     """A picture's place in its stream: `number` from 0, `time` and `duration` in seconds.
 
     `held`: the picture was lost, and the one before is shown in its place. `new_scene`: decoding can begin here.
+    `quality`: what it has suffered from losses, "exact", "pattern missing", "interpolated" (its motion is) or "held".
     """
 
     number: int
@@ -38,6 +41,7 @@ class PictureInfo(NamedTuple):
     duration: float
     held: bool
     new_scene: bool
+    quality: str
 
 
 class Scene(NamedTuple):
@@ -152,6 +156,30 @@ class Decoder:
             raise ArgumentError("this decoder reads its source by itself")
         self._decoder.feed(piece)
 
+    def feed_packet(self, number: int, packet: Buffer) -> None:
+        """Copy what one packet of a link brings, in place of :meth:`feed`: a packet of :class:`Encoder`, or several.
+
+        Packets may be missing, come twice or late. A late one does not change pictures that have been returned; those
+        behind it are as if it had come in order.
+
+        Parameters
+        ----------
+        number : int
+            One more for each packet that is sent.
+        """
+        if not self._source.is_fed:
+            raise ArgumentError("this decoder reads its source by itself")
+        self._decoder.feed_packet(number, packet)
+
+    @property
+    def missing(self) -> list[int]:
+        """Numbers of the packets that are missing and still of use, to be asked for, the lowest first."""
+        return self._decoder.missing(_MOST_MISSING)
+
+    def packets_lost(self, before: int) -> None:
+        """Wait no longer for missing packets with numbers below `before`."""
+        self._decoder.packets_lost(before)
+
     def finish(self) -> None:
         """End the stream."""
         self._decoder.finish()
@@ -191,7 +219,7 @@ class Decoder:
     def _next_info(self) -> PictureInfo | None:
         while True:
             try:
-                status, number, ticks, duration, held, new_scene = self._decoder.next()
+                status, number, ticks, duration, held, new_scene, quality = self._decoder.next()
             except Error as problem:
                 if not self._keep_going or isinstance(problem, (ArgumentError, NoMemoryError, NotFbsError)):
                     raise
@@ -199,7 +227,12 @@ class Decoder:
                 continue
             if status == _OK:
                 self._info = PictureInfo(
-                    number, ticks / TICKS_PER_SECOND, duration / TICKS_PER_SECOND, held, new_scene
+                    number,
+                    ticks / TICKS_PER_SECOND,
+                    duration / TICKS_PER_SECOND,
+                    held,
+                    new_scene,
+                    _QUALITIES[quality],
                 )
                 return self._info
             if status == _END or not self._feed_more():
@@ -315,7 +348,8 @@ class Decoder:
             for plane in picture.planes:
                 require_writable(plane, 2)
         picture.matrix, picture.full_range = format.matrix, format.full_range
-        picture.number, picture.time, picture.duration, picture.held, picture.new_scene = self._info
+        for name, value in self._info._asdict().items():
+            setattr(picture, name, value)
         return picture
 
     def _look_ahead(self) -> None:

@@ -75,6 +75,8 @@ class Picture:
         This picture was lost; the previous one is shown in its place.
     new_scene : bool
         The first picture of a scene: decoding can begin here.
+    quality : {"exact", "pattern missing", "interpolated", "held"}
+        What it has suffered from losses.
 
     Examples
     --------
@@ -86,7 +88,7 @@ class Picture:
     True
     """
 
-    __slots__ = ("duration", "full_range", "held", "matrix", "new_scene", "number", "time", "u", "v", "y")
+    __slots__ = ("duration", "full_range", "held", "matrix", "new_scene", "number", "quality", "time", "u", "v", "y")
 
     def __init__(
         self, y: Plane, u: Plane, v: Plane, *, matrix: str = "unspecified", full_range: bool = False
@@ -106,6 +108,7 @@ class Picture:
         self.duration = 0.0
         self.held = False
         self.new_scene = False
+        self.quality = "exact"
 
     @classmethod
     def empty(cls, width: int, height: int, *, matrix: str = "unspecified", full_range: bool = False) -> Picture:

@@ -2,6 +2,7 @@
 
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <array>
@@ -46,7 +47,22 @@ nb::tuple next(Decoder& self) {
   fbs_picture_info info{};
   const fbs_status status = self.call([&](fbs_decoder* d) { return check(d, fbs_decoder_next(d, &info)); });
   return nb::make_tuple(static_cast<int>(status), info.number, info.time, info.duration, info.held != 0,
-                        info.new_scene != 0);
+                        info.new_scene != 0, info.quality);
+}
+
+void feed_packet(Decoder& self, std::uint64_t number, nb::handle packet) {
+  const ByteView view(packet);
+  self.call([&](fbs_decoder* d) {
+    check(d, fbs_decoder_feed_packet(d, number, view.bytes().data(), view.bytes().size()));
+  });
+}
+
+std::vector<std::uint64_t> missing(Decoder& self, std::size_t most) {
+  std::vector<std::uint64_t> out(most);
+  std::size_t count = 0;
+  self.call([&](fbs_decoder* d) { check(d, fbs_decoder_get_missing(d, out.data(), most, &count)); });
+  out.resize(count);
+  return out;
 }
 
 void draw(Decoder& self, const PlaneArray& y, const PlaneArray& u, const PlaneArray& v) {
@@ -162,6 +178,14 @@ void bind_decoder(nb::module_& module) {
       .def("__init__", open, nb::arg("threads"), nb::arg("max_pixels"))
       .def("close", &Decoder::close)
       .def("feed", feed, nb::arg("piece"))
+      .def("feed_packet", feed_packet, nb::arg("number"), nb::arg("packet"))
+      .def("missing", missing, nb::arg("most"))
+      .def(
+          "packets_lost",
+          [](Decoder& self, std::uint64_t before) {
+            self.call([&](fbs_decoder* d) { check(d, fbs_decoder_packets_lost(d, before)); });
+          },
+          nb::arg("before"))
       .def("finish",
            [](Decoder& self) { self.call([](fbs_decoder* d) { check(d, fbs_decoder_finish(d)); }); })
       .def("reset", [](Decoder& self) { self.call([](fbs_decoder* d) { check(d, fbs_decoder_reset(d)); }); })

@@ -160,6 +160,50 @@ def test_drawing_into_arrays_of_ones_own(stream):
         decoder.draw(out=(read_only, upside_down, upside_down))
 
 
+def packets_of(stream):
+    """Its packets, with their checks (SPEC 3.1)."""
+    at, packets = 4, []
+    while at < len(stream):
+        begin, length, shift, at = at, 0, 0, at + 1
+        while True:
+            length |= (stream[at] & 127) << shift
+            shift, at = shift + 7, at + 1
+            if stream[at - 1] < 128:
+                break
+        at += length + (2 if length < 256 else 3)
+        packets.append(stream[begin:at])
+    return packets
+
+
+def test_packets_of_a_link_may_be_missing_or_late():
+    stream = (VECTORS / "live.fbs").read_bytes()
+    whole = [picture.tobytes() for picture in fbs.Decoder(stream)]
+    packets = packets_of(stream)
+    lost = next(k for k, packet in enumerate(packets) if packet[0] == 11) + 1  # a unit
+
+    def decoder_behind_the_loss():
+        decoder = fbs.Decoder(keep_going=True)
+        for k, packet in enumerate(packets[: lost + 2]):
+            if k != lost:
+                decoder.feed_packet(k, packet)
+        return decoder
+
+    decoder = decoder_behind_the_loss()
+    assert {picture.quality for picture in decoder} > {"exact"}
+    assert decoder.missing == [lost]
+    decoder.packets_lost(lost + 1)
+    assert decoder.missing == []
+
+    decoder = decoder_behind_the_loss()
+    decoder.feed_packet(lost, packets[lost])
+    for k in range(lost + 2, len(packets)):
+        decoder.feed_packet(k, packets[k])
+    decoder.finish()
+    assert [picture.tobytes() for picture in decoder] == whole
+    with pytest.raises(fbs.ArgumentError):
+        fbs.Decoder(stream).feed_packet(0, b"")
+
+
 @pytest.mark.parametrize("name", ["talk.fbs", "joined.fbs", "late.fbs", "durations.fbs", "two_heads.fbs", "lost_scene.fbs"])
 def test_seeking_finds_every_picture(name):
     decoder = fbs.Decoder(VECTORS / name, keep_going=True)

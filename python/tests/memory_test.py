@@ -52,7 +52,7 @@ def test_of_a_decoder_that_goes_on_for_ever(stream, request):
 
 
 def test_of_decoders_states_and_errors(stream, request):
-    damaged = (VECTORS / "flipped_bit.fbs").read_bytes()
+    damaged = (VECTORS / "flipped_bits.fbs").read_bytes()
 
     def once():
         assert len(fbs.Decoder(stream).states) == PICTURES

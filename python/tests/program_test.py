@@ -88,7 +88,7 @@ def test_errors_have_their_class_and_the_text_of_the_program(video, stream, tmp_
         (fbs.NoFaceError, "no face", lambda: fbs.track(grey)),
         (fbs.NotFbsError, "not an fbs stream", lambda: fbs.inspect(video)),
         (fbs.NotFbsError, "not an fbs stream", lambda: fbs.decode(video, tmp_path / "out.mp4")),
-        (fbs.DamagedError, "checksum|damaged", lambda: fbs.decode(VECTORS / "flipped_bit.fbs", tmp_path / "out.y4m")),
+        (fbs.DamagedError, "checksum|damaged", lambda: fbs.decode(VECTORS / "flipped_bits.fbs", tmp_path / "out.y4m")),
         (fbs.NotFbsError, "not an fbs stream", lambda: fbs.retarget(video, stream, out)),
         (fbs.FileError, "none", lambda: fbs.evaluate(tmp_path / "none.mkv")),
     ]:

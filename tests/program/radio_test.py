@@ -83,17 +83,17 @@ class Radio(ProgramTest):
 
     def test_without_the_code_damage_stays_local(self):
         stream = KEYED_FBS.read_bytes()
-        total, damaged = 0, 0
+        total, damaged, lossy = 0, 0, 0
         for seed in range(12):
-            received, wrong, _ = self.received(stream, ("--bit-errors", 2e-5, "--seed", seed), *BARE)
+            received, _, _ = self.received(stream, ("--bit-errors", 1e-4, "--seed", seed), *BARE)
             lost, exact, concealed, frozen = self.shown(stream, received)
+            self.assertLess(frozen, 55, f"seed {seed}: more than two of four scenes")
             damaged += received != stream
+            lossy += lost > 0
             total += exact + concealed
-            self.assertEqual(lost > 0, received != stream)
-            if wrong == 1:
-                self.assertLess(frozen, 30, f"seed {seed}: more than one scene of half a second in four")
-        self.assertGreater(damaged, 4)
-        self.assertGreater(total / 12, 60)
+        self.assertGreater(damaged, lossy, "a packet's check sets one wrong bit right")
+        self.assertGreater(lossy, 4)
+        self.assertGreater(total / 12, 80)
 
     def test_a_lost_frame_behind_the_head_freezes_nothing_of_a_strong_stream(self):
         stream = self.live()

@@ -83,6 +83,16 @@ TEST(LatePackets, InOrderTheyAreTheStream) {
   EXPECT_TRUE(result.errors.empty());
 }
 
+TEST(LatePackets, MayAllBeFedBeforeTheFirstIsRead) {
+  const auto packets = link_packets();
+  StreamDecoder decoder;
+  for (const std::size_t k : {0, 1, 3, 2, 5, 4, 6, 7}) decoder.feed_packet(kFirst + k, packets[k]);
+  decoder.close();
+  Played result;
+  EXPECT_TRUE(play(decoder, result)) << "the end";
+  EXPECT_EQ(result.pictures, right());
+}
+
 TEST(LatePackets, ThoseBehindALateOneAreRight) {
   // 1 brings a pattern that those of 3 and 5 need.
   const Played result = played_in({0, 2, 3, 1, 4, 5, 6, 7});
