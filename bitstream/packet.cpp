@@ -73,6 +73,7 @@ struct PacketReader::Impl {
   bool closed = false;
   bool begun = false;      // the signature has been read or is not required any more
   bool searching = false;  // for a packet behind the damage
+  bool repaired = false;   // the packet at `position`
   CheckChain checks;
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
@@ -129,12 +130,13 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   const auto payload = reader.bytes(size);
   const Check check = read_check(reader, bytes, size);
   if (reader.past_end()) return need_more("stream ends inside a packet");
-  const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset()};
+  const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset(), repaired};
   if (check.difference != 0) {
-    if (!closed && bytes.size() == packet.size) return ReadResult{};  // repair() looks at the byte behind it
-    if (repair(packet, check)) return read_packet();
+    repaired = repair(packet, check);
+    if (repaired) return read_packet();
     return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
   }
+  repaired = false;
   position += packet.size;
   checks.add(packet.type, check.stored);
   return ReadResult{ReadStatus::kPacket, packet};
@@ -151,15 +153,13 @@ PacketReader::Impl::Check PacketReader::Impl::read_check(ByteReader& reader,
   return {stored, checks.of(bytes.first(checked), crc) ^ stored};
 }
 
-// SPEC 3.2. A length that is wrong seldom ends where another packet begins.
+// SPEC 3.2
 bool PacketReader::Impl::repair(const Packet& packet, const Check& check) {
-  const std::size_t end = position + packet.size;
-  if (end < buffer.size() && !is_known(static_cast<PacketType>(buffer[end]))) return false;
   if (packet.payload.size() > kMaxRepairedPayload) return false;
   const Crc& crc = crc_of(packet.payload.size());
   const auto bit = crc.wrong_bit(check.difference, 8 * packet.payload.size() + crc.bits());
   if (!bit) return false;
-  std::uint8_t& byte = buffer[end - 1 - *bit / 8];
+  std::uint8_t& byte = buffer[position + packet.size - 1 - *bit / 8];
   byte = static_cast<std::uint8_t>(byte ^ 1U << *bit % 8);
   return true;
 }

@@ -79,6 +79,7 @@ struct Packet {
   std::uint64_t offset = 0;               ///< of the type byte, from the start of the stream
   std::span<const std::uint8_t> payload;  ///< in the reader's memory, valid until the next feed()
   std::size_t size = 0;                   ///< bytes of the whole packet: type, length, payload and check
+  bool repaired = false;                  ///< one wrong bit has been set right
 };
 
 enum class ReadStatus : std::uint8_t {

@@ -178,6 +178,7 @@ nlohmann::json to_json(const PacketEntry& p) {
   nlohmann::json out = {{"offset", p.offset}, {"type", p.type}, {"key", p.key}, {"bytes", p.bytes}};
   out["seconds"] = p.time ? nlohmann::json(seconds_of(*p.time)) : nlohmann::json();
   if (!p.error.empty()) out["error"] = p.error;
+  if (p.repaired) out["repaired"] = true;
   return out;
 }
 
@@ -188,9 +189,9 @@ void print_packets(const std::string& name, const std::vector<PacketEntry>& pack
   for (const PacketEntry& p : packets) {
     std::array<char, 32> time{"-"};
     if (p.time) std::snprintf(time.data(), time.size(), "%.3f s", seconds_of(*p.time));
-    std::printf("  %12llu  %-11s  %-3s  %12s  %9llu%s%s\n", static_cast<unsigned long long>(p.offset),
+    std::printf("  %12llu  %-11s  %-3s  %12s  %9llu%s%s%s\n", static_cast<unsigned long long>(p.offset),
                 p.type.c_str(), p.key ? "key" : "", time.data(), static_cast<unsigned long long>(p.bytes),
-                p.error.empty() ? "" : "  ", p.error.c_str());
+                p.repaired ? "  one wrong bit set right" : "", p.error.empty() ? "" : "  ", p.error.c_str());
   }
 }
 

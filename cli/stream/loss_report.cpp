@@ -21,6 +21,10 @@ unsigned long long number(std::uint64_t n) {
 Result<DecodeStatus> LossReport::next(StreamFile& file) {
   for (;;) {
     auto status = file.next();
+    if (status && *status == DecodeStatus::kPicture) {
+      interpolated_ += file.decoder().quality() == PictureQuality::kInterpolated ? 1 : 0;
+      lack_patterns_ += file.decoder().quality() == PictureQuality::kPatternMissing ? 1 : 0;
+    }
     if (status || is_final(status.error().code)) return status;
     ++places_;
     if (progress_ == nullptr || places_ > kMaxLines) continue;
@@ -36,8 +40,11 @@ Outcome LossReport::finish(StreamFile& file) const {
   const std::uint64_t missing = decoder.missing_pictures(), held = decoder.held_pictures();
   const std::uint64_t all = decoder.pictures() - held + missing;
   if (places_ > 0)
-    std::fprintf(stderr, "fbs: %s: damaged places: %d; pictures lost: %llu of %llu, held: %llu\n",
-                 file.name().c_str(), places_, number(missing), number(all), number(held));
+    std::fprintf(stderr,
+                 "fbs: %s: damaged places: %d; pictures lost: %llu of %llu, held: %llu, interpolated: %llu, "
+                 "without a lost pattern: %llu\n",
+                 file.name().c_str(), places_, number(missing), number(all), number(held),
+                 number(interpolated_), number(lack_patterns_));
   if (!ended) std::fprintf(stderr, "fbs: %s: %s\n", file.name().c_str(), missing_end_text(decoder).c_str());
   if (missing > 0 && missing * kMuch >= all) return Outcome::kMuchLost;
   return places_ > 0 || missing > 0 || !ended ? Outcome::kLittleLost : Outcome::kComplete;

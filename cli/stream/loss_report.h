@@ -1,6 +1,7 @@
 // Reports to the user what a damaged stream has lost.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "cli/program/outcome.h"
@@ -33,6 +34,7 @@ class LossReport {
 
   Progress* progress_ = nullptr;
   int places_ = 0;
+  std::uint64_t interpolated_ = 0, lack_patterns_ = 0;  ///< pictures, by PictureQuality
 };
 
 /// "the end packet is missing: the stream was cut after 96 pictures, or has not ended"

@@ -19,7 +19,8 @@ std::string name_of(PacketType type) {
 }
 
 PacketEntry entry_of(const Packet& packet, PacketTimes& times) {
-  PacketEntry entry{packet.offset, packet.size, name_of(packet.type), false, std::nullopt, {}};
+  PacketEntry entry{packet.offset, packet.size, name_of(packet.type), false,
+                    std::nullopt,  {},          packet.repaired};
   const bool lost = times.has_losses();
   const auto timed = times.take(packet);
   if (!timed) {

@@ -19,10 +19,11 @@ struct PacketEntry {
   bool key = false;                   ///< TimedPacket::key
   std::optional<std::uint64_t> time;  ///< TimedPacket::time; none with an error
   std::string error;                  ///< its fault; empty: none
+  bool repaired = false;              ///< Packet::repaired
 };
 
-/// Lists a stream up to its end. After damage it continues like a decoder, with the next setup or end packet
-/// (SPEC 3.2); other packets of a damaged scene are listed without times. AV1 data is not decoded.
+/// Lists a stream up to its end. After damage it continues like a decoder, with the next packet whose check
+/// is right (SPEC 3.2); what needs a lost one is listed without a time. AV1 data is not decoded.
 /// @param stream  from its signature on
 [[nodiscard]] std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream);
 

@@ -73,7 +73,7 @@ TEST(FbsParse, PassesOverDamageToTheNextScene) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   Bytes stream = joined(groups);
   const std::size_t first = bytes_of(groups[0].get()).size(), second = bytes_of(groups[1].get()).size();
-  stream[first + second + 3] ^= 0x10;
+  stream[first + second + 3] ^= 0x30;
   const Harness harness = byte_parser();
   Messages messages(harness.get());
   push_in_pieces(harness.get(), stream, 50);
@@ -99,7 +99,7 @@ TEST(FbsParse, DamageAnywhereCostsItsSceneAlone) {
   const Bytes expected = second_scene(groups);
   for (std::size_t at = 0; at < stream.size() - expected.size(); at += 13) {
     Bytes damaged = stream;
-    damaged[at] ^= static_cast<std::uint8_t>(1U << at % 8);
+    damaged[at] ^= static_cast<std::uint8_t>(at % 2 == 0 ? 3U : 0x10U);  // two wrong bits, and one
     const Harness harness = byte_parser();
     push_in_pieces(harness.get(), damaged, 100);
     EXPECT_EQ(second_scene(finish(harness.get())), expected) << at;

@@ -50,7 +50,7 @@ class DamagedStream(ProgramTest):
         pictures, report = self.keep_going(stream, MUCH_LOST if missing >= 12 else LITTLE_LOST)
         self.assertEqual(pictures, before + [before[-1]] * missing, "the last is not held")
         self.assertIn(f"bad.fbs: {message} (at byte {at})", report)
-        self.assertIn(f"damaged places: 1; pictures lost: {missing} of 120, held: {missing}\n", report)
+        self.assertIn(f"damaged places: 1; pictures lost: {missing} of 120, held: {missing}, interpolated: 0", report)
 
     def expect_noticed(self, stream, at, *messages):
         """Expects of a stream in which something is wrong at byte `at`: the pictures before that, as many as in the whole

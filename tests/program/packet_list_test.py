@@ -75,6 +75,14 @@ class PacketList(ProgramTest):
                          ("damage", bad["offset"], bad["offset"] + bad["bytes"], None))
         self.assertIn("damaged", damage["error"])
 
+    def test_marks_packets_that_were_repaired(self):
+        stream = bytearray(TALK_FBS.read_bytes())
+        _, begin, end = packets(stream)[3]
+        stream[(begin + end) // 2] ^= 1
+        self.write("bit.fbs", bytes(stream))
+        self.assertEqual([k for k, p in enumerate(self.listed("bit.fbs")) if p.get("repaired")], [3])
+        self.assertIn(b"one wrong bit set right", self.succeed("inspect", "bit.fbs", "--packets"))
+
     def test_text_has_a_line_for_each_packet(self):
         stream = TALK_FBS.read_bytes()
         found = packets(stream)

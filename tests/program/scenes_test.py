@@ -36,7 +36,7 @@ class Scenes(ProgramTest):
 
     def test_skipped_scenes_are_not_read(self):
         damaged = bytearray(self.stream)
-        damaged[self.setups[0] + 30] ^= 1
+        damaged[self.setups[0] + 30] ^= 3
         self.write("bad.fbs", bytes(damaged))
         out = self.succeed("decode", "bad.fbs", "-", "--from", 1)
         self.assertEqual(Y4m(out).pictures, self.whole[30:])
@@ -61,7 +61,7 @@ class Scenes(ProgramTest):
     def test_damaged_scene_is_held_up_to_the_next(self):
         motion = [begin for kind, begin, _ in packets(self.stream) if kind == MOTION and begin < self.setups[1]]
         damaged = bytearray(self.stream)
-        damaged[motion[1] + 3] ^= 1
+        damaged[motion[1] + 3] ^= 3
         self.write("bad.fbs", bytes(damaged))
         self.fail_cleanly("decode", "bad.fbs", "out.y4m", says=["bad.fbs", f"at byte {motion[1]}"])
         done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
@@ -93,7 +93,7 @@ class Scenes(ProgramTest):
 
     def test_lost_beginning_leaves_a_gap(self):
         damaged = bytearray(self.stream)
-        damaged[self.setups[0] + 5] ^= 1
+        damaged[self.setups[0] + 5] ^= 3
         self.write("bad.fbs", bytes(damaged))
         done = self.fbs("decode", "bad.fbs", "out.mkv", "--keep-going")
         self.assertEqual(done.returncode, LITTLE_LOST)

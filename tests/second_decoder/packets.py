@@ -101,7 +101,7 @@ def _read_packet(data, position, checks, max_payload=MAX_PAYLOAD):
 
 def _repaired(data, length, difference, end):
     """`data` with one bit inverted of the packet that ends at `end`, so that its check is right (SPEC 3.2)."""
-    if length > MAX_REPAIRED_PAYLOAD or end < len(data) and data[end] not in KNOWN_TYPES:
+    if length > MAX_REPAIRED_PAYLOAD:
         return None
     crc = crc_of(length)
     bit = crc.wrong_bit(difference, 8 * length + crc.bits)

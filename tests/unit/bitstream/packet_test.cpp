@@ -209,7 +209,10 @@ TEST(PacketReader, SetsOneWrongBitOfAPayloadOrCheckRight) {
       const auto read = reader.next();
       ASSERT_TRUE(read.has_value()) << bit;
       EXPECT_TRUE(std::ranges::equal(read->packet.payload, random_bytes(size, 4))) << bit;
-      EXPECT_EQ(reader.next()->packet.offset, s.begins[1]) << bit;
+      EXPECT_TRUE(read->packet.repaired);
+      const auto next = reader.next();
+      EXPECT_EQ(next->packet.offset, s.begins[1]) << bit;
+      EXPECT_FALSE(next->packet.repaired);
     }
   }
 }
@@ -228,21 +231,6 @@ TEST(PacketReader, RefusesAPacketWithMoreWrongBits) {
     EXPECT_EQ(read.error().byte_offset, 4u);
     EXPECT_EQ(reader.next()->status, ReadStatus::kEnd) << "the error is reported once";
   }
-}
-
-// Its length may be wrong.
-TEST(PacketReader, RepairsNoPacketThatNoneFollows) {
-  Stream s;
-  s.add(PacketType::kMotion, random_bytes(40, 4));
-  s.bytes[20] = static_cast<std::uint8_t>(s.bytes[20] ^ 8U);
-  Bytes other = s.bytes;
-  other.push_back(77);
-  EXPECT_FALSE(PacketReader(other).next());
-  PacketReader pipe;
-  pipe.feed(s.bytes);
-  EXPECT_EQ(pipe.next()->status, ReadStatus::kNeedMore) << "which is not known yet";
-  pipe.close();
-  EXPECT_EQ(pipe.next()->status, ReadStatus::kPacket);
 }
 
 TEST(PacketReader, RefusesTooLargeAPayloadBeforeItArrives) {

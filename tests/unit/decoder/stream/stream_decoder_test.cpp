@@ -224,7 +224,7 @@ TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   reader.feed(sample().bytes);
   reader.close();
   for (auto read = reader.next(); read->status == ReadStatus::kPacket; read = reader.next()) {
-    const auto [type, offset, payload, size] = read->packet;
+    const auto& [type, payload] = std::pair(read->packet.type, read->packet.payload);
     w.packet(type, type == PacketType::kSetup ? longer : Bytes(payload.begin(), payload.end()));
   }
   const Played result = played(w.bytes);
