@@ -17,7 +17,7 @@ struct Found {
   bool whole = false;
   std::uint8_t type = 0;
   std::span<const std::uint8_t> payload;
-  std::size_t checked = 0;  ///< bytes covered by the check, which follows them
+  std::size_t size = 0;  ///< with its check
 };
 
 Found find_packet(std::span<const std::uint8_t> bytes) {
@@ -27,8 +27,9 @@ Found find_packet(std::span<const std::uint8_t> bytes) {
   const std::uint64_t size = reader.varint();
   if (size > kMaxPayload) return out;
   out.payload = reader.bytes(size);
-  out.checked = reader.offset();
-  out.whole = reader.ok() && reader.remaining() >= 2;
+  (void)reader.bytes(crc_of(size).bits() / 8);
+  out.size = reader.offset();
+  out.whole = reader.ok();
   return out;
 }
 
@@ -125,7 +126,7 @@ std::vector<std::size_t> packet_borders(std::span<const std::uint8_t> stream) {
   for (;;) {
     const Found packet = find_packet(stream.subspan(out.back()));
     if (!packet.whole) return out;
-    out.push_back(out.back() + packet.checked + 2);
+    out.push_back(out.back() + packet.size);
   }
 }
 
