@@ -48,6 +48,11 @@ class Encoder {
   /// @return kInvalidArgument if the encoding is not live, or has ended
   Result<void> request_scene();
 
+  /// The link has another rate: holds what follows to it.
+  /// @param kbps  > 0
+  /// @return kInvalidArgument if the encoding is not live with a bitrate, or has ended
+  Result<void> set_bitrate(double kbps);
+
   /// Codes everything still held back and ends the stream.
   /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or the
   ///         stream has ended already

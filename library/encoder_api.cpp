@@ -105,6 +105,13 @@ fbs_status fbs_encoder_request_scene(fbs_encoder* encoder) {
   });
 }
 
+fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps) {
+  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
+  fbs_encoder& e = *encoder;
+  if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
+  return e.encode([&] { return e.encoder.set_bitrate(kbps); });
+}
+
 fbs_status fbs_encoder_finish(fbs_encoder* encoder) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_encoder& e = *encoder;

@@ -13,16 +13,24 @@ constexpr double kSettlesIn = 8;
 /// Increase in the logarithm of the price from a half full to a full bucket.
 constexpr double kFullness = 2;
 
+const double kLimit = std::log(LiveRate::kMaxFactor);
+
 }  // namespace
 
 LiveRate::LiveRate(double kbps, double buffer)
     : bytes_per_second_(125 * kbps), capacity_(bytes_per_second_ * buffer) {}
 
+void LiveRate::set(double kbps) {
+  const double factor = 125 * kbps / bytes_per_second_;
+  bytes_per_second_ *= factor;
+  capacity_ *= factor;
+  log_price_ = std::clamp(log_price_ - std::log(factor), -kLimit, kLimit);
+}
+
 void LiveRate::add(double bytes, double seconds) {
   const double drained = bytes_per_second_ * seconds;
   waiting_ = std::max(0.0, waiting_ + bytes - drained);
-  const double limit = std::log(kMaxFactor);
-  log_price_ = std::clamp(log_price_ + (bytes - drained) / (bytes_per_second_ * kSettlesIn), -limit, limit);
+  log_price_ = std::clamp(log_price_ + (bytes - drained) / (bytes_per_second_ * kSettlesIn), -kLimit, kLimit);
 }
 
 double LiveRate::price() const {

@@ -10,6 +10,9 @@ class LiveRate {
   /// @param buffer  s, > 0: the longest that anything should wait
   LiveRate(double kbps, double buffer);
 
+  /// The channel has another rate from now on.
+  void set(double kbps);
+
   /// Records bytes sent for pictures that last this long.
   void add(double bytes, double seconds);
 

@@ -97,6 +97,12 @@ void FaceScene::request_scene() {
     coder_.request_scene();
 }
 
+Result<void> FaceScene::set_bitrate(double kbps) {
+  if (auto done = coding_.wait(); !done) return done;
+  coder_.set_bitrate(kbps);
+  return {};
+}
+
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   if (!ahead_) {
     if (std::exchange(cut_, false)) coder_.cut();

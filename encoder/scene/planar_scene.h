@@ -23,6 +23,10 @@ class PlanarScene : public SceneEncoder {
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
   void request_scene() override { ledger_.request_scene(); }
+  Result<void> set_bitrate(double kbps) override {
+    ledger_.set_bitrate(kbps);
+    return {};
+  }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return true; }
   Result<void> finish() override;

@@ -32,6 +32,9 @@ class SceneEncoder {
   /// one still picture does not end.
   virtual void request_scene() {}
 
+  /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
+  virtual Result<void> set_bitrate(double /*kbps*/) { return {}; }
+
   /// Whether the picture, which is pushed next, shows the scene's person, who is then tracked again.
   [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;
 

@@ -47,6 +47,9 @@ class SceneLedger {
   /// Writes the packets of the segment, whose groups have all been planned. The head has been written.
   Result<void> end_segment(Scene& scene, const StateRefit& refit);
 
+  void set_bitrate(double kbps) {
+    if (patterns_) patterns_->set_bitrate(kbps);
+  }
   /// Ends a live scene with its present group, unless it has ended already.
   void request_scene() { requested_ = !ended_; }
   /// Whether a live scene ends with the group that completes this many pictures.

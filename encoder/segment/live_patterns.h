@@ -36,6 +36,9 @@ class LivePatterns : public PatternStage {
   LivePatterns(const VideoFormat& format, const LivePatternSettings& settings, const CodedState& rest);
 
   void begin_scene(const CodedState& rest) override;
+  void set_bitrate(double kbps) override {
+    if (rate_) rate_->set(kbps);
+  }
   Result<void> add(const Picture& picture) override { return store_.add(picture); }
   void cut() override { store_.cut(); }
   void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {

@@ -35,6 +35,9 @@ class PatternStage {
   /// @param states  of its pictures
   virtual void add(std::span<const State> states, std::vector<std::uint8_t> payload) = 0;
 
+  /// Where the bitrate of a live scene is limited: by this from now on, kbit/s.
+  virtual void set_bitrate(double /*kbps*/) {}
+
   /// Whether the segment should end with the group added last.
   /// @param next  pictures of the group after it
   [[nodiscard]] virtual bool segment_ends(std::size_t next) const = 0;

@@ -108,6 +108,13 @@ FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_pictur
  * @return FBS_OK; FBS_ERROR_ARGUMENT without `live`, or after the end */
 FBS_API fbs_status fbs_encoder_request_scene(fbs_encoder* encoder);
 
+/** Changes the bitrate of a live encoding that has one, as the link does. It holds from the next group on;
+ * motion stays as fine as it is, and the last `live_buffer` seconds may still be of the rate before.
+ * @param kbps  kbit/s in total, above 0
+ * @return FBS_OK; FBS_ERROR_ARGUMENT without `live` or `bitrate`, for another number, or after the end; any
+ * other error ends the encoding, as in fbs_encoder_push() */
+FBS_API fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps);
+
 /** Ends the video, and codes what is held back.
  * @return FBS_OK; FBS_ERROR_NO_FACE when no picture showed a face; FBS_ERROR_ARGUMENT when there was no
  *         picture or this is the second call; other errors as for fbs_encoder_push(). In any case the

@@ -236,6 +236,10 @@ class Encoder:
         """Begin a scene with the next picture that can begin one, for instance after a loss. Live only."""
         self._encoder.request_scene()
 
+    def set_bitrate(self, kbps: float) -> None:
+        """Hold what follows to another rate, as the link has it. Live, with a bitrate, only."""
+        self._encoder.set_bitrate(kbps)
+
     @property
     def format(self) -> Format:
         """Size, rate and colours of all pictures."""

@@ -105,6 +105,12 @@ void bind_encoder(nb::module_& module) {
            [](Encoder& self) {
              self.call([](fbs_encoder* e) { Encoder::check(e, fbs_encoder_request_scene(e)); });
            })
+      .def(
+          "set_bitrate",
+          [](Encoder& self, double kbps) {
+            self.call([&](fbs_encoder* e) { Encoder::check(e, fbs_encoder_set_bitrate(e, kbps)); });
+          },
+          nb::arg("kbps"))
       .def("finish",
            [](Encoder& self) { self.call([](fbs_encoder* e) { Encoder::check(e, fbs_encoder_finish(e)); }); })
       .def("pull", pull)

@@ -89,6 +89,25 @@ def test_live_gives_packets_at_once_and_scenes_on_request(pictures):
         fbs.Encoder(176, 144).request_scene()
 
 
+def test_a_live_bitrate_may_change(pictures):
+    def sizes(then):
+        with fbs.Encoder(176, 144, fps=10, live=True, threads=1, bitrate=8) as encoder:
+            packets = [packet for picture in pictures[:8] for packet in encoder.push(picture)]
+            encoder.set_bitrate(then)
+            more = [packet for picture in pictures[8:] for packet in encoder.push(picture)] + encoder.finish()
+            return sum(map(len, packets)), sum(map(len, more))
+
+    (before, low), (same, high) = sizes(1), sizes(60)
+    assert before == same
+    assert low < 0.7 * high
+    for wrong in ({"live": True}, {"bitrate": 8}):
+        with pytest.raises(fbs.ArgumentError, match="live encoding with a bitrate only"):
+            fbs.Encoder(176, 144, **wrong).set_bitrate(5)
+    for kbps in (0, -1, float("nan")):
+        with pytest.raises(fbs.ArgumentError):
+            fbs.Encoder(176, 144, live=True, bitrate=8).set_bitrate(kbps)
+
+
 def test_landmarks_are_there_as_they_are_tracked(pictures):
     encoder = fbs.Encoder(176, 144, fps=30)
     encoder.push(pictures[0])

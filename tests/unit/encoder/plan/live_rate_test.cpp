@@ -23,6 +23,22 @@ TEST(LiveRate, WhatIsSentWaitsUntilTheChannelHasTakenIt) {
   EXPECT_EQ(rate.room(), 2000) << "an idle channel saves nothing up";
 }
 
+TEST(LiveRate, TheChannelMayChange) {
+  LiveRate rate(kKbps, kBuffer);
+  const double before = rate.price();
+  rate.add(1500, 0);
+  const double busy = rate.price();
+  rate.set(kKbps / 2);
+  EXPECT_EQ(rate.room(), -500) << "what waits stays";
+  EXPECT_GT(rate.price(), busy) << "bits are dearer at once";
+  rate.add(0, 1);
+  EXPECT_EQ(rate.room(), 0);
+  rate.set(kKbps);
+  rate.add(0, 10);
+  EXPECT_EQ(rate.room(), kBytesPerSecond * kBuffer);
+  EXPECT_LT(rate.price(), before) << "it was idle";
+}
+
 TEST(LiveRate, MoreThanTheBufferLeavesNoRoom) {
   LiveRate rate(kKbps, kBuffer);
   rate.add(3000, 0.5);
