@@ -42,6 +42,15 @@ static GType resilience_type(void) {
   return type;
 }
 
+/* An encoder that runs follows the link. */
+static void follow_bitrate(GstFbsEnc* self) {
+  GST_VIDEO_ENCODER_STREAM_LOCK(self);
+  if (self->stream.encoder != NULL &&
+      fbs_encoder_set_bitrate(self->stream.encoder, self->settings.bitrate) != FBS_OK)
+    GST_INFO_OBJECT(self, "the bit rate changes with the next stream: it is not live, or began without one");
+  GST_VIDEO_ENCODER_STREAM_UNLOCK(self);
+}
+
 static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
   GST_OBJECT_LOCK(object);
@@ -89,6 +98,7 @@ static void set_property(GObject* object, guint id, const GValue* value, GParamS
       G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   }
   GST_OBJECT_UNLOCK(object);
+  if (id == PROP_BITRATE) follow_bitrate(GST_FBS_ENC(object));
 }
 
 static void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
@@ -166,7 +176,8 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
   g_object_class_install_property(
       type, PROP_BITRATE,
       g_param_spec_uint("bitrate", "Bit rate", "Bit/s, from which quality follows (0 = quality decides)", 0,
-                        1000000000, 0, PROPERTY_FLAGS));
+                        1000000000, 0,
+                        G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_PLAYING));
   install_int(type, PROP_EFFORT, "effort", "Effort", "More takes longer and needs fewer bits", 0, 2, 1);
   g_object_class_install_property(
       type, PROP_TUNE,

@@ -121,6 +121,20 @@ TEST(FbsEnc, AnswersARequestDownstreamBeforeTheSceneWithItsTimes) {
   EXPECT_EQ(running_time, GST_BUFFER_PTS(scene->get()));
 }
 
+TEST(FbsEnc, TheBitrateMayChangeWhileItPlays) {
+  const auto bytes_at = [](guint bitrate) {
+    const Harness harness = encoder_harness("fbsenc threads=1 effort=0 live=true bitrate=8000");
+    for (int k = 0; k < 8; ++k) push(harness.get(), talker_buffer(k));
+    pull(harness.get());
+    GstElement* const element = gst_harness_find_element(harness.get(), "fbsenc");
+    g_object_set(element, "bitrate", bitrate, nullptr);
+    gst_object_unref(element);
+    for (int k = 8; k < kPictures; ++k) push(harness.get(), talker_buffer(k));
+    return joined(finish(harness.get())).size();
+  };
+  EXPECT_LT(bytes_at(500), bytes_at(60000));
+}
+
 TEST(FbsEnc, AFlushBeginsANewStream) {
   const Harness harness = encoder_harness("fbsenc threads=1 effort=0");
   for (int k = 0; k < 10; ++k) push(harness.get(), talker_buffer(k));
