@@ -109,7 +109,9 @@ fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_encoder& e = *encoder;
   if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
-  return e.encode([&] { return e.encoder.set_bitrate(kbps); });
+  const fbs_status status = e.encode([&] { return e.encoder.set_bitrate(kbps); });
+  if (status == FBS_ERROR_ARGUMENT) e.phase = fbs_encoder::Phase::kPushing;  // nothing has changed
+  return status;
 }
 
 fbs_status fbs_encoder_finish(fbs_encoder* encoder) {

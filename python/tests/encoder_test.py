@@ -103,9 +103,13 @@ def test_a_live_bitrate_may_change(pictures):
     for wrong in ({"live": True}, {"bitrate": 8}):
         with pytest.raises(fbs.ArgumentError, match="live encoding with a bitrate only"):
             fbs.Encoder(176, 144, **wrong).set_bitrate(5)
+    encoder = fbs.Encoder(176, 144, live=True, bitrate=8)
+    encoder.push(pictures[0])
     for kbps in (0, -1, float("nan")):
         with pytest.raises(fbs.ArgumentError):
-            fbs.Encoder(176, 144, live=True, bitrate=8).set_bitrate(kbps)
+            encoder.set_bitrate(kbps)
+    encoder.push(pictures[1])  # goes on as before
+    assert encoder.finish()
 
 
 def test_landmarks_are_there_as_they_are_tracked(pictures):
