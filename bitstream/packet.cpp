@@ -73,7 +73,6 @@ struct PacketReader::Impl {
   bool closed = false;
   bool begun = false;      // the signature has been read or is not required any more
   bool searching = false;  // for a packet behind the damage
-  bool repaired = false;   // the packet at `position`
   CheckChain checks;
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
@@ -92,7 +91,8 @@ struct PacketReader::Impl {
   }
 
   Result<ReadResult> read_signature();
-  Result<ReadResult> read_packet();
+  /// @param repaired  repair() has changed it
+  Result<ReadResult> read_packet(bool repaired = false);
   struct Check {
     std::uint32_t stored, difference;  ///< as it came, and that xor what it has to be
   };
@@ -116,7 +116,7 @@ Result<ReadResult> PacketReader::Impl::read_signature() {
 }
 
 // SPEC 3.1
-Result<ReadResult> PacketReader::Impl::read_packet() {
+Result<ReadResult> PacketReader::Impl::read_packet(bool repaired) {
   const auto bytes = ahead();
   if (bytes.empty()) return ReadResult{closed ? ReadStatus::kEnd : ReadStatus::kNeedMore, {}};
 
@@ -132,11 +132,9 @@ Result<ReadResult> PacketReader::Impl::read_packet() {
   if (reader.past_end()) return need_more("stream ends inside a packet");
   const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset(), repaired};
   if (check.difference != 0) {
-    repaired = repair(packet, check);
-    if (repaired) return read_packet();
+    if (repair(packet, check)) return read_packet(true);
     return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
   }
-  repaired = false;
   position += packet.size;
   checks.add(packet.type, check.stored);
   return ReadResult{ReadStatus::kPacket, packet};

@@ -52,11 +52,11 @@ from fbs.errors import (
 
 if TYPE_CHECKING:
     from fbs._fbs import BLENDSHAPES
-    from fbs._decoder import Decoder, PictureInfo, Scene
+    from fbs._decoder import Decoder, Scene
     from fbs._encoder import Encoder, Packet, Report
     from fbs._encoding import encode
     from fbs._face import FaceState, States
-    from fbs._picture import Format, Picture
+    from fbs._picture import Format, Picture, PictureInfo
     from fbs._table import track
     from fbs._verbs import decode, evaluate, inspect, retarget
 
@@ -71,7 +71,7 @@ _HOMES = {
     "Format": "_picture",
     "Packet": "_encoder",
     "Picture": "_picture",
-    "PictureInfo": "_decoder",
+    "PictureInfo": "_picture",
     "Report": "_encoder",
     "Scene": "_decoder",
     "States": "_face",

@@ -12,7 +12,7 @@ import numpy as np
 
 from fbs import _fbs
 from fbs._face import FaceState, States, states_of
-from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureLike, require_writable
+from fbs._picture import MATRICES, TICKS_PER_SECOND, Format, Picture, PictureInfo, PictureLike, require_writable
 from fbs._source import Buffer, ByteSource, Source
 from fbs.errors import ArgumentError, DamagedError, Error, NoMemoryError, NotFbsError
 
@@ -27,21 +27,6 @@ _OK, _NEED_DATA, _END = 0, 1, 2
 _QUALITIES = ("exact", "pattern missing", "interpolated", "held")  # by fbs_quality
 _MOST_MISSING = 1024
 _LAST_TIME = (1 << 64) - 1
-
-
-class PictureInfo(NamedTuple):
-    """A picture's place in its stream: `number` from 0, `time` and `duration` in seconds.
-
-    `held`: the picture was lost, and the one before is shown in its place. `new_scene`: decoding can begin here.
-    `quality`: what it has suffered from losses, "exact", "pattern missing", "interpolated" (its motion is) or "held".
-    """
-
-    number: int
-    time: float
-    duration: float
-    held: bool
-    new_scene: bool
-    quality: str
 
 
 class Scene(NamedTuple):
@@ -152,8 +137,7 @@ class Decoder:
 
         For decoders without a source. Iterate over the pictures in between: bytes not yet decoded are kept.
         """
-        if not self._source.is_fed:
-            raise ArgumentError("this decoder reads its source by itself")
+        self._require_fed()
         self._decoder.feed(piece)
 
     def feed_packet(self, number: int, packet: Buffer) -> None:
@@ -167,8 +151,7 @@ class Decoder:
         number : int
             One more for each packet that is sent.
         """
-        if not self._source.is_fed:
-            raise ArgumentError("this decoder reads its source by itself")
+        self._require_fed()
         self._decoder.feed_packet(number, packet)
 
     @property
@@ -183,6 +166,10 @@ class Decoder:
     def finish(self) -> None:
         """End the stream."""
         self._decoder.finish()
+
+    def _require_fed(self) -> None:
+        if not self._source.is_fed:
+            raise ArgumentError("this decoder reads its source by itself")
 
     def _feed_more(self) -> bool:
         """Feed a piece of the source, or its end. False where there is no source."""

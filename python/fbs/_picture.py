@@ -7,7 +7,7 @@ import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 
@@ -49,6 +49,21 @@ class Format:
     pixel_aspect: Fraction | None
     matrix: str
     full_range: bool
+
+
+class PictureInfo(NamedTuple):
+    """A picture's place in its stream: `number` from 0, `time` and `duration` in seconds.
+
+    `held`: the picture was lost, and the one before is shown in its place. `new_scene`: decoding can begin here.
+    `quality`: what it has suffered from losses, "exact", "pattern missing", "interpolated" (its motion is) or "held".
+    """
+
+    number: int
+    time: float
+    duration: float
+    held: bool
+    new_scene: bool
+    quality: str
 
 
 class Picture:
