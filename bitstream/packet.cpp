@@ -11,7 +11,7 @@ namespace {
 
 /// Whether a packet of this type is looked for behind damage. SPEC 3.2.
 bool is_known(PacketType type) {
-  return type >= PacketType::kSetup && type <= PacketType::kUnit;
+  return type >= PacketType::kSetup && type <= PacketType::kHeadPart;
 }
 
 }  // namespace
@@ -74,6 +74,7 @@ struct PacketReader::Impl {
   bool begun = false;      // the signature has been read or is not required any more
   bool searching = false;  // for a packet behind the damage
   CheckChain checks;
+  std::optional<PacketReader> head;  // read first
 
   [[nodiscard]] std::span<const std::uint8_t> ahead() const { return std::span(buffer).subspan(position); }
   [[nodiscard]] std::uint64_t offset() const { return dropped + position; }
@@ -130,7 +131,8 @@ Result<ReadResult> PacketReader::Impl::read_packet(bool repaired) {
   const auto payload = reader.bytes(size);
   const Check check = read_check(reader, bytes, size);
   if (reader.past_end()) return need_more("stream ends inside a packet");
-  const Packet packet{static_cast<PacketType>(type), offset(), payload, reader.offset(), repaired};
+  const Packet packet{
+      static_cast<PacketType>(type), offset(), payload, reader.offset(), repaired, check.stored};
   if (check.difference != 0) {
     if (repair(packet, check)) return read_packet(true);
     return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
@@ -203,6 +205,13 @@ PacketReader::~PacketReader() = default;
 PacketReader::PacketReader(PacketReader&&) noexcept = default;
 PacketReader& PacketReader::operator=(PacketReader&&) noexcept = default;
 
+void PacketReader::read_head(std::span<const std::uint8_t> packets) {
+  impl_->head.emplace();
+  impl_->head->feed(kSignature);
+  impl_->head->feed(packets);
+  impl_->head->close();
+}
+
 void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   Impl& s = *impl_;
   assert(!s.closed);
@@ -221,6 +230,17 @@ void PacketReader::close() {
 
 Result<ReadResult> PacketReader::next() {
   Impl& s = *impl_;
+  if (s.head) {
+    auto read = s.head->next();
+    if (!read) return fail(read.error().code, read.error().text, s.offset());
+    if (read->status == ReadStatus::kPacket) {
+      read->packet.in_parts = true;
+      read->packet.offset = s.offset();
+      return read;
+    }
+    s.checks = s.head->impl_->checks;
+    s.head.reset();
+  }
   if (s.searching) return s.search();
   if (!s.begun) {
     auto signature = s.read_signature();

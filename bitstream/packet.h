@@ -80,6 +80,8 @@ struct Packet {
   std::span<const std::uint8_t> payload;  ///< in the reader's memory, valid until the next feed()
   std::size_t size = 0;                   ///< bytes of the whole packet: type, length, payload and check
   bool repaired = false;                  ///< one wrong bit has been set right
+  std::uint32_t check = 0;                ///< the last of its bytes, as they have to be
+  bool in_parts = false;                  ///< from PacketReader::read_head(): it has no bytes of its own
 };
 
 enum class ReadStatus : std::uint8_t {
@@ -115,6 +117,10 @@ class PacketReader {
   PacketReader& operator=(PacketReader&&) noexcept;
   PacketReader(const PacketReader&) = delete;
   PacketReader& operator=(const PacketReader&) = delete;
+
+  /// These packets, from a setup packet on, are read next, and what follows belongs to their scene. Not while
+  /// such packets are read.
+  void read_head(std::span<const std::uint8_t> packets);
 
   /// Copies `bytes` and invalidates the payloads of earlier packets. Not after close() (assert).
   void feed(std::span<const std::uint8_t> bytes);

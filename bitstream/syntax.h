@@ -28,7 +28,10 @@ inline constexpr int kNumberBits = 10;   ///< of the number of a group's first p
 inline constexpr std::int32_t kMaxBridged = 32;
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< pictures whose motion has arrived but not their blend
-inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose states a pattern may still have
+inline constexpr int kKeptPictures = 256;  ///< displayed pictures whose states a pattern may still have
+inline constexpr std::size_t kMaxHead = std::size_t{1} << 16;  ///< bytes of a head that is sent in parts
+inline constexpr int kMaxHeadSymbols = 128, kMaxHeadParts = 255;
+inline constexpr std::uint64_t kMaxPassedPictures = 1u << 30;  ///< of a scene that is joined
 inline constexpr int kMaxSurroundCells = 128;  ///< columns and rows of the surround's grid, each
 inline constexpr std::uint32_t kMaxDuration = 60 * kTicksPerSecond;  ///< of one picture, 1/90000 s
 
@@ -77,7 +80,8 @@ enum class PacketType : std::uint8_t {
   kWireFrame = 8,   ///< the wire-frame of the geometry that follows, in the place of the generic head
   kSoundSetup = 9,  ///< what a decoder of the sound must know
   kSound = 10,      ///< sound of the pictures that follow
-  kUnit = 11        ///< kMotion and kBlend of the same pictures
+  kUnit = 11,       ///< kMotion and kBlend of the same pictures
+  kHeadPart = 12    ///< of what a viewer needs who joins a scene
 };
 
 /// A colour in the video's own range and matrix.
@@ -176,6 +180,24 @@ struct BlendGroup {
 struct Unit {
   MotionGroup motion;
   BlendGroup blend;  ///< of the same pictures
+};
+
+/// A part of the head of a scene: of its packets up to the first pattern, and of the last surround packet
+/// behind that. Any `symbols` different parts make it whole.
+struct HeadPart {
+  std::uint16_t scene = 0;   ///< the low bits of the check of its first pattern packet
+  std::uint8_t edition = 0;  ///< another one for another surround
+  StreamPosition passed;     ///< pictures of the scene before it, all released; at most kMaxPassedPictures
+  std::size_t size = 0;      ///< bytes of the head, 1..kMaxHead
+  int symbols = 1;           ///< pieces of equal size that the head is divided into, 1..kMaxHeadSymbols
+  int index = 0;             ///< of the part, 0..kMaxHeadParts - 1
+  std::vector<std::uint8_t> symbol;  ///< symbol_size() bytes
+
+  [[nodiscard]] std::size_t symbol_size() const {
+    const auto n = static_cast<std::size_t>(symbols);
+    return (size + n - 1) / n;
+  }
+  friend bool operator==(const HeadPart&, const HeadPart&) = default;
 };
 
 /// Closes a complete file.

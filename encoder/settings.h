@@ -24,6 +24,10 @@ struct LiveSettings {
   double delay = 0.2;  ///< s; length of the groups in which pictures are coded
   double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate
   Resilience resilience = Resilience::kNone;
+  /// s; the head of a scene is sent again in parts, so that a viewer who comes in its middle, or has lost the
+  /// head, can join it within this time if a tenth of the packets is lost. 0: only where a scene begins;
+  /// nothing: 25 with kStrong, otherwise 0.
+  std::optional<double> join;
 };
 
 /// What bytes are spent for.
@@ -60,8 +64,8 @@ struct EncoderSettings {
   bool descent = true;          ///< snakes descend; off: they stay at the best of their starts
   bool landmark_search = true;  ///< look for landmarks in every picture
   bool surround = true;         ///< let hair, body and ground move
-  /// Longest time between scenes, s: where viewers can join and damage ends. 0: where it costs little, up to
-  /// 40 with several patterns, never with one.
+  /// Longest time between scenes, s: where viewers can join and damage ends. 0: live 10, or 30 with
+  /// LiveSettings::join; otherwise where it costs little, up to 40 with several patterns, never with one.
   double key_interval = 0;
   std::optional<LiveSettings> live;  ///< without look-ahead
   /// Live, with 2 or more, a group is coded while the pictures after it are analysed; the stream is the same.

@@ -15,6 +15,7 @@ enum {
   PROP_DELAY,
   PROP_BUFFER,
   PROP_RESILIENCE,
+  PROP_JOIN,
   PROP_THREADS,
 };
 
@@ -88,6 +89,9 @@ static void set_property(GObject* object, guint id, const GValue* value, GParamS
     case PROP_BUFFER:
       s->live_buffer = g_value_get_double(value);
       break;
+    case PROP_JOIN:
+      s->join = g_value_get_double(value);
+      break;
     case PROP_RESILIENCE:
       s->resilience = g_value_get_enum(value);
       break;
@@ -137,6 +141,9 @@ static void get_property(GObject* object, guint id, GValue* value, GParamSpec* s
       break;
     case PROP_BUFFER:
       g_value_set_double(value, s->live_buffer);
+      break;
+    case PROP_JOIN:
+      g_value_set_double(value, s->join);
       break;
     case PROP_RESILIENCE:
       g_value_set_enum(value, s->resilience);
@@ -200,6 +207,13 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
       type, PROP_RESILIENCE,
       g_param_spec_enum("resilience", "Resilience", "Live: what is done to survive lost packets",
                         resilience_type(), FBS_RESILIENCE_NONE, PROPERTY_FLAGS));
+  g_object_class_install_property(
+      type, PROP_JOIN,
+      g_param_spec_double(
+          "join", "Join",
+          "Live: seconds within which a viewer can join in the middle of a scene (0 = only where "
+          "one begins, -1 = 25 where resilience is strong, otherwise 0)",
+          -1, 3600, -1, PROPERTY_FLAGS));
   install_int(type, PROP_THREADS, "threads", "Threads",
               "Live: more than 1 code while the next pictures are analysed (0 = as many as there are cores)",
               0, FBS_MAX_THREADS, 0);

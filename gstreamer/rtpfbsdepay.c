@@ -19,6 +19,7 @@ GST_DEBUG_CATEGORY_STATIC(rtp_fbs_depay_debug);
 #define DEFAULT_REQUEST_KEYFRAME TRUE
 #define REQUEST_INTERVAL (500 * GST_MSECOND) /* of requests, while no scene comes that may be on its way */
 #define MAX_GROUP (64u << 20)                /* bytes; none that an encoder sends has a thousandth of that */
+#define MAX_PARTS (1u << 20)                 /* bytes of groups that are kept for the parts of a head */
 
 typedef struct {
   GstRTPBaseDepayload parent;
@@ -28,7 +29,8 @@ typedef struct {
   GstAdapter* group;   /* payloads since the last start */
   gboolean in_group;   /* its start has come, and all since */
   gboolean key;        /* it begins a scene */
-  gboolean waiting;    /* for a scene: what comes before is of no use */
+  gboolean waiting;    /* for a scene: of what comes before only parts of its head are of use */
+  GstAdapter* parts;   /* groups with such parts */
   gboolean goes_on;    /* groups are of use without those before them */
   gboolean incomplete; /* what is missing is felt up to the next scene */
   fbs_packet_reader* reader;
@@ -62,6 +64,7 @@ static void drop_group(GstRtpFbsDepay* self) {
 
 static void join(GstRtpFbsDepay* self) {
   drop_group(self);
+  gst_adapter_clear(self->parts);
   self->waiting = TRUE;
   self->goes_on = self->incomplete = FALSE;
   self->requested = GST_CLOCK_TIME_NONE;
@@ -134,14 +137,33 @@ static gboolean read_packets(GstRtpFbsDepay* self, const guint8* data, gsize siz
   return begins && status == FBS_NEED_DATA;
 }
 
+/* Reads a group that comes while a scene is waited for, and keeps it if it has parts of the head.
+ * @return whether the head is whole, so that the scene can be joined */
+static gboolean join_with(GstRtpFbsDepay* self, const guint8* data, gsize size) {
+  fbs_packet_info packet;
+  fbs_status status;
+  gboolean has_part = FALSE, joins = FALSE;
+  fbs_packet_reader_feed(self->reader, data, size);
+  while ((status = fbs_packet_reader_next(self->reader, &packet)) != FBS_NEED_DATA && status != FBS_END) {
+    if (status != FBS_OK || packet.type != FBS_PACKET_HEAD_PART || packet.fault != NULL) continue;
+    has_part = TRUE;
+    joins = joins || packet.key;
+  }
+  if (gst_adapter_available(self->parts) > MAX_PARTS) gst_adapter_clear(self->parts);
+  if (has_part) gst_adapter_push(self->parts, gst_buffer_new_memdup(data, size));
+  return joins;
+}
+
 /* Reads a group, and tells the format of one that begins a scene.
  * @return FALSE: it is of no use */
 static gboolean read_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
   fbs_format format;
-  const gboolean read = read_packets(self, gst_adapter_map(self->group, size), size);
+  const guint8* const data = gst_adapter_map(self->group, size);
+  const gboolean joins = self->waiting && join_with(self, data, size);
+  const gboolean read = self->waiting ? joins : read_packets(self, data, size);
   gst_adapter_unmap(self->group);
-  if (read && self->key) {
+  if (read && (self->key || joins)) {
     if (fbs_packet_reader_get_format(self->reader, &format) != FBS_OK) return FALSE;
     gst_fbs_set_format(GST_RTP_BASE_DEPAYLOAD_SRCPAD(self), &format);
   }
@@ -150,19 +172,22 @@ static gboolean read_group(GstRtpFbsDepay* self) {
 
 /* @return null: it is none */
 static GstBuffer* whole_group(GstRtpFbsDepay* self) {
-  const gsize size = gst_adapter_available(self->group);
   if (!read_group(self)) {
     wait_for_scene(self);
     return NULL;
   }
-  GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(self->group, size));
-  self->in_group = FALSE;
+  const gboolean joins = self->waiting;
+  GstAdapter* const groups = joins ? self->parts : self->group; /* the group is the last of the parts */
+  GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(groups, gst_adapter_available(groups)));
+  drop_group(self);
+  if (joins) GST_INFO_OBJECT(self, "joins a scene by the parts of its head");
+  if (joins) self->waiting = FALSE;
   if (!self->begun) {
     GstBuffer* const signature = gst_buffer_new_memdup(FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
     out = gst_buffer_append(signature, out);
   }
   self->begun = TRUE;
-  if (self->key)
+  if (self->key || joins)
     GST_BUFFER_FLAG_UNSET(out, GST_BUFFER_FLAG_DELTA_UNIT);
   else
     GST_BUFFER_FLAG_SET(out, GST_BUFFER_FLAG_DELTA_UNIT);
@@ -177,6 +202,7 @@ static void begin_group(GstRtpFbsDepay* self, guint8 header) {
   self->key = (header & GST_FBS_RTP_KEY) != 0;
   if (!self->key) return;
   self->waiting = FALSE;
+  gst_adapter_clear(self->parts);
   self->requested = GST_CLOCK_TIME_NONE;
 }
 
@@ -196,7 +222,6 @@ static GstBuffer* gst_rtp_fbs_depay_process(GstRTPBaseDepayload* depay, GstRTPBu
   else if (!self->in_group || gst_adapter_available(self->group) > MAX_GROUP)
     lose(self);
   GstBuffer* out = NULL;
-  if (self->waiting) drop_group(self);
   if (self->in_group) {
     gst_adapter_push(self->group, gst_rtp_buffer_get_payload_subbuffer(rtp, GST_FBS_RTP_HEADER, (guint)-1));
     if (gst_rtp_buffer_get_marker(rtp)) out = whole_group(self);
@@ -260,6 +285,7 @@ static void gst_rtp_fbs_depay_get_property(GObject* object, guint id, GValue* va
 
 static void gst_rtp_fbs_depay_finalize(GObject* object) {
   g_object_unref(GST_RTP_FBS_DEPAY(object)->group);
+  g_object_unref(GST_RTP_FBS_DEPAY(object)->parts);
   fbs_packet_reader_close(&GST_RTP_FBS_DEPAY(object)->reader);
   G_OBJECT_CLASS(gst_rtp_fbs_depay_parent_class)->finalize(object);
 }
@@ -292,6 +318,7 @@ static void gst_rtp_fbs_depay_class_init(GstRtpFbsDepayClass* type) {
 
 static void gst_rtp_fbs_depay_init(GstRtpFbsDepay* self) {
   self->group = gst_adapter_new();
+  self->parts = gst_adapter_new();
   fbs_packet_reader_open(&self->reader); /* null without memory: no group is read */
   self->request_keyframe = DEFAULT_REQUEST_KEYFRAME;
   join(self);

@@ -25,7 +25,8 @@ inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_set
                                                           2,
                                                           0,
                                                           FBS_TUNE_EYE,
-                                                          FBS_RESILIENCE_NONE};
+                                                          FBS_RESILIENCE_NONE,
+                                                          -1};
 
 /// sizeof(fbs_encoder_settings) in version 0.1.
 inline constexpr std::size_t kFirstEncoderSettingsSize =

@@ -68,7 +68,8 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
   if (info == nullptr) return r.error.set_argument(kNullPointer);
   return guarded(r.error, [&] {
     auto& [packets, times] = *r.stream;
-    const auto read = packets.next();
+    auto read = packets.next();
+    for (; read && read->packet.in_parts; read = packets.next()) (void)times.take(read->packet);
     if (!read) {
       times.lose();
       const Error& e = read.error();
@@ -98,6 +99,7 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
       info->key = timed->key ? 1 : 0;
       info->number = timed->first.pictures;
       info->time = timed->first.time;
+      if (const auto* const head = std::get_if<JoinedHead>(&timed->syntax)) packets.read_head(head->packets);
     } else {
       r.fault.set(timed.error());
       info->fault = r.fault.text();

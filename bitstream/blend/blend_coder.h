@@ -39,6 +39,9 @@ class BlendEncoder {
 /// Reads the blend packets of one scene. Some may be missing; what comes twice or too late is skipped.
 class BlendDecoder {
  public:
+  /// @param next  number of the first picture that is to come
+  explicit BlendDecoder(std::int32_t next = 0) { order_.next = next; }
+
   /// Reads the next group. After an error or a missing group only a key group can be read.
   /// @return nothing if the group has come before, or needs one that is missing; kTruncated, kInvalidStream
   [[nodiscard]] Result<std::optional<BlendGroup>> decode(std::span<const std::uint8_t> payload);

@@ -6,6 +6,12 @@
 
 namespace fbs {
 
+MotionDecoder::MotionDecoder(const Setup& setup, const CodedState& seen, const StreamPosition& passed)
+    : reference_(setup, seen) {
+  reference_.order.next = static_cast<std::int32_t>(passed.pictures);
+  reference_.time = static_cast<std::uint32_t>(passed.time);
+}
+
 Result<std::optional<MotionGroup>> MotionDecoder::decode(std::span<const std::uint8_t> payload) {
   RangeDecoder decoder(payload);
   MotionGroup group;

@@ -15,7 +15,8 @@ class MotionDecoder {
  public:
   /// @param setup  of the scene; must satisfy check_setup (assert)
   /// @param seen   seen state of the first pattern: the anchor of key groups
-  MotionDecoder(const Setup& setup, const CodedState& seen) : reference_(setup, seen) {}
+  /// @param passed  pictures of the scene before the first that is to come
+  MotionDecoder(const Setup& setup, const CodedState& seen, const StreamPosition& passed = {});
 
   /// Reads the next group. After an error or a missing group only a key group can be read.
   /// @return nothing if the group has come before, or needs one that is missing

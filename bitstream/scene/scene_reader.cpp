@@ -6,6 +6,7 @@
 #include "bitstream/byte_io.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/head_part_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
 #include "bitstream/payload/surround_payload.h"
@@ -64,6 +65,7 @@ Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
   if (packet.type == PacketType::kSetup) return read_setup(packet);
   if (packet.type == PacketType::kEnd) return as_syntax(decode_end(packet.payload));
   if (packet.type == PacketType::kSound) return read_sound(packet);
+  if (packet.type == PacketType::kHeadPart) return read_head_part(packet);
   if (packet.type != PacketType::kSoundSetup && (!is_of_scene(packet.type) || lost_))
     return SceneSyntax{};  // SPEC 3.1, 6.2: skipped
   if (!has_setup_) return has_losses_ ? Result<SceneSyntax>{} : refuse("a packet before the setup");
@@ -95,6 +97,7 @@ Result<SceneSyntax> SceneReader::skip(bool needs_missing) const {
 // SPEC 6.1
 Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
   lost_ = true;  // until it has been read
+  const StreamPosition passed = packet.in_parts ? passed_ : StreamPosition{};
   const auto setup = decode_setup(packet.payload);
   if (!setup) return fail(setup.error());
   const std::int64_t next_sound = next_sound_;
@@ -102,8 +105,24 @@ Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
   next_sound_ = next_sound;
   has_setup_ = true;
   setup_ = *setup;
-  pictures_ = Timeline(setup_.before.time);
-  return SceneSyntax(setup_);
+  Setup joined = setup_;
+  joined.before.pictures += passed.pictures;
+  joined.before.time += passed.time;
+  pictures_ = Timeline(joined.before.time, static_cast<std::int32_t>(passed.pictures));
+  has_losses_ = passed.pictures > 0;
+  return SceneSyntax(joined);
+}
+
+// SPEC 6.5
+Result<SceneSyntax> SceneReader::read_head_part(const Packet& packet) {
+  auto part = decode_head_part(packet.payload);
+  if (!part) return fail(part.error());
+  if (packet.in_parts || (motion_ && !lost_ && part->scene == check_)) return SceneSyntax{};
+  const StreamPosition passed = part->passed;
+  auto head = head_parts_.add(std::move(*part));
+  if (!head) return SceneSyntax{};
+  passed_ = passed;
+  return SceneSyntax(JoinedHead{std::move(*head)});
 }
 
 Result<SceneSyntax> SceneReader::read_wire_frame(const Packet& packet) {
@@ -122,6 +141,7 @@ Result<SceneSyntax> SceneReader::read_geometry(const Packet& packet) {
 Result<SceneSyntax> SceneReader::read_patterns(const Packet& packet) {
   auto read = patterns_.decode(packet.payload, setup_, pictures_.end());
   if (!read) return fail(read.error());
+  if (!motion_) check_ = static_cast<std::uint16_t>(packet.check);
   std::vector<ScenePattern> patterns;
   for (PatternSyntax& pattern : *read) {
     auto placed = place(std::move(pattern));
@@ -141,8 +161,10 @@ Result<std::optional<ScenePattern>> SceneReader::place(PatternSyntax pattern) {
   const bool first = !motion_;
   if (first != (pattern.picture == 0)) return refuse("a pattern out of order");
   if (first) {
-    motion_.emplace(setup_, pattern.state);
-    if (setup_.patterns > 1) blend_.emplace();
+    const auto begin = static_cast<std::uint64_t>(pictures_.end());
+    motion_.emplace(setup_, pattern.state, StreamPosition{begin, pictures_.end_time() - setup_.before.time});
+    if (setup_.patterns > 1) blend_.emplace(pictures_.end());
+    if (begin > 0) patterns_.lose();  // those before the joining
     const State seen = state_of(pattern.state, setup_.steps);
     return ScenePattern{std::move(pattern), seen};
   }

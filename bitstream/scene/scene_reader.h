@@ -13,6 +13,7 @@
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
 #include "bitstream/pattern/pattern_packet.h"
+#include "bitstream/scene/head_parts.h"
 #include "bitstream/scene/timeline.h"
 #include "bitstream/sound_syntax.h"
 #include "bitstream/syntax.h"
@@ -29,11 +30,17 @@ struct ScenePattern {
   [[nodiscard]] bool is_first() const { return coded.picture == 0; }
 };
 
+/// The head of a scene whose parts are together: packets that are to be read before any other, from the setup
+/// packet on: PacketReader::read_head(). The scene then begins with the present picture.
+struct JoinedHead {
+  std::vector<std::uint8_t> packets;
+};
+
 /// What a packet says. monostate: nothing that can be used, since its type is unknown, it needs something
 /// that was lost, it has come before, or it has no effect where it is.
 using SceneSyntax = std::variant<std::monostate, Setup, End, std::shared_ptr<const WireFrame>, Geometry,
                                  SurroundMap, std::vector<ScenePattern>, MotionGroup, BlendGroup, Unit,
-                                 std::optional<SoundSetup>, SoundGroup>;
+                                 std::optional<SoundSetup>, SoundGroup, JoinedHead>;
 
 /// Reads the packets of a stream in their order, without pixels.
 class SceneReader {
@@ -84,6 +91,7 @@ class SceneReader {
   /// @param needs_missing  not since it came twice or late: a loss if none is known
   [[nodiscard]] Result<SceneSyntax> skip(bool needs_missing) const;
   [[nodiscard]] Result<std::optional<ScenePattern>> place(PatternSyntax pattern);
+  [[nodiscard]] Result<SceneSyntax> read_head_part(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_motion(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_blend(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_unit(const Packet& packet);
@@ -95,8 +103,11 @@ class SceneReader {
   bool has_setup_ = false;
   bool lost_ = false, has_losses_ = false;
   std::int64_t next_sound_ = 0;  // number of the first frame that has not come
+  HeadParts head_parts_;         // of a scene that might be joined
+  StreamPosition passed_;        // pictures of a scene that is joined next
   // Of the scene:
   Setup setup_;
+  std::uint16_t check_ = 0;                      // of its first pattern packet, the low bits
   std::shared_ptr<const WireFrame> wire_frame_;  // null: the generic head
   PatternPacketReader patterns_;
   std::array<std::int32_t, kMaxPatterns>

@@ -24,7 +24,9 @@ class Timeline {
   };
 
   /// @param begin  time of the first picture, 1/90000 s
-  explicit Timeline(std::uint64_t begin = 0) : end_time_(begin) {}
+  /// @param first  its number
+  explicit Timeline(std::uint64_t begin = 0, std::int32_t first = 0)
+      : first_(first), next_(first), released_(first), with_modes_(first), end_time_(begin) {}
 
   /// Adds the states of the next pictures and numbers them.
   /// @param guessed  how many of the first of them may be wrong, since a group is missing

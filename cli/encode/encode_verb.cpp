@@ -68,6 +68,7 @@ Result<void> check_live(const EncodeArguments& a) {
     const char* option = a.delay                  ? "--delay"
                          : a.buffer               ? "--buffer"
                          : a.resilience           ? "--resilience"
+                         : a.join                 ? "--join"
                          : a.settings.threads > 0 ? "--threads"
                                                   : nullptr;
     if (option != nullptr) return refuse(std::string(option) + " needs --live");
@@ -83,6 +84,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     live.delay = arguments.delay.value_or(live.delay);
     live.buffer = arguments.buffer.value_or(live.buffer);
     live.resilience = arguments.resilience.value_or(live.resilience);
+    live.join = arguments.join;
   }
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);

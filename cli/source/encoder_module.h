@@ -24,6 +24,7 @@ struct EncodeArguments {
   std::optional<double> delay;           ///< s, of a live source
   std::optional<double> buffer;          ///< s, of a live source with a bitrate
   std::optional<Resilience> resilience;  ///< of a live source
+  std::optional<double> join;            ///< s, of a live source
   std::optional<std::string> sound;      ///< "opus" or "codec2"; nothing: by the bitrates
   std::optional<double> sound_bitrate;   ///< kbit/s; nothing: chosen by that of the pictures
   std::optional<int> track;              ///< of the source's sound, from 0; nothing: the main one

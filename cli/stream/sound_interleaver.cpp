@@ -40,7 +40,7 @@ Result<void> SoundInterleaver::take(const Packet& packet, std::vector<std::uint8
     if (auto added = add_sound(sound_time(static_cast<std::int64_t>(times_.released().time)), out); !added)
       return added;
   writer_.write(out, packet.type, packet.payload);
-  if (packet.type != PacketType::kSetup) return {};
+  if (packet.type != PacketType::kSetup && packet.type != PacketType::kHeadPart) return {};
   const auto setup = encode_sound_setup(setup_);
   if (!setup) return fail(setup.error());
   writer_.write(out, PacketType::kSoundSetup, *setup);

@@ -18,8 +18,8 @@ namespace fbs::cli {
 /// @param before  1/kSoundClock s from the first picture
 using SoundFeed = std::function<Result<std::vector<SoundGroup>>(std::int64_t before)>;
 
-/// Takes a stream without sound and returns it with sound. The checks of its packets change, since each
-/// continues from the previous one (SPEC 3.1).
+/// Takes a stream without sound and returns it with sound. Its packets stay as they are. The setup of the
+/// sound follows each packet behind which a scene may begin.
 class SoundInterleaver {
  public:
   /// @param setup  is_valid()

@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kNames =
     std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend",
-                                "wire-frame", "sound setup", "sound", "unit"});  // by PacketType
+                                "wire-frame", "sound setup", "sound", "unit", "head part"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);

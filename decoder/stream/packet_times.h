@@ -51,6 +51,10 @@ class PacketTimes {
   static Result<void> place(const BlendGroup& group, TimedPacket& out);
   Result<void> place(const SoundGroup& group, TimedPacket& out);
   static Result<void> place(std::monostate /*unused*/, TimedPacket& out);
+  static Result<void> place(const JoinedHead& /*head*/, TimedPacket& out) {
+    out.key = true;
+    return {};
+  }
   /// Any other packet counts from the next picture on.
   template <class Syntax>
   Result<void> place(const Syntax& /*syntax*/, TimedPacket& /*out*/) {

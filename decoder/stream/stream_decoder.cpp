@@ -54,7 +54,7 @@ Result<DecodeStatus> StreamDecoder::next() {
       reader_.lose();  // reported once
       return fail(ErrorCode::kTruncated, "the stream ends before its setup", packets_.offset());
     }
-    if (!late_.is_again()) tally_.count(read->packet);
+    if (!late_.is_again() && !read->packet.in_parts) tally_.count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
     if (reader_.pictures().has_next()) tally_.note_startup();
   }
@@ -209,6 +209,12 @@ Result<void> StreamDecoder::take(const BlendGroup& group, const Arrived& arrived
 
 Result<void> StreamDecoder::take(SoundGroup& group, const Arrived& /*arrived*/) {
   return sound_.add({*sound_setup(), std::move(group)});
+}
+
+// SPEC 6.5
+Result<void> StreamDecoder::take(const JoinedHead& head, const Arrived& /*arrived*/) {
+  packets_.read_head(head.packets);
+  return {};
 }
 
 }  // namespace fbs

@@ -45,7 +45,9 @@ enum class PictureQuality : std::uint8_t {
 /// repeated for each of them, so that later pictures keep their numbers and times: at most kMaxHeldPictures
 /// in a row (SPEC 6.2).
 ///
-/// A stream may also be joined at any setup packet: feed kSignature, then the stream from there on.
+/// A stream may also be joined at any setup packet: feed kSignature, then the stream from there on. If it has
+/// the head of its scene in parts, it may be joined anywhere: the first picture is one of those that are sent
+/// when enough parts have come (SPEC 6.5).
 class StreamDecoder {
  public:
   /// Copies `bytes`.
@@ -164,6 +166,7 @@ class StreamDecoder {
     return taken ? take(unit.blend, arrived) : taken;
   }
   Result<void> take(SoundGroup& group, const Arrived& arrived);
+  Result<void> take(const JoinedHead& head, const Arrived& arrived);
   /// Any other is known to the reader alone.
   template <class Syntax>
   Result<void> take(const Syntax& /*syntax*/, const Arrived& /*arrived*/) {

@@ -14,7 +14,8 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       key_interval_(key_interval_of(settings, setup.format)),
       patterns_(std::move(patterns)),
       motion_(setup, seen, rate, timing_),
-      position_(setup.before) {}
+      position_(setup.before),
+      packets_(join_of(settings)) {}
 
 Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
   if (patterns_)
@@ -28,10 +29,12 @@ Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
 Result<void> SceneLedger::plan(std::span<const PictureCost> costs, std::span<const std::uint32_t> durations) {
   auto group = motion_.add(costs, durations);
   if (!group) return fail(group.error());
-  if (patterns_)
+  if (patterns_) {
     patterns_->add(group->states, std::move(group->payload));
-  else
+  } else {
     packets_.add_motion(group->payload);
+    packets_.end_group();
+  }
   return {};
 }
 
@@ -40,6 +43,7 @@ Result<void> SceneLedger::end_segment(Scene& scene, const StateRefit& refit) {
   if (!packets) return fail(packets.error());
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   packets_.count_from_here();
+  packets_.end_group();
   return {};
 }
 

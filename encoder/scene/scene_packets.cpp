@@ -5,6 +5,10 @@
 
 namespace fbs {
 
+ScenePackets::ScenePackets(double join) {
+  if (join > 0) trickle_.emplace(join);
+}
+
 void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {
   if (started_)
     writer_.write(ready_, PacketType::kMotion, payload);
@@ -29,12 +33,25 @@ void ScenePackets::start(const SceneHead& head) {
   started_ = true;
 }
 
+void ScenePackets::show_trickle() {
+  if (trickle_) trickle_->add(std::span(ready_).subspan(shown_));
+  shown_ = ready_.size();
+}
+
+void ScenePackets::end_group() {
+  if (!trickle_ || !started_) return;
+  show_trickle();
+  for (const auto& part : trickle_->due()) add(PacketType::kHeadPart, part);
+}
+
 void ScenePackets::begin_again() {
   assert(started_ && held_back_.empty());
   started_ = false;
 }
 
 std::vector<std::uint8_t> ScenePackets::take() {
+  show_trickle();
+  shown_ = 0;
   written_ += ready_.size();
   return std::exchange(ready_, {});
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "bitstream/packet.h"
+#include "encoder/scene/head_trickle.h"
 
 namespace fbs {
 
@@ -17,6 +19,9 @@ struct SceneHead {
 /// Holds motion back until the scene has started: its head is learned from the first seconds.
 class ScenePackets {
  public:
+  /// @param join  s; in which viewers can join a scene: see LiveSettings. 0: only where it begins
+  explicit ScenePackets(double join = 0);
+
   void add_motion(std::span<const std::uint8_t> payload);
 
   /// Writes the head, then the motion held back.
@@ -24,6 +29,8 @@ class ScenePackets {
   /// Writes a packet; the scene has started.
   void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
+  /// Writes the parts of the head that are due for viewers who join. All that has been added is released.
+  void end_group();
   /// Begins another scene, and holds motion back until it has started. None may be held back now.
   void begin_again();
 
@@ -35,12 +42,16 @@ class ScenePackets {
   [[nodiscard]] std::vector<std::uint8_t> take();
 
  private:
+  void show_trickle();
+
   PacketWriter writer_;
   std::vector<std::vector<std::uint8_t>> held_back_;  // payloads of motion packets
   std::vector<std::uint8_t> ready_;
   std::size_t written_ = 0;  ///< bytes that have been taken
   std::size_t counted_from_ = 0;
   bool started_ = false;
+  std::optional<HeadTrickle> trickle_;
+  std::size_t shown_ = 0;  ///< bytes of ready_ that it has seen
 };
 
 }  // namespace fbs

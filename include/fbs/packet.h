@@ -39,7 +39,8 @@ typedef enum fbs_packet_type {
   FBS_PACKET_WIRE_FRAME = 8,
   FBS_PACKET_SOUND_SETUP = 9,
   FBS_PACKET_SOUND = 10,
-  FBS_PACKET_UNIT = 11
+  FBS_PACKET_UNIT = 11,
+  FBS_PACKET_HEAD_PART = 12
 } fbs_packet_type;
 
 /** A whole packet whose check is right. */

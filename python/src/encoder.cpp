@@ -48,6 +48,7 @@ void open(Encoder* self, const nb::dict& settings) {
   take(settings, "live_buffer", s.live_buffer);
   take(settings, "threads", s.threads);
   take(settings, "resilience", s.resilience);
+  take(settings, "join", s.join);
   fbs_encoder* encoder = nullptr;
   const fbs_status status = fbs_encoder_open(&encoder, &s);
   if (status < 0) throw StatusError(status);

@@ -164,6 +164,19 @@ TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
   EXPECT_EQ(pictures.pictures.size(), kPictures - scenes_of(groups).at(1));
 }
 
+TEST(RtpFbs, AStreamIsJoinedByThePartsOfItsHead) {
+  const std::vector<Buffer> groups = encoded(kPictures, {}, 1, "resilience=strong");
+  std::vector<Buffer> packets = paid(groups, 1400);
+  const Harness harness = depayloader();
+  for (std::size_t k = 2; k < packets.size(); ++k) push(harness.get(), std::move(packets[k]));
+  const std::vector<Buffer> out = finish(harness.get());
+  ASSERT_FALSE(out.empty());
+  EXPECT_TRUE(is_key(out.front()));
+  const std::size_t pictures = decoded(joined(out)).pictures.size();
+  EXPECT_GT(pictures, 0U);
+  EXPECT_LT(pictures, kPictures);
+}
+
 TEST(RtpFbs, PayloadsOfNothingAreNoHarm) {
   const Harness harness = depayloader();
   for (const guint size : {0U, 1U, 2U}) {

@@ -1,7 +1,7 @@
 // lossy_link: a live stream over a link that loses packets, through the real decoder. What does a viewer see?
 //
 //   lossy_link STREAM.fbs SOURCE [--loss 10] [--burst 0] [--round-trip 0] [--wait 0.2] [--copies 0]
-//              [--seeds 5] [--worst FILE.pgm]
+//              [--heads 0] [--from 0] [--seeds 5] [--worst FILE.pgm]
 //
 //   --loss        percent of packets
 //   --burst       s: losses come in runs of this mean length; 0: each by itself
@@ -9,10 +9,14 @@
 //   --wait        s that the receiver holds packets back for those that are missing
 //   --worst       PGM file: source, whole stream and what was shown, where the face was worst
 //   --copies      each packet is sent again so many times, one group later each
+//   --heads       1: the heads of scenes are lost, too, if any of their packets of 1200 bytes is; but the
+//   first
+//   --from        s: the viewer comes then, and knows nothing; counts from the first picture that is shown
 //
-// A packet of the link is a group's motion, pattern and blend. The head of a scene is not lost, as it would
-// be sent until it is confirmed. A picture is due when its group and `wait` have passed; it is frozen if it
-// has not been released by then, and right if its luma is that of the whole stream. Prints one line of JSON.
+// A packet of the link is a group's motion, pattern and blend. Without --heads
+// the head of a scene is not lost, as it would be sent until it is confirmed. A picture is due when its group
+// and `wait` have passed; it is frozen if it has not been released by then, and right if its luma is that of
+// the whole stream. Prints one line of JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,8 +41,9 @@ using namespace fbs;
 using Bytes = std::vector<std::uint8_t>;
 
 struct Options {
-  double loss = 0.1, burst = 0, round_trip = 0, wait = 0.2;
+  double loss = 0.1, burst = 0, round_trip = 0, wait = 0.2, from = 0;
   int copies = 0, seeds = 5;
+  bool heads = false;
   std::string worst;
 };
 
@@ -120,6 +125,7 @@ Box face_of(const StreamDecoder& decoder, int width, int height) {
 
 struct Sums {
   double pictures = 0, right = 0, current = 0, within = 0, frame = 0, face = 0, longest = 0, worst = 0;
+  std::vector<double> joined;  // s from Options::from to the first picture, for each seed that saw one
   std::size_t worst_picture = 0;
   Plane worst_shown;
 };
@@ -159,13 +165,14 @@ class Link {
     // later.
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < units_.size(); ++k)
-      if (fed[k] < kNever) order.push_back({fed[k], k});
+      if (fed[k] < kNever && units_[k].begin >= options.from) order.push_back({fed[k], k});
     std::stable_sort(order.begin(), order.end());
     StreamDecoder decoder;
     Picture picture;
     Plane shown;
     std::size_t next = 0;  // picture to be shown
     double frozen_since = -1;
+    bool joined = false;
     std::map<std::size_t, Plane> waiting;  // released before they are due
     const auto show_until = [&](double now) {
       for (; next < references_.size() && due(next, options) < now; ++next) {
@@ -173,6 +180,9 @@ class Link {
         const bool current = released != waiting.end();
         if (current) shown = std::move(released->second);
         waiting.erase(waiting.begin(), waiting.upper_bound(next));
+        if (options.from > 0 && shown.samples.empty()) continue;  // has not joined yet
+        if (options.from > 0 && !joined) sums.joined.push_back(times_[next] - options.from);
+        joined = true;
         count(next, current, shown, sums);
         if (!current && frozen_since < 0) frozen_since = due(next, options);
         if (current && frozen_since >= 0) {
@@ -181,9 +191,14 @@ class Link {
         }
       }
     };
+    std::mt19937 random(seed + 1000);
+    std::uniform_real_distribution<double> uniform(0, 1);
     for (const auto& [time, k] : order) {
       show_until(time);
       Bytes bytes = units_[k].head;
+      if (options.heads && k > 0)
+        for (std::size_t sent = 0; sent < units_[k].head.size(); sent += 1200)
+          if (uniform(random) < options.loss) bytes.clear();
       bytes.insert(bytes.end(), units_[k].bytes.begin(), units_[k].bytes.end());
       decoder.feed_packet(k, bytes);
       for (;;) {
@@ -298,7 +313,7 @@ int main(int argc, char** argv) {
   if (argc < 3)
     give_up(
         "usage: lossy_link STREAM.fbs SOURCE [--loss %] [--burst s] [--round-trip s] [--wait s] [--copies n]"
-        " [--seeds n] [--worst FILE.pgm]");
+        " [--heads 0|1] [--from s] [--seeds n] [--worst FILE.pgm]");
   Options options;
   for (int i = 3; i + 1 < argc; i += 2) {
     const std::string name = argv[i];
@@ -313,6 +328,10 @@ int main(int argc, char** argv) {
       options.wait = value;
     else if (name == "--copies")
       options.copies = static_cast<int>(value);
+    else if (name == "--heads")
+      options.heads = value != 0;
+    else if (name == "--from")
+      options.from = value;
     else if (name == "--seeds")
       options.seeds = static_cast<int>(value);
     else if (name == "--worst")
@@ -329,7 +348,14 @@ int main(int argc, char** argv) {
   std::printf(
       "{\"pictures\": %.0f, \"right\": %.4f, \"current\": %.4f, \"within\": %.4f, \"frame\": %.3f, \"face\": "
       "%.3f, "
-      "\"longest\": %.2f, \"worst\": %.2f}\n",
+      "\"longest\": %.2f, \"worst\": %.2f",
       s.pictures, s.right / s.pictures, s.current / s.pictures, s.within / s.pictures, s.frame / s.pictures,
       s.face / s.pictures, s.longest, s.worst);
+  if (options.from > 0) {
+    std::sort(s.joined.begin(), s.joined.end());
+    const std::size_t n = s.joined.size();
+    std::printf(", \"joined\": %zu, \"median_s\": %.2f, \"longest_s\": %.2f", n, n > 0 ? s.joined[n / 2] : 0,
+                n > 0 ? s.joined.back() : 0);
+  }
+  std::printf("}\n");
 }

@@ -68,6 +68,15 @@ class Loss(ProgramTest):
                 shown.append(source.luma_psnr(viewing.video))
             self.assertGreater(sum(shown) / len(shown), right - most, resilience)
 
+    def test_a_stream_is_joined_by_the_parts_of_its_head(self):
+        self.succeed("encode", TALK_Y4M, "live.fbs", "--live", "--patterns", 1, "--resilience", "packet", "--join", 1,
+                     "--key-interval", 100)
+        whole = Whole(self.folder / "live.fbs")
+        for packet in (6, len(whole.packets) // 2):
+            video, _ = decode(whole.stream[:4] + whole.stream[whole.packets[packet][1]:])
+            self.assertGreater(len(video.pictures), len(whole.pictures) // 5)
+            self.assertEqual(video.pictures, whole.pictures[-len(video.pictures):])
+
     def test_killed_encoder_leaves_what_can_be_played(self):
         encoder = subprocess.Popen([FBS, "encode", "-", "out.fbs", "--quiet", "--key-interval", "0.5"], cwd=self.folder,
                                    stdin=subprocess.PIPE, bufsize=0)

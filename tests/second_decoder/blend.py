@@ -25,8 +25,8 @@ class Contexts:
 class BlendDecoder:
     """Decodes the blend packets of a scene."""
 
-    def __init__(self):
-        self._groups = GroupReader()
+    def __init__(self, first):
+        self._groups = GroupReader(first)
         self._c = None
 
     def decode(self, payload, end):

@@ -2,9 +2,10 @@
 
 from .byte_reader import ByteReader
 from .errors import StreamError, invalid, too_large, truncated, unsupported
+from .head_parts import HeadParts
 from .integers import clamp
 from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
-from .packets import END, SCENE_PACKETS, SETUP, Damage, packets
+from .packets import END, HEAD_PART, PATTERN, SCENE_PACKETS, SETUP, Damage, packets
 from .scene import Scene
 from .setup import read_setup
 
@@ -22,6 +23,9 @@ class Decoder:
         self._guesses = False  # durations of lost pictures, since the last position
         self._last = None  # the last picture shown
         self._held = 0  # times that it has been shown in the place of others
+        self._head_parts = HeadParts()
+        self._passed = 0, 0  # pictures of the scene before it was joined, and their time
+        self._first_pattern = None  # the low bits of the check of its packet, once the scene is complete
         self._held_duration = 0  # nominal duration in its scene, or while there is none in the last scene
 
     @property
@@ -31,14 +35,17 @@ class Decoder:
 
     def pictures(self, data):
         """Yields each picture: planes Y, U, V, and duration in 1/90000 s."""
-        for packet in packets(data):
+        source = packets(data)
+        for packet in source:
             try:
                 if isinstance(packet, Damage):
                     raise packet.error
+                if packet.type == HEAD_PART and not packet.in_parts:
+                    self._take_part(packet.payload, source)
                 yield from self._take(packet)
             except StreamError as error:
                 self.errors.append(error)
-                if packet.type != END:
+                if packet.type not in (END, HEAD_PART):
                     self._lose(packet.type == SETUP)
         if not self._scene and not self.errors:
             self.errors.append(truncated("the stream ends before its first scene"))
@@ -56,36 +63,47 @@ class Decoder:
 
     def _take(self, packet):
         if packet.type == SETUP:
-            yield from self._take_setup(packet.payload)
+            yield from self._take_setup(packet.payload, self._passed if packet.in_parts else (0, 0))
         elif packet.type == END:
             yield from self._take_end(packet.payload)
         elif packet.type in SCENE_PACKETS and not self._is_lost:
             if not self._scene:
                 raise invalid("a packet before the first setup packet")
+            if packet.type == PATTERN and not self._scene.is_complete:
+                self._first_pattern = packet.check & 0xFFFF
             for picture, duration in self._scene.take(packet):
                 self._show(picture, duration)
                 self._held = 0
                 self._held_duration = self._scene.setup.nominal_duration()
                 yield picture, duration
 
+    def _take_part(self, payload, source):
+        """A part of a head. If that is whole, its packets are the next."""
+        is_known = self._scene and self._scene.is_complete and not self._is_lost
+        head = self._head_parts.take(payload, self._first_pattern if is_known else None)
+        if head:
+            packets_of_head, self._passed = head
+            source.send(packets_of_head)
+
     def _show(self, picture, duration):
         self._last = picture
         self._position += 1
         self._time += duration
 
-    def _take_setup(self, payload):
+    def _take_setup(self, payload, passed):
         setup = read_setup(payload)
         size = setup.width, setup.height
         if self._size and size != self._size:
             raise unsupported("another picture size in a later scene")
+        position, time = setup.pictures_before + passed[0], setup.time_before + passed[1]
         if self._position is None:
-            self._position, self._time = setup.pictures_before, setup.time_before
-        yield from self._fill_up_to(setup.pictures_before, setup.time_before)
+            self._position, self._time = position, time
+        yield from self._fill_up_to(position, time)
         if self._last is None:
             self._held_duration = setup.nominal_duration()
         self._size = size
         self._is_lost = False
-        self._scene = Scene(setup)
+        self._scene = Scene(setup, passed)
 
     def _take_end(self, payload):
         pictures = ByteReader(payload).varint()

@@ -17,8 +17,8 @@ def read_number(d, following):
 class GroupReader:
     """Reads the beginnings of the groups of a scene, of one kind."""
 
-    def __init__(self):
-        self.next = 0  # number of the picture behind the last group that has been used
+    def __init__(self, first=0):
+        self.next = first  # number of the picture behind the last group that has been used
         self._needs_key = True
 
     def begin(self, payload):

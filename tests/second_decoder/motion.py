@@ -164,13 +164,13 @@ class Group:
 class MotionDecoder:
     """Decodes the motion packets of a scene."""
 
-    def __init__(self, setup, layout, rest_numbers):
+    def __init__(self, setup, layout, rest_numbers, first, time):
         self._layout = layout
         self._rest_numbers = rest_numbers
         self._nominal_duration = setup.nominal_duration()
-        self._groups = GroupReader()
+        self._groups = GroupReader(first)
         self._last_numbers = rest_numbers  # of the last picture of the group before
-        self._time = 0  # of the picture after it, from the start of the scene, as far as it is known
+        self._time = time  # of the picture after it, from the start of the scene, as far as it is known
         self._m = None
         self._d = None
 

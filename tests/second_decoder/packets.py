@@ -7,8 +7,9 @@ from .errors import StreamError, invalid, too_large, truncated
 from .limits import MAX_PAYLOAD
 
 SIGNATURE = b"\x89fbs"
-KNOWN_TYPES = range(1, 12)
-SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME, SOUND_SETUP, SOUND, UNIT = KNOWN_TYPES
+KNOWN_TYPES = range(1, 13)
+(SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME, SOUND_SETUP, SOUND, UNIT,
+ HEAD_PART) = KNOWN_TYPES
 SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND, WIRE_FRAME, UNIT)
 MAX_SEARCHED_PAYLOAD = 2047  # bytes of a packet at which a reader goes on after damage
 MAX_REPAIRED_PAYLOAD = 65535  # bytes of a packet in which a wrong bit is set right
@@ -18,6 +19,8 @@ MAX_REPAIRED_PAYLOAD = 65535  # bytes of a packet in which a wrong bit is set ri
 class Packet:
     type: int
     payload: bytes
+    check: int
+    in_parts: bool = False  # it has come in the parts of a head
 
 
 @dataclass
@@ -25,6 +28,7 @@ class Damage:
     """In the place of a packet that cannot be read."""
     error: StreamError
     type = None  # not known
+    in_parts = False
 
 
 class Crc:
@@ -96,7 +100,7 @@ def _read_packet(data, position, checks, max_payload=MAX_PAYLOAD):
     crc = crc_of(length)
     computed = checks.of(data[position:reader.position], crc)
     check = int.from_bytes(reader.bytes(crc.bits // 8), "big")
-    return Packet(kind, payload), check, check ^ computed, reader.position
+    return Packet(kind, payload, check), check, check ^ computed, reader.position
 
 
 def _repaired(data, length, difference, end):
@@ -129,10 +133,10 @@ def _next_start(data, position, checks):
     return best
 
 
-def packets(data):
-    """Yields a Packet or a Damage for each part of a stream."""
+def packets(data, checks=None):
+    """Yields a Packet or a Damage for each part of a stream. Packets of a head that is sent to it are read next."""
     position = len(SIGNATURE)
-    checks = Checks()
+    checks = checks or Checks()
     if not data.startswith(SIGNATURE):
         is_cut = data and SIGNATURE.startswith(data)
         yield Damage(truncated("the signature is cut") if is_cut else StreamError("kNotFbs", "there is no signature"))
@@ -148,7 +152,12 @@ def packets(data):
                 continue
             position = end
             checks.add(packet.type, check)
-            yield packet
+            head = yield packet
+            if head:
+                yield  # what send() returns
+                for packet in packets(SIGNATURE + head, checks):
+                    packet.in_parts = True
+                    yield packet
         except StreamError as error:
             yield Damage(error)
             position = _next_start(data, position + 1, checks)

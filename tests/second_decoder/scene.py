@@ -35,11 +35,15 @@ class Pattern:
 
 
 class Scene:
-    """Takes the packets of a scene after its setup packet."""
+    """Takes the packets of a scene after its setup packet.
 
-    def __init__(self, setup):
+    passed  pictures that it has before it is joined, and their time
+    """
+
+    def __init__(self, setup, passed=(0, 0)):
         self.setup = setup
-        self.has_losses = False  # an error has told of something that is missing
+        self._begin, self._passed_time = passed
+        self.has_losses = self._begin > 0  # an error has told of something that is missing
         self._layout = Layout(setup)
         self._next_frame = HEAD  # of the geometry packets to come
         self._frame = None  # of the geometry
@@ -49,14 +53,14 @@ class Scene:
         self._rest = None  # state of the first pattern, which completes the scene
         self._store = {}  # patterns by slot
         self._stored_numbers = {}  # by slot, of the last pattern other than the first
-        self._states = []  # of all pictures, with their durations
+        self._states = [None] * self._begin  # of all pictures, with their durations
         self._missing = set()  # numbers of pictures whose states are interpolated
-        self._modes = []  # of all pictures that have any
-        self._released = 0
+        self._modes = [(0,) * REGIONS] * self._begin  # of all pictures that have any
+        self._released = self._begin
         self._av1 = Av1Decoder()
         self._patterns = PatternDecoder(setup, self._layout)
         self._motion = None
-        self._blend = BlendDecoder()
+        self._blend = BlendDecoder(self._begin)
         self._takers = {WIRE_FRAME: self._take_wire_frame, GEOMETRY: self._take_geometry,
                         SURROUND: self._take_surround, PATTERN: self._take_pattern, MOTION: self._take_motion,
                         BLEND: self._take_blend, UNIT: self._take_unit}
@@ -115,7 +119,7 @@ class Scene:
 
     def _has_state(self, number):
         """Whether a picture has a state that was sent and is kept."""
-        return (max(0, self._released - KEPT_PICTURES) <= number < len(self._states)
+        return (max(self._begin, self._released - KEPT_PICTURES) <= number < len(self._states)
                 and number not in self._missing)
 
     def _break_chain(self, coded):
@@ -138,7 +142,9 @@ class Scene:
     def _complete(self, rest_numbers):
         """The first pattern is here."""
         self._rest = self._layout.values(rest_numbers)
-        self._motion = MotionDecoder(self.setup, self._layout, rest_numbers)
+        self._motion = MotionDecoder(self.setup, self._layout, rest_numbers, self._begin, self._passed_time)
+        if self._begin:
+            self._patterns.break_chain()  # those before the joining are missing
         if self._adapted is not None:
             self._build_mesh()
 

@@ -7,13 +7,13 @@ namespace {
 
 constexpr int kLivePictures = 48;
 
-Bytes live(const std::vector<std::uint32_t>& durations = {}) {
+Bytes live(const std::vector<std::uint32_t>& durations = {}, double join = 0) {
   auto turning = talker_settings(96, 80, kLivePictures);
   turning.motion = talker::Motion::kTurns;
   turning.yaw_deg = 20;
   EncoderSettings settings;
   settings.quality = 60;
-  settings.live = LiveSettings{.resilience = Resilience::kStrong};
+  settings.live = LiveSettings{.resilience = Resilience::kStrong, .join = join};
   return encoded(pictures_of(turning), settings, durations);
 }
 
@@ -53,11 +53,18 @@ void add_losses(Folder& folder) {
   flipped[offset_of(pieces, unit)] ^= 0x10;  // the type: what follows has to be searched
   folder.add("live_flipped.fbs", flipped, kLivePictures, "kInvalidStream");
 
+  const auto parts = pieces_of(live({}, 1));
+  folder.add("live_parts.fbs", joined(parts), kLivePictures);
+  folder.add("live_joined.fbs", joined_from(parts, place_of(parts, PacketType::kUnit, 1)), 5, "kNotFbs");
+
   std::vector<std::uint32_t> durations;
   for (std::uint32_t i = 0; i < kLivePictures; ++i) durations.push_back(i % 3 == 2 ? 6000 : 3000);
   const auto timed = pieces_of(live(durations));
   folder.add("live_timed.fbs", joined_without(timed, place_of(timed, PacketType::kUnit, 2)), kLivePictures,
              "kInvalidStream");
+  const auto timed_parts = pieces_of(live(durations, 1));
+  folder.add("live_timed_joined.fbs", joined_from(timed_parts, place_of(timed_parts, PacketType::kUnit, 1)),
+             17, "kNotFbs");
 }
 
 }  // namespace fbs

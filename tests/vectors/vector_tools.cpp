@@ -85,6 +85,11 @@ Bytes joined_without(const std::vector<Piece>& pieces, std::size_t nth) {
   return stream;
 }
 
+Bytes joined_from(const std::vector<Piece>& pieces, std::size_t nth) {
+  const Bytes whole = joined(pieces);
+  return {whole.begin() + offset_of(pieces, nth), whole.end()};
+}
+
 Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth) {
   const Bytes whole = joined(pieces);
   Bytes stream(whole.begin(), whole.begin() + offset_of(pieces, nth + 1));

@@ -49,6 +49,9 @@ Bytes joined_without(const std::vector<Piece>& pieces, std::size_t nth);
 /// The same for a network that delivers packet `nth` twice.
 Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth);
 
+/// The stream from packet `nth` on, as one who comes in its middle gets it.
+Bytes joined_from(const std::vector<Piece>& pieces, std::size_t nth);
+
 /// A pattern packet of a stream.
 struct PatternPiece {
   std::size_t piece;  ///< index

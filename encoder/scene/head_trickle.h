@@ -1,0 +1,42 @@
+// The head of a live scene, sent again little by little for viewers who join. SPEC 4.12.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/packet.h"
+#include "bitstream/scene/scene_reader.h"
+
+namespace fbs {
+
+/// Follows the packets of a stream, and makes the parts of the present scene's head: soon after its beginning
+/// once, then steadily.
+class HeadTrickle {
+ public:
+  /// @param seconds  > 0: in which a viewer can join, if a tenth of the packets is lost
+  explicit HeadTrickle(double seconds);
+
+  /// The next packets of the stream, which it wrote itself (assert).
+  void add(std::span<const std::uint8_t> packets);
+
+  /// Payloads of the parts that are to follow them.
+  [[nodiscard]] std::vector<std::vector<std::uint8_t>> due();
+
+ private:
+  /// @param whole  the packet
+  void add(const Packet& packet, std::span<const std::uint8_t> whole);
+
+  double seconds_;
+  PacketReader packets_;
+  SceneReader reader_;
+  std::uint64_t begin_ = 0;  ///< offset of the packets added next
+  // Of the scene:
+  std::vector<std::uint8_t> head_;      ///< packets up to the first pattern
+  std::vector<std::uint8_t> surround_;  ///< the last surround packet behind them
+  bool complete_ = false;
+  HeadPart next_;
+  double sent_ = 0;  ///< parts, as a share of those that make a head
+};
+
+}  // namespace fbs
