@@ -158,6 +158,7 @@ struct MotionGroup {
   std::int32_t missing = 0;   ///< pictures before it whose groups have not come; 0 for who writes
   CodedState anchor{};        ///< state before them: of the last picture of the group before or, if there is
                               ///< none, of the first pattern. Not coded
+  bool unsure = false;        ///< the reader has joined, and does not know all of the anchor
   std::int32_t pictures = 0;  ///< 1..kMaxGroupPictures
   /// Each part that is sent has at least one knot, the last in the last picture; the others have none.
   std::array<Track, kPartCount> tracks;
@@ -182,15 +183,14 @@ struct Unit {
   BlendGroup blend;  ///< of the same pictures
 };
 
-/// A part of the head of a scene: of its packets up to the first pattern, and of the last surround packet
-/// behind that. Any `symbols` different parts make it whole.
+/// A part of the head of a scene, of its packets up to the first pattern. Any `symbols` different parts make
+/// it whole.
 struct HeadPart {
-  std::uint16_t scene = 0;   ///< the low bits of the check of its first pattern packet
-  std::uint8_t edition = 0;  ///< another one for another surround
-  StreamPosition passed;     ///< pictures of the scene before it, all released; at most kMaxPassedPictures
-  std::size_t size = 0;      ///< bytes of the head, 1..kMaxHead
-  int symbols = 1;           ///< pieces of equal size that the head is divided into, 1..kMaxHeadSymbols
-  int index = 0;             ///< of the part, 0..kMaxHeadParts - 1
+  std::uint16_t scene = 0;  ///< the low bits of the check of its first pattern packet
+  StreamPosition passed;    ///< pictures of the scene before it, all released; at most kMaxPassedPictures
+  std::size_t size = 0;     ///< bytes of the head, 1..kMaxHead
+  int symbols = 1;          ///< pieces of equal size that the head is divided into, 1..kMaxHeadSymbols
+  int index = 0;            ///< of the part, 0..kMaxHeadParts - 1
   std::vector<std::uint8_t> symbol;  ///< symbol_size() bytes
 
   [[nodiscard]] std::size_t symbol_size() const {

@@ -10,6 +10,7 @@ MotionDecoder::MotionDecoder(const Setup& setup, const CodedState& seen, const S
     : reference_(setup, seen) {
   reference_.order.next = static_cast<std::int32_t>(passed.pictures);
   reference_.time = static_cast<std::uint32_t>(passed.time);
+  if (passed.pictures > 0) reference_.unknown = setup.parts;
 }
 
 Result<std::optional<MotionGroup>> MotionDecoder::decode(std::span<const std::uint8_t> payload) {
@@ -25,6 +26,7 @@ Result<std::optional<MotionGroup>> MotionDecoder::decode(std::span<const std::ui
   group.missing = *missing;
   if (group.key) reference_.reset();
   group.anchor = reference_.last;
+  group.unsure = reference_.unknown != 0;
   const bool valid = code_body(decoder, reference_, group, [](std::size_t) {});
   if (!decoder.ok()) return fail(ErrorCode::kTruncated, "motion packet ends early", payload.size());
   if (!valid) return fail(ErrorCode::kInvalidStream, "motion packet has a value out of range");

@@ -57,6 +57,7 @@ struct MotionReference {
   std::uint32_t time = 0;          ///< of the next group, 1/90000 s since the start of the scene, modulo 2^32
   GroupOrder order;
   std::array<int, kPartCount> held{};  ///< key groups in a row that have left a part as it was
+  PartMask unknown = 0;                ///< parts that a reader who has joined has not got yet
   /// A key group sends each part that the group before it has moved, for those who missed that. Readers leave
   /// it as it is.
   bool repeats_moved = false;
@@ -106,6 +107,7 @@ bool code_key_knot(Coder& coder, MotionReference& reference, std::size_t part, c
     next.value = last.value;
     return true;
   }
+  reference.unknown = static_cast<PartMask>(reference.unknown & ~(1U << part));
   TrackHistory none;
   TrackCoder<Coder> tracks(coder, reference.limits, reference.memory.from_rest, none);
   return tracks.knot(part, 1, anchor_knot(reference.seen, part), next);

@@ -13,7 +13,6 @@ std::vector<std::uint8_t> encode_head_part(const HeadPart& part) {
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
   writer.u16(part.scene);
-  writer.u8(part.edition);
   writer.varint(part.passed.pictures);
   writer.varint(part.passed.time);
   writer.varint(part.size);
@@ -27,7 +26,6 @@ Result<HeadPart> decode_head_part(std::span<const std::uint8_t> payload) {
   ByteReader reader(payload);
   HeadPart part;
   part.scene = reader.u16();
-  part.edition = reader.u8();
   part.passed = {reader.varint(), reader.varint()};
   const std::uint64_t size = reader.varint();
   part.symbols = reader.u8();

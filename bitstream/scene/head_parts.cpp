@@ -45,7 +45,7 @@ std::uint8_t factor_of(int index, int k) {
 }
 
 bool are_of_one_head(const HeadPart& a, const HeadPart& b) {
-  return a.scene == b.scene && a.edition == b.edition && a.size == b.size && a.symbols == b.symbols;
+  return a.scene == b.scene && a.size == b.size && a.symbols == b.symbols;
 }
 
 /// Solves for the pieces: Gauss-Jordan. The factors are a Vandermonde matrix of different rows, so there is

@@ -29,6 +29,7 @@ Result<SceneSyntax> as_syntax(Result<Syntax> read) {
 
 /// How many of the first states of a group are uncertain, the missing pictures included. SPEC 6.2.
 std::int32_t guesses_of(const MotionGroup& group) {
+  if (group.unsure) return group.missing + group.pictures;
   if (group.missing == 0) return 0;
   std::int32_t before_knots = 0;
   for (const Track& track : group.tracks)

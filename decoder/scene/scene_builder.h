@@ -20,7 +20,12 @@ class SceneBuilder {
 
   void set_geometry(const Geometry& geometry) { geometry_ = geometry; }
   /// Takes effect with the first pattern, or with apply_surround().
-  void set_surround(const SurroundMap& surround) { surround_ = surround; }
+  /// @return whether it is another one
+  bool set_surround(const SurroundMap& surround) {
+    const bool changes = !(surround == surround_);
+    surround_ = surround;
+    return changes;
+  }
   /// Puts geometry and surround into the scene, and into its patterns.
   void apply_surround();
 

@@ -169,8 +169,7 @@ Result<void> StreamDecoder::take(const Geometry& geometry, const Arrived& /*arri
 }
 
 Result<void> StreamDecoder::take(const SurroundMap& surround, const Arrived& /*arrived*/) {
-  scene_.set_surround(surround);
-  if (!scene_.scene().geometry) return {};
+  if (!scene_.set_surround(surround) || !scene_.scene().geometry) return {};
   if (auto kept = picture_.keep(scene_.scene(), renderer_); !kept) return kept;
   scene_.apply_surround();
   return {};

@@ -18,12 +18,13 @@ constexpr int kLeastSymbols = 12;
 /// Share of the parts that arrive, of which a viewer joins in time.
 constexpr double kArrives = 0.9;
 
-/// s: so soon after a scene has begun its parts are sent once, for those who have lost its head.
-constexpr double kSoon = 1.5;
+/// s: so soon after a scene has begun so many heads are sent, for those who have lost its head. More than
+/// one, since a lost packet of the link takes several parts.
+constexpr double kSoon = 1.5, kSoonHeads = 1.5;
 
-/// How many of the parts that make a head have been sent by a time of the scene, s.
+/// How many heads are to be sent by a time of the scene, s.
 double heads_by(double time, double join) {
-  return (std::min(time / kSoon, 1.0) + std::max(0.0, time - kSoon) / join) / kArrives;
+  return kSoonHeads * std::min(time / kSoon, 1.0) + std::max(0.0, time - kSoon) / (kArrives * join);
 }
 
 }  // namespace
@@ -60,30 +61,27 @@ void HeadTrickle::add(const Packet& packet, std::span<const std::uint8_t> whole)
     complete_ = packet.type == PacketType::kPattern;
     next_.scene = static_cast<std::uint16_t>(packet.check);
   } else if (packet.type == PacketType::kSurround) {
-    surround_.assign(whole.begin(), whole.end());
-    ++next_.edition;
+    surround_.assign(packet.payload.begin(), packet.payload.end());
   }
 }
 
-std::vector<std::vector<std::uint8_t>> HeadTrickle::due() {
-  std::vector<std::vector<std::uint8_t>> parts;
-  next_.size = head_.size() + surround_.size();
+std::vector<TypedPayload> HeadTrickle::due() {
+  std::vector<TypedPayload> out;
   const auto pictures = static_cast<std::uint64_t>(reader_.pictures().end());
-  if (!complete_ || next_.size > kMaxHead || pictures > kMaxPassedPictures) return parts;
-  const auto pieces = static_cast<int>((next_.size + kSymbolBytes - 1) / kSymbolBytes);
+  if (!complete_ || head_.size() > kMaxHead || pictures > kMaxPassedPictures) return out;
+  const auto pieces = static_cast<int>((head_.size() + kSymbolBytes - 1) / kSymbolBytes);
+  next_.size = head_.size();
   next_.symbols = std::clamp(pieces, kLeastSymbols, kMaxHeadSymbols);
   next_.passed = {pictures, reader_.pictures().end_time() - reader_.setup().before.time};
-  const double time = static_cast<double>(next_.passed.time) / kTicksPerSecond;
-  const double to_send = heads_by(time, seconds_) - sent_;
-  std::vector<std::uint8_t> head = head_;
-  head.insert(head.end(), surround_.begin(), surround_.end());
-  for (int k = 1; k <= to_send * next_.symbols; ++k) {
-    sent_ += 1.0 / next_.symbols;
-    next_.symbol = head_symbol(head, next_.symbols, next_.index);
-    parts.push_back(encode_head_part(next_));
+  const double heads = heads_by(static_cast<double>(next_.passed.time) / kTicksPerSecond, seconds_);
+  for (; sent_ < static_cast<int>(heads * next_.symbols); ++sent_) {
+    next_.symbol = head_symbol(head_, next_.symbols, next_.index);
+    out.emplace_back(PacketType::kHeadPart, encode_head_part(next_));
     next_.index = (next_.index + 1) % kMaxHeadParts;
+    if (sent_ % (next_.symbols / 2) == 0 && !surround_.empty())
+      out.emplace_back(PacketType::kSurround, surround_);
   }
-  return parts;
+  return out;
 }
 
 }  // namespace fbs

@@ -7,11 +7,12 @@
 
 #include "bitstream/packet.h"
 #include "bitstream/scene/scene_reader.h"
+#include "encoder/segment/segment.h"
 
 namespace fbs {
 
-/// Follows the packets of a stream, and makes the parts of the present scene's head: soon after its beginning
-/// once, then steadily.
+/// Follows the packets of a stream, and makes the parts of the present scene's head: many soon after its
+/// beginning, then steadily.
 class HeadTrickle {
  public:
   /// @param seconds  > 0: in which a viewer can join, if a tenth of the packets is lost
@@ -20,8 +21,8 @@ class HeadTrickle {
   /// The next packets of the stream, which it wrote itself (assert).
   void add(std::span<const std::uint8_t> packets);
 
-  /// Payloads of the parts that are to follow them.
-  [[nodiscard]] std::vector<std::vector<std::uint8_t>> due();
+  /// What is to follow them: parts and, from time to time, the last surround.
+  [[nodiscard]] std::vector<TypedPayload> due();
 
  private:
   /// @param whole  the packet
@@ -33,10 +34,10 @@ class HeadTrickle {
   std::uint64_t begin_ = 0;  ///< offset of the packets added next
   // Of the scene:
   std::vector<std::uint8_t> head_;      ///< packets up to the first pattern
-  std::vector<std::uint8_t> surround_;  ///< the last surround packet behind them
+  std::vector<std::uint8_t> surround_;  ///< payload of the last surround packet behind them
   bool complete_ = false;
   HeadPart next_;
-  double sent_ = 0;  ///< parts, as a share of those that make a head
+  int sent_ = 0;  ///< parts
 };
 
 }  // namespace fbs

@@ -41,7 +41,7 @@ void ScenePackets::show_trickle() {
 void ScenePackets::end_group() {
   if (!trickle_ || !started_) return;
   show_trickle();
-  for (const auto& part : trickle_->due()) add(PacketType::kHeadPart, part);
+  for (const auto& [type, payload] : trickle_->due()) add(type, payload);
 }
 
 void ScenePackets::begin_again() {

@@ -58,7 +58,7 @@ class HeadParts:
         """The head and the (pictures, time) that have passed, once it is whole; None before, and for a `scene` that
         is known."""
         reader = ByteReader(payload)
-        key = name, _, size, count = reader.u16(), reader.u8(), None, None
+        name = reader.u16()
         passed = reader.varint(), reader.varint()
         size, count, index = reader.varint(), reader.u8(), reader.u8()
         if not size or not count or index >= MAX_HEAD_PARTS or not passed[0] <= passed[1] <= passed[0] * MAX_DURATION:
@@ -70,7 +70,7 @@ class HeadParts:
             raise invalid("a part of a head is too long")
         if name == scene:
             return None
-        key = key[:2] + (size, count)
+        key = name, size, count
         if key != self._key:
             self._key, self._symbols = key, {}
         self._symbols.setdefault(index, symbol)

@@ -171,6 +171,7 @@ class MotionDecoder:
         self._groups = GroupReader(first)
         self._last_numbers = rest_numbers  # of the last picture of the group before
         self._time = time  # of the picture after it, from the start of the scene, as far as it is known
+        self._unknown = set(layout.sent_parts) if first else set()  # after joining
         self._m = None
         self._d = None
 
@@ -197,6 +198,7 @@ class MotionDecoder:
             raise too_large("too many pictures wait, or are in a scene")
         timed = self._d.flag(self._m.has_durations)
         missing_time = self._read_missing_time(missing) if timed and is_later_key else missing * self._nominal_duration
+        is_unsure = bool(self._unknown)
         numbers = list(self._last_numbers)
         anchor = [number * step for number, step in zip(numbers, self._layout.steps)]
         values = [list(anchor) for _ in range(missing + pictures)]
@@ -206,8 +208,9 @@ class MotionDecoder:
         self._groups.end(missing + pictures)
         self._last_numbers = numbers
         self._time += missing_time + sum(durations)
-        return Group(list(zip(values, _shared(missing_time, missing) + durations)), missing,
-                     missing + max(first_knots) if missing else 0, (key, first, pictures))
+        uncertain = missing + (pictures if is_unsure else max(first_knots) if missing else 0)
+        return Group(list(zip(values, _shared(missing_time, missing) + durations)), missing, uncertain,
+                     (key, first, pictures))
 
     def _read_count(self):
         if self._d.flag(self._m.other_count):
@@ -245,6 +248,7 @@ class MotionDecoder:
         """The first knot of a key group after the first: the anchor, or from the rest state, without history."""
         if self._d.flag(self._m.held[p]):
             return anchor
+        self._unknown.discard(p)
         reader = KnotReader(self._d, self._layout, self._m.first_knots, History())
         return reader.read(p, _length_class(1), [self._rest_numbers[i] for i in PARTS[p]])
 

@@ -55,7 +55,7 @@ void add_losses(Folder& folder) {
 
   const auto parts = pieces_of(live({}, 1));
   folder.add("live_parts.fbs", joined(parts), kLivePictures);
-  folder.add("live_joined.fbs", joined_from(parts, place_of(parts, PacketType::kUnit, 1)), 5, "kNotFbs");
+  folder.add("live_joined.fbs", joined_from(parts, place_of(parts, PacketType::kUnit, 1)), 17, "kNotFbs");
 
   std::vector<std::uint32_t> durations;
   for (std::uint32_t i = 0; i < kLivePictures; ++i) durations.push_back(i % 3 == 2 ? 6000 : 3000);
@@ -64,7 +64,7 @@ void add_losses(Folder& folder) {
              "kInvalidStream");
   const auto timed_parts = pieces_of(live(durations, 1));
   folder.add("live_timed_joined.fbs", joined_from(timed_parts, place_of(timed_parts, PacketType::kUnit, 1)),
-             17, "kNotFbs");
+             23, "kNotFbs");
 }
 
 }  // namespace fbs

@@ -21,7 +21,7 @@ Bytes noise(std::size_t size) {
 }
 
 HeadPart part_of(const Bytes& head, int symbols, int index) {
-  return {7, 1, {30, 90000}, head.size(), symbols, index, head_symbol(head, symbols, index)};
+  return {7, {30, 90000}, head.size(), symbols, index, head_symbol(head, symbols, index)};
 }
 
 TEST(HeadParts, AnyPartsThatAreEnoughMakeAHead) {
@@ -58,7 +58,7 @@ TEST(HeadParts, AnotherHeadTakesThePlaceOfTheOneBefore) {
   HeadParts parts;
   EXPECT_FALSE(parts.add(part_of(head, 2, 5)));
   HeadPart other = part_of(head, 2, 6);
-  ++other.edition;
+  ++other.scene;
   EXPECT_FALSE(parts.add(other));
   EXPECT_FALSE(parts.add(part_of(head, 2, 7)));
   EXPECT_EQ(parts.add(part_of(head, 2, 5)), head);
@@ -82,7 +82,7 @@ TEST(HeadPartPayload, EachCutIsNoticed) {
 
 TEST(HeadPartPayload, RefusesWhatIsOutOfRange) {
   const auto code_of = [](std::uint64_t pictures, Bytes behind) -> std::optional<ErrorCode> {
-    Bytes payload = {0, 1, 0};
+    Bytes payload = {0, 1};
     for (int k = 0; k < 2; ++k) {  // and as many ticks
       std::uint64_t rest = pictures;
       for (; rest >= 0x80; rest >>= 7) payload.push_back(static_cast<std::uint8_t>(rest | 0x80));
