@@ -14,6 +14,19 @@ static gboolean parse_repair(const char* name, Repair* out) {
   return FALSE;
 }
 
+static gboolean parse_capacity(const char* text, CallOptions* out) {
+  char** const parts = g_strsplit(text, ",", MAX_CAPACITIES + 1);
+  gboolean valid = g_strv_length(parts) <= MAX_CAPACITIES;
+  for (guint k = 0; valid && parts[k] != NULL; ++k) {
+    char* end = NULL;
+    out->capacity[k] = g_ascii_strtod(parts[k], &end);
+    valid = end != parts[k] && *end == 0 && out->capacity[k] >= 1 && out->capacity[k] <= 1e6;
+    out->capacities = k + 1;
+  }
+  g_strfreev(parts);
+  return valid && out->capacities > 0;
+}
+
 static gboolean readable(const char* file) {
   if (g_access(file, R_OK) == 0) return TRUE;
   fprintf(stderr, "call: cannot read %s\n", file);
@@ -27,19 +40,21 @@ static const char* fault_of(const CallOptions* o) {
   if (o->loss < 0 || o->loss >= 1 || o->burst < 0) return "--loss is 0 to 1, --burst milliseconds";
   if (o->min_delay < 0 || o->max_delay < o->min_delay)
     return "--max-delay is at least --min-delay, and that 0";
+  if (o->queue < 1 || o->queue > 10000) return "--queue is 1 to 10000 ms";
   if (o->bitrate < 1 || o->sound_bitrate < 1 || o->delay <= 0 || o->latency < 0 || o->seconds <= 0)
     return "rates, times and lengths are positive";
   return NULL;
 }
 
 gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
-  char* repair = NULL;
+  char *repair = NULL, *capacity = NULL;
   *out = (CallOptions){.port = 5000,
                        .peer_port = 5010,
                        .bitrate = 10000,
                        .sound_bitrate = 12000,
                        .delay = 0.2,
                        .latency = 400,
+                       .queue = 1000,
                        .seconds = 20};
   const GOptionEntry entries[] = {
       {"pictures", 0, 0, G_OPTION_ARG_FILENAME, &out->pictures, "Video that is sent", "FILE"},
@@ -59,6 +74,9 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
        "MS"},
       {"min-delay", 0, 0, G_OPTION_ARG_INT, &out->min_delay, "Of the network (0)", "MS"},
       {"max-delay", 0, 0, G_OPTION_ARG_INT, &out->max_delay, "Of the network (0)", "MS"},
+      {"capacity", 0, 0, G_OPTION_ARG_STRING, &capacity,
+       "Of the network, kbit/s, each for an equal part of the call (no limit)", "N,N,..."},
+      {"queue", 0, 0, G_OPTION_ARG_INT, &out->queue, "What would wait longer for it is lost (1000)", "MS"},
       {"seed", 0, 0, G_OPTION_ARG_INT, &out->seed, "Of the losses (0)", "N"},
       {"seconds", 0, 0, G_OPTION_ARG_DOUBLE, &out->seconds, "How long the call lasts (20)", "S"},
       {"show", 0, 0, G_OPTION_ARG_NONE, &out->show, "In a window and a loudspeaker", NULL},
@@ -72,12 +90,15 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
     fault = error->message;
   else if (repair != NULL && !parse_repair(repair, &out->repair))
     fault = "--repair is none, rtx, copy or both";
+  else if (capacity != NULL && !parse_capacity(capacity, out))
+    fault = "--capacity is up to 16 rates of 1 to 1000000 kbit/s";
   else
     fault = fault_of(out);
   if (out->peer == NULL) out->peer = g_strdup("127.0.0.1");
   if (fault != NULL) fprintf(stderr, "call: %s\n", fault);
   g_clear_error(&error);
   g_free(repair);
+  g_free(capacity);
   g_option_context_free(context);
   return fault == NULL && readable(out->pictures) && readable(out->sound);
 }

@@ -12,6 +12,8 @@ typedef enum {
   REPAIR_BOTH = REPAIR_RTX | REPAIR_COPY,
 } Repair;
 
+#define MAX_CAPACITIES 16
+
 typedef struct {
   char* pictures; /**< file with video */
   char* sound;    /**< file with sound; it may be the same */
@@ -29,6 +31,9 @@ typedef struct {
   gdouble burst;  /**< mean length of a loss, ms; 0: packets are lost independently */
   gint min_delay; /**< of the network, ms */
   gint max_delay;
+  gdouble capacity[MAX_CAPACITIES]; /**< of the network, kbit/s, each for an equal part of the call */
+  guint capacities;                 /**< 0: no limit */
+  gint queue;                       /**< longest one before it, ms */
   gint seed;
 
   gdouble seconds; /**< how long the call lasts */

@@ -23,7 +23,8 @@ static char* sending(const CallOptions* o) {
       " ! audiobuffersplit output-buffer-duration=1/50 ! queue ! clocksync ts-offset=20000000 "
       " ! opusenc name=voice_encoder bitrate=%d audio-type=voice inband-fec=true packet-loss-percentage=%d "
       " ! rtpopuspay name=voice_out pt=%d ",
-      o->bitrate, o->delay, o->repair == REPAIR_NONE ? "strong" : "packet", PAYLOAD_PICTURES, o->sound_bitrate, o->loss > 0 ? 10 : 0, PAYLOAD_VOICE);
+      o->bitrate, o->delay, o->repair == REPAIR_NONE ? "strong" : "packet", PAYLOAD_PICTURES,
+      o->sound_bitrate, o->loss > 0 ? 10 : 0, PAYLOAD_VOICE);
 }
 
 static char* receiving(const CallOptions* o) {
@@ -44,8 +45,9 @@ static const char* const caps[SESSIONS] = {
 
 static char* netsim(const CallOptions* o, guint number) {
   return g_strdup_printf(
-      "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false", number,
-      o->min_delay, o->max_delay);
+      "netsim name=network%u delay-probability=1 min-delay=%d max-delay=%d allow-reordering=false ! "
+      "queue name=bottleneck%u max-size-buffers=0 max-size-bytes=0 max-size-time=0",
+      number, o->min_delay, o->max_delay, number);
 }
 
 /* A session has two ports: for RTP and for RTCP. */
