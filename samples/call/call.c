@@ -4,7 +4,8 @@
  *   options     the command line
  *   pipeline    the elements, and how rtpbin connects them
  *   retransmission  retransmission of lost packets
- *   network     loses and delays packets
+ *   network     loses, delays and queues packets
+ *   rate        the bit rate of the pictures follows the link
  *   receiver    when pictures and sound are seen and heard
  *   statistics  one line per second */
 #include <glib-unix.h>
@@ -14,6 +15,7 @@
 #include "network.h"
 #include "options.h"
 #include "pipeline.h"
+#include "rate.h"
 #include "receiver.h"
 #include "statistics.h"
 
@@ -72,10 +74,12 @@ static int run(const CallOptions* options) {
   if (pipeline == NULL) return 1;
   Call call = {.loop = g_main_loop_new(NULL, FALSE), .seconds_left = options->seconds};
   Network network;
+  Rate rate;
   Receiver receiver;
   network_init(&network, options, pipeline);
+  rate_init(&rate, options, pipeline);
   if (receiver_init(&receiver, pipeline, options->record)) {
-    statistics_init(&call.statistics, pipeline, &network, &receiver);
+    statistics_init(&call.statistics, pipeline, &network, &rate, &receiver);
     talk(&call, pipeline);
     statistics_clear(&call.statistics);
   } else {
@@ -83,6 +87,7 @@ static int run(const CallOptions* options) {
   }
   gst_object_unref(pipeline);
   receiver_clear(&receiver);
+  rate_clear(&rate);
   network_clear(&network);
   g_main_loop_unref(call.loop);
   return call.result;

@@ -16,7 +16,7 @@ typedef struct {
   GRand* chance;
   gboolean bad;   /**< the state in which everything is lost */
   gint64 changed; /**< monotonic time of its last change, us */
-  gint64 begin;   /**< of the call, monotonic, us */
+  gint64 begin;   /**< monotonic time at which the call began, us */
   gint64 idle;    /**< when the last packet will have left the queue */
   guint64 bytes[SENT_KINDS];
   guint64 packets, lost;

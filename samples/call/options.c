@@ -41,6 +41,9 @@ static const char* fault_of(const CallOptions* o) {
   if (o->min_delay < 0 || o->max_delay < o->min_delay)
     return "--max-delay is at least --min-delay, and that 0";
   if (o->queue < 1 || o->queue > 10000) return "--queue is 1 to 10000 ms";
+  if ((o->min_bitrate != 0 || o->max_bitrate != 0) &&
+      (o->min_bitrate < 1 || o->min_bitrate > o->bitrate || o->max_bitrate < o->bitrate))
+    return "--bitrate lies between --min-bitrate and --max-bitrate, and both are given";
   if (o->bitrate < 1 || o->sound_bitrate < 1 || o->delay <= 0 || o->latency < 0 || o->seconds <= 0)
     return "rates, times and lengths are positive";
   return NULL;
@@ -64,6 +67,9 @@ gboolean call_options_parse(CallOptions* out, int* argc, char*** argv) {
       {"port", 0, 0, G_OPTION_ARG_INT, &out->port, "First of four ports of this end (5000)", "N"},
       {"peer-port", 0, 0, G_OPTION_ARG_INT, &out->peer_port, "And of the other end (5010)", "N"},
       {"bitrate", 0, 0, G_OPTION_ARG_INT, &out->bitrate, "Pictures, bit/s (10000)", "N"},
+      {"min-bitrate", 0, 0, G_OPTION_ARG_INT, &out->min_bitrate, "Their rate follows the link down to this",
+       "N"},
+      {"max-bitrate", 0, 0, G_OPTION_ARG_INT, &out->max_bitrate, "And up to this (it does not)", "N"},
       {"sound-bitrate", 0, 0, G_OPTION_ARG_INT, &out->sound_bitrate, "Voice, bit/s (12000)", "N"},
       {"delay", 0, 0, G_OPTION_ARG_DOUBLE, &out->delay, "Pictures are coded in groups of so long (0.2)", "S"},
       {"latency", 0, 0, G_OPTION_ARG_INT, &out->latency, "Of the jitter buffer (400)", "MS"},

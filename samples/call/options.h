@@ -21,7 +21,9 @@ typedef struct {
   gint port;      /**< first of four that this end listens on */
   gint peer_port; /**< and the peer */
 
-  gint bitrate;       /**< pictures, bit/s */
+  gint bitrate;     /**< pictures, bit/s; the first one where the rate follows the link */
+  gint min_bitrate; /**< and its limits; 0: it does not follow */
+  gint max_bitrate;
   gint sound_bitrate; /**< bit/s */
   gdouble delay;      /**< of a group of pictures, s */
   gint latency;       /**< of the jitter buffer, ms */
@@ -31,7 +33,7 @@ typedef struct {
   gdouble burst;  /**< mean length of a loss, ms; 0: packets are lost independently */
   gint min_delay; /**< of the network, ms */
   gint max_delay;
-  gdouble capacity[MAX_CAPACITIES]; /**< of the network, kbit/s, each for an equal part of the call */
+  gdouble capacity[MAX_CAPACITIES]; /**< kbit/s of the network, each for an equal part of the call */
   guint capacities;                 /**< 0: no limit */
   gint queue;                       /**< longest one before it, ms */
   gint seed;

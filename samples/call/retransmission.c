@@ -3,6 +3,7 @@
 #include "pipeline.h"
 
 #define USUAL_JITTER 60 /* ms */
+#define DELAY "call-rtx-delay"
 
 static void expose(GstElement* bin, GstElement* element, const char* pad_name, guint session) {
   char* const name = g_strdup_printf("%s_%u", pad_name, session);
@@ -46,7 +47,21 @@ static void on_jitter_buffer(GstElement* rtp, GstElement* buffer, guint session,
   const gboolean copied = session == SESSION_PICTURES && (options->repair & REPAIR_COPY) != 0;
   (void)rtp;
   (void)source;
-  g_object_set(buffer, "rtx-min-delay", USUAL_JITTER + (copied ? COPY_DELAY : 0), NULL);
+  const guint delay = USUAL_JITTER + (copied ? COPY_DELAY : 0);
+  g_object_set(buffer, "rtx-min-delay", delay, NULL);
+  g_object_set_data(G_OBJECT(buffer), DELAY, GUINT_TO_POINTER(delay));
+}
+
+static void add_wait(const GValue* buffer, gpointer queue) {
+  GObject* const object = g_value_get_object(buffer);
+  const guint delay = GPOINTER_TO_UINT(g_object_get_data(object, DELAY));
+  g_object_set(object, "rtx-min-delay", delay + (guint)(1000 * *(const gdouble*)queue), NULL);
+}
+
+void retransmission_wait(GstElement* rtp, gdouble queue) {
+  GstIterator* const buffers = gst_bin_iterate_all_by_element_factory_name(GST_BIN(rtp), "rtpjitterbuffer");
+  while (gst_iterator_foreach(buffers, add_wait, &queue) == GST_ITERATOR_RESYNC) gst_iterator_resync(buffers);
+  gst_iterator_free(buffers);
 }
 
 void retransmission_connect(GstElement* rtp, const CallOptions* options) {

@@ -9,4 +9,8 @@
 /** For both sessions of rtpbin, before it has any pads. */
 void retransmission_connect(GstElement* rtp, const CallOptions* options);
 
+/** What waits in a queue of so many seconds is not lost: it is not requested, which would make the queue
+ * longer. */
+void retransmission_wait(GstElement* rtp, gdouble queue);
+
 #endif

@@ -85,18 +85,26 @@ static void print_head(void) {
   puts(
       "                 sent, kbit/s         lost      packets           scenes            pictures          "
       " voice"
-      "   delay, ms");
+      "   delay, ms  trip   rate");
   puts(
       "   s  faces  voice repair   rtcp    all     % missing repaired  asked heard given  shown freezes      "
       "s"
-      " breaks      s  face voice");
+      " breaks      s  face voice    ms kbit/s");
 }
 
 static void print_delays(Statistics* s) {
   g_mutex_lock(&s->receiver->lock);
-  printf(" %5d %5d\n", (int)(s->receiver->pictures.delay / (GstClockTimeDiff)GST_MSECOND),
+  printf(" %5d %5d", (int)(s->receiver->pictures.delay / (GstClockTimeDiff)GST_MSECOND),
          (int)(s->receiver->voice.delay / (GstClockTimeDiff)GST_MSECOND));
   g_mutex_unlock(&s->receiver->lock);
+}
+
+static void print_link(Rate* rate) {
+  guint bitrate = 0;
+  g_object_get(rate->encoder, "bitrate", &bitrate, NULL);
+  g_mutex_lock(&rate->lock);
+  printf(" %5.0f %6.1f\n", 1000 * rate->round_trip, bitrate / 1000.0);
+  g_mutex_unlock(&rate->lock);
   fflush(stdout);
 }
 
@@ -106,6 +114,7 @@ void statistics_print(Statistics* s) {
   printf("%4u", ++s->seconds);
   print_counts(&now, &s->before, 1);
   print_delays(s);
+  print_link(s->rate);
   s->before = now;
 }
 
@@ -115,6 +124,7 @@ void statistics_print_total(Statistics* s) {
   printf(" all");
   print_counts(&now, &none, s->seconds);
   print_delays(s);
+  print_link(s->rate);
 }
 
 /* ---- life ---- */
@@ -151,8 +161,9 @@ static GstPadProbeReturn on_group(GstPad* pad, GstPadProbeInfo* info, gpointer u
   return GST_PAD_PROBE_OK;
 }
 
-void statistics_init(Statistics* s, GstElement* pipeline, Network* network, Receiver* receiver) {
-  *s = (Statistics){.pipeline = gst_object_ref(pipeline), .network = network, .receiver = receiver};
+void statistics_init(Statistics* s, GstElement* pipeline, Network* network, Rate* rate, Receiver* receiver) {
+  *s = (Statistics){
+      .pipeline = gst_object_ref(pipeline), .network = network, .rate = rate, .receiver = receiver};
   g_mutex_init(&s->lock);
   GstElement* const rtp = gst_bin_get_by_name(GST_BIN(pipeline), "rtp");
   g_signal_connect(rtp, "new-jitterbuffer", G_CALLBACK(on_jitter_buffer), s);

@@ -5,6 +5,7 @@
 #include <gst/gst.h>
 
 #include "network.h"
+#include "rate.h"
 #include "receiver.h"
 
 /** Counts since the call began. */
@@ -21,6 +22,7 @@ typedef struct {
 typedef struct {
   GstElement* pipeline;
   Network* network;
+  Rate* rate;
   Receiver* receiver;
   GMutex lock;
   GList* jitter_buffers; /**< owned elements */
@@ -29,7 +31,8 @@ typedef struct {
   Counts before; /**< at the last line */
 } Statistics;
 
-void statistics_init(Statistics* statistics, GstElement* pipeline, Network* network, Receiver* receiver);
+void statistics_init(Statistics* statistics, GstElement* pipeline, Network* network, Rate* rate,
+                     Receiver* receiver);
 void statistics_clear(Statistics* statistics);
 
 /** Prints a line; called every second. */

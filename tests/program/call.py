@@ -11,7 +11,7 @@ from harness import BUILD, MAX_SECONDS
 CALL, PLUGIN = BUILD / "call", BUILD / "gstreamer/libgstfbs.so"
 # In the order of the columns that call prints.
 COLUMNS = ("faces", "voice", "repair", "rtcp", "all", "lost", "missing", "repaired", "asked", "heard", "given", "shown", "freezes",
-           "frozen", "breaks", "broken", "face_delay", "voice_delay")
+           "frozen", "breaks", "broken", "face_delay", "voice_delay", "trip", "rate")
 Shown = collections.namedtuple("Shown", "at recorded size")  # s of the monotonic clock; 0: not known; bytes
 
 
@@ -19,7 +19,7 @@ Shown = collections.namedtuple("Shown", "at recorded size")  # s of the monotoni
 class End:
     """What one end printed and recorded."""
     total: dict        # of COLUMNS, for all of the call
-    seconds: int       # lines
+    seconds: list      # the same for each second
     sent: dict         # "picture", "voice": when the file began
     pictures: list     # of Shown
     voice: list
@@ -27,8 +27,11 @@ class End:
 
 def read_end(prefix, printed):
     lines = [line.split() for line in printed.splitlines()]
-    total = next((line[1:] for line in lines if line and line[0] == "all"), None)
-    end = End(dict(zip(COLUMNS, map(float, total or []))), sum(line[0].isdigit() for line in lines if line), {}, [], [])
+    rows = {True: [], False: []}
+    for line in lines:
+        if line and (line[0] == "all" or line[0].isdigit()):
+            rows[line[0] == "all"].append(dict(zip(COLUMNS, map(float, line[1:]))))
+    end = End(rows[True][-1] if rows[True] else {}, rows[False], {}, [], [])
     with open(f"{prefix}.csv", newline="") as rows:
         for what, at, recorded, size in csv.reader(rows):
             if what.startswith("sent "):
