@@ -2,20 +2,24 @@
 """Measures a call over a bad network (samples/call), and prints a table. Needs numpy.
 
     measure_call.py PICTURES,SOUND PICTURES,SOUND [--seconds N] [--loss PERCENT ...] [--burst MS] [--repair HOW ...]
-                    [--latency MS] [--join N] [--keep FOLDER] [--prefix COMMAND]
+                    [--latency MS] [--join N] [--options TEXT] [--parts N] [--keep FOLDER] [--prefix COMMAND]
 
 Two ends send these files, Y4M and WAV, to each other: one row for each direction. The network delays each packet by 20 to
 70 ms. What is in the first WARM_UP seconds of a call is not counted.
 
-    eye      ms from a picture's time in the source to its showing: median, and what 95 of 100 keep to
+    eye      ms from a picture's time in the source to its showing: median, what 95 of 100 keep to, and longest
     ear      ms from a sound in the source to its sounding, by cross-correlation of parts of a second: median
     freezes  times without a picture for more than 150 ms longer than one lasts, and s in all
     breaks   losses of voice, and s in all, of which the decoder makes something up
     PSNR     dB, luma, mean: of the pictures on the screen at each time against the source so much earlier as `eye` says;
              and of those shown against their own source
-    kbit/s   sent, with 28 bytes of IP and UDP for each packet: pictures, voice, repair, RTCP, all
+    kbit/s   sent, with 28 bytes of IP and UDP for each packet: pictures, voice, repair, RTCP, all; and `rate` is what the
+             encoder was told, on average
+    trip     ms, longest round trip reported
 
 --join N  instead: N viewers who come one after the other, and how long each waits for a picture and for sound
+--options of the call, such as "--capacity 60,40,60 --min-bitrate 2000 --max-bitrate 20000"
+--parts   of the call, of equal duration, each with a row of its own
 --keep    leaves what was recorded there
 --prefix  before each end's command, as `chrt -r 1` on a busy machine
 """
@@ -77,14 +81,14 @@ def on_screen(pictures, source, begin, delay, first, last):
     return statistics.mean(values)
 
 
-def ear_delays(prefix, source, end, begin, first):
+def ear_delays(prefix, source, end, begin, first, last):
     """Of parts of the sound, ms."""
     samples = numpy.fromfile(f"{prefix}.pcm", numpy.int16).astype(float)
     starts = numpy.cumsum([0] + [row.size // 2 for row in end.voice])
     channels = 2 if end.voice and end.voice[len(end.voice) // 2].size > 2 * RATE // 50 else 1
     length, out, before = PART * RATE, [], -PART
     for row, start in zip(end.voice, starts):
-        if row.at < max(first, before + PART):
+        if row.at < max(first, before + PART) or row.at > last:
             continue
         before = row.at
         part = samples[start:start + length * channels:channels]
@@ -109,37 +113,45 @@ def freezes(pictures, first, last, rate):
     return len(long), sum(long)
 
 
-def measure(folder, name, source, here, there):
-    """A row: what the end `here` saw of the source that `there` sent."""
-    begin, first, last = there.sent["picture"], here.sent["picture"] + WARM_UP, here.voice[-1].at
+def measure(folder, name, source, here, there, seconds):
+    """A row: what the end `here` saw in these seconds of the source that `there` sent."""
+    begin, last = there.sent["picture"], min(here.sent["picture"] + seconds[-1] + 1, here.voice[-1].at)
+    first = here.sent["picture"] + seconds[0]
     pictures = received_pictures(folder / name, source, here, begin)
-    counted = [picture for picture in pictures if picture[0] >= first]
+    counted = [picture for picture in pictures if first <= picture[0] < last]
     eye = sorted(1000 * (at - begin - number / source.rate) for at, number, _ in counted)
-    ear = ear_delays(folder / name, source, here, there.sent["voice"], first)
+    ear = ear_delays(folder / name, source, here, there.sent["voice"], first, last)
     if not eye or not ear:
         return "nothing arrives"
     count, frozen = freezes(counted, first, last, source.rate)
     own = statistics.mean(psnr(luma, source.luma[number]) for _, number, luma in counted[::3])
     screen = on_screen(pictures, source, begin, statistics.median(eye) / 1000, first, last)
-    sent = there.total
-    return (f"{statistics.median(eye):5.0f} {eye[int(0.95 * len(eye))]:5.0f} {statistics.median(ear):5.0f}"
-            f" {count:4d} {frozen:6.2f} {here.total['breaks']:4.0f} {here.total['broken']:6.2f} {screen:6.2f} {own:6.2f}"
-            f" {sent['faces']:5.1f} {sent['voice']:5.1f} {sent['repair']:5.1f} {sent['rtcp']:5.1f} {sent['all']:6.1f}"
-            f" {here.total['asked']:4.0f} {sent['given']:4.0f} {last - first:5.1f}")
+    seen, sent = ({column: [line[column] for line in end.seconds[seconds[0]:seconds[-1] + 1]] for column in call.COLUMNS}
+                  for end in (here, there))
+    kbit = {column: statistics.mean(sent[column]) for column in ("faces", "voice", "repair", "rtcp", "all", "rate")}
+    return (f"{statistics.median(eye):5.0f} {eye[int(0.95 * len(eye))]:5.0f} {eye[-1]:5.0f} {statistics.median(ear):5.0f}"
+            f" {count:4d} {frozen:6.2f} {sum(seen['breaks']):4.0f} {sum(seen['broken']):6.2f} {screen:6.2f} {own:6.2f}"
+            f" {kbit['faces']:5.1f} {kbit['voice']:5.1f} {kbit['repair']:5.1f} {kbit['rtcp']:5.1f} {kbit['all']:6.1f}"
+            f" {kbit['rate']:5.1f} {max(sent['trip']):5.0f} {sum(seen['asked']):4.0f} {sum(sent['given']):4.0f} {last - first:5.1f}")
 
 
 def table(arguments, sources, folder):
-    print("loss      repair      eye  <95%   ear freezes s  breaks s   PSNR    own faces voice repair rtcp   all asked given  s")
+    print("loss      repair      eye  <95%  most   ear freezes s  breaks s   PSNR    own faces voice repair rtcp   all"
+          "  rate  trip asked given s")
+    seconds = range(arguments.seconds - 1)
+    parts = [seconds[max(WARM_UP, len(seconds) * k // arguments.parts):len(seconds) * (k + 1) // arguments.parts]
+             for k in range(arguments.parts)]
     for loss in arguments.loss:
-        for burst in ([0, arguments.burst] if loss else [0]):
+        for burst in sorted({0, arguments.burst if loss else 0}):
             for repair in arguments.repair:
                 ends = call.talk(folder, sources[0].files, sources[1].files, "--seconds", arguments.seconds, "--loss",
                                  loss / 100, "--burst", burst, "--repair", repair, "--latency", arguments.latency, *NETWORK,
-                                 prefix=arguments.prefix.split())
+                                 *arguments.options.split(), prefix=arguments.prefix.split())
                 for k, (name, source) in enumerate((("a", sources[1]), ("b", sources[0]))):
-                    row = measure(folder, name, source, ends[k], ends[1 - k])
-                    print(f"{loss:3g} {'burst ' if burst else 'random'} {repair:5} {source.files[0].stem[:4]:4} {row}",
-                          flush=True)
+                    for part in parts:
+                        row = measure(folder, name, source, ends[k], ends[1 - k], part)
+                        print(f"{loss:3g} {'burst ' if burst else 'random'} {repair:5} {source.files[0].stem[:4]:4} {row}",
+                              flush=True)
 
 
 def join(arguments, sources, folder):
@@ -166,6 +178,8 @@ def main():
     parser.add_argument("--repair", nargs="*", default=["none", "rtx", "copy", "both"])
     parser.add_argument("--latency", type=int, default=400)
     parser.add_argument("--join", type=int)
+    parser.add_argument("--options", default="")
+    parser.add_argument("--parts", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--prefix", default="")
     arguments = parser.parse_args()
