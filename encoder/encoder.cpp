@@ -38,7 +38,7 @@ Result<void> check_settings(const EncoderSettings& settings) {
   if (settings.live && !(is_size(settings.live->delay) && settings.live->delay > 0 &&
                          is_size(settings.live->buffer) && settings.live->buffer > 0))
     return fail(ErrorCode::kInvalidArgument, "a delay or buffer that is not positive and finite");
-  if (settings.live && !is_size(settings.live->join.value_or(0)))
+  if (settings.live && !is_size(settings.live->join))
     return fail(ErrorCode::kInvalidArgument, "a time to join that is negative or not finite");
   if (settings.live && settings.patterns > 1)
     return fail(ErrorCode::kInvalidArgument, "live encoding takes 1 pattern, or 0 to choose their number");

@@ -16,7 +16,8 @@ enum class Resilience : std::uint8_t {
   kNone,    ///< nothing: least bytes
   kPacket,  ///< motion needs the head of its scene alone; patterns need those before them, so that lost
             ///< packets are to be sent again
-  kStrong,  ///< patterns, too, need the head of their scene alone: for links without a way back
+  kStrong,  ///< patterns, too, need the head of their scene alone, and that is sent again: for links without
+            ///< a way back
 };
 
 /// For a source that is encoded as it happens.
@@ -25,9 +26,8 @@ struct LiveSettings {
   double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate
   Resilience resilience = Resilience::kNone;
   /// s; the head of a scene is sent again in parts, so that a viewer who comes in its middle, or has lost the
-  /// head, can join it within this time if a tenth of the packets is lost. 0: only where a scene begins;
-  /// nothing: 25 with kStrong, otherwise 0.
-  std::optional<double> join;
+  /// head, can join it within this time if a tenth of the packets is lost. 0: only where a scene begins.
+  double join = 0;
 };
 
 /// What bytes are spent for.
@@ -64,8 +64,8 @@ struct EncoderSettings {
   bool descent = true;          ///< snakes descend; off: they stay at the best of their starts
   bool landmark_search = true;  ///< look for landmarks in every picture
   bool surround = true;         ///< let hair, body and ground move
-  /// Longest time between scenes, s: where viewers can join and damage ends. 0: live 10, or 30 with
-  /// LiveSettings::join; otherwise where it costs little, up to 40 with several patterns, never with one.
+  /// Longest time between scenes, s: where viewers can join and damage ends. 0: where it costs little, up to
+  /// 40 with several patterns, never with one; live 10, 20 with kStrong and 40 with `join`.
   double key_interval = 0;
   std::optional<LiveSettings> live;  ///< without look-ahead
   /// Live, with 2 or more, a group is coded while the pictures after it are analysed; the stream is the same.

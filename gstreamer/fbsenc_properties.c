@@ -207,13 +207,10 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
       type, PROP_RESILIENCE,
       g_param_spec_enum("resilience", "Resilience", "Live: what is done to survive lost packets",
                         resilience_type(), FBS_RESILIENCE_NONE, PROPERTY_FLAGS));
-  g_object_class_install_property(
-      type, PROP_JOIN,
-      g_param_spec_double(
-          "join", "Join",
-          "Live: seconds within which a viewer can join in the middle of a scene (0 = only where "
-          "one begins, -1 = 25 where resilience is strong, otherwise 0)",
-          -1, 3600, -1, PROPERTY_FLAGS));
+  install_double(type, PROP_JOIN, "join", "Join",
+                 "Live: seconds within which a viewer can join in the middle of a scene (0 = only where one "
+                 "begins)",
+                 3600, 0);
   install_int(type, PROP_THREADS, "threads", "Threads",
               "Live: more than 1 code while the next pictures are analysed (0 = as many as there are cores)",
               0, FBS_MAX_THREADS, 0);

@@ -42,8 +42,8 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   if (!format) return fail(format.error());
   if (!within(settings.bitrate, kMaxKbitPerSecond))
     return fail(ErrorCode::kInvalidArgument, "bitrate out of range");
-  for (const double seconds : {settings.seconds, settings.key_interval, settings.live_delay,
-                               settings.live_buffer, settings.join == -1 ? 0 : settings.join})
+  for (const double seconds :
+       {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer, settings.join})
     if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
   if (settings.effort > kMaxEffort) return fail(ErrorCode::kInvalidArgument, "effort outside 0..2");
   if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
@@ -61,9 +61,8 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   out.settings.allow_no_face = settings.allow_no_face != 0;
   out.settings.key_interval = settings.key_interval;
   if (settings.live != 0)
-    out.settings.live = LiveSettings{
-        settings.live_delay, settings.live_buffer, static_cast<Resilience>(settings.resilience), {}};
-  if (settings.live != 0 && settings.join >= 0) out.settings.live->join = settings.join;
+    out.settings.live = LiveSettings{settings.live_delay, settings.live_buffer,
+                                     static_cast<Resilience>(settings.resilience), settings.join};
   out.settings.threads = settings.threads;
   return out;
 }

@@ -62,13 +62,12 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
   verb.add_option(
           "--join", a.join,
           "With --live: parts of the head of a scene are sent all along, so that a viewer who comes in its "
-          "middle can join it within so many seconds; 0: only where a scene begins (default: 25 with "
-          "--resilience strong, otherwise 0)")
-      ->check(number_within(0, 3600));
+          "middle can join it within so many seconds (default: only where a scene begins)")
+      ->check(number_within(1, 3600));
   verb.add_option("--key-interval", a.settings.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
-                  "40 with several patterns; none with --patterns 1; 10 with --live, or 30 with --join or "
-                  "--resilience strong)")
+                  "40 with several patterns; none with --patterns 1; with --live 10, or 20 with --resilience "
+                  "strong, or 40 with --join)")
       ->check(CLI::Range(0.2, 3600.0));
 }
 

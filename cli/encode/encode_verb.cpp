@@ -84,7 +84,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     live.delay = arguments.delay.value_or(live.delay);
     live.buffer = arguments.buffer.value_or(live.buffer);
     live.resilience = arguments.resilience.value_or(live.resilience);
-    live.join = arguments.join;
+    live.join = arguments.join.value_or(live.join);
   }
   if (!arguments.marks.empty()) {
     auto marks = read_marks(arguments.marks);

@@ -22,14 +22,9 @@ constexpr double kArrives = 0.9;
 /// one, since a lost packet of the link takes several parts.
 constexpr double kSoon = 1.5, kSoonHeads = 1.5;
 
-/// How many heads are to be sent by a time of the scene, s.
-double heads_by(double time, double join) {
-  return kSoonHeads * std::min(time / kSoon, 1.0) + std::max(0.0, time - kSoon) / (kArrives * join);
-}
-
 }  // namespace
 
-HeadTrickle::HeadTrickle(double seconds) : seconds_(seconds) {
+HeadTrickle::HeadTrickle(double join) : join_(join) {
   packets_.feed(kSignature);
   begin_ = kSignature.size();
 }
@@ -65,6 +60,12 @@ void HeadTrickle::add(const Packet& packet, std::span<const std::uint8_t> whole)
   }
 }
 
+double HeadTrickle::heads() const {
+  const double time = static_cast<double>(next_.passed.time) / kTicksPerSecond;
+  const double soon = reader_.setup().before.pictures > 0 ? kSoonHeads * std::min(time / kSoon, 1.0) : 0;
+  return soon + (join_ > 0 ? time / (kArrives * join_) : 0);
+}
+
 std::vector<TypedPayload> HeadTrickle::due() {
   std::vector<TypedPayload> out;
   const auto pictures = static_cast<std::uint64_t>(reader_.pictures().end());
@@ -73,8 +74,7 @@ std::vector<TypedPayload> HeadTrickle::due() {
   next_.size = head_.size();
   next_.symbols = std::clamp(pieces, kLeastSymbols, kMaxHeadSymbols);
   next_.passed = {pictures, reader_.pictures().end_time() - reader_.setup().before.time};
-  const double heads = heads_by(static_cast<double>(next_.passed.time) / kTicksPerSecond, seconds_);
-  for (; sent_ < static_cast<int>(heads * next_.symbols); ++sent_) {
+  for (const auto due = static_cast<int>(heads() * next_.symbols); sent_ < due; ++sent_) {
     next_.symbol = head_symbol(head_, next_.symbols, next_.index);
     out.emplace_back(PacketType::kHeadPart, encode_head_part(next_));
     next_.index = (next_.index + 1) % kMaxHeadParts;

@@ -12,11 +12,11 @@
 namespace fbs {
 
 /// Follows the packets of a stream, and makes the parts of the present scene's head: many soon after its
-/// beginning, then steadily.
+/// beginning, unless that is the first of the stream, and some steadily.
 class HeadTrickle {
  public:
-  /// @param seconds  > 0: in which a viewer can join, if a tenth of the packets is lost
-  explicit HeadTrickle(double seconds);
+  /// @param join  s: in which a viewer can join, if a tenth of the packets is lost; 0: nothing comes steadily
+  explicit HeadTrickle(double join);
 
   /// The next packets of the stream, which it wrote itself (assert).
   void add(std::span<const std::uint8_t> packets);
@@ -25,10 +25,12 @@ class HeadTrickle {
   [[nodiscard]] std::vector<TypedPayload> due();
 
  private:
+  /// How many heads are to be sent by now.
+  [[nodiscard]] double heads() const;
   /// @param whole  the packet
   void add(const Packet& packet, std::span<const std::uint8_t> whole);
 
-  double seconds_;
+  double join_;  ///< s
   PacketReader packets_;
   SceneReader reader_;
   std::uint64_t begin_ = 0;  ///< offset of the packets added next

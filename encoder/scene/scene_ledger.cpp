@@ -15,7 +15,7 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       patterns_(std::move(patterns)),
       motion_(setup, seen, rate, timing_),
       position_(setup.before),
-      packets_(join_of(settings)) {}
+      packets_(settings.live.value_or(LiveSettings{})) {}
 
 Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
   if (patterns_)

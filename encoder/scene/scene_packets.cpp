@@ -5,8 +5,8 @@
 
 namespace fbs {
 
-ScenePackets::ScenePackets(double join) {
-  if (join > 0) trickle_.emplace(join);
+ScenePackets::ScenePackets(const LiveSettings& live) {
+  if (live.join > 0 || live.resilience == Resilience::kStrong) trickle_.emplace(live.join);
 }
 
 void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {

@@ -8,6 +8,7 @@
 
 #include "bitstream/packet.h"
 #include "encoder/scene/head_trickle.h"
+#include "encoder/settings.h"
 
 namespace fbs {
 
@@ -19,8 +20,8 @@ struct SceneHead {
 /// Holds motion back until the scene has started: its head is learned from the first seconds.
 class ScenePackets {
  public:
-  /// @param join  s; in which viewers can join a scene: see LiveSettings. 0: only where it begins
-  explicit ScenePackets(double join = 0);
+  /// @param live  whether heads of scenes are sent again
+  explicit ScenePackets(const LiveSettings& live = {});
 
   void add_motion(std::span<const std::uint8_t> payload);
 

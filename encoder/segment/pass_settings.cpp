@@ -12,11 +12,9 @@ namespace {
 /// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
 constexpr int kMaxRefits = 2;
 
-/// Default time between scenes of a live source, s: where viewers join, and where they can join anywhere.
-constexpr double kLiveKeySeconds = 10, kJoinedKeySeconds = 30;
-
-/// Default of LiveSettings::join for links without a way back, s.
-constexpr double kStrongJoin = 25;
+/// Default time between scenes of a live source, s: where viewers join. Twice as long where the head of each
+/// is sent again, and longer where viewers can join anywhere.
+constexpr double kLiveKeySeconds = 10, kStrongKeySeconds = 20, kJoinedKeySeconds = 40;
 
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
@@ -101,13 +99,11 @@ std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings, c
 
 double key_interval_of(const EncoderSettings& settings, const VideoFormat& format) {
   double seconds = settings.key_interval;
-  if (settings.live && seconds == 0) seconds = join_of(settings) > 0 ? kJoinedKeySeconds : kLiveKeySeconds;
+  if (settings.live && seconds == 0) {
+    const bool strong = settings.live->resilience == Resilience::kStrong;
+    seconds = settings.live->join > 0 ? kJoinedKeySeconds : strong ? kStrongKeySeconds : kLiveKeySeconds;
+  }
   return seconds * fps_of(format);
-}
-
-double join_of(const EncoderSettings& settings) {
-  if (!settings.live) return 0;
-  return settings.live->join.value_or(settings.live->resilience == Resilience::kStrong ? kStrongJoin : 0);
 }
 
 }  // namespace fbs

@@ -37,7 +37,4 @@ namespace fbs {
 /// Most pictures between scenes; 0: where it costs little.
 [[nodiscard]] double key_interval_of(const EncoderSettings& settings, const VideoFormat& format);
 
-/// s, within which viewers can join a scene; 0: only where it begins.
-[[nodiscard]] double join_of(const EncoderSettings& settings);
-
 }  // namespace fbs

@@ -51,7 +51,7 @@ typedef struct fbs_encoder_settings {
   int face;            /**< which face to follow, 0 (default) being the largest */
   int allow_no_face;   /**< 1: also code a video without any face; default 0 */
   double key_interval; /**< longest time between places to join, seconds; 0 (default): up to 40,
-                            live 10, or 30 with `join` */
+                            live 10, 20 with FBS_RESILIENCE_STRONG, 40 with `join` */
   int live;            /**< 1: no look-ahead; default 0 */
   double live_delay;   /**< live: seconds of pictures that are coded as a group; default 0.2 */
   double live_buffer;  /**< live, with bitrate: longest time that data waits to be sent, seconds; default 2 */
@@ -60,8 +60,8 @@ typedef struct fbs_encoder_settings {
   int tune;            /**< fbs_tune, of files; default FBS_TUNE_EYE. No effect with `live` */
   int resilience;      /**< fbs_resilience, with `live`; default FBS_RESILIENCE_NONE */
   double join;         /**< live: a viewer who comes in the middle of a scene can join it within so many
-                            seconds, at the cost of parts of its head all along; 0: only where a scene begins;
-                            -1 (default): 25 with FBS_RESILIENCE_STRONG, otherwise 0 */
+                            seconds, at the cost of parts of its head all along; 0 (default): only where a scene
+                            begins */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

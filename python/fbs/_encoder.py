@@ -91,9 +91,9 @@ class Encoder:
     resilience : {"none", "packet", "strong"}
         Live, for links that lose packets. packet: motion goes on without them, and patterns wait until they are sent
         again. strong: patterns go on, too.
-    join : float, optional
+    join : float
         Live: a viewer who comes in the middle of a scene can join it within so many seconds, at the cost of parts of
-        its head all along. 0: only where a scene begins; None: 25 with `resilience` "strong", otherwise 0.
+        its head all along. 0: only where a scene begins.
     threads : int
         Live: 1, or more to encode while the next pictures are analysed. 0: as many as there are cores.
     matrix : {"bt601", "bt709", "unspecified"}
@@ -133,7 +133,7 @@ class Encoder:
         live_delay: float = 0.2,
         live_buffer: float = 2,
         resilience: str = "none",
-        join: float | None = None,
+        join: float = 0,
         threads: int = 0,
         matrix: str = "bt601",
         full_range: bool = False,
@@ -151,7 +151,7 @@ class Encoder:
         _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")
         _require("face", face >= 0, face, "not negative")
         _require("matrix", matrix in MATRICES, matrix, "one of " + ", ".join(MATRICES))
-        times = {"key_interval": key_interval, "live_delay": live_delay, "live_buffer": live_buffer, "join": join or 0}
+        times = {"key_interval": key_interval, "live_delay": live_delay, "live_buffer": live_buffer, "join": join}
         for name, value in times.items():
             _require(name, value >= 0, value, "not negative")
         self._format = Format(width, height, rate, pixel_aspect, matrix, full_range)
@@ -178,7 +178,7 @@ class Encoder:
                 "live_delay": float(live_delay),
                 "live_buffer": float(live_buffer),
                 "resilience": _RESILIENCES.index(resilience),
-                "join": -1.0 if join is None else float(join),
+                "join": float(join),
                 "threads": threads,
             }
         )

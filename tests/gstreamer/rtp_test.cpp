@@ -165,7 +165,7 @@ TEST(RtpFbs, AStreamIsJoinedAtASceneAndHasItsSignature) {
 }
 
 TEST(RtpFbs, AStreamIsJoinedByThePartsOfItsHead) {
-  const std::vector<Buffer> groups = encoded(kPictures, {}, 1, "resilience=strong");
+  const std::vector<Buffer> groups = encoded(kPictures, {}, 1, "resilience=strong join=1");
   std::vector<Buffer> packets = paid(groups, 1400);
   const Harness harness = depayloader();
   for (std::size_t k = 2; k < packets.size(); ++k) push(harness.get(), std::move(packets[k]));

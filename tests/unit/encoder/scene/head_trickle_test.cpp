@@ -18,11 +18,11 @@ struct Trickled {
 };
 
 /// Twelve seconds of key groups with parts, and another surround after two.
-Trickled trickled(double seconds) {
+Trickled trickled(double seconds, const StreamPosition& before = {}) {
   Trickled t;
   HeadTrickle trickle(seconds);
   std::size_t seen = kSignature.size();
-  t.w.setup().geometry().surround().pattern();
+  t.w.setup(setup_at(before)).geometry().surround().pattern();
   for (int k = 0; k < kGroups; ++k) {
     t.groups.push_back(t.w.bytes.size());
     t.w.motion(k * kGroup, (k + 1) * kGroup, true);
@@ -74,11 +74,14 @@ TEST(HeadTrickle, WhoeverComesInTheMiddleSeesWhatAllSee) {
   }
 }
 
-// One and a half heads in the first 1.5 seconds, then one in the time that is asked for, and a tenth more.
+// One in the time that is asked for, and a tenth more; one and a half in the first 1.5 seconds of a later
+// scene.
 TEST(HeadTrickle, SendsAsManyPartsAsTheTimeAsksFor) {
   const double slow = static_cast<double>(trickled(6.5).parts), fast = static_cast<double>(trickled(2).parts);
-  EXPECT_NEAR(slow, 12 * (1.5 + 10.5 / 6.5 / 0.9), 1);
-  EXPECT_NEAR(fast, 12 * (1.5 + 10.5 / 2 / 0.9), 1);
+  EXPECT_NEAR(slow, 12 * 12 / 6.5 / 0.9, 1);
+  EXPECT_EQ(trickled(0).parts, 0U);
+  EXPECT_EQ(trickled(0, {100, 300000}).parts, 18U);
+  EXPECT_NEAR(fast, 12 * 12 / 2 / 0.9, 1);
 }
 
 // Those of a link come with numbers, and the link loses some.
