@@ -2,6 +2,7 @@
 import bisect
 import hashlib
 import json
+import operator
 import re
 import subprocess
 
@@ -79,9 +80,11 @@ class Viewing:
         self.exit_code = exit_code
         self.video = video
         self.decoded = decoded = video.pictures if video else []
-        # The first of them begins a scene: the stream says its time, the Y4M does not.
-        first = digest_of(decoded[0]) if decoded else None
-        self.black = next((scene for scene in whole.scenes if whole.digests[scene] == first), len(whole.pictures))
+        # The first of them begins a scene, though it may not be right: the stream says its time, the Y4M does not.
+        digests = [digest_of(picture) for picture in decoded]
+        self.black = max((scene for scene in whole.scenes if scene + len(decoded) <= len(whole.pictures)),
+                         key=lambda scene: sum(map(operator.eq, whole.digests[scene:], digests)),
+                         default=0) if decoded else len(whole.pictures)
         stays = len(whole.pictures) - self.black - len(decoded)
         self.pictures = [whole.black] * self.black + decoded + decoded[-1:] * stays
         self.digests = [digest_of(picture) for picture in self.pictures]
