@@ -40,6 +40,8 @@ void bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNo
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kOne = 1 << kFractionOneLog2;
+constexpr int kPatchSizeLog2 = 3;
+static_assert(kPatchSize == 1 << kPatchSizeLog2);
 
 /// Interpolates between upper and lower samples, each already interpolated from left to right.
 template <class D, class V = hn::Vec<D>>
@@ -218,6 +220,55 @@ HWY_INLINE void bent_rows(D d, const PatchLanes& lanes, std::size_t first_lane, 
   }
 }
 
+/// A patch whose samples lie too far apart for that: each is gathered by itself.
+/// @param kStepLog2  log2 of luma samples per sample
+template <int kStepLog2>
+HWY_INLINE void gathered_patch(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
+                               std::uint8_t* out) {
+  const hn::CappedTag<std::int32_t, 8> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr int kSizeLog2 = kPatchSizeLog2 - kStepLog2, kSize = 1 << kSizeLog2;
+  constexpr std::size_t kLanes = hn::MaxLanes(d);
+  const auto displacements = [&](int glm::ivec2::*axis, V column, V row) HWY_ATTR {
+    const auto set = [&](std::int32_t value) HWY_ATTR { return hn::Set(d, value); };
+    const std::int32_t d00 = nodes[0].*axis, d10 = nodes[1].*axis, d01 = nodes[2].*axis, d11 = nodes[3].*axis;
+    const V top = hn::Add(set(d00 * kPatchSize), hn::Mul(set(d10 - d00), column)),
+            bottom = hn::Add(set(d01 * kPatchSize), hn::Mul(set(d11 - d01), column)),
+            sum = hn::Add(hn::ShiftLeft<kPatchSizeLog2>(top), hn::Mul(hn::Sub(bottom, top), row));
+    return hn::ShiftRight<kStepLog2>(hn::ShiftRight<kFractionOneLog2>(hn::Add(sum, set(kOne / 2))));
+  };
+  const V mask = hn::Set(d, kOne - 1), byte = hn::Set(d, 255), one = hn::Set(d, kOne),
+          half = hn::Set(d, kOne / 2);
+  for (int k = 0; k < kSize * kSize; k += static_cast<int>(kLanes)) {
+    const V number = hn::Iota(d, k), column = hn::And(number, hn::Set(d, kSize - 1)),
+            row = hn::ShiftRight<kSizeLog2>(number);
+    const V x = displacements(&glm::ivec2::x, hn::ShiftLeft<kStepLog2>(column),
+                              hn::ShiftLeft<kStepLog2>(row)),
+            y = displacements(&glm::ivec2::y, hn::ShiftLeft<kStepLog2>(column),
+                              hn::ShiftLeft<kStepLog2>(row));
+    const V at = hn::Add(hn::Mul(hn::Add(row, hn::ShiftRight<kFractionOneLog2>(y)),
+                                 hn::Set(d, static_cast<std::int32_t>(stride))),
+                         hn::Add(column, hn::ShiftRight<kFractionOneLog2>(x)));
+    const V right_share = hn::And(x, mask), left_share = hn::Sub(one, right_share);
+    const auto across = [&](const std::uint8_t* samples) HWY_ATTR {
+      const V four = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(samples), at);
+      return hn::Add(hn::Mul(hn::And(four, byte), left_share),
+                     hn::Mul(hn::And(hn::ShiftRight<8>(four), byte), right_share));
+    };
+    const V top = across(from), bottom = across(from + stride);
+    const V more =
+        hn::ShiftRight<kFractionOneLog2>(hn::Add(hn::Mul(hn::Sub(bottom, top), hn::And(y, mask)), half));
+    const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+    alignas(8) std::array<std::uint8_t, kLanes> drawn;
+    hn::Store(hn::DemoteTo(bytes, hn::ShiftRight<kFractionOneLog2>(hn::Add(hn::Add(top, more), half))), bytes,
+              drawn.data());
+    constexpr std::size_t kRun = std::min<std::size_t>(kLanes, kSize);
+    for (std::size_t n = 0; n < kLanes; n += kRun)
+      std::copy_n(drawn.data() + n, kRun,
+                  out + (k + static_cast<int>(n) >> kSizeLog2) * WarpedBlock::kStride + (k & (kSize - 1)));
+  }
+}
+
 /// Largest difference of displacements across a patch: the samples of a row must come from sixteen bytes.
 constexpr std::int32_t kMaxAcross = 384;
 
@@ -259,7 +310,7 @@ void bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes
   else if (x.range <= kMaxAcross && y.range <= 3 * kOne)
     bent_luma_rows<3>(d, from, stride, x, y, out);
   else
-    plain::warp_bent_luma(from, stride, nodes, out);
+    gathered_patch<0>(from, stride, nodes, out);
 }
 
 template <int kSpan, class D>
@@ -301,7 +352,7 @@ void bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNo
   if (x.range < kMaxAcross && y.range < 2 * kOne)
     bent_chroma_rows<1>(hn::CappedTag<std::int16_t, 16>(), from, stride, x, y, out);
   else
-    plain::warp_bent_chroma(from, stride, nodes, out);
+    for (std::size_t k = 0; k < 2; ++k) gathered_patch<1>(from[k], stride, nodes, out[k]);
 }
 
 #endif
