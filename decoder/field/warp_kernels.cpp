@@ -263,9 +263,10 @@ HWY_INLINE void gathered_patch(const std::uint8_t* from, std::ptrdiff_t stride, 
     hn::Store(hn::DemoteTo(bytes, hn::ShiftRight<kFractionOneLog2>(hn::Add(hn::Add(top, more), half))), bytes,
               drawn.data());
     constexpr std::size_t kRun = std::min<std::size_t>(kLanes, kSize);
-    for (std::size_t n = 0; n < kLanes; n += kRun)
-      std::copy_n(drawn.data() + n, kRun,
-                  out + (k + static_cast<int>(n) >> kSizeLog2) * WarpedBlock::kStride + (k & (kSize - 1)));
+    for (std::size_t n = 0; n < kLanes; n += kRun) {
+      const std::ptrdiff_t to = (k + static_cast<int>(n)) >> kSizeLog2;
+      std::copy_n(drawn.data() + n, kRun, out + to * WarpedBlock::kStride + (k & (kSize - 1)));
+    }
   }
 }
 
