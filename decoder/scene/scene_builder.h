@@ -50,12 +50,17 @@ class SceneBuilder {
     DecodedFrame frame;
   };
   [[nodiscard]] Result<DecodedFrame> decode(const PatternSyntax& pattern, bool keeps);
+  [[nodiscard]] Result<DecodedFrame> decode_next(const PatternSyntax& pattern);
 
   Scene scene_;
   std::optional<Geometry> geometry_;
   SurroundMap surround_ = still_surround();
-  State rest_;  ///< in which the first pattern was seen
-  std::optional<PatternDecoder> patterns_;
+  State rest_;                              ///< in which the first pattern was seen
+  std::vector<std::uint8_t> first_;         ///< AV1 frame of the first pattern
+  std::optional<PatternDecoder> patterns_;  ///< of the chain; nothing: as after the first
+  std::optional<PatternDecoder>
+      alone_;                     ///< of patterns that are alone, once the chain has others than the first
+  bool chained_ = false;          ///< it has
   std::vector<Decoded> decoded_;  ///< that may come again
 };
 

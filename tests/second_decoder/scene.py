@@ -58,6 +58,7 @@ class Scene:
         self._modes = [(0,) * REGIONS] * self._begin  # of all pictures that have any
         self._released = self._begin
         self._av1 = Av1Decoder()
+        self._first_frame = None
         self._patterns = PatternDecoder(setup, self._layout)
         self._motion = None
         self._blend = BlendDecoder(self._begin)
@@ -131,13 +132,23 @@ class Scene:
         if not coded.numbers:
             self._stored_numbers[coded.slot] = coded.number
         try:
-            frame = self._full_size(self._av1.decode(coded.frame))
+            frame = self._full_size(self._decode_frame(coded))
         except StreamError:
             self._break_chain(coded)
             raise
         if coded.numbers:
             self._complete(coded.numbers)
         self._store[coded.slot] = self._build_pattern(coded, frame)
+
+    def _decode_frame(self, coded):
+        """The planes of a pattern's frame. One that is alone follows the first frame."""
+        if coded.numbers:
+            self._first_frame = coded.frame
+        if not coded.alone:
+            return self._av1.decode(coded.frame)
+        av1 = Av1Decoder()
+        av1.decode(self._first_frame)
+        return av1.decode(coded.frame)
 
     def _complete(self, rest_numbers):
         """The first pattern is here."""

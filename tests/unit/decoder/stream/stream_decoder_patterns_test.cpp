@@ -174,6 +174,29 @@ TEST(StreamDecoderPatterns, OneThatIsAloneIsDrawnFromWhateverBecameOfTheChain) {
   EXPECT_NE(result.pictures[7], played(sample().bytes).pictures[7]) << "it counts";
 }
 
+TEST(StreamDecoderPatterns, OnesThatAreAloneAndTheChainDoNotDisturbEachOther) {
+  Writer other = begun(), w = begun(), chain = begun();
+  const Bytes after_first = other.frame(face_picture(4));  // later frames could refer to it
+  w.motion(0, 10, true).pattern(face_picture(1), 1, 5);
+  chain.motion(0, 10, true).pattern(face_picture(1), 1, 5);
+  w.patterns({{2, 6, {}, after_first, true}}).patterns({{2, 7, {}, after_first, true}});
+  w.pattern(face_picture(2), 1, 8).blend(10);
+  chain.pattern(face_picture(2), 1, 8).blend(10);
+  other.motion(0, 10, true).patterns({{2, 7, {}, after_first}}).blend(10);
+  std::vector<Picture> shown;
+  for (const Writer* writer : {&w, &chain, &other}) {
+    StreamDecoder decoder;
+    Played result;
+    play_through(decoder, *writer, result);
+    EXPECT_TRUE(result.errors.empty());
+    for (const Pattern& pattern : decoder.scene().patterns)
+      if (pattern.slot > 0) shown.push_back(pattern.picture);
+  }
+  ASSERT_EQ(shown.size(), 4U);
+  EXPECT_EQ(shown[0], shown[2]) << "the chain's";
+  EXPECT_EQ(shown[1], shown[3]) << "the other one";
+}
+
 TEST(StreamDecoderPatterns, ModesOfTheBlendPacketAreUsed) {
   Writer w = begun();
   w.motion(0, 10, true).pattern(face_picture(1), 1, 7);
