@@ -205,6 +205,13 @@ Result<void> Encoder::request_scene() {
   return {};
 }
 
+Result<void> Encoder::lose_patterns() {
+  Impl& i = *impl_;
+  if (!i.settings.live) return fail(ErrorCode::kInvalidArgument, "patterns are lost in live encoding only");
+  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
+  return i.scene ? i.scene->lose_patterns() : Result<void>{};
+}
+
 Result<void> Encoder::set_bitrate(double kbps) {
   Impl& i = *impl_;
   if (!i.settings.live || i.settings.bitrate <= 0)

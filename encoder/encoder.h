@@ -48,6 +48,11 @@ class Encoder {
   /// @return kInvalidArgument if the encoding is not live, or has ended
   Result<void> request_scene();
 
+  /// A viewer has lost a pattern of the present scene for good: later ones are coded so that they need its
+  /// head alone, as with Resilience::kStrong. Cheaper than another scene.
+  /// @return kInvalidArgument if the encoding is not live, or has ended
+  Result<void> lose_patterns();
+
   /// The link has another rate: holds what follows to it.
   /// @param kbps  > 0
   /// @return kInvalidArgument if the encoding is not live with a bitrate, or has ended

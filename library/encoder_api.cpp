@@ -105,13 +105,27 @@ fbs_status fbs_encoder_request_scene(fbs_encoder* encoder) {
   });
 }
 
-fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps) {
+namespace {
+
+/// Changes something of an encoding that goes on.
+template <class Change>
+fbs_status change(fbs_encoder* encoder, Change&& how) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_encoder& e = *encoder;
   if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
-  const fbs_status status = e.encode([&] { return e.encoder.set_bitrate(kbps); });
+  const fbs_status status = e.encode([&] { return how(e.encoder); });
   if (status == FBS_ERROR_ARGUMENT) e.phase = fbs_encoder::Phase::kPushing;  // nothing has changed
   return status;
+}
+
+}  // namespace
+
+fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps) {
+  return change(encoder, [&](Encoder& e) { return e.set_bitrate(kbps); });
+}
+
+fbs_status fbs_encoder_lose_patterns(fbs_encoder* encoder) {
+  return change(encoder, [](Encoder& e) { return e.lose_patterns(); });
 }
 
 fbs_status fbs_encoder_finish(fbs_encoder* encoder) {

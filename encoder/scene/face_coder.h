@@ -37,6 +37,7 @@ class FaceCoder {
 
   void request_scene() { ledger_.request_scene(); }
   void set_bitrate(double kbps) { ledger_.set_bitrate(kbps); }
+  void lose_patterns() { ledger_.lose_patterns(); }
   /// Whether the next picture begins another scene with the same person. For a live scene it is known ahead:
   /// live_scene_ends().
   [[nodiscard]] bool scene_ended() const { return ledger_.scene_ended(); }

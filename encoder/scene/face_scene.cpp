@@ -103,6 +103,12 @@ Result<void> FaceScene::set_bitrate(double kbps) {
   return {};
 }
 
+Result<void> FaceScene::lose_patterns() {
+  if (auto done = coding_.wait(); !done) return done;
+  coder_.lose_patterns();
+  return {};
+}
+
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
   if (!ahead_) {
     if (std::exchange(cut_, false)) coder_.cut();

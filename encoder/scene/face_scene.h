@@ -31,6 +31,7 @@ class FaceScene : public SceneEncoder {
   }
   void request_scene() override;
   Result<void> set_bitrate(double kbps) override;
+  Result<void> lose_patterns() override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
   [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
   Result<void> finish() override;

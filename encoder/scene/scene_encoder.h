@@ -34,6 +34,8 @@ class SceneEncoder {
 
   /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
   virtual Result<void> set_bitrate(double /*kbps*/) { return {}; }
+  /// A viewer has lost a pattern of the scene for good.
+  virtual Result<void> lose_patterns() { return {}; }
 
   /// Whether the picture, which is pushed next, shows the scene's person, who is then tracked again.
   [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;

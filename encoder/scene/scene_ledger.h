@@ -50,6 +50,9 @@ class SceneLedger {
   void set_bitrate(double kbps) {
     if (patterns_) patterns_->set_bitrate(kbps);
   }
+  void lose_patterns() {
+    if (patterns_) patterns_->lose_patterns();
+  }
   /// Ends a live scene with its present group, unless it has ended already.
   void request_scene() { requested_ = !ended_; }
   /// Whether a live scene ends with the group that completes this many pictures.

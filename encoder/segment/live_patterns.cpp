@@ -75,16 +75,23 @@ double least_error(const ModeErrors& errors) {
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
-    : settings_(settings), store_(format, rest, settings.groups_per_key) {
+    : settings_(settings), store_(format, rest, settings.groups_per_key), alone_(settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
 void LivePatterns::begin_scene(const CodedState& rest) {
   store_.begin_scene(rest);
   codec_.reset();
+  alone_ = settings_.alone;
   regret_ = {};
   modes_ = {};
   next_slot_ = 0;
+}
+
+void LivePatterns::lose_patterns() {
+  if (alone_ || store_.is_first()) return;
+  alone_ = true;
+  codec_.reset();  // the next one follows the first pattern
 }
 
 std::size_t LivePatterns::pattern_time() const {
@@ -158,8 +165,8 @@ int LivePatterns::speed() const {
   return coded_lately_ < kUnhurriedAtOnce ? unhurried_speed(coded_format()) : kHastySpeed;
 }
 
-Result<void> LivePatterns::open(int quantiser) {
-  auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed()});
+Result<void> LivePatterns::open(int quantiser, int speed) {
+  auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed});
   if (!av1) return fail(av1.error());
   auto decoder = PatternDecoder::create(store_.format().width, store_.format().height);
   if (!decoder) return fail(decoder.error());
@@ -167,22 +174,37 @@ Result<void> LivePatterns::open(int quantiser) {
   return {};
 }
 
-Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
-  if (auto ready = codec_ ? codec_->encoder.set(quantiser, speed()) : open(quantiser); !ready)
-    return fail(ready.error());
-  auto picture = store_.segment().pictures.read(time);
-  if (!picture) return fail(picture.error());
-  store_.reduce_contrast(scene, time, *picture);
-  auto frames = codec_->encoder.encode(settings_.reduced ? downscaled(*picture) : *picture, settings_.alone);
+Result<LivePatterns::Coded> LivePatterns::code(const Picture& picture) {
+  auto frames = codec_->encoder.encode(picture, alone_);
   if (!frames) return fail(frames.error());
   if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
   auto decoded = codec_->decoder.decode(frames->front());
   if (!decoded) return fail(decoded.error());
-  learn(frames->front().size(), quantiser);
+  return Coded{std::move(frames->front()), std::move(*decoded)};
+}
+
+Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
+  auto picture = store_.segment().pictures.read(time);
+  if (!picture) return fail(picture.error());
+  store_.reduce_contrast(scene, time, *picture);
+  if (settings_.reduced) *picture = downscaled(*picture);
+  const int now = speed();
+  const bool is_first = store_.is_first();
+  if (is_first) first_ = {*picture, quantiser, now};
+  if (!codec_) {
+    if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
+    if (!is_first)
+      if (auto again = code(first_.picture); !again) return fail(again.error());
+  }
+  if (!is_first)
+    if (auto set = codec_->encoder.set(quantiser, now); !set) return fail(set.error());
+  auto coded = code(*picture);
+  if (!coded) return fail(coded.error());
+  learn(coded->av1.size(), quantiser);
   ++coded_lately_;
   const std::size_t slot =
       std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_.slots()));
-  return Sent{time, slot, std::move(frames->front()), std::move(*decoded)};
+  return Sent{time, slot, std::move(coded->av1), std::move(coded->decoded)};
 }
 
 void LivePatterns::learn(std::size_t bytes, int quantiser) {
@@ -226,7 +248,7 @@ Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, cons
   const auto add_pattern = [&]() -> Result<void> {
     if (!sent) return {};
     PatternSyntax pattern = store_.pattern_syntax(sent->slot, sent->time, sent->av1);
-    pattern.alone = settings_.alone && !store_.is_first();
+    pattern.alone = alone_ && !store_.is_first();
     auto payload = coders.patterns.encode(std::span(&pattern, 1), setup,
                                           store_.number_of(store_.segment().states.size()));
     if (!payload) return fail(payload.error());

@@ -39,6 +39,7 @@ class LivePatterns : public PatternStage {
   void set_bitrate(double kbps) override {
     if (rate_) rate_->set(kbps);
   }
+  void lose_patterns() override;
   Result<void> add(const Picture& picture) override { return store_.add(picture); }
   void cut() override { store_.cut(); }
   void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
@@ -79,7 +80,13 @@ class LivePatterns : public PatternStage {
   /// libaom's speed for the next pattern: hasty where many have been coded lately.
   [[nodiscard]] int speed() const;
   /// Begins an AV1 sequence.
-  Result<void> open(int quantiser);
+  Result<void> open(int quantiser, int speed);
+  /// Codes a pattern, as the decoder will have it.
+  struct Coded {
+    std::vector<std::uint8_t> av1;
+    Picture decoded;
+  };
+  [[nodiscard]] Result<Coded> code(const Picture& picture);
   /// Codes a picture of the segment.
   [[nodiscard]] Result<Sent> code(const Scene& scene, std::size_t time, int quantiser);
   /// Records the bytes of a pattern.
@@ -112,6 +119,11 @@ class LivePatterns : public PatternStage {
   double coded_lately_ = 0;  ///< patterns, less those for which there has been time since
   // The scene's:
   std::optional<Codec> codec_;
+  struct First {
+    Picture picture;
+    int quantiser, speed;
+  } first_;     ///< pattern, as it was coded
+  bool alone_;  ///< LivePatternSettings::alone, or a pattern has been lost
   PatternRegret regret_;
   RegionModes modes_{};  ///< of the last picture
   std::size_t next_slot_ = 0;

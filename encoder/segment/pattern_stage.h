@@ -38,6 +38,9 @@ class PatternStage {
   /// Where the bitrate of a live scene is limited: by this from now on, kbit/s.
   virtual void set_bitrate(double /*kbps*/) {}
 
+  /// A viewer of a live scene has lost a pattern for good: later ones need the scene's first alone.
+  virtual void lose_patterns() {}
+
   /// Whether the segment should end with the group added last.
   /// @param next  pictures of the group after it
   [[nodiscard]] virtual bool segment_ends(std::size_t next) const = 0;

@@ -112,6 +112,13 @@ FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_pictur
  * @return FBS_OK; FBS_ERROR_ARGUMENT without `live`, or after the end */
 FBS_API fbs_status fbs_encoder_request_scene(fbs_encoder* encoder);
 
+/** Says that a viewer has lost a pattern of the present scene for good, as when it was sent again in vain.
+ * Later ones are then coded so that they need the head of the scene alone: cheaper than another scene, for
+ * viewers who have the head. With `live` only.
+ * @return FBS_OK; FBS_ERROR_ARGUMENT without `live`, or after the end; any other error ends the encoding, as
+ * in fbs_encoder_push() */
+FBS_API fbs_status fbs_encoder_lose_patterns(fbs_encoder* encoder);
+
 /** Changes the bitrate of a live encoding that has one, as the link does. It holds from the next group on;
  * motion stays as fine as it is, and the last `live_buffer` seconds may still be of the rate before.
  * @param kbps  kbit/s in total, above 0

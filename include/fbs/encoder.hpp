@@ -39,6 +39,7 @@ class Encoder {
     check(fbs_encoder_push(get(), &picture, duration));
   }
   void request_scene() { check(fbs_encoder_request_scene(get())); }
+  void lose_patterns() { check(fbs_encoder_lose_patterns(get())); }
   void set_bitrate(double kbps) { check(fbs_encoder_set_bitrate(get(), kbps)); }
   void finish() { check(fbs_encoder_finish(get())); }
 

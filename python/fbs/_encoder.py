@@ -242,6 +242,10 @@ class Encoder:
         """Begin a scene with the next picture that can begin one, for instance after a loss. Live only."""
         self._encoder.request_scene()
 
+    def lose_patterns(self) -> None:
+        """Tell that a viewer has lost a pattern of the scene for good: later ones need the head alone. Live only."""
+        self._encoder.lose_patterns()
+
     def set_bitrate(self, kbps: float) -> None:
         """Hold what follows to another rate, as the link has it. Live, with a bitrate, only."""
         self._encoder.set_bitrate(kbps)

@@ -106,6 +106,10 @@ void bind_encoder(nb::module_& module) {
            [](Encoder& self) {
              self.call([](fbs_encoder* e) { Encoder::check(e, fbs_encoder_request_scene(e)); });
            })
+      .def("lose_patterns",
+           [](Encoder& self) {
+             self.call([](fbs_encoder* e) { Encoder::check(e, fbs_encoder_lose_patterns(e)); });
+           })
       .def(
           "set_bitrate",
           [](Encoder& self, double kbps) {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <thread>
 
+#include "bitstream/packet.h"
+#include "bitstream/scene/scene_reader.h"
 #include "common/quality.h"
 #include "decoder/stream/scene_index.h"
 #include "tests/unit/encode_decode.h"
@@ -170,6 +172,57 @@ TEST(Live, StreamsWithRequestsDecodeWhole) {
   line.finish();
   ASSERT_EQ(line.shown.size(), std::size_t{kPictures});
   EXPECT_GT(psnr_of(line.shown), 27);
+}
+
+/// Whether each pattern behind the first needs that alone.
+std::vector<bool> alone_in(std::span<const std::uint8_t> stream) {
+  PacketReader packets(stream);
+  SceneReader reader;
+  std::vector<bool> out;
+  for (auto read = packets.next(); read && read->status == ReadStatus::kPacket; read = packets.next()) {
+    const auto syntax = reader.read(read->packet);
+    EXPECT_TRUE(syntax);
+    while (reader.pictures().has_next()) (void)reader.pictures().next();
+    if (const auto* const patterns = std::get_if<std::vector<ScenePattern>>(&*syntax))
+      if (!patterns->front().is_first()) out.push_back(patterns->front().coded.alone);
+  }
+  return out;
+}
+
+TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
+  EncoderSettings settings = live_settings();
+  settings.quality = 90;  // more patterns
+  settings.live->resilience = Resilience::kPacket;
+  for (const int threads : {1, 2}) {
+    settings.threads = threads;
+    auto encoder = Encoder::create(clip().format(), settings);
+    StreamDecoder decoder;
+    std::vector<std::uint8_t> stream;
+    for (int i = 0; i < kPictures; ++i) {
+      if (i == kPictures / 2) {
+        EXPECT_TRUE(encoder->lose_patterns());
+      }
+      EXPECT_TRUE(encoder->push(clip()[i]));
+    }
+    EXPECT_TRUE(encoder->finish());
+    stream = encoder->take();
+    const std::vector<bool> alone = alone_in(stream);
+    EXPECT_TRUE(std::is_sorted(alone.begin(), alone.end()));
+    ASSERT_FALSE(alone.empty());
+    EXPECT_FALSE(alone.front());
+    EXPECT_TRUE(alone.back());
+    decoder.feed(stream);
+    decoder.close();
+    std::vector<Picture> shown;
+    Picture picture;
+    for (auto next = decoder.next(); next && *next == DecodeStatus::kPicture; next = decoder.next()) {
+      EXPECT_TRUE(decoder.render(picture));
+      shown.push_back(picture);
+    }
+    ASSERT_EQ(shown.size(), std::size_t{kPictures});
+    EXPECT_GT(psnr_of(shown), 27);
+  }
+  EXPECT_FALSE(Encoder::create(clip().format(), {})->lose_patterns());
 }
 
 TEST(Live, AFileHasNoScenesOnRequest) {
