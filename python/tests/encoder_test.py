@@ -112,6 +112,12 @@ def test_a_live_bitrate_may_change(pictures):
     assert encoder.finish()
 
 
+def test_lost_patterns_are_for_live_encoding():
+    fbs.Encoder(64, 64, allow_no_face=True, live=True, resilience="packet").lose_patterns()
+    with pytest.raises(fbs.ArgumentError, match="live encoding only"):
+        fbs.Encoder(64, 64).lose_patterns()
+
+
 def test_landmarks_are_there_as_they_are_tracked(pictures):
     encoder = fbs.Encoder(176, 144, fps=30)
     encoder.push(pictures[0])
