@@ -160,10 +160,9 @@ static gboolean read_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
   fbs_format format;
   const guint8* const data = gst_adapter_map(self->group, size);
-  const gboolean joins = self->waiting && join_with(self, data, size);
-  const gboolean read = self->waiting ? joins : read_packets(self, data, size);
+  const gboolean read = self->waiting ? join_with(self, data, size) : read_packets(self, data, size);
   gst_adapter_unmap(self->group);
-  if (read && (self->key || joins)) {
+  if (read && (self->key || self->waiting)) {
     if (fbs_packet_reader_get_format(self->reader, &format) != FBS_OK) return FALSE;
     gst_fbs_set_format(GST_RTP_BASE_DEPAYLOAD_SRCPAD(self), &format);
   }
@@ -180,8 +179,10 @@ static GstBuffer* whole_group(GstRtpFbsDepay* self) {
   GstAdapter* const groups = joins ? self->parts : self->group; /* the group is the last of the parts */
   GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(groups, gst_adapter_available(groups)));
   drop_group(self);
-  if (joins) GST_INFO_OBJECT(self, "joins a scene by the parts of its head");
-  if (joins) self->waiting = FALSE;
+  if (joins) {
+    GST_INFO_OBJECT(self, "joins a scene by the parts of its head");
+    self->waiting = FALSE;
+  }
   if (!self->begun) {
     GstBuffer* const signature = gst_buffer_new_memdup(FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
     out = gst_buffer_append(signature, out);

@@ -95,16 +95,6 @@ fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* pictu
   return e.encode([&] { return e.encoder.push(copy_of(*picture, e.format), duration); });
 }
 
-fbs_status fbs_encoder_request_scene(fbs_encoder* encoder) {
-  if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
-  fbs_encoder& e = *encoder;
-  if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
-  return guarded(e.error, [&] {
-    const auto asked = e.encoder.request_scene();
-    return asked ? FBS_OK : e.error.set_argument("scenes come on request in live encoding only");
-  });
-}
-
 namespace {
 
 /// Changes something of an encoding that goes on.
@@ -119,6 +109,10 @@ fbs_status change(fbs_encoder* encoder, Change&& how) {
 }
 
 }  // namespace
+
+fbs_status fbs_encoder_request_scene(fbs_encoder* encoder) {
+  return change(encoder, [](Encoder& e) { return e.request_scene(); });
+}
 
 fbs_status fbs_encoder_set_bitrate(fbs_encoder* encoder, double kbps) {
   return change(encoder, [&](Encoder& e) { return e.set_bitrate(kbps); });

@@ -105,7 +105,7 @@ class SceneReader {
   std::int64_t next_sound_ = 0;  // number of the first frame that has not come
   HeadParts head_parts_;         // of a scene that might be joined
   StreamPosition passed_;        // pictures of a scene that is joined next
-  // Of the scene:
+  // The scene's:
   Setup setup_;
   std::uint16_t check_ = 0;                      // of its first pattern packet, the low bits
   std::shared_ptr<const WireFrame> wire_frame_;  // null: the generic head

@@ -159,9 +159,11 @@ class Displacements {
                            int rows_per_step)
       : d_(d), upper_left_(hn::Set(d, by.upper_left)) {
     const V column = hn::Load(d, lanes.column + first_lane), row = hn::Load(d, lanes.row + first_lane);
-    const V per_row = hn::Add(hn::ShiftLeft<3>(hn::Set(d, by.down)), hn::Mul(column, hn::Set(d, by.twist)));
-    sum_ = hn::Add(hn::Add(hn::ShiftLeft<3>(hn::Mul(column, hn::Set(d, by.across))), hn::Mul(row, per_row)),
-                   hn::Set(d, kOne / 2));
+    const V per_row =
+        hn::Add(hn::ShiftLeft<kPatchSizeLog2>(hn::Set(d, by.down)), hn::Mul(column, hn::Set(d, by.twist)));
+    sum_ = hn::Add(
+        hn::Add(hn::ShiftLeft<kPatchSizeLog2>(hn::Mul(column, hn::Set(d, by.across))), hn::Mul(row, per_row)),
+        hn::Set(d, kOne / 2));
     step_ = hn::Mul(per_row, hn::Set(d, static_cast<std::int16_t>(rows_per_step << kStepLog2)));
   }
   /// Displacements of the next rows, in 1/64 sample of the plane.

@@ -9,14 +9,13 @@
 //   --wait        s that the receiver holds packets back for those that are missing
 //   --worst       PGM file: source, whole stream and what was shown, where the face was worst
 //   --copies      each packet is sent again so many times, one group later each
-//   --heads       1: the heads of scenes are lost, too, if any of their packets of 1200 bytes is; but the
-//   first
+//   --heads       1: heads of scenes behind the first are lost with any of their packets of 1200 bytes
 //   --from        s: the viewer comes then, and knows nothing; counts from the first picture that is shown
 //
-// A packet of the link is a group's motion, pattern and blend. Without --heads
-// the head of a scene is not lost, as it would be sent until it is confirmed. A picture is due when its group
-// and `wait` have passed; it is frozen if it has not been released by then, and right if its luma is that of
-// the whole stream. Prints one line of JSON.
+// A packet of the link is a group's motion, pattern and blend. Without --heads the head of a scene is not
+// lost, as it would be sent until it is confirmed. A picture is due when its group and `wait` have passed; it
+// is frozen if it has not been released by then, and right if its luma is that of the whole stream. Prints
+// one line of JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>

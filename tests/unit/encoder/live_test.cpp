@@ -46,18 +46,22 @@ class LiveLine {
     pass_on();
   }
   void request_scene() { ASSERT_TRUE(encoder_.request_scene()); }
+  void lose_patterns() { ASSERT_TRUE(encoder_.lose_patterns()); }
   void finish() {
     ASSERT_TRUE(encoder_.finish());
     pass_on();
   }
 
+  std::vector<std::uint8_t> stream;
   std::vector<Picture> shown;
   ByteCount bytes;
   std::size_t patterns = 0;
 
  private:
   void pass_on() {
-    decoder_.feed(encoder_.take());
+    const auto taken = encoder_.take();
+    stream.insert(stream.end(), taken.begin(), taken.end());
+    decoder_.feed(taken);
     const auto status = decode_pictures(decoder_, [&](StreamDecoder&) {
       shown.emplace_back();
       ASSERT_TRUE(decoder_.render(shown.back()));
@@ -195,32 +199,19 @@ TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
   settings.live->resilience = Resilience::kPacket;
   for (const int threads : {1, 2}) {
     settings.threads = threads;
-    auto encoder = Encoder::create(clip().format(), settings);
-    StreamDecoder decoder;
-    std::vector<std::uint8_t> stream;
+    LiveLine line(settings);
     for (int i = 0; i < kPictures; ++i) {
-      if (i == kPictures / 2) {
-        EXPECT_TRUE(encoder->lose_patterns());
-      }
-      EXPECT_TRUE(encoder->push(clip()[i]));
+      if (i == kPictures / 2) line.lose_patterns();
+      line.push(clip()[i]);
     }
-    EXPECT_TRUE(encoder->finish());
-    stream = encoder->take();
-    const std::vector<bool> alone = alone_in(stream);
+    line.finish();
+    const std::vector<bool> alone = alone_in(line.stream);
     EXPECT_TRUE(std::is_sorted(alone.begin(), alone.end()));
     ASSERT_FALSE(alone.empty());
     EXPECT_FALSE(alone.front());
     EXPECT_TRUE(alone.back());
-    decoder.feed(stream);
-    decoder.close();
-    std::vector<Picture> shown;
-    Picture picture;
-    for (auto next = decoder.next(); next && *next == DecodeStatus::kPicture; next = decoder.next()) {
-      EXPECT_TRUE(decoder.render(picture));
-      shown.push_back(picture);
-    }
-    ASSERT_EQ(shown.size(), std::size_t{kPictures});
-    EXPECT_GT(psnr_of(shown), 27);
+    ASSERT_EQ(line.shown.size(), std::size_t{kPictures});
+    EXPECT_GT(psnr_of(line.shown), 27);
   }
   EXPECT_FALSE(Encoder::create(clip().format(), {})->lose_patterns());
 }

@@ -160,6 +160,13 @@ inline const Writer& sample() {
   return w;
 }
 
+/// A scene up to its first pattern.
+inline Writer begun(int patterns = 3) {
+  Writer w;
+  w.setup(setup_of(patterns)).geometry().surround().pattern();
+  return w;
+}
+
 /// What a decoder returns for a stream.
 struct Played {
   std::vector<Picture> pictures;
@@ -192,6 +199,14 @@ inline bool play(StreamDecoder& decoder, Played& result) {
   }
   ADD_FAILURE() << "a decoder that never ends";
   return true;
+}
+
+/// Plays all of a stream without errors; the decoder stays as it is at the end.
+inline void play_through(StreamDecoder& decoder, const Writer& w, Played& result) {
+  decoder.feed(w.bytes);
+  decoder.close();
+  ASSERT_TRUE(play(decoder, result));
+  ASSERT_TRUE(result.errors.empty()) << result.errors.front().text;
 }
 
 inline Played played(std::span<const std::uint8_t> bytes) {

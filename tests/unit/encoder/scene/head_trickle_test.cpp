@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bitstream/payload/head_part_payload.h"
 #include "tests/unit/decoder/stream/stream_writer.h"
 
 namespace fbs {
@@ -40,37 +39,18 @@ Trickled trickled(double seconds, const StreamPosition& before = {}) {
   return t;
 }
 
-std::vector<Picture> pictures_of(StreamDecoder& decoder, std::uint64_t* first = nullptr) {
-  std::vector<Picture> out;
-  Picture picture;
-  for (;;) {
-    const auto status = decoder.next();
-    if (!status) continue;
-    if (*status != DecodeStatus::kPicture) return out;
-    if (out.empty() && first != nullptr) *first = decoder.position().pictures;
-    EXPECT_TRUE(decoder.render(picture));
-    out.push_back(picture);
-  }
-}
-
 TEST(HeadTrickle, WhoeverComesInTheMiddleSeesWhatAllSee) {
   const Trickled t = trickled(2);
-  StreamDecoder whole;
-  whole.feed(t.w.bytes);
-  whole.close();
-  const auto pictures = pictures_of(whole);
+  const auto pictures = played(t.w.bytes).pictures;
   ASSERT_EQ(pictures.size(), static_cast<std::size_t>(kGroups * kGroup));
   for (const std::size_t from : {1U, 9U, 25U}) {  // before, around and after the other surround
-    StreamDecoder joiner;
-    joiner.feed(std::span(t.w.bytes).subspan(t.groups[from]));
-    joiner.close();
-    std::uint64_t first = 0;
-    const auto joined = pictures_of(joiner, &first);
+    const Played joined = played(std::span(t.w.bytes).subspan(t.groups[from]));
+    const std::uint64_t first = joined.positions.at(0).pictures;
     EXPECT_LE(first, (from + 12) * kGroup) << "two seconds and a group or two";
-    ASSERT_EQ(joined.size(), pictures.size() - first);
+    ASSERT_EQ(joined.pictures.size(), pictures.size() - first);
     // At the latest when the surround has been repeated.
-    for (std::size_t n = joined.size() - 30; n < joined.size(); ++n)
-      ASSERT_EQ(joined[n], pictures[first + n]) << from << " " << n << " " << first;
+    for (std::size_t n = pictures.size() - 30; n < pictures.size(); ++n)
+      ASSERT_EQ(joined.pictures[n - first], pictures[n]) << from << ": " << n;
   }
 }
 
@@ -88,33 +68,25 @@ TEST(HeadTrickle, SendsAsManyPartsAsTheTimeAsksFor) {
 TEST(HeadTrickle, JoinsAlthoughPartsAreLost) {
   const Trickled t = trickled(2);
   StreamDecoder joiner;
-  std::vector<Picture> pictures;
-  std::uint64_t first = 0;
+  Played joined;
   for (std::size_t k = 5; k + 1 < t.groups.size(); ++k) {
     if (k % 7 == 6) continue;
     joiner.feed_packet(k, std::span(t.w.bytes).subspan(t.groups[k], t.groups[k + 1] - t.groups[k]));
-    std::uint64_t position = 0;
-    const auto more = pictures_of(joiner, &position);
-    if (pictures.empty() && !more.empty()) first = position;
-    pictures.insert(pictures.end(), more.begin(), more.end());
+    EXPECT_FALSE(play(joiner, joined));
   }
+  const std::uint64_t first = joined.positions.at(0).pictures;
   EXPECT_GT(first, 5U * kGroup);
   EXPECT_LE(first, 20U * kGroup);
-  EXPECT_EQ(pictures.size(), (kGroups - 1) * kGroup - first);
+  EXPECT_EQ(joined.pictures.size(), (kGroups - 1) * kGroup - first);
 }
 
 TEST(HeadTrickle, ASceneWhoseHeadIsLostIsJoined) {
   Trickled t = trickled(2);
-  StreamDecoder decoder;
-  Bytes bytes(t.w.bytes.begin(), t.w.bytes.begin() + static_cast<std::ptrdiff_t>(t.groups[0]));
-  bytes[t.w.begins[1] + 9] ^= 3;  // in the geometry
-  bytes.insert(bytes.end(), t.w.bytes.begin() + static_cast<std::ptrdiff_t>(t.groups[0]), t.w.bytes.end());
-  decoder.feed(bytes);
-  decoder.close();
-  std::uint64_t first = 0;
-  const auto pictures = pictures_of(decoder, &first);
+  t.w.bytes[t.w.begins[1] + 9] ^= 3;  // in the geometry
+  const Played joined = played(t.w.bytes);
+  const std::uint64_t first = joined.positions.at(0).pictures;
   EXPECT_LE(first, 13U * kGroup);
-  EXPECT_EQ(pictures.size(), kGroups * kGroup - first);
+  EXPECT_EQ(joined.pictures.size(), kGroups * kGroup - first);
 }
 
 }  // namespace
