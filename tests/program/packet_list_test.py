@@ -55,7 +55,8 @@ class PacketList(ProgramTest):
                 whole = error == "-" or name in WRONG_FRAMES
                 listed = self.listed(VECTORS / name, 0 if whole else LITTLE_LOST)
                 self.assertEqual(any("error" in p for p in listed), not whole)
-                at = 4
+                # A stream that was joined in the middle has no signature.
+                at = 4 if (VECTORS / name).read_bytes().startswith(b"\x89fbs") else 0
                 for packet in listed:
                     self.assertEqual(packet["offset"], at)
                     at += packet["bytes"]
