@@ -271,7 +271,7 @@ static void gst_fbs_dec_class_init(GstFbsDecClass* type) {
   g_object_class_install_property(
       object, PROP_THREADS,
       g_param_spec_int("threads", "Threads",
-                       "Threads that draw each picture (0 = as many as there are cores)", 0, FBS_MAX_THREADS,
+                       "Threads that draw pictures side by side (0 = as many as there are cores)", 0, FBS_MAX_THREADS,
                        1, G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY));
   gst_element_class_add_static_pad_template(element, &sink_template);
   gst_element_class_add_static_pad_template(element, &src_template);

@@ -46,6 +46,10 @@ class Timeline {
   [[nodiscard]] bool has_next() const { return next_ < released_; }
   /// The next picture to be displayed; has_next() is true.
   Entry next();
+  /// The picture that is displayed so many after the next one; null as long as it is not released.
+  [[nodiscard]] const Entry* behind_next(std::int32_t pictures) const {
+    return next_ + pictures < released_ ? &entries_[next_ + pictures - first_] : nullptr;
+  }
 
   /// How many have been displayed.
   [[nodiscard]] std::int32_t displayed() const { return next_; }

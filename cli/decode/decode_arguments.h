@@ -15,7 +15,7 @@ struct DecodeArguments {
   double from = 0;          ///< seconds; where to begin
   bool vfr = false;         ///< Y4M: write each picture once, whatever its duration
   bool keep_going = false;  ///< decode as much as possible of a damaged stream
-  int threads = 0;          ///< threads that draw each picture; 0: one per core, up to four
+  int threads = 0;          ///< threads that draw; 0: one per core, up to 16
   bool md5 = false;         ///< print the MD5 of each picture; without an output only that
   bool quiet = false;
 };

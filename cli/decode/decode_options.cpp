@@ -36,7 +36,7 @@ void add_decode(CLI::App& app, Run& run) {
       "varies, to keep the speed");
   add_from(*verb, a.from);
   verb->add_option("--threads", a.threads,
-                   "Threads that draw each picture (default: one for each core, up to four)")
+                   "Threads that draw pictures side by side (default: one for each core, up to 16)")
       ->check(CLI::Range(1, 64));
   verb->add_flag(
       "--keep-going", a.keep_going,

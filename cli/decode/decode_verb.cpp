@@ -106,10 +106,12 @@ Result<void> check_files(const DecodeArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
-/// More than four threads would wait for each other.
+/// More threads than this would wait for packets to be read.
+constexpr int kMostThreads = 16;
+
 int thread_count(int asked) {
   if (asked > 0) return asked;
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
 }
 
 Result<Outcome> Decoding::run() {

@@ -28,35 +28,28 @@ BlockSamples3 block_of(const HeadAtlas& atlas, glm::ivec2 block) {
 
 }  // namespace
 
-void AtlasBlend::begin(const HeadWeights& weights, const AtlasLayout& layout) {
-  weights_ = &weights;
-  layout_ = &layout;
+void AtlasBlend::draw(const Drawing& drawing, const HeadWeights& weights, const AtlasLayout& layout) {
   if (weights.warped.empty()) return;
   if (blended_.width() != layout.width || blended_.height() != layout.height)
     blended_ = HeadAtlas(layout.width, layout.height);
   nodes_.set(layout.cover, with_skirt(weights.atlas, layout.head_count), {});
+  for (const glm::ivec2 block : layout.blocks) draw_block(drawing, weights, layout.cover.grid(), block);
 }
 
-void AtlasBlend::draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch) {
-  if (weights_->warped.empty()) return;
-  for (const glm::ivec2 block : layout_->blocks)
-    if (block.y >= first && block.y < last) blend(drawing, block, scratch);
-}
-
-void AtlasBlend::blend(const Drawing& drawing, glm::ivec2 block, std::vector<BlendedSource>& shown) {
-  const NodeGrid& grid = layout_->cover.grid();
+void AtlasBlend::draw_block(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid,
+                            glm::ivec2 block) {
   const std::size_t node = grid.first_of_block(block.x, block.y);
   const BlockNodes nodes{nodes_.at(node), nullptr, nodes_.row(), grid.columns()};
-  shown.clear();
+  shown_.clear();
   for_each_shown(nodes, [&](std::size_t first, std::size_t place, const BlockMotions&) {
-    const HeadAtlas& atlas = *drawing.sources[weights_->warped[first + place]].atlas;
-    shown.push_back({block_of(atlas, block), nodes.weight + first + place});
+    const HeadAtlas& atlas = *drawing.sources[weights.warped[first + place]].atlas;
+    shown_.push_back({block_of(atlas, block), nodes.weight + first + place});
   });
   const auto step = static_cast<std::ptrdiff_t>(nodes.row);
   const std::array<PlaneView, 3> target = drawing.chroma_area.empty()
                                               ? std::array<PlaneView, 3>{blended_.y, {}, {}}
                                               : std::array<PlaneView, 3>{blended_.y, blended_.u, blended_.v};
-  draw_blend(shown, {step, grid.columns() * step}, block, target);
+  draw_blend(shown_, {step, grid.columns() * step}, block, target);
 }
 
 }  // namespace fbs

@@ -13,27 +13,20 @@
 
 namespace fbs {
 
-/// The texture of the head in one picture. Keeps nothing between pictures.
+/// The texture of the head in one picture. Keeps scratch memory only.
 class AtlasBlend {
  public:
-  /// Prepares for a picture.
-  void begin(const HeadWeights& weights, const AtlasLayout& layout);
+  /// Draws the warped sources. Does nothing without them.
+  void draw(const Drawing& drawing, const HeadWeights& weights, const AtlasLayout& layout);
 
-  /// Draws the warped sources in the blocks of some rows; several threads may do so at once. Does nothing
-  /// without warped sources.
-  /// @param first, last  rows of blocks, the last one not included
-  /// @param scratch      memory of the thread
-  void draw_rows(const Drawing& drawing, int first, int last, std::vector<BlendedSource>& scratch);
-
-  /// Y, U, V of the layout's size, until the next call of begin().
+  /// Y, U, V of the layout's size, until the next call of draw().
   [[nodiscard]] std::array<ConstPlaneView, 3> planes() const { return {blended_.y, blended_.u, blended_.v}; }
 
  private:
-  void blend(const Drawing& drawing, glm::ivec2 block, std::vector<BlendedSource>& shown);
+  void draw_block(const Drawing& drawing, const HeadWeights& weights, const NodeGrid& grid, glm::ivec2 block);
 
-  const HeadWeights* weights_ = nullptr;
-  const AtlasLayout* layout_ = nullptr;
   NodeWeights nodes_;
+  std::vector<BlendedSource> shown_;
   HeadAtlas blended_;
 };
 

@@ -89,9 +89,6 @@ std::vector<DrawnSource> sources_of(const Scene& scene, const MeshBlend& blend) 
 
 }  // namespace
 
-Renderer::Renderer(int threads)
-    : workers_(std::make_unique<Workers>(threads)), scratch_(static_cast<std::size_t>(workers_->count())) {}
-
 Result<void> Renderer::render(const Scene& scene, const State& state, const PictureView& out) {
   if (auto checked = check(scene); !checked) return checked;
   const auto first = planes_of(scene.patterns.front().picture);
@@ -135,29 +132,22 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const Picture& size = scene.patterns.front().picture;
   const NodeGrid grid(size.width(), size.height());
   find_nodes(scene, grid, drawing);
-  const bool has_head = scene.geometry && !scene.geometry->is_plane();
-  const HeadWeights weights =
-      has_head ? head_weights(drawing.blend, scene.geometry->geometry().wire_frame()) : HeadWeights{};
-  const AtlasLayout* const layout = has_head ? &scene.geometry->atlas_layout() : nullptr;
-  if (has_head) atlas_.begin(weights, *layout);
-  const int atlas_rows = has_head ? layout->cover.grid().block_rows : 0;
-  // Rows of the atlas and of the surround first, then the head over them.
+  // The surround first, then the head over it.
   const SurroundDrawing surround{drawing, grid, field_, weights_};
   const BlockRows rows = block_rows(drawing);
-  workers_->run(atlas_rows + rows.last - rows.first, [&](int k, int worker) {
-    Scratch& scratch = scratch_[worker];
-    if (k < atlas_rows)
-      atlas_.draw_rows(drawing, k, k + 1, scratch.atlas);
-    else
-      scratch.surround.draw_row(surround, rows.first + k - atlas_rows);
-  });
-  if (!has_head) return;
-  const HeadTexture texture{*scene.geometry, *layout, atlas_.planes(), weights};
-  workers_->run(chroma.empty() ? 1 : 2, [&](int k, int) {
-    const PlaneScale scale = k == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
-    HeadPainter(drawing, texture, scale, k == 0 ? luma_depth_ : chroma_depth_).draw();
-    draw_mouth(drawing, scene.geometry->geometry().wire_frame(), scale);
-  });
+  for (int row = rows.first; row < rows.last; ++row) surround_.draw_row(surround, row);
+  if (!scene.geometry || scene.geometry->is_plane()) return;
+  const WireFrame& wire_frame = scene.geometry->geometry().wire_frame();
+  const AtlasLayout& layout = scene.geometry->atlas_layout();
+  const HeadWeights weights = head_weights(drawing.blend, wire_frame);
+  atlas_.draw(drawing, weights, layout);
+  const HeadTexture texture{*scene.geometry, layout, atlas_.planes(), weights};
+  const auto draw_head = [&](PlaneScale scale, DepthPlane& depth) {
+    HeadPainter(drawing, texture, scale, depth).draw();
+    draw_mouth(drawing, wire_frame, scale);
+  };
+  draw_head(PlaneScale::kLuma, luma_depth_);
+  if (!chroma.empty()) draw_head(PlaneScale::kChroma, chroma_depth_);
 }
 
 void Renderer::find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "common/picture.h"
@@ -11,20 +10,15 @@
 #include "decoder/blend/picture_blend.h"
 #include "decoder/draw/atlas_blend.h"
 #include "decoder/draw/surround_painter.h"
-#include "decoder/draw/workers.h"
 #include "decoder/field/surround_field.h"
 #include "decoder/raster/row_runs.h"
 #include "decoder/scene/scene.h"
 
 namespace fbs {
 
-/// Draws pictures of a scene. Keeps scratch memory only: the result depends on the arguments alone, whatever
-/// the number of threads.
+/// Draws pictures of a scene. Keeps scratch memory only: the result depends on the arguments alone.
 class Renderer {
  public:
-  /// @param threads  that share each picture; 1: the caller's alone
-  explicit Renderer(int threads = 1);
-
   /// Draws the picture of `state` into `out`, whose planes have the pattern's sizes.
   /// @return kInvalidArgument, and `out` untouched, when the scene has no pattern, when its pattern's texture
   ///         mesh is not one of the scene's geometry, or when `out` has another size
@@ -51,20 +45,13 @@ class Renderer {
   /// Computes cover_, weights_ and field_.
   void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
 
-  /// Scratch memory of a thread.
-  struct Scratch {
-    SurroundPainter surround;
-    std::vector<BlendedSource> atlas;
-  };
-
   NodeCover cover_;
   NodeWeights weights_;
   std::vector<const std::vector<glm::ivec2>*> seen_;  ///< the grid's points in each source
   SurroundField field_;
   AtlasBlend atlas_;
+  SurroundPainter surround_;
   DepthPlane luma_depth_, chroma_depth_;
-  std::unique_ptr<Workers> workers_;
-  std::vector<Scratch> scratch_;  ///< one for each thread
 };
 
 }  // namespace fbs

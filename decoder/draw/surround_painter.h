@@ -26,7 +26,7 @@ struct BlockRows {
 };
 [[nodiscard]] BlockRows block_rows(const Drawing& drawing);
 
-/// Keeps scratch memory only. Several painters may draw different rows of a picture at once.
+/// Keeps scratch memory only.
 class SurroundPainter {
  public:
   void draw_row(const SurroundDrawing& surround, int row);

@@ -80,18 +80,18 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
                      Change&& change) {
   const int step = 16 / samples_per_cell;  // places are in 1/16 cell from the centre of the first one
   const auto place = [&](int i) { return step * i + step / 2 - 8; };
+  std::vector<int> columns(static_cast<std::size_t>(cells.width) + 2);  // of cells -1 to the width
   for (int y = 0; y < plane.height; ++y) {
     const int v = place(y), q = v & 15;
     const std::uint8_t* const top = cells.row(std::clamp(v >> 4, 0, cells.height - 1));
     const std::uint8_t* const bottom = cells.row(std::clamp((v >> 4) + 1, 0, cells.height - 1));
-    const auto column = [&](int i) {
-      const int x = std::clamp(i, 0, cells.width - 1);
-      return top[x] * (16 - q) + bottom[x] * q;
-    };
+    for (int x = 0; x < cells.width; ++x) columns[x + 1] = top[x] * (16 - q) + bottom[x] * q;
+    columns.front() = columns[1];
+    columns.back() = columns[cells.width];
     std::uint8_t* const row = plane.row(y);
     for (int x = 0; x < plane.width; ++x) {
-      const int u = place(x), p = u & 15;
-      const int share = (column(u >> 4) * (16 - p) + column((u >> 4) + 1) * p + 128) >> 8;
+      const int u = place(x), p = u & 15, cell = (u >> 4) + 1;
+      const int share = (columns[cell] * (16 - p) + columns[cell + 1] * p + 128) >> 8;
       row[x] =
           static_cast<std::uint8_t>(std::clamp(kMiddle + change(row[x] - kMiddle, contrast[share]), 0, 255));
     }

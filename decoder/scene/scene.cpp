@@ -1,46 +1,16 @@
 #include "decoder/scene/scene.h"
 
-#include <algorithm>
 #include <utility>
-
-#include "decoder/pattern/contrast_map.h"
 
 namespace fbs {
 
-void Pattern::set_geometry(const SceneGeometry& geometry) {
-  texture = geometry.texture_mesh(seen);
-  if (picture.y.samples.empty()) return;  // an encoder may know the state before the picture
-  if (!padded) padded.emplace(fbs::padded(picture));
-  if (!geometry.is_plane())
-    draw_atlas(geometry.atlas_layout(), {picture.y, picture.u, picture.v}, texture.head, texture.light,
-               atlas);
-}
-
-Pattern make_pattern(Picture picture, const State& seen, const std::optional<SceneGeometry>& geometry) {
-  Pattern out{0, std::move(picture), seen, {}, {}, {}};
-  if (geometry) out.set_geometry(*geometry);
-  return out;
-}
-
-Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional<SceneGeometry>& geometry,
-                           const Setup& setup) {
-  if (geometry && ContrastMap::is_needed(setup))
-    ContrastMap(setup, geometry->head_mesh(), geometry->texture_mesh(seen)).expand(coded);
-  return make_pattern(std::move(coded), seen, geometry);
-}
-
 void Scene::set_geometry(SceneGeometry replacement) {
   geometry.emplace(std::move(replacement));
-  for (Pattern& p : patterns) p.set_geometry(*geometry);
-}
-
-void Scene::store(Pattern pattern) {
-  const auto place = std::lower_bound(patterns.begin(), patterns.end(), pattern.slot,
-                                      [](const Pattern& p, std::int32_t slot) { return p.slot < slot; });
-  if (place != patterns.end() && place->slot == pattern.slot)
-    *place = std::move(pattern);
-  else
-    patterns.insert(place, std::move(pattern));
+  for (std::size_t k = 0; k < patterns.size(); ++k) {
+    Pattern pattern = patterns[k];
+    pattern.set_geometry(*geometry);
+    patterns.replace(k, std::move(pattern));
+  }
 }
 
 }  // namespace fbs

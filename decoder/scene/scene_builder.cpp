@@ -7,12 +7,17 @@ namespace fbs {
 
 void SceneBuilder::begin(const Setup& setup, PatternDecoder patterns) {
   *this = {};
-  scene_.setup = setup;
+  scene_->setup = setup;
   patterns_.emplace(std::move(patterns));
 }
 
 void SceneBuilder::apply_surround() {
-  if (geometry_) scene_.set_geometry({scene_.setup, *geometry_, surround_, rest_});
+  if (geometry_) change().set_geometry({scene_->setup, *geometry_, surround_, rest_});
+}
+
+Scene& SceneBuilder::change() {
+  if (std::exchange(shared_, false)) scene_ = std::make_shared<Scene>(*scene_);
+  return *scene_;
 }
 
 // SPEC 4.4
@@ -24,7 +29,7 @@ Result<DecodedFrame> SceneBuilder::decode_next(const PatternSyntax& pattern) {
   chained_ = chained_ || !pattern.alone;
   std::optional<PatternDecoder>& decoder = pattern.alone && chained_ ? alone_ : patterns_;
   if (!decoder) {
-    auto begun = PatternDecoder::create(scene_.setup.format.width, scene_.setup.format.height);
+    auto begun = PatternDecoder::create(scene_->setup.format.width, scene_->setup.format.height);
     if (!begun) return fail(begun.error());
     if (auto first = begun->decode_frame(first_); !first) return first;
     decoder.emplace(std::move(*begun));
@@ -52,8 +57,9 @@ Result<SceneBuilder::MadePattern> SceneBuilder::make(const ScenePattern& pattern
     rest_ = pattern.seen;
     apply_surround();
   }
-  MadePattern made{make_coded_pattern(std::move(frame->picture), pattern.seen, scene_.geometry, scene_.setup),
-                   frame->reduced};
+  MadePattern made{
+      make_coded_pattern(std::move(frame->picture), pattern.seen, scene_->geometry, scene_->setup),
+      frame->reduced};
   made.pattern.slot = pattern.coded.slot;
   return made;
 }

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bitstream/scene/scene_reader.h"
@@ -41,8 +43,15 @@ class SceneBuilder {
   /// Patterns whose pictures are kept in case they come again.
   [[nodiscard]] std::size_t kept() const { return decoded_.size(); }
 
-  [[nodiscard]] Scene& scene() { return scene_; }
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// Puts a pattern into the scene.
+  void store(Pattern pattern) { change().patterns.store(std::move(pattern)); }
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  /// The scene as it is now: what comes later does not change it.
+  [[nodiscard]] std::shared_ptr<const Scene> shared() {
+    shared_ = true;
+    return scene_;
+  }
 
  private:
   struct Decoded {
@@ -52,7 +61,11 @@ class SceneBuilder {
   [[nodiscard]] Result<DecodedFrame> decode(const PatternSyntax& pattern, bool keeps);
   [[nodiscard]] Result<DecodedFrame> decode_next(const PatternSyntax& pattern);
 
-  Scene scene_;
+  /// To be changed, in a copy where it is shared.
+  [[nodiscard]] Scene& change();
+
+  std::shared_ptr<Scene> scene_ = std::make_shared<Scene>();
+  bool shared_ = false;
   std::optional<Geometry> geometry_;
   SurroundMap surround_ = still_surround();
   State rest_;                              ///< in which the first pattern was seen

@@ -62,7 +62,8 @@ Result<DecodeStatus> StreamDecoder::next() {
 
 DecodeStatus StreamDecoder::show() {
   const Timeline::Entry next = reader_.pictures().next();
-  picture_.show(next.state, clock_.now(), next.duration, scene_.scene());
+  ++announced_;
+  picture_ = {next.state, clock_.now(), next.duration, false, scene_.shared()};
   clock_.show(next.duration);
   quality_ = next.guessed                    ? PictureQuality::kInterpolated
              : reader_.has_broken_patterns() ? PictureQuality::kPatternMissing
@@ -72,29 +73,50 @@ DecodeStatus StreamDecoder::show() {
 
 DecodeStatus StreamDecoder::hold() {
   const StreamPosition position = clock_.now();
-  picture_.hold(position, clock_.hold(nominal_duration(format().frame_rate)));
+  ++announced_;
+  picture_.position = position;
+  picture_.duration = clock_.hold(nominal_duration(format().frame_rate));
+  picture_.held = true;
   return DecodeStatus::kPicture;
+}
+
+void StreamDecoder::use_threads(int threads) {
+  ahead_ = threads > 1 ? std::make_unique<PicturesAhead>(threads - 1) : nullptr;
+}
+
+void StreamDecoder::draw_ahead() {
+  const bool in_a_row = std::exchange(rendered_, announced_) + 1 == announced_;
+  if (!in_a_row) return;  // the caller wants not all of them
+  for (std::uint64_t k = 0; k < ahead_->most(); ++k) {
+    const Timeline::Entry* const entry = reader_.pictures().behind_next(static_cast<std::int32_t>(k));
+    if (entry == nullptr) return;
+    ahead_->expect(announced_ + 1 + k, picture_.scene, entry->state);
+  }
 }
 
 Result<void> StreamDecoder::render(Picture& out) {
   if (pictures() == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  return renderer_.render(picture_.drawn_from(scene_.scene()), state(), out);
+  if (out.width() != format().width || out.height() != format().height)
+    out = Picture(format().width, format().height);
+  return render(PictureView(out));
 }
 
 Result<void> StreamDecoder::render(const PictureView& out) {
   if (pictures() == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  return renderer_.render(picture_.drawn_from(scene_.scene()), state(), out);
+  if (!ahead_) return renderer_.render(scene(), state(), out);
+  draw_ahead();
+  return ahead_->draw(announced_, renderer_, scene(), state(), out);
 }
 
 Result<void> StreamDecoder::render_state(const State& state, std::optional<std::size_t> pattern,
                                          Picture& out) {
-  if (pictures() == 0 || picture_.is_kept()) return render(out);
+  if (pictures() == 0) return render(out);
   return pattern ? renderer_.render_from(*pattern, scene(), state, out)
                  : renderer_.render(scene(), state, out);
 }
 
 Result<void> StreamDecoder::render_state(const State& state, const PictureView& out) {
-  if (pictures() == 0 || picture_.is_kept()) return render(out);
+  if (pictures() == 0) return render(out);
   return renderer_.render(scene(), state, out);
 }
 
@@ -158,7 +180,6 @@ Result<void> StreamDecoder::report_missing(std::uint64_t missing, bool reported)
 }
 
 void StreamDecoder::begin_scene() {
-  picture_.end_scene(scene_.scene());
   scene_.begin(next_scene_->setup, std::move(next_scene_->patterns));
   next_scene_.reset();
 }
@@ -169,9 +190,7 @@ Result<void> StreamDecoder::take(const Geometry& geometry, const Arrived& /*arri
 }
 
 Result<void> StreamDecoder::take(const SurroundMap& surround, const Arrived& /*arrived*/) {
-  if (!scene_.set_surround(surround) || !scene_.scene().geometry) return {};
-  if (auto kept = picture_.keep(scene_.scene(), renderer_); !kept) return kept;
-  scene_.apply_surround();
+  if (scene_.set_surround(surround) && scene_.scene().geometry) scene_.apply_surround();
   return {};
 }
 
@@ -188,7 +207,7 @@ Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, cons
       return fail(made.error());
     }
     reduced.push_back(made->reduced);
-    if (auto added = picture_.add(std::move(made->pattern), scene_.scene(), renderer_); !added) return added;
+    scene_.store(std::move(made->pattern));
   }
   tally_.add(arrived.packet, reader_.setup(), patterns, reduced);
   return {};

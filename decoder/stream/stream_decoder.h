@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,9 +10,9 @@
 #include "bitstream/packet.h"
 #include "bitstream/scene/scene_reader.h"
 #include "common/result.h"
+#include "decoder/draw/pictures_ahead.h"
 #include "decoder/draw/renderer.h"
 #include "decoder/scene/scene_builder.h"
-#include "decoder/stream/held_picture.h"
 #include "decoder/stream/late_packets.h"
 #include "decoder/stream/sound_inbox.h"
 #include "decoder/stream/stream_clock.h"
@@ -84,8 +85,9 @@ class StreamDecoder {
   /// Refuses streams whose pictures have more pixels, before allocating memory. Unlimited by default.
   void limit_pixels(std::uint64_t max_pixels) { max_pixels_ = max_pixels; }
 
-  /// Threads that share the drawing of each picture, at least 1; 1 by default. Pictures are the same.
-  void use_threads(int threads) { renderer_ = Renderer(threads); }
+  /// Threads that draw, at least 1; 1 by default. With more, render() also draws pictures that follow and
+  /// whose packets have come, side by side. Pictures are the same, and none is later.
+  void use_threads(int threads);
 
   /// Advances to the next picture. Returns errors of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when
@@ -101,7 +103,7 @@ class StreamDecoder {
   [[nodiscard]] Result<void> render(const PictureView& out);
 
   /// Draws a state of the caller's in the scene of that picture: the view of a user who moves the face. Does
-  /// not affect render(). A held picture whose scene is no longer kept is drawn unchanged.
+  /// not affect render().
   /// @param state    within the limits of common/state.h
   /// @param pattern  index into scene().patterns: draws from it alone; none: the blend of `state`
   /// @return kInvalidArgument before the first picture, and when there is no such pattern
@@ -112,22 +114,22 @@ class StreamDecoder {
 
   // These describe the picture that next() announced last; a held picture has the state and scene of the one
   // it repeats.
-  [[nodiscard]] const State& state() const { return picture_.state(); }
-  [[nodiscard]] const Scene& scene() const { return picture_.scene(scene_.scene()); }
+  [[nodiscard]] const State& state() const { return picture_.state; }
+  [[nodiscard]] const Scene& scene() const { return picture_.scene ? *picture_.scene : scene_.scene(); }
   [[nodiscard]] const VideoFormat& format() const { return scene().setup.format; }
   /// Number of the picture in the stream, from 0, and its time.
-  [[nodiscard]] const StreamPosition& position() const { return picture_.position(); }
+  [[nodiscard]] const StreamPosition& position() const { return picture_.position; }
   /// Its duration in 1/90000 s.
-  [[nodiscard]] std::uint32_t duration() const { return picture_.duration(); }
+  [[nodiscard]] std::uint32_t duration() const { return picture_.duration; }
   /// Whether the previous picture is repeated in place of a missing one.
-  [[nodiscard]] bool held() const { return picture_.is_held(); }
+  [[nodiscard]] bool held() const { return picture_.held; }
   /// How far it is what was sent.
   [[nodiscard]] PictureQuality quality() const { return held() ? PictureQuality::kHeld : quality_; }
 
   /// Position of the first picture: not 0, 0 if the stream was joined in its middle.
   [[nodiscard]] const StreamPosition& start() const { return clock_.start(); }
   /// Pictures announced so far, including held ones.
-  [[nodiscard]] std::uint64_t pictures() const { return picture_.announced(); }
+  [[nodiscard]] std::uint64_t pictures() const { return announced_; }
   [[nodiscard]] std::uint64_t held_pictures() const { return clock_.held(); }
   /// Pictures known to be missing between start() and the last setup packet or the end packet, held or not.
   [[nodiscard]] std::uint64_t missing_pictures() const { return clock_.missing(); }
@@ -178,7 +180,12 @@ class StreamDecoder {
   [[nodiscard]] Result<void> report_missing(std::uint64_t missing, bool reported) const;
   void begin_scene();
 
+  /// Has the pictures that follow drawn.
+  void draw_ahead();
+
   Renderer renderer_;
+  std::unique_ptr<PicturesAhead> ahead_;  ///< null with one thread
+  std::uint64_t rendered_ = 0;            ///< pictures() when render() was called last
   std::optional<std::uint64_t> max_pixels_;
   PacketReader packets_;
   LatePackets late_;
@@ -186,9 +193,16 @@ class StreamDecoder {
   StreamClock clock_;
   std::optional<NextScene> next_scene_;  ///< begins when the clock is not behind
   SceneBuilder scene_;                   ///< what packets build
-  HeldPicture picture_;                  ///< announced last
-  PictureQuality quality_{};             ///< of it, unless it is held
-  std::optional<std::uint64_t> end_;     ///< number of pictures, when the end packet has been read
+  std::uint64_t announced_ = 0;          ///< pictures, held ones too
+  struct {
+    State state;
+    StreamPosition position;
+    std::uint32_t duration = 0;  ///< 1/90000 s
+    bool held = false;
+    std::shared_ptr<const Scene> scene;
+  } picture_;                         ///< announced last
+  PictureQuality quality_{};          ///< of it, unless it is held
+  std::optional<std::uint64_t> end_;  ///< number of pictures, when the end packet has been read
   SoundInbox sound_;
   StreamTally tally_;
 };

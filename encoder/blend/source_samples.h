@@ -36,7 +36,7 @@ struct ReducedPlane {
 struct BlendScene {
   const SceneGeometry& geometry;
   const MouthInterior& mouth;
-  std::span<const Pattern> patterns;
+  const PatternList& patterns;
 };
 
 /// A pattern as a texture.

@@ -222,7 +222,7 @@ void LivePatterns::place(Scene& scene, const Sent& sent) {
   const State& seen = store_.seen_state(scene, sent.time);
   Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
   pattern.slot = static_cast<std::int32_t>(sent.slot);
-  scene.store(std::move(pattern));
+  scene.patterns.store(std::move(pattern));
 }
 
 Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {

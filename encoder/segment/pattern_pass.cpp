@@ -269,9 +269,9 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
   const std::size_t old = draft.patterns.size() - draft.coded.size();
   if (store_.is_first()) scene.patterns.clear();
   for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    Pattern& pattern = draft.patterns[old + k];
+    Pattern pattern = draft.patterns[old + k];
     pattern.slot = static_cast<std::int32_t>(k % store_.slots());
-    scene.store(std::move(pattern));
+    scene.patterns.store(std::move(pattern));
   }
   store_.end_segment();
   return out;

@@ -58,7 +58,7 @@ class PatternPass : public PatternStage {
     std::vector<SequencePattern> coded;
     std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
     std::vector<std::size_t> arrived;  ///< arrivals()
-    std::vector<Pattern> patterns;     ///< those from before the segment, then those of the segment as coded
+    PatternList patterns;              ///< those from before the segment, then those of the segment as coded
   };
   /// Makes a draft whose patterns are source pictures.
   [[nodiscard]] Result<Draft> draft_of(const Scene& scene);

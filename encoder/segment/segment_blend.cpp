@@ -160,7 +160,7 @@ Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std
 
 Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns,
                                             std::size_t count, const SolverSettings& settings) {
-  const std::span<const Pattern> all = patterns.scene.patterns;
+  const PatternList& all = patterns.scene.patterns;
   const glm::ivec2 size(all.front().picture.width(), all.front().picture.height());
   std::vector<GroupProblem> problems;
   for (const PlaneGroup& g : plane_groups(reduction_to(kSolveWidth, all.front().picture)))

@@ -24,10 +24,8 @@ SegmentRenderer::SegmentRenderer(const SegmentPatterns& patterns) : patterns_(pa
 
 void SegmentRenderer::begin_group(std::size_t group) {
   const AvailablePatterns& wanted = patterns_.available[group];
-  scene_.patterns.resize(wanted.size());
-  for (std::size_t slot = 0; slot < wanted.size(); ++slot)
-    if (slot >= slots_.size() || slots_[slot] != wanted[slot])
-      scene_.patterns[slot] = patterns_.scene.patterns[wanted[slot]];
+  scene_.patterns.clear();
+  for (const std::size_t pattern : wanted) scene_.patterns.share(patterns_.scene.patterns, pattern);
   slots_ = wanted;
 }
 

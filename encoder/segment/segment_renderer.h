@@ -8,7 +8,6 @@
 
 namespace fbs {
 
-/// Keeps a copy of the patterns that one group is drawn from.
 class SegmentRenderer {
  public:
   /// @param patterns  must outlive the object

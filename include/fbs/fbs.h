@@ -201,8 +201,9 @@ typedef struct fbs_decoder_settings {
    * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes per pixel, and 1 MB, for each
    * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
   uint64_t max_pixels;
-  /** Threads that draw each picture, 1..FBS_MAX_THREADS, including the caller's; pictures are the same. They
-   * work only during calls of this decoder. Default: 1. */
+  /** Threads that draw, 1..FBS_MAX_THREADS, including the caller's. With more than 1, while pictures are
+   * drawn in a row, others draw those that follow and whose packets have been fed; pictures are the same, and
+   * none is later. Each takes about 20 bytes per pixel. Default: 1. */
   int threads;
 } fbs_decoder_settings;
 

@@ -50,7 +50,7 @@ class Decoder:
         Matroska file with a stream. A file, or any object with a method ``read``, is read as pictures are requested.
         Without: the stream comes through :meth:`feed`.
     threads : int, optional
-        Threads that draw each picture, 1 to 64; the pictures are the same. By default one per core, up to four.
+        Threads that draw pictures side by side, 1 to 64; the pictures are the same. By default one per core, up to 16.
     max_pixels : int, optional
         Streams with more pixels per picture are refused before allocating memory. 0: the format's limit, 8192 by 8192.
     keep_going : bool
@@ -93,7 +93,7 @@ class Decoder:
         keep_going: bool = False,
     ) -> None:
         if threads is None:
-            threads = min(4, len(os.sched_getaffinity(0)))
+            threads = min(16, len(os.sched_getaffinity(0)))
         if not 1 <= threads <= 64:
             raise ArgumentError(f"threads is 1 to 64, not {threads}")
         if max_pixels < 0:

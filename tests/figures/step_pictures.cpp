@@ -123,7 +123,7 @@ double mouth_height(const Subject& of, const Pattern& pattern) {
 
 /// The first pattern, and the one with the widest mouth; each as sent, and its head in the atlas.
 Panels patterns(const Subject& of) {
-  const std::vector<Pattern>& all = of.followed.scene.patterns;
+  const PatternList& all = of.followed.scene.patterns;
   const auto open = std::ranges::max_element(all, {}, [&](const Pattern& p) { return mouth_height(of, p); });
   Panels out;
   for (const Pattern& pattern : {all.front(), *open}) {

@@ -101,8 +101,9 @@ TEST(PatternTint, RegionHasTheColourOfItsPatternWhereTheFaceIs) {
 // Light is added to luma, and the interior covers patterns with a shut mouth: neither may change a colour.
 TEST(PatternTint, LightAndMouthInteriorDoNotShow) {
   Scene scene = two_patterns();
-  scene.patterns[0].seen.light[kLightGain] = 300;
-  scene.patterns[0] = make_pattern(scene.patterns[0].picture, scene.patterns[0].seen, scene.geometry);
+  State lit = scene.patterns[0].seen;
+  lit.light[kLightGain] = 300;
+  scene.patterns.replace(0, make_pattern(scene.patterns[0].picture, lit, scene.geometry));
   State state = state_at(0, BlendMode::kByTime);
   state.light[kLightOffset] = 40 * 16;
   state.interior.fill(-100 * 16);

@@ -47,10 +47,7 @@ struct Blending {
                           {target.y, target.u, target.v},
                           {0, 0, 64, 64},
                           chroma};
-    const HeadWeights weights = head_weights(blend, generic_head());
-    std::vector<BlendedSource> scratch;
-    to.begin(weights, layout);
-    to.draw_rows(drawing, 0, layout.cover.grid().block_rows, scratch);
+    to.draw(drawing, head_weights(blend, generic_head()), layout);
     return to.planes();
   }
 

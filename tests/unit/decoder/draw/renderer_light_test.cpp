@@ -19,7 +19,7 @@ Scene grey_scene(std::uint8_t grey, const std::array<std::int32_t, kLightCount>&
   Scene scene = toy_scene(picture);
   State seen = toy_state();
   seen.light = light;
-  scene.patterns[0] = make_pattern(std::move(picture), seen, scene.geometry);
+  scene.patterns.replace(0, make_pattern(std::move(picture), seen, scene.geometry));
   return scene;
 }
 
@@ -114,7 +114,7 @@ TEST(RendererLight, OfThePatternReproducesIt) {
     Scene scene = toy_scene(picture);
     State seen = toy_state();
     for (std::int32_t& n : seen.light) n = static_cast<int>(random() % 401) - 200;
-    scene.patterns[0] = make_pattern(picture, seen, scene.geometry);
+    scene.patterns.replace(0, make_pattern(picture, seen, scene.geometry));
     SCOPED_TRACE(i);
     expect_shows(rendered(scene, seen), picture, head_area(scene, seen), {2, 24});
     ASSERT_NE(rendered(scene, toy_state()).y, rendered(scene, seen).y) << i;

@@ -137,7 +137,9 @@ TEST(Renderer, PatternOfAnotherGeometryIsAnError) {
   Renderer renderer;
   Picture out;
   EXPECT_EQ(renderer.render(scene, toy_state(), out).error().code, ErrorCode::kInvalidArgument);
-  scene.patterns[0].texture = {};
+  Pattern bare = scene.patterns[0];
+  bare.texture = {};
+  scene.patterns.replace(0, std::move(bare));
   EXPECT_EQ(renderer.render(scene, toy_state(), out).error().code, ErrorCode::kInvalidArgument);
   scene.set_geometry(*scene.geometry);
   EXPECT_TRUE(renderer.render(scene, toy_state(), out));

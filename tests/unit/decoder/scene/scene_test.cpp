@@ -54,7 +54,7 @@ TEST(Scene, StoresPatternsBySlotWhateverIsMissingBetweenThem) {
     Pattern pattern = scene.patterns.front();
     pattern.slot = slot;
     pattern.seen.picture = picture;
-    scene.store(std::move(pattern));
+    scene.patterns.store(std::move(pattern));
   };
   const auto stored = [&] {
     std::vector<std::pair<int, int>> out;

@@ -79,10 +79,9 @@ struct Problem {
   /// Gives the patterns of a scene these luma planes.
   static void show(Scene& scene, const Planes& luma) {
     for (std::size_t k = 0; k < luma.size(); ++k) {
-      Pattern& pattern = scene.patterns[k];
-      Picture picture = pattern.picture;
+      Picture picture = scene.patterns[k].picture;
       picture.y = rounded(luma[k]);
-      pattern = make_pattern(std::move(picture), pattern.seen, scene.geometry);
+      scene.patterns.replace(k, make_pattern(std::move(picture), scene.patterns[k].seen, scene.geometry));
     }
   }
   /// Squared luma error of the pictures as drawn by the renderer.

@@ -69,13 +69,21 @@ TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
   EXPECT_EQ(of_face(kCut), nearest(1));
 }
 
+/// Replaces the picture of a pattern.
+void show(Scene& scene, std::size_t k, const Picture& picture) {
+  Pattern pattern = scene.patterns[k];
+  pattern.picture = picture;
+  scene.patterns.replace(k, std::move(pattern));
+}
+
 TEST(SegmentBlend, LossIsSmallBetweenTheTruePatternsAndLargeBetweenOthers) {
   DrawnSegment d(BlendMode::kByState);
   const auto loss = blend_loss(d.segment, d.patterns(), 5);
   ASSERT_TRUE(loss);
   EXPECT_LT(*loss, 2);
-  for (Pattern& p : d.s.scene.patterns)
-    p.picture.y = wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 99);
+  Picture other = d.s.scene.patterns.front().picture;
+  other.y = wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 99);
+  for (std::size_t k = 0; k < kPatterns; ++k) show(d.s.scene, k, other);
   EXPECT_GT(*blend_loss(d.segment, d.patterns(), 5), 100);
 }
 
@@ -88,7 +96,7 @@ TEST(SegmentBlend, GroupsUseWhatIsAvailableToThem) {
 
 /// Luma error of what is drawn from the patterns against clean pictures.
 double loss_of(DrawnSegment& d, std::span<const Picture> clean, std::span<const Picture> patterns) {
-  for (std::size_t k = 0; k < kPatterns; ++k) d.s.scene.patterns[k].picture = patterns[k];
+  for (std::size_t k = 0; k < kPatterns; ++k) show(d.s.scene, k, patterns[k]);
   double sum = 0;
   for (std::size_t t = 0; t < kPictures; ++t)
     sum += squares(rendered(d.s.scene, d.segment.states[t]), clean[t]);
@@ -139,7 +147,9 @@ TEST(SegmentBlend, TakesTheWidestAndLowestPictures) {
     ASSERT_TRUE(segment.pictures.add(rendered(s.scene, state)));
     segment.states.push_back(state);
   }
-  s.scene.patterns[1].seen.picture = 1;
+  Pattern second = s.scene.patterns[1];
+  second.seen.picture = 1;
+  s.scene.patterns.replace(1, std::move(second));
   segment.groups.push_back({2, {}});
   const SegmentPatterns patterns{s.blend(), {s.all()}};
   const auto loss = blend_loss(segment, patterns, 1);

@@ -1,4 +1,4 @@
-#include "decoder/draw/workers.h"
+#include "common/workers.h"
 
 #include <system_error>
 #include <utility>

@@ -1,4 +1,4 @@
-// Threads that share the work on one picture.
+// Threads that share work.
 #pragma once
 
 #include <condition_variable>
