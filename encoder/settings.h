@@ -68,8 +68,7 @@ struct EncoderSettings {
   /// 40 with several patterns, never with one; live 10, 20 with kStrong and 40 with `join`.
   double key_interval = 0;
   std::optional<LiveSettings> live;  ///< without look-ahead
-  /// Live, with 2 or more, a group is coded while the pictures after it are analysed; the stream is the same.
-  /// 0: as many as there are cores.
+  /// The stream is the same for any number. 0: as many as there are cores.
   int threads = 0;
   int group_pictures = 0;  ///< pictures in a motion packet, 1..256; 0: one second's
 };

@@ -41,10 +41,8 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
           "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
           "that rate (default: 2)")
       ->check(number_within(0.1, 60));
-  verb.add_option(
-          "--threads", a.settings.threads,
-          "With --live: with 2 or more, pictures are encoded while the next ones are analysed (default: "
-          "one for each core)")
+  verb.add_option("--threads", a.settings.threads,
+                  "Threads that encode; the stream is the same for any number (default: one for each core)")
       ->check(CLI::Range(1, 64));
   verb.add_option_function<std::string>(
           "--resilience",

@@ -65,12 +65,11 @@ bool is_live(const EncodeArguments& arguments) {
 Result<void> check_live(const EncodeArguments& a) {
   const auto refuse = [](const std::string& text) { return fail(ErrorCode::kInvalidArgument, text); };
   if (!is_live(a)) {
-    const char* option = a.delay                  ? "--delay"
-                         : a.buffer               ? "--buffer"
-                         : a.resilience           ? "--resilience"
-                         : a.join                 ? "--join"
-                         : a.settings.threads > 0 ? "--threads"
-                                                  : nullptr;
+    const char* option = a.delay        ? "--delay"
+                         : a.buffer     ? "--buffer"
+                         : a.resilience ? "--resilience"
+                         : a.join       ? "--join"
+                                        : nullptr;
     if (option != nullptr) return refuse(std::string(option) + " needs --live");
   }
   if (a.buffer && a.settings.bitrate <= 0) return refuse("--buffer needs --bitrate, the rate of the channel");

@@ -16,8 +16,11 @@ constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
-void clear(std::span<SolvedPlanes> planes) {
-  for (SolvedPlanes& p : planes) std::fill(p.samples.begin(), p.samples.end(), glm::vec4(0));
+/// Pictures in memory at a time. They share the patterns near them in time, each of which is one worker's.
+constexpr std::size_t kTogether = 16;
+
+void clear(SolvedPlanes& planes) {
+  std::fill(planes.samples.begin(), planes.samples.end(), glm::vec4(0));
 }
 
 /// Inner product per lane.
@@ -74,7 +77,8 @@ PatternSolver::PatternSolver(const BlendScene& scene, int reduction, std::vector
   }
 }
 
-void PatternSolver::add_picture(const State& state, std::span<const std::size_t> available, glm::ivec2 size) {
+void PatternSolver::set_picture(std::size_t number, const State& state,
+                                std::span<const std::size_t> available, glm::ivec2 size) {
   const SceneGeometry& geometry = scene_.geometry;
   const ScreenMesh mesh = geometry.screen_mesh(state);
   const VisibleSurface surface(geometry, mesh, size.x, size.y, reduction_);
@@ -87,6 +91,7 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
   const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures, mesh);
   const PointWeights surround = point_weights(blend.regions, geometry.surround().shares());
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
+  std::vector<std::vector<Tap>> by_pattern(scene_.patterns.size());
   Taps taps;
   for (const SurfaceRun& run : surface.runs()) {
     const SurfaceTriangle& t = surface.triangles()[run.triangle];
@@ -98,62 +103,108 @@ void PatternSolver::add_picture(const State& state, std::span<const std::size_t>
       if ((w0[s] | w1[s] | w2[s]) == 0) continue;
       const glm::vec2 d = glm::vec2(w1[s] - w0[s], w2[s] - w0[s]) * kToOne;
       const std::size_t k = blend.sources[s].pattern;
-      taps.push_back({source_run(picture, run, *textures[k], blend.sources[s].still),
-                      {static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), glm::dot(b.per_column, d)},
-                      run,
-                      static_cast<std::uint32_t>(available[k])});
+      const SourceRun source = source_run(picture, run, *textures[k], blend.sources[s].still);
+      const bool is_lit =
+          source.gain != 0 || source.opacity != 0 || source.offset.first != 0 || source.offset.step != 0;
+      if (is_lit) taps.lit.push_back({source.offset, source.gain, source.opacity, source.interior});
+      by_pattern[available[k]].push_back(
+          {source.u,
+           source.v,
+           {static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), glm::dot(b.per_column, d)},
+           is_lit ? static_cast<std::uint32_t>(taps.lit.size()) : 0,
+           static_cast<std::uint16_t>(run.row),
+           static_cast<std::uint16_t>(run.first),
+           static_cast<std::uint16_t>(run.count),
+           t.head,
+           is_identity(source, run)});
     }
   }
-  taps.shrink_to_fit();
-  pictures_.push_back(std::move(taps));
+  std::size_t count = 0;
+  for (const auto& of_one : by_pattern) count += of_one.size();
+  taps.all.reserve(count);
+  for (std::size_t k = 0; k < by_pattern.size(); ++k) {
+    if (by_pattern[k].empty()) continue;
+    taps.all.insert(taps.all.end(), by_pattern[k].begin(), by_pattern[k].end());
+    taps.patterns.push_back({k, taps.all.size()});
+  }
+  taps.lit.shrink_to_fit();
+  pictures_[number] = std::move(taps);
+}
+
+std::span<const PatternSolver::Tap> PatternSolver::Taps::of(std::size_t pattern) const {
+  std::size_t begin = 0;
+  for (const Pattern& p : patterns) {
+    if (p.pattern == pattern) return std::span(all).subspan(begin, p.end - begin);
+    begin = p.end;
+  }
+  return {};
 }
 
 std::size_t PatternSolver::bytes() const {
-  std::size_t taps = 0;
-  for (const Taps& t : pictures_) taps += t.size();
-  return taps * sizeof(Tap);
+  std::size_t bytes = 0;
+  for (const Taps& t : pictures_) bytes += t.all.size() * sizeof(Tap) + t.lit.size() * sizeof(Lit);
+  return bytes;
 }
 
-std::pair<glm::vec4, glm::vec4> PatternSolver::factor(const Tap& tap) const {
-  const glm::vec4 share = (is_used_ + tap.source.gain * is_luma_) * (1 - tap.source.opacity);
+SourceRun PatternSolver::source(const Tap& tap) const {
+  SourceRun out;
+  out.u = tap.u;
+  out.v = tap.v;
+  if (!tap.head && !tap.unmoved) out.inset = border_inset(reduction_);
+  return out;
+}
+
+std::pair<glm::vec4, glm::vec4> PatternSolver::factor(const Taps& taps, const Tap& tap) const {
+  glm::vec4 share = is_used_;
+  if (tap.lit > 0) {
+    const Lit& lit = taps.lit[tap.lit - 1];
+    share = (is_used_ + lit.gain * is_luma_) * (1 - lit.opacity);
+  }
   return {share * tap.weight.first, share * tap.weight.step};
 }
 
-void PatternSolver::draw(const Taps& taps, const PatternPlanes& planes, SolvedPlanes& out) const {
-  for (const Tap& t : taps) {
-    const SolvedPlanes& plane = planes[t.pattern];
-    auto [f, f_step] = factor(t);
-    glm::vec4* to = out.row(t.run.row) + t.run.first;
-    if (is_identity(t.source, t.run)) {
-      const glm::vec4* from = plane.row(t.run.row) + t.run.first;
-      for (int i = 0; i < t.run.count; ++i, f += f_step) to[i] += f * from[i];
-      continue;
+void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
+                         SolvedPlanes& out) const {
+  std::size_t begin = 0;
+  for (const Taps::Pattern& p : taps.patterns) {
+    const auto of_pattern = std::span(taps.all).subspan(begin, p.end - begin);
+    begin = p.end;
+    if (p.pattern < first) continue;
+    const SolvedPlanes& plane = planes[p.pattern - first];
+    for (const Tap& t : of_pattern) {
+      auto [f, f_step] = factor(taps, t);
+      glm::vec4* to = out.row(t.row) + t.first;
+      if (t.unmoved) {
+        const glm::vec4* from = plane.row(t.row) + t.first;
+        for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
+        continue;
+      }
+      const glm::vec4* samples = plane.samples.data();
+      for_each_footprint(source(t), t.count, {plane.width, plane.height},
+                         [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
+                           const glm::vec4* a = samples + at;
+                           const glm::vec4* b = a + plane.width;
+                           const glm::vec4 top = a[0] + fx * (a[1] - a[0]),
+                                           bottom = b[0] + fx * (b[1] - b[0]);
+                           to[i] += f * (top + fy * (bottom - top));
+                           f += f_step;
+                         });
     }
-    const glm::vec4* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, {plane.width, plane.height},
-                       [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
-                         const glm::vec4* a = samples + at;
-                         const glm::vec4* b = a + plane.width;
-                         const glm::vec4 top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
-                         to[i] += f * (top + fy * (bottom - top));
-                         f += f_step;
-                       });
   }
 }
 
-void PatternSolver::draw_transposed(const Taps& taps, const SolvedPlanes& picture,
-                                    PatternPlanes& planes) const {
-  for (const Tap& t : taps) {
-    SolvedPlanes& plane = planes[t.pattern];
-    auto [f, f_step] = factor(t);
-    const glm::vec4* from = picture.row(t.run.row) + t.run.first;
-    if (is_identity(t.source, t.run)) {
-      glm::vec4* to = plane.row(t.run.row) + t.run.first;
-      for (int i = 0; i < t.run.count; ++i, f += f_step) to[i] += f * from[i];
+void PatternSolver::draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
+                                    SolvedPlanes& plane) const {
+  for (const Tap& t : taps.of(pattern)) {
+    auto [f, f_step] = factor(taps, t);
+    const glm::vec4* from = picture.row(t.row) + t.first;
+    if (t.unmoved) {
+      glm::vec4* to = plane.row(t.row) + t.first;
+      for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
       continue;
     }
     glm::vec4* samples = plane.samples.data();
-    for_each_footprint(t.source, t.run.count, {plane.width, plane.height},
+    for_each_footprint(source(t), t.count, {plane.width, plane.height},
                        [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
                          const glm::vec4 value = f * from[i];
                          f += f_step;
@@ -170,8 +221,9 @@ void PatternSolver::draw_transposed(const Taps& taps, const SolvedPlanes& pictur
 }
 
 void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
-  for (const Tap& t : taps) {
-    const SourceRun& s = t.source;
+  for (const Tap& t : taps.all) {
+    if (t.lit == 0) continue;
+    const Lit& s = taps.lit[t.lit - 1];
     glm::vec4 first(0), step(0);
     for (std::size_t k = 0; k < planes_.size(); ++k) {
       const auto lane = static_cast<int>(k);
@@ -180,61 +232,75 @@ void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
       first[lane] += (1 - s.opacity) * (s.offset.first - 128.0F * s.gain);
       step[lane] = (1 - s.opacity) * s.offset.step;
     }
-    glm::vec4* to = out.row(t.run.row) + t.run.first;
+    glm::vec4* to = out.row(t.row) + t.first;
     float weight = t.weight.first;
-    for (int i = 0; i < t.run.count; ++i, weight += t.weight.step, first += step) to[i] += weight * first;
+    for (int i = 0; i < t.count; ++i, weight += t.weight.step, first += step) to[i] += weight * first;
   }
-}
-
-PatternPlanes PatternSolver::gradient(std::span<const SolvedPlanes> targets,
-                                      const PatternPlanes& planes) const {
-  PatternPlanes out = planes;
-  clear(out);
-  SolvedPlanes scratch = targets.front();
-  for (std::size_t t = 0; t < pictures_.size(); ++t) {
-    clear({&scratch, 1});
-    draw(pictures_[t], planes, scratch);
-    draw_constant(pictures_[t], scratch);
-    for (std::size_t i = 0; i < scratch.samples.size(); ++i)
-      scratch.samples[i] = targets[t].samples[i] - scratch.samples[i];
-    draw_transposed(pictures_[t], scratch, out);
-  }
-  return out;
 }
 
 double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   double used = 0;
   std::size_t samples = 0;
   for (const Taps& taps : pictures_)
-    for (const Tap& t : taps) used += static_cast<double>(static_cast<float>(t.run.count) * t.weight.first);
+    for (const Tap& t : taps.all) used += static_cast<double>(static_cast<float>(t.count) * t.weight.first);
   for (const SolvedPlanes& p : planes) samples += p.samples.size();
   return used / static_cast<double>(samples);
 }
 
-PatternPlanes PatternSolver::solve(std::span<const SolvedPlanes> targets, PatternPlanes sources,
-                                   std::size_t count, const SolverSettings& settings) const {
-  const auto hold_fixed = [&](PatternPlanes& planes) {
-    clear(std::span(planes).first(planes.size() - count));
+Result<void> PatternSolver::add_transposed(const Draw& draw, Planes out, Workers& workers) const {
+  const std::size_t first = scene_.patterns.size() - out.size();
+  SolvedPlanes black = out.front();
+  clear(black);
+  std::vector<SolvedPlanes> drawn(std::min(kTogether, pictures_.size()), black);
+  std::vector<Result<void>> done(drawn.size());
+  for (std::size_t begin = 0; begin < pictures_.size(); begin += drawn.size()) {
+    const std::size_t count = std::min(drawn.size(), pictures_.size() - begin);
+    workers.run(static_cast<int>(count), [&](int k, int) {
+      clear(drawn[k]);
+      done[k] = draw(begin + k, drawn[k]);
+    });
+    for (std::size_t k = 0; k < count; ++k)
+      if (!done[k]) return done[k];
+    // In the order of the pictures for each pattern, whoever does it.
+    workers.run(static_cast<int>(out.size()), [&](int pattern, int) {
+      for (std::size_t k = 0; k < count; ++k)
+        draw_transposed(pictures_[begin + k], first + pattern, drawn[k], out[pattern]);
+    });
+  }
+  return {};
+}
+
+Result<PatternPlanes> PatternSolver::solve(const Target& target, const PatternPlanes& sources,
+                                           std::size_t count, const SolverSettings& settings,
+                                           Workers& workers) const {
+  const std::size_t first = sources.size() - count;
+  PatternPlanes x(sources.begin() + static_cast<std::ptrdiff_t>(first), sources.end());
+  for (SolvedPlanes& p : x) clear(p);
+  // From the anchor on, so that the pull has no part in the first residual.
+  PatternPlanes residual = x;
+  const auto first_residual = [&](std::size_t number, SolvedPlanes& out) -> Result<void> {
+    draw(pictures_[number], 0, sources, out);
+    draw_constant(pictures_[number], out);
+    const auto wanted = target(number);
+    if (!wanted) return fail(wanted.error());
+    for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = wanted->samples[i] - out.samples[i];
+    return {};
   };
-  // Starts at the anchor, so that the pull has no part in the first residual.
-  PatternPlanes residual = gradient(targets, sources), product = residual;
-  hold_fixed(residual);
+  if (auto done = add_transposed(first_residual, residual, workers); !done) return fail(done.error());
+  PatternPlanes direction = residual, product = x;
   const glm::dvec4 pull(settings.pull * mean_weight(sources));
-  SolvedPlanes scratch = targets.front();
-  PatternPlanes x = std::move(sources), direction = residual;
   // The planes are separate problems: each lane has its own steps.
   glm::dvec4 now = dot(residual, residual);
   const glm::dvec4 enough = kConverged * now;
   for (int i = 0; i < settings.iterations; ++i) {
     const glm::bvec4 done = glm::lessThanEqual(now, enough);
     if (glm::all(done)) break;
-    clear(product);
-    for (const Taps& taps : pictures_) {
-      clear({&scratch, 1});
-      draw(taps, direction, scratch);
-      draw_transposed(taps, scratch, product);
-    }
-    hold_fixed(product);
+    for (SolvedPlanes& p : product) clear(p);
+    const auto along = [&](std::size_t number, SolvedPlanes& out) -> Result<void> {
+      draw(pictures_[number], first, direction, out);
+      return {};
+    };
+    if (auto added = add_transposed(along, product, workers); !added) return fail(added.error());
     add(product, pull, direction);
     const glm::dvec4 step = ratio(now, dot(direction, product), done);
     add(x, step, direction);

@@ -3,11 +3,16 @@
 // follow from linear least squares, solved by conjugate gradients (Hestenes & Stiefel, 1952).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec4.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "common/result.h"
+#include "common/workers.h"
 #include "decoder/scene/scene.h"
 #include "encoder/blend/source_samples.h"
 
@@ -44,44 +49,72 @@ class PatternSolver {
   ///                   colour in each
   PatternSolver(const BlendScene& scene, int reduction, std::vector<std::size_t> planes);
 
-  /// Adds a picture drawn from the patterns.
+  /// Makes room for pictures that are drawn from the patterns.
+  void resize(std::size_t pictures) { pictures_.resize(pictures); }
+  /// Sets one of them. Several threads may set different ones at once.
   /// @param state      as drawn, blend modes included
   /// @param available  indices of the usable patterns
   /// @param size       of the picture's luma
-  void add_picture(const State& state, std::span<const std::size_t> available, glm::ivec2 size);
+  void set_picture(std::size_t number, const State& state, std::span<const std::size_t> available,
+                   glm::ivec2 size);
 
   /// Memory used by the pictures.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// @param targets  the planes of each picture added
+  /// The planes of a picture. Called once for each, by any worker.
+  using Target = std::function<Result<SolvedPlanes>(std::size_t number)>;
   /// @param sources  the planes of each pattern's own picture: start and anchor of the solution
   /// @param count    how many patterns, the last ones, to solve for
-  [[nodiscard]] PatternPlanes solve(std::span<const SolvedPlanes> targets, PatternPlanes sources,
-                                    std::size_t count, const SolverSettings& settings) const;
+  /// @return the solution less the sources, of those patterns; the same for any number of workers
+  [[nodiscard]] Result<PatternPlanes> solve(const Target& target, const PatternPlanes& sources,
+                                            std::size_t count, const SolverSettings& settings,
+                                            Workers& workers) const;
 
  private:
-  /// Samples of a run that come from one pattern.
+  /// Samples of a run that come from one pattern. There are millions.
   struct Tap {
-    SourceRun source;
-    RunValue weight;
-    SurfaceRun run;
-    std::uint32_t pattern;
+    RunValue u, v, weight;  ///< SourceRun::u, v
+    std::uint32_t lit;      ///< index into Taps::lit, from 1; 0: as the pattern shows it
+    std::uint16_t row, first, count;
+    bool head;
+    bool unmoved;  ///< is_identity()
   };
-  using Taps = std::vector<Tap>;
+  /// What light and mouth interior make of a run: members of SourceRun.
+  struct Lit {
+    RunValue offset;
+    float gain, opacity;
+    std::array<float, 3> interior;
+  };
+  /// Of a picture.
+  struct Taps {
+    std::vector<Tap> all;  ///< by pattern
+    std::vector<Lit> lit;
+    struct Pattern {
+      std::size_t pattern, end;
+    };
+    std::vector<Pattern> patterns;  ///< ends of their taps
+    [[nodiscard]] std::span<const Tap> of(std::size_t pattern) const;
+  };
+  using Planes = std::span<SolvedPlanes>;
+  /// Draws a number of pictures into the memory it is given.
+  using Draw = std::function<Result<void>(std::size_t number, SolvedPlanes& out)>;
 
-  /// A^T (targets - drawn planes): half the descent gradient of the squared error.
-  [[nodiscard]] PatternPlanes gradient(std::span<const SolvedPlanes> targets,
-                                       const PatternPlanes& planes) const;
-  /// Mean total weight of a plane's samples over all pictures.
-  [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
+  [[nodiscard]] SourceRun source(const Tap& tap) const;
   /// The textures' share in the first sample of a run, and its increment per sample.
-  [[nodiscard]] std::pair<glm::vec4, glm::vec4> factor(const Tap& tap) const;
+  [[nodiscard]] std::pair<glm::vec4, glm::vec4> factor(const Taps& taps, const Tap& tap) const;
+  /// out += A^T pictures, for the last patterns, as many as there are planes.
+  Result<void> add_transposed(const Draw& draw, Planes out, Workers& workers) const;
   /// Draws samples without the terms that do not depend on the patterns: out += A planes
-  void draw(const Taps& taps, const PatternPlanes& planes, SolvedPlanes& out) const;
-  /// planes += A^T picture
-  void draw_transposed(const Taps& taps, const SolvedPlanes& picture, PatternPlanes& planes) const;
+  /// @param first  pattern of the first plane; those before it are black
+  void draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
+            SolvedPlanes& out) const;
+  /// plane += A^T picture, for one pattern
+  void draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
+                       SolvedPlanes& plane) const;
   /// out += light and interior.
   void draw_constant(const Taps& taps, SolvedPlanes& out) const;
+  /// Mean total weight of a plane's samples over all pictures.
+  [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
 
   BlendScene scene_;
   int reduction_;

@@ -69,12 +69,6 @@ bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureM
                         t.corners, [&](std::uint16_t k) { return mesh.surround[k] == texture.surround[k]; });
 }
 
-/// Where the surround's textures begin to repeat samples inside their border (kLumaInset), in samples of a
-/// reduced plane. After much reduction, the outermost samples are mostly from inside.
-float border_inset(int reduction) {
-  return std::max((static_cast<float>(kLumaInset) + 0.5F) / static_cast<float>(1 << reduction) - 0.5F, 0.0F);
-}
-
 }  // namespace
 
 ReducedPlane reduce(const Plane& plane, int reduction) {
@@ -94,6 +88,10 @@ ReducedPlane reduce(const Plane& plane, int reduction) {
     for (int x = 0; x < out.width; ++x) to[x] = scale * static_cast<float>(sum[x]);
   }
   return out;
+}
+
+float border_inset(int reduction) {
+  return std::max((static_cast<float>(kLumaInset) + 0.5F) / static_cast<float>(1 << reduction) - 0.5F, 0.0F);
 }
 
 SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,

@@ -68,6 +68,10 @@ struct PictureMesh {
   int reduction;
 };
 
+/// SourceRun::inset of the surround: samples of a plane whose border repeats those inside (kLumaInset). After
+/// much reduction, the outermost samples are mostly from inside.
+[[nodiscard]] float border_inset(int reduction);
+
 /// @param still  the texture is not warped
 [[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
                                    const TextureMesh& texture, bool still);

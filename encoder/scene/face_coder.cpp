@@ -155,9 +155,10 @@ Result<void> FaceCoder::end_segment() {
     if (auto written = write_head(); !written) return written;
   }
   SegmentRefit& refit = second_pass_->refit;
-  auto ended = ledger_.end_segment(scene_, [&](Segment& segment, const SegmentPatterns& drawn_from) {
-    return refit.run(segment, drawn_from);
-  });
+  auto ended =
+      ledger_.end_segment(scene_, [&](Segment& segment, const SegmentPatterns& drawn_from, Workers& workers) {
+        return refit.run(segment, drawn_from, workers);
+      });
   if (!ended) return ended;
   if (!surround_again_.empty())
     ledger_.packets().add(PacketType::kSurround, std::exchange(surround_again_, {}));

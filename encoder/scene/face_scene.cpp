@@ -1,7 +1,6 @@
 #include "encoder/scene/face_scene.h"
 
 #include <initializer_list>
-#include <thread>
 #include <utility>
 
 #include "bitstream/pattern/pattern_packet.h"
@@ -28,10 +27,6 @@ PartMask parts_of(const EncoderSettings& settings) {
   add({PartId::kLight, PartId::kMouthInterior});
   if (settings.expression) add({PartId::kGaze});
   return parts;
-}
-
-unsigned thread_count(const EncoderSettings& settings) {
-  return settings.threads > 0 ? static_cast<unsigned>(settings.threads) : std::thread::hardware_concurrency();
 }
 
 }  // namespace

@@ -75,7 +75,10 @@ double least_error(const ModeErrors& errors) {
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
-    : settings_(settings), store_(format, rest, settings.groups_per_key), alone_(settings.alone) {
+    : settings_(settings),
+      workers_(settings.threads),
+      store_(format, rest, settings.groups_per_key),
+      alone_(settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
@@ -227,7 +230,7 @@ void LivePatterns::place(Scene& scene, const Sent& sent) {
 
 Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
   if (!errors_.runs.empty()) return {};
-  auto errors = mode_errors(store_.segment(), usable(scene), shared);
+  auto errors = mode_errors(store_.segment(), usable(scene), shared, workers_);
   if (!errors) return fail(errors.error());
   errors_ = std::move(*errors);
   return {};
@@ -286,7 +289,7 @@ Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::
   if (auto chosen = choose(scene, shared_before(refit, store_.format())); !chosen)
     return fail(chosen.error());
   if (refit) {
-    if (auto done = refit(store_.segment(), usable(scene)); !done) return fail(done.error());
+    if (auto done = refit(store_.segment(), usable(scene), workers_); !done) return fail(done.error());
     errors_ = {};
     if (sent) place(scene, *sent);
     if (auto chosen = choose(scene, 1); !chosen) return fail(chosen.error());

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/workers.h"
 #include "decoder/pattern/pattern_decoder.h"
 #include "encoder/patterns/av1_encoder.h"
 #include "encoder/plan/live_rate.h"
@@ -26,6 +27,7 @@ struct LivePatternSettings {
   double buffer = 0;        ///< LiveSettings::buffer
   int groups_per_key = 1;   ///< SceneTiming::groups_per_key
   bool alone = false;       ///< each pattern needs the first alone
+  int threads = 1;          ///< at least 1; the stream is the same
 };
 
 /// Each group is a segment: its packets are ready as soon as its pictures are known. A pattern shows the last
@@ -113,6 +115,7 @@ class LivePatterns : public PatternStage {
   };
 
   LivePatternSettings settings_;
+  Workers workers_;
   SegmentStore store_;
   std::optional<LiveRate> rate_;
   Size key_, later_;         ///< of a whole picture, and of one that others predict

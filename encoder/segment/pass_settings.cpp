@@ -1,6 +1,7 @@
 #include "encoder/segment/pass_settings.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "encoder/plan/rate_target.h"
 #include "encoder/plan/scene_timing.h"
@@ -38,6 +39,7 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.buffer = settings.live->buffer;
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
+  out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's
   return out;
 }
 
@@ -48,6 +50,11 @@ std::unique_ptr<PatternStage> file_patterns(PatternPassSettings pass, const Enco
 }
 
 }  // namespace
+
+int thread_count(const EncoderSettings& settings) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());  // 0: unknown
+  return std::max(1, settings.threads > 0 ? settings.threads : cores);
+}
 
 RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
   RateTarget target = rate_target(settings, eye_distance_px);
@@ -68,6 +75,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
   out.key_interval = settings.key_interval;
+  out.threads = thread_count(settings);
   out.lambda = motion.lambda;
   out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
   out.refits = settings.track_only ? 0 : std::min(settings.effort, kMaxRefits);

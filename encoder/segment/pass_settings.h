@@ -10,6 +10,9 @@
 
 namespace fbs {
 
+/// Threads that encode, at least 1.
+[[nodiscard]] int thread_count(const EncoderSettings& settings);
+
 /// Target of the motion and the first pattern.
 [[nodiscard]] RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px);
 

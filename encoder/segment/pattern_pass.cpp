@@ -1,6 +1,7 @@
 #include "encoder/segment/pattern_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -39,6 +40,7 @@ constexpr double kRateTolerance = 0.02;
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
                          const CodedState& rest)
     : settings_(settings),
+      workers_(settings.threads),
       store_(format, rest, settings.groups_per_key),
       most_(store_.slots()),
       point_(settings.point) {
@@ -124,7 +126,7 @@ SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
 Result<double> PatternPass::loss_between(const Scene& scene) {
   const auto draft = draft_of(scene);
   if (!draft) return fail(draft.error());
-  return blend_loss(store_.segment(), usable(scene, *draft), kLossEvery);
+  return blend_loss(store_.segment(), usable(scene, *draft), kLossEvery, workers_);
 }
 
 int PatternPass::quantiser_at(bool reduced) const {
@@ -184,13 +186,14 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   if (!loss) return fail(loss.error());
   const auto pictures = trial_pictures(times);
   if (!pictures) return fail(pictures.error());
-  const auto full = trial_cost(store_.format(), *pictures, trial_coding(false));
-  if (!full) return fail(full.error());
-  const auto reduced = trial_cost(store_.format(), *pictures, trial_coding(true));
-  if (!reduced) return fail(reduced.error());
+  std::array<Result<PatternCost>, 2> costs;  // of full and reduced size
+  workers_.run(2,
+               [&](int k, int) { costs[k] = trial_cost(store_.format(), *pictures, trial_coding(k == 1)); });
+  for (auto& cost : costs)
+    if (!cost) return fail(cost.error());
   double motion = 0;
   for (const Segment::Group& g : store_.segment().groups) motion += static_cast<double>(g.payload.size());
-  return fbs::reduced_size_pays(*loss, times.size(), motion, *full, *reduced);
+  return fbs::reduced_size_pays(*loss, times.size(), motion, *costs[0], *costs[1]);
 }
 
 Result<void> PatternPass::choose_size(const Scene& scene) {
@@ -201,14 +204,15 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
 }
 
 Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
-  const auto errors = mode_errors(store_.segment(), usable(scene, draft), most);
+  const auto errors = mode_errors(store_.segment(), usable(scene, draft), most, workers_);
   if (!errors) return fail(errors.error());
   store_.set_modes(errors->cheapest_modes(settings_.lambda));
   return {};
 }
 
 Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
-  auto solved = solve_patterns(store_.segment(), usable(scene, draft), draft.coded.size(), SolverSettings{});
+  auto solved =
+      solve_patterns(store_.segment(), usable(scene, draft), draft.coded.size(), SolverSettings{}, workers_);
   if (!solved) return fail(solved.error());
   for (std::size_t k = 0; k < solved->size(); ++k)
     draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
@@ -217,8 +221,8 @@ Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
 
 Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
   std::vector<Picture> pictures = draft.pictures;
-  for (std::size_t k = 0; k < pictures.size(); ++k)
-    store_.reduce_contrast(scene, draft.times[k], pictures[k]);
+  workers_.run(static_cast<int>(pictures.size()),
+               [&](int k, int) { store_.reduce_contrast(scene, draft.times[k], pictures[k]); });
   auto coded = code_pattern_sequence(store_.format(), pictures, coding);
   if (!coded) return fail(coded.error());
   draft.coded = std::move(*coded);
@@ -278,7 +282,7 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draf
 }
 
 Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
-  if (auto done = refit(store_.segment(), usable(scene, draft)); !done) return done;
+  if (auto done = refit(store_.segment(), usable(scene, draft), workers_); !done) return done;
   place(scene, draft);  // patterns depend on their seen states
   return {};
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/workers.h"
 #include "decoder/scene/scene.h"
 #include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
@@ -31,6 +32,7 @@ struct PatternPassSettings {
   bool without_face = false;  ///< patterns show all motion: often more of them than the decoder keeps at once
   double lambda = 0;          ///< squared luma levels that a bit is worth
   double key_interval = 0;    ///< EncoderSettings::key_interval
+  int threads = 1;            ///< at least 1; the stream is the same
 };
 
 class PatternPass : public PatternStage {
@@ -103,6 +105,7 @@ class PatternPass : public PatternStage {
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, Draft& draft);
 
   PatternPassSettings settings_;
+  Workers workers_;
   SegmentStore store_;
   std::int32_t most_;      ///< patterns in a segment
   double left_bytes_ = 0;  ///< of the rate, left over by earlier segments; negative: overspent

@@ -13,7 +13,8 @@
 namespace fbs {
 
 /// Replaces the motion of a segment by one that suits its patterns.
-using StateRefit = std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns)>;
+using StateRefit =
+    std::function<Result<void>(Segment& segment, const SegmentPatterns& patterns, Workers& workers)>;
 
 /// Takes pictures and their planned motion, and returns packets, a segment at a time.
 class PatternStage {

@@ -1,7 +1,11 @@
 #include "encoder/segment/picture_spool.h"
 
-#include <array>
+#include <unistd.h>
+
 #include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <span>
 
 namespace fbs {
 namespace {
@@ -11,6 +15,17 @@ constexpr std::size_t kInMemory = std::size_t{1} << 22;
 
 std::size_t bytes_of(const Picture& p) {
   return p.y.samples.size() + p.u.samples.size() + p.v.samples.size();
+}
+
+bool read_all(int file, std::span<std::uint8_t> out, off_t at) {
+  while (!out.empty()) {
+    const ssize_t count = pread(file, out.data(), out.size(), at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    out = out.subspan(static_cast<std::size_t>(count));
+    at += count;
+  }
+  return true;
 }
 
 }  // namespace
@@ -32,23 +47,25 @@ Result<void> PictureSpool::add(const Picture& picture) {
 Result<void> PictureSpool::write(const Picture& picture) {
   if (!file_) file_.reset(std::tmpfile());
   if (!file_) return fail(ErrorCode::kIo, "cannot create a temporary file");
-  bool written =
-      fseeko(file_.get(), static_cast<off_t>((count_ - first_.size()) * bytes_of(picture)), SEEK_SET) == 0;
+  bool written = true;
   for (const Plane* p : {&picture.y, &picture.u, &picture.v})
     written =
         written && std::fwrite(p->samples.data(), 1, p->samples.size(), file_.get()) == p->samples.size();
-  if (!written) return fail(ErrorCode::kIo, "no room for pictures in the temporary directory");
+  if (!written || std::fflush(file_.get()) != 0)
+    return fail(ErrorCode::kIo, "no room for pictures in the temporary directory");
   return {};
 }
 
-Result<Picture> PictureSpool::read(std::size_t number) {
+Result<Picture> PictureSpool::read(std::size_t number) const {
   assert(number < count_);
   if (number < first_.size()) return first_[number];
   Picture picture(width_, height_);
-  bool read =
-      fseeko(file_.get(), static_cast<off_t>((number - first_.size()) * bytes_of(picture)), SEEK_SET) == 0;
-  for (Plane* p : {&picture.y, &picture.u, &picture.v})
-    read = read && std::fread(p->samples.data(), 1, p->samples.size(), file_.get()) == p->samples.size();
+  auto at = static_cast<off_t>((number - first_.size()) * bytes_of(picture));
+  bool read = true;
+  for (Plane* p : {&picture.y, &picture.u, &picture.v}) {
+    read = read && read_all(fileno(file_.get()), p->samples, at);
+    at += static_cast<off_t>(p->samples.size());
+  }
   if (!read) return fail(ErrorCode::kIo, "a temporary file cannot be read");
   return picture;
 }

@@ -11,7 +11,7 @@
 namespace fbs {
 
 /// Pictures of one size. The first few are in memory, the others in an unnamed temporary file that vanishes
-/// with the object.
+/// with the object. Several threads may read at once.
 class PictureSpool {
  public:
   /// Appends a picture; all have the size of the first.
@@ -19,7 +19,7 @@ class PictureSpool {
   Result<void> add(const Picture& picture);
 
   /// @param number  0..count()-1
-  [[nodiscard]] Result<Picture> read(std::size_t number);
+  [[nodiscard]] Result<Picture> read(std::size_t number) const;
 
   [[nodiscard]] std::size_t count() const { return count_; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "encoder/blend/mode_choice.h"
 
@@ -26,20 +27,39 @@ int reduction_to(int width, const Picture& picture) {
   return reduction;
 }
 
-/// Calls use(number in the segment, picture, available patterns) at an interval of pictures.
+/// The group of each picture.
+std::vector<std::size_t> groups_of(const Segment& segment) {
+  std::vector<std::size_t> out;
+  for (std::size_t g = 0; g < segment.groups.size(); ++g)
+    out.insert(out.end(), segment.groups[g].pictures, g);
+  return out;
+}
+
+/// Calls use(k, number, picture, available patterns) for some pictures of the segment, by workers.
+/// @param numbers  k counts them
 template <class Use>
-Result<void> for_each_picture(Segment& segment, const SegmentPatterns& patterns, std::size_t every,
-                              Use&& use) {
-  std::size_t t = 0;
-  for (std::size_t g = 0; g < segment.groups.size(); ++g) {
-    for (std::size_t i = 0; i < segment.groups[g].pictures; ++i, ++t) {
-      if (t % every != 0) continue;
-      auto picture = segment.pictures.read(t);
-      if (!picture) return fail(picture.error());
-      use(t, *picture, patterns.available[g]);
-    }
-  }
+Result<void> for_each_picture(const Segment& segment, const SegmentPatterns& patterns,
+                              std::span<const std::size_t> numbers, Workers& workers, Use&& use) {
+  const std::vector<std::size_t> group = groups_of(segment);
+  std::vector<Result<void>> done(numbers.size());
+  workers.run(static_cast<int>(numbers.size()), [&](int k, int) {
+    const std::size_t number = numbers[k];
+    const auto picture = segment.pictures.read(number);
+    if (picture)
+      use(k, number, *picture, patterns.available[group[number]]);
+    else
+      done[k] = fail(picture.error());
+  });
+  for (auto& result : done)
+    if (!result) return result;
   return {};
+}
+
+/// Numbers of the segment's pictures at an interval.
+std::vector<std::size_t> every_so_many(const Segment& segment, std::size_t every) {
+  std::vector<std::size_t> out;
+  for (std::size_t t = 0; t < segment.states.size(); t += every) out.push_back(t);
+  return out;
 }
 
 /// Planes solved for together, and their reduction from the picture's size.
@@ -68,11 +88,10 @@ std::vector<PlaneGroup> plane_groups(int luma_reduction) {
   return {{{0}, 0}, {{1, 2}, 1}};
 }
 
-/// The least squares problem of a group, and the planes of its pictures.
+/// The least squares problem of a group.
 struct GroupProblem {
   PlaneGroup group;
   PatternSolver solver;
-  std::vector<SolvedPlanes> targets;
 };
 
 /// Interval of the segment's pictures used in solving.
@@ -82,16 +101,15 @@ std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns,
   std::size_t bytes = 0;
   for (const GroupProblem& p : problems) {
     PatternSolver one(patterns.scene, p.group.reduction, p.group.planes);
-    one.add_picture(segment.states[pictures / 2], patterns.available.back(), size);
-    const glm::ivec2 reduced = size >> p.group.reduction;
-    bytes += one.bytes() + sizeof(glm::vec4) * reduced.x * reduced.y;
+    one.resize(1);
+    one.set_picture(0, segment.states[pictures / 2], patterns.available.back(), size);
+    bytes += one.bytes();
   }
   return std::max(kSolveEvery, (pictures * bytes + kSolverBytes - 1) / kSolverBytes);
 }
 
-/// Adds the change of a plane at reduced size to the plane at full size.
-void add_change(ReducedPlane change, const ReducedPlane& before, int reduction, Plane& plane) {
-  for (std::size_t i = 0; i < change.samples.size(); ++i) change.samples[i] -= before.samples[i];
+/// Adds a change at reduced size to the plane at full size.
+void add_change(const ReducedPlane& change, int reduction, Plane& plane) {
   const float scale = 1.0F / static_cast<float>(1 << reduction);
   for (int y = 0; y < plane.height; ++y) {
     const float v = (static_cast<float>(y) + 0.5F) * scale - 0.5F;
@@ -104,12 +122,11 @@ void add_change(ReducedPlane change, const ReducedPlane& before, int reduction, 
   }
 }
 
-void add_change(const SolvedPlanes& now, const SolvedPlanes& before, const PlaneGroup& group,
-                Picture& picture) {
+void add_change(const SolvedPlanes& change, const PlaneGroup& group, Picture& picture) {
   for (std::size_t lane = 0; lane < group.planes.size(); ++lane) {
     const std::size_t p = group.planes[lane];
-    const auto l = static_cast<int>(lane);
-    add_change(now.plane(l), before.plane(l), group.plane_reduction(p), picture.*PlaneGroup::member(p));
+    add_change(change.plane(static_cast<int>(lane)), group.plane_reduction(p),
+               picture.*PlaneGroup::member(p));
   }
 }
 
@@ -128,70 +145,82 @@ std::vector<RegionModes> SegmentErrors::cheapest_modes(double lambda, const Regi
   return out;
 }
 
-Result<SegmentErrors> mode_errors(Segment& segment, const SegmentPatterns& patterns, std::size_t most) {
+Result<SegmentErrors> mode_errors(const Segment& segment, const SegmentPatterns& patterns, std::size_t most,
+                                  Workers& workers) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
   SegmentErrors out;
+  std::vector<std::size_t> first;  // of each run
+  for (std::size_t t = 0; t < segment.states.size(); ++t) {
+    if (t == 0 || out.runs.back().pictures == most || segment.is_cut(t)) {
+      out.runs.push_back({});
+      first.push_back(t);
+    }
+    ++out.runs.back().pictures;
+  }
   const auto done = for_each_picture(
-      segment, patterns, 1, [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-        if (t == 0 || out.runs.back().pictures == most || segment.is_cut(t))
-          out.runs.push_back({blend.errors(picture.y, segment.states[t], available), 0});
-        ++out.runs.back().pictures;
+      segment, patterns, first, workers,
+      [&](std::size_t k, std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+        out.runs[k].errors = blend.errors(picture.y, segment.states[t], available);
       });
   if (!done) return fail(done.error());
   return out;
 }
 
-Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every) {
+Result<double> blend_loss(const Segment& segment, const SegmentPatterns& patterns, std::size_t every,
+                          Workers& workers) {
   const Picture& any = patterns.scene.patterns.front().picture;
   const BlendErrors blend(patterns.scene, reduction_to(kCompareWidth, any));
-  double sum = 0, samples = 0;
-  const auto done =
-      for_each_picture(segment, patterns, every,
-                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-                         const ModeErrors errors = blend.errors(picture.y, segment.states[t], available);
-                         for (const auto& region : errors)
-                           sum += *std::min_element(region.begin(), region.end());
-                         samples += static_cast<double>(picture.y.samples.size());
-                       });
+  const std::vector<std::size_t> some = every_so_many(segment, every);
+  std::vector<double> loss(some.size());
+  const auto done = for_each_picture(
+      segment, patterns, some, workers,
+      [&](std::size_t k, std::size_t t, const Picture& picture, const AvailablePatterns& available) {
+        for (const auto& region : blend.errors(picture.y, segment.states[t], available))
+          loss[k] += *std::min_element(region.begin(), region.end());
+      });
   if (!done) return fail(done.error());
-  return sum / samples;
+  return std::accumulate(loss.begin(), loss.end(), 0.0) /
+         static_cast<double>(some.size() * any.y.samples.size());
 }
 
-Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns,
-                                            std::size_t count, const SolverSettings& settings) {
+Result<std::vector<Picture>> solve_patterns(const Segment& segment, const SegmentPatterns& patterns,
+                                            std::size_t count, const SolverSettings& settings,
+                                            Workers& workers) {
   const PatternList& all = patterns.scene.patterns;
   const glm::ivec2 size(all.front().picture.width(), all.front().picture.height());
   std::vector<GroupProblem> problems;
   for (const PlaneGroup& g : plane_groups(reduction_to(kSolveWidth, all.front().picture)))
-    problems.push_back({g, PatternSolver(patterns.scene, g.reduction, g.planes), {}});
-  const auto done =
-      for_each_picture(segment, patterns, solve_every(segment, patterns, size, problems),
-                       [&](std::size_t t, const Picture& picture, const AvailablePatterns& available) {
-                         for (GroupProblem& p : problems) {
-                           p.solver.add_picture(segment.states[t], available, size);
-                           p.targets.push_back(p.group.of(picture));
-                         }
-                       });
-  if (!done) return fail(done.error());
+    problems.push_back({g, PatternSolver(patterns.scene, g.reduction, g.planes)});
+  const std::vector<std::size_t> some =
+      every_so_many(segment, solve_every(segment, patterns, size, problems));
+  for (GroupProblem& p : problems) p.solver.resize(some.size());
+  const std::vector<std::size_t> group = groups_of(segment);
+  workers.run(static_cast<int>(some.size()), [&](int k, int) {
+    const AvailablePatterns& available = patterns.available[group[some[k]]];
+    for (GroupProblem& p : problems) p.solver.set_picture(k, segment.states[some[k]], available, size);
+  });
 
   std::vector<Picture> out;
   const std::int32_t first = segment.states.front().picture;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const bool free = k + count >= all.size();
-    auto picture =
-        free ? segment.pictures.read(all[k].seen.picture - first) : Result<Picture>(all[k].picture);
+  for (std::size_t k = all.size() - count; k < all.size(); ++k) {
+    auto picture = segment.pictures.read(all[k].seen.picture - first);
     if (!picture) return fail(picture.error());
     out.push_back(std::move(*picture));
   }
   for (const GroupProblem& p : problems) {
     PatternPlanes anchors;
+    for (std::size_t k = 0; k < all.size() - count; ++k) anchors.push_back(p.group.of(all[k].picture));
     for (const Picture& picture : out) anchors.push_back(p.group.of(picture));
-    const PatternPlanes solved = p.solver.solve(p.targets, anchors, count, settings);
-    for (std::size_t k = out.size() - count; k < out.size(); ++k)
-      add_change(solved[k], anchors[k], p.group, out[k]);
+    const auto target = [&](std::size_t k) -> Result<SolvedPlanes> {
+      const auto picture = segment.pictures.read(some[k]);
+      if (!picture) return fail(picture.error());
+      return p.group.of(*picture);
+    };
+    const auto change = p.solver.solve(target, anchors, count, settings, workers);
+    if (!change) return fail(change.error());
+    workers.run(static_cast<int>(count), [&](int k, int) { add_change((*change)[k], p.group, out[k]); });
   }
-  out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(count));
   return out;
 }
 

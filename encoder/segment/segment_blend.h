@@ -1,4 +1,5 @@
 // Blends of a segment's pictures: chooses modes for given patterns, and solves for patterns in given modes.
+// Results are the same for any number of workers.
 #pragma once
 
 #include <span>
@@ -35,16 +36,18 @@ struct SegmentErrors {
 inline constexpr std::size_t kDraftShared = 3;
 
 /// @param most  longest run, pictures; never across a cut
-[[nodiscard]] Result<SegmentErrors> mode_errors(Segment& segment, const SegmentPatterns& patterns,
-                                                std::size_t most);
+[[nodiscard]] Result<SegmentErrors> mode_errors(const Segment& segment, const SegmentPatterns& patterns,
+                                                std::size_t most, Workers& workers);
 
 /// Luma error of the segment in its cheapest modes, mean over samples, from one of `every` pictures.
-[[nodiscard]] Result<double> blend_loss(Segment& segment, const SegmentPatterns& patterns, std::size_t every);
+[[nodiscard]] Result<double> blend_loss(const Segment& segment, const SegmentPatterns& patterns,
+                                        std::size_t every, Workers& workers);
 
 /// Pictures that, coded as the last `count` patterns, draw the segment best in the modes of its states. All
 /// planes.
 /// @param count  the others stay unchanged
-[[nodiscard]] Result<std::vector<Picture>> solve_patterns(Segment& segment, const SegmentPatterns& patterns,
-                                                          std::size_t count, const SolverSettings& settings);
+[[nodiscard]] Result<std::vector<Picture>> solve_patterns(const Segment& segment,
+                                                          const SegmentPatterns& patterns, std::size_t count,
+                                                          const SolverSettings& settings, Workers& workers);
 
 }  // namespace fbs

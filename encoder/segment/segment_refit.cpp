@@ -35,26 +35,24 @@ void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t d
   pictures_.push_back(out);
 }
 
-Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, SegmentRenderer& renderer,
-                                            const MouthInterior& mouth) {
+Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) const {
   if (!shown.analysed.face) return cost_unseen(fit_of(shown.pattern ? shown.state : shown.analysed.state));
   const Plane& source = shown.source.y;
   const Fit now = fit_of(shown.state);
   const cv::Rect crop = WorkFrame::area({source.width, source.height}, now.pose.shift, eye_distance_px_);
-  const auto drawn = renderer.draw(shown.state, {crop.x, crop.y, crop.br().x, crop.br().y});
+  const auto drawn = tools.renderer.draw(shown.state, {crop.x, crop.y, crop.br().x, crop.br().y});
   if (!drawn) return fail(drawn.error());
   const auto frame_of = [&](const Plane& luma) {
     return WorkFrame::cut(luma, now.pose.shift, eye_distance_px_);
   };
-  fit_.set_pattern({frame_of(**drawn), shown.state, 0, renderer.interior_opacity(shown.state)});
-  fit_.set_picture(frame_of(source));
-  fit_.set_mouth(mouth);
-  return shown.pattern ? fit_.cost_at(now) : fit_.cost_near(now);
+  PictureFit& fit = tools.fit;
+  fit.set_pattern({frame_of(**drawn), shown.state, 0, tools.renderer.interior_opacity(shown.state)});
+  fit.set_picture(frame_of(source));
+  return shown.pattern ? fit.cost_at(now) : fit.cost_near(now);
 }
 
-Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, SegmentRenderer& renderer,
-                                          const MouthInterior& mouth) {
-  auto cost = head_cost(shown, renderer, mouth);
+Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, Tools& tools) const {
+  auto cost = head_cost(shown, tools);
   if (!cost) return cost;
   std::copy(shown.analysed.surround.begin(), shown.analysed.surround.end(),
             cost->fit.begin() + kFirstSurround);
@@ -68,9 +66,11 @@ Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, SegmentRenderer& r
   return cost;
 }
 
-Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns) {
+Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns, Workers& workers) {
   MotionTrack motion = before_;
-  SegmentRenderer renderer(patterns);
+  fit_.set_mouth(patterns.scene.mouth);
+  std::vector<Tools> tools;
+  for (int k = 0; k < workers.count(); ++k) tools.push_back({fit_, SegmentRenderer(patterns)});
   const auto is_pattern = [&](const State& state) {
     return std::ranges::any_of(patterns.scene.patterns,
                                [&](const Pattern& p) { return p.seen.picture == state.picture; });
@@ -78,17 +78,21 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
   std::size_t first = 0;
   for (std::size_t g = 0; g < segment.groups.size(); ++g) {
     Segment::Group& group = segment.groups[g];
-    renderer.begin_group(g);
+    for (Tools& t : tools) t.renderer.begin_group(g);
+    std::vector<Result<PictureCost>> found(group.pictures);
+    workers.run(static_cast<int>(group.pictures), [&](int k, int worker) {
+      const std::size_t t = first + k;
+      const auto source = segment.pictures.read(t);
+      const State& state = segment.states[t];
+      found[k] = source ? cost_of({pictures_[t], *source, state, is_pattern(state)}, tools[worker])
+                        : fail(source.error());
+    });
     std::vector<PictureCost> costs;
     std::vector<std::uint32_t> durations;
-    for (std::size_t t = first; t < first + group.pictures; ++t) {
-      const auto source = segment.pictures.read(t);
-      if (!source) return fail(source.error());
-      const State& state = segment.states[t];
-      auto cost = cost_of({pictures_[t], *source, state, is_pattern(state)}, renderer, patterns.scene.mouth);
+    for (auto& cost : found) {
       if (!cost) return fail(cost.error());
+      durations.push_back(pictures_[first + costs.size()].duration);
       costs.push_back(std::move(*cost));
-      durations.push_back(pictures_[t].duration);
     }
     auto planned = motion.add(costs, durations);
     if (!planned) return fail(planned.error());

@@ -32,7 +32,7 @@ class SegmentRefit {
   /// Replaces the motion of a segment whose pictures have been added: payloads of groups and states of
   /// pictures. Blend modes stay. Can be run again: each time starts from the motion before the segment.
   /// @param patterns  of the segment; the caller updates their seen states
-  Result<void> run(Segment& segment, const SegmentPatterns& patterns);
+  Result<void> run(Segment& segment, const SegmentPatterns& patterns, Workers& workers);
 
   /// The motion as after the segment, if run() has replaced it.
   [[nodiscard]] const std::optional<MotionTrack>& motion() const { return after_; }
@@ -57,10 +57,13 @@ class SegmentRefit {
     const State& state;  ///< as planned
     bool pattern;        ///< whether it is one
   };
-  [[nodiscard]] Result<PictureCost> cost_of(const Shown& shown, SegmentRenderer& renderer,
-                                            const MouthInterior& mouth);
-  [[nodiscard]] Result<PictureCost> head_cost(const Shown& shown, SegmentRenderer& renderer,
-                                              const MouthInterior& mouth);
+  /// What a worker needs for it.
+  struct Tools {
+    PictureFit fit;
+    SegmentRenderer renderer;
+  };
+  [[nodiscard]] Result<PictureCost> cost_of(const Shown& shown, Tools& tools) const;
+  [[nodiscard]] Result<PictureCost> head_cost(const Shown& shown, Tools& tools) const;
 
   double eye_distance_px_;
   PictureFit fit_;

@@ -55,8 +55,8 @@ typedef struct fbs_encoder_settings {
   int live;            /**< 1: no look-ahead; default 0 */
   double live_delay;   /**< live: seconds of pictures that are coded as a group; default 0.2 */
   double live_buffer;  /**< live, with bitrate: longest time that data waits to be sent, seconds; default 2 */
-  int threads;         /**< live: 1, or more to code while the next pictures are analysed; the stream is the
-                            same. 0 (default): as many as there are cores */
+  int threads;         /**< that encode; the stream is the same for any number. 0 (default): as many as there
+                            are cores */
   int tune;            /**< fbs_tune, of files; default FBS_TUNE_EYE. No effect with `live` */
   int resilience;      /**< fbs_resilience, with `live`; default FBS_RESILIENCE_NONE */
   double join;         /**< live: a viewer who comes in the middle of a scene can join it within so many

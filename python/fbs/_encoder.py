@@ -95,7 +95,7 @@ class Encoder:
         Live: a viewer who comes in the middle of a scene can join it within so many seconds, at the cost of parts of
         its head all along. 0: only where a scene begins.
     threads : int
-        Live: 1, or more to encode while the next pictures are analysed. 0: as many as there are cores.
+        Threads that encode; the stream is the same for any number. 0: as many as there are cores.
     matrix : {"bt601", "bt709", "unspecified"}
         Of YCbCr: for RGB pictures the target of conversion, for planes their own.
     full_range : bool

@@ -131,7 +131,7 @@ TABLE = {
     "rate_zero":                ({}, "encode TALK.y4m out.fbs --rate 0", ["--rate"]),
     # options that would do nothing
     "delay_without_live":       ({}, "encode TALK.y4m out.fbs --delay 1", ["--delay", "--live"]),
-    "threads_without_live":     ({}, "encode TALK.y4m out.fbs --threads 2", ["--threads", "--live"]),
+    "threads_zero":             ({}, "encode TALK.y4m out.fbs --threads 0", ["--threads"]),
     "buffer_without_bitrate":   ({}, "encode TALK.y4m out.fbs --live --buffer 1", ["--buffer", "--bitrate"]),
     "rate_of_a_video":          ({}, "encode TALK.y4m out.fbs --rate 10", ["--rate", "images", "TALK.y4m"]),
     "track_rate_of_a_video":    ({}, "track TALK.y4m out.csv --rate 10", ["--rate", "images", "TALK.y4m"]),

@@ -34,6 +34,16 @@ double mean_square(const ReducedPlane& a, const ReducedPlane& b) {
   return sum / static_cast<double>(a.samples.size());
 }
 
+void add_to(PatternSolver& solver, std::size_t number, const State& state,
+            std::span<const std::size_t> available, glm::ivec2 size) {
+  solver.resize(number + 1);
+  solver.set_picture(number, state, available, size);
+}
+
+void add_change(const ReducedPlane& change, ReducedPlane& plane) {
+  for (std::size_t i = 0; i < plane.samples.size(); ++i) plane.samples[i] += change.samples[i];
+}
+
 /// Pictures of a scene that is drawn by the renderer, and the problem to find its patterns from them.
 struct Problem {
   BlendedScene s;
@@ -51,7 +61,7 @@ struct Problem {
 
   void add(const State& state) {
     const VideoFormat& f = s.scene.setup.format;
-    solver.add_picture(state, s.all(), {f.width, f.height});
+    add_to(solver, states.size(), state, s.all(), {f.width, f.height});
     states.push_back(state);
     targets.push_back(reduce(rendered(s.scene, state).*plane, 0));
   }
@@ -67,13 +77,15 @@ struct Problem {
     }
   }
   [[nodiscard]] Planes truth() const { return planes_of(s.scene, plane); }
-  [[nodiscard]] Planes solved(const Planes& start, std::size_t count, const SolverSettings& settings) const {
-    std::vector<SolvedPlanes> drawn;
-    for (const ReducedPlane& t : targets) drawn.push_back(alone(t));
+  [[nodiscard]] Planes solved(const Planes& start, std::size_t count, const SolverSettings& settings,
+                              int threads = 1) const {
     PatternPlanes sources;
     for (const ReducedPlane& p : start) sources.push_back(alone(p));
-    Planes out;
-    for (const SolvedPlanes& p : solver.solve(drawn, sources, count, settings)) out.push_back(p.plane(0));
+    Workers workers(threads);
+    const auto change = solver.solve([&](std::size_t k) -> Result<SolvedPlanes> { return alone(targets[k]); },
+                                     sources, count, settings, workers);
+    Planes out = start;
+    for (std::size_t k = 0; k < count; ++k) add_change((*change)[k].plane(0), out[out.size() - count + k]);
     return out;
   }
   /// Gives the patterns of a scene these luma planes.
@@ -157,11 +169,21 @@ TEST(PatternSolver, FixedPatternsStayAndTheLastAreSolvedFor) {
   EXPECT_LT(mean_square(found[2], truth[2]), 1);
 }
 
+TEST(PatternSolver, WorkersFindWhatOneFinds) {
+  Problem p(4);
+  for (int k = 0; k < 3; ++k) p.add_pictures();
+  const Planes start = changed(p.truth()), alone = p.solved(start, 3, {4, 0.2});
+  for (const int threads : {2, 3, 7}) {
+    const Planes found = p.solved(start, 3, {4, 0.2}, threads);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(found[k].samples, alone[k].samples) << threads << ' ' << k;
+  }
+}
+
 TEST(PatternSolver, PatternsThatAreNotAvailableStay) {
   Problem p(3);
   const State state = with_mode(SeenScene::rest(), BlendMode::kByState);
   const std::vector<std::size_t> some = {0, 2};
-  p.solver.add_picture(state, some, {BlendedScene::kWidth, BlendedScene::kHeight});
+  add_to(p.solver, 0, state, some, {BlendedScene::kWidth, BlendedScene::kHeight});
   p.targets.push_back(reduce(wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 50), 0));
   const Planes truth = p.truth(), found = p.solved(truth, 3, {4, 0.2});
   EXPECT_GT(mean_square(found[0], truth[0]), 0.1);
@@ -240,17 +262,23 @@ TEST(PatternSolver, PlanesSolvedTogetherAreThoseSolvedAlone) {
   PatternSolver both(u.s.blend(), 1, {1, 2});
   std::vector<SolvedPlanes> targets;
   for (std::size_t t = 0; t < u.states.size(); ++t) {
-    both.add_picture(u.states[t], u.s.all(), {BlendedScene::kWidth, BlendedScene::kHeight});
+    add_to(both, t, u.states[t], u.s.all(), {BlendedScene::kWidth, BlendedScene::kHeight});
     targets.emplace_back(std::array{u.targets[t], v.targets[t]});
   }
   const Planes start_u = changed(u.truth()), start_v = changed(v.truth());
   PatternPlanes sources;
   for (std::size_t k = 0; k < 3; ++k) sources.emplace_back(std::array{start_u[k], start_v[k]});
-  const PatternPlanes together = both.solve(targets, sources, 3, settings);
+  Workers workers;
+  const auto together = both.solve([&](std::size_t k) -> Result<SolvedPlanes> { return targets[k]; }, sources,
+                                   3, settings, workers);
+  ASSERT_TRUE(together);
   const Planes u_alone = u.solved(start_u, 3, settings), v_alone = v.solved(start_v, 3, settings);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(together[k].plane(0).samples, u_alone[k].samples) << k;
-    EXPECT_EQ(together[k].plane(1).samples, v_alone[k].samples) << k;
+    ReducedPlane u_together = start_u[k], v_together = start_v[k];
+    add_change((*together)[k].plane(0), u_together);
+    add_change((*together)[k].plane(1), v_together);
+    EXPECT_EQ(u_together.samples, u_alone[k].samples) << k;
+    EXPECT_EQ(v_together.samples, v_alone[k].samples) << k;
   }
 }
 

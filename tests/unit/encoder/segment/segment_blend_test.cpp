@@ -35,9 +35,10 @@ struct DrawnSegment {
 };
 
 TEST(SegmentBlend, FindsTheModesThatPicturesAreDrawnIn) {
+  Workers workers(2);
   for (const BlendMode mode : {BlendMode::kByTime, nearest(1)}) {
     DrawnSegment d(mode);
-    const auto errors = mode_errors(d.segment, d.patterns(), 1);
+    const auto errors = mode_errors(d.segment, d.patterns(), 1, workers);
     ASSERT_TRUE(errors);
     const auto modes = errors->cheapest_modes(100);
     ASSERT_EQ(modes.size(), kPictures);
@@ -49,6 +50,7 @@ TEST(SegmentBlend, FindsTheModesThatPicturesAreDrawnIn) {
 
 // The nearest pattern, in count, may be another after a cut.
 TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
+  Workers workers(2);
   constexpr std::size_t kCut = 10, kShared = 3;  // 9, 10 and 11 would share their modes
   DrawnSegment before(BlendMode::kByTime), after(nearest(1));
   Segment segment;
@@ -60,7 +62,7 @@ TEST(SegmentBlend, ModesAreNotSharedAcrossACut) {
   }
   segment.groups = before.segment.groups;
   segment.shots = {{kCut, false}, {kPictures - kCut, false}};
-  const auto errors = mode_errors(segment, before.patterns(), kShared);
+  const auto errors = mode_errors(segment, before.patterns(), kShared, workers);
   ASSERT_TRUE(errors);
   const auto modes = errors->cheapest_modes(1);
   ASSERT_EQ(modes.size(), kPictures);
@@ -77,21 +79,23 @@ void show(Scene& scene, std::size_t k, const Picture& picture) {
 }
 
 TEST(SegmentBlend, LossIsSmallBetweenTheTruePatternsAndLargeBetweenOthers) {
+  Workers workers(2);
   DrawnSegment d(BlendMode::kByState);
-  const auto loss = blend_loss(d.segment, d.patterns(), 5);
+  const auto loss = blend_loss(d.segment, d.patterns(), 5, workers);
   ASSERT_TRUE(loss);
   EXPECT_LT(*loss, 2);
   Picture other = d.s.scene.patterns.front().picture;
   other.y = wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 99);
   for (std::size_t k = 0; k < kPatterns; ++k) show(d.s.scene, k, other);
-  EXPECT_GT(*blend_loss(d.segment, d.patterns(), 5), 100);
+  EXPECT_GT(*blend_loss(d.segment, d.patterns(), 5, workers), 100);
 }
 
 TEST(SegmentBlend, GroupsUseWhatIsAvailableToThem) {
+  Workers workers(2);
   DrawnSegment d(BlendMode::kByState);
   SegmentPatterns few = d.patterns();
   for (AvailablePatterns& available : few.available) available = {0};
-  EXPECT_GT(*blend_loss(d.segment, few, 5), 10 * *blend_loss(d.segment, d.patterns(), 5));
+  EXPECT_GT(*blend_loss(d.segment, few, 5, workers), 10 * *blend_loss(d.segment, d.patterns(), 5, workers));
 }
 
 /// Luma error of what is drawn from the patterns against clean pictures.
@@ -105,6 +109,7 @@ double loss_of(DrawnSegment& d, std::span<const Picture> clean, std::span<const 
 
 // What one picture alone has does not help to draw the others.
 TEST(SegmentBlend, SolvedPatternsDrawTheSegmentBetterThanItsPictures) {
+  Workers workers(2);
   // Solved for at full size, and at half.
   for (const auto& [width, height] : {std::pair{320, 240}, {480, 320}}) {
     DrawnSegment d(nearest(0), width, height);
@@ -120,7 +125,7 @@ TEST(SegmentBlend, SolvedPatternsDrawTheSegmentBetterThanItsPictures) {
       if (t % BlendedScene::kSpacing == 0) own.push_back(std::move(picture));
     }
     d.segment.pictures = std::move(spoilt);
-    const auto solved = solve_patterns(d.segment, d.patterns(), kPatterns, SolverSettings{});
+    const auto solved = solve_patterns(d.segment, d.patterns(), kPatterns, SolverSettings{}, workers);
     ASSERT_TRUE(solved);
     ASSERT_EQ(solved->size(), kPatterns);
     EXPECT_LT(loss_of(d, clean, *solved), 0.85 * loss_of(d, clean, own)) << width;
@@ -128,8 +133,9 @@ TEST(SegmentBlend, SolvedPatternsDrawTheSegmentBetterThanItsPictures) {
 }
 
 TEST(SegmentBlend, OnlyTheLastPatternsAreSolvedFor) {
+  Workers workers(2);
   DrawnSegment d(BlendMode::kByState);
-  const auto solved = solve_patterns(d.segment, d.patterns(), 1, {});
+  const auto solved = solve_patterns(d.segment, d.patterns(), 1, {}, workers);
   ASSERT_TRUE(solved);
   ASSERT_EQ(solved->size(), 1U);
   const auto nearness = [&](std::size_t k) { return squares((*solved)[0], d.s.scene.patterns[k].picture); };
@@ -139,6 +145,7 @@ TEST(SegmentBlend, OnlyTheLastPatternsAreSolvedFor) {
 
 // The largest reduction is of the width: it must leave rows.
 TEST(SegmentBlend, TakesTheWidestAndLowestPictures) {
+  Workers workers(2);
   BlendedScene s(2, 1, kMaxPictureSize, kMinPictureSize);
   Segment segment;
   for (const std::int32_t t : {0, 1}) {
@@ -152,10 +159,10 @@ TEST(SegmentBlend, TakesTheWidestAndLowestPictures) {
   s.scene.patterns.replace(1, std::move(second));
   segment.groups.push_back({2, {}});
   const SegmentPatterns patterns{s.blend(), {s.all()}};
-  const auto loss = blend_loss(segment, patterns, 1);
+  const auto loss = blend_loss(segment, patterns, 1, workers);
   ASSERT_TRUE(loss);
   EXPECT_LT(*loss, 10);
-  EXPECT_TRUE(solve_patterns(segment, patterns, 2, {}));
+  EXPECT_TRUE(solve_patterns(segment, patterns, 2, {}, workers));
 }
 
 }  // namespace

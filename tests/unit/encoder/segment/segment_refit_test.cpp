@@ -17,6 +17,7 @@ struct StillSegment {
   BlendedScene s{1};
   Segment segment;
   SegmentRefit refit;
+  Workers workers{2};
 
   StillSegment()
       : refit(setup(), toy_geometry(), s.scene.patterns[0], WorkFrame::kWorkEyeDistance,
@@ -63,7 +64,7 @@ struct StillSegment {
   }
   void run() {
     const std::vector<AvailablePatterns> all(segment.groups.size(), s.all());
-    ASSERT_TRUE(refit.run(segment, {s.blend(), all}));
+    ASSERT_TRUE(refit.run(segment, {s.blend(), all}, workers));
   }
   [[nodiscard]] double off(std::size_t t, const State& from) const {
     return std::abs(segment.states[t].pose[kShiftX] - from.pose[kShiftX]) / kStateUnitsPerPixel;
