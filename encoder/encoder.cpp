@@ -201,8 +201,7 @@ Result<void> Encoder::request_scene() {
   if (!i.settings.live)
     return fail(ErrorCode::kInvalidArgument, "scenes come on request in live encoding only");
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  if (i.scene) i.scene->request_scene();
-  return {};
+  return i.scene ? i.scene->request_scene() : Result<void>{};
 }
 
 Result<void> Encoder::lose_patterns() {

@@ -33,7 +33,6 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
                  start.geometry, pose_of(start.seen), view(start.first.y)),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
-  if (settings.surround) surround_.emplace(start.first, start.seen);
   report_.face = report_.followed = true;
   report_.geometry = start.geometry;
 }
@@ -44,12 +43,8 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   landmarks_.end_picture(report_.followed ? &now_ : nullptr);
   seen.state = state_of(now_);
   seen.face = report_.followed;
-  if (surround_) {
-    if (std::exchange(surround_begins_, false)) surround_.emplace(picture, seen.state);
-    if (head_.is_in_shot()) surround_->observe(picture, now_.pose);
-    surround_->add_to(seen.cost);
-    surround_->add_to(seen.state);
-  }
+  seen.pose = now_.pose;
+  seen.in_shot = head_.is_in_shot();
   seen.vertices = project_vertices(geometry_, seen.state);
   write_report(seen);
   return seen;

@@ -6,7 +6,6 @@
 #include "encoder/analysis/picture_analysis.h"
 #include "encoder/fit/picture_fit.h"
 #include "encoder/settings.h"
-#include "encoder/surround/surround_motion.h"
 #include "encoder/track/feature_tracker.h"
 #include "encoder/track/head_follow.h"
 #include "encoder/track/landmark_follow.h"
@@ -24,8 +23,8 @@ struct AnalysisStart {
   double eye_distance_px = 0;  ///< in it
 };
 
-/// Tracks head and features, fits the state to each picture and tracks body and ground. Holds everything that
-/// lasts from picture to picture; independent of bits.
+/// Tracks head and features and fits the state to each picture. Holds everything about the face that lasts
+/// from picture to picture; independent of bits. Body and ground are observed where the pictures are coded.
 class FaceAnalysis {
  public:
   /// @param finder  searches for a lost face; must outlive the object
@@ -36,6 +35,8 @@ class FaceAnalysis {
     bool face = true;                  ///< whether it is tracked; otherwise its state is a guess
     PictureCost cost;                  ///< of other states
     std::vector<glm::ivec3> vertices;  ///< project_vertices() of the state
+    Pose pose;                         ///< as fitted
+    bool in_shot = true;               ///< as far as is known, the shot shows the head
   };
   /// Observes the next picture, beginning with the scene's first.
   [[nodiscard]] Observation observe(const Picture& picture);
@@ -46,18 +47,10 @@ class FaceAnalysis {
   /// The next picture begins another shot: the face is absent until recognised.
   void cut() { head_.cut(); }
 
-  /// The next picture begins a scene with the same head: body and ground count from there.
-  void begin_scene() { surround_begins_ = true; }
-
   /// Whether a picture of another shot shows the same head, which is then tracked again.
   /// @param picture  to be observed next
   [[nodiscard]] bool recognises(const Picture& picture) {
     return head_.recognises(picture, now_.pose, skinned(geometry_, now_.offsets));
-  }
-
-  /// Sets the map that says how each part of the picture moves from now on.
-  void set_surround_map(const SurroundMap& map) {
-    if (surround_) surround_->set_map(map);
   }
 
   /// Report of the picture observed last.
@@ -85,8 +78,6 @@ class FaceAnalysis {
   FeatureTracker features_;
   LandmarkFollow landmarks_;
   PictureFit fit_;
-  std::optional<SurroundMotion> surround_;  ///< nothing when the surround is held still
-  bool surround_begins_ = false;
   Fit now_;  ///< of the last picture
   bool begun_ = false;
   PictureAnalysis report_;

@@ -1,35 +1,50 @@
 // Runs work in parallel to the caller's.
 #pragma once
 
-#include <chrono>
+#include <condition_variable>
+#include <deque>
 #include <functional>
-#include <future>
-#include <utility>
+#include <mutex>
+#include <thread>
 
 #include "common/result.h"
 
 namespace fbs {
 
-/// One task at a time. The destructor waits for the last.
+/// Tasks that another thread does in their order. After one has failed, none is begun.
 class Background {
  public:
-  /// Waits for the previous task; starts this one unless that failed.
-  /// @return failure of the task before
-  Result<void> start(std::function<Result<void>()> task) {
-    if (auto done = wait(); !done) return done;
-    running_ = std::async(std::launch::async, std::move(task));
-    return {};
-  }
+  using Task = std::function<Result<void>()>;
 
-  /// @return failure of the last task, once
-  Result<void> wait() { return running_.valid() ? running_.get() : Result<void>{}; }
+  /// @param most  tasks that may wait; 0: the caller does each at once
+  explicit Background(std::size_t most);
+  /// Drops tasks that have not begun.
+  ~Background();
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
 
-  [[nodiscard]] bool is_idle() const {
-    return !running_.valid() || running_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
+  /// Waits as long as too many tasks wait.
+  /// @return failure of this task or of one before, once
+  Result<void> add(Task task);
+
+  /// Waits until all are done.
+  /// @return failure of one, once
+  Result<void> wait();
+
+  [[nodiscard]] bool is_idle() const;
 
  private:
-  std::future<Result<void>> running_;
+  void work();
+
+  std::size_t most_;
+  mutable std::mutex mutex_;
+  std::condition_variable added_, done_;
+  // Under the mutex:
+  std::deque<Task> tasks_;  ///< the first is being done
+  Result<void> result_{};
+  std::exception_ptr fault_{};  ///< thrown instead
+  bool stops_ = false;
+  std::thread thread_;
 };
 
 }  // namespace fbs

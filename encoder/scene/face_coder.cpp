@@ -28,6 +28,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
       rest_(scene_.patterns.front().seen),
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      start.eye_distance_px),
+      surround_moves_(settings.surround),
       surround_(std::move(start.observations), !settings.surround, ledger_.live()),
       geometry_payload_(std::move(start.geometry_payload)),
       pattern_payload_(std::move(start.pattern_payload)) {
@@ -40,6 +41,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
 }
 
 Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration) {
+  if (surround_moves_) observe_surround(picture, seen);
   if (ledger_.scene_ended())
     if (auto begun = begin_again(picture, seen); !begun) return begun;
   if (!surround_.has_ended()) learn(picture, seen);
@@ -83,6 +85,17 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
 
 void FaceCoder::cut() {
   if (second_pass_) ledger_.patterns()->cut();
+}
+
+void FaceCoder::observe_surround(const Picture& picture, FaceAnalysis::Observation& seen) {
+  if (const auto map = surround_.take_new_map(); map && surround_motion_) surround_motion_->set_map(*map);
+  if (!surround_motion_)
+    surround_motion_.emplace(picture, rest_);
+  else if (ledger_.scene_ended())
+    surround_motion_.emplace(picture, seen.state);
+  if (seen.in_shot) surround_motion_->observe(picture, seen.pose);
+  surround_motion_->add_to(seen.cost);
+  surround_motion_->add_to(seen.state);
 }
 
 void FaceCoder::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {

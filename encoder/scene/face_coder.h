@@ -11,6 +11,7 @@
 #include "encoder/scene/scene_ledger.h"
 #include "encoder/segment/segment_refit.h"
 #include "encoder/surround/surround_learning.h"
+#include "encoder/surround/surround_motion.h"
 
 namespace fbs {
 
@@ -38,20 +39,13 @@ class FaceCoder {
   void request_scene() { ledger_.request_scene(); }
   void set_bitrate(double kbps) { ledger_.set_bitrate(kbps); }
   void lose_patterns() { ledger_.lose_patterns(); }
-  /// Whether the next picture begins another scene with the same person. For a live scene it is known ahead:
-  /// live_scene_ends().
-  [[nodiscard]] bool scene_ended() const { return ledger_.scene_ended(); }
-  [[nodiscard]] bool live_scene_ends(std::uint64_t pictures) const {
-    return ledger_.live_scene_ends(pictures);
-  }
-  /// The surround's map, once after each change.
-  [[nodiscard]] std::optional<SurroundMap> take_new_map() { return surround_.take_new_map(); }
-
   [[nodiscard]] bool has_several_patterns() const { return second_pass_.has_value(); }
   /// Whole packets that are ready; forgets them.
   [[nodiscard]] std::vector<std::uint8_t> take() { return ledger_.packets().take(); }
 
  private:
+  /// Adds body and ground to the observation of the next picture.
+  void observe_surround(const Picture& picture, FaceAnalysis::Observation& seen);
   /// Until the scene starts: collects mouth colours, and pictures for fitting the surround's map.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
@@ -73,8 +67,10 @@ class FaceCoder {
   State rest_;   ///< in which the first pattern was seen: the map's
   std::vector<PictureCost> costs_;  ///< of the group's pictures
   MouthColours mouth_colours_;
+  bool surround_moves_;  ///< EncoderSettings::surround
   SurroundLearning surround_;
-  bool fixed_ = false;  ///< whether fix_head() has been called
+  std::optional<SurroundMotion> surround_motion_;  ///< since the scene's first picture
+  bool fixed_ = false;                             ///< whether fix_head() has been called
   struct SecondPass {
     SegmentRefit refit;
     std::int32_t contrast;     ///< of patterns outside the face

@@ -1,5 +1,6 @@
 #include "encoder/scene/face_scene.h"
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
@@ -27,6 +28,17 @@ PartMask parts_of(const EncoderSettings& settings) {
   add({PartId::kLight, PartId::kMouthInterior});
   if (settings.expression) add({PartId::kGaze});
   return parts;
+}
+
+/// Pictures that may be analysed and not yet coded, with several threads. Of a live scene, a group: its
+/// packets must not be later than one group's coding. Of a file, as many as fit in little memory.
+std::size_t pictures_ahead(const VideoFormat& format, const EncoderSettings& settings) {
+  if (thread_count(settings) == 1) return 0;
+  if (settings.live) return SceneTiming(format, settings).group_pictures;
+  constexpr std::size_t kBytes = 48'000'000, kMost = 256;
+  constexpr std::size_t kCosts = 2 * sizeof(double) * kParameterCount * kParameterCount;
+  const std::size_t samples = static_cast<std::size_t>(format.width) * format.height;
+  return std::clamp<std::size_t>(kBytes / (kCosts + 3 * samples / 2), 1, kMost);
 }
 
 }  // namespace
@@ -67,101 +79,72 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
   scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
-  const SceneTiming timing(format, settings);
   // A picture from elsewhere cannot be the reference of the motion.
   const Picture pattern_seen = settings.first_pattern ? first : scene.patterns.front().picture;
   return std::unique_ptr<FaceScene>(
-      new FaceScene(timing, finder, settings, {first, pattern_seen, adapted->pose.shift},
+      new FaceScene(finder, settings, {first, pattern_seen, adapted->pose.shift},
                     {std::move(scene), seen_coded, eye, *rate, std::move(geometry->payload),
-                     std::move(*pattern), std::move(observations)}));
+                     std::move(*pattern), std::move(observations)},
+                    pictures_ahead(format, settings)));
 }
 
-FaceScene::FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
-                     const FirstPicture& first, FaceCoder::Start start)
-    : timing_(timing),
-      analysis_(settings, finder,
+FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, const FirstPicture& first,
+                     FaceCoder::Start start, std::size_t ahead)
+    : analysis_(settings, finder,
                 {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
                  start.scene.patterns.front().seen, first.centre, start.eye_distance_px}),
+      several_patterns_(settings.patterns != 1),
       coder_(settings, std::move(start)),
-      ahead_(settings.live && coder_.has_several_patterns() && thread_count(settings) > 1) {}
+      coding_(ahead) {}
 
-void FaceScene::request_scene() {
-  if (ahead_)
-    requested_ = pictures_ > 0;  // otherwise the next picture begins one anyway
-  else
-    coder_.request_scene();
-}
-
-Result<void> FaceScene::set_bitrate(double kbps) {
-  if (auto done = coding_.wait(); !done) return done;
-  coder_.set_bitrate(kbps);
-  return {};
-}
-
-Result<void> FaceScene::lose_patterns() {
-  if (auto done = coding_.wait(); !done) return done;
-  coder_.lose_patterns();
-  return {};
-}
-
-Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  if (!ahead_) {
-    if (std::exchange(cut_, false)) coder_.cut();
-    if (auto done = coder_.add(picture, observed(picture), duration); !done) return done;
-    learn_from_coder();
-    return {};
-  }
-  if (std::exchange(coder_leads_, false)) {
-    if (auto done = coding_.wait(); !done) return done;
-    learn_from_coder();
-  }
-  FaceAnalysis::Observation seen = observed(picture);
-  group_.push_back({picture, std::move(seen), duration, std::exchange(cut_, false)});
-  ++pictures_;
-  return timing_.group_ends(group_.size(), pictures_) ? code_group() : Result<void>{};
-}
-
-FaceAnalysis::Observation FaceScene::observed(const Picture& picture) {
-  if (std::exchange(begins_, false)) analysis_.begin_scene();
-  return analysis_.observe(picture);
-}
-
-void FaceScene::learn_from_coder() {
-  begins_ = coder_.scene_ended();
-  if (const auto map = coder_.take_new_map()) analysis_.set_surround_map(*map);
-}
-
-Result<void> FaceScene::code(Seen seen) {
-  if (seen.cut) coder_.cut();
-  return coder_.add(seen.picture, std::move(seen.observation), seen.duration);
-}
-
-Result<void> FaceScene::code_group() {
-  const bool first = pictures_ == group_.size(), learns = !learned_ && pictures_ >= timing_.lookahead,
-             requested = requested_ && !first, last = requested || coder_.live_scene_ends(pictures_);
-  coder_leads_ = first || learns || last;
-  learned_ = (learned_ || learns) && !last;
-  if (last) {
-    pictures_ = 0;
-    requested_ = false;
-  }
-  return coding_.start([this, requested, group = std::exchange(group_, {})]() mutable -> Result<void> {
-    if (requested) coder_.request_scene();
-    for (Seen& seen : group)
-      if (auto done = code(std::move(seen)); !done) return done;
+Result<void> FaceScene::code(std::function<Result<void>()> task) {
+  return coding_.add([this, task = std::move(task)]() -> Result<void> {
+    if (auto done = task(); !done) return done;
+    const auto bytes = coder_.take();
+    const std::lock_guard lock(mutex_);
+    ready_.insert(ready_.end(), bytes.begin(), bytes.end());
     return {};
   });
 }
 
+Result<void> FaceScene::request_scene() {
+  return code([this]() -> Result<void> {
+    coder_.request_scene();
+    return {};
+  });
+}
+
+Result<void> FaceScene::set_bitrate(double kbps) {
+  return code([this, kbps]() -> Result<void> {
+    coder_.set_bitrate(kbps);
+    return {};
+  });
+}
+
+Result<void> FaceScene::lose_patterns() {
+  return code([this]() -> Result<void> {
+    coder_.lose_patterns();
+    return {};
+  });
+}
+
+Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
+  FaceAnalysis::Observation seen = analysis_.observe(picture);
+  return code([this, picture, seen = std::move(seen), duration,
+               cut = std::exchange(cut_, false)]() mutable -> Result<void> {
+    if (cut) coder_.cut();
+    return coder_.add(picture, std::move(seen), duration);
+  });
+}
+
 Result<void> FaceScene::finish() {
-  if (auto done = coding_.wait(); !done) return done;
-  for (Seen& seen : std::exchange(group_, {}))
-    if (auto done = code(std::move(seen)); !done) return done;
-  return coder_.finish();
+  if (auto done = code([this] { return coder_.finish(); }); !done) return done;
+  return coding_.wait();
 }
 
 std::vector<std::uint8_t> FaceScene::take() {
-  return coding_.is_idle() ? coder_.take() : std::vector<std::uint8_t>{};
+  const std::lock_guard lock(mutex_);
+  return std::exchange(ready_, {});
 }
 
 }  // namespace fbs

@@ -1,18 +1,19 @@
 // A scene with a face: the analysis of its pictures, and their coding.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "encoder/analysis/face_analysis.h"
-#include "encoder/plan/scene_timing.h"
 #include "encoder/scene/background.h"
 #include "encoder/scene/face_coder.h"
 #include "encoder/scene/scene_encoder.h"
 
 namespace fbs {
 
-/// Live, with several threads, a group is coded while the next pictures are analysed. The stream is the same.
+/// With several threads, pictures are coded while the next ones are analysed. The stream is the same.
 class FaceScene : public SceneEncoder {
  public:
   /// @param finder  used again when the face is lost; must outlive the scene
@@ -29,52 +30,36 @@ class FaceScene : public SceneEncoder {
     analysis_.cut();
     cut_ = true;
   }
-  void request_scene() override;
+  Result<void> request_scene() override;
   Result<void> set_bitrate(double kbps) override;
   Result<void> lose_patterns() override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
-  [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
+  [[nodiscard]] bool carries_shots() const override { return several_patterns_; }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
   [[nodiscard]] bool is_coding() const override { return !coding_.is_idle(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_.report(); }
 
  private:
-  /// A picture still to be coded.
-  struct Seen {
-    Picture picture;
-    FaceAnalysis::Observation observation;
-    std::uint32_t duration;
-    bool cut;  ///< it begins another shot
-  };
   struct FirstPicture {
     const Picture& picture;
     const Picture& pattern;  ///< that others are compared with
     glm::dvec2 centre;       ///< of the head in it, pixels
   };
-  FaceScene(const SceneTiming& timing, const FaceFinder& finder, const EncoderSettings& settings,
-            const FirstPicture& first, FaceCoder::Start start);
+  /// @param ahead  pictures that may be analysed and not yet coded; 0: the caller codes each at once
+  FaceScene(const FaceFinder& finder, const EncoderSettings& settings, const FirstPicture& first,
+            FaceCoder::Start start, std::size_t ahead);
 
-  [[nodiscard]] FaceAnalysis::Observation observed(const Picture& picture);
-  /// Passes the coder's decisions to the analysis.
-  void learn_from_coder();
-  Result<void> code(Seen seen);
-  /// Passes the group to the coder.
-  Result<void> code_group();
+  /// Has the coder do something after all that it has been asked to do before.
+  Result<void> code(std::function<Result<void>()> task);
 
-  SceneTiming timing_;
   FaceAnalysis analysis_;
-  bool begins_ = false;  ///< the next picture begins another scene of the coder
-  bool cut_ = false;     ///< it begins another shot
-  FaceCoder coder_;
-  // Where the analysis runs ahead of the coder:
-  bool ahead_;
-  std::vector<Seen> group_;
-  std::uint64_t pictures_ = 0;  ///< of the coder's scene, seen so far
-  bool requested_ = false;      ///< that scene is to end
-  bool learned_ = false;        ///< the coder has the pictures for fitting the surround's map
-  bool coder_leads_ = false;    ///< its decisions on the last group affect the analysis of the next picture
-  Background coding_;           ///< uses the coder; last, so that it ends first
+  bool several_patterns_;
+  bool cut_ = false;  ///< the next picture begins another shot
+  FaceCoder coder_;   ///< the background's alone
+  mutable std::mutex mutex_;
+  std::vector<std::uint8_t> ready_;  ///< under the mutex
+  Background coding_;                ///< last, so that it ends first
 };
 
 }  // namespace fbs

@@ -30,7 +30,7 @@ class SceneEncoder {
 
   /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
   /// one still picture does not end.
-  virtual void request_scene() {}
+  virtual Result<void> request_scene() { return {}; }
 
   /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
   virtual Result<void> set_bitrate(double /*kbps*/) { return {}; }

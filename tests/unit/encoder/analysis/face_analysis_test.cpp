@@ -64,22 +64,14 @@ TEST(FaceAnalysis, FirstPictureIsInTheStateItWasSeenIn) {
   EXPECT_TRUE(session.report().face);
 }
 
-TEST(FaceAnalysis, CostsOfHeadAndSurroundAreOfDifferentNumbers) {
+TEST(FaceAnalysis, CostsAreOfTheHeadsNumbers) {
   Session session({});
   const PictureCost cost = session.observe(0).cost;
-  ASSERT_EQ(cost.layers.size(), 2U);
+  ASSERT_EQ(cost.layers.size(), 1U);
   EXPECT_EQ(cost.layers[0].layer, CostLayer::kHead);
-  EXPECT_EQ(cost.layers[1].layer, CostLayer::kSurround);
-  for (int i = 0; i < kParameterCount; ++i)
-    EXPECT_FALSE(cost.layers[0].quadratic(i, i) > 0 && cost.layers[1].quadratic(i, i) > 0) << i;
-}
-
-TEST(FaceAnalysis, StillSurroundHasNoCost) {
-  EncoderSettings settings;
-  settings.surround = false;
-  Session session(settings);
-  EXPECT_EQ(session.observe(0).cost.layers.size(), 1U);
-  EXPECT_EQ(session.observe(1).state.body, State{}.body);
+  for (const PartId surround : {PartId::kBody, PartId::kGround})
+    for (int i = 0; i < kSimilarityCount; ++i)
+      EXPECT_EQ(cost.layers[0].quadratic(first_of(surround) + i, first_of(surround) + i), 0) << i;
 }
 
 TEST(FaceAnalysis, FollowsTheTalker) {

@@ -3,16 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace fbs {
 namespace {
 
+Result<void> failed() {
+  return fail(ErrorCode::kInternal, "no");
+}
+
 TEST(Background, RunsBesideTheCaller) {
   std::atomic<bool> go = false;
-  Background work;
+  Background work(1);
   EXPECT_TRUE(work.is_idle());
-  EXPECT_TRUE(work.start([&]() -> Result<void> {
+  EXPECT_TRUE(work.add([&]() -> Result<void> {
     while (!go) std::this_thread::yield();
     return {};
   }));
@@ -22,18 +28,55 @@ TEST(Background, RunsBesideTheCaller) {
   EXPECT_TRUE(work.is_idle());
 }
 
-TEST(Background, StartsNothingBehindAFailure) {
-  bool ran = false;
-  Background work;
-  EXPECT_TRUE(work.start([]() -> Result<void> { return fail(ErrorCode::kInternal, "no"); }));
-  const auto next = work.start([&]() -> Result<void> {
+TEST(Background, DoesAllInOrder) {
+  for (const std::size_t most : {0, 1, 7}) {
+    std::vector<int> done;
+    Background work(most);
+    for (int k = 0; k < 100; ++k)
+      ASSERT_TRUE(work.add([&done, k]() -> Result<void> {
+        done.push_back(k);
+        return {};
+      }));
+    EXPECT_TRUE(work.wait());
+    ASSERT_EQ(done.size(), 100U);
+    for (int k = 0; k < 100; ++k) EXPECT_EQ(done[k], k);
+  }
+}
+
+TEST(Background, FailuresAreSaidOnceAndDropWhatWaits) {
+  std::atomic<bool> go = false, ran = false;
+  Background work(4);
+  EXPECT_TRUE(work.add([&] {
+    while (!go) std::this_thread::yield();
+    return failed();
+  }));
+  EXPECT_TRUE(work.add([&]() -> Result<void> {
     ran = true;
     return {};
-  });
-  ASSERT_FALSE(next);
-  EXPECT_EQ(next.error().text, "no");
+  }));
+  go = true;
+  const auto waited = work.wait();
+  ASSERT_FALSE(waited);
+  EXPECT_EQ(waited.error().text, "no");
   EXPECT_TRUE(work.wait()) << "said once";
   EXPECT_FALSE(ran);
+}
+
+TEST(Background, TheCallersOwnTasksFailAtOnce) {
+  Background work(0);
+  EXPECT_FALSE(work.add(failed));
+  EXPECT_TRUE(work.is_idle());
+}
+
+TEST(Background, ExceptionsReachTheCaller) {
+  Background work(1);
+  EXPECT_TRUE(work.add([]() -> Result<void> { throw std::runtime_error("thrown"); }));
+  EXPECT_THROW((void)work.wait(), std::runtime_error);
+}
+
+TEST(Background, EndsWithTasksThatWait) {
+  Background work(4);
+  for (int k = 0; k < 4; ++k) EXPECT_TRUE(work.add([]() -> Result<void> { return {}; }));
 }
 
 }  // namespace
