@@ -44,7 +44,8 @@ Result<void> check_settings(const EncoderSettings& settings) {
     return fail(ErrorCode::kInvalidArgument, "live encoding takes 1 pattern, or 0 to choose their number");
   if (!is_size(settings.key_interval))
     return fail(ErrorCode::kInvalidArgument, "a key interval that is negative or not finite");
-  if (settings.effort < 0) return fail(ErrorCode::kInvalidArgument, "a negative effort");
+  if (settings.effort < 0 || settings.effort > Effort::kMost)
+    return fail(ErrorCode::kInvalidArgument, "effort outside 0..9");
   if (settings.threads < 0) return fail(ErrorCode::kInvalidArgument, "a negative number of threads");
   if (settings.first_pattern && settings.patterns != 1)
     return fail(ErrorCode::kInvalidArgument, "a first pattern needs the number of patterns to be 1");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/picture.h"
+#include "encoder/effort.h"
 #include "encoder/find/marks.h"
 #include "encoder/landmarks/landmark_file.h"
 
@@ -45,9 +46,9 @@ struct EncoderSettings {
   int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
   int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
   std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion
-  int effort = 1;              ///< 0: patterns are source pictures; 1: solved for; 2: and states fitted twice
-  int face = 0;                ///< which face to follow, the largest being 0
-  std::optional<Marks> marks;  ///< by hand, for the first picture; automatic otherwise
+  int effort = Effort::kDefault;         ///< 0..Effort::kMost: more takes longer and fewer bytes
+  int face = 0;                          ///< which face to follow, the largest being 0
+  std::optional<Marks> marks;            ///< by hand, for the first picture; automatic otherwise
   /// With one pattern: sent in place of the first picture with a face; has its size, and its face in the same
   /// place. The head and all motion come from the video.
   std::optional<Picture> first_pattern;

@@ -185,7 +185,7 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
       g_param_spec_uint("bitrate", "Bit rate", "Bit/s, from which quality follows (0 = quality decides)", 0,
                         1000000000, 0,
                         G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_PLAYING));
-  install_int(type, PROP_EFFORT, "effort", "Effort", "More takes longer and needs fewer bits", 0, 2, 1);
+  install_int(type, PROP_EFFORT, "effort", "Effort", "More takes longer and needs fewer bits", 0, 9, 5);
   g_object_class_install_property(
       type, PROP_TUNE,
       g_param_spec_enum("tune", "Tune", "What bytes are spent for; without effect where live is set",

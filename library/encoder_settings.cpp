@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kMaxSeconds = 1e8;  ///< three years: products with rates stay far from overflow
 constexpr double kMaxKbitPerSecond = 1e6;
-constexpr int kMaxEffort = 2;
 
 /// Also false for NaN.
 bool within(double value, double max) {
@@ -45,7 +44,6 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   for (const double seconds :
        {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer, settings.join})
     if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
-  if (settings.effort > kMaxEffort) return fail(ErrorCode::kInvalidArgument, "effort outside 0..2");
   if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
     return fail(ErrorCode::kInvalidArgument, "the tune is unknown");
   if (settings.resilience < FBS_RESILIENCE_NONE || settings.resilience > FBS_RESILIENCE_STRONG)

@@ -30,7 +30,8 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
       head_(finder, start.geometry, pose_of(start.seen), first, start.eye_distance_px),
       features_(start.geometry, pose_of(start.seen), first, settings.descent),
       landmarks_(settings.landmark_search && !settings.track_only ? &finder.landmarks() : nullptr,
-                 start.geometry, pose_of(start.seen), view(start.first.y)),
+                 start.geometry, pose_of(start.seen), view(start.first.y),
+                 Effort::of(settings.effort).landmark_rest),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
   now_.pose = pose_of(start.seen);
   report_.face = report_.followed = true;
@@ -105,6 +106,7 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   report_.had_landmarks = starts.size() > searched;
   report_.from_landmarks = best.start >= searched;
   if (best.start < contours) return best.fit;
+  if (best.start < searched) landmarks_.found_best();
   // Lids have no memory to correct: a blink is searched in each picture.
   Offsets followed = features_.offsets();
   std::copy_n(best.fit.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());

@@ -70,7 +70,7 @@ ReducedPlane SolvedPlanes::plane(int lane) const {
 }
 
 PatternSolver::PatternSolver(const BlendScene& scene, int reduction, std::vector<std::size_t> planes)
-    : scene_(scene), reduction_(reduction), planes_(std::move(planes)) {
+    : scene_(scene), reduction_(reduction), inset_(border_inset(reduction)), planes_(std::move(planes)) {
   for (std::size_t lane = 0; lane < planes_.size(); ++lane) {
     is_used_[static_cast<int>(lane)] = 1;
     if (planes_[lane] == 0) is_luma_[static_cast<int>(lane)] = 1;
@@ -146,23 +146,6 @@ std::size_t PatternSolver::bytes() const {
   return bytes;
 }
 
-SourceRun PatternSolver::source(const Tap& tap) const {
-  SourceRun out;
-  out.u = tap.u;
-  out.v = tap.v;
-  if (!tap.head && !tap.unmoved) out.inset = border_inset(reduction_);
-  return out;
-}
-
-std::pair<glm::vec4, glm::vec4> PatternSolver::factor(const Taps& taps, const Tap& tap) const {
-  glm::vec4 share = is_used_;
-  if (tap.lit > 0) {
-    const Lit& lit = taps.lit[tap.lit - 1];
-    share = (is_used_ + lit.gain * is_luma_) * (1 - lit.opacity);
-  }
-  return {share * tap.weight.first, share * tap.weight.step};
-}
-
 void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
                          SolvedPlanes& out) const {
   std::size_t begin = 0;
@@ -172,7 +155,8 @@ void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const So
     if (p.pattern < first) continue;
     const SolvedPlanes& plane = planes[p.pattern - first];
     for (const Tap& t : of_pattern) {
-      auto [f, f_step] = factor(taps, t);
+      const glm::vec4 texture = share(taps, t), f_step = texture * t.weight.step;
+      glm::vec4 f = texture * t.weight.first;
       glm::vec4* to = out.row(t.row) + t.first;
       if (t.unmoved) {
         const glm::vec4* from = plane.row(t.row) + t.first;
@@ -180,15 +164,14 @@ void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const So
         continue;
       }
       const glm::vec4* samples = plane.samples.data();
-      for_each_footprint(source(t), t.count, {plane.width, plane.height},
-                         [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
-                           const glm::vec4* a = samples + at;
-                           const glm::vec4* b = a + plane.width;
-                           const glm::vec4 top = a[0] + fx * (a[1] - a[0]),
-                                           bottom = b[0] + fx * (b[1] - b[0]);
-                           to[i] += f * (top + fy * (bottom - top));
-                           f += f_step;
-                         });
+      for_each_footprint(
+          path(t), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
+            const glm::vec4* a = samples + at;
+            const glm::vec4* b = a + plane.width;
+            const glm::vec4 top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
+            to[i] += f * (top + fy * (bottom - top));
+            f += f_step;
+          });
     }
   }
 }
@@ -196,7 +179,8 @@ void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const So
 void PatternSolver::draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
                                     SolvedPlanes& plane) const {
   for (const Tap& t : taps.of(pattern)) {
-    auto [f, f_step] = factor(taps, t);
+    const glm::vec4 texture = share(taps, t), f_step = texture * t.weight.step;
+    glm::vec4 f = texture * t.weight.first;
     const glm::vec4* from = picture.row(t.row) + t.first;
     if (t.unmoved) {
       glm::vec4* to = plane.row(t.row) + t.first;
@@ -204,19 +188,18 @@ void PatternSolver::draw_transposed(const Taps& taps, std::size_t pattern, const
       continue;
     }
     glm::vec4* samples = plane.samples.data();
-    for_each_footprint(source(t), t.count, {plane.width, plane.height},
-                       [&, f = f, f_step = f_step](int i, int at, float fx, float fy) mutable {
-                         const glm::vec4 value = f * from[i];
-                         f += f_step;
-                         glm::vec4* a = samples + at;
-                         glm::vec4* b = a + plane.width;
-                         const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
-                                         bottom_right = bottom * fx;
-                         a[0] += top - top_right;
-                         a[1] += top_right;
-                         b[0] += bottom - bottom_right;
-                         b[1] += bottom_right;
-                       });
+    for_each_footprint(path(t), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
+      const glm::vec4 value = f * from[i];
+      f += f_step;
+      glm::vec4* a = samples + at;
+      glm::vec4* b = a + plane.width;
+      const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
+                      bottom_right = bottom * fx;
+      a[0] += top - top_right;
+      a[1] += top_right;
+      b[0] += bottom - bottom_right;
+      b[1] += bottom_right;
+    });
   }
 }
 

@@ -73,7 +73,7 @@ class PatternSolver {
  private:
   /// Samples of a run that come from one pattern. There are millions.
   struct Tap {
-    RunValue u, v, weight;  ///< SourceRun::u, v
+    RunValue u, v, weight;  ///< TexturePath::u, v
     std::uint32_t lit;      ///< index into Taps::lit, from 1; 0: as the pattern shows it
     std::uint16_t row, first, count;
     bool head;
@@ -99,9 +99,13 @@ class PatternSolver {
   /// Draws a number of pictures into the memory it is given.
   using Draw = std::function<Result<void>(std::size_t number, SolvedPlanes& out)>;
 
-  [[nodiscard]] SourceRun source(const Tap& tap) const;
-  /// The textures' share in the first sample of a run, and its increment per sample.
-  [[nodiscard]] std::pair<glm::vec4, glm::vec4> factor(const Taps& taps, const Tap& tap) const;
+  [[nodiscard]] TexturePath path(const Tap& tap) const { return {tap.u, tap.v, tap.head ? 0 : inset_}; }
+  /// The texture's share in a run.
+  [[nodiscard]] glm::vec4 share(const Taps& taps, const Tap& tap) const {
+    if (tap.lit == 0) return is_used_;
+    const Lit& lit = taps.lit[tap.lit - 1];
+    return (is_used_ + lit.gain * is_luma_) * (1 - lit.opacity);
+  }
   /// out += A^T pictures, for the last patterns, as many as there are planes.
   Result<void> add_transposed(const Draw& draw, Planes out, Workers& workers) const;
   /// Draws samples without the terms that do not depend on the patterns: out += A planes
@@ -118,6 +122,7 @@ class PatternSolver {
 
   BlendScene scene_;
   int reduction_;
+  float inset_;                        ///< of the surround
   std::vector<std::size_t> planes_;    ///< plane of each lane in use
   glm::vec4 is_used_{0}, is_luma_{0};  ///< 1 for such lanes
   std::vector<Taps> pictures_;

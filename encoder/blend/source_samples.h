@@ -50,10 +50,14 @@ struct RunValue {
   float first = 0, step = 0;
 };
 
+/// Where a run lies in a texture.
+struct TexturePath {
+  RunValue u, v;    ///< position, samples; integers lie on centres
+  float inset = 0;  ///< border samples that repeat those inside
+};
+
 /// How to sample a texture along a run. Quantities that hardly change have one value.
-struct SourceRun {
-  RunValue u, v;                    ///< texture position, samples; integers lie on centres
-  float inset = 0;                  ///< border samples that repeat those inside
+struct SourceRun : TexturePath {
   RunValue offset;                  ///< of the light, grey levels
   float gain = 0;                   ///< of the light, per grey level from 128; at the first sample
   float opacity = 0;                ///< of the mouth interior, 0..1
@@ -68,8 +72,8 @@ struct PictureMesh {
   int reduction;
 };
 
-/// SourceRun::inset of the surround: samples of a plane whose border repeats those inside (kLumaInset). After
-/// much reduction, the outermost samples are mostly from inside.
+/// TexturePath::inset of the surround: samples of a plane whose border repeats those inside (kLumaInset).
+/// After much reduction, the outermost samples are mostly from inside.
 [[nodiscard]] float border_inset(int reduction);
 
 /// @param still  the texture is not warped
@@ -78,7 +82,7 @@ struct PictureMesh {
 
 /// Whether all samples that a run interpolates lie inside a plane of this size, even with rounding in the
 /// increments added up along it.
-[[nodiscard]] inline bool is_inside(const SourceRun& source, int count, glm::ivec2 size) {
+[[nodiscard]] inline bool is_inside(const TexturePath& source, int count, glm::ivec2 size) {
   constexpr float kDrift = 0.25F;
   const auto within = [&](const RunValue& v, int samples) {
     const float end = v.first + v.step * static_cast<float>(count - 1);
@@ -89,7 +93,7 @@ struct PictureMesh {
 }
 
 /// Whether the run shows the texture's own samples, unmoved.
-[[nodiscard]] inline bool is_identity(const SourceRun& source, const SurfaceRun& run) {
+[[nodiscard]] inline bool is_identity(const TexturePath& source, const SurfaceRun& run) {
   return source.u.step == 1 && source.v.step == 0 && source.u.first == static_cast<float>(run.first) &&
          source.v.first == static_cast<float>(run.row);
 }
@@ -98,7 +102,7 @@ struct PictureMesh {
 /// samples of a plane of this size; fx and fy are the shares of the right and the lower ones. Positions
 /// outside repeat the border.
 template <class Use>
-void for_each_footprint(const SourceRun& source, int count, glm::ivec2 size, Use&& use) {
+void for_each_footprint(const TexturePath& source, int count, glm::ivec2 size, Use&& use) {
   float u = source.u.first, v = source.v.first;
   const auto at = [&](int i, int column, int row, float x, float y) {
     use(i, row * size.x + column, x - static_cast<float>(column), y - static_cast<float>(row));

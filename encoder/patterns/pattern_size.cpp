@@ -18,7 +18,13 @@ double bytes_of(const PatternCost& cost, std::size_t patterns) {
   return cost.first_bytes + static_cast<double>(patterns - 1) * cost.later_bytes;
 }
 
+constexpr int kMostFullSize = 400 * 400;
+
 }  // namespace
+
+bool large_enough_to_reduce(const VideoFormat& format) {
+  return format.width * format.height > kMostFullSize;
+}
 
 bool reduced_size_pays(double blend_loss, std::size_t patterns, double other_bytes, const PatternCost& full,
                        const PatternCost& reduced) {

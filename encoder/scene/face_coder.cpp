@@ -28,6 +28,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
       rest_(scene_.patterns.front().seen),
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      start.eye_distance_px),
+      pattern_speed_(Effort::of(settings.effort).pattern_speed),
       surround_moves_(settings.surround),
       surround_(std::move(start.observations), !settings.surround, ledger_.live()),
       geometry_payload_(std::move(start.geometry_payload)),
@@ -71,7 +72,7 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
   if (second_pass_) {
     second_pass_->refit.begin_segment(ledger_.motion());
   } else {
-    FirstPattern first(scene_.setup.format, picture, kSentSpeed);
+    FirstPattern first(scene_.setup.format, picture, pattern_speed_);
     auto coded = first.take(ledger_.rate().point.pattern_quantiser);
     if (!coded) return fail(coded.error());
     auto payload = encode_first_pattern({0, 0, rest, std::move(coded->av1)}, scene_.setup);

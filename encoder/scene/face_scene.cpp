@@ -54,7 +54,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
 
   // With several patterns, pictures are compared with this one only until the segment's are coded.
   const Picture& shown = settings.first_pattern ? *settings.first_pattern : first;
-  FirstPattern first_pattern(format, shown, settings.patterns == 1 ? kSentSpeed : kTrialSpeed);
+  FirstPattern first_pattern(
+      format, shown, settings.patterns == 1 ? Effort::of(settings.effort).pattern_speed : kTrialSpeed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <thread>
 
+#include "encoder/patterns/pattern_size.h"
 #include "encoder/plan/rate_target.h"
 #include "encoder/plan/scene_timing.h"
 
 namespace fbs {
 namespace {
-
-/// Most rounds of fitting states to the blend, whatever the effort. The first gains 4 % of the rate in the
-/// face and 1 % in the frame (four clips), the second 0.8 % and 0.3 %; each takes 15 % of the encoder's time.
-constexpr int kMaxRefits = 2;
 
 /// Default time between scenes of a live source, s: where viewers join. Twice as long where the head of each
 /// is sent again, and longer where viewers can join anywhere.
@@ -20,21 +17,17 @@ constexpr double kLiveKeySeconds = 10, kStrongKeySeconds = 20, kJoinedKeySeconds
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
 
-/// Pictures with more samples have live patterns at half width and height: at 512x512 that takes 10 to 29 %
-/// less rate in the face (three clips); at 352x288 25 % more with little motion, 13 % less with much.
-constexpr int kMostFullSize = 400 * 400;
-
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
                                   const VideoFormat& format) {
   LivePatternSettings out;
-  out.reduced = settings.reduced_patterns.value_or(format.width * format.height > kMostFullSize);
+  out.reduced = settings.reduced_patterns.value_or(large_enough_to_reduce(format));
   const int halvings = out.reduced ? 1 : 0;
   const PatternPoint point = PatternPoint::at(settings.quality);
   out.quantiser = settings.pattern_quantiser >= 0
                       ? settings.pattern_quantiser
                       : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
   out.lambda = motion.lambda;
-  out.refits = settings.effort > 0 && !settings.track_only;
+  out.refits = Effort::of(settings.effort).refits > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
@@ -77,8 +70,8 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.key_interval = settings.key_interval;
   out.threads = thread_count(settings);
   out.lambda = motion.lambda;
-  out.solves = settings.effort > 0;  // a second time would lose 2 % in the face for 1 % in the frame
-  out.refits = settings.track_only ? 0 : std::min(settings.effort, kMaxRefits);
+  out.effort = Effort::of(settings.effort);
+  if (settings.track_only) out.effort.refits = 0;
   return out;
 }
 
@@ -87,7 +80,7 @@ PatternPassSettings planar_pass_settings(const EncoderSettings& settings, const 
   out.point_at = &PatternPoint::without_face;
   out.point = out.point_at(settings.quality);
   out.without_face = true;
-  out.refits = 0;
+  out.effort.refits = 0;
   return out;
 }
 

@@ -44,6 +44,7 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
       store_(format, rest, settings.groups_per_key),
       most_(store_.slots()),
       point_(settings.point) {
+  coding_.speed = settings.effort.pattern_speed;
   if (!settings.without_face) return;
   const double bytes = 1.5 * format.width * format.height;
   most_ = static_cast<std::int32_t>(
@@ -197,7 +198,11 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
 }
 
 Result<void> PatternPass::choose_size(const Scene& scene) {
-  const auto reduced = settings_.reduced ? Result<bool>(*settings_.reduced) : reduced_size_pays(scene);
+  auto reduced = Result<bool>(large_enough_to_reduce(store_.format()));
+  if (settings_.reduced)
+    reduced = *settings_.reduced;
+  else if (settings_.effort.tries_sizes)
+    reduced = reduced_size_pays(scene);
   if (!reduced) return fail(reduced.error());
   set_size(*reduced);
   return {};
@@ -290,23 +295,28 @@ Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const S
 Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene);
   if (!draft) return draft;
-  if (settings_.solves) {
+  if (settings_.effort.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. Always
     // at half size, since only the kind of errors matters.
     if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, kDraftShared); !chosen) return fail(chosen.error());
+    if (auto chosen = choose(scene, *draft, settings_.effort.draft_pictures); !chosen)
+      return fail(chosen.error());
     if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
   }
   if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
   // A lone pattern is close to the picture that the states were fitted to.
-  const int refits = draft->times.size() > 1 ? settings_.refits : 0;
-  if (auto chosen = choose(scene, *draft, refits > 0 ? kDraftShared : 1); !chosen)
+  const int refits = draft->times.size() > 1 ? settings_.effort.refits : 0;
+  if (auto chosen =
+          choose(scene, *draft, refits > 0 ? settings_.effort.draft_pictures : settings_.effort.pictures);
+      !chosen)
     return fail(chosen.error());
   // States are fitted last, to patterns as sent. Fitted before solving, they would compensate for what
   // solving corrects: wasted bits of motion.
   for (int i = 0; i < refits; ++i) {
     if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (auto chosen = choose(scene, *draft, i + 1 < refits ? kDraftShared : 1); !chosen)
+    if (auto chosen = choose(scene, *draft,
+                             i + 1 < refits ? settings_.effort.draft_pictures : settings_.effort.pictures);
+        !chosen)
       return fail(chosen.error());
   }
   return draft;
@@ -365,7 +375,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
     if (auto coded = code(scene, draft, coding_); !coded) return coded;
   }
   draft = std::move(best);
-  return choose(scene, draft, 1);
+  return choose(scene, draft, settings_.effort.pictures);
 }
 
 Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::size_t other_bytes,

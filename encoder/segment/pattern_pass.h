@@ -27,8 +27,7 @@ struct PatternPassSettings {
   int lone_quantiser = 40;       ///< for a scene too short for a second pattern
   std::optional<int> quantiser;  ///< of the patterns; empty: as the point says
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
-  bool solves = true;            ///< solves for patterns; otherwise codes source pictures
-  int refits = 1;                ///< rounds of fitting states to the blend
+  Effort effort = Effort::of(Effort::kDefault);
   bool without_face = false;  ///< patterns show all motion: often more of them than the decoder keeps at once
   double lambda = 0;          ///< squared luma levels that a bit is worth
   double key_interval = 0;    ///< EncoderSettings::key_interval

@@ -32,9 +32,6 @@ struct SegmentErrors {
   [[nodiscard]] std::vector<RegionModes> cheapest_modes(double lambda, const RegionModes& before = {}) const;
 };
 
-/// Pictures that share their errors at most where modes are chosen anew later on.
-inline constexpr std::size_t kDraftShared = 3;
-
 /// @param most  longest run, pictures; never across a cut
 [[nodiscard]] Result<SegmentErrors> mode_errors(const Segment& segment, const SegmentPatterns& patterns,
                                                 std::size_t most, Workers& workers);

@@ -15,8 +15,12 @@ Shape projected(const PoseProjection& projection, const HeadVertices& vertices) 
 }  // namespace
 
 LandmarkFollow::LandmarkFollow(const LandmarkSearch* search, const Geometry& geometry, const Pose& pose,
-                               const cv::Mat& first)
-    : search_(search), geometry_(geometry), expression_(geometry), expression_by_given_(geometry) {
+                               const cv::Mat& first, int rest)
+    : search_(search),
+      geometry_(geometry),
+      expression_(geometry),
+      expression_by_given_(geometry),
+      rest_(rest) {
   if (const auto found = search_landmarks(first, pose, Offsets{}))
     expression_.calibrate(*found, pose, Offsets{});
 }
@@ -30,8 +34,12 @@ std::optional<LandmarkPoints> LandmarkFollow::search_landmarks(const cv::Mat& pi
   return found.points;
 }
 
-std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& pose,
-                                            const Offsets& before) const {
+std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& pose, const Offsets& before) {
+  if (rests_ > 0) {
+    --rests_;
+    return std::nullopt;
+  }
+  rests_ = rest_;
   const auto found = search_landmarks(picture, pose, before);
   if (!found) return std::nullopt;
   return expression_.offsets(*found, pose);

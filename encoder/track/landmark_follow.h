@@ -15,20 +15,23 @@ class LandmarkFollow {
   /// Takes the search's error on this person's resting face as its error always.
   /// @param search  must outlive the object; null: nothing is searched
   /// @param pose    of the head in `first`
+  /// @param rest    Effort::landmark_rest
   LandmarkFollow(const LandmarkSearch* search, const Geometry& geometry, const Pose& pose,
-                 const cv::Mat& first);
+                 const cv::Mat& first, int rest);
 
   /// Sets another tracker's landmarks of the next picture.
   void give(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
   /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if the landmarks are
-  /// not believed.
+  /// not believed, nor in `rest` pictures after one whose landmarks were no help: a search takes as long as
+  /// the rest of the tracking.
   /// @param picture  luma, 8 bits
   /// @param pose     of the head in the picture; if the landmarks of rigid parts are elsewhere, all are moved
   ///                 back
   /// @param before   offsets from which the search starts
-  [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose,
-                                            const Offsets& before) const;
+  [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose, const Offsets& before);
+  /// What find() has found was a better start of the fit than any other.
+  void found_best() { rests_ = 0; }
   /// The same by the given landmarks; nothing as long as their tracker's error is not known.
   [[nodiscard]] std::optional<Offsets> by_given(const Pose& pose) const;
 
@@ -44,6 +47,7 @@ class LandmarkFollow {
   Geometry geometry_;
   LandmarkExpression expression_, expression_by_given_;
   std::optional<LandmarkPoints> given_;
+  int rest_, rests_ = 0;  ///< pictures in which nothing is searched, and those still to come
 };
 
 }  // namespace fbs

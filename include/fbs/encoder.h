@@ -46,7 +46,7 @@ typedef struct fbs_encoder_settings {
   int quality;         /**< 0..100; default 50 */
   double bitrate;      /**< kbit/s in total, which determines quality; 0 (default): quality decides */
   double seconds;      /**< length of the video, for bitrate; 0 (default): unknown */
-  int effort;          /**< 0..2; default 1. More takes longer and saves bits */
+  int effort;          /**< 0..9; default 5. More takes longer and saves bits */
   int patterns;        /**< pictures of the person in a scene, 1..64; 0 (default): chosen by the encoder */
   int face;            /**< which face to follow, 0 (default) being the largest */
   int allow_no_face;   /**< 1: also code a video without any face; default 0 */

@@ -70,8 +70,8 @@ class Encoder:
         kbit/s in total, which determines quality.
     seconds : float, optional
         Length of the video, if known; for `bitrate`.
-    effort : {0, 1, 2}
-        More takes longer and saves bits.
+    effort : int
+        0 to 9. More takes longer and saves bits.
     tune : {"eye", "psnr"}
         What bytes are spent for: mouth and eyes that look right, or the PSNR of the whole frame. No effect with `live`.
     patterns : int
@@ -123,7 +123,7 @@ class Encoder:
         quality: int = 50,
         bitrate: float | None = None,
         seconds: float | None = None,
-        effort: int = 1,
+        effort: int = 5,
         tune: str = "eye",
         patterns: int = 0,
         face: int = 0,
@@ -145,7 +145,7 @@ class Encoder:
         _require("quality", 0 <= quality <= 100, quality, "0 to 100")
         _require("bitrate", bitrate is None or bitrate > 0, bitrate, "positive")
         _require("seconds", seconds is None or seconds > 0, seconds, "positive")
-        _require("effort", effort in (0, 1, 2), effort, "0 to 2")
+        _require("effort", effort in range(10), effort, "0 to 9")
         _require("tune", tune in _TUNES, tune, "one of " + ", ".join(_TUNES))
         _require("resilience", resilience in _RESILIENCES, resilience, "one of " + ", ".join(_RESILIENCES))
         _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")

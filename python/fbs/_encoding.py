@@ -28,7 +28,7 @@ def encode(
     quality: int | None = None,
     bitrate: float | None = None,
     fps: Rate | None = None,
-    effort: int = 1,
+    effort: int = 5,
     tune: str = "eye",
     patterns: int = 0,
     face: int = 0,
@@ -58,8 +58,8 @@ def encode(
         Instead: kbit/s in total, with sound.
     fps : int, float or Fraction, optional
         Pictures per second, for pictures and images; 25 unless given. A video file has its own.
-    effort : {0, 1, 2}
-        More takes longer and saves bits.
+    effort : int
+        0 to 9. More takes longer and saves bits.
     tune : {"eye", "psnr"}
         What bytes are spent for: mouth and eyes that look right, or the PSNR of the whole frame. No effect with `live`.
     patterns : int

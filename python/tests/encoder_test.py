@@ -131,7 +131,7 @@ def test_landmarks_are_there_as_they_are_tracked(pictures):
     [
         ({"width": 63}, "width is 64 to 8192, not 63"),
         ({"quality": 101}, "quality is 0 to 100"),
-        ({"effort": 3}, "effort"),
+        ({"effort": 10}, "effort"),
         ({"tune": "ssim"}, "tune"),
         ({"patterns": 65}, "patterns"),
         ({"bitrate": -1}, "bitrate"),

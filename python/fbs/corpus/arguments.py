@@ -112,7 +112,7 @@ def _add_measuring(group: argparse._ArgumentGroup) -> None:
         help="peers code every so many pictures (default: 1,2,3)",
     )
     group.add_argument("--frames", type=_number(1, 10**9), metavar="N", help="the first N pictures of each clip only")
-    group.add_argument("--effort", type=_number(0, 2), default=1, help="of fbs (default: 1)")
+    group.add_argument("--effort", type=_number(0, 9), default=5, help="of fbs (default: 5)")
     group.add_argument("--allow-no-face", action="store_true", help="measure clips without a face, too")
 
 

@@ -20,7 +20,7 @@ class Order:
     """Tells this run from earlier ones."""
     frames: int | None = None
     """Use at most this many pictures of each clip, from the first on."""
-    effort: int = 1
+    effort: int = 5
     allow_no_face: bool = False
     keep_streams: bool = False
     attempts: int = 3

@@ -432,8 +432,10 @@ TEST(Encoder, RefusesSettingsOutOfRange) {
   settings.pattern_quantiser = 64;
   EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
   settings = {};
-  settings.effort = -1;
-  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
+  for (const int effort : {-1, Effort::kMost + 1}) {
+    settings.effort = effort;
+    EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument) << effort;
+  }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
     const auto with = [&](auto set) {

@@ -72,20 +72,19 @@ TEST(PassSettings, AQuantiserThatIsAskedForHoldsForALonePatternToo) {
 
 TEST(PassSettings, EffortSolvesAndFits) {
   EncoderSettings settings;
-  for (const int effort : {0, 1, 2, 3}) {
+  for (int effort = 0; effort <= Effort::kMost; ++effort) {
     settings.effort = effort;
-    const PatternPassSettings pass = pass_settings(settings, kMotion);
-    EXPECT_EQ(pass.solves, effort > 0);
-    EXPECT_EQ(pass.refits, std::min(effort, 2));
+    EXPECT_EQ(pass_settings(settings, kMotion).effort.solves, Effort::of(effort).solves);
+    EXPECT_EQ(pass_settings(settings, kMotion).effort.refits, Effort::of(effort).refits);
   }
   settings.track_only = true;
-  EXPECT_EQ(pass_settings(settings, kMotion).refits, 0) << "nothing is fitted to what is shown";
+  EXPECT_EQ(pass_settings(settings, kMotion).effort.refits, 0) << "nothing is fitted to what is shown";
 }
 
 TEST(PassSettings, AShotWithoutAFaceHasMorePatternsAndNothingToFit) {
   const PatternPassSettings pass = planar_pass_settings({}, kMotion);
   EXPECT_TRUE(pass.without_face);
-  EXPECT_EQ(pass.refits, 0);
+  EXPECT_EQ(pass.effort.refits, 0);
   EXPECT_EQ(pass.point.per_second, PatternPoint::without_face(50).per_second);
   EXPECT_EQ(pass.point_at(70).quantiser, PatternPoint::without_face(70).quantiser);
 }

@@ -19,6 +19,7 @@ class LandmarkFollowTest : public testing::Test {
   [[nodiscard]] Pose pose(int frame) { return adapt_head(clip_.marks(frame))->pose; }
 
   [[nodiscard]] std::optional<Offsets> found(int frame) {
+    follow_.found_best();
     return follow_.find(view(clip_[frame].y), pose(frame), Offsets{});
   }
 
@@ -37,7 +38,7 @@ class LandmarkFollowTest : public testing::Test {
   TalkerClip clip_{talker_settings(264, 216, 150)};
   AdaptedHead head_ = *adapt_head(clip_.marks(0));
   LandmarkSearch search_{*load_landmarks()};
-  LandmarkFollow follow_{&search_, head_.geometry, head_.pose, view(clip_[0].y)};
+  LandmarkFollow follow_{&search_, head_.geometry, head_.pose, view(clip_[0].y), 2};
 };
 
 TEST_F(LandmarkFollowTest, AFaceAtRestIsAtRest) {
@@ -64,6 +65,18 @@ TEST_F(LandmarkFollowTest, PupilsStayAtRest) {
   ASSERT_TRUE(offsets);
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
     EXPECT_EQ((*offsets)[feature(id).first_control], glm::dvec2(0));
+}
+
+TEST_F(LandmarkFollowTest, RestsAfterASearchThatWasNoHelp) {
+  const auto finds = [&](int frame) {
+    return follow_.find(view(clip_[frame].y), pose(frame), Offsets{}).has_value();
+  };
+  EXPECT_TRUE(finds(0));
+  follow_.found_best();
+  EXPECT_TRUE(finds(1));
+  EXPECT_FALSE(finds(2));
+  EXPECT_FALSE(finds(3));
+  EXPECT_TRUE(finds(4));
 }
 
 TEST_F(LandmarkFollowTest, FindsNothingWhereNoFaceIs) {

@@ -1,0 +1,38 @@
+// What EncoderSettings::effort stands for.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace fbs {
+
+/// Each step takes more time than the one before and fewer bytes; docs/results.md says how much.
+struct Effort {
+  static constexpr int kMost = 9, kDefault = 5;
+
+  int pattern_speed;                     ///< Av1Settings::speed of patterns that are sent
+  bool tries_sizes;                      ///< patterns are coded on trial to choose their size
+  bool solves;                           ///< for patterns; otherwise they are source pictures
+  int refits;                            ///< rounds of fitting states to the blend
+  std::size_t draft_pictures, pictures;  ///< most that share blend errors, in drafts and at the end
+  int landmark_rest;                     ///< LandmarkFollow's
+
+  /// @param effort  0..kMost
+  [[nodiscard]] static constexpr Effort of(int effort) {
+    constexpr std::array<Effort, kMost + 1> kEfforts = {{
+        {8, false, false, 0, 12, 6, 15},
+        {6, false, false, 0, 6, 3, 7},
+        {6, true, false, 0, 6, 2, 3},
+        {5, true, true, 0, 6, 2, 3},
+        {4, true, true, 1, 6, 1, 3},
+        {3, true, true, 1, 3, 1, 1},
+        {3, true, true, 2, 3, 1, 1},
+        {2, true, true, 2, 3, 1, 0},
+        {1, true, true, 2, 2, 1, 0},
+        {0, true, true, 2, 1, 1, 0},
+    }};
+    return kEfforts[static_cast<std::size_t>(effort)];
+  }
+};
+
+}  // namespace fbs
