@@ -15,7 +15,7 @@ struct Effort {
   bool solves;                           ///< for patterns; otherwise they are source pictures
   int refits;                            ///< rounds of fitting states to the blend
   std::size_t draft_pictures, pictures;  ///< most that share blend errors, in drafts and at the end
-  int landmark_rest;                     ///< LandmarkFollow's
+  int landmark_rest;                     ///< pictures without a search for landmarks after each with one
 
   /// @param effort  0..kMost
   [[nodiscard]] static constexpr Effort of(int effort) {

@@ -106,7 +106,6 @@ Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
   report_.had_landmarks = starts.size() > searched;
   report_.from_landmarks = best.start >= searched;
   if (best.start < contours) return best.fit;
-  if (best.start < searched) landmarks_.found_best();
   // Lids have no memory to correct: a blink is searched in each picture.
   Offsets followed = features_.offsets();
   std::copy_n(best.fit.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());

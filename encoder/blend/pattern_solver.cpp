@@ -16,6 +16,14 @@ constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
+// Of the numbers of a tap.
+constexpr float kPlaceOne = 64, kStepOne = 4096, kWeightOne = 16384;
+
+std::int16_t fixed(float value, float one) {
+  constexpr float kMost = 32767;
+  return static_cast<std::int16_t>(std::lrint(std::clamp(value * one, -kMost, kMost)));
+}
+
 /// Pictures in memory at a time. They share the patterns near them in time, each of which is one worker's.
 constexpr std::size_t kTogether = 16;
 
@@ -91,14 +99,18 @@ void PatternSolver::set_picture(std::size_t number, const State& state,
   const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures, mesh);
   const PointWeights surround = point_weights(blend.regions, geometry.surround().shares());
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
-  std::vector<std::vector<Tap>> by_pattern(scene_.patterns.size());
-  Taps taps;
+  struct Found {
+    std::vector<Tap> taps;
+    std::vector<Lit> lit;
+  };
+  std::vector<Found> by_pattern(scene_.patterns.size());
   for (const SurfaceRun& run : surface.runs()) {
     const SurfaceTriangle& t = surface.triangles()[run.triangle];
     const PointWeights& weights = t.head ? blend.head : surround;
     const auto w0 = weights.at(t.corners[0]), w1 = weights.at(t.corners[1]), w2 = weights.at(t.corners[2]);
     const Barycentric& b = surface.barycentric(run.triangle);
-    const glm::vec2 at = b.at(static_cast<float>(run.first), static_cast<float>(run.row));
+    const auto first = static_cast<float>(run.first), row = static_cast<float>(run.row);
+    const glm::vec2 at = b.at(first, row);
     for (std::size_t s = 0; s < weights.sources; ++s) {
       if ((w0[s] | w1[s] | w2[s]) == 0) continue;
       const glm::vec2 d = glm::vec2(w1[s] - w0[s], w2[s] - w0[s]) * kToOne;
@@ -106,38 +118,51 @@ void PatternSolver::set_picture(std::size_t number, const State& state,
       const SourceRun source = source_run(picture, run, *textures[k], blend.sources[s].still);
       const bool is_lit =
           source.gain != 0 || source.opacity != 0 || source.offset.first != 0 || source.offset.step != 0;
-      if (is_lit) taps.lit.push_back({source.offset, source.gain, source.opacity, source.interior});
-      by_pattern[available[k]].push_back(
-          {source.u,
-           source.v,
-           {static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), glm::dot(b.per_column, d)},
-           is_lit ? static_cast<std::uint32_t>(taps.lit.size()) : 0,
-           static_cast<std::uint16_t>(run.row),
-           static_cast<std::uint16_t>(run.first),
-           static_cast<std::uint16_t>(run.count),
-           t.head,
-           is_identity(source, run)});
+      Found& found = by_pattern[available[k]];
+      if (is_lit) found.lit.push_back({source.offset, source.gain, source.opacity, source.interior});
+      found.taps.push_back({static_cast<std::uint16_t>(run.row), static_cast<std::uint16_t>(run.first),
+                            static_cast<std::uint16_t>(run.count), t.head, is_identity(source, run), is_lit,
+                            fixed(source.u.first - first, kPlaceOne), fixed(source.v.first - row, kPlaceOne),
+                            fixed(source.u.step, kStepOne), fixed(source.v.step, kStepOne),
+                            fixed(static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), kWeightOne),
+                            fixed(glm::dot(b.per_column, d), kWeightOne)});
     }
   }
-  std::size_t count = 0;
-  for (const auto& of_one : by_pattern) count += of_one.size();
+  Taps taps;
+  std::size_t count = 0, lit = 0;
+  for (const Found& found : by_pattern) count += found.taps.size(), lit += found.lit.size();
   taps.all.reserve(count);
+  taps.lit.reserve(lit);
   for (std::size_t k = 0; k < by_pattern.size(); ++k) {
-    if (by_pattern[k].empty()) continue;
-    taps.all.insert(taps.all.end(), by_pattern[k].begin(), by_pattern[k].end());
-    taps.patterns.push_back({k, taps.all.size()});
+    const Found& found = by_pattern[k];
+    if (found.taps.empty()) continue;
+    const std::size_t first_lit = taps.lit.size();
+    taps.all.insert(taps.all.end(), found.taps.begin(), found.taps.end());
+    taps.lit.insert(taps.lit.end(), found.lit.begin(), found.lit.end());
+    taps.patterns.push_back({k, taps.all.size(), first_lit});
   }
-  taps.lit.shrink_to_fit();
   pictures_[number] = std::move(taps);
 }
 
-std::span<const PatternSolver::Tap> PatternSolver::Taps::of(std::size_t pattern) const {
-  std::size_t begin = 0;
-  for (const Pattern& p : patterns) {
-    if (p.pattern == pattern) return std::span(all).subspan(begin, p.end - begin);
-    begin = p.end;
+TexturePath PatternSolver::Tap::path(float surround_inset) const {
+  return {
+      {static_cast<float>(first) + static_cast<float>(by_u) / kPlaceOne,
+       static_cast<float>(step_u) / kStepOne},
+      {static_cast<float>(row) + static_cast<float>(by_v) / kPlaceOne, static_cast<float>(step_v) / kStepOne},
+      head ? 0 : surround_inset};
+}
+
+RunValue PatternSolver::Tap::weights() const {
+  return {static_cast<float>(weight) / kWeightOne, static_cast<float>(weight_step) / kWeightOne};
+}
+
+template <class Use>
+void PatternSolver::for_each_tap(const Taps& taps, std::size_t place, Use&& use) {
+  const Lit* lit = taps.lit.data() + taps.patterns[place].first_lit;
+  for (std::size_t k = place > 0 ? taps.patterns[place - 1].end : 0; k < taps.patterns[place].end; ++k) {
+    const Tap& tap = taps.all[k];
+    use(tap, tap.lit ? lit++ : nullptr);
   }
-  return {};
 }
 
 std::size_t PatternSolver::bytes() const {
@@ -148,65 +173,71 @@ std::size_t PatternSolver::bytes() const {
 
 void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
                          SolvedPlanes& out) const {
-  std::size_t begin = 0;
-  for (const Taps::Pattern& p : taps.patterns) {
-    const auto of_pattern = std::span(taps.all).subspan(begin, p.end - begin);
-    begin = p.end;
-    if (p.pattern < first) continue;
-    const SolvedPlanes& plane = planes[p.pattern - first];
-    for (const Tap& t : of_pattern) {
-      const glm::vec4 texture = share(taps, t), f_step = texture * t.weight.step;
-      glm::vec4 f = texture * t.weight.first;
+  for (std::size_t place = 0; place < taps.patterns.size(); ++place) {
+    if (taps.patterns[place].pattern < first) continue;
+    const SolvedPlanes& plane = planes[taps.patterns[place].pattern - first];
+    for_each_tap(taps, place, [&](const Tap& t, const Lit* lit) {
+      const glm::vec4 texture = share(t, lit);
+      const RunValue weight = t.weights();
+      const glm::vec4 f_step = texture * weight.step;
+      glm::vec4 f = texture * weight.first;
       glm::vec4* to = out.row(t.row) + t.first;
       if (t.unmoved) {
         const glm::vec4* from = plane.row(t.row) + t.first;
         for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
-        continue;
+        return;
       }
       const glm::vec4* samples = plane.samples.data();
       for_each_footprint(
-          path(t), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
+          t.path(inset_), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
             const glm::vec4* a = samples + at;
             const glm::vec4* b = a + plane.width;
             const glm::vec4 top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
             to[i] += f * (top + fy * (bottom - top));
             f += f_step;
           });
-    }
+    });
   }
 }
 
 void PatternSolver::draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
                                     SolvedPlanes& plane) const {
-  for (const Tap& t : taps.of(pattern)) {
-    const glm::vec4 texture = share(taps, t), f_step = texture * t.weight.step;
-    glm::vec4 f = texture * t.weight.first;
-    const glm::vec4* from = picture.row(t.row) + t.first;
-    if (t.unmoved) {
-      glm::vec4* to = plane.row(t.row) + t.first;
-      for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
-      continue;
-    }
-    glm::vec4* samples = plane.samples.data();
-    for_each_footprint(path(t), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
-      const glm::vec4 value = f * from[i];
-      f += f_step;
-      glm::vec4* a = samples + at;
-      glm::vec4* b = a + plane.width;
-      const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
-                      bottom_right = bottom * fx;
-      a[0] += top - top_right;
-      a[1] += top_right;
-      b[0] += bottom - bottom_right;
-      b[1] += bottom_right;
+  for (std::size_t place = 0; place < taps.patterns.size(); ++place) {
+    if (taps.patterns[place].pattern != pattern) continue;
+    for_each_tap(taps, place, [&](const Tap& t, const Lit* lit) {
+      const glm::vec4 texture = share(t, lit);
+      const RunValue weight = t.weights();
+      const glm::vec4 f_step = texture * weight.step;
+      glm::vec4 f = texture * weight.first;
+      const glm::vec4* from = picture.row(t.row) + t.first;
+      if (t.unmoved) {
+        glm::vec4* to = plane.row(t.row) + t.first;
+        for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
+        return;
+      }
+      glm::vec4* samples = plane.samples.data();
+      for_each_footprint(t.path(inset_), t.count, {plane.width, plane.height},
+                         [&](int i, int at, float fx, float fy) {
+                           const glm::vec4 value = f * from[i];
+                           f += f_step;
+                           glm::vec4* a = samples + at;
+                           glm::vec4* b = a + plane.width;
+                           const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
+                                           bottom_right = bottom * fx;
+                           a[0] += top - top_right;
+                           a[1] += top_right;
+                           b[0] += bottom - bottom_right;
+                           b[1] += bottom_right;
+                         });
     });
   }
 }
 
 void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
+  const Lit* next = taps.lit.data();
   for (const Tap& t : taps.all) {
-    if (t.lit == 0) continue;
-    const Lit& s = taps.lit[t.lit - 1];
+    if (!t.lit) continue;
+    const Lit& s = *next++;
     glm::vec4 first(0), step(0);
     for (std::size_t k = 0; k < planes_.size(); ++k) {
       const auto lane = static_cast<int>(k);
@@ -216,8 +247,9 @@ void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
       step[lane] = (1 - s.opacity) * s.offset.step;
     }
     glm::vec4* to = out.row(t.row) + t.first;
-    float weight = t.weight.first;
-    for (int i = 0; i < t.count; ++i, weight += t.weight.step, first += step) to[i] += weight * first;
+    RunValue weight = t.weights();
+    for (int i = 0; i < t.count; ++i, weight.first += weight.step, first += step)
+      to[i] += weight.first * first;
   }
 }
 
@@ -225,7 +257,8 @@ double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   double used = 0;
   std::size_t samples = 0;
   for (const Taps& taps : pictures_)
-    for (const Tap& t : taps.all) used += static_cast<double>(static_cast<float>(t.count) * t.weight.first);
+    for (const Tap& t : taps.all)
+      used += static_cast<double>(static_cast<float>(t.count) * t.weights().first);
   for (const SolvedPlanes& p : planes) samples += p.samples.size();
   return used / static_cast<double>(samples);
 }

@@ -71,13 +71,18 @@ class PatternSolver {
                                             Workers& workers) const;
 
  private:
-  /// Samples of a run that come from one pattern. There are millions.
+  /// Samples of a run that come from one pattern, in few bits: there are millions.
   struct Tap {
-    RunValue u, v, weight;  ///< TexturePath::u, v
-    std::uint32_t lit;      ///< index into Taps::lit, from 1; 0: as the pattern shows it
     std::uint16_t row, first, count;
-    bool head;
-    bool unmoved;  ///< is_identity()
+    bool head : 1;
+    bool unmoved : 1;                  ///< is_identity()
+    bool lit : 1;                      ///< Taps::lit has the next one for it
+    std::int16_t by_u, by_v;           ///< displacement of the first sample, 1/64 sample
+    std::int16_t step_u, step_v;       ///< 1/4096 sample
+    std::int16_t weight, weight_step;  ///< 1/2^14
+
+    [[nodiscard]] TexturePath path(float surround_inset) const;
+    [[nodiscard]] RunValue weights() const;
   };
   /// What light and mouth interior make of a run: members of SourceRun.
   struct Lit {
@@ -88,23 +93,20 @@ class PatternSolver {
   /// Of a picture.
   struct Taps {
     std::vector<Tap> all;  ///< by pattern
-    std::vector<Lit> lit;
+    std::vector<Lit> lit;  ///< of those that are, in their order
     struct Pattern {
-      std::size_t pattern, end;
+      std::size_t pattern, end, first_lit;
     };
     std::vector<Pattern> patterns;  ///< ends of their taps
-    [[nodiscard]] std::span<const Tap> of(std::size_t pattern) const;
   };
   using Planes = std::span<SolvedPlanes>;
   /// Draws a number of pictures into the memory it is given.
   using Draw = std::function<Result<void>(std::size_t number, SolvedPlanes& out)>;
 
-  [[nodiscard]] TexturePath path(const Tap& tap) const { return {tap.u, tap.v, tap.head ? 0 : inset_}; }
   /// The texture's share in a run.
-  [[nodiscard]] glm::vec4 share(const Taps& taps, const Tap& tap) const {
-    if (tap.lit == 0) return is_used_;
-    const Lit& lit = taps.lit[tap.lit - 1];
-    return (is_used_ + lit.gain * is_luma_) * (1 - lit.opacity);
+  /// @param next  its light and interior, if it has some
+  [[nodiscard]] glm::vec4 share(const Tap& tap, const Lit* next) const {
+    return tap.lit ? (is_used_ + next->gain * is_luma_) * (1 - next->opacity) : is_used_;
   }
   /// out += A^T pictures, for the last patterns, as many as there are planes.
   Result<void> add_transposed(const Draw& draw, Planes out, Workers& workers) const;
@@ -115,6 +117,9 @@ class PatternSolver {
   /// plane += A^T picture, for one pattern
   void draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
                        SolvedPlanes& plane) const;
+  /// Calls use(tap, its light and interior or null) for the taps of a picture's pattern.
+  template <class Use>
+  static void for_each_tap(const Taps& taps, std::size_t place, Use&& use);
   /// out += light and interior.
   void draw_constant(const Taps& taps, SolvedPlanes& out) const;
   /// Mean total weight of a plane's samples over all pictures.

@@ -17,7 +17,7 @@ constexpr int kCompareWidth = 240, kSolveWidth = 260;
 constexpr std::size_t kSolveEvery = 2;
 
 /// Memory limit of solving, bytes: long segments or large pictures use fewer pictures.
-constexpr std::size_t kSolverBytes = 400e6;
+constexpr std::size_t kSolverBytes = 100e6;
 
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
 /// to interpolate.

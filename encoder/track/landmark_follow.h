@@ -23,15 +23,12 @@ class LandmarkFollow {
   void give(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
   /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if the landmarks are
-  /// not believed, nor in `rest` pictures after one whose landmarks were no help: a search takes as long as
-  /// the rest of the tracking.
+  /// not believed, nor in `rest` pictures after a search: it takes as long as the rest of the tracking.
   /// @param picture  luma, 8 bits
   /// @param pose     of the head in the picture; if the landmarks of rigid parts are elsewhere, all are moved
   ///                 back
   /// @param before   offsets from which the search starts
   [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose, const Offsets& before);
-  /// What find() has found was a better start of the fit than any other.
-  void found_best() { rests_ = 0; }
   /// The same by the given landmarks; nothing as long as their tracker's error is not known.
   [[nodiscard]] std::optional<Offsets> by_given(const Pose& pose) const;
 
