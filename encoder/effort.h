@@ -20,7 +20,7 @@ struct Effort {
   /// @param effort  0..kMost
   [[nodiscard]] static constexpr Effort of(int effort) {
     constexpr std::array<Effort, kMost + 1> kEfforts = {{
-        {8, false, false, 0, 12, 6, 15},
+        {6, false, false, 0, 12, 6, 15},
         {6, false, false, 0, 6, 3, 7},
         {6, true, false, 0, 6, 2, 3},
         {5, true, true, 0, 6, 2, 3},

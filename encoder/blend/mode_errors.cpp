@@ -83,8 +83,13 @@ class RegionGram {
 
 }  // namespace
 
-BlendErrors::BlendErrors(const BlendScene& scene, int reduction) : scene_(scene), reduction_(reduction) {
-  for (const Pattern& p : scene.patterns) reduced_.push_back({&p.texture, reduce(p.picture.y, reduction)});
+BlendErrors::BlendErrors(const BlendScene& scene, int reduction)
+    : scene_(scene), reduction_(reduction), reduced_(new Reduced[scene.patterns.size()]) {}
+
+const ReducedPlane& BlendErrors::luma_of(std::size_t pattern) const {
+  Reduced& r = reduced_[pattern];
+  std::call_once(r.once, [&] { r.luma = reduce(scene_.patterns[pattern].picture.y, reduction_); });
+  return r.luma;
 }
 
 ModeErrors BlendErrors::errors(const Plane& source, const State& state,
@@ -111,11 +116,13 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
       for (int i = 0; i < run.count; ++i) shown.push_back(static_cast<std::int16_t>(rounded(t[i])));
     }
     const auto sample = [&](BlendSource s) {
-      const ReducedPattern& pattern = reduced_[available[s.pattern]];
+      const std::size_t pattern = available[s.pattern];
+      const ReducedPlane& luma = luma_of(pattern);
+      const TextureMesh& texture = scene_.patterns[pattern].texture;
       Samples error(count);
       std::int16_t* e = error.data();
       for (const SurfaceRun& run : runs[r]) {
-        sample_luma(source_run(picture, run, *pattern.texture, s.still), run, pattern.luma, e);
+        sample_luma(source_run(picture, run, texture, s.still), run, luma, e);
         e += run.count;
       }
       for (std::size_t i = 0; i < count; ++i) error[i] = static_cast<std::int16_t>(error[i] - shown[i]);

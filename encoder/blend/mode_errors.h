@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace fbs {
 /// Squared luma error of a region in each mode, in samples of the full picture.
 using ModeErrors = std::array<std::array<double, kBlendModeCount>, kRegionCount>;
 
-/// Works on decoded patterns at a reduced size.
+/// Works on decoded patterns at a reduced size. Several threads may use one object.
 class BlendErrors {
  public:
   /// @param scene      must outlive the object, with everything it refers to
@@ -28,9 +30,16 @@ class BlendErrors {
                                   std::span<const std::size_t> available) const;
 
  private:
+  /// The luma of a pattern, reduced when it is first needed: of many, few show in a picture.
+  [[nodiscard]] const ReducedPlane& luma_of(std::size_t pattern) const;
+
+  struct Reduced {
+    std::once_flag once;
+    ReducedPlane luma;
+  };
   BlendScene scene_;
   int reduction_;
-  std::vector<ReducedPattern> reduced_;
+  std::unique_ptr<Reduced[]> reduced_;  ///< of each pattern
 };
 
 }  // namespace fbs

@@ -39,12 +39,6 @@ struct BlendScene {
   const PatternList& patterns;
 };
 
-/// A pattern as a texture.
-struct ReducedPattern {
-  const TextureMesh* texture;
-  ReducedPlane luma;
-};
-
 /// A value that is linear along a run.
 struct RunValue {
   float first = 0, step = 0;

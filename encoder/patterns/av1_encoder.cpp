@@ -13,7 +13,7 @@
 namespace fbs {
 namespace {
 
-constexpr int kMaxQuantiser = 63, kMaxSpeed = 9;  // libaom's
+constexpr int kMaxQuantiser = 63, kMaxSpeed = 6;  // libaom's
 
 void copy_plane(const Plane& from, aom_image_t& image, int plane) {
   for (int y = 0; y < from.height; ++y)
@@ -89,7 +89,7 @@ Result<Av1Encoder> Av1Encoder::create(const VideoFormat& format, const Av1Settin
   if (settings.quantiser < 0 || settings.quantiser > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
   if (settings.speed < 0 || settings.speed > kMaxSpeed)
-    return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..9");
+    return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..6");
   if (settings.boost < 0 || settings.boost > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "boost outside 0..63");
   std::unique_ptr<Context, Deleter> context(new Context);
@@ -144,10 +144,12 @@ Result<void> Av1Encoder::set(int quantiser, int speed) {
   if (quantiser < 0 || quantiser > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
   Context& c = *context_;
+  // Speeds of its own that are higher than this spoil the picture behind others of good quality.
+  c.config.g_usage = speed == kRealTimeSpeed ? AOM_USAGE_REALTIME : AOM_USAGE_GOOD_QUALITY;
   c.config.rc_min_quantizer = c.config.rc_max_quantizer = static_cast<unsigned>(quantiser);
   if (aom_codec_enc_config_set(&c.codec, &c.config) != AOM_CODEC_OK ||
       aom_codec_control(&c.codec, AOME_SET_CQ_LEVEL, quantiser) != AOM_CODEC_OK ||
-      aom_codec_control(&c.codec, AOME_SET_CPUUSED, speed) != AOM_CODEC_OK)
+      aom_codec_control(&c.codec, AOME_SET_CPUUSED, std::min(speed, kMaxSpeed)) != AOM_CODEC_OK)
     return fail(ErrorCode::kInternal, "libaom refuses a quantiser or a speed");
   return {};
 }

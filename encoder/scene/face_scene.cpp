@@ -52,17 +52,12 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   auto geometry = encode_geometry(adapted->geometry);
   if (!geometry) return fail(geometry.error());
 
-  // With several patterns, pictures are compared with this one only until the segment's are coded.
   const Picture& shown = settings.first_pattern ? *settings.first_pattern : first;
-  FirstPattern first_pattern(
-      format, shown, settings.patterns == 1 ? Effort::of(settings.effort).pattern_speed : kTrialSpeed);
+  FirstPattern first_pattern(format, shown, Effort::of(settings.effort).pattern_speed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });
   if (!rate) return fail(rate.error());
-  auto coded = first_pattern.take(rate->point.pattern_quantiser);
-  if (!coded) return fail(coded.error());
-
   Scene scene;
   scene.setup.before = before;
   scene.setup.format = format;
@@ -70,22 +65,31 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_state(numbers_of(adapted->pose), scene.setup);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  const PatternSyntax first_syntax{0, 0, seen_coded, std::move(coded->av1)};
-  auto pattern = encode_first_pattern(first_syntax, scene.setup);
-  if (!pattern) return fail(pattern.error());
+  // Where there are several patterns, the first segment codes this one, too; until then pictures are compared
+  // with its source.
+  CodedPattern coded{{}, shown};
+  std::vector<std::uint8_t> payload;
+  if (settings.patterns == 1) {
+    auto taken = first_pattern.take(rate->point.pattern_quantiser);
+    if (!taken) return fail(taken.error());
+    coded = std::move(*taken);
+    auto packed = encode_first_pattern({0, 0, seen_coded, std::move(coded.av1)}, scene.setup);
+    if (!packed) return fail(packed.error());
+    payload = std::move(*packed);
+  }
   // At first the surround is guessed by distance from the face.
   SurroundObservations observations(format);
   observations.set_first(first, seen);
   const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, observations);
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
-  scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
+  scene.patterns.push_back(make_pattern(std::move(coded.decoded), seen, scene.geometry));
 
   // A picture from elsewhere cannot be the reference of the motion.
   const Picture pattern_seen = settings.first_pattern ? first : scene.patterns.front().picture;
   return std::unique_ptr<FaceScene>(
       new FaceScene(finder, settings, {first, pattern_seen, adapted->pose.shift},
                     {std::move(scene), seen_coded, eye, *rate, std::move(geometry->payload),
-                     std::move(*pattern), std::move(observations)},
+                     std::move(payload), std::move(observations)},
                     pictures_ahead(format, settings)));
 }
 

@@ -30,11 +30,14 @@ constexpr int kMaxQuantiser = 63;
 /// Samples per picture for which a core has time at full effort.
 constexpr int kCif = 352 * 288;
 
-/// libaom's speeds when a core has time left and when not: 6 takes 12 % more of the whole rate than 3.
-constexpr int kHastySpeed = 6;
-int unhurried_speed(const VideoFormat& size) {
+/// libaom's speeds when a core has time left and when not: at CIF 6 takes 12 % more of the whole rate than 3.
+struct Speeds {
+  int unhurried, hasty;
+};
+Speeds speeds_at(const VideoFormat& size) {
   const int samples = size.width * size.height;
-  return samples <= kCif ? 3 : samples <= 640 * 480 ? 4 : kHastySpeed;
+  if (samples <= kCif) return {3, 6};
+  return {samples <= 640 * 480 ? 5 : 6, kRealTimeSpeed};
 }
 
 /// Patterns for which there is time: two a second at CIF, and two at once.
@@ -165,7 +168,8 @@ VideoFormat LivePatterns::coded_format() const {
 }
 
 int LivePatterns::speed() const {
-  return coded_lately_ < kUnhurriedAtOnce ? unhurried_speed(coded_format()) : kHastySpeed;
+  const Speeds speeds = speeds_at(coded_format());
+  return coded_lately_ < kUnhurriedAtOnce ? speeds.unhurried : speeds.hasty;
 }
 
 Result<void> LivePatterns::open(int quantiser, int speed) {
@@ -193,7 +197,7 @@ Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t ti
   if (settings_.reduced) *picture = downscaled(*picture);
   const int now = speed();
   const bool is_first = store_.is_first();
-  if (is_first) first_ = {*picture, quantiser, now};
+  if (is_first) first_ = {*picture, quantiser, std::min(now, speeds_at(coded_format()).unhurried)};
   if (!codec_) {
     if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
     if (!is_first)

@@ -19,7 +19,7 @@ std::vector<Picture> passing_scenery(int count) {
 SequenceSettings fast(int quantiser) {
   SequenceSettings s;
   s.quantiser = quantiser;
-  s.speed = 9;
+  s.speed = 6;
   return s;
 }
 
