@@ -20,16 +20,16 @@ struct Effort {
   /// @param effort  0..kMost
   [[nodiscard]] static constexpr Effort of(int effort) {
     constexpr std::array<Effort, kMost + 1> kEfforts = {{
-        {6, false, false, 0, 12, 6, 15},
-        {6, false, false, 0, 6, 3, 7},
-        {6, true, false, 0, 6, 2, 3},
-        {5, true, true, 0, 6, 2, 3},
-        {4, true, true, 1, 6, 1, 3},
+        {6, false, false, 0, 3, 2, 15},
+        {6, true, false, 0, 3, 1, 3},
+        {6, true, true, 0, 3, 1, 3},
+        {5, true, true, 0, 3, 1, 3},
+        {4, true, true, 1, 3, 1, 3},
         {3, true, true, 1, 3, 1, 1},
         {3, true, true, 2, 3, 1, 1},
-        {2, true, true, 2, 3, 1, 0},
-        {1, true, true, 2, 2, 1, 0},
-        {0, true, true, 2, 1, 1, 0},
+        {3, true, true, 2, 2, 1, 0},
+        {2, true, true, 2, 1, 1, 0},
+        {1, true, true, 2, 1, 1, 0},
     }};
     return kEfforts[static_cast<std::size_t>(effort)];
   }

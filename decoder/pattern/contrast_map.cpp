@@ -89,11 +89,26 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
     columns.front() = columns[1];
     columns.back() = columns[cells.width];
     std::uint8_t* const row = plane.row(y);
-    for (int x = 0; x < plane.width; ++x) {
-      const int u = place(x), p = u & 15, cell = (u >> 4) + 1;
-      const int share = (columns[cell] * (16 - p) + columns[cell + 1] * p + 128) >> 8;
-      row[x] =
-          static_cast<std::uint8_t>(std::clamp(kMiddle + change(row[x] - kMiddle, contrast[share]), 0, 255));
+    const auto changed = [&](std::uint8_t sample, std::int32_t by) {
+      return static_cast<std::uint8_t>(std::clamp(kMiddle + change(sample - kMiddle, by), 0, 255));
+    };
+    const auto first_beyond = [&](int cell) {  // the first sample between this column and the next
+      return std::min(plane.width, samples_per_cell * (cell - 1) + samples_per_cell / 2);
+    };
+    for (int x = 0, cell = 0; x < plane.width;) {
+      int even = cell;  // nearly everywhere neighbouring cells are alike
+      while (even <= cells.width && columns[even + 1] == columns[cell]) ++even;
+      const int end = first_beyond(std::max(even, cell + 1));
+      if (even > cell) {
+        const std::int32_t by = contrast[(columns[cell] * 16 + 128) >> 8];
+        for (; x < end; ++x) row[x] = changed(row[x], by);
+      } else {
+        for (; x < end; ++x) {
+          const int p = place(x) & 15;
+          row[x] = changed(row[x], contrast[(columns[cell] * (16 - p) + columns[cell + 1] * p + 128) >> 8]);
+        }
+      }
+      cell = std::max(even, cell + 1);
     }
   }
 }

@@ -171,11 +171,10 @@ std::size_t PatternSolver::bytes() const {
   return bytes;
 }
 
-void PatternSolver::draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
-                         SolvedPlanes& out) const {
+void PatternSolver::draw(const Taps& taps, const Shown& planes, SolvedPlanes& out) const {
   for (std::size_t place = 0; place < taps.patterns.size(); ++place) {
-    if (taps.patterns[place].pattern < first) continue;
-    const SolvedPlanes& plane = planes[taps.patterns[place].pattern - first];
+    if (planes[taps.patterns[place].pattern] == nullptr) continue;
+    const SolvedPlanes& plane = *planes[taps.patterns[place].pattern];
     for_each_tap(taps, place, [&](const Tap& t, const Lit* lit) {
       const glm::vec4 texture = share(t, lit);
       const RunValue weight = t.weights();
@@ -263,8 +262,8 @@ double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   return used / static_cast<double>(samples);
 }
 
-Result<void> PatternSolver::add_transposed(const Draw& draw, Planes out, Workers& workers) const {
-  const std::size_t first = scene_.patterns.size() - out.size();
+Result<void> PatternSolver::add_transposed(const Draw& draw, std::span<const std::size_t> free,
+                                           PatternPlanes& out, Workers& workers) const {
   SolvedPlanes black = out.front();
   clear(black);
   std::vector<SolvedPlanes> drawn(std::min(kTogether, pictures_.size()), black);
@@ -278,32 +277,36 @@ Result<void> PatternSolver::add_transposed(const Draw& draw, Planes out, Workers
     for (std::size_t k = 0; k < count; ++k)
       if (!done[k]) return done[k];
     // In the order of the pictures for each pattern, whoever does it.
-    workers.run(static_cast<int>(out.size()), [&](int pattern, int) {
+    workers.run(static_cast<int>(free.size()), [&](int f, int) {
       for (std::size_t k = 0; k < count; ++k)
-        draw_transposed(pictures_[begin + k], first + pattern, drawn[k], out[pattern]);
+        draw_transposed(pictures_[begin + k], free[f], drawn[k], out[f]);
     });
   }
   return {};
 }
 
 Result<PatternPlanes> PatternSolver::solve(const Target& target, const PatternPlanes& sources,
-                                           std::size_t count, const SolverSettings& settings,
+                                           std::span<const std::size_t> free, const SolverSettings& settings,
                                            Workers& workers) const {
-  const std::size_t first = sources.size() - count;
-  PatternPlanes x(sources.begin() + static_cast<std::ptrdiff_t>(first), sources.end());
-  for (SolvedPlanes& p : x) clear(p);
+  SolvedPlanes black = sources.front();
+  clear(black);
+  PatternPlanes x(free.size(), black);
   // From the anchor on, so that the pull has no part in the first residual.
   PatternPlanes residual = x;
+  Shown shown;
+  for (const SolvedPlanes& p : sources) shown.push_back(&p);
   const auto first_residual = [&](std::size_t number, SolvedPlanes& out) -> Result<void> {
-    draw(pictures_[number], 0, sources, out);
+    draw(pictures_[number], shown, out);
     draw_constant(pictures_[number], out);
     const auto wanted = target(number);
     if (!wanted) return fail(wanted.error());
     for (std::size_t i = 0; i < out.samples.size(); ++i) out.samples[i] = wanted->samples[i] - out.samples[i];
     return {};
   };
-  if (auto done = add_transposed(first_residual, residual, workers); !done) return fail(done.error());
+  if (auto done = add_transposed(first_residual, free, residual, workers); !done) return fail(done.error());
   PatternPlanes direction = residual, product = x;
+  std::fill(shown.begin(), shown.end(), nullptr);
+  for (std::size_t f = 0; f < free.size(); ++f) shown[free[f]] = &direction[f];
   const glm::dvec4 pull(settings.pull * mean_weight(sources));
   // The planes are separate problems: each lane has its own steps.
   glm::dvec4 now = dot(residual, residual);
@@ -313,10 +316,10 @@ Result<PatternPlanes> PatternSolver::solve(const Target& target, const PatternPl
     if (glm::all(done)) break;
     for (SolvedPlanes& p : product) clear(p);
     const auto along = [&](std::size_t number, SolvedPlanes& out) -> Result<void> {
-      draw(pictures_[number], first, direction, out);
+      draw(pictures_[number], shown, out);
       return {};
     };
-    if (auto added = add_transposed(along, product, workers); !added) return fail(added.error());
+    if (auto added = add_transposed(along, free, product, workers); !added) return fail(added.error());
     add(product, pull, direction);
     const glm::dvec4 step = ratio(now, dot(direction, product), done);
     add(x, step, direction);

@@ -64,10 +64,10 @@ class PatternSolver {
   /// The planes of a picture. Called once for each, by any worker.
   using Target = std::function<Result<SolvedPlanes>(std::size_t number)>;
   /// @param sources  the planes of each pattern's own picture: start and anchor of the solution
-  /// @param count    how many patterns, the last ones, to solve for
+  /// @param free     patterns to solve for; the others stay
   /// @return the solution less the sources, of those patterns; the same for any number of workers
   [[nodiscard]] Result<PatternPlanes> solve(const Target& target, const PatternPlanes& sources,
-                                            std::size_t count, const SolverSettings& settings,
+                                            std::span<const std::size_t> free, const SolverSettings& settings,
                                             Workers& workers) const;
 
  private:
@@ -99,8 +99,9 @@ class PatternSolver {
     };
     std::vector<Pattern> patterns;  ///< ends of their taps
   };
-  using Planes = std::span<SolvedPlanes>;
-  /// Draws a number of pictures into the memory it is given.
+  /// The planes of each pattern; null: black.
+  using Shown = std::vector<const SolvedPlanes*>;
+  /// Draws a picture into the memory it is given.
   using Draw = std::function<Result<void>(std::size_t number, SolvedPlanes& out)>;
 
   /// The texture's share in a run.
@@ -108,12 +109,12 @@ class PatternSolver {
   [[nodiscard]] glm::vec4 share(const Tap& tap, const Lit* next) const {
     return tap.lit ? (is_used_ + next->gain * is_luma_) * (1 - next->opacity) : is_used_;
   }
-  /// out += A^T pictures, for the last patterns, as many as there are planes.
-  Result<void> add_transposed(const Draw& draw, Planes out, Workers& workers) const;
+  /// out += A^T pictures
+  /// @param out  of the free patterns
+  Result<void> add_transposed(const Draw& draw, std::span<const std::size_t> free, PatternPlanes& out,
+                              Workers& workers) const;
   /// Draws samples without the terms that do not depend on the patterns: out += A planes
-  /// @param first  pattern of the first plane; those before it are black
-  void draw(const Taps& taps, std::size_t first, std::span<const SolvedPlanes> planes,
-            SolvedPlanes& out) const;
+  void draw(const Taps& taps, const Shown& planes, SolvedPlanes& out) const;
   /// plane += A^T picture, for one pattern
   void draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
                        SolvedPlanes& plane) const;

@@ -16,8 +16,11 @@ constexpr int kCompareWidth = 240, kSolveWidth = 260;
 /// Interval of the pictures used in solving for patterns.
 constexpr std::size_t kSolveEvery = 2;
 
-/// Memory limit of solving, bytes: long segments or large pictures use fewer pictures.
-constexpr std::size_t kSolverBytes = 100e6;
+/// Memory limit of solving, bytes: large pictures use fewer of them.
+constexpr std::size_t kSolverBytes = 64e6;
+
+/// Patterns that are solved for together, at most.
+constexpr std::size_t kSolvedTogether = 16;
 
 /// log2 of the reduction that makes a picture no wider than `width`, but leaves the two rows that are needed
 /// to interpolate.
@@ -88,26 +91,6 @@ std::vector<PlaneGroup> plane_groups(int luma_reduction) {
   return {{{0}, 0}, {{1, 2}, 1}};
 }
 
-/// The least squares problem of a group.
-struct GroupProblem {
-  PlaneGroup group;
-  PatternSolver solver;
-};
-
-/// Interval of the segment's pictures used in solving.
-std::size_t solve_every(const Segment& segment, const SegmentPatterns& patterns, glm::ivec2 size,
-                        std::span<const GroupProblem> problems) {
-  const std::size_t pictures = segment.states.size();
-  std::size_t bytes = 0;
-  for (const GroupProblem& p : problems) {
-    PatternSolver one(patterns.scene, p.group.reduction, p.group.planes);
-    one.resize(1);
-    one.set_picture(0, segment.states[pictures / 2], patterns.available.back(), size);
-    bytes += one.bytes();
-  }
-  return std::max(kSolveEvery, (pictures * bytes + kSolverBytes - 1) / kSolverBytes);
-}
-
 /// Adds a change at reduced size to the plane at full size.
 void add_change(const ReducedPlane& change, int reduction, Plane& plane) {
   const float scale = 1.0F / static_cast<float>(1 << reduction);
@@ -129,6 +112,99 @@ void add_change(const SolvedPlanes& change, const PlaneGroup& group, Picture& pi
                picture.*PlaneGroup::member(p));
   }
 }
+
+/// Divides patterns into rows of neighbours in time that are solved for together.
+/// @param first  of the patterns to solve for
+std::vector<std::vector<std::size_t>> solved_together(const PatternList& patterns, std::size_t first) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = first; k < patterns.size(); ++k) all.push_back(k);
+  std::sort(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
+    return patterns[a].seen.picture < patterns[b].seen.picture;
+  });
+  std::vector<std::vector<std::size_t>> out;
+  const std::size_t rows = (all.size() + kSolvedTogether - 1) / kSolvedTogether;
+  for (std::size_t r = 0; r < rows; ++r)
+    out.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(r * all.size() / rows),
+                     all.begin() + static_cast<std::ptrdiff_t>((r + 1) * all.size() / rows));
+  return out;
+}
+
+/// Whether a pattern of these has a weight in the picture.
+bool shows(const PatternList& patterns, const AvailablePatterns& available, const State& picture,
+           std::span<const std::size_t> any) {
+  std::vector<const State*> seen;
+  for (const std::size_t k : available) seen.push_back(&patterns[k].seen);
+  for (const RegionBlend& region : blend_picture(seen, picture))
+    for (const WeightedSource& s : region)
+      if (std::find(any.begin(), any.end(), available[s.source.pattern]) != any.end()) return true;
+  return false;
+}
+
+/// The least squares problem of some patterns in a group of planes.
+class GroupProblem {
+ public:
+  /// @param workers  must outlive the object, as all else
+  GroupProblem(const Segment& segment, const SegmentPatterns& patterns, const PlaneGroup& group,
+               Workers& workers)
+      : segment_(segment),
+        patterns_(patterns),
+        group_(group),
+        groups_(groups_of(segment)),
+        workers_(workers) {}
+
+  /// @param now  pictures of the patterns; those of `free` become the solution
+  Result<void> solve(std::span<const std::size_t> free, const SolverSettings& settings,
+                     std::vector<Picture>& now) const {
+    PatternSolver solver(patterns_.scene, group_.reduction, group_.planes);
+    const std::vector<std::size_t> used = pictures_of(free, solver);
+    PatternPlanes sources;
+    for (const Picture& picture : now) sources.push_back(group_.of(picture));
+    const auto target = [&](std::size_t k) -> Result<SolvedPlanes> {
+      const auto picture = segment_.pictures.read(used[k]);
+      if (!picture) return fail(picture.error());
+      return group_.of(*picture);
+    };
+    const auto change = solver.solve(target, sources, free, settings, workers_);
+    if (!change) return fail(change.error());
+    workers_.run(static_cast<int>(free.size()),
+                 [&](int f, int) { add_change((*change)[f], group_, now[free[f]]); });
+    return {};
+  }
+
+ private:
+  void set(PatternSolver& solver, std::size_t number, std::size_t picture) const {
+    const Picture& any = patterns_.scene.patterns.front().picture;
+    solver.set_picture(number, segment_.states[picture], available(picture), {any.width(), any.height()});
+  }
+  [[nodiscard]] const AvailablePatterns& available(std::size_t picture) const {
+    return patterns_.available[groups_[picture]];
+  }
+
+  /// Numbers of the segment's pictures that the solver uses, which it gets.
+  [[nodiscard]] std::vector<std::size_t> pictures_of(std::span<const std::size_t> free,
+                                                     PatternSolver& solver) const {
+    std::vector<std::size_t> showing;
+    for (const std::size_t t : every_so_many(segment_, kSolveEvery))
+      if (shows(patterns_.scene.patterns, available(t), segment_.states[t], free)) showing.push_back(t);
+    std::vector<std::size_t> used;
+    if (!showing.empty()) {
+      solver.resize(1);
+      set(solver, 0, showing[showing.size() / 2]);
+      const std::size_t every = (showing.size() * solver.bytes() + kSolverBytes - 1) / kSolverBytes;
+      for (std::size_t k = 0; k < showing.size(); k += std::max<std::size_t>(every, 1))
+        used.push_back(showing[k]);
+    }
+    solver.resize(used.size());
+    workers_.run(static_cast<int>(used.size()), [&](int k, int) { set(solver, k, used[k]); });
+    return used;
+  }
+
+  const Segment& segment_;
+  const SegmentPatterns& patterns_;
+  const PlaneGroup& group_;
+  std::vector<std::size_t> groups_;  ///< of the pictures
+  Workers& workers_;
+};
 
 }  // namespace
 
@@ -188,39 +264,21 @@ Result<std::vector<Picture>> solve_patterns(const Segment& segment, const Segmen
                                             std::size_t count, const SolverSettings& settings,
                                             Workers& workers) {
   const PatternList& all = patterns.scene.patterns;
-  const glm::ivec2 size(all.front().picture.width(), all.front().picture.height());
-  std::vector<GroupProblem> problems;
-  for (const PlaneGroup& g : plane_groups(reduction_to(kSolveWidth, all.front().picture)))
-    problems.push_back({g, PatternSolver(patterns.scene, g.reduction, g.planes)});
-  const std::vector<std::size_t> some =
-      every_so_many(segment, solve_every(segment, patterns, size, problems));
-  for (GroupProblem& p : problems) p.solver.resize(some.size());
-  const std::vector<std::size_t> group = groups_of(segment);
-  workers.run(static_cast<int>(some.size()), [&](int k, int) {
-    const AvailablePatterns& available = patterns.available[group[some[k]]];
-    for (GroupProblem& p : problems) p.solver.set_picture(k, segment.states[some[k]], available, size);
-  });
-
-  std::vector<Picture> out;
+  const std::size_t old = all.size() - count;
   const std::int32_t first = segment.states.front().picture;
-  for (std::size_t k = all.size() - count; k < all.size(); ++k) {
-    auto picture = segment.pictures.read(all[k].seen.picture - first);
+  std::vector<Picture> out;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    auto picture =
+        k < old ? Result<Picture>(all[k].picture) : segment.pictures.read(all[k].seen.picture - first);
     if (!picture) return fail(picture.error());
     out.push_back(std::move(*picture));
   }
-  for (const GroupProblem& p : problems) {
-    PatternPlanes anchors;
-    for (std::size_t k = 0; k < all.size() - count; ++k) anchors.push_back(p.group.of(all[k].picture));
-    for (const Picture& picture : out) anchors.push_back(p.group.of(picture));
-    const auto target = [&](std::size_t k) -> Result<SolvedPlanes> {
-      const auto picture = segment.pictures.read(some[k]);
-      if (!picture) return fail(picture.error());
-      return p.group.of(*picture);
-    };
-    const auto change = p.solver.solve(target, anchors, count, settings, workers);
-    if (!change) return fail(change.error());
-    workers.run(static_cast<int>(count), [&](int k, int) { add_change((*change)[k], p.group, out[k]); });
+  for (const PlaneGroup& group : plane_groups(reduction_to(kSolveWidth, all.front().picture))) {
+    const GroupProblem problem(segment, patterns, group, workers);
+    for (const auto& free : solved_together(all, old))
+      if (auto solved = problem.solve(free, settings, out); !solved) return fail(solved.error());
   }
+  out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(old));
   return out;
 }
 

@@ -34,6 +34,13 @@ double mean_square(const ReducedPlane& a, const ReducedPlane& b) {
   return sum / static_cast<double>(a.samples.size());
 }
 
+/// The last numbers below `all`.
+std::vector<std::size_t> last(std::size_t count, std::size_t all) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = all - count; k < all; ++k) out.push_back(k);
+  return out;
+}
+
 void add_to(PatternSolver& solver, std::size_t number, const State& state,
             std::span<const std::size_t> available, glm::ivec2 size) {
   solver.resize(number + 1);
@@ -83,7 +90,7 @@ struct Problem {
     for (const ReducedPlane& p : start) sources.push_back(alone(p));
     Workers workers(threads);
     const auto change = solver.solve([&](std::size_t k) -> Result<SolvedPlanes> { return alone(targets[k]); },
-                                     sources, count, settings, workers);
+                                     sources, last(count, start.size()), settings, workers);
     Planes out = start;
     for (std::size_t k = 0; k < count; ++k) add_change((*change)[k].plane(0), out[out.size() - count + k]);
     return out;
@@ -270,7 +277,7 @@ TEST(PatternSolver, PlanesSolvedTogetherAreThoseSolvedAlone) {
   for (std::size_t k = 0; k < 3; ++k) sources.emplace_back(std::array{start_u[k], start_v[k]});
   Workers workers;
   const auto together = both.solve([&](std::size_t k) -> Result<SolvedPlanes> { return targets[k]; }, sources,
-                                   3, settings, workers);
+                                   last(3, 3), settings, workers);
   ASSERT_TRUE(together);
   const Planes u_alone = u.solved(start_u, 3, settings), v_alone = v.solved(start_v, 3, settings);
   for (std::size_t k = 0; k < 3; ++k) {
