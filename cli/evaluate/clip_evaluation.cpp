@@ -161,6 +161,7 @@ Result<void> ClipEvaluation::encode(int quality) {
   EncoderSettings settings;
   settings.quality = quality;
   settings.allow_no_face = arguments_.allow_no_face;
+  if (arguments_.jobs.value_or(1) > 1) settings.threads = 1;  // the clips share the cores
   if (arguments_.live) settings.live.emplace();
   SourceOptions options;
   options.stop = &stop_;

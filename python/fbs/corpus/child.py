@@ -57,7 +57,7 @@ class Calls:
     def encode(self, clip: str, stream: Path, quality: int) -> float:
         """Encode a clip; give the wall time, s."""
         order = self.order
-        options = ["--quality", str(quality), "--effort", str(order.effort), "--no-sound", "--quiet"]
+        options = ["--quality", str(quality), "--effort", str(order.effort), "--threads", "1", "--no-sound", "--quiet"]
         options += self.frames_option()
         if order.allow_no_face:
             options.append("--allow-no-face")
