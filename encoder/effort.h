@@ -20,10 +20,10 @@ struct Effort {
   /// @param effort  0..kMost
   [[nodiscard]] static constexpr Effort of(int effort) {
     constexpr std::array<Effort, kMost + 1> kEfforts = {{
-        {6, false, false, 0, 3, 2, 15},
-        {6, true, false, 0, 3, 1, 3},
-        {6, true, true, 0, 3, 1, 3},
-        {5, true, true, 0, 3, 1, 3},
+        {5, false, false, 0, 3, 2, 15},
+        {5, false, false, 1, 3, 1, 7},
+        {5, false, true, 1, 3, 1, 7},
+        {5, true, true, 1, 3, 1, 3},
         {4, true, true, 1, 3, 1, 3},
         {3, true, true, 1, 3, 1, 1},
         {3, true, true, 2, 3, 1, 1},

@@ -119,10 +119,7 @@ void add_encode(CLI::App& app, Run& run) {
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
   add_encode_rate(*verb, a);
   add_sound(*verb, a);
-  verb->add_option(
-          "--effort", a.settings.effort,
-          "From 0 (fastest) to 9 (fewest bytes); from 3 on patterns are optimised for their use, from 4 on "
-          "motion for the patterns")
+  verb->add_option("--effort", a.settings.effort, "From 0 (fastest) to 9 (fewest bytes)")
       ->capture_default_str()
       ->check(CLI::Range(0, Effort::kMost));
   verb->add_option_function<std::string>(
