@@ -270,9 +270,9 @@ static void gst_fbs_dec_class_init(GstFbsDecClass* type) {
   object->get_property = gst_fbs_dec_get_property;
   g_object_class_install_property(
       object, PROP_THREADS,
-      g_param_spec_int("threads", "Threads",
-                       "Threads that draw pictures side by side (0 = as many as there are cores)", 0, FBS_MAX_THREADS,
-                       1, G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY));
+      g_param_spec_int(
+          "threads", "Threads", "Threads that draw pictures side by side (0 = as many as there are cores)", 0,
+          FBS_MAX_THREADS, 1, G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY));
   gst_element_class_add_static_pad_template(element, &sink_template);
   gst_element_class_add_static_pad_template(element, &src_template);
   gst_element_class_set_static_metadata(element, "fbs talking-head decoder", "Codec/Decoder/Video",

@@ -15,7 +15,7 @@ inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_set
                                                           50,
                                                           0,
                                                           0,
-                                                          1,
+                                                          fbs::Effort::kDefault,
                                                           0,
                                                           0,
                                                           0,

@@ -14,7 +14,8 @@ namespace fbs {
 /// long for 3 % fewer bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 %
 /// more.
 inline constexpr int kSentSpeed = 3;
-/// libaom's real-time usage, without look-ahead: a tenth of the time of 6, for 12 % more bytes at 0.2 dB less.
+/// libaom's real-time usage, without look-ahead: a tenth of the time of 6, for 12 % more bytes at 0.2 dB
+/// less.
 inline constexpr int kRealTimeSpeed = 7;
 /// Speed for trials.
 inline constexpr int kTrialSpeed = 6;

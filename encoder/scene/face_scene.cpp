@@ -53,7 +53,8 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   if (!geometry) return fail(geometry.error());
 
   const Picture& shown = settings.first_pattern ? *settings.first_pattern : first;
-  FirstPattern first_pattern(format, shown, Effort::of(settings.effort).pattern_speed);
+  const bool alone = settings.patterns == 1;
+  FirstPattern first_pattern(format, shown, alone ? Effort::of(settings.effort).pattern_speed : kTrialSpeed);
   const double eye = adapted->pose.eye_distance_px();
   const auto rate = plan_rate(motion_target(settings, eye), geometry->payload.size() + kOtherStartupBytes,
                               [&](int quantiser) { return first_pattern.bytes(quantiser); });
@@ -65,14 +66,16 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   scene.setup.steps = rate->point.steps;
   const CodedState seen_coded = coded_state(numbers_of(adapted->pose), scene.setup);
   const State seen = state_of(seen_coded, scene.setup.steps);
-  // Where there are several patterns, the first segment codes this one, too; until then pictures are compared
-  // with its source.
+  // Where there are several patterns, the first segment codes this one, too. Until then pictures are compared
+  // with it as coded on trial or, where there is no time for that, with its source.
   CodedPattern coded{{}, shown};
   std::vector<std::uint8_t> payload;
-  if (settings.patterns == 1) {
+  if (alone || !settings.live) {
     auto taken = first_pattern.take(rate->point.pattern_quantiser);
     if (!taken) return fail(taken.error());
     coded = std::move(*taken);
+  }
+  if (alone) {
     auto packed = encode_first_pattern({0, 0, seen_coded, std::move(coded.av1)}, scene.setup);
     if (!packed) return fail(packed.error());
     payload = std::move(*packed);

@@ -51,6 +51,7 @@ std::optional<Offsets> LandmarkFollow::by_given(const Pose& pose) const {
 }
 
 void LandmarkFollow::end_picture(const Fit* seen) {
+  if (seen == nullptr) rests_ = 0;
   if (given_ && seen != nullptr && !expression_by_given_.is_calibrated())
     expression_by_given_.calibrate(*given_, seen->pose, seen->offsets);
   given_.reset();

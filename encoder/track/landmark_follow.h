@@ -23,7 +23,8 @@ class LandmarkFollow {
   void give(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
   /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if the landmarks are
-  /// not believed, nor in `rest` pictures after a search: it takes as long as the rest of the tracking.
+  /// not believed, nor in `rest` pictures after a search while the face is seen: it takes as long as the rest
+  /// of the tracking.
   /// @param picture  luma, 8 bits
   /// @param pose     of the head in the picture; if the landmarks of rigid parts are elsewhere, all are moved
   ///                 back
