@@ -9,7 +9,7 @@ set(floors
   bitstream/entropy bitstream bitstream/payload bitstream/pattern bitstream/motion bitstream/blend bitstream/scene
   decoder/vectors decoder/head decoder/raster decoder/field decoder/atlas decoder/animate decoder/blend decoder/pattern decoder/scene decoder/draw decoder/stream
   decoder/expression decoder/export decoder/sound
-  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/settings.h encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/analysis encoder/segment encoder/scene encoder/retarget
+  encoder/sound encoder/image encoder/shots encoder/landmarks encoder/model encoder/find encoder/effort.h encoder/settings.h encoder/track/head encoder/track/snake encoder/track encoder/fit encoder/surround encoder/patterns encoder/plan encoder/blend encoder/analysis encoder/segment encoder/scene encoder/retarget
   encoder
   fbs library
   cli/program cli/files cli/video cli/video/y4m cli/video/images cli/video/av cli/video/open cli/stream cli/matroska cli/display cli/source cli/command_line

@@ -1,6 +1,7 @@
 """Loss costs no more than the scenes that it is in, and what is shown then is held. measure_loss.py measures it at length."""
 import random
 import subprocess
+import time
 
 from harness import END, FBS, KEYED_FBS, PATTERN, SETUP, TALK_Y4M, ProgramTest, read_y4m
 from loss import Whole, burst_loss, decode, random_loss, with_flipped_bits, without
@@ -87,12 +88,15 @@ class Loss(ProgramTest):
         source, part, fed = read_y4m(TALK_Y4M), self.folder / "out.fbs.part", 0
         encoder.stdin.write(source.header)
         while not part.exists() or part.stat().st_size < len(self.whole.stream) // 2:
+            if fed == len(source.pictures):
+                time.sleep(0.01)  # pictures are coded behind those that are read
+                continue
             encoder.stdin.write(b"FRAME\n" + source.pictures[fed])
             fed += 1
         encoder.kill()
         encoder.wait()
         video, _ = decode(part.read_bytes())
-        self.assertIn(len(video.pictures), range(len(self.whole.pictures) // 3, fed))
+        self.assertIn(len(video.pictures), range(len(self.whole.pictures) // 3, fed + 1))
         self.assertEqual(video.pictures, self.whole.pictures[:len(video.pictures)])
 
     def test_channels_lose_as_much_as_asked(self):
