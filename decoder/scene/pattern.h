@@ -43,11 +43,13 @@ class PatternList {
  public:
   class Iterator {
    public:
+    // NOLINTBEGIN(readability-identifier-naming): the standard's names
     using iterator_category = std::forward_iterator_tag;
     using value_type = Pattern;
     using difference_type = std::ptrdiff_t;
     using pointer = const Pattern*;
     using reference = const Pattern&;
+    // NOLINTEND(readability-identifier-naming)
 
     Iterator() = default;
     explicit Iterator(std::vector<Shared>::const_iterator at) : at_(at) {}

@@ -70,6 +70,7 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
   MotionTrack motion = before_;
   fit_.set_mouth(patterns.scene.mouth);
   std::vector<Tools> tools;
+  tools.reserve(static_cast<std::size_t>(workers.count()));
   for (int k = 0; k < workers.count(); ++k) tools.push_back({fit_, SegmentRenderer(patterns)});
   const auto is_pattern = [&](const State& state) {
     return std::ranges::any_of(patterns.scene.patterns,
