@@ -1,16 +1,26 @@
 #include "common/workers.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
 namespace fbs {
 
-Workers::Workers(int count) {
+int core_count() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // 0: unknown
+}
+
+std::vector<std::thread> start_threads(int count, const std::function<void(int)>& work) {
+  std::vector<std::thread> out;
+  out.reserve(static_cast<std::size_t>(std::max(count, 0)));
   try {
-    for (int k = 1; k < count; ++k) threads_.emplace_back([this, k] { work(k); });
+    for (int k = 0; k < count; ++k) out.emplace_back(work, k);
   } catch (const std::system_error&) {  // the system has no more threads
   }
+  return out;
 }
+
+Workers::Workers(int count) : threads_(start_threads(count - 1, [this](int k) { work(1 + k); })) {}
 
 Workers::~Workers() {
   {

@@ -10,6 +10,13 @@
 
 namespace fbs {
 
+/// Cores that this process may use, at least 1.
+[[nodiscard]] int core_count();
+
+/// Starts threads, fewer if the system has no more.
+/// @param work  called once by each, with its number from 0
+[[nodiscard]] std::vector<std::thread> start_threads(int count, const std::function<void(int)>& work);
+
 class Workers {
  public:
   /// @param count  threads, at least 1: the one that calls run(), and others as far as the system permits
@@ -29,7 +36,6 @@ class Workers {
   void work(int worker);
   void take_jobs(int worker);
 
-  std::vector<std::thread> threads_;
   std::mutex mutex_;
   std::condition_variable begun_, ended_;
   // The current call; all under the mutex.
@@ -39,6 +45,7 @@ class Workers {
   unsigned call_ = 0;  ///< number of the call
   std::exception_ptr fault_;
   bool stops_ = false;
+  std::vector<std::thread> threads_;  ///< last: they use the rest
 };
 
 }  // namespace fbs

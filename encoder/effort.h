@@ -6,7 +6,9 @@
 
 namespace fbs {
 
-/// Each step takes more time than the one before and fewer bytes; docs/results.md says how much.
+/// Each step takes more time than the one before and fewer bytes; docs/encode.md says how much. The first
+/// refit gains 4 % of the rate in the face and 1 % in the frame (four clips), the second 0.8 and 0.3 %.
+/// Solving twice would lose 2 % in the face for 1 % in the frame.
 struct Effort {
   static constexpr int kMost = 9, kDefault = 5;
 

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,6 +22,7 @@
 #include "cli/video/wav_sink.h"
 #include "cli/video/y4m/y4m.h"
 #include "common/md5.h"
+#include "common/workers.h"
 
 namespace fbs::cli {
 namespace {
@@ -110,8 +110,7 @@ Result<void> check_files(const DecodeArguments& a) {
 constexpr int kMostThreads = 16;
 
 int thread_count(int asked) {
-  if (asked > 0) return asked;
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+  return asked > 0 ? asked : std::min(core_count(), kMostThreads);
 }
 
 Result<Outcome> Decoding::run() {

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 #include <utility>
 
 #include "cli/video/open/open_video.h"
+#include "common/workers.h"
 #include "decoder/stream/stream_length.h"
 
 namespace fbs::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kIdle{50};  ///< between looks at the clock when nothing is due
-constexpr int kMostThreads = 4;                 ///< more would wait for each other
+constexpr int kMostThreads = 4;                 ///< more would wait for the clock
 
 /// Turn for a drag over the height of the picture, in 2^-16 turns: a quarter turn.
 constexpr double kTurnOfDrag = 65536.0 / 4;
@@ -95,7 +95,7 @@ Result<void> Player::open_stream() {
 
 void Player::prepare_decoder() {
   decoder().record_patterns();
-  decoder().use_threads(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads));
+  decoder().use_threads(std::min(core_count(), kMostThreads));
 }
 
 Result<void> Player::begin_recording() {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <system_error>
 #include <utility>
+
+#include "common/workers.h"
 
 namespace fbs {
 namespace {
@@ -14,12 +15,7 @@ void copy(const Plane& from, const PlaneView& to) {
 
 }  // namespace
 
-PicturesAhead::PicturesAhead(int threads) {
-  try {
-    for (int k = 0; k < threads; ++k) threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {  // the system has no more threads
-  }
-}
+PicturesAhead::PicturesAhead(int threads) : threads_(start_threads(threads, [this](int) { work(); })) {}
 
 PicturesAhead::~PicturesAhead() {
   {
@@ -74,11 +70,6 @@ Result<void> PicturesAhead::draw(std::uint64_t number, Renderer& renderer, const
   lock.lock();
   spare_.push_back(std::move(done->picture));
   return {};
-}
-
-void PicturesAhead::forget() {
-  std::unique_lock lock(mutex_);
-  forget(end_, lock);
 }
 
 void PicturesAhead::forget(std::uint64_t below, std::unique_lock<std::mutex>& lock) {

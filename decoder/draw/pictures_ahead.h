@@ -40,9 +40,6 @@ class PicturesAhead {
   [[nodiscard]] Result<void> draw(std::uint64_t number, Renderer& renderer, const Scene& scene,
                                   const State& state, const PictureView& out);
 
-  /// No picture is expected any more.
-  void forget();
-
  private:
   /// The caller's time between pictures and threads' own vary: two each keep all at work.
   static constexpr std::uint64_t kPerThread = 2;

@@ -16,7 +16,7 @@ constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
-// Of the numbers of a tap.
+// Scales of the numbers of a tap.
 constexpr float kPlaceOne = 64, kStepOne = 4096, kWeightOne = 16384;
 
 std::int16_t fixed(float value, float one) {

@@ -90,7 +90,7 @@ class PatternSolver {
     float gain, opacity;
     std::array<float, 3> interior;
   };
-  /// Of a picture.
+  /// All that draw a picture.
   struct Taps {
     std::vector<Tap> all;  ///< by pattern
     std::vector<Lit> lit;  ///< of those that are, in their order

@@ -1,32 +1,27 @@
 #include "encoder/scene/background.h"
 
 #include <exception>
-#include <system_error>
 #include <utility>
+
+#include "common/workers.h"
 
 namespace fbs {
 
-Background::Background(std::size_t most) : most_(most) {
-  if (most == 0) return;
-  try {
-    thread_ = std::thread([this] { work(); });
-  } catch (const std::system_error&) {  // the system has no more threads
-    most_ = 0;
-  }
-}
+Background::Background(std::size_t most)
+    : most_(most), thread_(start_threads(most > 0 ? 1 : 0, [this](int) { work(); })) {}
 
 Background::~Background() {
-  if (!thread_.joinable()) return;
+  if (thread_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
     stops_ = true;
   }
   added_.notify_one();
-  thread_.join();
+  thread_.front().join();
 }
 
 Result<void> Background::add(Task task) {
-  if (most_ == 0) return task();
+  if (thread_.empty()) return task();
   std::unique_lock lock(mutex_);
   done_.wait(lock, [&] { return tasks_.size() <= most_; });
   if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "common/result.h"
 
@@ -44,7 +45,7 @@ class Background {
   Result<void> result_{};
   std::exception_ptr fault_{};  ///< thrown instead
   bool stops_ = false;
-  std::thread thread_;
+  std::vector<std::thread> thread_;  ///< empty: the caller does all
 };
 
 }  // namespace fbs

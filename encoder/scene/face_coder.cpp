@@ -29,7 +29,6 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
                      start.eye_distance_px),
       pattern_speed_(Effort::of(settings.effort).pattern_speed),
-      surround_moves_(settings.surround),
       surround_(std::move(start.observations), !settings.surround, ledger_.live()),
       geometry_payload_(std::move(start.geometry_payload)),
       pattern_payload_(std::move(start.pattern_payload)) {
@@ -42,7 +41,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
 }
 
 Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration) {
-  if (surround_moves_) observe_surround(picture, seen);
+  if (!surround_.is_still()) observe_surround(picture, seen);
   if (ledger_.scene_ended())
     if (auto begun = begin_again(picture, seen); !begun) return begun;
   if (!surround_.has_ended()) learn(picture, seen);

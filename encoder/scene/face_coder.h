@@ -67,8 +67,7 @@ class FaceCoder {
   State rest_;   ///< in which the first pattern was seen: the map's
   std::vector<PictureCost> costs_;  ///< of the group's pictures
   MouthColours mouth_colours_;
-  int pattern_speed_;    ///< Effort's
-  bool surround_moves_;  ///< EncoderSettings::surround
+  int pattern_speed_;  ///< Effort's
   SurroundLearning surround_;
   std::optional<SurroundMotion> surround_motion_;  ///< since the scene's first picture
   bool fixed_ = false;                             ///< whether fix_head() has been called

@@ -68,31 +68,25 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
   const State seen = state_of(seen_coded, scene.setup.steps);
   // Where there are several patterns, the first segment codes this one, too. Until then pictures are compared
   // with it as coded on trial or, where there is no time for that, with its source.
-  CodedPattern coded{{}, shown};
-  std::vector<std::uint8_t> payload;
-  if (alone || !settings.live) {
-    auto taken = first_pattern.take(rate->point.pattern_quantiser);
-    if (!taken) return fail(taken.error());
-    coded = std::move(*taken);
-  }
-  if (alone) {
-    auto packed = encode_first_pattern({0, 0, seen_coded, std::move(coded.av1)}, scene.setup);
-    if (!packed) return fail(packed.error());
-    payload = std::move(*packed);
-  }
+  auto coded = alone || !settings.live ? first_pattern.take(rate->point.pattern_quantiser)
+                                       : Result<CodedPattern>(CodedPattern{{}, shown});
+  if (!coded) return fail(coded.error());
+  auto payload = alone ? encode_first_pattern({0, 0, seen_coded, std::move(coded->av1)}, scene.setup)
+                       : std::vector<std::uint8_t>{};
+  if (!payload) return fail(payload.error());
   // At first the surround is guessed by distance from the face.
   SurroundObservations observations(format);
   observations.set_first(first, seen);
   const SurroundMap guess = fit_surround(scene.setup, geometry->decoded, observations);
   scene.geometry.emplace(scene.setup, geometry->decoded, guess, seen);
-  scene.patterns.push_back(make_pattern(std::move(coded.decoded), seen, scene.geometry));
+  scene.patterns.push_back(make_pattern(std::move(coded->decoded), seen, scene.geometry));
 
   // A picture from elsewhere cannot be the reference of the motion.
   const Picture pattern_seen = settings.first_pattern ? first : scene.patterns.front().picture;
   return std::unique_ptr<FaceScene>(
       new FaceScene(finder, settings, {first, pattern_seen, adapted->pose.shift},
                     {std::move(scene), seen_coded, eye, *rate, std::move(geometry->payload),
-                     std::move(payload), std::move(observations)},
+                     std::move(*payload), std::move(observations)},
                     pictures_ahead(format, settings)));
 }
 
@@ -101,7 +95,6 @@ FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, 
     : analysis_(settings, finder,
                 {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
                  start.scene.patterns.front().seen, first.centre, start.eye_distance_px}),
-      several_patterns_(settings.patterns != 1),
       coder_(settings, std::move(start)),
       coding_(ahead) {}
 

@@ -34,7 +34,7 @@ class FaceScene : public SceneEncoder {
   Result<void> set_bitrate(double kbps) override;
   Result<void> lose_patterns() override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
-  [[nodiscard]] bool carries_shots() const override { return several_patterns_; }
+  [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
   [[nodiscard]] bool is_coding() const override { return !coding_.is_idle(); }
@@ -54,9 +54,8 @@ class FaceScene : public SceneEncoder {
   Result<void> code(std::function<Result<void>()> task);
 
   FaceAnalysis analysis_;
-  bool several_patterns_;
   bool cut_ = false;  ///< the next picture begins another shot
-  FaceCoder coder_;   ///< the background's alone
+  FaceCoder coder_;   ///< what changes is the background's alone
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> ready_;  ///< under the mutex
   Background coding_;                ///< last, so that it ends first

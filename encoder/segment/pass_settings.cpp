@@ -1,8 +1,8 @@
 #include "encoder/segment/pass_settings.h"
 
 #include <algorithm>
-#include <thread>
 
+#include "common/workers.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/plan/rate_target.h"
 #include "encoder/plan/scene_timing.h"
@@ -45,8 +45,7 @@ std::unique_ptr<PatternStage> file_patterns(PatternPassSettings pass, const Enco
 }  // namespace
 
 int thread_count(const EncoderSettings& settings) {
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());  // 0: unknown
-  return std::max(1, settings.threads > 0 ? settings.threads : cores);
+  return settings.threads > 0 ? settings.threads : core_count();
 }
 
 RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {

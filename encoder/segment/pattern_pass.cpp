@@ -306,18 +306,13 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
   if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
   // A lone pattern is close to the picture that the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.effort.refits : 0;
-  if (auto chosen =
-          choose(scene, *draft, refits > 0 ? settings_.effort.draft_pictures : settings_.effort.pictures);
-      !chosen)
-    return fail(chosen.error());
   // States are fitted last, to patterns as sent. Fitted before solving, they would compensate for what
   // solving corrects: wasted bits of motion.
-  for (int i = 0; i < refits; ++i) {
-    if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    if (auto chosen = choose(scene, *draft,
-                             i + 1 < refits ? settings_.effort.draft_pictures : settings_.effort.pictures);
-        !chosen)
-      return fail(chosen.error());
+  for (int i = 0; i <= refits; ++i) {
+    if (i > 0)
+      if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
+    const std::size_t most = i < refits ? settings_.effort.draft_pictures : settings_.effort.pictures;
+    if (auto chosen = choose(scene, *draft, most); !chosen) return fail(chosen.error());
   }
   return draft;
 }

@@ -27,6 +27,7 @@ class SurroundLearning {
   /// Another scene begins, with this picture.
   void begin_again(const Picture& first, const State& state);
 
+  [[nodiscard]] bool is_still() const { return still_; }
   [[nodiscard]] bool has_ended() const { return ended_; }
   [[nodiscard]] const SurroundMap& map() const { return map_; }
   /// The map, once after each fit.

@@ -394,19 +394,6 @@ TEST(Encoder, GroupsHoldAsManyPicturesAsAsked) {
   }
 }
 
-TEST(Encoder, StreamsAreTheSameForAnyNumberOfThreads) {
-  for (const double key_interval : {0.0, 1.0}) {
-    EncoderSettings settings;
-    settings.key_interval = key_interval;
-    settings.threads = 1;
-    const auto alone = coded(shortly(), settings).stream;
-    for (const int threads : {2, 3, 7}) {
-      settings.threads = threads;
-      EXPECT_EQ(coded(shortly(), settings).stream, alone) << threads << " threads";
-    }
-  }
-}
-
 TEST(Encoder, TheExpressionCanBeLeftOut) {
   EncoderSettings settings;
   settings.expression = false;

@@ -21,11 +21,12 @@ TalkerClip& clip() {
   return c;
 }
 
-std::vector<std::uint8_t> encoded(double key_interval, int patterns) {
+std::vector<std::uint8_t> encoded(double key_interval, int patterns, int threads = 0) {
   EncoderSettings settings;
   settings.key_interval = key_interval;
   settings.patterns = patterns;
   settings.group_pictures = 5;
+  settings.threads = threads;
   auto stream = encode_pictures(clip().format(), settings, kPictures, [](int i) { return clip()[i]; });
   EXPECT_TRUE(stream) << stream.error().text;
   return *stream;
@@ -86,6 +87,14 @@ TEST_P(KeyInterval, AViewerCanJoinAtEach) {
 // A scene is blended from its own patterns only, here two.
 TEST_P(KeyInterval, PicturesAreFit) {
   EXPECT_GT(psnr_of(decoded(encoded(1.2, GetParam()))), 29);
+}
+
+TEST_P(KeyInterval, StreamsAreTheSameForAnyNumberOfThreads) {
+  for (const double key_interval : {0.0, 1.2}) {
+    const auto alone = encoded(key_interval, GetParam(), 1);
+    for (const int threads : {2, 3, 7})
+      EXPECT_EQ(encoded(key_interval, GetParam(), threads), alone) << key_interval << " s, " << threads;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OneAndSeveralPatterns, KeyInterval, testing::Values(0, 1));
