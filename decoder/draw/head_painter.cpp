@@ -38,13 +38,17 @@ HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, Pla
   const auto planes = planes_of_scale(drawing.target, scale);
   const int width = planes[0].width, height = planes[0].height;
   target_ = {scale, planes, area_of_head(drawing.mesh, scale, drawing.area(scale)), &depth};
-  if (!target_.area.empty()) depth.reset(width, height, target_.area);
+  depth.reset(width, height, target_.area);
 }
 
 void HeadPainter::draw() {
   if (target_.area.empty()) return;
   for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
-  soften_silhouettes(d_.mesh, texture_.geometry.head_mesh(), texture_.weights, target_);
+}
+
+void HeadPainter::soften() {
+  if (!target_.area.empty())
+    soften_silhouettes(d_.mesh, texture_.geometry.head_mesh(), texture_.weights, target_);
 }
 
 void HeadPainter::draw(const HeadTriangle& triangle) {

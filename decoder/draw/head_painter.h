@@ -29,6 +29,10 @@ class HeadPainter {
   HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale, DepthPlane& depth);
 
   void draw();
+  /// To be called when the surround has been drawn, too.
+  void soften();
+
+  [[nodiscard]] PlaneScale scale() const { return scale_; }
 
  private:
   void draw(const HeadTriangle& triangle);

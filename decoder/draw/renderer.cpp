@@ -132,22 +132,31 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const Picture& size = scene.patterns.front().picture;
   const NodeGrid grid(size.width(), size.height());
   find_nodes(scene, grid, drawing);
-  // The surround first, then the head over it.
-  const SurroundDrawing surround{drawing, grid, field_, weights_};
-  const BlockRows rows = block_rows(drawing);
-  for (int row = rows.first; row < rows.last; ++row) surround_.draw_row(surround, row);
-  if (!scene.geometry || scene.geometry->is_plane()) return;
+  SurroundDrawing surround{drawing, grid, field_, weights_};
+  if (!scene.geometry || scene.geometry->is_plane()) return draw_surround(surround);
   const WireFrame& wire_frame = scene.geometry->geometry().wire_frame();
   const AtlasLayout& layout = scene.geometry->atlas_layout();
   const HeadWeights weights = head_weights(drawing.blend, wire_frame);
   atlas_.draw(drawing, weights, layout);
   const HeadTexture texture{*scene.geometry, layout, atlas_.planes(), weights};
-  const auto draw_head = [&](PlaneScale scale, DepthPlane& depth) {
-    HeadPainter(drawing, texture, scale, depth).draw();
-    draw_mouth(drawing, wire_frame, scale);
-  };
-  draw_head(PlaneScale::kLuma, luma_depth_);
-  if (!chroma.empty()) draw_head(PlaneScale::kChroma, chroma_depth_);
+  // The head first: what it covers of the surround is not drawn.
+  std::vector<HeadPainter> heads;
+  for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
+    if (drawing.area(scale).empty()) continue;
+    DepthPlane& depth = depth_[heads.size()];
+    surround.head[heads.size()] = &depth;
+    heads.emplace_back(drawing, texture, scale, depth).draw();
+  }
+  draw_surround(surround);
+  for (HeadPainter& head : heads) {
+    head.soften();
+    draw_mouth(drawing, wire_frame, head.scale());
+  }
+}
+
+void Renderer::draw_surround(const SurroundDrawing& surround) {
+  const BlockRows rows = block_rows(surround.drawing);
+  for (int row = rows.first; row < rows.last; ++row) surround_.draw_row(surround, row);
 }
 
 void Renderer::find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing) {

@@ -42,6 +42,8 @@ class Renderer {
   void draw(const Scene& scene, const State& state, const PictureBlend& regions, const Targets& targets,
             const SampleArea& luma, const SampleArea& chroma);
 
+  void draw_surround(const SurroundDrawing& surround);
+
   /// Computes cover_, weights_ and field_.
   void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
 
@@ -51,7 +53,7 @@ class Renderer {
   SurroundField field_;
   AtlasBlend atlas_;
   SurroundPainter surround_;
-  DepthPlane luma_depth_, chroma_depth_;
+  std::array<DepthPlane, 2> depth_;  ///< of the head in luma and chroma
 };
 
 }  // namespace fbs

@@ -86,6 +86,59 @@ BlockSamples3 patched_block(const ShownSource& shown, const BlockNodes& nodes, c
   return out;
 }
 
+/// The samples of a block that the head covers.
+class CoveredSamples {
+ public:
+  CoveredSamples(const SurroundDrawing& surround, glm::ivec2 block) : surround_(surround) {
+    for (std::size_t scale = 0; scale < parts_.size(); ++scale) {
+      const DepthPlane* const depth = surround.head[scale];
+      if (depth == nullptr) continue;
+      const int size = block_size(scale);
+      const glm::ivec2 first = block * size;
+      const SampleArea& limit = scale == 0 ? surround.drawing.luma_area : surround.drawing.chroma_area;
+      const SampleArea part =
+          intersection({first.x, first.y, first.x + size, first.y + size}, limit);
+      parts_[scale] = intersection(part, depth->area);
+      if (!parts_[scale].empty()) covered_ += depth->covered(parts_[scale]);
+      samples_ += part.count();
+    }
+  }
+  [[nodiscard]] bool none() const { return covered_ == 0; }
+  [[nodiscard]] bool all() const { return covered_ == samples_; }
+
+  /// Calls draw(), which may draw over them, and puts them back.
+  template <class Draw>
+  void keep(Draw&& draw) const {
+    std::array<WarpedBlock, 3> kept;
+    for (std::size_t p = 0; p < kept.size(); ++p) {
+      const SampleArea& part = part_of(p);
+      if (!part.empty())
+        copy_samples(own_samples(surround_.drawing.target[p], {part.x0, part.y0}),
+                     {part.x1 - part.x0, part.y1 - part.y0}, kept[p].samples.data(), WarpedBlock::kStride);
+    }
+    draw();
+    for (std::size_t p = 0; p < kept.size(); ++p) put_back(p, kept[p].samples.data());
+  }
+
+ private:
+  static std::size_t scale_of(std::size_t plane) { return std::min<std::size_t>(plane, 1); }
+  [[nodiscard]] const SampleArea& part_of(std::size_t plane) const { return parts_[scale_of(plane)]; }
+
+  void put_back(std::size_t plane, const std::uint8_t* kept) const {
+    const SampleArea& part = part_of(plane);
+    for (int y = part.y0; y < part.y1; ++y, kept += WarpedBlock::kStride) {
+      const std::int32_t* const depth = surround_.head[scale_of(plane)]->row(y);
+      std::uint8_t* const out = surround_.drawing.target[plane].row(y);
+      for (int x = part.x0; x < part.x1; ++x)
+        if (is_covered(depth[x])) out[x] = kept[x - part.x0];
+    }
+  }
+
+  const SurroundDrawing& surround_;
+  std::array<SampleArea, 2> parts_{};  ///< in luma and chroma, those that the head may cover
+  int covered_ = 0, samples_ = 0;
+};
+
 }  // namespace
 
 BlockRows block_rows(const Drawing& drawing) {
@@ -101,6 +154,14 @@ void SurroundPainter::draw_row(const SurroundDrawing& surround, int row) {
 }
 
 void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 block) {
+  const CoveredSamples covered(surround, block);
+  if (covered.none())
+    draw_sources(surround, block);
+  else if (!covered.all())
+    covered.keep([&] { draw_sources(surround, block); });
+}
+
+void SurroundPainter::draw_sources(const SurroundDrawing& surround, glm::ivec2 block) {
   const Drawing& d = surround.drawing;
   const int columns = surround.grid.columns();
   const std::size_t node = surround.grid.first_of_block(block.x, block.y);

@@ -2,6 +2,7 @@
 // blended. SPEC 10.3 and 11.6.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "decoder/draw/drawing.h"
@@ -9,6 +10,7 @@
 #include "decoder/field/node_kernels.h"
 #include "decoder/field/node_weights.h"
 #include "decoder/field/surround_field.h"
+#include "decoder/raster/row_runs.h"
 
 namespace fbs {
 
@@ -18,6 +20,8 @@ struct SurroundDrawing {
   const NodeGrid& grid;
   const SurroundField& field;
   const NodeWeights& weights;
+  /// What the head covers is left as it is. Luma and chroma; null: nothing is covered
+  std::array<const DepthPlane*, 2> head{};
 };
 
 /// Rows of blocks that have samples in the drawing's areas; the last one not included.
@@ -33,6 +37,8 @@ class SurroundPainter {
 
  private:
   void draw_block(const SurroundDrawing& surround, glm::ivec2 block);
+
+  void draw_sources(const SurroundDrawing& surround, glm::ivec2 block);
 
   std::vector<BlendedSource> blended_;  ///< of a block
   std::vector<BlockMemory> memory_;     ///< of each of blended_

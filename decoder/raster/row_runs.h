@@ -47,12 +47,22 @@ struct DepthPlane {
       8;  ///< vectors may read and write this many beyond the last sample
 
   int width = 0;
+  SampleArea area;  ///< the rest is undefined
   std::vector<std::int32_t> depth;
 
-  /// Makes everything in `area` infinitely far; the rest stays undefined.
+  /// Makes everything in `area` infinitely far.
   void reset(int width, int height, const SampleArea& area);
   [[nodiscard]] std::int32_t* row(int y) { return depth.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  [[nodiscard]] const std::int32_t* row(int y) const {
+    return depth.data() + static_cast<std::ptrdiff_t>(y) * width;
+  }
+  /// Samples of a part of the area that something was drawn on.
+  [[nodiscard]] int covered(const SampleArea& part) const;
 };
+
+[[nodiscard]] constexpr bool is_covered(std::int32_t depth) {
+  return depth != std::numeric_limits<std::int32_t>::max();
+}
 
 /// Depth along a run.
 struct DepthRow {

@@ -22,7 +22,13 @@ enum class PlaneScale : std::uint8_t { kLuma = 6, kChroma = 7 };  ///< log2 of p
 struct SampleArea {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+  [[nodiscard]] int count() const { return empty() ? 0 : (x1 - x0) * (y1 - y0); }
+  friend bool operator==(const SampleArea&, const SampleArea&) = default;
 };
+
+[[nodiscard]] inline SampleArea intersection(const SampleArea& a, const SampleArea& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 /// Position of a sample's centre relative to corner 0 of a triangle, 1/64 luma pixel.
 struct FromCorner {
