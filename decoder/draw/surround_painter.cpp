@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "decoder/raster/triangle_kernels.h"
+
 namespace fbs {
 namespace {
 
@@ -36,6 +38,7 @@ BlockSamples3 still_block(const ShownSource& shown) {
     const glm::ivec2 first = shown.block * size;
     if (first.x + size <= own.width && first.y + size <= own.height) {
       out[p] = own_samples(own, first);
+      if (begins_cache_line(shown.block.x, p)) prefetch_next_blocks(out[p], size);
     } else {
       std::uint8_t* const to = shown.memory[p].samples.data();
       copy_own(own, first, size, to);
@@ -96,10 +99,9 @@ class CoveredSamples {
       const int size = block_size(scale);
       const glm::ivec2 first = block * size;
       const SampleArea& limit = scale == 0 ? surround.drawing.luma_area : surround.drawing.chroma_area;
-      const SampleArea part =
-          intersection({first.x, first.y, first.x + size, first.y + size}, limit);
+      const SampleArea part = intersection({first.x, first.y, first.x + size, first.y + size}, limit);
       parts_[scale] = intersection(part, depth->area);
-      if (!parts_[scale].empty()) covered_ += depth->covered(parts_[scale]);
+      if (!parts_[scale].empty()) covered_ += count_covered(*depth, parts_[scale]);
       samples_ += part.count();
     }
   }
@@ -178,7 +180,7 @@ void SurroundPainter::draw_sources(const SurroundDrawing& surround, glm::ivec2 b
       added.planes = still_block(shown);
     else if (motions.whole[place] == kEven)
       added.planes =
-          displaced_block(*source.padded, block, {motions.by[0][0][place], motions.by[0][1][place]},
+          displaced_block(*source.padded, block, {motions.whole_by[0][place], motions.whole_by[1][place]},
                           shown.has_chroma, shown.memory);
     else
       added.planes = patched_block(shown, nodes, motions, first, place);

@@ -35,6 +35,8 @@ BlockSamples3 displaced_block(const PaddedPicture& texture, glm::ivec2 block, gl
                               BlockMemory& memory) {
   BlockSamples3 out{};
   const Place luma(block * kBlockSize, by);
+  if (begins_cache_line(block.x, 0))
+    prefetch_next_blocks({luma.in(texture[0]), texture[0].stride()}, kBlockSize + 1);
   if (luma.is_whole()) {
     out[0] = {luma.in(texture[0]), texture[0].stride()};
   } else {
@@ -46,6 +48,9 @@ BlockSamples3 displaced_block(const PaddedPicture& texture, glm::ivec2 block, gl
   const Place chroma(block * kChromaBlockSize, chroma_displacement(by));
   const ChromaSamples from = chroma_at(texture, chroma.sample);
   const std::ptrdiff_t stride = texture[1].stride();
+  if (begins_cache_line(block.x, 1))
+    for (const std::uint8_t* const samples : from)
+      prefetch_next_blocks({samples, stride}, kChromaBlockSize + 1);
   if (chroma.is_whole()) {
     out[1] = {from[0], stride};
     out[2] = {from[1], stride};

@@ -62,32 +62,26 @@ class Mean {
 
 void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
            std::size_t row, std::uint16_t* out) {
-  constexpr int kToNodeLog2 = 4;
-  static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
-  // A weight with its place from the end of the row in the low bits: the first of equal weights is the
-  // largest.
-  constexpr int kPlaceLog2 = 8;
-  constexpr std::int32_t kLastPlace = (1 << kPlaceLog2) - 1;
-  alignas(32) static constexpr std::int32_t kPlaces[kRowStep] = {0, 1, 2, 3, 4, 5, 6, 7};
+  constexpr int kStepLog2 = 8, kWeightStepLog2 = 4;
+  static_assert(kMeshWeightOne / kNodeWeightOne * kNodeWeightStep == 1 << kStepLog2);
+  static_assert(kNodeWeightStep == 1 << kWeightStepLog2);
   const Sources d;
   const hn::Rebind<std::uint16_t, Sources> narrow;
+  const auto rounded = [](auto sum) HWY_ATTR {
+    return hn::ShiftLeft<kWeightStepLog2>(hn::ShiftRight<kStepLog2>(sum));
+  };
   for (const NodePlace& place : places) {
     if (place.is_covered()) {
       const Mean mean(place, corners, row);
-      Values sum = hn::Zero(d), largest = sum;
+      std::uint16_t before = 1 << (kStepLog2 - 1);  // sum of the weights, and half a step
       for (std::size_t s = 0; s < row; s += hn::Lanes(d)) {
-        const Values weight = hn::ShiftRight<kToNodeLog2>(mean.at(s));
-        hn::StoreU(hn::DemoteTo(narrow, weight), narrow, out + s);
-        sum = hn::Add(sum, weight);
-        const Values from_end =
-            hn::Sub(hn::Set(d, kLastPlace - static_cast<std::int32_t>(s / kRowStep * kRowStep)),
-                    hn::Load(d, kPlaces + s % kRowStep));
-        largest = hn::Max(largest, hn::Or(hn::ShiftLeft<kPlaceLog2>(weight), from_end));
-      }
-      const std::int32_t left = kNodeWeightOne - hn::GetLane(hn::SumOfLanes(d, sum));
-      if (left != 0) {
-        std::uint16_t& first = out[kLastPlace - (hn::GetLane(hn::MaxOfLanes(d, largest)) & kLastPlace)];
-        first = static_cast<std::uint16_t>(first + left);
+        const auto weight = hn::DemoteTo(narrow, mean.at(s));
+        auto sum = hn::Add(weight, hn::ShiftLeftLanes<1>(narrow, weight));
+        sum = hn::Add(sum, hn::ShiftLeftLanes<2>(narrow, sum));
+        if constexpr (hn::MaxLanes(Sources()) > 4) sum = hn::Add(sum, hn::ShiftLeftLanes<4>(narrow, sum));
+        sum = hn::Add(sum, hn::Set(narrow, before));
+        hn::StoreU(hn::Sub(rounded(sum), rounded(hn::Sub(sum, weight))), narrow, out + s);
+        before = hn::ExtractLane(sum, hn::Lanes(d) - 1);
       }
     } else {
       std::copy_n(outside, row, out);
@@ -126,47 +120,55 @@ struct Along {
   Values mean;
 };
 
-HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
+HWY_INLINE Values mean(Values d00, Values d10, Values d01, Values d11) {
+  return hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(Sources(), 2)));
+}
+
+/// Kinds of motion.
+HWY_INLINE Values kind_of(Values any, Values range) {
   const Sources d;
+  const Values moved =
+      hn::IfThenElse(hn::Gt(range, hn::Set(d, kEvenEnough)), hn::Set(d, kBent), hn::Set(d, kEven));
+  return hn::IfThenElse(hn::Eq(any, hn::Zero(d)), hn::Set(d, kStill), moved);
+}
+
+HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
   return {
       hn::Or(hn::Or(d00, d10), hn::Or(d01, d11)),
       hn::Sub(hn::Max(hn::Max(d00, d10), hn::Max(d01, d11)), hn::Min(hn::Min(d00, d10), hn::Min(d01, d11))),
-      hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(d, 2)))};
+      mean(d00, d10, d01, d11)};
 }
 
 /// Finds the motions of hn::Lanes(Sources) sources from place s of the rows on, at place `to` of the result.
 HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
   const Sources d;
-  const Values still = hn::Set(d, kStill), even = hn::Set(d, kEven), bent = hn::Set(d, kBent),
-               even_enough = hn::Set(d, kEvenEnough);
-  Values kinds = hn::Zero(d),
-         other = hn::Zero(d);  // over the patches: the largest; difference from the first
-  Values first_x = other, first_y = other;
   const auto at = [&](int column, int line, std::size_t axis) HWY_ATTR {
     return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s);
   };
+  Values any = hn::Zero(d), range = any;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Values centre = at(1, 1, axis);
+    Values low = centre, high = centre;
+    for (int node = 0; node < 9; ++node) {
+      const Values displacement = at(node % 3, node / 3, axis);
+      low = hn::Min(low, displacement);
+      high = hn::Max(high, displacement);
+    }
+    any = hn::Or(any, hn::Or(low, high));
+    range = hn::Max(range, hn::Sub(high, low));
+    hn::StoreU(mean(at(0, 0, axis), at(2, 0, axis), at(0, 2, axis), at(2, 2, axis)), d,
+               out.whole_by[axis].data() + to);
+  }
+  hn::StoreU(kind_of(any, range), d, out.whole.data() + to);
+  if (hn::AllFalse(d, hn::Gt(range, hn::Set(d, kEvenEnough)))) return;
   for (int patch = 0; patch < 4; ++patch) {
     const int i = patch % 2, j = patch / 2;
     const Along x = along(at(i, j, 0), at(i + 1, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0)),
                 y = along(at(i, j, 1), at(i + 1, j, 1), at(i, j + 1, 1), at(i + 1, j + 1, 1));
-    const auto moves = hn::Ne(hn::Or(x.any, y.any), hn::Zero(d));
-    const auto bends = hn::Gt(hn::Max(x.range, y.range), even_enough);
-    const Values kind = hn::IfThenElse(bends, bent, hn::IfThenElse(moves, even, still));
-    hn::StoreU(kind, d, out.kind[patch].data() + to);
+    hn::StoreU(kind_of(hn::Or(x.any, y.any), hn::Max(x.range, y.range)), d, out.kind[patch].data() + to);
     hn::StoreU(x.mean, d, out.by[patch][0].data() + to);
     hn::StoreU(y.mean, d, out.by[patch][1].data() + to);
-    kinds = hn::Or(kinds, kind);
-    if (patch == 0) {
-      first_x = x.mean;
-      first_y = y.mean;
-      other = hn::Xor(kind, even);
-    } else {
-      other = hn::Or(hn::Or(other, hn::Xor(kind, even)),
-                     hn::Or(hn::Xor(x.mean, first_x), hn::Xor(y.mean, first_y)));
-    }
   }
-  const Values whole = hn::IfThenElse(hn::Eq(other, hn::Zero(d)), even, bent);
-  hn::StoreU(hn::IfThenElse(hn::Eq(kinds, hn::Zero(d)), still, whole), d, out.whole.data() + to);
 }
 
 void motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {

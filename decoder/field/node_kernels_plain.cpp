@@ -1,6 +1,7 @@
 #include "decoder/field/node_kernels_plain.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "decoder/field/node_weights.h"
 
@@ -21,13 +22,14 @@ void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners,
       const std::int32_t *const a = row_of(corners, place.corner[0], row),
                                 *const b = row_of(corners, place.corner[1], row),
                                 *const c = row_of(corners, place.corner[2], row);
-      std::int32_t left = kNodeWeightOne;
+      constexpr std::int32_t kStep = kMeshWeightOne / kNodeWeightOne * kNodeWeightStep;
+      std::int32_t sum = 0, before = 0;
       for (std::size_t s = 0; s < row; ++s) {
-        out[s] = static_cast<std::uint16_t>(place.mean(a[s], b[s], c[s]) / (kMeshWeightOne / kNodeWeightOne));
-        left -= out[s];
+        sum += place.mean(a[s], b[s], c[s]);
+        const std::int32_t rounded = (sum + kStep / 2) / kStep * kNodeWeightStep;
+        out[s] = static_cast<std::uint16_t>(rounded - before);
+        before = rounded;
       }
-      std::uint16_t& largest = *std::max_element(out, out + row);
-      largest = static_cast<std::uint16_t>(largest + left);
     } else {
       std::copy_n(outside, row, out);
     }
@@ -66,25 +68,41 @@ void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out)
         if (nodes.weight_at(i, j)[first + s] != 0) out.shown |= 1U << s;
   if (nodes.displacement == nullptr) return;
   for (std::size_t s = 0; s < kRowStep; ++s) {
-    bool all_still = true, all_even = true;
-    for (int patch = 0; patch < 4; ++patch) {
-      MotionKind kind = kStill;
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const auto at = [&](int column, int line) {
-          return nodes.displacement_at(patch % 2 + column, patch / 2 + line)[axis * nodes.row + first + s];
-        };
-        const std::int32_t d[] = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
-        const auto [least, most] = std::minmax_element(d, d + 4);
-        if ((d[0] | d[1] | d[2] | d[3]) != 0)
-          kind = std::max(kind, *most - *least > kEvenEnough ? kBent : kEven);
-        out.by[patch][axis][s] = (d[0] + d[1] + d[2] + d[3] + 2) >> 2;
-      }
-      out.kind[patch][s] = kind;
-      all_still &= kind == kStill;
-      all_even &=
-          kind == kEven && out.by[patch][0][s] == out.by[0][0][s] && out.by[patch][1][s] == out.by[0][1][s];
+    glm::ivec2 low(INT32_MAX), high(INT32_MIN);
+    const auto at = [&](int column, int line) {
+      const std::int32_t* const d = nodes.displacement_at(column, line) + first + s;
+      return glm::ivec2(d[0], d[nodes.row]);
+    };
+    for (int node = 0; node < 9; ++node) {
+      const glm::ivec2 d = at(node % 3, node / 3);
+      low = {std::min(low.x, d.x), std::min(low.y, d.y)};
+      high = {std::max(high.x, d.x), std::max(high.y, d.y)};
     }
-    out.whole[s] = all_still ? kStill : all_even ? kEven : kBent;
+    const auto mean = [&](int column, int line, int size) {
+      const glm::ivec2 sum = at(column, line) + at(column + size, line) + at(column, line + size) +
+                             at(column + size, line + size) + 2;
+      return glm::ivec2(sum.x >> 2, sum.y >> 2);
+    };
+    const auto kind_of = [](glm::ivec2 least, glm::ivec2 most) {
+      if (least == glm::ivec2(0) && most == glm::ivec2(0)) return kStill;
+      return std::max(most.x - least.x, most.y - least.y) > kEvenEnough ? kBent : kEven;
+    };
+    out.whole[s] = kind_of(low, high);
+    const glm::ivec2 by = mean(0, 0, 2);
+    out.whole_by[0][s] = by.x;
+    out.whole_by[1][s] = by.y;
+    for (int patch = 0; patch < 4; ++patch) {
+      const int column = patch % 2, line = patch / 2;
+      glm::ivec2 least = at(column, line), most = least;
+      for (const glm::ivec2 d : {at(column + 1, line), at(column, line + 1), at(column + 1, line + 1)}) {
+        least = {std::min(least.x, d.x), std::min(least.y, d.y)};
+        most = {std::max(most.x, d.x), std::max(most.y, d.y)};
+      }
+      out.kind[patch][s] = kind_of(least, most);
+      const glm::ivec2 by_patch = mean(column, line, 1);
+      out.by[patch][0][s] = by_patch.x;
+      out.by[patch][1][s] = by_patch.y;
+    }
   }
 }
 

@@ -13,6 +13,9 @@ namespace fbs {
 
 inline constexpr std::int32_t kNodeWeightOne = kBlendOne;
 
+/// Weights between those of the points are multiples of this.
+inline constexpr std::int32_t kNodeWeightStep = kNodeWeightOne / 16;
+
 /// Weights of the sources at the nodes, in 1/kNodeWeightOne. A node's weights are contiguous.
 class NodeWeights {
  public:

@@ -56,12 +56,12 @@ struct DepthPlane {
   [[nodiscard]] const std::int32_t* row(int y) const {
     return depth.data() + static_cast<std::ptrdiff_t>(y) * width;
   }
-  /// Samples of a part of the area that something was drawn on.
-  [[nodiscard]] int covered(const SampleArea& part) const;
 };
 
+/// Depth of samples that nothing was drawn on.
+inline constexpr std::int32_t kNothingDrawn = std::numeric_limits<std::int32_t>::max();
 [[nodiscard]] constexpr bool is_covered(std::int32_t depth) {
-  return depth != std::numeric_limits<std::int32_t>::max();
+  return depth != kNothingDrawn;
 }
 
 /// Depth along a run.

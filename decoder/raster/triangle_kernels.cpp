@@ -26,6 +26,10 @@ void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const Textur
   plain::draw_short_triangle(t, scale, sources, target, depth);
 }
 
+int covered(const DepthPlane& depth, const SampleArea& part) {
+  return plain::count_covered(depth, part);
+}
+
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -319,6 +323,19 @@ void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const Textur
     draw_scale<PlaneScale::kChroma>(t, sources, target, depth);
 }
 
+int covered(const DepthPlane& depth, const SampleArea& part) {
+  const Wide d;
+  const Numbers nothing = hn::Set(d, kNothingDrawn);
+  Numbers uncovered = hn::Zero(d);  // -1 for each sample
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; x += kLanes) {
+      const auto is_part = hn::Lt(hn::Load(d, kNumbers), hn::Set(d, part.x1 - x));
+      const auto is_nothing = hn::Eq(hn::LoadU(d, depth.row(y) + x), nothing);
+      uncovered = hn::Add(uncovered, hn::VecFromMask(d, hn::And(is_part, is_nothing)));
+    }
+  return part.count() + hn::GetLane(hn::SumOfLanes(d, uncovered));
+}
+
 #endif
 
 }  // namespace
@@ -330,11 +347,16 @@ HWY_AFTER_NAMESPACE();
 namespace fbs {
 
 HWY_EXPORT(draw_short);
+HWY_EXPORT(covered);
 
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth) {
   HWY_DYNAMIC_DISPATCH(draw_short)(triangle, scale, sources, target, depth);
+}
+
+int count_covered(const DepthPlane& depth, const SampleArea& part) {
+  return HWY_DYNAMIC_DISPATCH(covered)(depth, part);
 }
 
 }  // namespace fbs

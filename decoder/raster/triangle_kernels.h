@@ -14,4 +14,7 @@ void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth);
 
+/// Samples of a part of depth.area that something was drawn on.
+[[nodiscard]] int count_covered(const DepthPlane& depth, const SampleArea& part);
+
 }  // namespace fbs

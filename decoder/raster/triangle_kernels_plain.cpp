@@ -62,4 +62,11 @@ void draw_short_triangle(const ShortTriangle& t, PlaneScale scale, std::span<con
   }
 }
 
+int count_covered(const DepthPlane& depth, const SampleArea& part) {
+  int out = 0;
+  for (int y = part.y0; y < part.y1; ++y)
+    for (int x = part.x0; x < part.x1; ++x) out += is_covered(depth.row(y)[x]) ? 1 : 0;
+  return out;
+}
+
 }  // namespace fbs::plain

@@ -9,4 +9,6 @@ void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth);
 
+[[nodiscard]] int count_covered(const DepthPlane& depth, const SampleArea& part);
+
 }  // namespace fbs::plain

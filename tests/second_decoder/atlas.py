@@ -5,7 +5,7 @@ import numpy as np
 from .integers import clamp, complete, quotient
 from .limits import MAX_SCREEN
 from .nodes import Nodes, rounded_weights
-from .patches import NODE_ONE, blended
+from .patches import blended
 from .raster import NO_TRIANGLE, Fragments, Triangles, planes
 from .samples import sample_texture, take_back_light
 from .weights import ONE
@@ -72,7 +72,7 @@ class Atlas:
     def blend(self, atlases, weights):
         """The texture of the head: planes Y, U, V of the patterns' atlases, by atlas_weights()."""
         corners = np.concatenate([weights, weights[:, self._frame.vertices:]], axis=1)
-        nodes = rounded_weights(np.array([self.nodes.at(w) for w in corners]), 4, NODE_ONE)
+        nodes = rounded_weights(np.array([self.nodes.at(w) for w in corners]))
         return [blended(plane, [atlas[k] for atlas in atlases], nodes) for k, plane in enumerate(self.planes)]
 
 

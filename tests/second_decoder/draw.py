@@ -6,7 +6,7 @@ from .atlas import atlas_weights
 from .integers import clamp
 from .mouth import Opening, amount
 from .nodes import Nodes, rounded_weights
-from .patches import NODE_ONE, blended, displacements, warped
+from .patches import blended, displacements, warped
 from .raster import FARTHEST, NO_TRIANGLE, Fragments, Plane, Triangles, planes
 from .samples import Blend, blur, cell_shares, light, restore_contrast, sample_texture
 from .silhouette import silhouettes, soften
@@ -53,7 +53,7 @@ class _PictureDrawing:
                           displacements(nodes, (seen.x, seen.y), (now.x, now.y), self._setup.width, self._setup.height))
         ground = ground_weights(self._sources)[:, None, None]
         weights = np.array([nodes.at(weight) for weight in self._weights])
-        weights = np.where(nodes.is_covered, rounded_weights(weights, 4, NODE_ONE), ground)
+        weights = np.where(nodes.is_covered, rounded_weights(weights), ground)
         return [blended(plane, [warped(source.pattern.planes[k], plane, field)
                                 for source, field in zip(self._sources, fields)], weights)
                 for k, plane in enumerate(self._planes)]

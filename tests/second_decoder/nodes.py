@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .integers import complete, nearest, quotient
+from .integers import nearest, quotient
 from .raster import NO_TRIANGLE, Plane, Triangles
 
 PATCH = 8  # luma samples from node to node
@@ -18,7 +18,7 @@ class Nodes:
     """
 
     def __init__(self, width, height, corners, x, y):
-        self.columns, self.rows = -(-width // PATCH) + 1, -(-height // PATCH) + 1
+        self.columns, self.rows = (2 * -(-size // (2 * PATCH)) + 1 for size in (width, height))  # of whole blocks
         column, row = np.meshgrid(np.arange(self.columns), np.arange(self.rows))
         self.x, self.y = (column << _STEP_BITS) + _FIRST, (row << _STEP_BITS) + _FIRST
         self._corners = corners
@@ -57,9 +57,10 @@ class Nodes:
         self.is_covered[:] = True
 
 
-def rounded_weights(weights, shift, one):
-    """Weights of the sources (first axis), less precise by `shift` bits; the largest gets what the others leave."""
-    return complete(weights >> shift, one)
+def rounded_weights(weights):
+    """Weights of the sources (first axis) at nodes, from those in 1/4096: sums of the first ones are rounded to 1/16."""
+    sums = 16 * nearest(weights.cumsum(axis=0), 8)
+    return np.diff(sums, axis=0, prepend=0)
 
 
 def corners_of_patches(nodes):

@@ -5,7 +5,6 @@ import numpy as np
 from .integers import clamp, nearest
 from .nodes import Samples, corners_of_patches
 
-NODE_ONE = 256  # sum of the weights at a node
 _OUTSIDE = 24 * 64
 _EVEN = 16  # the largest difference of displacements that is none
 
@@ -27,9 +26,24 @@ def warped(texture, plane, displacement):
     corners = [corners_of_patches(nodes) for nodes in displacement]
     is_still = (corners[0] == 0).all(axis=0) & (corners[1] == 0).all(axis=0)
     is_even = np.logical_and(*(np.ptp(c, axis=0) <= _EVEN for c in corners))
+    in_even_block, is_still_block, mean_of_block = _even_blocks(displacement)
     halved = plane.bits - 6
-    x, y = (nearest(samples.between(np.where(is_even, (c.sum(axis=0) + 2) >> 2, c)), 6) >> halved for c in corners)
+    x, y = (nearest(samples.between(np.where(in_even_block, m, np.where(is_even, (c.sum(axis=0) + 2) >> 2, c))), 6) >> halved
+            for c, m in zip(corners, mean_of_block))
+    is_still &= ~in_even_block | is_still_block
     return np.where(samples.of_patches(is_still), texture, _sample(texture, 64 * samples.columns + x, 64 * samples.rows + y, 2 - halved))
+
+
+def _even_blocks(displacement):
+    """For each patch whether the nodes of its block hardly differ, or are still, and the mean x and y of the block's corners."""
+    nine = [np.stack([d[j:j + d.shape[0] - 2:2, i:i + d.shape[1] - 2:2] for j in range(3) for i in range(3)]) for d in displacement]
+
+    def of_patches(values):
+        return values.repeat(2, axis=0).repeat(2, axis=1)
+
+    is_even = np.logical_and(*(np.ptp(d, axis=0) <= _EVEN for d in nine))
+    is_still = np.logical_and(*((d == 0).all(axis=0) for d in nine))
+    return of_patches(is_even), of_patches(is_still), [of_patches((d[[0, 2, 6, 8]].sum(axis=0) + 2) >> 2) for d in nine]
 
 
 def _sample(texture, u, v, inset):

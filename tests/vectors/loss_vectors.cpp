@@ -12,7 +12,7 @@ Bytes live(const std::vector<std::uint32_t>& durations = {}, double join = 0) {
   turning.motion = talker::Motion::kTurns;
   turning.yaw_deg = 20;
   EncoderSettings settings;
-  settings.quality = 60;
+  settings.quality = 70;
   settings.live = LiveSettings{.resilience = Resilience::kStrong, .join = join};
   return encoded(pictures_of(turning), settings, durations);
 }

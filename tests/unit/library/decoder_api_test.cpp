@@ -233,7 +233,7 @@ TEST(DecoderApi, ResetForgetsTheStream) {
   EXPECT_EQ(fbs_decoder_get_picture(decoder.get(), &picture), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_next(decoder.get(), nullptr), FBS_NEED_DATA);
   for (const std::size_t piece : {1u, 3u, 5000u}) {
-    EXPECT_EQ(heard(decoder.get(), vector_bytes("odd.fbs"), piece).md5, "5a518cc455e1f42dbcd502998d1ee506");
+    EXPECT_EQ(heard(decoder.get(), vector_bytes("odd.fbs"), piece).md5, "2573344f6a4808799e09cb249f32c0a6");
     ASSERT_EQ(fbs_decoder_reset(decoder.get()), FBS_OK);
   }
 }

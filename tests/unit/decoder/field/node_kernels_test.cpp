@@ -88,8 +88,8 @@ TEST(WeighNodes, EqualsThePlainOne) {
   });
 }
 
-// Three sources of a third each: 85 + 85 + 85.
-TEST(WeighNodes, TheFirstOfTheLargestTakesWhatIsLeft) {
+// Three sources of a third each: 5, 11 and 16 sixteenths when summed.
+TEST(WeighNodes, SumsAreRounded) {
   const NodePlace place{{0, 0, 0}, {0, 0}};
   on_every_target([&] {
     for (const std::array<std::size_t, 3>& sources :
@@ -98,9 +98,9 @@ TEST(WeighNodes, TheFirstOfTheLargestTakesWhatIsLeft) {
       std::vector<std::uint16_t> out(56), expected(56);
       for (const std::size_t s : sources) {
         corners[s] = kMeshWeightOne / 3;
-        expected[s] = 85;
+        expected[s] = 5 * kNodeWeightStep;
       }
-      expected[sources[0]] = 86;
+      expected[sources[1]] = 6 * kNodeWeightStep;
       weigh_nodes({&place, 1}, corners.data(), nullptr, 56, out.data());
       EXPECT_EQ(out, expected) << sources[0];
     }
@@ -197,7 +197,11 @@ void expect_same(const BlockMotions& out, const BlockMotions& expected, std::arr
     if ((expected.shown >> s & 1) == 0) continue;
     ASSERT_EQ(out.whole[s], expected.whole[s]) << s;
     ++kinds[static_cast<std::size_t>(expected.whole[s])];
-    if (expected.whole[s] == kStill) continue;
+    if (expected.whole[s] == kEven) {
+      ASSERT_EQ(out.whole_by[0][s], expected.whole_by[0][s]) << s;
+      ASSERT_EQ(out.whole_by[1][s], expected.whole_by[1][s]) << s;
+    }
+    if (expected.whole[s] != kBent) continue;
     for (std::size_t patch = 0; patch < 4; ++patch) {
       ASSERT_EQ(out.kind[patch][s], expected.kind[patch][s]) << s;
       if (expected.kind[patch][s] != kEven) continue;
@@ -245,10 +249,11 @@ TEST(FindMotions, APatchIsStillOnlyIfAllItsNodesAre) {
     EXPECT_EQ(nodes.motions().whole[0], kStill);
     nodes.displace(2 * Nodes::kColumns + 2, 0, {0, 1});
     const BlockMotions hardly = nodes.motions();
-    EXPECT_EQ(hardly.whole[0], kBent) << "patch by patch";
-    EXPECT_EQ(hardly.kind[0][0], kStill);
-    EXPECT_EQ(hardly.kind[3][0], kEven);
-    EXPECT_EQ(hardly.by[3][1][0], 0) << "but not from where the texture's own samples are";
+    EXPECT_EQ(hardly.whole[0], kEven);
+    EXPECT_EQ(hardly.whole_by[1][0], 0) << "but not from where the texture's own samples are";
+    nodes.displace(0, 0, {0, 900});  // patch by patch
+    EXPECT_EQ(nodes.motions().kind[1][0], kStill);
+    EXPECT_EQ(nodes.motions().kind[3][0], kEven);
   });
 }
 
@@ -259,6 +264,7 @@ TEST(FindMotions, OfNodesThatHardlyDifferIsTheirMean) {
     nodes.displace(1, 0, b);
     nodes.displace(Nodes::kColumns, 0, c);
     nodes.displace(Nodes::kColumns + 1, 0, d);
+    nodes.displace(2 * Nodes::kColumns, 0, {900, 900});  // the block is not even
     return nodes.motions();
   };
   on_every_target([&] {
@@ -271,17 +277,21 @@ TEST(FindMotions, OfNodesThatHardlyDifferIsTheirMean) {
   });
 }
 
-TEST(FindMotions, ABlockIsWholeIfItsPatchesAreAlike) {
+TEST(FindMotions, ABlockIsWholeIfItsNodesHardlyDiffer) {
   on_every_target([] {
     Nodes nodes;
     nodes.displace_all(0, {70, -3});
     EXPECT_EQ(nodes.motions().whole[0], kEven);
-    nodes.displace(2, 0, {72, -3});  // the upper right patch has another mean
+    EXPECT_EQ(nodes.motions().whole_by[0][0], 70);
+    nodes.displace(2, 0, {86, -3});
+    nodes.displace(Nodes::kColumns + 1, 0, {75, -3});  // the middle does not count
+    EXPECT_EQ(nodes.motions().whole[0], kEven);
+    EXPECT_EQ(nodes.motions().whole_by[0][0], 74) << "(3 * 70 + 86 + 2) / 4";
+    EXPECT_EQ(nodes.motions().whole_by[1][0], -3);
+    nodes.displace(Nodes::kColumns + 1, 0, {87, -3});
     const BlockMotions unlike = nodes.motions();
     EXPECT_EQ(unlike.whole[0], kBent);
-    EXPECT_EQ(unlike.kind[1][0], kEven);
-    EXPECT_EQ(unlike.by[1][0][0], 71);
-    EXPECT_EQ(unlike.by[2][0][0], 70);
+    EXPECT_EQ(unlike.kind[0][0], kBent);
     nodes.displace_all(0, {0, 0});
     nodes.displace(3, 0, {900, 900});  // of the next block
     EXPECT_EQ(nodes.motions().whole[0], kStill);

@@ -33,8 +33,10 @@ TEST(NodeWeights, SumToOneAtEveryNode) {
   for (int i = 0; i < 50; ++i) {
     const RegionWeights regions = random_regions(random);
     weights.set(grid.cover, point_weights(regions, surround.shares()), regions[0]);
-    for (std::size_t k = 0; k < grid.cover.places().size(); ++k)
+    for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
       ASSERT_EQ(weights.at(k)[0] + weights.at(k)[1] + weights.at(k)[2], kNodeWeightOne) << k;
+      for (std::size_t s = 0; s < 3; ++s) ASSERT_EQ(weights.at(k)[s] % kNodeWeightStep, 0) << k << ": " << s;
+    }
   }
 }
 
@@ -46,8 +48,8 @@ TEST(NodeWeights, AreThoseOfTheRegionThatHasTheNode) {
   NodeWeights weights;
   weights.set(grid.cover, point_weights(regions, grid.surround.shares()), {});
   for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
-    ASSERT_EQ(weights.at(k)[0], 57);
-    ASSERT_EQ(weights.at(k)[2], 199);
+    ASSERT_EQ(weights.at(k)[0], 64) << "57, rounded";
+    ASSERT_EQ(weights.at(k)[2], 192);
   }
 }
 
@@ -64,8 +66,21 @@ TEST(NodeWeights, AreMixedByTheSharesOfRegions) {
   regions[static_cast<std::size_t>(Region::kHair)] = {101, 155};
   NodeWeights weights;
   weights.set(cover, point_weights(regions, surround.shares()), {});
-  EXPECT_EQ(weights.at(22)[0], 50) << "rounded down";
-  EXPECT_EQ(weights.at(22)[1], 206) << "the largest takes the rest";
+  EXPECT_EQ(weights.at(22)[0], 48) << "50.5, rounded";
+  EXPECT_EQ(weights.at(22)[1], 208);
+}
+
+// Sums of the first sources are rounded: 6, 12, 18, 24, 30 and 256.
+TEST(NodeWeights, OfManySmallSourcesAFewKeepWhatAllHave) {
+  const SurroundGrid grid;
+  RegionWeights regions;
+  for (auto& region : regions) region = {6, 6, 6, 6, 6, 226};
+  NodeWeights weights;
+  weights.set(grid.cover, point_weights(regions, grid.surround.shares()), {});
+  for (std::size_t k = 0; k < grid.cover.places().size(); ++k)
+    ASSERT_EQ(std::vector(weights.at(k), weights.at(k) + 6),
+              (std::vector<std::uint16_t>{0, 16, 0, 16, 0, 224}))
+        << k;
 }
 
 TEST(NodeWeights, OfNodesThatNothingCoversAreThoseFromOutside) {
@@ -96,11 +111,11 @@ TEST(NodeWeights, OfASceneWithoutGeometryAreThoseOfTheGround) {
 // Kernels take eight sources at once: what is behind the last one must not count.
 TEST(NodeWeights, PlacesWithoutASourceAreZero) {
   const SurroundGrid grid;
-  std::vector<std::int32_t> many(10, 20);
-  many[9] = kNodeWeightOne - 9 * 20;
+  std::vector<std::int32_t> many(10, kNodeWeightStep);
+  many[9] = kNodeWeightOne - 9 * kNodeWeightStep;
   RegionWeights of_many, of_two;
   for (auto& region : of_many) region = many;
-  for (auto& region : of_two) region = {100, 156};
+  for (auto& region : of_two) region = {96, 160};
   NodeWeights weights;
   const auto expect_row = [&](const std::vector<std::int32_t>& expected, std::size_t row) {
     ASSERT_EQ(weights.row(), row);

@@ -317,5 +317,21 @@ TEST(TriangleKernels, LightFallsOnLumaAlone) {
   });
 }
 
+TEST(CountCovered, EqualsThePlainOne) {
+  on_every_target([] {
+    std::mt19937 random(4);
+    DepthPlane depth;
+    depth.reset(kWidth, kHeight, {0, 0, kWidth, kHeight});
+    for (std::int32_t& z : depth.depth)
+      if (random() % 3 == 0) z = within(random, 4000);
+    for (int i = 0; i < 300; ++i) {
+      const int x = static_cast<int>(random() % kWidth), y = static_cast<int>(random() % kHeight);
+      const SampleArea part{x, y, std::min(x + static_cast<int>(random() % 17), kWidth),
+                            std::min(y + static_cast<int>(random() % 17), kHeight)};
+      ASSERT_EQ(count_covered(depth, part), plain::count_covered(depth, part)) << i;
+    }
+  });
+}
+
 }  // namespace
 }  // namespace fbs

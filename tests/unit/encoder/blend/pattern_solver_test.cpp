@@ -231,7 +231,7 @@ TEST(PatternSolver, FirstStepIsAlongTheTransposedDrawing) {
       ratios.push_back(product(drawn, p.targets) / product(x, step));
     }
   }
-  for (const double r : ratios) EXPECT_NEAR(r / ratios[0], 1, 0.03);
+  for (const double r : ratios) EXPECT_NEAR(r / ratios[0], 1, 0.08);  // weights at nodes are sixteenths
 }
 
 State with_light_and_mouth() {
