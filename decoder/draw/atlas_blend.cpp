@@ -32,7 +32,7 @@ void AtlasBlend::draw(const Drawing& drawing, const HeadWeights& weights, const 
   if (weights.warped.empty()) return;
   if (blended_.width() != layout.width || blended_.height() != layout.height)
     blended_ = HeadAtlas(layout.width, layout.height);
-  nodes_.set(layout.cover, with_skirt(weights.atlas, layout.head_count), {});
+  nodes_.set(layout.cover, with_skirt(weights.atlas, layout.head_count), {}, kAtlasStepLog2);
   for (const glm::ivec2 block : layout.blocks) draw_block(drawing, weights, layout.cover.grid(), block);
 }
 

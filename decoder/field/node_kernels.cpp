@@ -19,8 +19,8 @@ namespace {
 #if HWY_TARGET == HWY_SCALAR
 
 void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-           std::size_t row, std::uint16_t* out) {
-  plain::weigh_nodes(places, corners, outside, row, out);
+           std::size_t row, int step_log2, std::uint16_t* out) {
+  plain::weigh_nodes(places, corners, outside, row, step_log2, out);
 }
 void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits, std::size_t row,
               std::int32_t* out) {
@@ -61,19 +61,18 @@ class Mean {
 };
 
 void weigh(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-           std::size_t row, std::uint16_t* out) {
-  constexpr int kStepLog2 = 8, kWeightStepLog2 = 4;
-  static_assert(kMeshWeightOne / kNodeWeightOne * kNodeWeightStep == 1 << kStepLog2);
-  static_assert(kNodeWeightStep == 1 << kWeightStepLog2);
+           std::size_t row, int step_log2, std::uint16_t* out) {
+  constexpr int kToNodeLog2 = 4;
+  static_assert(kMeshWeightOne == kNodeWeightOne << kToNodeLog2);
   const Sources d;
   const hn::Rebind<std::uint16_t, Sources> narrow;
-  const auto rounded = [](auto sum) HWY_ATTR {
-    return hn::ShiftLeft<kWeightStepLog2>(hn::ShiftRight<kStepLog2>(sum));
-  };
+  const int bits = kToNodeLog2 + step_log2;
+  const auto rounded = [&](auto sum)
+                           HWY_ATTR { return hn::ShiftLeftSame(hn::ShiftRightSame(sum, bits), step_log2); };
   for (const NodePlace& place : places) {
     if (place.is_covered()) {
       const Mean mean(place, corners, row);
-      std::uint16_t before = 1 << (kStepLog2 - 1);  // sum of the weights, and half a step
+      auto before = static_cast<std::uint16_t>(1 << (bits - 1));  // sum of the weights, and half a step
       for (std::size_t s = 0; s < row; s += hn::Lanes(d)) {
         const auto weight = hn::DemoteTo(narrow, mean.at(s));
         auto sum = hn::Add(weight, hn::ShiftLeftLanes<1>(narrow, weight));
@@ -204,8 +203,8 @@ HWY_EXPORT(displace);
 HWY_EXPORT(motions);
 
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-                 std::size_t row, std::uint16_t* out) {
-  HWY_DYNAMIC_DISPATCH(weigh)(places, corners, outside, row, out);
+                 std::size_t row, int step_log2, std::uint16_t* out) {
+  HWY_DYNAMIC_DISPATCH(weigh)(places, corners, outside, row, step_log2, out);
 }
 
 void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,

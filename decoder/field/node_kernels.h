@@ -14,15 +14,15 @@
 
 namespace fbs {
 
-/// Weights of the sources at nodes, multiples of kNodeWeightStep in 2^-8, from the weights at the points of
-/// the mesh, in 2^-12. Sums of the first sources are rounded: each weight is off by less than a step, and all
-/// sum to one. Small weights mostly vanish, which saves a quarter of the sources that a block shows.
+/// Weights of the sources at nodes, in 2^-8, from the weights at the points of the mesh, in 2^-12. Sums of
+/// the first sources are rounded: each weight is off by less than a step, and all sum to one.
 /// @param corners  rows of weights, one for each point
 /// @param outside  row for nodes that no triangle covers
 /// @param row      size of a row
+/// @param step_log2  log2 of a step in 2^-8. Most small weights vanish where it is large
 /// @param out      rows of weights, one for each node
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-                 std::size_t row, std::uint16_t* out);
+                 std::size_t row, int step_log2, std::uint16_t* out);
 
 /// Positions of a texture that nodes may show, 1/64 luma sample.
 struct NodeLimits {

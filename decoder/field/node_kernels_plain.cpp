@@ -16,17 +16,17 @@ const std::int32_t* row_of(const std::int32_t* rows, std::int32_t point, std::si
 }  // namespace
 
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-                 std::size_t row, std::uint16_t* out) {
+                 std::size_t row, int step_log2, std::uint16_t* out) {
   for (const NodePlace& place : places) {
     if (place.is_covered()) {
       const std::int32_t *const a = row_of(corners, place.corner[0], row),
                                 *const b = row_of(corners, place.corner[1], row),
                                 *const c = row_of(corners, place.corner[2], row);
-      constexpr std::int32_t kStep = kMeshWeightOne / kNodeWeightOne * kNodeWeightStep;
+      const std::int32_t step = kMeshWeightOne / kNodeWeightOne << step_log2;
       std::int32_t sum = 0, before = 0;
       for (std::size_t s = 0; s < row; ++s) {
         sum += place.mean(a[s], b[s], c[s]);
-        const std::int32_t rounded = (sum + kStep / 2) / kStep * kNodeWeightStep;
+        const std::int32_t rounded = (sum + step / 2) / step << step_log2;
         out[s] = static_cast<std::uint16_t>(rounded - before);
         before = rounded;
       }

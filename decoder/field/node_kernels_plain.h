@@ -6,7 +6,7 @@
 namespace fbs::plain {
 
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
-                 std::size_t row, std::uint16_t* out);
+                 std::size_t row, int step_log2, std::uint16_t* out);
 /// Takes displacements of any size.
 void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
                     std::size_t row, std::int32_t* out);

@@ -7,7 +7,7 @@
 namespace fbs {
 
 void NodeWeights::set(const NodeCover& cover, const PointWeights& corners,
-                      std::span<const std::int32_t> outside) {
+                      std::span<const std::int32_t> outside, int step_log2) {
   row_ = row_size(corners.sources);
   outside_.assign(row_, 0);
   std::copy(outside.begin(), outside.end(), outside_.begin());
@@ -16,7 +16,7 @@ void NodeWeights::set(const NodeCover& cover, const PointWeights& corners,
   for (std::size_t p = 0; p < points; ++p)
     std::copy_n(corners.at(p).data(), corners.sources, corners_.data() + p * row_);
   weights_.resize(cover.places().size() * row_);
-  weigh_nodes(cover.places(), corners_.data(), outside_.data(), row_, weights_.data());
+  weigh_nodes(cover.places(), corners_.data(), outside_.data(), row_, step_log2, weights_.data());
 }
 
 void NodeWeights::set(const NodeGrid& grid, std::span<const std::int32_t> weights) {

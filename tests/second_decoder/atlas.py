@@ -72,7 +72,7 @@ class Atlas:
     def blend(self, atlases, weights):
         """The texture of the head: planes Y, U, V of the patterns' atlases, by atlas_weights()."""
         corners = np.concatenate([weights, weights[:, self._frame.vertices:]], axis=1)
-        nodes = rounded_weights(np.array([self.nodes.at(w) for w in corners]))
+        nodes = rounded_weights(np.array([self.nodes.at(w) for w in corners]), 1)
         return [blended(plane, [atlas[k] for atlas in atlases], nodes) for k, plane in enumerate(self.planes)]
 
 

@@ -53,7 +53,7 @@ class _PictureDrawing:
                           displacements(nodes, (seen.x, seen.y), (now.x, now.y), self._setup.width, self._setup.height))
         ground = ground_weights(self._sources)[:, None, None]
         weights = np.array([nodes.at(weight) for weight in self._weights])
-        weights = np.where(nodes.is_covered, rounded_weights(weights), ground)
+        weights = np.where(nodes.is_covered, rounded_weights(weights, 16), ground)
         return [blended(plane, [warped(source.pattern.planes[k], plane, field)
                                 for source, field in zip(self._sources, fields)], weights)
                 for k, plane in enumerate(self._planes)]

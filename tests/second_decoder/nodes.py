@@ -57,9 +57,9 @@ class Nodes:
         self.is_covered[:] = True
 
 
-def rounded_weights(weights):
-    """Weights of the sources (first axis) at nodes, from those in 1/4096: sums of the first ones are rounded to 1/16."""
-    sums = 16 * nearest(weights.cumsum(axis=0), 8)
+def rounded_weights(weights, step):
+    """Weights of the sources (first axis) at nodes, from those in 1/4096: sums of the first ones are rounded to steps in 1/256."""
+    sums = step * nearest(weights.cumsum(axis=0), 3 + step.bit_length())
     return np.diff(sums, axis=0, prepend=0)
 
 

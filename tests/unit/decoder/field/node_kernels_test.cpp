@@ -79,8 +79,9 @@ TEST(WeighNodes, EqualsThePlainOne) {
         const auto corners = random_weights<std::int32_t>(random, kPoints, row, kMeshWeightOne);
         const auto outside = random_weights<std::uint16_t>(random, 1, row, kNodeWeightOne);
         std::vector<std::uint16_t> out(cover.places().size() * row + 1, 9999), expected = out;
-        weigh_nodes(cover.places(), corners.data(), outside.data(), row, out.data());
-        plain::weigh_nodes(cover.places(), corners.data(), outside.data(), row, expected.data());
+        const int step_log2 = i % 2 == 0 ? kSurroundStepLog2 : kAtlasStepLog2;
+        weigh_nodes(cover.places(), corners.data(), outside.data(), row, step_log2, out.data());
+        plain::weigh_nodes(cover.places(), corners.data(), outside.data(), row, step_log2, expected.data());
         ASSERT_EQ(out, expected) << i << ": " << row;
       }
     }
@@ -98,10 +99,10 @@ TEST(WeighNodes, SumsAreRounded) {
       std::vector<std::uint16_t> out(56), expected(56);
       for (const std::size_t s : sources) {
         corners[s] = kMeshWeightOne / 3;
-        expected[s] = 5 * kNodeWeightStep;
+        expected[s] = 5 << kSurroundStepLog2;
       }
-      expected[sources[1]] = 6 * kNodeWeightStep;
-      weigh_nodes({&place, 1}, corners.data(), nullptr, 56, out.data());
+      expected[sources[1]] = 6 << kSurroundStepLog2;
+      weigh_nodes({&place, 1}, corners.data(), nullptr, 56, kSurroundStepLog2, out.data());
       EXPECT_EQ(out, expected) << sources[0];
     }
   });

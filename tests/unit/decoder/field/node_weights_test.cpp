@@ -35,7 +35,7 @@ TEST(NodeWeights, SumToOneAtEveryNode) {
     weights.set(grid.cover, point_weights(regions, surround.shares()), regions[0]);
     for (std::size_t k = 0; k < grid.cover.places().size(); ++k) {
       ASSERT_EQ(weights.at(k)[0] + weights.at(k)[1] + weights.at(k)[2], kNodeWeightOne) << k;
-      for (std::size_t s = 0; s < 3; ++s) ASSERT_EQ(weights.at(k)[s] % kNodeWeightStep, 0) << k << ": " << s;
+      for (std::size_t s = 0; s < 3; ++s) ASSERT_EQ(weights.at(k)[s] % (1 << kSurroundStepLog2), 0) << k << ": " << s;
     }
   }
 }
@@ -51,6 +51,8 @@ TEST(NodeWeights, AreThoseOfTheRegionThatHasTheNode) {
     ASSERT_EQ(weights.at(k)[0], 64) << "57, rounded";
     ASSERT_EQ(weights.at(k)[2], 192);
   }
+  weights.set(grid.cover, point_weights(regions, grid.surround.shares()), {}, kAtlasStepLog2);
+  for (std::size_t k = 0; k < grid.cover.places().size(); ++k) ASSERT_EQ(weights.at(k)[0], 57);
 }
 
 // Half way between ground and hair.
@@ -111,8 +113,8 @@ TEST(NodeWeights, OfASceneWithoutGeometryAreThoseOfTheGround) {
 // Kernels take eight sources at once: what is behind the last one must not count.
 TEST(NodeWeights, PlacesWithoutASourceAreZero) {
   const SurroundGrid grid;
-  std::vector<std::int32_t> many(10, kNodeWeightStep);
-  many[9] = kNodeWeightOne - 9 * kNodeWeightStep;
+  std::vector<std::int32_t> many(10, 1 << kSurroundStepLog2);
+  many[9] = kNodeWeightOne - 9 * (1 << kSurroundStepLog2);
   RegionWeights of_many, of_two;
   for (auto& region : of_many) region = many;
   for (auto& region : of_two) region = {96, 160};
