@@ -65,12 +65,15 @@ class WaitingPictures {
   std::size_t read_ = 0;  ///< pictures of old_
 };
 
-/// Decodes and measures the stream as it is encoded.
+/// Measures the stream as it is encoded; for PSNR, it is decoded.
 class ClosedLoop {
  public:
-  /// @param sound  null: none
-  ClosedLoop(Encoder encoder, SoundInterleaver* sound, const TakeBytes& take, Measured what)
+  /// @param nominal  duration of pictures that are pushed without one
+  /// @param sound    null: none
+  ClosedLoop(Encoder encoder, std::uint32_t nominal, SoundInterleaver* sound, const TakeBytes& take,
+             Measured what)
       : encoder_(std::move(encoder)),
+        nominal_(nominal),
         sound_(sound),
         take_(take),
         compares_(what != Measured::kRate),
@@ -93,6 +96,7 @@ class ClosedLoop {
   Result<Encoded> finish() {
     if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
     if (auto passed = pass_on(); !passed) return fail(passed.error());
+    if (!compares_) return Encoded{rate_, encoder_.report()};
     if (decoder_.pictures() < pushed_)
       return fail(ErrorCode::kInternal, "the encoded stream has fewer pictures than its source");
     return Encoded{meter_.result(), encoder_.report()};
@@ -104,8 +108,12 @@ class ClosedLoop {
     if (see)
       if (auto seen = see(now, encoder_.analysis()); !seen) return seen;
     ++pushed_;
-    if (compares_)
+    if (compares_) {
       if (auto kept = waiting_.push(now.picture); !kept) return kept;
+    } else {
+      rate_.pictures = pushed_;
+      rate_.seconds += static_cast<double>(duration == 0 ? nominal_ : duration) / kTicksPerSecond;
+    }
     return pass_on();
   }
 
@@ -118,6 +126,10 @@ class ClosedLoop {
       bytes = std::move(*added);
     }
     if (auto taken = take_(bytes); !taken) return taken;
+    if (!compares_) {
+      rate_.bytes.total += bytes.size();
+      return {};
+    }
     decoder_.feed(bytes);
     for (;;) {
       auto status = decoder_.next();
@@ -126,25 +138,18 @@ class ClosedLoop {
       if (*status != DecodeStatus::kPicture) return {};
       if (decoder_.pictures() > pushed_)
         return fail(ErrorCode::kInternal, "the encoded stream has more pictures than its source");
-      if (auto measured = measure(); !measured) return measured;
+      const auto source = waiting_.pop();
+      if (!source) return fail(source.error());
+      if (auto compared = meter_.compare(*source); !compared) return compared;
     }
-  }
-
-  /// The current picture of the decoder.
-  Result<void> measure() {
-    if (!compares_) {
-      meter_.add();
-      return {};
-    }
-    const auto source = waiting_.pop();
-    if (!source) return fail(source.error());
-    return meter_.compare(*source);
   }
 
   Encoder encoder_;
+  std::uint32_t nominal_;
   SoundInterleaver* sound_;
   const TakeBytes& take_;
   bool compares_;
+  Measure rate_;  ///< unless it compares
   StreamDecoder decoder_;
   StreamMeter meter_;
   std::uint64_t pushed_ = 0;  ///< pictures
@@ -157,9 +162,9 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
                               const SeePicture& see, Measured what, bool quiet, SoundInterleaver* sound) {
   auto encoder = Encoder::create(source.format(), settings);
   if (!encoder) return fail(encoder.error());
-  ClosedLoop loop(std::move(*encoder), sound, take, what);
-  Progress progress("encoding", source.frame_count_estimate(), quiet);
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
+  ClosedLoop loop(std::move(*encoder), nominal, sound, take, what);
+  Progress progress("encoding", source.frame_count_estimate(), quiet);
   // A picture's duration is known when the next one arrives; to avoid the wait, a live picture gets the
   // duration of the previous one.
   const bool waits = !settings.live && !source.has_constant_rate();

@@ -19,7 +19,7 @@ struct Encoded {
   EncodingReport report;
 };
 
-/// Encodes all of `source`, passes each piece of the stream to `take`, decodes it and measures it.
+/// Encodes all of `source`, passes each piece of the stream to `take`, and measures it.
 /// @param see    called with every picture after its analysis; may be empty
 /// @param sound  puts it into the stream; null: the stream has none
 [[nodiscard]] Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings,

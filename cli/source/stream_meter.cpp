@@ -4,13 +4,9 @@
 
 namespace fbs::cli {
 
-void StreamMeter::add() {
+Result<void> StreamMeter::compare(const Picture& source) {
   sum_.seconds += static_cast<double>(decoder_.duration()) / kTicksPerSecond;
   ++sum_.pictures;
-}
-
-Result<void> StreamMeter::compare(const Picture& source) {
-  add();
   if (auto drawn = decoder_.render(drawn_); !drawn) return drawn;
   sum_.frame += squared_error(source.y, drawn_.y);
   const FaceOutline outline = face_outline(decoder_);

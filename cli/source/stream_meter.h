@@ -22,10 +22,10 @@ struct Measure {
   }
 };
 
-/// What to measure of a stream. Drawing pictures for comparison takes a tenth of an encoder's time.
+/// What to measure of a stream.
 enum class Measured : std::uint8_t {
-  kRate,
-  kPsnr,  ///< and the rate
+  kRate,  ///< pictures, seconds and bytes in all
+  kPsnr,  ///< everything; decoding takes a tenth of an encoder's time
 };
 
 /// Accumulates the pictures of a stream and their differences from the source.
@@ -34,9 +34,7 @@ class StreamMeter {
   /// @param decoder  must outlive the object
   explicit StreamMeter(StreamDecoder& decoder) : decoder_(decoder) {}
 
-  /// Adds the current picture of the decoder.
-  void add();
-  /// The same, and compares it with `source`.
+  /// Adds the current picture of the decoder, and compares it with `source`.
   Result<void> compare(const Picture& source);
 
   [[nodiscard]] Measure result() const;
