@@ -141,12 +141,12 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const HeadTexture texture{*scene.geometry, layout, atlas_.planes(), weights};
   // The head first: what it covers of the surround is not drawn.
   std::vector<HeadPainter> heads;
-  for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
-    if (drawing.area(scale).empty()) continue;
-    DepthPlane& depth = depth_[heads.size()];
-    surround.head[heads.size()] = &depth;
-    heads.emplace_back(drawing, texture, scale, depth).draw();
-  }
+  const auto draw_head = [&](PlaneScale scale, std::size_t k) {
+    surround.head[k] = &depth_[k];
+    heads.emplace_back(drawing, texture, scale, depth_[k]).draw();
+  };
+  draw_head(PlaneScale::kLuma, 0);
+  if (!chroma.empty()) draw_head(PlaneScale::kChroma, 1);
   draw_surround(surround);
   for (HeadPainter& head : heads) {
     head.soften();

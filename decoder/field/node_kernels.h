@@ -67,13 +67,14 @@ enum MotionKind : std::int32_t {
 /// Motions of kRowStep sources in a block.
 struct BlockMotions {
   using Row = std::array<std::int32_t, kRowStep>;
-  std::uint32_t shown;    ///< a bit for each source with weight; the rest is valid for these
-                          ///< only
-  alignas(32) Row whole;  ///< kind of the block
-  alignas(32) std::array<Row, 2> whole_by;  ///< x and y of its displacement, if kEven
-  alignas(32) std::array<Row, 4> kind;      ///< kind of each patch, row by row, if the block is kBent
-  alignas(
-      32) std::array<std::array<Row, 2>, 4> by;  ///< x and y of each patch's displacement, if that is kEven
+  using RowOfBoth = std::array<Row, 2>;  ///< x and y of a displacement
+
+  std::uint32_t shown;             ///< a bit for each source with weight; the rest is valid for these only
+  alignas(32) Row whole;           ///< kind of the block
+  alignas(32) RowOfBoth whole_by;  ///< if that is kEven
+  // For each patch, row by row, if the block is kBent.
+  alignas(32) std::array<Row, 4> kind;
+  alignas(32) std::array<RowOfBoth, 4> by;  ///< if the patch is kEven
 };
 
 /// @param first  the first source, a multiple of kRowStep

@@ -50,8 +50,8 @@ struct DepthPlane {
   SampleArea area;  ///< the rest is undefined
   std::vector<std::int32_t> depth;
 
-  /// Makes everything in `area` infinitely far.
-  void reset(int width, int height, const SampleArea& area);
+  /// Makes everything in an area infinitely far.
+  void reset(int w, int height, const SampleArea& within);
   [[nodiscard]] std::int32_t* row(int y) { return depth.data() + static_cast<std::ptrdiff_t>(y) * width; }
   [[nodiscard]] const std::int32_t* row(int y) const {
     return depth.data() + static_cast<std::ptrdiff_t>(y) * width;

@@ -23,7 +23,6 @@ struct SampleArea {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
   [[nodiscard]] int count() const { return empty() ? 0 : (x1 - x0) * (y1 - y0); }
-  friend bool operator==(const SampleArea&, const SampleArea&) = default;
 };
 
 [[nodiscard]] inline SampleArea intersection(const SampleArea& a, const SampleArea& b) {
