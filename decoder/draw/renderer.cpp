@@ -114,9 +114,9 @@ Result<void> Renderer::render_luma(const Scene& scene, const State& state, const
                                    const PlaneView& out) {
   if (auto checked = check(scene); !checked) return checked;
   if (!same_size(scene.patterns.front().picture.y, out)) return fail(another_size());
-  const SampleArea inside{std::max(area.x0 - kSilhouetteReach, 0), std::max(area.y0 - kSilhouetteReach, 0),
-                          std::min(area.x1 + kSilhouetteReach, out.width),
-                          std::min(area.y1 + kSilhouetteReach, out.height)};
+  const SampleArea inside = intersection({area.x0 - kSilhouetteReach, area.y0 - kSilhouetteReach,
+                                          area.x1 + kSilhouetteReach, area.y1 + kSilhouetteReach},
+                                         whole(out));
   if (!area.empty() && !inside.empty())
     draw(scene, state, blend_of_state(scene, state), {out, {}, {}}, inside, {});
   return {};
@@ -133,7 +133,7 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const NodeGrid grid(size.width(), size.height());
   find_nodes(scene, grid, drawing);
   SurroundDrawing surround{drawing, grid, field_, weights_};
-  if (!scene.geometry || scene.geometry->is_plane()) return draw_surround(surround);
+  if (!scene.geometry || scene.geometry->is_plane()) return surround_.draw(surround);
   const WireFrame& wire_frame = scene.geometry->geometry().wire_frame();
   const AtlasLayout& layout = scene.geometry->atlas_layout();
   const HeadWeights weights = head_weights(drawing.blend, wire_frame);
@@ -147,16 +147,11 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   };
   draw_head(PlaneScale::kLuma, 0);
   if (!chroma.empty()) draw_head(PlaneScale::kChroma, 1);
-  draw_surround(surround);
+  surround_.draw(surround);
   for (HeadPainter& head : heads) {
     head.soften();
     draw_mouth(drawing, wire_frame, head.scale());
   }
-}
-
-void Renderer::draw_surround(const SurroundDrawing& surround) {
-  const BlockRows rows = block_rows(surround.drawing);
-  for (int row = rows.first; row < rows.last; ++row) surround_.draw_row(surround, row);
 }
 
 void Renderer::find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing) {

@@ -42,8 +42,6 @@ class Renderer {
   void draw(const Scene& scene, const State& state, const PictureBlend& regions, const Targets& targets,
             const SampleArea& luma, const SampleArea& chroma);
 
-  void draw_surround(const SurroundDrawing& surround);
-
   /// Computes cover_, weights_ and field_.
   void find_nodes(const Scene& scene, const NodeGrid& grid, const Drawing& drawing);
 

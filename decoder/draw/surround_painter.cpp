@@ -143,16 +143,12 @@ class CoveredSamples {
 
 }  // namespace
 
-BlockRows block_rows(const Drawing& drawing) {
-  const SampleArea& luma = drawing.luma_area;
-  return {luma.y0 / kBlockSize, (luma.y1 + kBlockSize - 1) / kBlockSize};
-}
-
-void SurroundPainter::draw_row(const SurroundDrawing& surround, int row) {
+void SurroundPainter::draw(const SurroundDrawing& surround) {
   const SampleArea& luma = surround.drawing.luma_area;
   memory_.resize(std::max(memory_.size(), surround.drawing.sources.size()));
-  for (int column = luma.x0 / kBlockSize; column * kBlockSize < luma.x1; ++column)
-    draw_block(surround, {column, row});
+  for (int row = luma.y0 / kBlockSize; row * kBlockSize < luma.y1; ++row)
+    for (int column = luma.x0 / kBlockSize; column * kBlockSize < luma.x1; ++column)
+      draw_block(surround, {column, row});
 }
 
 void SurroundPainter::draw_block(const SurroundDrawing& surround, glm::ivec2 block) {

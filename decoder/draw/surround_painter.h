@@ -24,16 +24,11 @@ struct SurroundDrawing {
   std::array<const DepthPlane*, 2> head{};
 };
 
-/// Rows of blocks that have samples in the drawing's areas; the last one not included.
-struct BlockRows {
-  int first, last;
-};
-[[nodiscard]] BlockRows block_rows(const Drawing& drawing);
-
 /// Keeps scratch memory only.
 class SurroundPainter {
  public:
-  void draw_row(const SurroundDrawing& surround, int row);
+  /// Draws the blocks that have samples in the drawing's areas.
+  void draw(const SurroundDrawing& surround);
 
  private:
   void draw_block(const SurroundDrawing& surround, glm::ivec2 block);

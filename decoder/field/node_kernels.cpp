@@ -112,62 +112,43 @@ void displace(const NodeCover& cover, const std::int32_t* moved, const NodeLimit
   }
 }
 
-/// The motion of a patch along one axis.
-struct Along {
-  Values any;    ///< zero: no motion
-  Values range;  ///< between the largest and the smallest displacement
-  Values mean;
-};
-
-HWY_INLINE Values mean(Values d00, Values d10, Values d01, Values d11) {
-  return hn::ShiftRight<2>(hn::Add(hn::Add(hn::Add(d00, d10), hn::Add(d01, d11)), hn::Set(Sources(), 2)));
-}
-
-/// Kinds of motion.
-HWY_INLINE Values kind_of(Values any, Values range) {
+/// Finds the kind of a square of patches, by its nodes, and the mean of its corners, for hn::Lanes(Sources)
+/// sources from place s of the rows on, at place `to` of the result.
+/// @param kSize  patches in a row of the square
+/// @return the largest difference of displacements
+template <int kSize>
+HWY_INLINE Values find_square(const BlockNodes& nodes, int column, int line, std::size_t s, std::size_t to,
+                              BlockMotions::Row& kind, BlockMotions::RowOfBoth& by) {
   const Sources d;
-  const Values moved =
-      hn::IfThenElse(hn::Gt(range, hn::Set(d, kEvenEnough)), hn::Set(d, kBent), hn::Set(d, kEven));
-  return hn::IfThenElse(hn::Eq(any, hn::Zero(d)), hn::Set(d, kStill), moved);
-}
-
-HWY_INLINE Along along(Values d00, Values d10, Values d01, Values d11) {
-  return {
-      hn::Or(hn::Or(d00, d10), hn::Or(d01, d11)),
-      hn::Sub(hn::Max(hn::Max(d00, d10), hn::Max(d01, d11)), hn::Min(hn::Min(d00, d10), hn::Min(d01, d11))),
-      mean(d00, d10, d01, d11)};
-}
-
-/// Finds the motions of hn::Lanes(Sources) sources from place s of the rows on, at place `to` of the result.
-HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
-  const Sources d;
-  const auto at = [&](int column, int line, std::size_t axis) HWY_ATTR {
-    return hn::LoadU(d, nodes.displacement_at(column, line) + axis * nodes.row + s);
-  };
   Values any = hn::Zero(d), range = any;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const Values centre = at(1, 1, axis);
-    Values low = centre, high = centre;
-    for (int node = 0; node < 9; ++node) {
-      const Values displacement = at(node % 3, node / 3, axis);
+    const auto at = [&](int i, int j) HWY_ATTR {
+      return hn::LoadU(d, nodes.displacement_at(column + i, line + j) + axis * nodes.row + s);
+    };
+    Values low = at(0, 0), high = low;
+    for (int k = 1; k < (kSize + 1) * (kSize + 1); ++k) {
+      const Values displacement = at(k % (kSize + 1), k / (kSize + 1));
       low = hn::Min(low, displacement);
       high = hn::Max(high, displacement);
     }
     any = hn::Or(any, hn::Or(low, high));
     range = hn::Max(range, hn::Sub(high, low));
-    hn::StoreU(mean(at(0, 0, axis), at(2, 0, axis), at(0, 2, axis), at(2, 2, axis)), d,
-               out.whole_by[axis].data() + to);
+    const Values sum = hn::Add(hn::Add(at(0, 0), at(kSize, 0)), hn::Add(at(0, kSize), at(kSize, kSize)));
+    hn::StoreU(hn::ShiftRight<2>(hn::Add(sum, hn::Set(d, 2))), d, by[axis].data() + to);
   }
-  hn::StoreU(kind_of(any, range), d, out.whole.data() + to);
+  const Values moved =
+      hn::IfThenElse(hn::Gt(range, hn::Set(d, kEvenEnough)), hn::Set(d, kBent), hn::Set(d, kEven));
+  hn::StoreU(hn::IfThenElse(hn::Eq(any, hn::Zero(d)), hn::Set(d, kStill), moved), d, kind.data() + to);
+  return range;
+}
+
+/// Finds the motions of hn::Lanes(Sources) sources from place s of the rows on, at place `to` of the result.
+HWY_INLINE void find_some(const BlockNodes& nodes, std::size_t s, std::size_t to, BlockMotions& out) {
+  const Sources d;
+  const Values range = find_square<2>(nodes, 0, 0, s, to, out.whole, out.whole_by);
   if (hn::AllFalse(d, hn::Gt(range, hn::Set(d, kEvenEnough)))) return;
-  for (int patch = 0; patch < 4; ++patch) {
-    const int i = patch % 2, j = patch / 2;
-    const Along x = along(at(i, j, 0), at(i + 1, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0)),
-                y = along(at(i, j, 1), at(i + 1, j, 1), at(i, j + 1, 1), at(i + 1, j + 1, 1));
-    hn::StoreU(kind_of(hn::Or(x.any, y.any), hn::Max(x.range, y.range)), d, out.kind[patch].data() + to);
-    hn::StoreU(x.mean, d, out.by[patch][0].data() + to);
-    hn::StoreU(y.mean, d, out.by[patch][1].data() + to);
-  }
+  for (int patch = 0; patch < 4; ++patch)
+    find_square<1>(nodes, patch % 2, patch / 2, s, to, out.kind[patch], out.by[patch]);
 }
 
 void motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {

@@ -68,41 +68,31 @@ void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out)
         if (nodes.weight_at(i, j)[first + s] != 0) out.shown |= 1U << s;
   if (nodes.displacement == nullptr) return;
   for (std::size_t s = 0; s < kRowStep; ++s) {
-    glm::ivec2 low(INT32_MAX), high(INT32_MIN);
     const auto at = [&](int column, int line) {
       const std::int32_t* const d = nodes.displacement_at(column, line) + first + s;
       return glm::ivec2(d[0], d[nodes.row]);
     };
-    for (int node = 0; node < 9; ++node) {
-      const glm::ivec2 d = at(node % 3, node / 3);
-      low = {std::min(low.x, d.x), std::min(low.y, d.y)};
-      high = {std::max(high.x, d.x), std::max(high.y, d.y)};
-    }
-    const auto mean = [&](int column, int line, int size) {
+    // Kind of a square of `size` patches, by its nodes, and the mean of its corners.
+    const auto find = [&](int column, int line, int size, std::int32_t& kind, std::int32_t& x,
+                          std::int32_t& y) {
+      glm::ivec2 least = at(column, line), most = least;
+      for (int j = line; j <= line + size; ++j)
+        for (int i = column; i <= column + size; ++i) {
+          const glm::ivec2 d = at(i, j);
+          least = {std::min(least.x, d.x), std::min(least.y, d.y)};
+          most = {std::max(most.x, d.x), std::max(most.y, d.y)};
+        }
+      const bool is_still = least == glm::ivec2(0) && most == glm::ivec2(0),
+                 is_bent = std::max(most.x - least.x, most.y - least.y) > kEvenEnough;
+      kind = is_still ? kStill : is_bent ? kBent : kEven;
       const glm::ivec2 sum = at(column, line) + at(column + size, line) + at(column, line + size) +
                              at(column + size, line + size) + 2;
-      return glm::ivec2(sum.x >> 2, sum.y >> 2);
+      x = sum.x >> 2;
+      y = sum.y >> 2;
     };
-    const auto kind_of = [](glm::ivec2 least, glm::ivec2 most) {
-      if (least == glm::ivec2(0) && most == glm::ivec2(0)) return kStill;
-      return std::max(most.x - least.x, most.y - least.y) > kEvenEnough ? kBent : kEven;
-    };
-    out.whole[s] = kind_of(low, high);
-    const glm::ivec2 by = mean(0, 0, 2);
-    out.whole_by[0][s] = by.x;
-    out.whole_by[1][s] = by.y;
-    for (int patch = 0; patch < 4; ++patch) {
-      const int column = patch % 2, line = patch / 2;
-      glm::ivec2 least = at(column, line), most = least;
-      for (const glm::ivec2 d : {at(column + 1, line), at(column, line + 1), at(column + 1, line + 1)}) {
-        least = {std::min(least.x, d.x), std::min(least.y, d.y)};
-        most = {std::max(most.x, d.x), std::max(most.y, d.y)};
-      }
-      out.kind[patch][s] = kind_of(least, most);
-      const glm::ivec2 by_patch = mean(column, line, 1);
-      out.by[patch][0][s] = by_patch.x;
-      out.by[patch][1][s] = by_patch.y;
-    }
+    find(0, 0, 2, out.whole[s], out.whole_by[0][s], out.whole_by[1][s]);
+    for (int patch = 0; patch < 4; ++patch)
+      find(patch % 2, patch / 2, 1, out.kind[patch][s], out.by[patch][0][s], out.by[patch][1][s]);
   }
 }
 
