@@ -86,6 +86,7 @@ struct Encoder::Impl {
   bool face_seen = false;  ///< in any picture
   EncodingReport report{};
   StreamPosition position{};  ///< behind the last picture
+  bool analysing = false;     ///< the last picture may be so yet
   bool has_ended = false;     ///< the stream has its end packet
   PictureAnalysis nothing{};
 
@@ -152,12 +153,11 @@ struct Encoder::Impl {
       scene->give_landmarks(seen->second);
   }
 
-  /// Counts the picture that the scene has taken.
-  void end_picture(std::uint32_t duration) {
+  /// Waits until the scene has analysed the picture pushed last.
+  void end_picture() {
+    if (!std::exchange(analysing, false)) return;
     const PictureAnalysis& seen = scene->analysis();
     shots.end_picture(seen.followed);
-    ++report.pictures;
-    position.add(duration > 0 ? duration : nominal_duration(format.frame_rate));
     if (!seen.followed) ++report.without_face;
     if (seen.had_landmarks) ++report.with_landmarks;
     if (seen.from_landmarks) ++report.from_landmarks;
@@ -189,11 +189,15 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   Impl& i = *impl_;
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
+  i.shots.see(picture);  // while the picture before is analysed
+  i.end_picture();
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
   i.give_landmarks();
   if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
   i.take_from_scene();
-  i.end_picture(duration);
+  i.analysing = true;
+  ++i.report.pictures;
+  i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
   return {};
 }
 
@@ -250,6 +254,7 @@ const PictureAnalysis& Encoder::analysis() const {
 }
 
 const EncodingReport& Encoder::report() const {
+  impl_->end_picture();
   return impl_->report;
 }
 

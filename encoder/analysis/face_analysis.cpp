@@ -12,6 +12,9 @@
 namespace fbs {
 namespace {
 
+/// Starts of a fit that are usually tried: more threads would be idle.
+constexpr int kMostStarts = 3;
+
 WorkFrame first_frame(const AnalysisStart& start, const Picture& picture, bool with_colour) {
   return WorkFrame::cut(picture, start.centre, start.eye_distance_px, with_colour);
 }
@@ -32,7 +35,8 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
       landmarks_(settings.landmark_search && !settings.track_only ? &finder.landmarks() : nullptr,
                  start.geometry, pose_of(start.seen), view(start.first.y),
                  Effort::of(settings.effort).landmark_rest),
-      fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}) {
+      fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}),
+      workers_(std::min(start.threads, kMostStarts)) {
   now_.pose = pose_of(start.seen);
   report_.face = report_.followed = true;
   report_.geometry = start.geometry;
@@ -92,20 +96,29 @@ Fit FaceAnalysis::tracked(const HeadFollow::Found& head) {
 }
 
 Fit FaceAnalysis::refined(const Picture& picture, const Fit& tracked) {
-  std::vector<FitStart> starts = PictureFit::starts_of(tracked);
-  const std::size_t contours = starts.size();
-  const auto start_from = [&](const Offsets& seen) {
-    starts.push_back({tracked, kLandmarkStartCounts});
-    std::copy_n(seen.begin(), feature(FeatureId::kPupilRight).first_control,
-                starts.back().fit.offsets.begin());
+  const std::vector<FitStart> contours = PictureFit::starts_of(tracked);
+  const auto given = landmarks_.by_given(tracked.pose);
+  const bool searches = landmarks_.is_due();
+  constexpr std::size_t kGiven = 1, kContours = 2;  // behind the search, which takes longest
+  std::vector<CoarseFit> starts(kContours + contours.size());
+  const auto start_from = [&](const std::optional<Offsets>& seen) {
+    if (!seen) return CoarseFit{};
+    FitStart start{tracked, kLandmarkStartCounts};
+    std::copy_n(seen->begin(), feature(FeatureId::kPupilRight).first_control, start.fit.offsets.begin());
+    return fit_.coarse(start);
   };
-  if (const auto seen = landmarks_.find(view(picture.y), tracked.pose, tracked.offsets)) start_from(*seen);
-  const std::size_t searched = starts.size();
-  if (const auto seen = landmarks_.by_given(tracked.pose)) start_from(*seen);
-  const BestFit best = fit_.refine(starts);
-  report_.had_landmarks = starts.size() > searched;
-  report_.from_landmarks = best.start >= searched;
-  if (best.start < contours) return best.fit;
+  workers_.run(static_cast<int>(starts.size()), [&](std::size_t k, int) {
+    if (k >= kContours)
+      starts[k] = fit_.coarse(contours[k - kContours]);
+    else if (k == kGiven)
+      starts[k] = start_from(given);
+    else if (searches)
+      starts[k] = start_from(landmarks_.find(view(picture.y), tracked.pose, tracked.offsets));
+  });
+  const BestFit best = fit_.fine(starts);
+  report_.had_landmarks = given.has_value();
+  report_.from_landmarks = best.start == kGiven;
+  if (best.start >= kContours) return best.fit;
   // Lids have no memory to correct: a blink is searched in each picture.
   Offsets followed = features_.offsets();
   std::copy_n(best.fit.offsets.begin(), feature(FeatureId::kUpperLidRight).first_control, followed.begin());

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/workers.h"
 #include "encoder/analysis/picture_analysis.h"
 #include "encoder/fit/picture_fit.h"
 #include "encoder/settings.h"
@@ -21,6 +22,7 @@ struct AnalysisStart {
   State seen;                  ///< of pattern 0
   glm::dvec2 centre;           ///< of the head in it, pixels
   double eye_distance_px = 0;  ///< in it
+  int threads = 1;             ///< at least 1; the fits are the same
 };
 
 /// Tracks head and features and fits the state to each picture. Holds everything about the face that lasts
@@ -78,7 +80,8 @@ class FaceAnalysis {
   FeatureTracker features_;
   LandmarkFollow landmarks_;
   PictureFit fit_;
-  Fit now_;  ///< of the last picture
+  Workers workers_;  ///< for the starts of a fit
+  Fit now_;          ///< of the last picture
   bool begun_ = false;
   PictureAnalysis report_;
 };

@@ -1,7 +1,6 @@
 #include "encoder/fit/gauss_newton.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "encoder/fit/fit_priors.h"
 #include "encoder/model/pose_jacobian.h"
@@ -47,25 +46,19 @@ bool descend(const Comparison& comparison, int level, const Fit& start, Fit& fit
 
 }  // namespace
 
-BestFit gauss_newton(const Comparison& comparison, std::span<const FitStart> starts) {
-  BestFit best{starts.front().fit, 0};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    const Fit& start = starts[k].fit;
-    Fit fit = start;
-    for (int level = kFitLevels - 1; level > 0; --level)
-      if (!descend(comparison, level, start, fit)) fit = start;
-    const double difference =
-        starts.size() > 1 ? starts[k].counts * mean_difference(comparison, fit) : 0;  // a lone one is best
-    if (difference < least) {
-      least = difference;
-      best = {fit, k};
-    }
-  }
-  const Fit& start = starts[best.start].fit;
-  if (!descend(comparison, 0, start, best.fit) ||
-      mean_difference(comparison, best.fit) >= mean_difference(comparison, start))
-    best.fit = start;
+CoarseFit coarse_fit(const Comparison& comparison, const FitStart& start) {
+  Fit fit = start.fit;
+  for (int level = kFitLevels - 1; level > 0; --level)
+    if (!descend(comparison, level, start.fit, fit)) fit = start.fit;
+  return {start.fit, fit, start.counts * mean_difference(comparison, fit)};
+}
+
+BestFit fine_fit(const Comparison& comparison, std::span<const CoarseFit> starts) {
+  const auto nearest = std::ranges::min_element(starts, {}, &CoarseFit::difference);
+  BestFit best{nearest->fit, static_cast<std::size_t>(nearest - starts.begin())};
+  if (!descend(comparison, 0, nearest->start, best.fit) ||
+      mean_difference(comparison, best.fit) >= mean_difference(comparison, nearest->start))
+    best.fit = nearest->start;
   return best;
 }
 

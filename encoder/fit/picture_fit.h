@@ -35,8 +35,10 @@ class PictureFit {
 
   /// `start` refined against the picture: gauss_newton().
   [[nodiscard]] Fit refine(const Fit& start) const { return gauss_newton(comparison_, start); }
-  [[nodiscard]] BestFit refine(std::span<const FitStart> starts) const {
-    return gauss_newton(comparison_, starts);
+  /// The same of several starts: coarse_fit() of each, which may run at the same time, then fine_fit().
+  [[nodiscard]] CoarseFit coarse(const FitStart& start) const { return coarse_fit(comparison_, start); }
+  [[nodiscard]] BestFit fine(std::span<const CoarseFit> starts) const {
+    return fine_fit(comparison_, starts);
   }
 
   /// The tracked contours and, where the inner lips have strayed from where the outer ones carry them, a

@@ -39,6 +39,11 @@ Result<void> Background::wait() {
   return std::exchange(result_, {});
 }
 
+void Background::settle() const {
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [&] { return tasks_.empty(); });
+}
+
 bool Background::is_idle() const {
   const std::lock_guard lock(mutex_);
   return tasks_.empty();

@@ -31,6 +31,8 @@ class Background {
   /// Waits until all are done.
   /// @return failure of one, once
   Result<void> wait();
+  /// The same; a failure stays for add() or wait().
+  void settle() const;
 
   [[nodiscard]] bool is_idle() const;
 
@@ -39,7 +41,7 @@ class Background {
 
   std::size_t most_;
   mutable std::mutex mutex_;
-  std::condition_variable added_, done_;
+  mutable std::condition_variable added_, done_;
   // Under the mutex:
   std::deque<Task> tasks_;  ///< the first is being done
   Result<void> result_{};

@@ -92,11 +92,13 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
 
 FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, const FirstPicture& first,
                      FaceCoder::Start start, std::size_t ahead)
-    : analysis_(settings, finder,
-                {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
-                 start.scene.patterns.front().seen, first.centre, start.eye_distance_px}),
+    : analysis_(
+          settings, finder,
+          {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
+           start.scene.patterns.front().seen, first.centre, start.eye_distance_px, thread_count(settings)}),
       coder_(settings, std::move(start)),
-      coding_(ahead) {}
+      coding_(ahead),
+      analysing_(std::min<std::size_t>(ahead, 1)) {}
 
 Result<void> FaceScene::code(std::function<Result<void>()> task) {
   return coding_.add([this, task = std::move(task)]() -> Result<void> {
@@ -108,38 +110,44 @@ Result<void> FaceScene::code(std::function<Result<void>()> task) {
   });
 }
 
+Result<void> FaceScene::code_later(std::function<Result<void>()> task) {
+  return analysing_.add([this, task = std::move(task)] { return code(task); });
+}
+
 Result<void> FaceScene::request_scene() {
-  return code([this]() -> Result<void> {
+  return code_later([this]() -> Result<void> {
     coder_.request_scene();
     return {};
   });
 }
 
 Result<void> FaceScene::set_bitrate(double kbps) {
-  return code([this, kbps]() -> Result<void> {
+  return code_later([this, kbps]() -> Result<void> {
     coder_.set_bitrate(kbps);
     return {};
   });
 }
 
 Result<void> FaceScene::lose_patterns() {
-  return code([this]() -> Result<void> {
+  return code_later([this]() -> Result<void> {
     coder_.lose_patterns();
     return {};
   });
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  FaceAnalysis::Observation seen = analysis_.observe(picture);
-  return code([this, picture, seen = std::move(seen), duration,
-               cut = std::exchange(cut_, false)]() mutable -> Result<void> {
-    if (cut) coder_.cut();
-    return coder_.add(picture, std::move(seen), duration);
+  return analysing_.add([this, shared = std::make_shared<const Picture>(picture), duration,
+                         cut = std::exchange(cut_, false)] {
+    return code([this, shared, seen = analysis_.observe(*shared), duration, cut]() mutable -> Result<void> {
+      if (cut) coder_.cut();
+      return coder_.add(*shared, std::move(seen), duration);
+    });
   });
 }
 
 Result<void> FaceScene::finish() {
-  if (auto done = code([this] { return coder_.finish(); }); !done) return done;
+  if (auto done = code_later([this] { return coder_.finish(); }); !done) return done;
+  if (auto done = analysing_.wait(); !done) return done;
   return coding_.wait();
 }
 

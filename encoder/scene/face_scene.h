@@ -13,7 +13,8 @@
 
 namespace fbs {
 
-/// With several threads, pictures are coded while the next ones are analysed. The stream is the same.
+/// With several threads, a picture is analysed while the caller has the next one ready, and those before are
+/// coded. The stream is the same.
 class FaceScene : public SceneEncoder {
  public:
   /// @param finder  used again when the face is lost; must outlive the scene
@@ -25,20 +26,23 @@ class FaceScene : public SceneEncoder {
                                                      const Marks& marks, const StreamPosition& before = {});
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
-  void give_landmarks(const LandmarkPoints& landmarks) override { analysis_.give_landmarks(landmarks); }
+  void give_landmarks(const LandmarkPoints& landmarks) override { settled().give_landmarks(landmarks); }
   void cut() override {
-    analysis_.cut();
+    settled().cut();
     cut_ = true;
   }
   Result<void> request_scene() override;
   Result<void> set_bitrate(double kbps) override;
   Result<void> lose_patterns() override;
-  [[nodiscard]] bool recognises(const Picture& picture) override { return analysis_.recognises(picture); }
+  [[nodiscard]] bool recognises(const Picture& picture) override { return settled().recognises(picture); }
   [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
-  [[nodiscard]] bool is_coding() const override { return !coding_.is_idle(); }
-  [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_.report(); }
+  [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }
+  [[nodiscard]] const PictureAnalysis& analysis() const override {
+    analysing_.settle();
+    return analysis_.report();
+  }
 
  private:
   struct FirstPicture {
@@ -50,15 +54,23 @@ class FaceScene : public SceneEncoder {
   FaceScene(const FaceFinder& finder, const EncoderSettings& settings, const FirstPicture& first,
             FaceCoder::Start start, std::size_t ahead);
 
-  /// Has the coder do something after all that it has been asked to do before.
+  /// The analysis, once all pictures pushed are analysed.
+  [[nodiscard]] FaceAnalysis& settled() {
+    analysing_.settle();
+    return analysis_;
+  }
+  /// Has the coder do something with all pictures analysed so far.
   Result<void> code(std::function<Result<void>()> task);
+  /// The same with all pictures pushed so far.
+  Result<void> code_later(std::function<Result<void>()> task);
 
-  FaceAnalysis analysis_;
-  bool cut_ = false;  ///< the next picture begins another shot
-  FaceCoder coder_;   ///< what changes is the background's alone
+  FaceAnalysis analysis_;  ///< changed by tasks of analysing_, or once it has settled
+  bool cut_ = false;       ///< the next picture begins another shot
+  FaceCoder coder_;        ///< what changes is coding_'s alone
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> ready_;  ///< under the mutex
-  Background coding_;                ///< last, so that it ends first
+  // Last, so that they end first; analysing_ adds to coding_.
+  Background coding_, analysing_;
 };
 
 }  // namespace fbs

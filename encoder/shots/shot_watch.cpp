@@ -20,7 +20,6 @@ constexpr double kLongestFade = 3;
 }  // namespace
 
 ShotWatch::Step ShotWatch::next(const Picture& picture) {
-  cut_ = cuts_.is_cut(picture);
   if (cut_) {
     follows_ = false;
     cut_to_ = true;

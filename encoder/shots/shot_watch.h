@@ -10,8 +10,8 @@
 
 namespace fbs {
 
-/// For each picture: next(), then where it says so a search and scene_begins(), begin_scene() if one begins,
-/// and end_picture().
+/// For each picture: see(), next(), then where it says so a search and scene_begins(), begin_scene() if one
+/// begins, and end_picture().
 class ShotWatch {
  public:
   /// @param fps  pictures per second
@@ -24,7 +24,9 @@ class ShotWatch {
     bool recognises = false;  ///< but ask the scene first whether it recognises whom it follows
     bool all_sizes = false;   ///< look for small faces, too
   };
-  /// Takes the next picture; all have one size.
+  /// Compares the next picture with the one before; all have one size. May precede end_picture() of that one.
+  void see(const Picture& picture) { cut_ = cuts_.is_cut(picture); }
+  /// @param picture  seen last
   [[nodiscard]] Step next(const Picture& picture);
 
   /// The picture shows whom the scene follows.

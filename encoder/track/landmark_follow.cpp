@@ -34,12 +34,15 @@ std::optional<LandmarkPoints> LandmarkFollow::search_landmarks(const cv::Mat& pi
   return found.points;
 }
 
-std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& pose, const Offsets& before) {
-  if (rests_ > 0) {
-    --rests_;
-    return std::nullopt;
-  }
-  rests_ = rest_;
+bool LandmarkFollow::is_due() {
+  if (search_ == nullptr) return false;
+  const bool rests = rests_ > 0;
+  rests_ = rests ? rests_ - 1 : rest_;
+  return !rests;
+}
+
+std::optional<Offsets> LandmarkFollow::find(const cv::Mat& picture, const Pose& pose,
+                                            const Offsets& before) const {
   const auto found = search_landmarks(picture, pose, before);
   if (!found) return std::nullopt;
   return expression_.offsets(*found, pose);

@@ -22,14 +22,17 @@ class LandmarkFollow {
   /// Sets another tracker's landmarks of the next picture.
   void give(const LandmarkPoints& landmarks) { given_ = landmarks; }
 
+  /// Whether to search the next picture that shows the face; to be asked once for each. Not in `rest`
+  /// pictures after a search while the face is seen: it takes as long as the rest of the tracking.
+  [[nodiscard]] bool is_due();
   /// The most probable offsets by the landmarks of a picture; pupils at rest. Nothing if the landmarks are
-  /// not believed, nor in `rest` pictures after a search while the face is seen: it takes as long as the rest
-  /// of the tracking.
+  /// not believed.
   /// @param picture  luma, 8 bits
   /// @param pose     of the head in the picture; if the landmarks of rigid parts are elsewhere, all are moved
   ///                 back
   /// @param before   offsets from which the search starts
-  [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose, const Offsets& before);
+  [[nodiscard]] std::optional<Offsets> find(const cv::Mat& picture, const Pose& pose,
+                                            const Offsets& before) const;
   /// The same by the given landmarks; nothing as long as their tracker's error is not known.
   [[nodiscard]] std::optional<Offsets> by_given(const Pose& pose) const;
 

@@ -62,6 +62,14 @@ TEST(Background, FailuresAreSaidOnceAndDropWhatWaits) {
   EXPECT_FALSE(ran);
 }
 
+TEST(Background, SettlingKeepsTheFailure) {
+  Background work(1);
+  EXPECT_TRUE(work.add(failed));
+  work.settle();
+  EXPECT_TRUE(work.is_idle());
+  EXPECT_FALSE(work.wait());
+}
+
 TEST(Background, TheCallersOwnTasksFailAtOnce) {
   Background work(0);
   EXPECT_FALSE(work.add(failed));

@@ -10,6 +10,11 @@
 namespace fbs {
 namespace {
 
+ShotWatch::Step next(ShotWatch& shots, const Picture& picture) {
+  shots.see(picture);
+  return shots.next(picture);
+}
+
 constexpr double kFps = 10;
 constexpr ShotWatch::SceneTraits kFaceScene{true, true}, kOnePattern{true, false}, kSlides{false, true};
 
@@ -30,7 +35,7 @@ Picture lit(Picture picture, double gain) {
 std::vector<int> searched(ShotWatch& shots, const Picture& picture, int count, bool followed) {
   std::vector<int> out;
   for (int i = 0; i < count; ++i) {
-    if (shots.next(picture).searches) out.push_back(i);
+    if (next(shots, picture).searches) out.push_back(i);
     shots.end_picture(followed);
   }
   return out;
@@ -39,7 +44,7 @@ std::vector<int> searched(ShotWatch& shots, const Picture& picture, int count, b
 /// A video that has begun with a scene.
 ShotWatch begun(const Picture& picture, const ShotWatch::SceneTraits& scene) {
   ShotWatch shots(kFps);
-  EXPECT_TRUE(shots.next(picture).searches);
+  EXPECT_TRUE(next(shots, picture).searches);
   EXPECT_TRUE(shots.scene_begins(scene.has_face));
   shots.begin_scene(scene);
   shots.end_picture(scene.has_face);
@@ -49,7 +54,7 @@ ShotWatch begun(const Picture& picture, const ShotWatch::SceneTraits& scene) {
 TEST(ShotWatch, TheFirstPictureBeginsASceneWithOrWithoutAFace) {
   for (const bool face : {false, true}) {
     ShotWatch shots(kFps);
-    const ShotWatch::Step step = shots.next(shot(1));
+    const ShotWatch::Step step = next(shots, shot(1));
     EXPECT_FALSE(step.cut);
     EXPECT_TRUE(step.searches && step.all_sizes);
     EXPECT_FALSE(step.recognises) << "there is no scene to ask";
@@ -72,14 +77,14 @@ TEST(ShotWatch, WithoutAFaceEveryFifthPictureIsSearched) {
 TEST(ShotWatch, AfterTwoSecondsALostFaceMayBeAnother) {
   ShotWatch shots = begun(shot(1), kFaceScene);
   EXPECT_TRUE(searched(shots, shot(1), 20, false).empty());
-  const ShotWatch::Step step = shots.next(shot(1));
+  const ShotWatch::Step step = next(shots, shot(1));
   EXPECT_TRUE(step.searches && step.recognises);
   EXPECT_FALSE(shots.scene_begins(false)) << "a face lost within a shot keeps its scene";
 }
 
 TEST(ShotWatch, ACutAsksTheSceneBeforeItSearches) {
   ShotWatch shots = begun(shot(1), kFaceScene);
-  const ShotWatch::Step step = shots.next(shot(2));
+  const ShotWatch::Step step = next(shots, shot(2));
   EXPECT_TRUE(step.cut && step.searches && step.recognises);
   shots.recognised();
   shots.end_picture(true);
@@ -88,7 +93,7 @@ TEST(ShotWatch, ACutAsksTheSceneBeforeItSearches) {
 
 TEST(ShotWatch, ASceneWithOnePatternEndsWithItsShot) {
   ShotWatch shots = begun(shot(1), kOnePattern);
-  const ShotWatch::Step step = shots.next(shot(2));
+  const ShotWatch::Step step = next(shots, shot(2));
   EXPECT_TRUE(step.cut && step.searches);
   EXPECT_FALSE(step.recognises);
   EXPECT_TRUE(shots.scene_begins(false));
@@ -98,7 +103,7 @@ TEST(ShotWatch, AFaceCarriesAnotherShotForASecond) {
   ShotWatch shots = begun(shot(1), kFaceScene);
   int begins = -1;
   for (int i = 0; i < 30 && begins < 0; ++i) {
-    if (shots.next(shot(2)).searches && shots.scene_begins(false)) begins = i;
+    if (next(shots, shot(2)).searches && shots.scene_begins(false)) begins = i;
     shots.end_picture(false);
   }
   EXPECT_EQ(begins, 10);
@@ -109,7 +114,7 @@ TEST(ShotWatch, ASceneBeginsAgainWhenTheLightHasCome) {
     ShotWatch shots = begun(lit(shot(1), 0.05), kFaceScene);
     int begins = -1;
     for (int i = 1; i < 60 && begins < 0; ++i) {
-      const ShotWatch::Step step = shots.next(lit(shot(1), std::min(1.0, 0.05 + i / 20.0)));
+      const ShotWatch::Step step = next(shots, lit(shot(1), std::min(1.0, 0.05 + i / 20.0)));
       if (step.searches) {
         EXPECT_FALSE(step.recognises);
         EXPECT_EQ(shots.scene_begins(face), face) << "better dark than lost";
