@@ -14,14 +14,13 @@ Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {
   return static_cast<Region>(std::max_element(sum.begin(), sum.end()) - sum.begin());
 }
 
-std::array<std::vector<SurfaceRun>, kRegionCount> runs_by_region(const VisibleSurface& surface,
-                                                                 const SceneGeometry& geometry) {
-  std::vector<Region> region;
-  region.reserve(surface.triangles().size());
-  for (const SurfaceTriangle& t : surface.triangles()) region.push_back(region_of(t, geometry));
-  std::array<std::vector<SurfaceRun>, kRegionCount> out;
-  for (const SurfaceRun& run : surface.runs())
-    out[static_cast<std::size_t>(region[run.triangle])].push_back(run);
+/// The triangles that show in each region.
+std::array<std::vector<std::uint32_t>, kRegionCount> triangles_by_region(const VisibleSurface& surface,
+                                                                         const SceneGeometry& geometry) {
+  std::array<std::vector<std::uint32_t>, kRegionCount> out;
+  for (std::uint32_t k = 0; k < surface.triangles().size(); ++k)
+    if (!surface.runs_of(k).empty())
+      out[static_cast<std::size_t>(region_of(surface.triangles()[k], geometry))].push_back(k);
   return out;
 }
 
@@ -97,7 +96,7 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
   const ScreenMesh mesh = scene_.geometry.screen_mesh(state);
   const VisibleSurface surface(scene_.geometry, mesh, source.width, source.height, reduction_);
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
-  const auto runs = runs_by_region(surface, scene_.geometry);
+  const auto triangles = triangles_by_region(surface, scene_.geometry);
   const ReducedPlane target = reduce(source, reduction_);
   std::vector<const State*> seen;
   for (const std::size_t k : available) seen.push_back(&scene_.patterns[k].seen);
@@ -106,26 +105,28 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
   ModeErrors out{};
   const double scale = static_cast<double>(1 << (2 * reduction_));
   for (std::size_t r = 0; r < kRegionCount; ++r) {
-    if (runs[r].empty()) continue;
-    std::size_t count = 0;
-    for (const SurfaceRun& run : runs[r]) count += run.count;
+    if (triangles[r].empty()) continue;
     Samples shown;
-    shown.reserve(count);
-    for (const SurfaceRun& run : runs[r]) {
-      const float* t = target.row(run.row) + run.first;
-      for (int i = 0; i < run.count; ++i) shown.push_back(static_cast<std::int16_t>(rounded(t[i])));
-    }
+    for (const std::uint32_t triangle : triangles[r])
+      for (const SurfaceRun& run : surface.runs_of(triangle)) {
+        const float* t = target.row(run.row) + run.first;
+        for (int i = 0; i < run.count; ++i) shown.push_back(static_cast<std::int16_t>(rounded(t[i])));
+      }
     const auto sample = [&](BlendSource s) {
       const std::size_t pattern = available[s.pattern];
       const ReducedPlane& luma = luma_of(pattern);
       const TextureMesh& texture = scene_.patterns[pattern].texture;
-      Samples error(count);
+      Samples error(shown.size());
       std::int16_t* e = error.data();
-      for (const SurfaceRun& run : runs[r]) {
-        sample_luma(source_run(picture, run, texture, s.still), run, luma, e);
-        e += run.count;
+      for (const std::uint32_t triangle : triangles[r]) {
+        const TriangleSource drawn = triangle_source(picture, triangle, texture, s.still);
+        for (const SurfaceRun& run : surface.runs_of(triangle)) {
+          sample_luma(drawn, run, luma, e);
+          e += run.count;
+        }
       }
-      for (std::size_t i = 0; i < count; ++i) error[i] = static_cast<std::int16_t>(error[i] - shown[i]);
+      for (std::size_t i = 0; i < shown.size(); ++i)
+        error[i] = static_cast<std::int16_t>(error[i] - shown[i]);
       return error;
     };
     RegionGram gram;

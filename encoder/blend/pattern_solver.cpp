@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "decoder/blend/mesh_blend.h"
 
@@ -16,16 +17,36 @@ constexpr double kConverged = 1e-4;
 
 constexpr float kToOne = 1.0F / kMeshWeightOne;
 
-// Scales of the numbers of a tap.
-constexpr float kPlaceOne = 64, kStepOne = 4096, kWeightOne = 16384;
-
-std::int16_t fixed(float value, float one) {
-  constexpr float kMost = 32767;
-  return static_cast<std::int16_t>(std::lrint(std::clamp(value * one, -kMost, kMost)));
-}
-
 /// Pictures in memory at a time. They share the patterns near them in time, each of which is one worker's.
 constexpr std::size_t kTogether = 16;
+
+using Lanes = cv::v_float32x4;  // a sample of each plane
+
+Lanes load(const glm::vec4& samples) {
+  return cv::v_load(&samples.x);
+}
+void store(const Lanes& from, glm::vec4& to) {
+  cv::v_store(&to.x, from);
+}
+
+/// Weights along a run, by plane.
+struct LaneWeights {
+  Lanes now, step;
+  LaneWeights(const glm::vec4& texture, const RunValue& weight)
+      : now(load(texture * weight.first)), step(load(texture * weight.step)) {}
+
+  /// The same, one sample on.
+  [[nodiscard]] Lanes next() {
+    const Lanes out = now;
+    now += step;
+    return out;
+  }
+
+  /// to += weights * from
+  void add(const glm::vec4* from, int count, glm::vec4* to) {
+    for (int i = 0; i < count; ++i) store(load(to[i]) + next() * load(from[i]), to[i]);
+  }
+};
 
 void clear(SolvedPlanes& planes) {
   std::fill(planes.samples.begin(), planes.samples.end(), glm::vec4(0));
@@ -100,164 +121,164 @@ void PatternSolver::set_picture(std::size_t number, const State& state,
   const PointWeights surround = point_weights(blend.regions, geometry.surround().shares());
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
   struct Found {
-    std::vector<Tap> taps;
-    std::vector<Lit> lit;
+    std::vector<Piece> pieces;
+    std::vector<TriangleLight> lit;
   };
   std::vector<Found> by_pattern(scene_.patterns.size());
-  for (const SurfaceRun& run : surface.runs()) {
-    const SurfaceTriangle& t = surface.triangles()[run.triangle];
+  for (std::uint32_t triangle = 0; triangle < surface.triangles().size(); ++triangle) {
+    const auto runs = surface.runs_of(triangle);
+    if (runs.empty()) continue;
+    const auto first_run = static_cast<std::uint32_t>(runs.data() - surface.runs().data()),
+               end_run = first_run + static_cast<std::uint32_t>(runs.size());
+    const SurfaceTriangle& t = surface.triangles()[triangle];
     const PointWeights& weights = t.head ? blend.head : surround;
     const auto w0 = weights.at(t.corners[0]), w1 = weights.at(t.corners[1]), w2 = weights.at(t.corners[2]);
-    const Barycentric& b = surface.barycentric(run.triangle);
-    const auto first = static_cast<float>(run.first), row = static_cast<float>(run.row);
-    const glm::vec2 at = b.at(first, row);
     for (std::size_t s = 0; s < weights.sources; ++s) {
       if ((w0[s] | w1[s] | w2[s]) == 0) continue;
-      const glm::vec2 d = glm::vec2(w1[s] - w0[s], w2[s] - w0[s]) * kToOne;
       const std::size_t k = blend.sources[s].pattern;
-      const SourceRun source = source_run(picture, run, *textures[k], blend.sources[s].still);
-      const bool is_lit =
-          source.gain != 0 || source.opacity != 0 || source.offset.first != 0 || source.offset.step != 0;
+      const TriangleSource source = triangle_source(picture, triangle, *textures[k], blend.sources[s].still);
       Found& found = by_pattern[available[k]];
-      if (is_lit) found.lit.push_back({source.offset, source.gain, source.opacity, source.interior});
-      found.taps.push_back({static_cast<std::uint16_t>(run.row), static_cast<std::uint16_t>(run.first),
-                            static_cast<std::uint16_t>(run.count), t.head, is_identity(source, run), is_lit,
-                            fixed(source.u.first - first, kPlaceOne), fixed(source.v.first - row, kPlaceOne),
-                            fixed(source.u.step, kStepOne), fixed(source.v.step, kStepOne),
-                            fixed(static_cast<float>(w0[s]) * kToOne + glm::dot(at, d), kWeightOne),
-                            fixed(glm::dot(b.per_column, d), kWeightOne)});
+      if (source.light) found.lit.push_back(*source.light);
+      found.pieces.push_back({first_run, end_run, source.u, source.v,
+                              between(surface.barycentric(triangle), kToOne * glm::vec3(w0[s], w1[s], w2[s])),
+                              t.head, source.moved, source.light.has_value()});
     }
   }
-  Taps taps;
-  std::size_t count = 0, lit = 0;
-  for (const Found& found : by_pattern) count += found.taps.size(), lit += found.lit.size();
-  taps.all.reserve(count);
-  taps.lit.reserve(lit);
+  Drawn out;
+  for (const SurfaceRun& run : surface.runs())
+    out.runs.push_back({static_cast<std::uint16_t>(run.row), static_cast<std::uint16_t>(run.first),
+                        static_cast<std::uint16_t>(run.count)});
   for (std::size_t k = 0; k < by_pattern.size(); ++k) {
     const Found& found = by_pattern[k];
-    if (found.taps.empty()) continue;
-    const std::size_t first_lit = taps.lit.size();
-    taps.all.insert(taps.all.end(), found.taps.begin(), found.taps.end());
-    taps.lit.insert(taps.lit.end(), found.lit.begin(), found.lit.end());
-    taps.patterns.push_back({k, taps.all.size(), first_lit});
+    if (found.pieces.empty()) continue;
+    const std::size_t first_lit = out.lit.size();
+    out.pieces.insert(out.pieces.end(), found.pieces.begin(), found.pieces.end());
+    out.lit.insert(out.lit.end(), found.lit.begin(), found.lit.end());
+    out.patterns.push_back({k, out.pieces.size(), first_lit});
   }
-  pictures_[number] = std::move(taps);
-}
-
-TexturePath PatternSolver::Tap::path(float surround_inset) const {
-  return {
-      {static_cast<float>(first) + static_cast<float>(by_u) / kPlaceOne,
-       static_cast<float>(step_u) / kStepOne},
-      {static_cast<float>(row) + static_cast<float>(by_v) / kPlaceOne, static_cast<float>(step_v) / kStepOne},
-      head ? 0 : surround_inset};
-}
-
-RunValue PatternSolver::Tap::weights() const {
-  return {static_cast<float>(weight) / kWeightOne, static_cast<float>(weight_step) / kWeightOne};
+  out.runs.shrink_to_fit();
+  out.pieces.shrink_to_fit();
+  out.lit.shrink_to_fit();
+  pictures_[number] = std::move(out);
 }
 
 template <class Use>
-void PatternSolver::for_each_tap(const Taps& taps, std::size_t place, Use&& use) {
-  const Lit* lit = taps.lit.data() + taps.patterns[place].first_lit;
-  for (std::size_t k = place > 0 ? taps.patterns[place - 1].end : 0; k < taps.patterns[place].end; ++k) {
-    const Tap& tap = taps.all[k];
-    use(tap, tap.lit ? lit++ : nullptr);
+void PatternSolver::for_each_run(const Drawn& picture, std::size_t place, Use&& use) const {
+  const TriangleLight* lit = picture.lit.data() + picture.patterns[place].first_lit;
+  for (std::size_t k = place > 0 ? picture.patterns[place - 1].end : 0; k < picture.patterns[place].end;
+       ++k) {
+    const Piece& piece = picture.pieces[k];
+    const TriangleLight* light = piece.lit ? lit++ : nullptr;
+    for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
+      const Run run = picture.runs[r];
+      glm::vec4 texture = is_used_;
+      if (light != nullptr)
+        texture = (texture + light->gain.along(run.row, run.first).first * is_luma_) * (1 - light->opacity);
+      use(PieceRun{run,
+                   {piece.u.along(run.row, run.first), piece.v.along(run.row, run.first),
+                    piece.head ? 0 : inset_},
+                   texture,
+                   piece.weight.along(run.row, run.first)},
+          piece.moved);
+    }
   }
 }
 
 std::size_t PatternSolver::bytes() const {
+  const auto bytes_of = [](const auto& v) { return v.size() * sizeof(v[0]); };
   std::size_t bytes = 0;
-  for (const Taps& t : pictures_) bytes += t.all.size() * sizeof(Tap) + t.lit.size() * sizeof(Lit);
+  for (const Drawn& d : pictures_) bytes += bytes_of(d.runs) + bytes_of(d.pieces) + bytes_of(d.lit);
   return bytes;
 }
 
-void PatternSolver::draw(const Taps& taps, const Shown& planes, SolvedPlanes& out) const {
-  for (std::size_t place = 0; place < taps.patterns.size(); ++place) {
-    if (planes[taps.patterns[place].pattern] == nullptr) continue;
-    const SolvedPlanes& plane = *planes[taps.patterns[place].pattern];
-    for_each_tap(taps, place, [&](const Tap& t, const Lit* lit) {
-      const glm::vec4 texture = share(t, lit);
-      const RunValue weight = t.weights();
-      const glm::vec4 f_step = texture * weight.step;
-      glm::vec4 f = texture * weight.first;
-      glm::vec4* to = out.row(t.row) + t.first;
-      if (t.unmoved) {
-        const glm::vec4* from = plane.row(t.row) + t.first;
-        for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
+void PatternSolver::draw(const Drawn& picture, const Shown& planes, SolvedPlanes& out) const {
+  for (std::size_t place = 0; place < picture.patterns.size(); ++place) {
+    if (planes[picture.patterns[place].pattern] == nullptr) continue;
+    const SolvedPlanes& plane = *planes[picture.patterns[place].pattern];
+    for_each_run(picture, place, [&](const PieceRun& r, bool moved) {
+      LaneWeights weights(r.texture, r.weight);
+      glm::vec4* to = out.row(r.run.row) + r.run.first;
+      if (!moved) {
+        weights.add(plane.row(r.run.row) + r.run.first, r.run.count, to);
         return;
       }
       const glm::vec4* samples = plane.samples.data();
-      for_each_footprint(
-          t.path(inset_), t.count, {plane.width, plane.height}, [&](int i, int at, float fx, float fy) {
-            const glm::vec4* a = samples + at;
-            const glm::vec4* b = a + plane.width;
-            const glm::vec4 top = a[0] + fx * (a[1] - a[0]), bottom = b[0] + fx * (b[1] - b[0]);
-            to[i] += f * (top + fy * (bottom - top));
-            f += f_step;
-          });
-    });
-  }
-}
-
-void PatternSolver::draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
-                                    SolvedPlanes& plane) const {
-  for (std::size_t place = 0; place < taps.patterns.size(); ++place) {
-    if (taps.patterns[place].pattern != pattern) continue;
-    for_each_tap(taps, place, [&](const Tap& t, const Lit* lit) {
-      const glm::vec4 texture = share(t, lit);
-      const RunValue weight = t.weights();
-      const glm::vec4 f_step = texture * weight.step;
-      glm::vec4 f = texture * weight.first;
-      const glm::vec4* from = picture.row(t.row) + t.first;
-      if (t.unmoved) {
-        glm::vec4* to = plane.row(t.row) + t.first;
-        for (int i = 0; i < t.count; ++i, f += f_step) to[i] += f * from[i];
-        return;
-      }
-      glm::vec4* samples = plane.samples.data();
-      for_each_footprint(t.path(inset_), t.count, {plane.width, plane.height},
+      for_each_footprint(r.path, r.run.count, {plane.width, plane.height},
                          [&](int i, int at, float fx, float fy) {
-                           const glm::vec4 value = f * from[i];
-                           f += f_step;
-                           glm::vec4* a = samples + at;
-                           glm::vec4* b = a + plane.width;
-                           const glm::vec4 bottom = value * fy, top = value - bottom, top_right = top * fx,
-                                           bottom_right = bottom * fx;
-                           a[0] += top - top_right;
-                           a[1] += top_right;
-                           b[0] += bottom - bottom_right;
-                           b[1] += bottom_right;
+                           const glm::vec4* a = samples + at;
+                           const glm::vec4* b = a + plane.width;
+                           const Lanes x = cv::v_setall_f32(fx), y = cv::v_setall_f32(fy);
+                           const Lanes top = load(a[0]) + x * (load(a[1]) - load(a[0])),
+                                       bottom = load(b[0]) + x * (load(b[1]) - load(b[0]));
+                           store(load(to[i]) + weights.next() * (top + y * (bottom - top)), to[i]);
                          });
     });
   }
 }
 
-void PatternSolver::draw_constant(const Taps& taps, SolvedPlanes& out) const {
-  const Lit* next = taps.lit.data();
-  for (const Tap& t : taps.all) {
-    if (!t.lit) continue;
-    const Lit& s = *next++;
-    glm::vec4 first(0), step(0);
-    for (std::size_t k = 0; k < planes_.size(); ++k) {
-      const auto lane = static_cast<int>(k);
-      first[lane] = s.opacity * s.interior[planes_[k]];
-      if (planes_[k] != 0) continue;
-      first[lane] += (1 - s.opacity) * (s.offset.first - 128.0F * s.gain);
-      step[lane] = (1 - s.opacity) * s.offset.step;
+void PatternSolver::draw_transposed(const Drawn& picture, std::size_t pattern, const SolvedPlanes& samples,
+                                    SolvedPlanes& plane) const {
+  for (std::size_t place = 0; place < picture.patterns.size(); ++place) {
+    if (picture.patterns[place].pattern != pattern) continue;
+    for_each_run(picture, place, [&](const PieceRun& r, bool moved) {
+      LaneWeights weights(r.texture, r.weight);
+      const glm::vec4* from = samples.row(r.run.row) + r.run.first;
+      if (!moved) {
+        weights.add(from, r.run.count, plane.row(r.run.row) + r.run.first);
+        return;
+      }
+      glm::vec4* all = plane.samples.data();
+      for_each_footprint(r.path, r.run.count, {plane.width, plane.height},
+                         [&](int i, int at, float fx, float fy) {
+                           glm::vec4* a = all + at;
+                           glm::vec4* b = a + plane.width;
+                           const Lanes x = cv::v_setall_f32(fx), y = cv::v_setall_f32(fy);
+                           const Lanes value = weights.next() * load(from[i]), bottom = value * y,
+                                       top = value - bottom, top_right = top * x, bottom_right = bottom * x;
+                           store(load(a[0]) + (top - top_right), a[0]);
+                           store(load(a[1]) + top_right, a[1]);
+                           store(load(b[0]) + (bottom - bottom_right), b[0]);
+                           store(load(b[1]) + bottom_right, b[1]);
+                         });
+    });
+  }
+}
+
+void PatternSolver::draw_constant(const Drawn& picture, SolvedPlanes& out) const {
+  const TriangleLight* next = picture.lit.data();
+  for (const Piece& piece : picture.pieces) {
+    if (!piece.lit) continue;
+    const TriangleLight& light = *next++;
+    for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
+      const Run run = picture.runs[r];
+      const RunValue offset = light.offset.along(run.row, run.first);
+      glm::vec4 first(0), step(0);
+      for (std::size_t k = 0; k < planes_.size(); ++k) {
+        const auto lane = static_cast<int>(k);
+        first[lane] = light.opacity * light.interior[planes_[k]];
+        if (planes_[k] != 0) continue;
+        const float gain = light.gain.along(run.row, run.first).first;
+        first[lane] += (1 - light.opacity) * (offset.first - 128.0F * gain);
+        step[lane] = (1 - light.opacity) * offset.step;
+      }
+      glm::vec4* to = out.row(run.row) + run.first;
+      RunValue weight = piece.weight.along(run.row, run.first);
+      for (int i = 0; i < run.count; ++i, weight.first += weight.step, first += step)
+        to[i] += weight.first * first;
     }
-    glm::vec4* to = out.row(t.row) + t.first;
-    RunValue weight = t.weights();
-    for (int i = 0; i < t.count; ++i, weight.first += weight.step, first += step)
-      to[i] += weight.first * first;
   }
 }
 
 double PatternSolver::mean_weight(const PatternPlanes& planes) const {
   double used = 0;
   std::size_t samples = 0;
-  for (const Taps& taps : pictures_)
-    for (const Tap& t : taps.all)
-      used += static_cast<double>(static_cast<float>(t.count) * t.weights().first);
+  for (const Drawn& picture : pictures_)
+    for (const Piece& piece : picture.pieces)
+      for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
+        const Run run = picture.runs[r];
+        used +=
+            static_cast<double>(static_cast<float>(run.count) * piece.weight.along(run.row, run.first).first);
+      }
   for (const SolvedPlanes& p : planes) samples += p.samples.size();
   return used / static_cast<double>(samples);
 }

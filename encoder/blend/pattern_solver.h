@@ -71,58 +71,52 @@ class PatternSolver {
                                             Workers& workers) const;
 
  private:
-  /// Samples of a run that come from one pattern, in few bits: there are millions.
-  struct Tap {
+  /// A run in few bits: there are a million.
+  struct Run {
     std::uint16_t row, first, count;
-    bool head : 1;
-    bool unmoved : 1;                  ///< is_identity()
-    bool lit : 1;                      ///< Taps::lit has the next one for it
-    std::int16_t by_u, by_v;           ///< displacement of the first sample, 1/64 sample
-    std::int16_t step_u, step_v;       ///< 1/4096 sample
-    std::int16_t weight, weight_step;  ///< 1/2^14
-
-    [[nodiscard]] TexturePath path(float surround_inset) const;
-    [[nodiscard]] RunValue weights() const;
   };
-  /// What light and mouth interior make of a run: members of SourceRun.
-  struct Lit {
-    RunValue offset;
-    float gain, opacity;
-    std::array<float, 3> interior;
+  /// A triangle's samples as far as they come from one pattern.
+  struct Piece {
+    std::uint32_t first_run, end_run;  ///< the triangle's
+    TriangleValue u, v, weight;
+    bool head, moved, lit;  ///< lit: Drawn::lit has the next one for it
   };
   /// All that draw a picture.
-  struct Taps {
-    std::vector<Tap> all;  ///< by pattern
-    std::vector<Lit> lit;  ///< of those that are, in their order
+  struct Drawn {
+    std::vector<Run> runs;
+    std::vector<Piece> pieces;       ///< by pattern
+    std::vector<TriangleLight> lit;  ///< of those that are, in their order
     struct Pattern {
       std::size_t pattern, end, first_lit;
     };
-    std::vector<Pattern> patterns;  ///< ends of their taps
+    std::vector<Pattern> patterns;  ///< ends of their pieces
   };
   /// The planes of each pattern; null: black.
   using Shown = std::vector<const SolvedPlanes*>;
   /// Draws a picture into the memory it is given.
   using Draw = std::function<Result<void>(std::size_t number, SolvedPlanes& out)>;
 
-  /// The texture's share in a run.
-  /// @param next  its light and interior, if it has some
-  [[nodiscard]] glm::vec4 share(const Tap& tap, const Lit* next) const {
-    return tap.lit ? (is_used_ + next->gain * is_luma_) * (1 - next->opacity) : is_used_;
-  }
+  /// How a run draws from a pattern.
+  struct PieceRun {
+    Run run;
+    TexturePath path;
+    glm::vec4 texture;  ///< share of the texture in each plane
+    RunValue weight;
+  };
   /// out += A^T pictures
   /// @param out  of the free patterns
   Result<void> add_transposed(const Draw& draw, std::span<const std::size_t> free, PatternPlanes& out,
                               Workers& workers) const;
   /// Draws samples without the terms that do not depend on the patterns: out += A planes
-  void draw(const Taps& taps, const Shown& planes, SolvedPlanes& out) const;
+  void draw(const Drawn& picture, const Shown& planes, SolvedPlanes& out) const;
   /// plane += A^T picture, for one pattern
-  void draw_transposed(const Taps& taps, std::size_t pattern, const SolvedPlanes& picture,
+  void draw_transposed(const Drawn& picture, std::size_t pattern, const SolvedPlanes& samples,
                        SolvedPlanes& plane) const;
-  /// Calls use(tap, its light and interior or null) for the taps of a picture's pattern.
+  /// Calls use(PieceRun, whether it is moved) for the runs drawn from a picture's pattern.
   template <class Use>
-  static void for_each_tap(const Taps& taps, std::size_t place, Use&& use);
+  void for_each_run(const Drawn& picture, std::size_t place, Use&& use) const;
   /// out += light and interior.
-  void draw_constant(const Taps& taps, SolvedPlanes& out) const;
+  void draw_constant(const Drawn& picture, SolvedPlanes& out) const;
   /// Mean total weight of a plane's samples over all pictures.
   [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
 
@@ -131,7 +125,7 @@ class PatternSolver {
   float inset_;                        ///< of the surround
   std::vector<std::size_t> planes_;    ///< plane of each lane in use
   glm::vec4 is_used_{0}, is_luma_{0};  ///< 1 for such lanes
-  std::vector<Taps> pictures_;
+  std::vector<Drawn> pictures_;
 };
 
 }  // namespace fbs

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "decoder/field/padded_plane.h"
 #include "decoder/head/head_projection.h"
@@ -18,26 +19,27 @@ VertexLight light_of(const std::vector<VertexLight>& light, std::size_t vertex) 
 }
 
 /// Replaces the pattern's light by the picture's: SPEC 10.11.
-void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const SurfaceTriangle& t, glm::vec2 at,
-               glm::vec2 step, SourceRun& out) {
+void add_light(const ScreenMesh& mesh, const TextureMesh& texture, const SurfaceTriangle& t,
+               const Barycentric& b, TriangleLight& out) {
   if (mesh.light.empty() && texture.light.empty()) return;
-  std::array<glm::vec2, 3> l;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const VertexLight now = light_of(mesh.light, t.corners[i]), seen = light_of(texture.light, t.corners[i]);
+  glm::vec3 offset, gain;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint16_t corner = t.corners[static_cast<std::size_t>(i)];
+    const VertexLight now = light_of(mesh.light, corner), seen = light_of(texture.light, corner);
     constexpr auto kPerLevel = static_cast<float>(1 / (kLightUnitsPerLevel * kGainLevels));
     const float ratio =
         (1 + kPerLevel * static_cast<float>(now.gain)) /
         std::max(1 + kPerLevel * static_cast<float>(seen.gain), static_cast<float>(kLeastGainFactor));
-    l[i] = {kLevelsPerLightUnit * (static_cast<float>(now.offset) - ratio * static_cast<float>(seen.offset)),
-            ratio - 1};
+    offset[i] =
+        kLevelsPerLightUnit * (static_cast<float>(now.offset) - ratio * static_cast<float>(seen.offset));
+    gain[i] = ratio - 1;
   }
-  const glm::vec2 a = l[1] - l[0], b = l[2] - l[0];
-  out.offset = {l[0].x + at.x * a.x + at.y * b.x, step.x * a.x + step.y * b.x};
-  out.gain = l[0].y + at.x * a.y + at.y * b.y;
+  out.offset = between(b, offset);
+  out.gain = between(b, gain);
 }
 
 void add_interior(const PictureMesh& picture, const TextureMesh& texture, const SurfaceTriangle& t,
-                  SourceRun& out) {
+                  TriangleLight& out) {
   if (!is_mouth(generic_head(), t.corners)) return;
   const std::int32_t opacity = interior_opacity(picture.mesh.mouth_gap, texture.mouth_gap);
   if (opacity == 0) return;
@@ -52,6 +54,14 @@ void add_interior(const PictureMesh& picture, const TextureMesh& texture, const 
   out.opacity = kMeanCover * static_cast<float>(opacity) / kInteriorOpaque;
   for (std::size_t i = 0; i < colours.size(); ++i)
     out.interior[i] = (1 - share) * colours[i][upper] + share * colours[i][upper + 1];
+}
+
+/// Whether the light changes anything.
+bool shows(const TriangleLight& light) {
+  const auto is_zero = [](const TriangleValue& v) {
+    return v.origin == 0 && v.per_column == 0 && v.per_row == 0;
+  };
+  return light.opacity != 0 || !is_zero(light.offset) || !is_zero(light.gain);
 }
 
 /// Interpolates the samples of a footprint.
@@ -97,29 +107,35 @@ float border_inset(int reduction) {
   return std::max((static_cast<float>(kLumaInset) + 0.5F) / static_cast<float>(1 << reduction) - 0.5F, 0.0F);
 }
 
-SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run, const TextureMesh& texture,
-                     bool still) {
-  SourceRun out;
-  const SurfaceTriangle& t = picture.surface.triangles()[run.triangle];
-  if (still || is_at_rest(t, picture.mesh, texture)) {
-    out.u = {static_cast<float>(run.first), 1};
-    out.v = {static_cast<float>(run.row), 0};
-    return out;
-  }
+TriangleValue between(const Barycentric& b, glm::vec3 corners) {
+  const glm::vec2 d(corners[1] - corners[0], corners[2] - corners[0]);
+  return {corners[0] + glm::dot(b.origin, d), glm::dot(b.per_column, d), glm::dot(b.per_row, d)};
+}
+
+TriangleSource triangle_source(const PictureMesh& picture, std::uint32_t triangle, const TextureMesh& texture,
+                               bool still) {
+  TriangleSource out;
+  const SurfaceTriangle& t = picture.surface.triangles()[triangle];
+  if (still || is_at_rest(t, picture.mesh, texture)) return out;
+  const Barycentric& b = picture.surface.barycentric(triangle);
   const auto& points = t.head ? texture.head : texture.surround;
   const float to_samples = 1.0F / static_cast<float>(1 << (kScreenOneLog2 + picture.reduction));
-  const glm::vec2 p0 = glm::vec2(points[t.corners[0]]) * to_samples - glm::vec2(0.5F),
-                  p1 = glm::vec2(points[t.corners[1]] - points[t.corners[0]]) * to_samples,
-                  p2 = glm::vec2(points[t.corners[2]] - points[t.corners[0]]) * to_samples;
-  const Barycentric& b = picture.surface.barycentric(run.triangle);
-  const glm::vec2 at = b.at(static_cast<float>(run.first), static_cast<float>(run.row)), step = b.per_column;
-  const glm::vec2 first = p0 + at.x * p1 + at.y * p2, per_column = step.x * p1 + step.y * p2;
-  out.u = {first.x, per_column.x};
-  out.v = {first.y, per_column.y};
-  if (!t.head) out.inset = border_inset(picture.reduction);
+  glm::vec3 u, v;
+  for (int i = 0; i < 3; ++i) {
+    const glm::ivec2 at(points[t.corners[static_cast<std::size_t>(i)]]);
+    u[i] = static_cast<float>(at.x) * to_samples - 0.5F;
+    v[i] = static_cast<float>(at.y) * to_samples - 0.5F;
+  }
+  out.moved = true;
+  out.u = between(b, u);
+  out.v = between(b, v);
   if (t.head) {
-    add_light(picture.mesh, texture, t, at, step, out);
-    add_interior(picture, texture, t, out);
+    TriangleLight light;
+    add_light(picture.mesh, texture, t, b, light);
+    add_interior(picture, texture, t, light);
+    if (shows(light)) out.light = light;
+  } else {
+    out.inset = border_inset(picture.reduction);
   }
   return out;
 }
@@ -132,24 +148,31 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
   return mixed(plane.row(y) + x, plane.width, u - static_cast<float>(x), v - static_cast<float>(y));
 }
 
-void sample_luma(const SourceRun& source, const SurfaceRun& run, const ReducedPlane& luma,
+void sample_luma(const TriangleSource& source, const SurfaceRun& run, const ReducedPlane& luma,
                  std::int16_t* out) {
-  float offset = source.offset.first;
-  const bool plain = source.gain == 0 && source.opacity == 0 && offset == 0 && source.offset.step == 0;
-  if (plain && is_identity(source, run)) {
+  if (!source.moved) {
     const float* from = luma.row(run.row) + run.first;
     for (int i = 0; i < run.count; ++i) out[i] = static_cast<std::int16_t>(rounded(from[i]));
     return;
   }
   const float* samples = luma.samples.data();
-  for_each_footprint(source, run.count, {luma.width, luma.height}, [&](int i, int at, float fx, float fy) {
-    float sample = mixed(samples + at, luma.width, fx, fy);
-    if (!plain) {
-      sample = std::clamp(sample + source.gain * (sample - 128.0F) + offset, 0.0F, 255.0F);
-      sample += source.opacity * (source.interior[0] - sample);
-      offset += source.offset.step;
-    }
-    out[i] = static_cast<std::int16_t>(rounded(sample));
+  const TexturePath path = source.along(run);
+  const auto sample_all = [&](auto&& lit) {
+    for_each_footprint(path, run.count, {luma.width, luma.height}, [&](int i, int at, float fx, float fy) {
+      out[i] = static_cast<std::int16_t>(rounded(lit(mixed(samples + at, luma.width, fx, fy))));
+    });
+  };
+  if (!source.light) {
+    sample_all([](float sample) { return sample; });
+    return;
+  }
+  const TriangleLight& light = *source.light;
+  const float gain = light.gain.along(run.row, run.first).first;
+  RunValue offset = light.offset.along(run.row, run.first);
+  sample_all([&](float sample) {
+    sample = std::clamp(sample + gain * (sample - 128.0F) + offset.first, 0.0F, 255.0F);
+    offset.first += offset.step;
+    return sample + light.opacity * (light.interior[0] - sample);
   });
 }
 

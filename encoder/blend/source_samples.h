@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,18 +45,42 @@ struct RunValue {
   float first = 0, step = 0;
 };
 
+/// A value that is linear over a triangle of the picture.
+struct TriangleValue {
+  float origin = 0, per_column = 0, per_row = 0;  ///< at sample (0, 0), and increments per sample
+
+  [[nodiscard]] RunValue along(int row, int first) const {
+    return {origin + static_cast<float>(first) * per_column + static_cast<float>(row) * per_row, per_column};
+  }
+};
+
+/// @param corners  values there
+[[nodiscard]] TriangleValue between(const Barycentric& b, glm::vec3 corners);
+
 /// Where a run lies in a texture.
 struct TexturePath {
   RunValue u, v;    ///< position, samples; integers lie on centres
   float inset = 0;  ///< border samples that repeat those inside
 };
 
-/// How to sample a texture along a run. Quantities that hardly change have one value.
-struct SourceRun : TexturePath {
-  RunValue offset;                  ///< of the light, grey levels
-  float gain = 0;                   ///< of the light, per grey level from 128; at the first sample
-  float opacity = 0;                ///< of the mouth interior, 0..1
-  std::array<float, 3> interior{};  ///< the interior's Y, U, V; mean over the triangle
+/// What light and mouth interior make of a texture's samples. Quantities that hardly change have one value.
+struct TriangleLight {
+  TriangleValue offset;  ///< of the light, grey levels
+  TriangleValue gain;    ///< of the light, per grey level from 128; each run has its first sample's
+  float opacity = 0;     ///< of the mouth interior, 0..1
+  std::array<float, 3> interior{};  ///< the interior's Y, U, V; mean
+};
+
+/// How to sample a texture over a triangle.
+struct TriangleSource {
+  TriangleValue u{0, 1, 0}, v{0, 0, 1};  ///< position, samples; integers lie on centres
+  bool moved = false;                    ///< otherwise the texture's own samples show
+  std::optional<TriangleLight> light{};
+  float inset = 0;  ///< TexturePath::inset
+
+  [[nodiscard]] TexturePath along(const SurfaceRun& run) const {
+    return {u.along(run.row, run.first), v.along(run.row, run.first), inset};
+  }
 };
 
 /// The mesh of a picture, with the inputs of its light and mouth.
@@ -71,8 +96,8 @@ struct PictureMesh {
 [[nodiscard]] float border_inset(int reduction);
 
 /// @param still  the texture is not warped
-[[nodiscard]] SourceRun source_run(const PictureMesh& picture, const SurfaceRun& run,
-                                   const TextureMesh& texture, bool still);
+[[nodiscard]] TriangleSource triangle_source(const PictureMesh& picture, std::uint32_t triangle,
+                                             const TextureMesh& texture, bool still);
 
 /// Whether all samples that a run interpolates lie inside a plane of this size, even with rounding in the
 /// increments added up along it.
@@ -84,12 +109,6 @@ struct PictureMesh {
            std::max(v.first, end) < static_cast<float>(samples - 1) - source.inset - kDrift;
   };
   return within(source.u, size.x) && within(source.v, size.y);
-}
-
-/// Whether the run shows the texture's own samples, unmoved.
-[[nodiscard]] inline bool is_identity(const TexturePath& source, const SurfaceRun& run) {
-  return source.u.step == 1 && source.v.step == 0 && source.u.first == static_cast<float>(run.first) &&
-         source.v.first == static_cast<float>(run.row);
 }
 
 /// Calls use(i, index of the upper left sample, fx, fy) for each sample i of a run, which interpolates four
@@ -118,6 +137,7 @@ void for_each_footprint(const TexturePath& source, int count, glm::ivec2 size, U
 
 /// Luma of one source along a run.
 /// @param out  run.count samples
-void sample_luma(const SourceRun& source, const SurfaceRun& run, const ReducedPlane& luma, std::int16_t* out);
+void sample_luma(const TriangleSource& source, const SurfaceRun& run, const ReducedPlane& luma,
+                 std::int16_t* out);
 
 }  // namespace fbs

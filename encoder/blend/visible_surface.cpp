@@ -1,6 +1,7 @@
 #include "encoder/blend/visible_surface.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "decoder/head/head_mesh.h"
 #include "decoder/head/head_projection.h"
@@ -75,15 +76,24 @@ VisibleSurface::VisibleSurface(const SceneGeometry& geometry, const ScreenMesh& 
         show(run);
     }
   }
+  std::vector<SurfaceRun> by_row;
+  first_run_.resize(triangles_->size() + 1);
   for (int row = 0; row < height_; ++row) {
     const std::uint32_t* r = shown.data() + static_cast<std::ptrdiff_t>(row) * width_;
     for (int x = 0; x < width_;) {
       int end = x + 1;
       while (end < width_ && r[end] == r[x]) ++end;
-      if (r[x] != kNothing) runs_.push_back({row, x, end - x, r[x]});
+      if (r[x] != kNothing) {
+        by_row.push_back({row, x, end - x, r[x]});
+        ++first_run_[r[x] + 1];
+      }
       x = end;
     }
   }
+  std::partial_sum(first_run_.begin(), first_run_.end(), first_run_.begin());
+  runs_.resize(by_row.size());
+  std::vector<std::uint32_t> next = first_run_;
+  for (const SurfaceRun& run : by_row) runs_[next[run.triangle]++] = run;
 }
 
 }  // namespace fbs

@@ -17,7 +17,7 @@ constexpr int kCompareWidth = 240, kSolveWidth = 260;
 constexpr std::size_t kSolveEvery = 2;
 
 /// Memory limit of solving, bytes: large pictures use fewer of them.
-constexpr std::size_t kSolverBytes = 100e6;
+constexpr std::size_t kSolverBytes = 40e6;
 
 /// Patterns that are solved for together, at most.
 constexpr std::size_t kSolvedTogether = 16;

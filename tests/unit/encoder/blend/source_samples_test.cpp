@@ -19,7 +19,7 @@ Plane sampled(const BlendedScene& s, const State& state, bool still) {
   Plane out(format.width, format.height);
   std::vector<std::int16_t> row(format.width);
   for (const SurfaceRun& run : surface.runs()) {
-    sample_luma(source_run(picture, run, pattern.texture, still), run, luma, row.data());
+    sample_luma(triangle_source(picture, run.triangle, pattern.texture, still), run, luma, row.data());
     for (int i = 0; i < run.count; ++i) out.row(run.row)[run.first + i] = static_cast<std::uint8_t>(row[i]);
   }
   return out;
@@ -138,7 +138,9 @@ Difference inside_mouth(const BlendedScene& s, const State& state) {
   const PictureMesh picture{surface, mesh, s.scene.setup.mouth, 0};
   Plane x, y;
   for (const SurfaceRun& run : surface.runs()) {
-    if (source_run(picture, run, s.scene.patterns.front().texture, false).opacity == 0) continue;
+    const TriangleSource source =
+        triangle_source(picture, run.triangle, s.scene.patterns.front().texture, false);
+    if (!source.light || source.light->opacity == 0) continue;
     x.samples.insert(x.samples.end(), a.row(run.row) + run.first, a.row(run.row) + run.first + run.count);
     y.samples.insert(y.samples.end(), b.row(run.row) + run.first, b.row(run.row) + run.first + run.count);
   }
@@ -204,12 +206,10 @@ TEST(Bilinear, IsExactAtCentresLinearBetweenAndRepeatsTheBorder) {
   EXPECT_FLOAT_EQ(bilinear(plane, 0.5F, 8), 55);
 }
 
-TEST(SourceRunIsInside, NeedsAllFourSamplesOfBothEnds) {
+TEST(TexturePathIsInside, NeedsAllFourSamplesOfBothEnds) {
   const ReducedPlane plane{8, 6, std::vector<float>(48)};
   const auto inside = [&](float u, float u_step, float v, float v_step, int count) {
-    SourceRun run;
-    run.u = {u, u_step}, run.v = {v, v_step};
-    return is_inside(run, count, {plane.width, plane.height});
+    return is_inside({{u, u_step}, {v, v_step}}, count, {plane.width, plane.height});
   };
   EXPECT_TRUE(inside(0, 1, 0, 0, 7));
   EXPECT_FALSE(inside(0, 1, 0, 0, 8)) << "the last has no right neighbour";

@@ -48,13 +48,26 @@ TEST(VisibleSurface, PositionsLieInsideTheirTriangle) {
     for (const SurfaceRun& run : surface.runs()) {
       const Barycentric& b = surface.barycentric(run.triangle);
       for (const int column : {run.first, run.first + run.count - 1}) {
-        const glm::vec2 at = b.at(static_cast<float>(column), static_cast<float>(run.row));
+        const glm::vec2 at =
+            b.origin + static_cast<float>(column) * b.per_column + static_cast<float>(run.row) * b.per_row;
         EXPECT_GT(at.x, -0.01F);
         EXPECT_GT(at.y, -0.01F);
         EXPECT_LT(at.x + at.y, 1.01F);
       }
     }
   }
+}
+
+TEST(VisibleSurface, RunsComeTriangleByTriangle) {
+  const BlendedScene s(1);
+  const VisibleSurface surface = surface_of(s, turned(), 1);
+  std::size_t runs = 0;
+  for (std::uint32_t k = 0; k < surface.triangles().size(); ++k)
+    for (const SurfaceRun& run : surface.runs_of(k)) {
+      EXPECT_EQ(run.triangle, k);
+      EXPECT_EQ(&run, &surface.runs()[runs++]);
+    }
+  EXPECT_EQ(runs, surface.runs().size());
 }
 
 TEST(VisibleSurface, HeadHidesTheSurround) {
