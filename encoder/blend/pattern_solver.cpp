@@ -120,11 +120,8 @@ void PatternSolver::set_picture(std::size_t number, const State& state,
   const MeshBlend blend = blend_mesh(blend_picture(seen, state), geometry, textures, mesh);
   const PointWeights surround = point_weights(blend.regions, geometry.surround().shares());
   const PictureMesh picture{surface, mesh, scene_.mouth, reduction_};
-  struct Found {
-    std::vector<Piece> pieces;
-    std::vector<TriangleLight> lit;
-  };
-  std::vector<Found> by_pattern(scene_.patterns.size());
+  std::vector<FromPattern> by_pattern;
+  for (std::size_t k = 0; k < scene_.patterns.size(); ++k) by_pattern.push_back({k});
   for (std::uint32_t triangle = 0; triangle < surface.triangles().size(); ++triangle) {
     const auto runs = surface.runs_of(triangle);
     if (runs.empty()) continue;
@@ -137,65 +134,70 @@ void PatternSolver::set_picture(std::size_t number, const State& state,
       if ((w0[s] | w1[s] | w2[s]) == 0) continue;
       const std::size_t k = blend.sources[s].pattern;
       const TriangleSource source = triangle_source(picture, triangle, *textures[k], blend.sources[s].still);
-      Found& found = by_pattern[available[k]];
+      FromPattern& found = by_pattern[available[k]];
+      if (source.place) found.places.push_back(*source.place);
       if (source.light) found.lit.push_back(*source.light);
-      found.pieces.push_back({first_run, end_run, source.u, source.v,
+      found.pieces.push_back({first_run, end_run,
                               between(surface.barycentric(triangle), kToOne * glm::vec3(w0[s], w1[s], w2[s])),
-                              t.head, source.moved, source.light.has_value()});
+                              t.head, source.place.has_value(), source.light.has_value()});
     }
   }
   Drawn out;
+  out.runs.reserve(surface.runs().size());
   for (const SurfaceRun& run : surface.runs())
     out.runs.push_back({static_cast<std::uint16_t>(run.row), static_cast<std::uint16_t>(run.first),
                         static_cast<std::uint16_t>(run.count)});
-  for (std::size_t k = 0; k < by_pattern.size(); ++k) {
-    const Found& found = by_pattern[k];
+  for (FromPattern& found : by_pattern) {
     if (found.pieces.empty()) continue;
-    const std::size_t first_lit = out.lit.size();
-    out.pieces.insert(out.pieces.end(), found.pieces.begin(), found.pieces.end());
-    out.lit.insert(out.lit.end(), found.lit.begin(), found.lit.end());
-    out.patterns.push_back({k, out.pieces.size(), first_lit});
+    found.pieces.shrink_to_fit();
+    found.places.shrink_to_fit();
+    found.lit.shrink_to_fit();
+    out.patterns.push_back(std::move(found));
   }
-  out.runs.shrink_to_fit();
-  out.pieces.shrink_to_fit();
-  out.lit.shrink_to_fit();
   pictures_[number] = std::move(out);
 }
 
 template <class Use>
-void PatternSolver::for_each_run(const Drawn& picture, std::size_t place, Use&& use) const {
-  const TriangleLight* lit = picture.lit.data() + picture.patterns[place].first_lit;
-  for (std::size_t k = place > 0 ? picture.patterns[place - 1].end : 0; k < picture.patterns[place].end;
-       ++k) {
-    const Piece& piece = picture.pieces[k];
-    const TriangleLight* light = piece.lit ? lit++ : nullptr;
+void PatternSolver::for_each_run(const std::vector<Run>& runs, const FromPattern& from, Use&& use) const {
+  const TexturePlace* next_place = from.places.data();
+  const TriangleLight* next_lit = from.lit.data();
+  for (const Piece& piece : from.pieces) {
+    const TexturePlace* place = piece.moved ? next_place++ : nullptr;
+    const TriangleLight* light = piece.lit ? next_lit++ : nullptr;
     for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
-      const Run run = picture.runs[r];
+      const Run run = runs[r];
       glm::vec4 texture = is_used_;
       if (light != nullptr)
         texture = (texture + light->gain.along(run.row, run.first).first * is_luma_) * (1 - light->opacity);
-      use(PieceRun{run,
-                   {piece.u.along(run.row, run.first), piece.v.along(run.row, run.first),
-                    piece.head ? 0 : inset_},
-                   texture,
-                   piece.weight.along(run.row, run.first)},
-          piece.moved);
+      const TexturePath path =
+          piece.moved ? place->along(run.row, run.first, piece.head ? 0 : inset_) : TexturePath{};
+      use(PieceRun{run, path, texture, piece.weight.along(run.row, run.first)}, piece.moved);
     }
   }
 }
 
+bool PatternSolver::uses(std::size_t pattern) const {
+  return std::ranges::any_of(pictures_, [&](const Drawn& picture) {
+    return std::ranges::find(picture.patterns, pattern, &FromPattern::pattern) != picture.patterns.end();
+  });
+}
+
 std::size_t PatternSolver::bytes() const {
-  const auto bytes_of = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  const auto bytes_of = [](const auto& v) { return v.size() * sizeof(*v.data()); };
   std::size_t bytes = 0;
-  for (const Drawn& d : pictures_) bytes += bytes_of(d.runs) + bytes_of(d.pieces) + bytes_of(d.lit);
+  for (const Drawn& picture : pictures_) {
+    bytes += bytes_of(picture.runs);
+    for (const FromPattern& from : picture.patterns)
+      bytes += bytes_of(from.pieces) + bytes_of(from.places) + bytes_of(from.lit);
+  }
   return bytes;
 }
 
 void PatternSolver::draw(const Drawn& picture, const Shown& planes, SolvedPlanes& out) const {
-  for (std::size_t place = 0; place < picture.patterns.size(); ++place) {
-    if (planes[picture.patterns[place].pattern] == nullptr) continue;
-    const SolvedPlanes& plane = *planes[picture.patterns[place].pattern];
-    for_each_run(picture, place, [&](const PieceRun& r, bool moved) {
+  for (const FromPattern& from : picture.patterns) {
+    if (planes[from.pattern] == nullptr) continue;
+    const SolvedPlanes& plane = *planes[from.pattern];
+    for_each_run(picture.runs, from, [&](const PieceRun& r, bool moved) {
       LaneWeights weights(r.texture, r.weight);
       glm::vec4* to = out.row(r.run.row) + r.run.first;
       if (!moved) {
@@ -218,13 +220,13 @@ void PatternSolver::draw(const Drawn& picture, const Shown& planes, SolvedPlanes
 
 void PatternSolver::draw_transposed(const Drawn& picture, std::size_t pattern, const SolvedPlanes& samples,
                                     SolvedPlanes& plane) const {
-  for (std::size_t place = 0; place < picture.patterns.size(); ++place) {
-    if (picture.patterns[place].pattern != pattern) continue;
-    for_each_run(picture, place, [&](const PieceRun& r, bool moved) {
+  for (const FromPattern& from : picture.patterns) {
+    if (from.pattern != pattern) continue;
+    for_each_run(picture.runs, from, [&](const PieceRun& r, bool moved) {
       LaneWeights weights(r.texture, r.weight);
-      const glm::vec4* from = samples.row(r.run.row) + r.run.first;
+      const glm::vec4* shown = samples.row(r.run.row) + r.run.first;
       if (!moved) {
-        weights.add(from, r.run.count, plane.row(r.run.row) + r.run.first);
+        weights.add(shown, r.run.count, plane.row(r.run.row) + r.run.first);
         return;
       }
       glm::vec4* all = plane.samples.data();
@@ -233,7 +235,7 @@ void PatternSolver::draw_transposed(const Drawn& picture, std::size_t pattern, c
                            glm::vec4* a = all + at;
                            glm::vec4* b = a + plane.width;
                            const Lanes x = cv::v_setall_f32(fx), y = cv::v_setall_f32(fy);
-                           const Lanes value = weights.next() * load(from[i]), bottom = value * y,
+                           const Lanes value = weights.next() * load(shown[i]), bottom = value * y,
                                        top = value - bottom, top_right = top * x, bottom_right = bottom * x;
                            store(load(a[0]) + (top - top_right), a[0]);
                            store(load(a[1]) + top_right, a[1]);
@@ -245,42 +247,45 @@ void PatternSolver::draw_transposed(const Drawn& picture, std::size_t pattern, c
 }
 
 void PatternSolver::draw_constant(const Drawn& picture, SolvedPlanes& out) const {
-  const TriangleLight* next = picture.lit.data();
-  for (const Piece& piece : picture.pieces) {
-    if (!piece.lit) continue;
-    const TriangleLight& light = *next++;
-    for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
-      const Run run = picture.runs[r];
-      const RunValue offset = light.offset.along(run.row, run.first);
-      glm::vec4 first(0), step(0);
-      for (std::size_t k = 0; k < planes_.size(); ++k) {
-        const auto lane = static_cast<int>(k);
-        first[lane] = light.opacity * light.interior[planes_[k]];
-        if (planes_[k] != 0) continue;
-        const float gain = light.gain.along(run.row, run.first).first;
-        first[lane] += (1 - light.opacity) * (offset.first - 128.0F * gain);
-        step[lane] = (1 - light.opacity) * offset.step;
-      }
-      glm::vec4* to = out.row(run.row) + run.first;
-      RunValue weight = piece.weight.along(run.row, run.first);
-      for (int i = 0; i < run.count; ++i, weight.first += weight.step, first += step)
-        to[i] += weight.first * first;
+  for (const FromPattern& from : picture.patterns) {
+    const TriangleLight* next = from.lit.data();
+    for (const Piece& piece : from.pieces) {
+      if (!piece.lit) continue;
+      const TriangleLight& light = *next++;
+      for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r)
+        add_constant(light, picture.runs[r], piece.weight, out);
     }
   }
 }
 
-double PatternSolver::mean_weight(const PatternPlanes& planes) const {
-  double used = 0;
-  std::size_t samples = 0;
+void PatternSolver::add_constant(const TriangleLight& light, Run run, const TriangleValue& weight,
+                                 SolvedPlanes& out) const {
+  const RunValue offset = light.offset.along(run.row, run.first);
+  const float gain = light.gain.along(run.row, run.first).first;
+  glm::vec4 first(0), step(0);
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const auto lane = static_cast<int>(k);
+    first[lane] = light.opacity * light.interior[planes_[k]];
+    if (planes_[k] != 0) continue;
+    first[lane] += (1 - light.opacity) * (offset.first - 128.0F * gain);
+    step[lane] = (1 - light.opacity) * offset.step;
+  }
+  glm::vec4* to = out.row(run.row) + run.first;
+  RunValue w = weight.along(run.row, run.first);
+  for (int i = 0; i < run.count; ++i, w.first += w.step, first += step) to[i] += w.first * first;
+}
+
+double PatternSolver::total_weight() const {
+  double out = 0;
   for (const Drawn& picture : pictures_)
-    for (const Piece& piece : picture.pieces)
-      for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
-        const Run run = picture.runs[r];
-        used +=
-            static_cast<double>(static_cast<float>(run.count) * piece.weight.along(run.row, run.first).first);
-      }
-  for (const SolvedPlanes& p : planes) samples += p.samples.size();
-  return used / static_cast<double>(samples);
+    for (const FromPattern& from : picture.patterns)
+      for (const Piece& piece : from.pieces)
+        for (std::uint32_t r = piece.first_run; r < piece.end_run; ++r) {
+          const Run run = picture.runs[r];
+          out += static_cast<double>(static_cast<float>(run.count) *
+                                     piece.weight.along(run.row, run.first).first);
+        }
+  return out;
 }
 
 Result<void> PatternSolver::add_transposed(const Draw& draw, std::span<const std::size_t> free,
@@ -306,10 +311,10 @@ Result<void> PatternSolver::add_transposed(const Draw& draw, std::span<const std
   return {};
 }
 
-Result<PatternPlanes> PatternSolver::solve(const Target& target, const PatternPlanes& sources,
+Result<PatternPlanes> PatternSolver::solve(const Target& target, PatternPlanes sources,
                                            std::span<const std::size_t> free, const SolverSettings& settings,
                                            Workers& workers) const {
-  SolvedPlanes black = sources.front();
+  SolvedPlanes black = sources[free.front()];
   clear(black);
   PatternPlanes x(free.size(), black);
   // From the anchor on, so that the pull has no part in the first residual.
@@ -325,10 +330,12 @@ Result<PatternPlanes> PatternSolver::solve(const Target& target, const PatternPl
     return {};
   };
   if (auto done = add_transposed(first_residual, free, residual, workers); !done) return fail(done.error());
+  for (SolvedPlanes& p : sources) p = {};  // they take much memory
   PatternPlanes direction = residual, product = x;
   std::fill(shown.begin(), shown.end(), nullptr);
   for (std::size_t f = 0; f < free.size(); ++f) shown[free[f]] = &direction[f];
-  const glm::dvec4 pull(settings.pull * mean_weight(sources));
+  const double mean_weight = total_weight() / static_cast<double>(sources.size() * black.samples.size());
+  const glm::dvec4 pull(settings.pull * mean_weight);
   // The planes are separate problems: each lane has its own steps.
   glm::dvec4 now = dot(residual, residual);
   const glm::dvec4 enough = kConverged * now;

@@ -27,6 +27,7 @@ struct SolverSettings {
 struct SolvedPlanes {
   int width = 0, height = 0;
   std::vector<glm::vec4> samples;
+  SolvedPlanes() = default;
   /// @param planes  1..4 of one size
   explicit SolvedPlanes(std::span<const ReducedPlane> planes);
   [[nodiscard]] ReducedPlane plane(int lane) const;
@@ -58,15 +59,18 @@ class PatternSolver {
   void set_picture(std::size_t number, const State& state, std::span<const std::size_t> available,
                    glm::ivec2 size);
 
+  /// Whether a picture is drawn from a pattern.
+  [[nodiscard]] bool uses(std::size_t pattern) const;
   /// Memory used by the pictures.
   [[nodiscard]] std::size_t bytes() const;
 
   /// The planes of a picture. Called once for each, by any worker.
   using Target = std::function<Result<SolvedPlanes>(std::size_t number)>;
-  /// @param sources  the planes of each pattern's own picture: start and anchor of the solution
+  /// @param sources  the planes of each pattern's own picture: start and anchor of the solution; empty for
+  ///                 those that neither are free nor used
   /// @param free     patterns to solve for; the others stay
   /// @return the solution less the sources, of those patterns; the same for any number of workers
-  [[nodiscard]] Result<PatternPlanes> solve(const Target& target, const PatternPlanes& sources,
+  [[nodiscard]] Result<PatternPlanes> solve(const Target& target, PatternPlanes sources,
                                             std::span<const std::size_t> free, const SolverSettings& settings,
                                             Workers& workers) const;
 
@@ -78,18 +82,20 @@ class PatternSolver {
   /// A triangle's samples as far as they come from one pattern.
   struct Piece {
     std::uint32_t first_run, end_run;  ///< the triangle's
-    TriangleValue u, v, weight;
-    bool head, moved, lit;  ///< lit: Drawn::lit has the next one for it
+    TriangleValue weight;
+    bool head, moved, lit;  ///< moved, lit: the next of FromPattern::places, ::lit is its own
+  };
+  /// What a picture draws from one pattern.
+  struct FromPattern {
+    std::size_t pattern;
+    std::vector<Piece> pieces{};
+    std::vector<TexturePlace> places{};
+    std::vector<TriangleLight> lit{};
   };
   /// All that draw a picture.
   struct Drawn {
     std::vector<Run> runs;
-    std::vector<Piece> pieces;       ///< by pattern
-    std::vector<TriangleLight> lit;  ///< of those that are, in their order
-    struct Pattern {
-      std::size_t pattern, end, first_lit;
-    };
-    std::vector<Pattern> patterns;  ///< ends of their pieces
+    std::vector<FromPattern> patterns;
   };
   /// The planes of each pattern; null: black.
   using Shown = std::vector<const SolvedPlanes*>;
@@ -112,13 +118,15 @@ class PatternSolver {
   /// plane += A^T picture, for one pattern
   void draw_transposed(const Drawn& picture, std::size_t pattern, const SolvedPlanes& samples,
                        SolvedPlanes& plane) const;
-  /// Calls use(PieceRun, whether it is moved) for the runs drawn from a picture's pattern.
+  /// Calls use(PieceRun, whether the texture is moved) for the runs drawn from a pattern.
   template <class Use>
-  void for_each_run(const Drawn& picture, std::size_t place, Use&& use) const;
+  void for_each_run(const std::vector<Run>& runs, const FromPattern& from, Use&& use) const;
   /// out += light and interior.
   void draw_constant(const Drawn& picture, SolvedPlanes& out) const;
-  /// Mean total weight of a plane's samples over all pictures.
-  [[nodiscard]] double mean_weight(const PatternPlanes& planes) const;
+  void add_constant(const TriangleLight& light, Run run, const TriangleValue& weight,
+                    SolvedPlanes& out) const;
+  /// Total weight of all samples drawn.
+  [[nodiscard]] double total_weight() const;
 
   BlendScene scene_;
   int reduction_;

@@ -126,9 +126,7 @@ TriangleSource triangle_source(const PictureMesh& picture, std::uint32_t triangl
     u[i] = static_cast<float>(at.x) * to_samples - 0.5F;
     v[i] = static_cast<float>(at.y) * to_samples - 0.5F;
   }
-  out.moved = true;
-  out.u = between(b, u);
-  out.v = between(b, v);
+  out.place = {between(b, u), between(b, v)};
   if (t.head) {
     TriangleLight light;
     add_light(picture.mesh, texture, t, b, light);
@@ -150,13 +148,13 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
 
 void sample_luma(const TriangleSource& source, const SurfaceRun& run, const ReducedPlane& luma,
                  std::int16_t* out) {
-  if (!source.moved) {
+  if (!source.place) {
     const float* from = luma.row(run.row) + run.first;
     for (int i = 0; i < run.count; ++i) out[i] = static_cast<std::int16_t>(rounded(from[i]));
     return;
   }
   const float* samples = luma.samples.data();
-  const TexturePath path = source.along(run);
+  const TexturePath path = source.place->along(run.row, run.first, source.inset);
   const auto sample_all = [&](auto&& lit) {
     for_each_footprint(path, run.count, {luma.width, luma.height}, [&](int i, int at, float fx, float fy) {
       out[i] = static_cast<std::int16_t>(rounded(lit(mixed(samples + at, luma.width, fx, fy))));

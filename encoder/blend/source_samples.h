@@ -71,16 +71,20 @@ struct TriangleLight {
   std::array<float, 3> interior{};  ///< the interior's Y, U, V; mean
 };
 
+/// Where a triangle lies in a texture: u and v of its samples.
+struct TexturePlace {
+  TriangleValue u, v;
+
+  [[nodiscard]] TexturePath along(int row, int first, float inset) const {
+    return {u.along(row, first), v.along(row, first), inset};
+  }
+};
+
 /// How to sample a texture over a triangle.
 struct TriangleSource {
-  TriangleValue u{0, 1, 0}, v{0, 0, 1};  ///< position, samples; integers lie on centres
-  bool moved = false;                    ///< otherwise the texture's own samples show
+  std::optional<TexturePlace> place{};  ///< nothing: the texture's own samples show
   std::optional<TriangleLight> light{};
   float inset = 0;  ///< TexturePath::inset
-
-  [[nodiscard]] TexturePath along(const SurfaceRun& run) const {
-    return {u.along(run.row, run.first), v.along(run.row, run.first), inset};
-  }
 };
 
 /// The mesh of a picture, with the inputs of its light and mouth.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "encoder/blend/mode_choice.h"
 
@@ -17,7 +18,7 @@ constexpr int kCompareWidth = 240, kSolveWidth = 260;
 constexpr std::size_t kSolveEvery = 2;
 
 /// Memory limit of solving, bytes: large pictures use fewer of them.
-constexpr std::size_t kSolverBytes = 40e6;
+constexpr std::size_t kSolverBytes = 30e6;
 
 /// Patterns that are solved for together, at most.
 constexpr std::size_t kSolvedTogether = 16;
@@ -158,13 +159,16 @@ class GroupProblem {
     PatternSolver solver(patterns_.scene, group_.reduction, group_.planes);
     const std::vector<std::size_t> used = pictures_of(free, solver);
     PatternPlanes sources;
-    for (const Picture& picture : now) sources.push_back(group_.of(picture));
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const bool needed = solver.uses(k) || std::ranges::find(free, k) != free.end();
+      sources.push_back(needed ? group_.of(now[k]) : SolvedPlanes());
+    }
     const auto target = [&](std::size_t k) -> Result<SolvedPlanes> {
       const auto picture = segment_.pictures.read(used[k]);
       if (!picture) return fail(picture.error());
       return group_.of(*picture);
     };
-    const auto change = solver.solve(target, sources, free, settings, workers_);
+    const auto change = solver.solve(target, std::move(sources), free, settings, workers_);
     if (!change) return fail(change.error());
     workers_.run(static_cast<int>(free.size()),
                  [&](int f, int) { add_change((*change)[f], group_, now[free[f]]); });
