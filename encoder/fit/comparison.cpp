@@ -52,14 +52,14 @@ class LevelEquations {
   }
 
  private:
-  /// Adds the columns of light and mouth interior.
+  /// Adds the columns of the light and, inside the mouth, of its interior.
   float* add_shading(std::size_t k, float* row) const {
-    const double interior = shown_.interior_share(k);
+    const double ramp = c_.points.mouth_ramp(k), interior = shown_.interior_share(k);
     const auto luma = static_cast<double>(c_.pattern.luma(level_, k));
     for (const double light : light_basis(c_.points.light(k), luma))
       *row++ = static_cast<float>(-light * (1 - interior));
-    for (const double level : interior_basis(c_.points.mouth_ramp(k)))
-      *row++ = static_cast<float>(-level * interior);
+    if (ramp < 0) return row;
+    for (const double level : interior_basis(ramp)) *row++ = static_cast<float>(-level * interior);
     return row;
   }
 
@@ -107,12 +107,12 @@ double add_picture(const Comparison& c, int level, const Fit& fit, NormalEquatio
   for (std::size_t i = 0; i < c.points.patches().size(); ++i) {
     const SamplePoints::Patch& patch = c.points.patches()[i];
     const std::size_t n = patch.controls.size();
-    patch_equations.begin(n);
+    patch_equations.begin(patch.columns.size());
     double of_patch = 0;
     for (std::size_t k = patch.first; k < patch.end; ++k)
       of_patch +=
           equations.add_point(k, std::span(patch.shares).subspan((k - patch.first) * n, n), patch_equations);
-    patch_equations.add_to(c.columns, patch.controls, normal);
+    patch_equations.add_to(patch.columns, normal);
     difference += equations.samples_per_point(i) * of_patch;
   }
   return difference;

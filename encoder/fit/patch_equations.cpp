@@ -4,8 +4,8 @@
 
 namespace fbs {
 
-void PatchEquations::begin(std::size_t controls) {
-  n_ = FitColumns::kFirstControl + 2 * controls;
+void PatchEquations::begin(std::size_t columns) {
+  n_ = columns;
   lanes_ = (n_ + kLanes - 1) / kLanes * kLanes;
   waiting_ = 0;
   for (Columns& row : rows_) std::fill(row.begin() + n_, row.begin() + lanes_, 0.0F);
@@ -27,18 +27,12 @@ void PatchEquations::sum_up() {
   }
 }
 
-void PatchEquations::add_to(const FitColumns& columns, std::span<const std::uint16_t> controls,
-                            NormalEquations& normal) {
+void PatchEquations::add_to(std::span<const std::uint16_t> columns, NormalEquations& normal) {
   if (waiting_ > 0) sum_up();
-  std::array<std::size_t, kMaxColumns> column;
-  for (std::size_t i = 0; i < FitColumns::kFirstControl; ++i) column[i] = i;
-  for (std::size_t c = 0; c < controls.size(); ++c)
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      column[FitColumns::kFirstControl + 2 * c + axis] = columns.of(controls[c]) + axis;
   for (std::size_t i = 0; i < n_; ++i) {
-    normal.right(column[i]) += static_cast<double>(right_[i]);
+    normal.right(columns[i]) += static_cast<double>(right_[i]);
     for (std::size_t j = i; j < n_; ++j)
-      normal.left(column[i], column[j]) += static_cast<double>(left_[i * kMaxColumns + j]);
+      normal.left(columns[i], columns[j]) += static_cast<double>(left_[i * kMaxColumns + j]);
   }
 }
 

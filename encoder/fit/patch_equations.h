@@ -14,11 +14,10 @@ namespace fbs {
 /// takes a third of the time. 32 KB of scratch memory, to be reused between triangles.
 class PatchEquations {
  public:
-  /// Starts anew for points moved by this many control points.
-  void begin(std::size_t controls);
+  /// Starts anew for rows of this many columns.
+  void begin(std::size_t columns);
 
-  /// The next row, to be filled before each add(): pose, light, mouth interior, x and y of each control
-  /// point.
+  /// The next row, to be filled before each add().
   [[nodiscard]] float* row() { return rows_[waiting_].data(); }
 
   /// @param r  residual of `row`
@@ -28,8 +27,8 @@ class PatchEquations {
     if (++waiting_ == kRows) sum_up();
   }
 
-  /// @param controls  rising, so that the upper triangle stays one
-  void add_to(const FitColumns& columns, std::span<const std::uint16_t> controls, NormalEquations& normal);
+  /// @param columns  of the equations, rising, so that the upper triangle stays one
+  void add_to(std::span<const std::uint16_t> columns, NormalEquations& normal);
 
  private:
   static constexpr std::size_t kRows = 4, kLanes = 4;

@@ -70,11 +70,16 @@ SamplePoints::Patch SamplePoints::patch_of(const FitColumns& columns, std::size_
   const auto& corner = points_[first].corner;
   const std::array<std::array<double, kControlCount>, 3> weight = {
       weights_of(corner[0]), weights_of(corner[1]), weights_of(corner[2])};
-  Patch patch{first, end, {}, {}};
+  Patch patch{first, end, {}, {}, {}};
+  const std::size_t shared = mouth_ramp(first) < 0 ? FitColumns::kFirstInterior : FitColumns::kFirstControl;
+  for (std::size_t i = 0; i < shared; ++i) patch.columns.push_back(static_cast<std::uint16_t>(i));
   for (std::size_t c = 0; c < kControlCount; ++c)
     if (columns.has(c) && std::max({std::abs(weight[0][c]), std::abs(weight[1][c]), std::abs(weight[2][c])}) >
                               kMinSkinningShare)
       patch.controls.push_back(static_cast<std::uint16_t>(c));
+  for (const std::uint16_t control : patch.controls)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      patch.columns.push_back(static_cast<std::uint16_t>(columns.of(control) + axis));
   for (std::size_t k = first; k < end; ++k)
     for (const std::uint16_t control : patch.controls) {
       double share = 0;

@@ -19,6 +19,9 @@ class SamplePoints {
     std::size_t first, end;               ///< points
     std::vector<std::uint16_t> controls;  ///< rising; only those that may move
     std::vector<float> shares;            ///< of each control point, point by point
+    /// FitColumns of a point's row, rising: pose, light, mouth interior where the triangle lies there, x and
+    /// y of `controls`.
+    std::vector<std::uint16_t> columns;
 
     [[nodiscard]] std::size_t size() const { return end - first; }
   };

@@ -9,18 +9,10 @@ namespace {
 
 // Against the sums written out in double precision.
 TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
-  const FitColumns columns(mask_of(PartId::kBrows));
-  const auto first = static_cast<std::uint16_t>(feature(FeatureId::kBrowRight).first_control);
-  const std::vector<std::uint16_t> controls = {static_cast<std::uint16_t>(first + 1),
-                                               static_cast<std::uint16_t>(first + 5)};
-  std::vector<std::size_t> place;
-  for (std::size_t i = 0; i < FitColumns::kFirstControl; ++i) place.push_back(i);
-  for (const std::uint16_t c : controls)
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      place.push_back(columns.of(static_cast<std::size_t>(c)) + axis);
+  const std::vector<std::uint16_t> place = {0, 1, 2, 5, 6, 9, 13};
+  const std::size_t n = 15;
   PatchEquations patch;
-  patch.begin(controls.size());
-  const auto n = static_cast<std::size_t>(columns.count());
+  patch.begin(place.size());
   std::vector<double> left(n * n), right(n);
   std::mt19937 random(1);
   std::uniform_real_distribution<float> number(-1, 1);
@@ -35,8 +27,8 @@ TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
     }
     patch.add(weight, r);
   }
-  NormalEquations normal(columns.count());
-  patch.add_to(columns, controls, normal);
+  NormalEquations normal(n);
+  patch.add_to(place, normal);
   const cv::Mat1d all = normal.symmetric();
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_NEAR(normal.right(i), right[i], 1e-5) << i;
@@ -46,14 +38,14 @@ TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
 }
 
 TEST(PatchEquations, BeginForgetsThePatchBefore) {
-  const FitColumns columns(kAllParts);
+  const std::vector<std::uint16_t> columns = {0, 1, 2};
   PatchEquations patch;
-  patch.begin(0);
-  std::fill_n(patch.row(), kFitOffsets, 1.0F);
+  patch.begin(columns.size());
+  std::fill_n(patch.row(), columns.size(), 1.0F);
   patch.add(1, 1);
-  patch.begin(0);
-  NormalEquations normal(columns.count());
-  patch.add_to(columns, {}, normal);
+  patch.begin(columns.size());
+  NormalEquations normal(3);
+  patch.add_to(columns, normal);
   EXPECT_EQ(cv::countNonZero(normal.symmetric()), 0);
 }
 
