@@ -45,26 +45,6 @@ class Durations {
   std::int64_t nominal_, ahead_ = 0;  // 1/90000 s
 };
 
-/// Pictures from their encoding until they are decoded: a segment of them, on disk. First in, first out.
-class WaitingPictures {
- public:
-  Result<void> push(const Picture& picture) { return new_.add(picture); }
-
-  /// Not to be called when none waits.
-  Result<Picture> pop() {
-    // A file read to its end makes room for later pictures.
-    if (read_ == old_.count()) {
-      old_ = std::exchange(new_, {});
-      read_ = 0;
-    }
-    return old_.read(read_++);
-  }
-
- private:
-  PictureSpool old_, new_;
-  std::size_t read_ = 0;  ///< pictures of old_
-};
-
 /// Measures the stream as it is encoded; for PSNR, it is decoded.
 class ClosedLoop {
  public:
@@ -153,7 +133,7 @@ class ClosedLoop {
   StreamDecoder decoder_;
   StreamMeter meter_;
   std::uint64_t pushed_ = 0;  ///< pictures
-  WaitingPictures waiting_;
+  PictureQueue waiting_;
 };
 
 }  // namespace

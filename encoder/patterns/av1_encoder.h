@@ -28,6 +28,9 @@ struct Av1Settings {
   int look_ahead = 0;
   /// With look-ahead, how many steps below `quantiser` frames that others refer to may go; 0..63.
   int boost = 0;
+  /// With look-ahead, threads that code the rows of a frame. The frames are the same for any number from 2
+  /// on; 1 codes them .3 to .8 % smaller (BD-rate, ten clips), since rows then adapt to all those before.
+  int threads = 2;
 };
 
 /// One AV1 sequence, in which only the first frame is a key frame.

@@ -26,7 +26,8 @@ Result<Av1Encoder::Frames> coded(const VideoFormat& format, std::span<const Pict
     size.width = reduced_size(format.width);
     size.height = reduced_size(format.height);
   }
-  auto av1 = Av1Encoder::create(size, {settings.quantiser, settings.speed, kLookAhead, settings.boost});
+  auto av1 = Av1Encoder::create(
+      size, {settings.quantiser, settings.speed, kLookAhead, settings.boost, settings.threads});
   if (!av1) return fail(av1.error());
   Av1Encoder::Frames out;
   const auto append = [&](Result<Av1Encoder::Frames> frames) -> Result<void> {

@@ -23,6 +23,7 @@ struct SequenceSettings {
   /// clips, 16 and 30 patterns).
   int boost = 20;
   bool reduced = false;  ///< code all pictures at half width and height
+  int threads = 2;       ///< Av1Settings::threads
 };
 
 /// A pattern as coded and as shown.

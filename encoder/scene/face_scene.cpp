@@ -31,14 +31,13 @@ PartMask parts_of(const EncoderSettings& settings) {
 }
 
 /// Pictures that may be analysed and not yet coded, with several threads. Of a live scene, a group: its
-/// packets must not be later than one group's coding. Of a file, as many as fit in little memory.
+/// packets must not be later than one group's coding. Of a file, as many as there is memory for their costs:
+/// a segment takes long.
 std::size_t pictures_ahead(const VideoFormat& format, const EncoderSettings& settings) {
   if (thread_count(settings) == 1) return 0;
   if (settings.live) return SceneTiming(format, settings).group_pictures;
-  constexpr std::size_t kBytes = 48'000'000, kMost = 256;
-  constexpr std::size_t kCosts = 2 * sizeof(double) * kParameterCount * kParameterCount;
-  const std::size_t samples = static_cast<std::size_t>(format.width) * format.height;
-  return std::clamp<std::size_t>(kBytes / (kCosts + 3 * samples / 2), 1, kMost);
+  constexpr std::size_t kBytes = 40'000'000;
+  return kBytes / (sizeof(double) * kParameterCount * kParameterCount);
 }
 
 }  // namespace
@@ -136,13 +135,18 @@ Result<void> FaceScene::lose_patterns() {
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  return analysing_.add([this, shared = std::make_shared<const Picture>(picture), duration,
-                         cut = std::exchange(cut_, false)] {
-    return code([this, shared, seen = analysis_.observe(*shared), duration, cut]() mutable -> Result<void> {
+  const auto task = [this, shared = std::make_shared<const Picture>(picture), duration,
+                     cut = std::exchange(cut_, false)]() -> Result<void> {
+    auto seen = analysis_.observe(*shared);
+    if (auto kept = waiting_.push(*shared); !kept) return kept;
+    return code([this, seen = std::move(seen), duration, cut]() mutable -> Result<void> {
+      const auto next = waiting_.pop();
+      if (!next) return fail(next.error());
       if (cut) coder_.cut();
-      return coder_.add(*shared, std::move(seen), duration);
+      return coder_.add(*next, std::move(seen), duration);
     });
-  });
+  };
+  return analysing_.add(task);
 }
 
 Result<void> FaceScene::finish() {

@@ -10,6 +10,7 @@
 #include "encoder/scene/background.h"
 #include "encoder/scene/face_coder.h"
 #include "encoder/scene/scene_encoder.h"
+#include "encoder/segment/picture_spool.h"
 
 namespace fbs {
 
@@ -66,6 +67,7 @@ class FaceScene : public SceneEncoder {
 
   FaceAnalysis analysis_;  ///< changed by tasks of analysing_, or once it has settled
   bool cut_ = false;       ///< the next picture begins another shot
+  PictureQueue waiting_;   ///< pictures analysed and not yet coded
   FaceCoder coder_;        ///< what changes is coding_'s alone
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> ready_;  ///< under the mutex

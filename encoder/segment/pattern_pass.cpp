@@ -45,6 +45,7 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
       most_(store_.slots()),
       point_(settings.point) {
   coding_.speed = settings.effort.pattern_speed;
+  coding_.threads = std::max(2, settings.threads);  // on one core, too: the stream is the same
   if (!settings.without_face) return;
   const double bytes = 1.5 * format.width * format.height;
   most_ = static_cast<std::int32_t>(

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace fbs {
 namespace {
@@ -68,6 +69,21 @@ Result<Picture> PictureSpool::read(std::size_t number) const {
   }
   if (!read) return fail(ErrorCode::kIo, "a temporary file cannot be read");
   return picture;
+}
+
+Result<void> PictureQueue::push(const Picture& picture) {
+  const std::lock_guard lock(mutex_);
+  return new_.add(picture);
+}
+
+Result<Picture> PictureQueue::pop() {
+  const std::lock_guard lock(mutex_);
+  // A file read to its end makes room for later pictures.
+  if (read_ == old_.count()) {
+    old_ = std::exchange(new_, {});
+    read_ = 0;
+  }
+  return old_.read(read_++);
 }
 
 }  // namespace fbs

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "common/picture.h"
@@ -33,6 +34,19 @@ class PictureSpool {
   std::unique_ptr<std::FILE, Close> file_;
   std::size_t count_ = 0;
   int width_ = 0, height_ = 0;
+};
+
+/// Pictures of one size, first in, first out; most of them on disk. One thread may push while another pops.
+class PictureQueue {
+ public:
+  Result<void> push(const Picture& picture);
+  /// Not to be called when none waits.
+  Result<Picture> pop();
+
+ private:
+  std::mutex mutex_;
+  PictureSpool old_, new_;
+  std::size_t read_ = 0;  ///< pictures of old_
 };
 
 }  // namespace fbs

@@ -29,7 +29,7 @@ set(foreign
   "opencv2/video/@encoder/track/head"
   "opencv2/videoio@cli/video"
   "opencv2/highgui@none"
-  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/plan|encoder/analysis|encoder/segment|encoder/scene|cli/(video|display|source|play|encode|evaluate/quality)"
+  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/blend|encoder/plan|encoder/analysis|encoder/segment|encoder/scene|cli/(video|display|source|play|encode|evaluate/quality)"
   "opus(/|\\.h)@decoder/sound|encoder/sound"
   "codec2(/|\\.h)@decoder/sound|encoder/sound"
   "aom/@encoder/patterns"

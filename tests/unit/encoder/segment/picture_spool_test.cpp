@@ -42,5 +42,16 @@ TEST(PictureSpool, MovesWithItsPictures) {
   EXPECT_EQ(*other.read(0), noise_picture(64, 64, 1));
 }
 
+TEST(PictureQueue, IsFirstInFirstOutWhoeverIsFaster) {
+  PictureQueue queue;
+  unsigned pushed = 0, popped = 0;
+  for (const unsigned count : {1U, 5U, 2U, 0U, 7U}) {
+    for (unsigned k = 0; k < count; ++k) ASSERT_TRUE(queue.push(noise_picture(1600, 1200, pushed++)));
+    for (unsigned k = 0; k < (count + 1) / 2; ++k)
+      EXPECT_EQ(*queue.pop(), noise_picture(1600, 1200, popped++));
+  }
+  while (popped < pushed) EXPECT_EQ(*queue.pop(), noise_picture(1600, 1200, popped++));
+}
+
 }  // namespace
 }  // namespace fbs
