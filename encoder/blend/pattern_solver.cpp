@@ -176,10 +176,14 @@ void PatternSolver::for_each_run(const std::vector<Run>& runs, const FromPattern
   }
 }
 
+const PatternSolver::FromPattern* PatternSolver::Drawn::from(std::size_t pattern) const {
+  const auto found = std::ranges::find(patterns, pattern, &FromPattern::pattern);
+  return found == patterns.end() ? nullptr : &*found;
+}
+
 bool PatternSolver::uses(std::size_t pattern) const {
-  return std::ranges::any_of(pictures_, [&](const Drawn& picture) {
-    return std::ranges::find(picture.patterns, pattern, &FromPattern::pattern) != picture.patterns.end();
-  });
+  return std::ranges::any_of(pictures_,
+                             [&](const Drawn& picture) { return picture.from(pattern) != nullptr; });
 }
 
 std::size_t PatternSolver::bytes() const {
@@ -220,30 +224,29 @@ void PatternSolver::draw(const Drawn& picture, const Shown& planes, SolvedPlanes
 
 void PatternSolver::draw_transposed(const Drawn& picture, std::size_t pattern, const SolvedPlanes& samples,
                                     SolvedPlanes& plane) const {
-  for (const FromPattern& from : picture.patterns) {
-    if (from.pattern != pattern) continue;
-    for_each_run(picture.runs, from, [&](const PieceRun& r, bool moved) {
-      LaneWeights weights(r.texture, r.weight);
-      const glm::vec4* shown = samples.row(r.run.row) + r.run.first;
-      if (!moved) {
-        weights.add(shown, r.run.count, plane.row(r.run.row) + r.run.first);
-        return;
-      }
-      glm::vec4* all = plane.samples.data();
-      for_each_footprint(r.path, r.run.count, {plane.width, plane.height},
-                         [&](int i, int at, float fx, float fy) {
-                           glm::vec4* a = all + at;
-                           glm::vec4* b = a + plane.width;
-                           const Lanes x = cv::v_setall_f32(fx), y = cv::v_setall_f32(fy);
-                           const Lanes value = weights.next() * load(shown[i]), bottom = value * y,
-                                       top = value - bottom, top_right = top * x, bottom_right = bottom * x;
-                           store(load(a[0]) + (top - top_right), a[0]);
-                           store(load(a[1]) + top_right, a[1]);
-                           store(load(b[0]) + (bottom - bottom_right), b[0]);
-                           store(load(b[1]) + bottom_right, b[1]);
-                         });
-    });
-  }
+  const FromPattern* from = picture.from(pattern);
+  if (from == nullptr) return;
+  for_each_run(picture.runs, *from, [&](const PieceRun& r, bool moved) {
+    LaneWeights weights(r.texture, r.weight);
+    const glm::vec4* shown = samples.row(r.run.row) + r.run.first;
+    if (!moved) {
+      weights.add(shown, r.run.count, plane.row(r.run.row) + r.run.first);
+      return;
+    }
+    glm::vec4* all = plane.samples.data();
+    for_each_footprint(r.path, r.run.count, {plane.width, plane.height},
+                       [&](int i, int at, float fx, float fy) {
+                         glm::vec4* a = all + at;
+                         glm::vec4* b = a + plane.width;
+                         const Lanes x = cv::v_setall_f32(fx), y = cv::v_setall_f32(fy);
+                         const Lanes value = weights.next() * load(shown[i]), bottom = value * y,
+                                     top = value - bottom, top_right = top * x, bottom_right = bottom * x;
+                         store(load(a[0]) + (top - top_right), a[0]);
+                         store(load(a[1]) + top_right, a[1]);
+                         store(load(b[0]) + (bottom - bottom_right), b[0]);
+                         store(load(b[1]) + bottom_right, b[1]);
+                       });
+  });
 }
 
 void PatternSolver::draw_constant(const Drawn& picture, SolvedPlanes& out) const {

@@ -96,6 +96,9 @@ class PatternSolver {
   struct Drawn {
     std::vector<Run> runs;
     std::vector<FromPattern> patterns;
+
+    /// Null where nothing is drawn from the pattern.
+    [[nodiscard]] const FromPattern* from(std::size_t pattern) const;
   };
   /// The planes of each pattern; null: black.
   using Shown = std::vector<const SolvedPlanes*>;

@@ -33,8 +33,8 @@ Result<void> Background::add(Task task) {
 }
 
 Result<void> Background::wait() {
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [&] { return tasks_.empty(); });
+  settle();
+  const std::lock_guard lock(mutex_);
   if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
   return std::exchange(result_, {});
 }
