@@ -23,7 +23,7 @@ enum class Resilience : std::uint8_t {
 
 /// For a source that is encoded as it happens.
 struct LiveSettings {
-  double delay = 0.2;  ///< s; length of the groups in which pictures are coded
+  double delay = 0.2;  ///< s; pictures that are coded together, in groups of a second at most
   double buffer = 2;   ///< s; with a bitrate: longest time that data waits to be sent at that rate
   Resilience resilience = Resilience::kNone;
   /// s; the head of a scene is sent again in parts, so that a viewer who comes in its middle, or has lost the

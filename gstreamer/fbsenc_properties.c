@@ -199,8 +199,8 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
                  "Seconds between scenes at most, where a viewer can join (0 = up to 40)", 3600, 0);
   install_boolean(type, PROP_LIVE, "live", "Live",
                   "No look-ahead. Otherwise fewer bits are needed, and buffers come up to 40 seconds later");
-  install_double(type, PROP_DELAY, "delay", "Delay", "Live: pictures are coded in groups of so many seconds",
-                 8, 0.2);
+  install_double(type, PROP_DELAY, "delay", "Delay", "Live: so many seconds of pictures are coded together",
+                 40, 0.2);
   install_double(type, PROP_BUFFER, "buffer", "Buffer",
                  "Live, with a bit rate: nothing waits longer to be sent, seconds", 60, 2);
   g_object_class_install_property(

@@ -33,9 +33,11 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
   verb.add_flag("--live,!--no-live", a.live,
                 "Encode pictures as they come, without look-ahead; the default for a camera. Costs bits: a "
                 "file is better encoded without");
-  verb.add_option("--delay", a.delay,
-                  "With --live: seconds of pictures that are encoded together (default: 0.2)")
-      ->check(number_within(0.01, 5));
+  verb.add_option(
+          "--delay", a.delay,
+          "With --live: seconds of pictures that are encoded together, for which the stream is late; more of "
+          "them take fewer bits (default: 0.2)")
+      ->check(number_within(0.01, 40));
   verb.add_option(
           "--buffer", a.buffer,
           "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "

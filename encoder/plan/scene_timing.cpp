@@ -12,6 +12,9 @@ namespace {
 /// mouths and more motion, but delays the first bytes.
 constexpr double kLookaheadSeconds = 2;
 
+/// Longest group of a live scene.
+constexpr double kLiveGroupSeconds = 1;
+
 /// How long the motion of a damaged stream stands still at most.
 constexpr double kKeySeconds = 8;
 
@@ -23,9 +26,10 @@ SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& setti
   group_pictures = settings.group_pictures > 0
                        ? settings.group_pictures
                        : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
-  if (settings.live)
-    group_pictures =
-        std::clamp(static_cast<int>(std::lround(fps * settings.live->delay)), 1, kMaxGroupPictures);
+  if (settings.live) {
+    const double delay = settings.live->delay, groups = std::ceil(delay / kLiveGroupSeconds);
+    group_pictures = std::clamp(static_cast<int>(std::lround(fps * delay / groups)), 1, kMaxGroupPictures);
+  }
   if (settings.key_interval > 0) {
     const double others = std::floor(fps * settings.key_interval) - 1;  // the first has a group of its own
     group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));

@@ -127,7 +127,7 @@ void FaceCoder::fix_head() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
   fit_map();
   fixed_ = true;
-  if (!ledger_.live()) surround_.end(scene_.setup.format);
+  if (!ledger_.live() || ledger_.pictures() >= ledger_.timing().lookahead) surround_.end(scene_.setup.format);
 }
 
 Result<void> FaceCoder::end_lookahead() {
@@ -135,7 +135,7 @@ Result<void> FaceCoder::end_lookahead() {
     fix_head();
     return second_pass_ ? Result<void>{} : write_head();
   }
-  if (ledger_.in_group()) return {};  // the map changes between groups
+  if (ledger_.in_group() || !ledger_.packets().started()) return {};  // the map changes between groups
   const SurroundMap before = surround_.map();
   fit_map();
   surround_.end(scene_.setup.format);

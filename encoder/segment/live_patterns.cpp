@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <utility>
 
 #include "encoder/blend/mode_choice.h"
 #include "encoder/patterns/downscale.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/plan/pattern_point.h"
+#include "encoder/plan/scene_timing.h"
 
 namespace fbs {
 namespace {
@@ -52,6 +53,17 @@ std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
   return refit && format.width * format.height > kCif ? 3 : 1;
 }
 
+/// From this delay on, s, a segment is so long and can have several patterns.
+constexpr double kWindowDelay = 0.7;
+/// SolverSettings::pull: stronger than for files, since later windows are drawn from the patterns, too.
+constexpr double kPull = 0.4;
+/// What the patterns of such a segment must gain, relative to others, since fewer and finer ones pay; and
+/// PatternRegret's patience. Without them a second takes a third more bytes in the face of large pictures.
+constexpr double kWindowPrice = 2, kWindowPatience = 4;
+
+/// Most pictures that share errors in a draft.
+constexpr std::size_t kDraftShared = 3;
+
 /// Viewers look at the face more than at the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR,
 /// the frame as many.
 constexpr double kFaceWeight = 3;
@@ -74,6 +86,14 @@ double least_error(const ModeErrors& errors) {
   return sum;
 }
 
+/// Of each picture.
+std::vector<double> least_errors(const SegmentErrors& errors) {
+  std::vector<double> out;
+  for (const SegmentErrors::Run& run : errors.runs)
+    out.insert(out.end(), run.pictures, least_error(run.errors));
+  return out;
+}
+
 }  // namespace
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
@@ -88,10 +108,30 @@ LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings&
 void LivePatterns::begin_scene(const CodedState& rest) {
   store_.begin_scene(rest);
   codec_.reset();
+  first_ = {};
   alone_ = settings_.alone;
   regret_ = {};
+  since_pattern_ = 0;
   modes_ = {};
   next_slot_ = 0;
+}
+
+bool LivePatterns::segment_ends(std::size_t next) const {
+  if (!has_windows() || pictures() + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  if (settings_.key_interval > 0 && store_.number_of(pictures() + next) > settings_.key_interval) return true;
+  // So many whole groups as are nearest to the delay, besides a scene's first.
+  const double end = settings_.delay * fps_of(store_.format()) + 1;
+  return static_cast<double>(pictures()) + 0.5 * static_cast<double>(next) > end;
+}
+
+bool LivePatterns::has_windows() const {
+  return settings_.delay >= kWindowDelay;
+}
+
+bool LivePatterns::pays(double bits, double price) const {
+  const double lambda = price * pattern_lambda(settings_.quantiser);
+  return has_windows() ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
+                       : regret_.pays(bits, lambda, 1);
 }
 
 void LivePatterns::lose_patterns() {
@@ -100,36 +140,25 @@ void LivePatterns::lose_patterns() {
   codec_.reset();  // the next one follows the first pattern
 }
 
-std::size_t LivePatterns::pattern_time() const {
-  if (store_.is_first()) return 0;
-  if (store_.segment().shots.size() > 1)
-    return store_.segment().states.size() - store_.segment().shots.back().pictures;
-  return store_.segment().states.size() - 1;
-}
-
-SegmentPatterns LivePatterns::usable(const Scene& scene) const {
-  AvailablePatterns all(scene.patterns.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return {{*scene.geometry, scene.setup.mouth, scene.patterns},
-          std::vector(store_.segment().groups.size(), all)};
-}
-
 double LivePatterns::Size::at(int other_quantiser) const {
   return bits * std::pow(kBytesPerStep, quantiser - other_quantiser);
 }
 
-std::optional<int> LivePatterns::affordable(const Size& size, int from) const {
-  if (!rate_) return from;
+std::optional<int> LivePatterns::affordable(const Size& size, int from, double room) {
   for (int q = from; q <= kMaxQuantiser; ++q)
-    if (size.at(q) <= 8 * rate_->room()) return q;
+    if (size.at(q) <= 8 * room) return q;
   return std::nullopt;
+}
+
+double LivePatterns::room() const {
+  return rate_ ? rate_->room() : std::numeric_limits<double>::infinity();
 }
 
 Result<int> LivePatterns::key_quantiser() {
   const double price = rate_ ? rate_->price() : 1;
   const int wanted = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
   if (!rate_) return wanted;
-  if (key_.bits > 0) return affordable(key_, wanted).value_or(kMaxQuantiser);
+  if (key_.bits > 0) return affordable(key_, wanted, room()).value_or(kMaxQuantiser);
   auto picture = store_.segment().pictures.read(0);
   if (!picture) return fail(picture.error());
   if (settings_.reduced) *picture = downscaled(*picture);
@@ -139,23 +168,77 @@ Result<int> LivePatterns::key_quantiser() {
     const auto bytes = trial.bytes(quantiser);
     if (!bytes) return fail(bytes.error());
     key_ = {8.0 * static_cast<double>(*bytes), quantiser};
-    const int next = affordable(key_, wanted).value_or(kMaxQuantiser);
+    const int next = affordable(key_, wanted, room()).value_or(kMaxQuantiser);
     if (next == quantiser) break;
     quantiser = next;
   }
   return quantiser;
 }
 
-Result<std::optional<int>> LivePatterns::later_quantiser(const Scene& scene, std::size_t shared) {
-  if (auto measured = measure(scene, shared); !measured) return fail(measured.error());
-  for (const SegmentErrors::Run& run : errors_.runs)
-    for (std::size_t i = 0; i < run.pictures; ++i) regret_.add(least_error(run.errors));
+Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
+  const auto quantiser = key_quantiser();
+  if (!quantiser) return fail(quantiser.error());
+  Plan plan{{0}, *quantiser, settings_.quantiser};
+  if (store_.segment().states.size() == 1) return plan;
+  auto draft = SegmentDraft::of_sources(store_, scene, plan.times, 0);
+  if (!draft) return fail(draft.error());
+  if (auto tried = try_coding(scene, *draft, *quantiser, settings_.reduced, 0); !tried)
+    return fail(tried.error());
+  learn(draft->coded.front().av1.size(), *quantiser, true);
+  if (auto measured = measure(draft->usable(scene), 1); !measured) return fail(measured.error());
+  const std::vector<double> least = least_errors(std::exchange(errors_, {}));
+  regret_.begin(least.front());
+  since_pattern_ = 0;
+  add_paying(least, 1, room() - key_.at(*quantiser) / 8, plan);
+  return plan;
+}
+
+Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size_t shared) {
+  auto draft = SegmentDraft::of_sources(store_, scene, {}, next_slot_);
+  if (!draft) return fail(draft.error());
+  if (auto measured = measure(draft->usable(scene), shared); !measured) return fail(measured.error());
+  Plan plan;
+  add_paying(least_errors(errors_), 0, room(), plan);
+  plan.first = plan.others;
+  return plan;
+}
+
+void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan) {
   const double price = rate_ ? rate_->price() : 1;
-  const Size& size = store_.segment().shots.size() > 1 ? key_ : later_;
-  const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price));
-  if (!quantiser || !regret_.pays(size.at(*quantiser), price * pattern_lambda(settings_.quantiser)))
-    return std::nullopt;
-  return quantiser;
+  std::ptrdiff_t last = -since_pattern_;  // pattern, or cut
+  bool cut = false;
+  const auto is_bought = [&]() {
+    const Size& size = cut ? key_ : later_;
+    const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price), room);
+    if (!quantiser || !pays(size.at(*quantiser), price)) return false;
+    plan.others = *quantiser;
+    return true;
+  };
+  std::size_t t = begin;
+  for (; t < least.size(); ++t) {
+    if (store_.segment().is_cut(t)) {
+      last = static_cast<std::ptrdiff_t>(t);
+      cut = true;
+    }
+    regret_.add(least[t]);
+    if (is_bought()) break;
+  }
+  if (t == least.size()) return;
+  if (!has_windows()) {  // nearest to what is not yet known
+    plan.times.push_back(cut ? static_cast<std::size_t>(last) : least.size() - 1);
+    return;
+  }
+  // It took so long to pay. The first has as long before it, of what is not yet drawn, as behind it, and the
+  // others follow as far apart.
+  const auto interval =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(t) - last));
+  const std::size_t from = last < 0 ? 0 : static_cast<std::size_t>(last);
+  const std::size_t end = least.size(), middle = interval < end ? from + interval / 2 : end - 1;
+  double spent = (cut ? key_ : later_).at(plan.others) / 8;
+  for (std::size_t p = std::clamp(middle, begin, end - 1); p < end && spent <= room; p += interval) {
+    plan.times.push_back(p);
+    spent += later_.at(plan.others) / 8;
+  }
 }
 
 VideoFormat LivePatterns::coded_format() const {
@@ -181,42 +264,47 @@ Result<void> LivePatterns::open(int quantiser, int speed) {
   return {};
 }
 
-Result<LivePatterns::Coded> LivePatterns::code(const Picture& picture) {
+Result<SequencePattern> LivePatterns::code(const Picture& picture) {
   auto frames = codec_->encoder.encode(picture, alone_);
   if (!frames) return fail(frames.error());
   if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
   auto decoded = codec_->decoder.decode(frames->front());
   if (!decoded) return fail(decoded.error());
-  return Coded{std::move(frames->front()), std::move(*decoded)};
+  return SequencePattern{0, std::move(frames->front()), std::move(*decoded)};
 }
 
-Result<LivePatterns::Sent> LivePatterns::code(const Scene& scene, std::size_t time, int quantiser) {
-  auto picture = store_.segment().pictures.read(time);
-  if (!picture) return fail(picture.error());
-  store_.reduce_contrast(scene, time, *picture);
-  if (settings_.reduced) *picture = downscaled(*picture);
+Result<SequencePattern> LivePatterns::code_next(const Picture& picture, int quantiser) {
+  const Picture sized = settings_.reduced ? downscaled(picture) : picture;
   const int now = speed();
-  const bool is_first = store_.is_first();
-  if (is_first) first_ = {*picture, quantiser, std::min(now, speeds_at(coded_format()).unhurried)};
+  const bool is_first = !codec_ && first_.picture.y.samples.empty();
+  if (is_first) first_ = {sized, quantiser, std::min(now, speeds_at(coded_format()).unhurried)};
   if (!codec_) {
     if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
     if (!is_first)
-      if (auto again = code(first_.picture); !again) return fail(again.error());
+      if (auto again = code(first_.picture); !again) return again;
   }
   if (!is_first)
     if (auto set = codec_->encoder.set(quantiser, now); !set) return fail(set.error());
-  auto coded = code(*picture);
-  if (!coded) return fail(coded.error());
-  learn(coded->av1.size(), quantiser);
   ++coded_lately_;
-  const std::size_t slot =
-      std::exchange(next_slot_, (next_slot_ + 1) % static_cast<std::size_t>(store_.slots()));
-  return Sent{time, slot, std::move(coded->av1), std::move(coded->decoded)};
+  return code(sized);
 }
 
-void LivePatterns::learn(std::size_t bytes, int quantiser) {
+Result<void> LivePatterns::try_coding(const Scene& scene, SegmentDraft& draft, int quantiser, bool reduced,
+                                      int boost) {
+  SequenceSettings trial;
+  trial.quantiser = quantiser;
+  trial.speed = kTrialSpeed;
+  trial.boost = boost;
+  trial.reduced = reduced;
+  auto coded = code_pattern_sequence(store_.format(), draft.to_code(store_, scene, workers_), trial);
+  if (!coded) return fail(coded.error());
+  draft.take(store_, scene, std::move(*coded));
+  return {};
+}
+
+void LivePatterns::learn(std::size_t bytes, int quantiser, bool key) {
   const double bits = 8.0 * static_cast<double>(bytes);
-  if (store_.is_first() || store_.segment().shots.size() > 1) {
+  if (key) {
     key_ = {bits, quantiser};
     if (later_.bits == 0) later_ = {kLaterShare * key_.at(settings_.quantiser), settings_.quantiser};
   } else {
@@ -224,96 +312,90 @@ void LivePatterns::learn(std::size_t bytes, int quantiser) {
   }
 }
 
-void LivePatterns::place(Scene& scene, const Sent& sent) {
-  errors_ = {};
-  const State& seen = store_.seen_state(scene, sent.time);
-  Pattern pattern = make_coded_pattern(sent.decoded, seen, scene.geometry, scene.setup);
-  pattern.slot = static_cast<std::int32_t>(sent.slot);
-  scene.patterns.store(std::move(pattern));
-}
-
-Result<void> LivePatterns::measure(const Scene& scene, std::size_t shared) {
+Result<void> LivePatterns::measure(const SegmentPatterns& patterns, std::size_t shared) {
   if (!errors_.runs.empty()) return {};
-  auto errors = mode_errors(store_.segment(), usable(scene), shared, workers_);
+  auto errors = mode_errors(store_.segment(), patterns, shared, workers_);
   if (!errors) return fail(errors.error());
   errors_ = std::move(*errors);
   return {};
 }
 
-Result<void> LivePatterns::choose(const Scene& scene, std::size_t shared) {
-  if (auto measured = measure(scene, shared); !measured) return measured;
+Result<void> LivePatterns::choose(const SegmentPatterns& patterns, std::size_t shared) {
+  if (auto measured = measure(patterns, shared); !measured) return measured;
   store_.set_modes(errors_.cheapest_modes(settings_.lambda, modes_));
   return {};
 }
 
-Result<std::vector<TypedPayload>> LivePatterns::packets(const Setup& setup, const std::optional<Sent>& sent) {
-  // A pattern comes between the motion and the modes of its picture, but the scene's first, which carries its
-  // state and to which motion is relative, before both.
-  const bool apart = sent && !store_.is_first();
-  SegmentStore::Coders& coders = store_.coders();
-  std::vector<TypedPayload> out;
-  const auto add_pattern = [&]() -> Result<void> {
-    if (!sent) return {};
-    PatternSyntax pattern = store_.pattern_syntax(sent->slot, sent->time, sent->av1);
-    pattern.alone = alone_ && !store_.is_first();
-    auto payload = coders.patterns.encode(std::span(&pattern, 1), setup,
-                                          store_.number_of(store_.segment().states.size()));
-    if (!payload) return fail(payload.error());
-    out.emplace_back(PacketType::kPattern, std::move(*payload));
-    return {};
-  };
-  if (apart)
-    for (Segment::Group& group : store_.segment().groups)
-      out.emplace_back(PacketType::kMotion, std::move(group.payload));
-  if (auto added = add_pattern(); !added) return fail(added.error());
-  std::size_t first = 0;
-  for (const Segment::Group& group : store_.segment().groups) {
-    const BlendGroup blend = store_.blend_group(coders.blends, first, group.pictures);
-    auto payload = apart ? coders.blends.encode(blend) : coders.blends.encode_in_unit(blend);
-    if (!payload) return fail(payload.error());
-    if (apart)
-      out.emplace_back(PacketType::kBlend, std::move(*payload));
-    else
-      out.emplace_back(PacketType::kUnit, unit_payload(group.payload, *payload));
-    first += group.pictures;
+Result<SegmentDraft> LivePatterns::make(const Scene& scene, const Plan& plan, const StateRefit& refit) {
+  auto draft = SegmentDraft::of_sources(store_, scene, plan.times, next_slot_);
+  if (!draft) return draft;
+  const std::size_t shared = shared_before(refit, store_.format());
+  if (!plan.times.empty()) {
+    errors_ = {};
+    if (solves()) {
+      // As a file's: see PatternPass::make().
+      if (auto tried = try_coding(scene, *draft, plan.others, true, SequenceSettings{}.boost); !tried)
+        return fail(tried.error());
+      if (auto chosen = choose(draft->usable(scene), kDraftShared); !chosen) return fail(chosen.error());
+      errors_ = {};
+      SolverSettings solver;
+      solver.pull = kPull;
+      if (auto solved = draft->solve(store_, scene, solver, workers_); !solved) return fail(solved.error());
+    }
+    std::vector<SequencePattern> coded;
+    for (const Picture& picture : draft->to_code(store_, scene, workers_)) {
+      const std::size_t k = coded.size();
+      const int quantiser = k == 0 ? plan.first : plan.others;
+      auto next = code_next(picture, quantiser);
+      if (!next) return fail(next.error());
+      learn(next->av1.size(), quantiser, k == 0 && (store_.is_first() || store_.segment().shots.size() > 1));
+      next->picture = k;
+      coded.push_back(std::move(*next));
+    }
+    draft->take(store_, scene, std::move(coded));
   }
-  return out;
+  if (auto chosen = choose(draft->usable(scene), shared); !chosen) return fail(chosen.error());
+  if (!refit) return draft;
+  if (auto done = refit(store_.segment(), draft->usable(scene), workers_); !done) return fail(done.error());
+  errors_ = {};
+  draft->place(store_, scene);  // patterns depend on their seen states
+  if (auto chosen = choose(draft->usable(scene), 1); !chosen) return fail(chosen.error());
+  return draft;
 }
 
-Result<std::optional<LivePatterns::Sent>> LivePatterns::make(Scene& scene, std::optional<int> quantiser,
-                                                             const StateRefit& refit) {
-  std::optional<Sent> sent;
-  const std::size_t time = pattern_time();
-  if (quantiser) {
-    auto coded = code(scene, time, *quantiser);
-    if (!coded) return fail(coded.error());
-    sent.emplace(std::move(*coded));
-    place(scene, *sent);
+void LivePatterns::count_regret(const Plan& plan) {
+  const auto pictures = static_cast<std::ptrdiff_t>(store_.segment().states.size());
+  if (plan.times.empty()) {  // its pictures have been counted
+    since_pattern_ += pictures;
+    if (store_.segment().shots.size() > 1)
+      since_pattern_ = static_cast<std::ptrdiff_t>(store_.segment().shots.back().pictures);
+    return;
   }
-  if (auto chosen = choose(scene, shared_before(refit, store_.format())); !chosen)
-    return fail(chosen.error());
-  if (refit) {
-    if (auto done = refit(store_.segment(), usable(scene), workers_); !done) return fail(done.error());
-    errors_ = {};
-    if (sent) place(scene, *sent);
-    if (auto chosen = choose(scene, 1); !chosen) return fail(chosen.error());
-  }
-  if (sent) regret_.begin(error_of(errors_.runs[time].errors, store_.segment().states[time].blend));
-  return sent;
+  const std::size_t last = plan.times.back();
+  std::size_t t = 0;
+  for (const SegmentErrors::Run& run : errors_.runs)
+    for (std::size_t i = 0; i < run.pictures; ++i, ++t) {
+      if (t == last) regret_.begin(error_of(run.errors, store_.segment().states[t].blend));
+      if (t > last) regret_.add(least_error(run.errors));
+    }
+  since_pattern_ = pictures - static_cast<std::ptrdiff_t>(last);
 }
 
 Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
                                                             const StateRefit& refit) {
   if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
-  const StateRefit used = settings_.refits && !store_.is_first() ? refit : StateRefit{};
-  Result<std::optional<int>> quantiser = store_.is_first()
-                                             ? Result<std::optional<int>>(key_quantiser())
-                                             : later_quantiser(scene, shared_before(used, store_.format()));
-  if (!quantiser) return fail(quantiser.error());
-  const auto sent = make(scene, *quantiser, used);
-  if (!sent) return fail(sent.error());
-  auto out = packets(scene.setup, *sent);
+  const bool alone = store_.is_first() && store_.segment().states.size() == 1;
+  const StateRefit used = settings_.refits && !alone ? refit : StateRefit{};
+  const auto plan =
+      store_.is_first() ? plan_first(scene) : plan_next(scene, shared_before(used, store_.format()));
+  if (!plan) return fail(plan.error());
+  const auto draft = make(scene, *plan, used);
+  if (!draft) return fail(draft.error());
+  auto out = draft->packets(store_, scene.setup, store_.coders(), alone_);
   if (!out) return out;
+  draft->keep(store_, scene);
+  next_slot_ = (next_slot_ + plan->times.size()) % static_cast<std::size_t>(store_.slots());
+  count_regret(*plan);
   const double seconds = store_.seconds();
   coded_lately_ = std::max(0.0, coded_lately_ - unhurried_per_second(coded_format()) * seconds);
   if (rate_) rate_->add(static_cast<double>(other_bytes + bytes_of(*out)), seconds);

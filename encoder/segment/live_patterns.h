@@ -1,4 +1,4 @@
-// Patterns of a live scene: sent when they pay for past pictures, without look-ahead.
+// Patterns of a live scene: sent when they pay for past pictures, and solved for where the delay is long.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,27 @@
 #include "encoder/plan/live_rate.h"
 #include "encoder/plan/pattern_regret.h"
 #include "encoder/segment/pattern_stage.h"
-#include "encoder/segment/segment_blend.h"
-#include "encoder/segment/segment_store.h"
+#include "encoder/segment/segment_draft.h"
 
 namespace fbs {
 
 struct LivePatternSettings {
+  double delay = 0.2;       ///< LiveSettings::delay
+  bool solves = false;      ///< for patterns, where the delay is long
   int quantiser = 58;       ///< libaom's scale, 0..63; for all patterns but a scene's first
   bool reduced = false;     ///< patterns are coded at half width and height
   double lambda = 0;        ///< squared luma levels that a bit of blend modes is worth
   bool refits = true;       ///< states are fitted to the blend
   double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
   double buffer = 0;        ///< LiveSettings::buffer
+  double key_interval = 0;  ///< most pictures of a scene; 0: no limit
   int groups_per_key = 1;   ///< SceneTiming::groups_per_key
   bool alone = false;       ///< each pattern needs the first alone
   int threads = 1;          ///< at least 1; the stream is the same
 };
 
-/// Each group is a segment: its packets are ready as soon as its pictures are known. A pattern shows the last
-/// picture of its group, or the first of another shot, and is used from that group on.
+/// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
+/// of a long delay. Patterns go on from window to window as one AV1 sequence without look-ahead.
 class LivePatterns : public PatternStage {
  public:
   /// @param rest  seen state of pattern 0 as coded
@@ -47,22 +49,18 @@ class LivePatterns : public PatternStage {
   void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
     store_.add(states, std::move(payload));
   }
-  [[nodiscard]] bool segment_ends(std::size_t /*next*/) const override { return true; }
+  [[nodiscard]] bool segment_ends(std::size_t next) const override;
   [[nodiscard]] std::size_t pictures() const override { return store_.segment().pictures.count(); }
   [[nodiscard]] std::int32_t store() const override { return store_.slots(); }
   [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
                                                               const StateRefit& refit) override;
 
  private:
-  /// A pattern of the segment.
-  struct Sent {
-    std::size_t time;  ///< picture of the segment that it shows
-    std::size_t slot;
-    std::vector<std::uint8_t> av1;
-    Picture decoded;
+  /// Patterns to be made of the segment.
+  struct Plan {
+    std::vector<std::size_t> times;  ///< their pictures, rising
+    int first = 0, others = 0;       ///< quantisers
   };
-  /// Picture of the segment that a pattern would show.
-  [[nodiscard]] std::size_t pattern_time() const;
   /// Predicted bits of a pattern: those of the last one like it.
   struct Size {
     double bits = 0;
@@ -71,12 +69,29 @@ class LivePatterns : public PatternStage {
   };
   /// The quantiser to code the scene's first pattern with.
   [[nodiscard]] Result<int> key_quantiser();
-  /// The quantiser to code another pattern with; nothing: none is needed, or none can be sent.
+  /// Plans a scene's first segment.
+  [[nodiscard]] Result<Plan> plan_first(const Scene& scene);
+  /// Plans another one, by the errors of its pictures without patterns of their own.
   /// @param shared  unknown errors are shared by at most this many pictures
-  [[nodiscard]] Result<std::optional<int>> later_quantiser(const Scene& scene, std::size_t shared);
-  /// The finest quantiser, no finer than `from`, at which a pattern may be sent now; nothing: even the
-  /// coarsest takes too much.
-  [[nodiscard]] std::optional<int> affordable(const Size& size, int from) const;
+  [[nodiscard]] Result<Plan> plan_next(const Scene& scene, std::size_t shared);
+  /// Adds patterns that pay.
+  /// @param least   error of each picture
+  /// @param begin   picture from which on they count
+  /// @param room    bytes that may be sent now
+  void add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan);
+  /// The finest quantiser, no finer than `from`, at which a pattern fits; nothing: even the coarsest takes
+  /// too much.
+  /// @param room  bytes that may be sent now
+  [[nodiscard]] static std::optional<int> affordable(const Size& size, int from, double room);
+  /// Bytes that may be sent now.
+  [[nodiscard]] double room() const;
+  /// Whether patterns are solved for.
+  [[nodiscard]] bool solves() const { return settings_.solves && has_windows(); }
+  /// Whether the delay is long enough for segments of several groups.
+  [[nodiscard]] bool has_windows() const;
+  /// Whether a pattern of these bits pays.
+  /// @param price  LiveRate::price()
+  [[nodiscard]] bool pays(double bits, double price) const;
   /// The size at which patterns are coded.
   [[nodiscard]] VideoFormat coded_format() const;
   /// libaom's speed for the next pattern: hasty where many have been coded lately.
@@ -84,29 +99,25 @@ class LivePatterns : public PatternStage {
   /// Begins an AV1 sequence.
   Result<void> open(int quantiser, int speed);
   /// Codes a pattern, as the decoder will have it.
-  struct Coded {
-    std::vector<std::uint8_t> av1;
-    Picture decoded;
-  };
-  [[nodiscard]] Result<Coded> code(const Picture& picture);
-  /// Codes a picture of the segment.
-  [[nodiscard]] Result<Sent> code(const Scene& scene, std::size_t time, int quantiser);
+  [[nodiscard]] Result<SequencePattern> code(const Picture& picture);
+  /// Codes the next pattern of the scene.
+  /// @param picture  of full size
+  [[nodiscard]] Result<SequencePattern> code_next(const Picture& picture, int quantiser);
+  /// Codes patterns on trial.
+  Result<void> try_coding(const Scene& scene, SegmentDraft& draft, int quantiser, bool reduced, int boost);
   /// Records the bytes of a pattern.
-  void learn(std::size_t bytes, int quantiser);
-  /// Puts the pattern into the store, seen in its picture's present state.
-  void place(Scene& scene, const Sent& sent);
-  [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
+  /// @param key  most of it could not be predicted
+  void learn(std::size_t bytes, int quantiser, bool key);
   /// Computes errors_ if they are unknown.
   /// @param shared  by at most this many pictures
-  Result<void> measure(const Scene& scene, std::size_t shared);
+  Result<void> measure(const SegmentPatterns& patterns, std::size_t shared);
   /// Sets the blend modes of the segment.
-  Result<void> choose(const Scene& scene, std::size_t shared);
-  /// Makes a pattern at this quantiser, if any, and sets states and blend modes.
+  Result<void> choose(const SegmentPatterns& patterns, std::size_t shared);
+  /// Makes the patterns, and sets states and blend modes.
   /// @param refit  empty: states stay as they are
-  [[nodiscard]] Result<std::optional<Sent>> make(Scene& scene, std::optional<int> quantiser,
-                                                 const StateRefit& refit);
-  [[nodiscard]] Result<std::vector<TypedPayload>> packets(const Setup& setup,
-                                                          const std::optional<Sent>& sent);
+  [[nodiscard]] Result<SegmentDraft> make(const Scene& scene, const Plan& plan, const StateRefit& refit);
+  /// Remembers what pictures have lost since the last pattern.
+  void count_regret(const Plan& plan);
 
   /// An AV1 sequence, and what the decoder makes of it.
   struct Codec {
@@ -128,7 +139,8 @@ class LivePatterns : public PatternStage {
   } first_;     ///< pattern, as it was coded
   bool alone_;  ///< LivePatternSettings::alone, or a pattern has been lost
   PatternRegret regret_;
-  RegionModes modes_{};  ///< of the last picture
+  std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
+  RegionModes modes_{};               ///< of the last picture
   std::size_t next_slot_ = 0;
   SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
 };

@@ -20,6 +20,9 @@ constexpr int kLiveFiner = 2;
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
                                   const VideoFormat& format) {
   LivePatternSettings out;
+  out.delay = settings.live->delay;
+  const Effort effort = Effort::of(settings.effort);
+  out.solves = effort.solves;
   out.reduced = settings.reduced_patterns.value_or(large_enough_to_reduce(format));
   const int halvings = out.reduced ? 1 : 0;
   const PatternPoint point = PatternPoint::at(settings.quality);
@@ -27,9 +30,10 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
                       ? settings.pattern_quantiser
                       : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
   out.lambda = motion.lambda;
-  out.refits = Effort::of(settings.effort).refits > 0 && !settings.track_only;
+  out.refits = effort.refits > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
+  out.key_interval = key_interval_of(settings, format);
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
   out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's

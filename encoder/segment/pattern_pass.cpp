@@ -81,54 +81,14 @@ bool PatternPass::segment_ends(std::size_t next) const {
   return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
 }
 
-Result<PatternPass::Draft> PatternPass::draft_of(const Scene& scene) {
-  Draft draft;
-  draft.times = times_wanted();
-  for (const std::size_t time : draft.times) {
-    auto source = store_.segment().pictures.read(time);
-    if (!source) return fail(source.error());
-    draft.pictures.push_back(std::move(*source));
-  }
-  // Before coding, assume patterns in display order and without loss.
-  for (std::size_t k = 0; k < draft.times.size(); ++k) draft.coded.push_back({k, {}, draft.pictures[k]});
-  place(scene, draft);
-  return draft;
-}
-
-Pattern PatternPass::pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const {
-  const State& seen = store_.seen_state(scene, time);
-  return p.av1.empty() ? make_pattern(p.decoded, seen, scene.geometry)
-                       : make_coded_pattern(p.decoded, seen, scene.geometry, scene.setup);
-}
-
-void PatternPass::place(const Scene& scene, Draft& draft) const {
-  draft.shown.clear();
-  draft.patterns = scene.patterns;
-  if (store_.is_first()) draft.patterns.clear();
-  for (const SequencePattern& p : draft.coded) {
-    draft.shown.push_back(draft.times[p.picture]);
-    draft.patterns.push_back(pattern_of(scene, p, draft.times[p.picture]));
-  }
-  draft.arrived = arrivals(store_.segment(), draft.shown, store_.is_first());
-}
-
-SegmentPatterns PatternPass::usable(const Scene& scene, const Draft& draft) {
-  SegmentPatterns out{{*scene.geometry, scene.setup.mouth, draft.patterns}, {}};
-  const std::size_t old = draft.patterns.size() - draft.coded.size(), slots = scene.setup.patterns;
-  for (const std::size_t arrived : draft.arrived) {
-    // In the order of the decoder's slots: each new pattern replaces the old one in its slot.
-    AvailablePatterns available(std::max(old, std::min(arrived, slots)));
-    for (std::size_t slot = 0; slot < available.size(); ++slot)
-      available[slot] = slot < arrived ? old + slot + (arrived - 1 - slot) / slots * slots : slot;
-    out.available.push_back(std::move(available));
-  }
-  return out;
+Result<SegmentDraft> PatternPass::draft_of(const Scene& scene) const {
+  return SegmentDraft::of_sources(store_, scene, times_wanted(), 0);
 }
 
 Result<double> PatternPass::loss_between(const Scene& scene) {
   const auto draft = draft_of(scene);
   if (!draft) return fail(draft.error());
-  return blend_loss(store_.segment(), usable(scene, *draft), kLossEvery, workers_);
+  return blend_loss(store_.segment(), draft->usable(scene), kLossEvery, workers_);
 }
 
 int PatternPass::quantiser_at(bool reduced) const {
@@ -209,91 +169,42 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
   return {};
 }
 
-Result<void> PatternPass::choose(const Scene& scene, const Draft& draft, std::size_t most) {
-  const auto errors = mode_errors(store_.segment(), usable(scene, draft), most, workers_);
+Result<void> PatternPass::choose(const Scene& scene, const SegmentDraft& draft, std::size_t most) {
+  const auto errors = mode_errors(store_.segment(), draft.usable(scene), most, workers_);
   if (!errors) return fail(errors.error());
   store_.set_modes(errors->cheapest_modes(settings_.lambda));
   return {};
 }
 
-Result<void> PatternPass::solve(const Scene& scene, Draft& draft) {
-  auto solved =
-      solve_patterns(store_.segment(), usable(scene, draft), draft.coded.size(), SolverSettings{}, workers_);
-  if (!solved) return fail(solved.error());
-  for (std::size_t k = 0; k < solved->size(); ++k)
-    draft.pictures[draft.coded[k].picture] = std::move((*solved)[k]);
-  return {};
-}
-
-Result<void> PatternPass::code(const Scene& scene, Draft& draft, const SequenceSettings& coding) {
-  std::vector<Picture> pictures = draft.pictures;
-  workers_.run(static_cast<int>(pictures.size()),
-               [&](int k, int) { store_.reduce_contrast(scene, draft.times[k], pictures[k]); });
-  auto coded = code_pattern_sequence(store_.format(), pictures, coding);
+Result<void> PatternPass::code(const Scene& scene, SegmentDraft& draft, const SequenceSettings& coding) {
+  auto coded = code_pattern_sequence(store_.format(), draft.to_code(store_, scene, workers_), coding);
   if (!coded) return fail(coded.error());
-  draft.coded = std::move(*coded);
-  place(scene, draft);
+  draft.take(store_, scene, std::move(*coded));
   return {};
 }
 
-Result<std::vector<TypedPayload>> PatternPass::coded_packets(const Setup& setup, const Draft& draft,
-                                                             SegmentStore::Coders& coders) const {
-  std::vector<PatternSyntax> patterns;
-  std::vector<std::size_t> bytes;
-  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    patterns.push_back(store_.pattern_syntax(k % store_.slots(), draft.shown[k], draft.coded[k].av1));
-    bytes.push_back(patterns.back().av1.size());
-  }
-  std::vector<TypedPayload> out;
-  std::size_t moved = 0, drawn = 0;
-  for (const PlannedPacket& p : in_stream_order(store_.segment(), draft.shown, draft.arrived, bytes)) {
-    Result<std::vector<std::uint8_t>> payload;
-    if (p.type == PacketType::kPattern) {
-      payload = coders.patterns.encode(std::span(patterns).subspan(p.first, p.count), setup,
-                                       store_.number_of(moved));
-    } else if (const Segment::Group& group = store_.segment().groups[p.first];
-               p.type == PacketType::kMotion) {
-      payload = group.payload;
-      moved += group.pictures;
-    } else {
-      payload = coders.blends.encode(store_.blend_group(coders.blends, drawn, group.pictures));
-      drawn += group.pictures;
-    }
-    if (!payload) return fail(payload.error());
-    out.emplace_back(p.type, std::move(*payload));
-  }
-  return out;
-}
-
-Result<double> PatternPass::taken_by(const Setup& setup, const Draft& draft) const {
+Result<double> PatternPass::taken_by(const Setup& setup, const SegmentDraft& draft) const {
   SegmentStore::Coders coders = store_.coders();
-  const auto packets = coded_packets(setup, draft, coders);
+  const auto packets = draft.packets(store_, setup, coders);
   if (!packets) return fail(packets.error());
   return static_cast<double>(bytes_of(*packets));
 }
 
-Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, Draft& draft) {
-  auto out = coded_packets(scene.setup, draft, store_.coders());
+Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const SegmentDraft& draft) {
+  auto out = draft.packets(store_, scene.setup, store_.coders());
   if (!out) return out;
-  // The decoder's slots after the segment.
-  const std::size_t old = draft.patterns.size() - draft.coded.size();
-  if (store_.is_first()) scene.patterns.clear();
-  for (std::size_t k = 0; k < draft.coded.size(); ++k) {
-    Pattern pattern = draft.patterns[old + k];
-    pattern.slot = static_cast<std::int32_t>(k % store_.slots());
-    scene.patterns.store(std::move(pattern));
-  }
+  draft.keep(store_, scene);
   store_.end_segment();
   return out;
 }
 
-Result<void> PatternPass::refit_states(const Scene& scene, Draft& draft, const StateRefit& refit) {
-  if (auto done = refit(store_.segment(), usable(scene, draft), workers_); !done) return done;
-  place(scene, draft);  // patterns depend on their seen states
+Result<void> PatternPass::refit_states(const Scene& scene, SegmentDraft& draft, const StateRefit& refit) {
+  if (auto done = refit(store_.segment(), draft.usable(scene), workers_); !done) return done;
+  draft.place(store_, scene);  // patterns depend on their seen states
   return {};
 }
 
-Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
+Result<SegmentDraft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
   auto draft = draft_of(scene);
   if (!draft) return draft;
   if (settings_.effort.solves) {
@@ -302,7 +213,8 @@ Result<PatternPass::Draft> PatternPass::make(const Scene& scene, const StateRefi
     if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
     if (auto chosen = choose(scene, *draft, settings_.effort.draft_pictures); !chosen)
       return fail(chosen.error());
-    if (auto solved = solve(scene, *draft); !solved) return fail(solved.error());
+    if (auto solved = draft->solve(store_, scene, SolverSettings{}, workers_); !solved)
+      return fail(solved.error());
   }
   if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
   // A lone pattern is close to the picture that the states were fitted to.
@@ -348,10 +260,10 @@ Result<void> PatternPass::aim(const Scene& scene, double bytes) {
   return {};
 }
 
-Result<void> PatternPass::meet(const Scene& scene, double bytes, Draft& draft) {
+Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& draft) {
   // The nearest known quantisers with too many bytes and with few enough.
   int over = -1, under = 64;
-  Draft best = draft;
+  SegmentDraft best = draft;
   double nearest = 0;
   for (int trial = 0;; ++trial) {
     const auto taken = taken_by(scene.setup, draft);

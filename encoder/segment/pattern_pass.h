@@ -10,10 +10,9 @@
 
 #include "common/workers.h"
 #include "decoder/scene/scene.h"
-#include "encoder/patterns/pattern_sequence.h"
 #include "encoder/plan/pattern_point.h"
 #include "encoder/segment/pattern_stage.h"
-#include "encoder/segment/segment_store.h"
+#include "encoder/segment/segment_draft.h"
 
 namespace fbs {
 
@@ -52,17 +51,8 @@ class PatternPass : public PatternStage {
                                                               const StateRefit& refit) override;
 
  private:
-  /// Patterns of the segment in the making.
-  struct Draft {
-    std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
-    std::vector<Picture> pictures;   ///< to be coded, in the order of times
-    std::vector<SequencePattern> coded;
-    std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
-    std::vector<std::size_t> arrived;  ///< arrivals()
-    PatternList patterns;              ///< those from before the segment, then those of the segment as coded
-  };
   /// Makes a draft whose patterns are source pictures.
-  [[nodiscard]] Result<Draft> draft_of(const Scene& scene);
+  [[nodiscard]] Result<SegmentDraft> draft_of(const Scene& scene) const;
   /// Error of the pictures between lossless patterns.
   [[nodiscard]] Result<double> loss_between(const Scene& scene);
   /// Pictures of the segment that are to become patterns.
@@ -72,20 +62,15 @@ class PatternPass : public PatternStage {
   [[nodiscard]] Result<bool> reduced_size_pays(const Scene& scene);
   /// Consecutive patterns from the middle of the segment.
   [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
-  /// The pattern as the decoder makes it; from the source picture if it is not coded yet.
-  [[nodiscard]] Pattern pattern_of(const Scene& scene, const SequencePattern& p, std::size_t time) const;
-  void place(const Scene& scene, Draft& draft) const;
-  [[nodiscard]] static SegmentPatterns usable(const Scene& scene, const Draft& draft);
   /// @param most  at most this many pictures share modes
-  Result<void> choose(const Scene& scene, const Draft& draft, std::size_t most);
-  Result<void> solve(const Scene& scene, Draft& draft);
-  Result<void> code(const Scene& scene, Draft& draft, const SequenceSettings& coding);
+  Result<void> choose(const Scene& scene, const SegmentDraft& draft, std::size_t most);
+  Result<void> code(const Scene& scene, SegmentDraft& draft, const SequenceSettings& coding);
   /// Settings for trial coding of patterns.
   [[nodiscard]] SequenceSettings trial_coding(bool reduced) const;
   /// Solves for patterns, codes them, chooses modes and fits states again, as the settings say.
-  [[nodiscard]] Result<Draft> make(const Scene& scene, const StateRefit& refit);
+  [[nodiscard]] Result<SegmentDraft> make(const Scene& scene, const StateRefit& refit);
   /// Fits the states again; patterns take the new states of their pictures.
-  Result<void> refit_states(const Scene& scene, Draft& draft, const StateRefit& refit);
+  Result<void> refit_states(const Scene& scene, SegmentDraft& draft, const StateRefit& refit);
   [[nodiscard]] int quantiser_at(bool reduced) const;
   void set_size(bool reduced);
   /// The highest quality at which the segment, by quick trials, takes no more than `bytes`.
@@ -94,14 +79,11 @@ class PatternPass : public PatternStage {
   Result<void> aim(const Scene& scene, double bytes);
   /// Codes the patterns again with other quantisers until the segment takes this many bytes, within a few
   /// percent.
-  Result<void> meet(const Scene& scene, double bytes, Draft& draft);
+  Result<void> meet(const Scene& scene, double bytes, SegmentDraft& draft);
   /// All packets of the segment.
-  [[nodiscard]] Result<double> taken_by(const Setup& setup, const Draft& draft) const;
-  /// The segment's packets in stream order.
-  [[nodiscard]] Result<std::vector<TypedPayload>> coded_packets(const Setup& setup, const Draft& draft,
-                                                                SegmentStore::Coders& coders) const;
-  /// The same; ends the segment.
-  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, Draft& draft);
+  [[nodiscard]] Result<double> taken_by(const Setup& setup, const SegmentDraft& draft) const;
+  /// The segment's packets in stream order; ends it.
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(Scene& scene, const SegmentDraft& draft);
 
   PatternPassSettings settings_;
   Workers workers_;

@@ -32,7 +32,7 @@ std::vector<std::size_t> arrivals(const Segment& segment, std::span<const std::s
   const bool waits_for_one =
       first_alone && segment.groups.size() > 1;  // the last group brings all that is left
   std::vector<std::size_t> out;
-  std::size_t end = 0, sent = 1;
+  std::size_t end = 0, sent = std::min<std::size_t>(1, shown.size());
   for (const Segment::Group& group : segment.groups) {
     end += group.pictures;
     if (!out.empty() || !waits_for_one) {

@@ -53,7 +53,7 @@ typedef struct fbs_encoder_settings {
   double key_interval; /**< longest time between places to join, seconds; 0 (default): up to 40,
                             live 10, 20 with FBS_RESILIENCE_STRONG, 40 with `join` */
   int live;            /**< 1: no look-ahead; default 0 */
-  double live_delay;   /**< live: seconds of pictures that are coded as a group; default 0.2 */
+  double live_delay;   /**< live: seconds of pictures that are coded together; default 0.2 */
   double live_buffer;  /**< live, with bitrate: longest time that data waits to be sent, seconds; default 2 */
   int threads;         /**< that encode; the stream is the same for any number. 0 (default): as many as there
                             are cores */

@@ -85,7 +85,7 @@ class Encoder:
     live : bool
         No look-ahead.
     live_delay : float
-        Seconds of pictures that are encoded as a group.
+        Seconds of pictures that are encoded together. More take fewer bytes.
     live_buffer : float
         With `bitrate`: longest time that data waits to be sent, s.
     resilience : {"none", "packet", "strong"}

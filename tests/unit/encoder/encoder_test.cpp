@@ -388,7 +388,7 @@ TEST(Encoder, GroupsHoldAsManyPicturesAsAsked) {
     reader.close();
     int motion = 0;
     for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next())
-      motion += read->packet.type == PacketType::kMotion ? 1 : 0;
+      motion += read->packet.type == PacketType::kMotion || read->packet.type == PacketType::kUnit ? 1 : 0;
     const int later = static_cast<int>(shortly().size()) - 1;
     EXPECT_EQ(motion, 1 + (later + group - 1) / group);
   }

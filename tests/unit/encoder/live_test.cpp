@@ -27,10 +27,11 @@ TalkerClip& clip() {
   return c;
 }
 
-EncoderSettings live_settings() {
+/// @param delay  pictures
+EncoderSettings live_settings(int delay = kGroup) {
   EncoderSettings settings;
   settings.live.emplace();
-  settings.live->delay = static_cast<double>(kGroup) / kPicturesPerSecond;
+  settings.live->delay = static_cast<double>(delay) / kPicturesPerSecond;
   settings.threads = 1;
   return settings;
 }
@@ -83,13 +84,28 @@ double psnr_of(std::span<const Picture> shown) {
 }
 
 TEST(Live, PicturesAreShownAfterTheDelay) {
-  LiveLine line;
-  for (int i = 0; i < kPictures; ++i) {
-    line.push(clip()[i]);
-    EXPECT_GT(static_cast<int>(line.shown.size()), i - kGroup) << i;
+  for (const int delay : {kGroup, 18, 25}) {
+    LiveLine line(live_settings(delay));
+    for (int i = 0; i < kPictures; ++i) {
+      line.push(clip()[i]);
+      EXPECT_GE(static_cast<int>(line.shown.size()), i - delay - 1) << i;
+    }
+    line.finish();
+    EXPECT_EQ(line.shown.size(), std::size_t{kPictures});
   }
-  line.finish();
-  EXPECT_EQ(line.shown.size(), std::size_t{kPictures});
+}
+
+TEST(Live, ALongDelayTakesFewerBytes) {
+  const auto coded = [](int delay) {
+    LiveLine line(live_settings(delay));
+    for (int i = 0; i < kPictures; ++i) line.push(clip()[i]);
+    line.finish();
+    return std::pair{line.stream.size(), psnr_of(line.shown)};
+  };
+  const auto [bytes, psnr] = coded(kGroup);
+  const auto [late_bytes, late_psnr] = coded(kPicturesPerSecond);
+  EXPECT_LT(late_bytes, bytes);
+  EXPECT_GT(late_psnr, psnr - 0.2);
 }
 
 TEST(Live, PicturesAreFit) {
@@ -105,11 +121,15 @@ TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
   EXPECT_EQ(line.patterns, 1U);
 }
 
-// The room changes as much as by a cut, but without one: the light of half of it changes.
+/// The room changes as much as by a cut, but without one.
+Picture in_other_light(Picture picture) {
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width() / 4; ++x) picture.y.row(y)[x] = static_cast<std::uint8_t>(x + y);
+  return picture;
+}
+
 TEST(Live, AChangeIsSentWithItsGroup) {
-  Picture changed = clip()[0];
-  for (int y = 0; y < changed.height(); ++y)
-    for (int x = 0; x < changed.width() / 4; ++x) changed.y.row(y)[x] = static_cast<std::uint8_t>(x + y);
+  const Picture changed = in_other_light(clip()[0]);
   LiveLine line;
   for (int i = 0; i < 3 * kGroup + 1; ++i) line.push(clip()[0]);
   const auto error = [&] { return squared_error(line.shown.back().y, changed.y).psnr(); };
@@ -195,14 +215,15 @@ std::vector<bool> alone_in(std::span<const std::uint8_t> stream) {
 
 TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
   EncoderSettings settings = live_settings();
-  settings.quality = 90;  // more patterns
+  settings.quality = 100;  // more patterns
   settings.live->resilience = Resilience::kPacket;
-  for (const int threads : {1, 2}) {
+  for (const auto& [threads, delay] : {std::pair{1, kGroup}, {2, kGroup}}) {
     settings.threads = threads;
+    settings.live->delay = static_cast<double>(delay) / kPicturesPerSecond;
     LiveLine line(settings);
     for (int i = 0; i < kPictures; ++i) {
       if (i == kPictures / 2) line.lose_patterns();
-      line.push(clip()[i]);
+      line.push(i < kPictures / 2 ? clip()[i] : in_other_light(clip()[i]));
     }
     line.finish();
     const std::vector<bool> alone = alone_in(line.stream);
@@ -211,7 +232,7 @@ TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
     EXPECT_FALSE(alone.front());
     EXPECT_TRUE(alone.back());
     ASSERT_EQ(line.shown.size(), std::size_t{kPictures});
-    EXPECT_GT(psnr_of(line.shown), 27);
+    EXPECT_GT(psnr_of(std::span(line.shown).first(kPictures / 2)), 27);
   }
   EXPECT_FALSE(Encoder::create(clip().format(), {})->lose_patterns());
 }
@@ -228,6 +249,8 @@ TEST(Live, ThreadsChangeNothing) {
   EncoderSettings with_rate = live_settings();
   with_rate.bitrate = 6;
   EXPECT_EQ(encoded(with_rate, 2), encoded(with_rate, 1));
+  with_rate.live->delay = 1;
+  EXPECT_EQ(encoded(with_rate, 3), encoded(with_rate, 1));
 }
 
 TEST(Live, BytesBecomeReadyWithoutAnotherPicture) {
@@ -245,8 +268,11 @@ TEST(Live, BytesBecomeReadyWithoutAnotherPicture) {
   EXPECT_EQ(groups, 6U);
 }
 
-TEST(Live, ViewersCanJoin) {
-  EncoderSettings settings = live_settings();
+class LiveDelay : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Live, LiveDelay, testing::Values(kGroup, 15));
+
+TEST_P(LiveDelay, ViewersCanJoin) {
+  EncoderSettings settings = live_settings(GetParam());
   settings.key_interval = 1;
   auto encoder = Encoder::create(clip().format(), settings);
   ASSERT_TRUE(encoder);

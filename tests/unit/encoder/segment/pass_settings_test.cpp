@@ -95,6 +95,9 @@ TEST(PassSettings, OnlyALiveStageEndsASegmentWithEachGroup) {
     EXPECT_TRUE(make(live(), kMotion, format(), rest)->segment_ends(5));
     EXPECT_FALSE(make({}, kMotion, format(), rest)->segment_ends(5));
     EXPECT_EQ(make(live(), kMotion, format(), rest)->store(), pattern_store(format()));
+    EncoderSettings late = live();
+    late.live->delay = 1;
+    EXPECT_FALSE(make(late, kMotion, format(), rest)->segment_ends(5));
   }
 }
 

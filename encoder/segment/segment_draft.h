@@ -1,0 +1,57 @@
+// Patterns of a segment in the making.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/workers.h"
+#include "decoder/scene/scene.h"
+#include "encoder/patterns/pattern_sequence.h"
+#include "encoder/segment/segment_blend.h"
+#include "encoder/segment/segment_store.h"
+
+namespace fbs {
+
+struct SegmentDraft {
+  std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
+  std::vector<Picture> pictures;   ///< to be coded, in the order of times
+  std::vector<SequencePattern> coded;
+  std::size_t first_slot = 0;        ///< of the first in coding order; the others follow, around the store
+  std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
+  std::vector<std::size_t> arrived;  ///< arrivals()
+  PatternList patterns;              ///< those from before the segment, then those of the segment as coded
+
+  /// A draft whose patterns are source pictures, without loss and in display order.
+  [[nodiscard]] static Result<SegmentDraft> of_sources(const SegmentStore& store, const Scene& scene,
+                                                       std::vector<std::size_t> times,
+                                                       std::size_t first_slot);
+
+  /// The pictures as patterns have them: of reduced contrast.
+  [[nodiscard]] std::vector<Picture> to_code(const SegmentStore& store, const Scene& scene,
+                                             Workers& workers) const;
+  /// Takes the patterns as coded.
+  void take(const SegmentStore& store, const Scene& scene, std::vector<SequencePattern> patterns_coded);
+  /// Makes the patterns again, seen in the present states of their pictures.
+  void place(const SegmentStore& store, const Scene& scene);
+
+  [[nodiscard]] SegmentPatterns usable(const Scene& scene) const;
+  /// Replaces the pictures by those that draw the segment best in its present modes.
+  Result<void> solve(const SegmentStore& store, const Scene& scene, const SolverSettings& settings,
+                     Workers& workers);
+
+  /// The segment's packets in stream order.
+  /// @param alone  each pattern but the scene's first needs that one alone
+  [[nodiscard]] Result<std::vector<TypedPayload>> packets(const SegmentStore& store, const Setup& setup,
+                                                          SegmentStore::Coders& coders,
+                                                          bool alone = false) const;
+  /// Puts the patterns into the scene, as the decoder has them after the segment.
+  void keep(const SegmentStore& store, Scene& scene) const;
+
+ private:
+  [[nodiscard]] std::size_t slot(std::size_t k, const SegmentStore& store) const {
+    return (first_slot + k) % static_cast<std::size_t>(store.slots());
+  }
+};
+
+}  // namespace fbs
