@@ -2,9 +2,10 @@
 import json
 
 from harness import (BLEND, END, FAILED, LITTLE_LOST, MOTION, PATTERN, SETUP, SOURCE, SURROUND, TALK_FBS, TALK_ONE_FBS,
-                     TWO_SCENES_FBS, ProgramTest, packets)
+                     TWO_SCENES_FBS, UNIT, ProgramTest, packets)
 
-NAMES = {SETUP: "setup", 2: "geometry", SURROUND: "surround", PATTERN: "pattern", MOTION: "motion", END: "end", BLEND: "blend"}
+NAMES = {SETUP: "setup", 2: "geometry", SURROUND: "surround", PATTERN: "pattern", MOTION: "motion", END: "end",
+         BLEND: "blend", UNIT: "unit"}
 VECTORS = SOURCE / "tests/vectors"
 # Wrong only in their AV1 data, which is not decoded.
 WRONG_FRAMES = {"bad_av1.fbs", "wrong_size.fbs", "two_frames.fbs", "show_existing.fbs"}
