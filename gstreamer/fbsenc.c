@@ -65,8 +65,8 @@ static guint64 number_behind(const GstFbsEnc* self, const GstFbsGroup* group) {
   const guint64 pushed = self->stream.pictures;
   const double rate = (double)self->settings.format.frame_rate_num / self->settings.format.frame_rate_den;
   const double delay = self->settings.live_delay;
-  const int seconds = (int)delay + (delay > (int)delay); /* groups: none is longer than a second */
-  const double grouped = group->key ? 1 : delay / seconds * rate + 0.5;
+  const int groups = (int)delay + (delay > (int)delay); /* none is longer than a second */
+  const double grouped = group->key ? 1 : delay / groups * rate + 0.5;
   if (next != NULL) return next->number;
   if (!self->settings.live) return pushed;
   return MIN(pushed, group->number + (guint64)CLAMP(grouped, 1, 256));

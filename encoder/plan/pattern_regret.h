@@ -29,11 +29,10 @@ class PatternRegret {
     recent_ += kFollow * (loss - recent_);
   }
 
-  /// @param bits    the pattern's size
+  /// @param bits      the pattern's size
   /// @param lambda    squared luma levels that a bit is worth
-  /// @param patience  prices that are lost before a pattern is bought in any case, at least 1: more favours
-  /// the
-  ///                  face, fewer the frame
+  /// @param patience  prices, at least 1, after whose loss a pattern is bought in any case. More favours the
+  ///                  face, less the frame
   [[nodiscard]] bool pays(double bits, double lambda, double patience) const {
     const double price = lambda * bits;
     return pictures_ * recent_ - lost_ > price || lost_ > patience * price;

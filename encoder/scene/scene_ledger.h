@@ -42,7 +42,8 @@ class SceneLedger {
   void set_motion(MotionTrack motion) { motion_ = std::move(motion); }
 
   [[nodiscard]] bool segment_ends() const {
-    return patterns_ && patterns_->segment_ends(timing_.group_pictures);
+    return patterns_ &&
+           (patterns_->segment_ends(timing_.group_pictures) || (live_ && live_scene_ends(pictures_)));
   }
   /// Writes the packets of the segment, whose groups have all been planned. The head has been written.
   Result<void> end_segment(Scene& scene, const StateRefit& refit);

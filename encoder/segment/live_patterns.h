@@ -26,7 +26,6 @@ struct LivePatternSettings {
   bool refits = true;       ///< states are fitted to the blend
   double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
   double buffer = 0;        ///< LiveSettings::buffer
-  double key_interval = 0;  ///< most pictures of a scene; 0: no limit
   int groups_per_key = 1;   ///< SceneTiming::groups_per_key
   bool alone = false;       ///< each pattern needs the first alone
   int threads = 1;          ///< at least 1; the stream is the same
@@ -75,9 +74,9 @@ class LivePatterns : public PatternStage {
   /// @param shared  unknown errors are shared by at most this many pictures
   [[nodiscard]] Result<Plan> plan_next(const Scene& scene, std::size_t shared);
   /// Adds patterns that pay.
-  /// @param least   error of each picture
-  /// @param begin   picture from which on they count
-  /// @param room    bytes that may be sent now
+  /// @param least  error of each picture
+  /// @param begin  picture from which on they count
+  /// @param room   bytes that may be sent now
   void add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan);
   /// The finest quantiser, no finer than `from`, at which a pattern fits; nothing: even the coarsest takes
   /// too much.
@@ -102,9 +101,7 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] Result<SequencePattern> code(const Picture& picture);
   /// Codes the next pattern of the scene.
   /// @param picture  of full size
-  [[nodiscard]] Result<SequencePattern> code_next(const Picture& picture, int quantiser);
-  /// Codes patterns on trial.
-  Result<void> try_coding(const Scene& scene, SegmentDraft& draft, int quantiser, bool reduced, int boost);
+  [[nodiscard]] Result<SequencePattern> code_next(Picture picture, int quantiser);
   /// Records the bytes of a pattern.
   /// @param key  most of it could not be predicted
   void learn(std::size_t bytes, int quantiser, bool key);

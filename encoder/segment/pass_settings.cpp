@@ -33,7 +33,6 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.refits = effort.refits > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
-  out.key_interval = key_interval_of(settings, format);
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
   out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's

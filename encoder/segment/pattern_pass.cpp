@@ -81,13 +81,14 @@ bool PatternPass::segment_ends(std::size_t next) const {
   return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
 }
 
-Result<SegmentDraft> PatternPass::draft_of(const Scene& scene) const {
-  return SegmentDraft::of_sources(store_, scene, times_wanted(), 0);
+Result<SegmentDraft> PatternPass::draft() const {
+  return SegmentDraft::of_sources(store_, times_wanted(), 0);
 }
 
 Result<double> PatternPass::loss_between(const Scene& scene) {
-  const auto draft = draft_of(scene);
+  auto draft = this->draft();
   if (!draft) return fail(draft.error());
+  draft->take_sources(store_, scene);
   return blend_loss(store_.segment(), draft->usable(scene), kLossEvery, workers_);
 }
 
@@ -176,13 +177,6 @@ Result<void> PatternPass::choose(const Scene& scene, const SegmentDraft& draft, 
   return {};
 }
 
-Result<void> PatternPass::code(const Scene& scene, SegmentDraft& draft, const SequenceSettings& coding) {
-  auto coded = code_pattern_sequence(store_.format(), draft.to_code(store_, scene, workers_), coding);
-  if (!coded) return fail(coded.error());
-  draft.take(store_, scene, std::move(*coded));
-  return {};
-}
-
 Result<double> PatternPass::taken_by(const Setup& setup, const SegmentDraft& draft) const {
   SegmentStore::Coders coders = store_.coders();
   const auto packets = draft.packets(store_, setup, coders);
@@ -205,18 +199,19 @@ Result<void> PatternPass::refit_states(const Scene& scene, SegmentDraft& draft, 
 }
 
 Result<SegmentDraft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
-  auto draft = draft_of(scene);
+  auto draft = this->draft();
   if (!draft) return draft;
   if (settings_.effort.solves) {
     // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. Always
     // at half size, since only the kind of errors matters.
-    if (auto coded = code(scene, *draft, trial_coding(true)); !coded) return fail(coded.error());
+    if (auto coded = draft->code(store_, scene, trial_coding(true), workers_); !coded)
+      return fail(coded.error());
     if (auto chosen = choose(scene, *draft, settings_.effort.draft_pictures); !chosen)
       return fail(chosen.error());
     if (auto solved = draft->solve(store_, scene, SolverSettings{}, workers_); !solved)
       return fail(solved.error());
   }
-  if (auto coded = code(scene, *draft, coding_); !coded) return fail(coded.error());
+  if (auto coded = draft->code(store_, scene, coding_, workers_); !coded) return fail(coded.error());
   // A lone pattern is close to the picture that the states were fitted to.
   const int refits = draft->times.size() > 1 ? settings_.effort.refits : 0;
   // States are fitted last, to patterns as sent. Fitted before solving, they would compensate for what
@@ -236,9 +231,10 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
     const int middle = (low + high) / 2;
     point_ = settings_.point_at(middle);
     set_size(coding_.reduced);
-    auto draft = draft_of(scene);
+    auto draft = this->draft();
     if (!draft) return fail(draft.error());
-    if (auto coded = code(scene, *draft, trial_coding(coding_.reduced)); !coded) return fail(coded.error());
+    if (auto coded = draft->code(store_, scene, trial_coding(coding_.reduced), workers_); !coded)
+      return fail(coded.error());
     const auto taken = taken_by(scene.setup, *draft);
     if (!taken) return fail(taken.error());
     (*taken <= bytes ? low : high) = middle;
@@ -280,7 +276,7 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& d
     const int next = std::clamp(quantiser + step, over + 1, under - 1);
     if (next == quantiser) break;
     coding_.quantiser = next;
-    if (auto coded = code(scene, draft, coding_); !coded) return coded;
+    if (auto coded = draft.code(store_, scene, coding_, workers_); !coded) return coded;
   }
   draft = std::move(best);
   return choose(scene, draft, settings_.effort.pictures);

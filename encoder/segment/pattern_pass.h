@@ -51,8 +51,8 @@ class PatternPass : public PatternStage {
                                                               const StateRefit& refit) override;
 
  private:
-  /// Makes a draft whose patterns are source pictures.
-  [[nodiscard]] Result<SegmentDraft> draft_of(const Scene& scene) const;
+  /// A draft of the pictures that are to become patterns.
+  [[nodiscard]] Result<SegmentDraft> draft() const;
   /// Error of the pictures between lossless patterns.
   [[nodiscard]] Result<double> loss_between(const Scene& scene);
   /// Pictures of the segment that are to become patterns.
@@ -64,7 +64,6 @@ class PatternPass : public PatternStage {
   [[nodiscard]] Result<std::vector<Picture>> trial_pictures(std::span<const std::size_t> times);
   /// @param most  at most this many pictures share modes
   Result<void> choose(const Scene& scene, const SegmentDraft& draft, std::size_t most);
-  Result<void> code(const Scene& scene, SegmentDraft& draft, const SequenceSettings& coding);
   /// Settings for trial coding of patterns.
   [[nodiscard]] SequenceSettings trial_coding(bool reduced) const;
   /// Solves for patterns, codes them, chooses modes and fits states again, as the settings say.

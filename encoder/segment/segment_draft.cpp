@@ -16,8 +16,8 @@ Pattern pattern_of(const SegmentStore& store, const Scene& scene, const Sequence
 
 }  // namespace
 
-Result<SegmentDraft> SegmentDraft::of_sources(const SegmentStore& store, const Scene& scene,
-                                              std::vector<std::size_t> times, std::size_t first_slot) {
+Result<SegmentDraft> SegmentDraft::of_sources(const SegmentStore& store, std::vector<std::size_t> times,
+                                              std::size_t first_slot) {
   SegmentDraft draft;
   draft.times = std::move(times);
   draft.first_slot = first_slot;
@@ -26,8 +26,6 @@ Result<SegmentDraft> SegmentDraft::of_sources(const SegmentStore& store, const S
     if (!source) return fail(source.error());
     draft.pictures.push_back(std::move(*source));
   }
-  for (std::size_t k = 0; k < draft.times.size(); ++k) draft.coded.push_back({k, {}, draft.pictures[k]});
-  draft.place(store, scene);
   return draft;
 }
 
@@ -37,6 +35,20 @@ std::vector<Picture> SegmentDraft::to_code(const SegmentStore& store, const Scen
   workers.run(static_cast<int>(out.size()),
               [&](int k, int) { store.reduce_contrast(scene, times[k], out[k]); });
   return out;
+}
+
+Result<void> SegmentDraft::code(const SegmentStore& store, const Scene& scene, const SequenceSettings& coding,
+                                Workers& workers) {
+  auto sequence = code_pattern_sequence(store.format(), to_code(store, scene, workers), coding);
+  if (!sequence) return fail(sequence.error());
+  take(store, scene, std::move(*sequence));
+  return {};
+}
+
+void SegmentDraft::take_sources(const SegmentStore& store, const Scene& scene) {
+  std::vector<SequencePattern> sources;
+  for (std::size_t k = 0; k < pictures.size(); ++k) sources.push_back({k, {}, pictures[k]});
+  take(store, scene, std::move(sources));
 }
 
 void SegmentDraft::take(const SegmentStore& store, const Scene& scene,

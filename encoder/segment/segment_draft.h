@@ -22,14 +22,19 @@ struct SegmentDraft {
   std::vector<std::size_t> arrived;  ///< arrivals()
   PatternList patterns;              ///< those from before the segment, then those of the segment as coded
 
-  /// A draft whose patterns are source pictures, without loss and in display order.
-  [[nodiscard]] static Result<SegmentDraft> of_sources(const SegmentStore& store, const Scene& scene,
+  /// A draft of source pictures, none of which is a pattern yet.
+  [[nodiscard]] static Result<SegmentDraft> of_sources(const SegmentStore& store,
                                                        std::vector<std::size_t> times,
                                                        std::size_t first_slot);
 
   /// The pictures as patterns have them: of reduced contrast.
   [[nodiscard]] std::vector<Picture> to_code(const SegmentStore& store, const Scene& scene,
                                              Workers& workers) const;
+  /// Codes the pictures as an AV1 sequence of their own.
+  Result<void> code(const SegmentStore& store, const Scene& scene, const SequenceSettings& coding,
+                    Workers& workers);
+  /// Takes the pictures as patterns, without loss and in display order.
+  void take_sources(const SegmentStore& store, const Scene& scene);
   /// Takes the patterns as coded.
   void take(const SegmentStore& store, const Scene& scene, std::vector<SequencePattern> patterns_coded);
   /// Makes the patterns again, seen in the present states of their pictures.

@@ -84,11 +84,11 @@ double psnr_of(std::span<const Picture> shown) {
 }
 
 TEST(Live, PicturesAreShownAfterTheDelay) {
-  for (const int delay : {kGroup, 18, 25}) {
+  for (const int delay : {kGroup, 18, 26}) {
     LiveLine line(live_settings(delay));
     for (int i = 0; i < kPictures; ++i) {
       line.push(clip()[i]);
-      EXPECT_GE(static_cast<int>(line.shown.size()), i - delay - 1) << i;
+      EXPECT_GT(static_cast<int>(line.shown.size()), i - delay) << i;
     }
     line.finish();
     EXPECT_EQ(line.shown.size(), std::size_t{kPictures});
@@ -121,15 +121,11 @@ TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
   EXPECT_EQ(line.patterns, 1U);
 }
 
-/// The room changes as much as by a cut, but without one.
-Picture in_other_light(Picture picture) {
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width() / 4; ++x) picture.y.row(y)[x] = static_cast<std::uint8_t>(x + y);
-  return picture;
-}
-
+// The room changes as much as by a cut, but without one: the light of half of it changes.
 TEST(Live, AChangeIsSentWithItsGroup) {
-  const Picture changed = in_other_light(clip()[0]);
+  Picture changed = clip()[0];
+  for (int y = 0; y < changed.height(); ++y)
+    for (int x = 0; x < changed.width() / 4; ++x) changed.y.row(y)[x] = static_cast<std::uint8_t>(x + y);
   LiveLine line;
   for (int i = 0; i < 3 * kGroup + 1; ++i) line.push(clip()[0]);
   const auto error = [&] { return squared_error(line.shown.back().y, changed.y).psnr(); };
@@ -215,15 +211,14 @@ std::vector<bool> alone_in(std::span<const std::uint8_t> stream) {
 
 TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
   EncoderSettings settings = live_settings();
-  settings.quality = 100;  // more patterns
+  settings.quality = 90;  // more patterns
   settings.live->resilience = Resilience::kPacket;
-  for (const auto& [threads, delay] : {std::pair{1, kGroup}, {2, kGroup}}) {
+  for (const int threads : {1, 2}) {
     settings.threads = threads;
-    settings.live->delay = static_cast<double>(delay) / kPicturesPerSecond;
     LiveLine line(settings);
     for (int i = 0; i < kPictures; ++i) {
       if (i == kPictures / 2) line.lose_patterns();
-      line.push(i < kPictures / 2 ? clip()[i] : in_other_light(clip()[i]));
+      line.push(clip()[i]);
     }
     line.finish();
     const std::vector<bool> alone = alone_in(line.stream);
@@ -232,7 +227,7 @@ TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
     EXPECT_FALSE(alone.front());
     EXPECT_TRUE(alone.back());
     ASSERT_EQ(line.shown.size(), std::size_t{kPictures});
-    EXPECT_GT(psnr_of(std::span(line.shown).first(kPictures / 2)), 27);
+    EXPECT_GT(psnr_of(line.shown), 27);
   }
   EXPECT_FALSE(Encoder::create(clip().format(), {})->lose_patterns());
 }
