@@ -8,11 +8,18 @@
 namespace fbs {
 namespace {
 
-/// How far a control point may be from rest, head units.
-glm::dvec2 farthest_of(std::size_t control) {
+/// Where a control point may be, head units from rest.
+struct Bounds {
+  glm::dvec2 least, most;
+};
+
+Bounds bounds_of(std::size_t control) {
   for (const FeatureId id : {FeatureId::kPupilRight, FeatureId::kPupilLeft})
-    if (control == feature(id).first_control) return {kMaxGazeX, kMaxGazeY};
-  return glm::dvec2(kMaxOffset);
+    if (control == feature(id).first_control) return {{-kMaxGazeX, -kMaxGazeY}, {kMaxGazeX, kMaxGazeY}};
+  const std::size_t lids = feature(FeatureId::kUpperLidRight).first_control,
+                    behind = feature(FeatureId::kLowerLidRight).first_control;
+  return {{-kMaxOffset, control >= lids && control < behind ? -kMaxLidRise : -kMaxOffset},
+          glm::dvec2(kMaxOffset)};
 }
 
 /// @param x  the unknowns' steps
@@ -25,8 +32,8 @@ void add_step(const FitColumns& columns, const cv::Mat1d& x, Fit& fit) {
   for (std::size_t c = 0; c < kControlCount; ++c) {
     if (!columns.has(c)) continue;
     const int column = static_cast<int>(columns.of(c));
-    const glm::dvec2 step(x(column), x(column + 1)), farthest = farthest_of(c);
-    fit.offsets[c] = glm::clamp(fit.offsets[c] + step, -farthest, farthest);
+    const auto [least, most] = bounds_of(c);
+    fit.offsets[c] = glm::clamp(fit.offsets[c] + glm::dvec2(x(column), x(column + 1)), least, most);
   }
 }
 
