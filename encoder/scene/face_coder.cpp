@@ -45,10 +45,11 @@ Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation se
   if (ledger_.scene_ended())
     if (auto begun = begin_again(picture, seen); !begun) return begun;
   if (!surround_.has_ended()) learn(picture, seen);
-  if (second_pass_) {
-    second_pass_->refit.add(seen, duration);
-    if (!ledger_.packets().started() && seen.face) second_pass_->face_chroma.add(picture, seen.vertices);
+  if (!ledger_.packets().started() && seen.face) {
+    mouth_colours_.add(picture, seen.vertices);
+    if (second_pass_) second_pass_->face_chroma.add(picture, seen.vertices);
   }
+  if (second_pass_) second_pass_->refit.add(seen, duration);
   costs_.push_back(std::move(seen.cost));
   if (auto added = ledger_.add(picture, duration); !added) return added;
   if (ledger_.group_ends())
@@ -100,7 +101,6 @@ void FaceCoder::observe_surround(const Picture& picture, FaceAnalysis::Observati
 
 void FaceCoder::learn(const Picture& picture, const FaceAnalysis::Observation& seen) {
   if (!seen.face) return;
-  mouth_colours_.add(picture, seen.vertices);
   const std::uint64_t every = std::max<std::uint64_t>(1, ledger_.timing().lookahead / kSurroundPictures);
   const std::uint64_t before = ledger_.pictures();
   if (before > 0 && before % every == 0) surround_.add(picture, seen.state);
@@ -124,7 +124,6 @@ void FaceCoder::fit_map() {
 }
 
 void FaceCoder::fix_head() {
-  mouth_colours_.set_chroma(scene_.setup.mouth);
   fit_map();
   fixed_ = true;
   if (!ledger_.live() || ledger_.pictures() >= ledger_.timing().lookahead) surround_.end(scene_.setup.format);
@@ -148,6 +147,7 @@ Result<void> FaceCoder::end_lookahead() {
 }
 
 Result<void> FaceCoder::write_head() {
+  mouth_colours_.set_chroma(scene_.setup.mouth);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   auto surround = encode_surround(surround_.map());

@@ -46,7 +46,7 @@ class FaceCoder {
  private:
   /// Adds body and ground to the observation of the next picture.
   void observe_surround(const Picture& picture, FaceAnalysis::Observation& seen);
-  /// Until the scene starts: collects mouth colours, and pictures for fitting the surround's map.
+  /// Until the scene starts: collects pictures for fitting the surround's map.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
   Result<void> end_group();
   /// Begins another scene with the same person at this picture: a place to join.
