@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "encoder/blend/mode_choice.h"
-#include "encoder/patterns/downscale.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/plan/pattern_point.h"
 #include "encoder/plan/scene_timing.h"
@@ -28,29 +27,10 @@ constexpr int kMaxKeyTrials = 3;
 
 constexpr int kMaxQuantiser = 63;
 
-/// Samples per picture for which a core has time at full effort.
-constexpr int kCif = 352 * 288;
-
-/// libaom's speeds when a core has time left and when not: at CIF 6 takes 12 % more of the whole rate than 3.
-struct Speeds {
-  int unhurried, hasty;
-};
-Speeds speeds_at(const VideoFormat& size) {
-  const int samples = size.width * size.height;
-  if (samples <= kCif) return {3, 6};
-  return {samples <= 640 * 480 ? 5 : 6, kRealTimeSpeed};
-}
-
-/// Patterns for which there is time: two a second at CIF, and two at once.
-constexpr double kUnhurriedSamplesPerSecond = 2 * kCif, kUnhurriedAtOnce = 2;
-double unhurried_per_second(const VideoFormat& size) {
-  return kUnhurriedSamplesPerSecond / (1.0 * size.width * size.height);
-}
-
 /// How many pictures share their errors at most where states may be fitted anew: more where time is short.
 /// That takes 4 % of it, and 2 to 3 % more of the rate.
 std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
-  return refit && format.width * format.height > kCif ? 3 : 1;
+  return refit && format.width * format.height > 352 * 288 ? 3 : 1;
 }
 
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
@@ -102,15 +82,13 @@ LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings&
     : settings_(settings),
       workers_(settings.threads),
       store_(format, rest, settings.groups_per_key),
-      alone_(settings.alone) {
+      sequence_(format, settings.reduced, settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
 void LivePatterns::begin_scene(const CodedState& rest) {
   store_.begin_scene(rest);
-  codec_.reset();
-  first_ = {};
-  alone_ = settings_.alone;
+  sequence_.begin_scene();
   regret_ = {};
   since_pattern_ = 0;
   modes_ = {};
@@ -134,12 +112,6 @@ bool LivePatterns::pays(double bits, double price) const {
                        : regret_.pays(bits, lambda, 1);
 }
 
-void LivePatterns::lose_patterns() {
-  if (alone_ || store_.is_first()) return;
-  alone_ = true;
-  codec_.reset();  // the next one follows the first pattern
-}
-
 double LivePatterns::Size::at(int other_quantiser) const {
   return bits * std::pow(kBytesPerStep, quantiser - other_quantiser);
 }
@@ -161,8 +133,8 @@ Result<int> LivePatterns::key_quantiser() {
   if (key_.bits > 0) return affordable(key_, wanted, room()).value_or(kMaxQuantiser);
   auto picture = store_.segment().pictures.read(0);
   if (!picture) return fail(picture.error());
-  if (settings_.reduced) *picture = downscaled(*picture);
-  FirstPattern trial(coded_format(), *picture, kTrialSpeed);
+  const Picture coded = sequence_.to_coded_size(std::move(*picture));
+  FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
   int quantiser = wanted;
   for (int i = 0; i < kMaxKeyTrials; ++i) {
     const auto bytes = trial.bytes(quantiser);
@@ -244,54 +216,6 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   }
 }
 
-VideoFormat LivePatterns::coded_format() const {
-  VideoFormat format = store_.format();
-  if (settings_.reduced) {
-    format.width = reduced_size(format.width);
-    format.height = reduced_size(format.height);
-  }
-  return format;
-}
-
-int LivePatterns::speed() const {
-  const Speeds speeds = speeds_at(coded_format());
-  return coded_lately_ < kUnhurriedAtOnce ? speeds.unhurried : speeds.hasty;
-}
-
-Result<void> LivePatterns::open(int quantiser, int speed) {
-  auto av1 = Av1Encoder::create(coded_format(), {quantiser, speed});
-  if (!av1) return fail(av1.error());
-  auto decoder = PatternDecoder::create(store_.format().width, store_.format().height);
-  if (!decoder) return fail(decoder.error());
-  codec_.emplace(Codec{std::move(*av1), std::move(*decoder)});
-  return {};
-}
-
-Result<SequencePattern> LivePatterns::code(const Picture& picture) {
-  auto frames = codec_->encoder.encode(picture, alone_);
-  if (!frames) return fail(frames.error());
-  if (frames->size() != 1) return fail(ErrorCode::kInternal, "libaom holds a pattern back");
-  auto decoded = codec_->decoder.decode(frames->front());
-  if (!decoded) return fail(decoded.error());
-  return SequencePattern{0, std::move(frames->front()), std::move(*decoded)};
-}
-
-Result<SequencePattern> LivePatterns::code_next(Picture picture, int quantiser) {
-  if (settings_.reduced) picture = downscaled(picture);
-  const int now = speed();
-  const bool is_first = !codec_ && first_.picture.y.samples.empty();
-  if (is_first) first_ = {picture, quantiser, std::min(now, speeds_at(coded_format()).unhurried)};
-  if (!codec_) {
-    if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
-    if (!is_first)
-      if (auto again = code(first_.picture); !again) return again;
-  }
-  if (!is_first)
-    if (auto set = codec_->encoder.set(quantiser, now); !set) return fail(set.error());
-  ++coded_lately_;
-  return code(picture);
-}
-
 void LivePatterns::learn(std::size_t bytes, int quantiser, bool key) {
   const double bits = 8.0 * static_cast<double>(bytes);
   if (key) {
@@ -338,7 +262,7 @@ Result<SegmentDraft> LivePatterns::make(const Scene& scene, const Plan& plan, co
     for (Picture& picture : draft->to_code(store_, scene, workers_)) {
       const std::size_t k = coded.size();
       const int quantiser = k == 0 ? plan.first : plan.others;
-      auto next = code_next(std::move(picture), quantiser);
+      auto next = sequence_.code(std::move(picture), quantiser);
       if (!next) return fail(next.error());
       learn(next->av1.size(), quantiser, k == 0 && (store_.is_first() || store_.segment().shots.size() > 1));
       next->picture = k;
@@ -384,13 +308,13 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   if (!plan) return fail(plan.error());
   const auto draft = make(scene, *plan, used);
   if (!draft) return fail(draft.error());
-  auto out = draft->packets(store_, scene.setup, store_.coders(), alone_);
+  auto out = draft->packets(store_, scene.setup, store_.coders(), sequence_.alone());
   if (!out) return out;
   draft->keep(store_, scene);
   next_slot_ = (next_slot_ + plan->times.size()) % static_cast<std::size_t>(store_.slots());
   count_regret(*plan);
   const double seconds = store_.seconds();
-  coded_lately_ = std::max(0.0, coded_lately_ - unhurried_per_second(coded_format()) * seconds);
+  sequence_.pass(seconds);
   if (rate_) rate_->add(static_cast<double>(other_bytes + bytes_of(*out)), seconds);
   modes_ = store_.segment().states.back().blend;
   store_.end_segment();

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "common/workers.h"
-#include "decoder/pattern/pattern_decoder.h"
-#include "encoder/patterns/av1_encoder.h"
+#include "encoder/patterns/live_sequence.h"
 #include "encoder/plan/live_rate.h"
 #include "encoder/plan/pattern_regret.h"
 #include "encoder/segment/pattern_stage.h"
@@ -32,7 +31,7 @@ struct LivePatternSettings {
 };
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
-/// of a long delay. Patterns go on from window to window as one AV1 sequence without look-ahead.
+/// of a long delay. Patterns go on from window to window as one AV1 sequence.
 class LivePatterns : public PatternStage {
  public:
   /// @param rest  seen state of pattern 0 as coded
@@ -42,7 +41,7 @@ class LivePatterns : public PatternStage {
   void set_bitrate(double kbps) override {
     if (rate_) rate_->set(kbps);
   }
-  void lose_patterns() override;
+  void lose_patterns() override { sequence_.lose_patterns(); }
   Result<void> add(const Picture& picture) override { return store_.add(picture); }
   void cut() override { store_.cut(); }
   void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
@@ -91,17 +90,6 @@ class LivePatterns : public PatternStage {
   /// Whether a pattern of these bits pays.
   /// @param price  LiveRate::price()
   [[nodiscard]] bool pays(double bits, double price) const;
-  /// The size at which patterns are coded.
-  [[nodiscard]] VideoFormat coded_format() const;
-  /// libaom's speed for the next pattern: hasty where many have been coded lately.
-  [[nodiscard]] int speed() const;
-  /// Begins an AV1 sequence.
-  Result<void> open(int quantiser, int speed);
-  /// Codes a pattern, as the decoder will have it.
-  [[nodiscard]] Result<SequencePattern> code(const Picture& picture);
-  /// Codes the next pattern of the scene.
-  /// @param picture  of full size
-  [[nodiscard]] Result<SequencePattern> code_next(Picture picture, int quantiser);
   /// Records the bytes of a pattern.
   /// @param key  most of it could not be predicted
   void learn(std::size_t bytes, int quantiser, bool key);
@@ -116,25 +104,13 @@ class LivePatterns : public PatternStage {
   /// Remembers what pictures have lost since the last pattern.
   void count_regret(const Plan& plan);
 
-  /// An AV1 sequence, and what the decoder makes of it.
-  struct Codec {
-    Av1Encoder encoder;
-    PatternDecoder decoder;
-  };
-
   LivePatternSettings settings_;
   Workers workers_;
   SegmentStore store_;
+  LiveSequence sequence_;
   std::optional<LiveRate> rate_;
-  Size key_, later_;         ///< of a whole picture, and of one that others predict
-  double coded_lately_ = 0;  ///< patterns, less those for which there has been time since
+  Size key_, later_;  ///< of a whole picture, and of one that others predict
   // The scene's:
-  std::optional<Codec> codec_;
-  struct First {
-    Picture picture;
-    int quantiser, speed;
-  } first_;     ///< pattern, as it was coded
-  bool alone_;  ///< LivePatternSettings::alone, or a pattern has been lost
   PatternRegret regret_;
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
   RegionModes modes_{};               ///< of the last picture
