@@ -155,10 +155,19 @@ Error with_advice(Error error) {
   return error;
 }
 
+/// Whether the rate is another than was asked for. What still waits in the buffer of a live stream is sent
+/// later.
+bool misses_rate(const EncodeArguments& arguments, const Measure& measure) {
+  const double asked = arguments.settings.bitrate;
+  if (asked <= 0 || measure.seconds <= 0) return false;
+  const double waiting = is_live(arguments) ? arguments.buffer.value_or(LiveSettings{}.buffer) : 0;
+  const double more = measure.kbps() / asked - 1;
+  return more < -kRateTolerance || more > kRateTolerance + waiting / measure.seconds;
+}
+
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded");
-  if (arguments.settings.bitrate > 0 &&
-      std::abs(measure.kbps() / arguments.settings.bitrate - 1) > kRateTolerance)
+  if (misses_rate(arguments, measure))
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
                  arguments.settings.bitrate, measure.kbps());
 }

@@ -130,12 +130,11 @@ Result<int> LivePatterns::key_quantiser() {
   const double price = rate_ ? rate_->price() : 1;
   const int wanted = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
   if (!rate_) return wanted;
-  if (key_.bits > 0) return affordable(key_, wanted, room()).value_or(kMaxQuantiser);
   auto picture = store_.segment().pictures.read(0);
   if (!picture) return fail(picture.error());
   const Picture coded = sequence_.to_coded_size(std::move(*picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
-  int quantiser = wanted;
+  int quantiser = key_.bits > 0 ? affordable(key_, wanted, room()).value_or(kMaxQuantiser) : wanted;
   for (int i = 0; i < kMaxKeyTrials; ++i) {
     const auto bytes = trial.bytes(quantiser);
     if (!bytes) return fail(bytes.error());
@@ -301,6 +300,7 @@ void LivePatterns::count_regret(const Plan& plan) {
 Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
                                                             const StateRefit& refit) {
   if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
+  if (rate_) rate_->add(static_cast<double>(other_bytes), 0);
   const bool lone_picture = store_.is_first() && store_.segment().states.size() == 1;
   const StateRefit used = settings_.refits && !lone_picture ? refit : StateRefit{};
   const auto plan =
@@ -315,7 +315,7 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   count_regret(*plan);
   const double seconds = store_.seconds();
   sequence_.pass(seconds);
-  if (rate_) rate_->add(static_cast<double>(other_bytes + bytes_of(*out)), seconds);
+  if (rate_) rate_->add(static_cast<double>(bytes_of(*out)), seconds);
   modes_ = store_.segment().states.back().blend;
   store_.end_segment();
   errors_ = {};

@@ -83,14 +83,16 @@ class Live(ProgramTest):
 
     def test_nothing_waits_longer_than_the_buffer(self):
         kbps, buffer = 6, 2
-        self.succeed("encode", TALK_Y4M, "out.fbs", "--live", "--bitrate", kbps, "--buffer", buffer)
-        waiting = worst = 0
-        for size, pictures in arrivals((self.folder / "out.fbs").read_bytes()):
-            waiting += size / (kbps * 125)
-            worst = max(worst, waiting)
-            waiting = max(0, waiting - pictures / RATE)
-        self.assertLess(worst, 1.15 * buffer)   # a pattern's size is predicted
-        self.assertGreater(worst, 0.5 * buffer)
+        for scenes in ([], ["--key-interval", 2]):
+            with self.subTest(scenes=scenes):
+                self.succeed("encode", TALK_Y4M, "out.fbs", "--live", "--bitrate", kbps, "--buffer", buffer, *scenes)
+                waiting = worst = 0
+                for size, pictures in arrivals((self.folder / "out.fbs").read_bytes()):
+                    waiting += size / (kbps * 125)
+                    worst = max(worst, waiting)
+                    waiting = max(0, waiting - pictures / RATE)
+                self.assertLess(worst, 1.15 * buffer)   # a pattern's size is predicted
+                self.assertGreater(worst, 0.5 * buffer)
 
     def test_viewers_join_at_each_key_interval(self):
         self.succeed("encode", TALK_Y4M, "out.fbs", "--live", "--key-interval", 1)
