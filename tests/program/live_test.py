@@ -83,7 +83,7 @@ class Live(ProgramTest):
 
     def test_nothing_waits_longer_than_the_buffer(self):
         kbps, buffer = 6, 2
-        for scenes in ([], ["--key-interval", 2]):
+        for scenes in ([], ["--key-interval", 1]):
             with self.subTest(scenes=scenes):
                 self.succeed("encode", TALK_Y4M, "out.fbs", "--live", "--bitrate", kbps, "--buffer", buffer, *scenes)
                 waiting = worst = 0
