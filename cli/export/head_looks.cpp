@@ -30,14 +30,15 @@ Srgb srgb_of(const YuvColour& colour, const VideoFormat& format) {
 }  // namespace
 
 Result<std::vector<HeadLook>> make_head_looks(const HeadRecording& recording) {
-  const auto encode_png = load_module_function<EncodePngFunction>(kImageModule, kEncodePngSymbol);
+  const auto encode_png = load_module_function<EncodePngFunction>(kAvModule, kEncodePngSymbol);
   if (!encode_png) return fail(encode_png.error());
   const VideoFormat& format = recording.format();
   std::vector<HeadLook> out;
   for (const RecordedHead& head : recording.heads()) {
     Result<std::vector<std::uint8_t>> png;
-    (*encode_png)(cropped(rgb_from_picture(head.pattern, format.range, format.matrix), texture_area(head)),
-                  png);
+    const TextureArea area = texture_area(head);
+    (*encode_png)(cropped(rgb_from_picture(head.pattern, format.range, format.matrix), area), area.width,
+                  area.height, png);
     if (!png) return fail(png.error());
     HeadLook look{std::move(*png), {}};
     const auto colours = mouth_colours(head);

@@ -12,7 +12,7 @@
 
 namespace fbs {
 
-inline constexpr const char* kAvModule = "fbs_av";          ///< libav: files, sound, H.264 output
+inline constexpr const char* kAvModule = "fbs_av";  ///< libav: files, sound, H.264 output, PNG in memory
 inline constexpr const char* kImageModule = "fbs_image";    ///< OpenImageIO: image sequences
 inline constexpr const char* kCameraModule = "fbs_camera";  ///< OpenCV: cameras
 
@@ -30,9 +30,10 @@ using OpenSoundSourceFunction = void(const std::string& input, const SoundSource
 using OpenSinkFunction = void(const std::string& output, const VideoFormat& format,
                               const SinkOptions& options, Result<std::unique_ptr<VideoSink>>& sink);
 
-/// In kImageModule: encodes an image as a PNG file in memory.
+/// In kAvModule: encodes an image of RGB, scaled to this size, as a PNG file in memory.
 inline constexpr const char* kEncodePngSymbol = "fbs_encode_png";
-using EncodePngFunction = void(const RgbImage& image, Result<std::vector<std::uint8_t>>& png);
+using EncodePngFunction = void(const RgbImage& image, int width, int height,
+                               Result<std::vector<std::uint8_t>>& png);
 
 /// In kImageModule: reads one image as a picture of a video.
 inline constexpr const char* kReadImageSymbol = "fbs_read_image";

@@ -1,6 +1,7 @@
 // The functions that the module fbs_av exports.
 
 #include "cli/program/module.h"
+#include "cli/video/av/av_png.h"
 #include "cli/video/av/av_sink.h"
 #include "cli/video/av/av_sound_source.h"
 #include "cli/video/av/av_source.h"
@@ -20,4 +21,9 @@ FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::Video
                                      const fbs::SinkOptions& options,
                                      fbs::Result<std::unique_ptr<fbs::VideoSink>>& sink) {
   sink = fbs::open_av_sink(output, format, options);
+}
+
+FBS_MODULE_EXPORT void fbs_encode_png(const fbs::RgbImage& image, int width, int height,
+                                      fbs::Result<std::vector<std::uint8_t>>& png) {
+  png = fbs::encode_png(image, width, height);
 }

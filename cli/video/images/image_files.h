@@ -1,12 +1,9 @@
 // Image files through OpenImageIO, which may throw. Part of the module fbs_image.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "cli/video/colour.h"
 #include "cli/video/video_sink.h"
 #include "cli/video/video_source.h"
 #include "common/picture.h"
@@ -27,8 +24,5 @@ Result<std::unique_ptr<VideoSink>> open_image_sink(const std::string& output, co
 /// @return kIo, kInvalidStream for an image that cannot be read; kInvalidArgument for one of another size;
 ///         the text names the file
 Result<Picture> read_still_image(const std::string& name, const VideoFormat& format);
-
-/// The image, in sRGB, as a PNG file in memory.
-Result<std::vector<std::uint8_t>> encode_png(const RgbImage& image);
 
 }  // namespace fbs

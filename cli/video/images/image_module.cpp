@@ -25,16 +25,6 @@ FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::Video
   }
 }
 
-FBS_MODULE_EXPORT void fbs_encode_png(const fbs::RgbImage& image,
-                                      fbs::Result<std::vector<std::uint8_t>>& png) {
-  try {
-    png = fbs::encode_png(image);
-  } catch (const std::exception& problem) {
-    png = fbs::fail(fbs::ErrorCode::kInternal,
-                    std::string("OpenImageIO cannot encode a PNG: ") + problem.what());
-  }
-}
-
 FBS_MODULE_EXPORT void fbs_read_image(const std::string& name, const fbs::VideoFormat& format,
                                       fbs::Result<fbs::Picture>& picture) {
   try {
