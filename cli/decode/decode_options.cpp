@@ -2,6 +2,7 @@
 
 #include "cli/command_line/verb.h"
 #include "cli/decode/decode_arguments.h"
+#include "common/picture.h"
 
 namespace fbs::cli {
 namespace {
@@ -14,6 +15,7 @@ constexpr const char* kDecodeExamples =
     "  fbs decode talk.fbs talk.mp4 --sound talk.mkv   put the sound of the source beside the pictures\n"
     "  fbs decode talk.fbs talk.wav                    the sound alone\n"
     "  fbs decode talk.fbs --md5                       compare decoders picture by picture\n"
+    "  fbs decode talk.fbs talk.png --thumbnail 256    the picture that file managers show\n"
     "  fbs decode broken.fbs rest.y4m --keep-going     save what is left of a damaged stream";
 
 }  // namespace
@@ -35,6 +37,13 @@ void add_decode(CLI::App& app, Run& run) {
       "Y4M: write each picture once; without it pictures are repeated or dropped where the frame rate "
       "varies, to keep the speed");
   add_from(*verb, a.from);
+  verb->add_option(
+          "--thumbnail", a.thumbnail,
+          "Write one picture alone, a PNG whose longer side is at most this: the first with open eyes "
+          "that shows the face from the front, if there is one near the beginning")
+      ->check(CLI::Range(1, kMaxPictureSize))
+      ->type_name("PIXELS")
+      ->excludes("--md5", "--sound", "--no-sound", "--vfr");
   verb->add_option("--threads", a.threads,
                    "Threads that draw pictures side by side (default: one for each core, up to 16)")
       ->check(CLI::Range(1, 64));

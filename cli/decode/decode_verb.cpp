@@ -11,6 +11,7 @@
 #include "cli/decode/decode_arguments.h"
 #include "cli/decode/decoded_time.h"
 #include "cli/decode/sound_output.h"
+#include "cli/decode/thumbnail.h"
 #include "cli/files/output_check.h"
 #include "cli/files/stop_signal.h"
 #include "cli/program/progress.h"
@@ -92,6 +93,8 @@ Result<void> check_files(const DecodeArguments& a) {
   if (a.output.empty() && !a.md5) return fail(ErrorCode::kInvalidArgument, "OUTPUT is required, or --md5");
   if (a.output == "-" && a.md5)
     return fail(ErrorCode::kInvalidArgument, "--md5: standard output has the pictures already");
+  if (a.thumbnail > 0 && (a.output == "-" || a.output == kNoOutput))
+    return fail(ErrorCode::kInvalidArgument, "--thumbnail needs a file as OUTPUT");
   if (auto named = check_picture_name(a.output); !named) return named;
   if (a.vfr && !is_y4m_output(a.output))
     return fail(ErrorCode::kInvalidArgument,
@@ -114,7 +117,6 @@ int thread_count(int asked) {
 }
 
 Result<Outcome> Decoding::run() {
-  if (auto checked = check_files(arguments_); !checked) return fail(checked.error());
   auto file = StreamFile::open(arguments_.input, stop_);
   if (!file) return fail(file.error());
   file_.emplace(std::move(*file));
@@ -263,6 +265,8 @@ void Decoding::print_rate_change() const {
 }  // namespace
 
 Result<Outcome> run_decode(const DecodeArguments& arguments) {
+  if (auto checked = check_files(arguments); !checked) return fail(checked.error());
+  if (arguments.thumbnail > 0) return write_thumbnail(arguments).map([] { return Outcome::kComplete; });
   // Standard output leaves nothing to remove: a signal ends the program at once.
   std::optional<StopSignal> stop;
   if (arguments.output != "-") stop.emplace(nullptr);

@@ -1,11 +1,12 @@
 """Encoding and decoding keep size, number and rate of the pictures, for every kind of file and pipe."""
 import hashlib
+import json
 import os
 import select
 import subprocess
 import wave
 
-from harness import FBS, TALK_FBS, TALK_Y4M, ProgramTest, ffprobe, flat_y4m, read_y4m, talker
+from harness import FBS, GREY_FIRST, TALK_FBS, TALK_Y4M, TWO_SCENES_FBS, ProgramTest, ffmpeg, ffprobe, flat_y4m, read_y4m, talker
 
 TALK_SHAPE = (176, 144, 120, 30.0)
 
@@ -164,3 +165,34 @@ class RoundTrip(ProgramTest):
         decoder.stdout.read(100)
         decoder.stdout.close()
         self.assertNotEqual(decoder.wait(30), 0)
+
+    def thumbnail(self, stream, *options):
+        """Number of the picture that a thumbnail of full size shows."""
+        self.succeed("decode", stream, "thumbnail", "--thumbnail", "999", *options)
+        ffmpeg("-f", "png_pipe", "-i", self.folder / "thumbnail", "-pix_fmt", "yuv420p", self.folder / "shown.y4m")
+        shown, pictures = read_y4m(self.folder / "shown.y4m"), self.decoded(stream).pictures
+        luma = slice(0, 176 * 144)
+        return min(range(len(pictures)), key=lambda n: sum(abs(a - b) for a, b in
+                                                           zip(pictures[n][luma], shown.pictures[0][luma])))
+
+    def test_thumbnail_is_a_png_of_that_size_whatever_its_name(self):
+        for size, shape in (("88", (88, 72)), ("1000", (176, 144))):  # never enlarged
+            self.succeed("decode", TALK_FBS, "out", "--thumbnail", size)
+            png = (self.folder / "out").read_bytes()
+            self.assertEqual(png[:8] + png[12:16], b"\x89PNG\r\n\x1a\nIHDR")
+            self.assertEqual((int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")), shape)
+
+    def test_thumbnail_shows_a_face_from_the_front(self):
+        self.assertEqual(self.thumbnail(TWO_SCENES_FBS), GREY_FIRST)
+        talker(self.folder / "turns.y4m", "--size", "176x144", "--frames", "60", "--motion", "turns", "--yaw", "30")
+        self.succeed("encode", "turns.y4m", "turns.fbs")
+        self.succeed("export", "turns.fbs", "turns.json")
+        rows = json.loads((self.folder / "turns.json").read_text())["frames"]
+        turned, frontal = (next(n for n in range(15, 60) if (abs(rows[n]["face"]["pose"]["ry_deg"]) > 15) == is_turned)
+                           for is_turned in (True, False))
+        self.assertLess(turned, frontal)
+        self.assertEqual(self.thumbnail("turns.fbs", "--from", "0.5"), frontal)
+
+    def test_thumbnail_of_a_cut_stream(self):
+        self.write("cut.fbs", TALK_FBS.read_bytes()[:-100])
+        self.succeed("decode", "cut.fbs", "out.png", "--thumbnail", "88")
