@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# release.sh [FOLDER]: makes what is published of a version, of the commit that is checked out: source archive, Debian packages,
+# the package for npm, and their checksums. FOLDER (default: build/fbs-VERSION) is made anew. Takes minutes, the first time a
+# quarter of an hour. What it makes is tried by tests/packages/try_packages.sh FOLDER.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+version=$(sed -n 's/^project(fbs VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+out=${1:-build/fbs-$version}
+
+[ -z "$(git status --porcelain)" ] || { echo "there are changes that no commit has" >&2; exit 1; }
+for file in python/pyproject.toml web/package.json; do
+  tr -d ' "' <"$file" | grep -q "^version[:=]$version,\?$" || { echo "$file is not of version $version" >&2; exit 1; }
+done
+grep -q "^## \[$version\] - 20" CHANGELOG.md || echo "CHANGELOG.md has no date for version $version yet" >&2
+command -v npm >/dev/null || { echo "npm is missing: it comes with Node.js, or as Debian's package" >&2; exit 1; }
+scripts/install_packages.sh packages.txt program_packages.txt all_packages.txt web_packages.txt release_packages.txt
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)  # the date of all that is packed
+export SOURCE_DATE_EPOCH
+rm -rf "$out"
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+
+git archive --prefix="fbs-$version/" HEAD | gzip -9n >"$out/fbs-$version.tar.gz"
+
+rm -rf build/debian/packages
+cmake --workflow --preset debian
+mv build/debian/packages/*.deb "$out"
+lintian --fail-on error --suppress-tags initial-upload-closes-no-bugs "$out"/*.deb
+
+web/build.sh
+npm pack --silent --pack-destination "$out" ./build/web/package
+
+# Wheels and the sdist of the Python package: made into "$out" here.
+
+cd "$out"
+sha256sum -- * >SHA256SUMS
+ls -l
