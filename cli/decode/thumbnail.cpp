@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <string>
+#include <system_error>
 #include <vector>
 
-#include "cli/files/atomic_file.h"
 #include "cli/program/module.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/colour.h"
@@ -70,6 +73,15 @@ std::array<int, 2> size_within(const VideoFormat& format, int side) {
   return {scaled(width), scaled(format.height)};
 }
 
+/// Not an AtomicFile: Tumbler (Xfce) makes the file, keeps it open, and reads from there.
+Result<void> write_in_place(const std::string& name, std::span<const std::uint8_t> bytes) {
+  std::FILE* const file = std::fopen(name.c_str(), "wb");
+  bool written = file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (file != nullptr) written = std::fclose(file) == 0 && written;
+  if (written) return {};
+  return fail(ErrorCode::kIo, "cannot write " + name + ": " + std::generic_category().message(errno));
+}
+
 }  // namespace
 
 Result<void> write_thumbnail(const DecodeArguments& a) {
@@ -86,10 +98,7 @@ Result<void> write_thumbnail(const DecodeArguments& a) {
   Result<std::vector<std::uint8_t>> png;
   (*encode_png)(rgb_from_picture(*picture, format.range, format.matrix), width, height, png);
   if (!png) return fail(png.error());
-  auto out = AtomicFile::create(a.output);
-  if (!out) return fail(out.error());
-  if (auto written = out->write(*png); !written) return written;
-  return out->commit();
+  return write_in_place(a.output, *png);
 }
 
 }  // namespace fbs::cli

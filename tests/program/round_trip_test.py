@@ -176,9 +176,11 @@ class RoundTrip(ProgramTest):
                                                            zip(pictures[n][luma], shown.pictures[0][luma])))
 
     def test_thumbnail_is_a_png_of_that_size_whatever_its_name(self):
+        self.write("out", b"")
         for size, shape in (("88", (88, 72)), ("1000", (176, 144))):  # never enlarged
-            self.succeed("decode", TALK_FBS, "out", "--thumbnail", size)
-            png = (self.folder / "out").read_bytes()
+            with open(self.folder / "out", "rb") as made_by_the_file_manager:
+                self.succeed("decode", TALK_FBS, "out", "--thumbnail", size)
+                png = made_by_the_file_manager.read()
             self.assertEqual(png[:8] + png[12:16], b"\x89PNG\r\n\x1a\nIHDR")
             self.assertEqual((int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")), shape)
 
