@@ -31,11 +31,18 @@ file(CONFIGURE OUTPUT ${made}/changelog CONTENT
  -- @CPACK_PACKAGE_CONTACT@  @date@
 " @ONLY)
 execute_process(COMMAND gzip -9nkf ${made}/changelog COMMAND_ERROR_IS_FATAL ANY)
+# Parts of these headers are compiled in, and their licences are handed on.
+file(READ LICENSE copyright)
+foreach(package libcli11-dev libexpected-dev libglm-dev libtinygltf-dev nlohmann-json3-dev)
+  file(READ /usr/share/doc/${package}/copyright theirs)
+  string(APPEND copyright "\n\nCompiled in: ${package}\n\n${theirs}")
+endforeach()
+file(WRITE ${made}/copyright "${copyright}")
 
 # debian_package(COMPONENT NAME SUMMARY TEXT [NEEDS component...] [LIBRARY] [DEPENDS text] [SUGGESTS text] [SECTION section])
 function(debian_package component name summary text)
   cmake_parse_arguments(arg "LIBRARY" "DEPENDS;SUGGESTS;SECTION" "NEEDS" ${ARGN})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/${name} RENAME copyright COMPONENT ${component})
+  install(FILES ${made}/copyright DESTINATION share/doc/${name} COMPONENT ${component})
   install(FILES ${made}/changelog.gz DESTINATION share/doc/${name} RENAME changelog.Debian.gz COMPONENT ${component})
   string(TOUPPER ${component} upper)
   set(package CPACK_DEBIAN_${upper}_PACKAGE)
@@ -92,6 +99,9 @@ endif()
 find_package(nanobind CONFIG QUIET PATHS ${nanobind_folder})
 if(nanobind_FOUND)
   add_subdirectory(python)
+  file(GLOB licence ${nanobind_DIR}/../../nanobind-*.dist-info/licenses/LICENSE)
+  file(READ ${licence} theirs)
+  file(APPEND ${made}/copyright "\n\nCompiled in, in python3-fbs: nanobind\n\n${theirs}")
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   debian_package(python python3-fbs "Python"
     "A package that encodes and decodes numpy's arrays, and gives pose, landmarks

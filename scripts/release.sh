@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # release.sh [FOLDER]: makes what is published of a version, of the commit that is checked out: source archive, Debian packages,
-# the package for npm, and their checksums. FOLDER (default: build/fbs-VERSION) is made anew. Takes minutes, the first time a
-# quarter of an hour. What it makes is tried by tests/packages/try_packages.sh FOLDER.
+# the package for npm, and their checksums. FOLDER (default: build/fbs-VERSION) is made anew. Takes minutes.
+# What it makes is tried by tests/packages/try_packages.sh FOLDER.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 version=$(sed -n 's/^project(fbs VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
