@@ -166,7 +166,7 @@ bool misses_rate(const EncodeArguments& arguments, const Measure& measure) {
 }
 
 void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
-  print_source_warning(arguments.input, source, measure.pictures, "encoded");
+  print_source_warning(arguments.input, source, measure.pictures, "encoded", arguments.quiet);
   if (misses_rate(arguments, measure))
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
                  arguments.settings.bitrate, measure.kbps());

@@ -234,7 +234,7 @@ Result<void> ClipEvaluation::measure(const std::string& name, const Open& open, 
   const auto source = measure_pictures(setting, **shown, run_.path(name + ".log"), point);
   if (!source) return fail(source.error());
   if (!std::exchange(warned_, true))
-    print_source_warning(clip_.source, *source, point.pictures.size(), "measured");
+    print_source_warning(clip_.source, *source, point.pictures.size(), "measured", arguments_.quiet);
   clip_.whole = clip_.whole && source->is_whole();
   return source->is_whole() ? run_.keep(name, key, quality_json(point)) : Result<void>{};
 }

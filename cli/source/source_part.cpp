@@ -77,7 +77,10 @@ Result<SourcePart> open_source_part(const std::string& name, const PartLimits& l
 }
 
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
-                          const char* done) {
+                          const char* done, bool quiet) {
+  if (!quiet)
+    for (const std::string& note : source.notes())
+      std::fprintf(stderr, "fbs: %s: %s\n", name.c_str(), note.c_str());
   if (source.failure())
     std::fprintf(stderr, "fbs: %s; the %llu pictures before are %s\n", source.failure()->text.c_str(),
                  static_cast<unsigned long long>(pictures), done);

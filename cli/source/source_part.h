@@ -33,6 +33,7 @@ class SourcePart final : public VideoSource {
   /// The limits are an estimate where the source has none.
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
+  [[nodiscard]] std::vector<std::string> notes() const override { return source_->notes(); }
 
   /// The error that ended the source after at least one picture; nullopt: none.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
@@ -64,10 +65,11 @@ class SourcePart final : public VideoSource {
                                                   std::optional<double> sequence_rate,
                                                   const StopSignal& stop);
 
-/// Says on standard error that a source is not whole.
+/// Says on standard error that a source is not whole, and its notes().
 /// @param pictures  that were read
 /// @param done      what happened to them: "encoded"
+/// @param quiet     no notes
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
-                          const char* done);
+                          const char* done, bool quiet);
 
 }  // namespace fbs::cli

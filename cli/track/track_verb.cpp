@@ -112,7 +112,7 @@ Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
   Tracker tracker(std::move(*encoder), *out);
   if (auto done = track_all(source, tracker, a.quiet); !done) return fail(about_input(done.error(), a.input));
   if (auto finished = out->finish(); !finished) return fail(finished.error());
-  print_source_warning(a.input, source, tracker.pictures(), "tracked");
+  print_source_warning(a.input, source, tracker.pictures(), "tracked", a.quiet);
   return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }
 

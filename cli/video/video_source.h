@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/picture.h"
 #include "common/result.h"
@@ -47,7 +48,14 @@ class VideoSource {
 
   /// Damaged packets skipped so far; worth a warning when not zero.
   [[nodiscard]] virtual std::int64_t damaged_packets() const { return 0; }
+
+  /// What was done to the pictures so far that changes how they look, a line each: "HDR (HLG) tone-mapped to
+  /// BT.709".
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
+
+/// One of the notes().
+inline constexpr const char* kOverBlack = "transparent parts are shown over black";
 
 struct SourceOptions {
   Rational sequence_rate{25, 1};     ///< pictures per second of image sequences

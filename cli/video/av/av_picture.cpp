@@ -41,6 +41,34 @@ AVPixelFormat without_range(AVPixelFormat format) {
   }
 }
 
+bool has_alpha(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return description != nullptr && (description->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
+}
+
+/// Mixes samples with a level by their opacity, 0..255.
+void mix(Plane& plane, int level, const Plane& alpha) {
+  for (std::size_t i = 0; i < plane.samples.size(); ++i) {
+    const int mixed = plane.samples[i] * alpha.samples[i] + level * (255 - alpha.samples[i]);
+    plane.samples[i] = static_cast<std::uint8_t>((mixed + 127) / 255);
+  }
+}
+
+/// Mean of the (up to) four samples that share a chroma sample.
+Plane halved(const Plane& alpha) {
+  Plane half((alpha.width + 1) / 2, (alpha.height + 1) / 2);
+  for (int y = 0; y < half.height; ++y) {
+    const std::uint8_t* upper = alpha.row(2 * y);
+    const std::uint8_t* lower = alpha.row(std::min(2 * y + 1, alpha.height - 1));
+    for (int x = 0; x < half.width; ++x) {
+      const int right = std::min(2 * x + 1, alpha.width - 1);
+      const int sum = upper[2 * x] + upper[right] + lower[2 * x] + lower[right];
+      half.row(y)[x] = static_cast<std::uint8_t>((sum + 2) / 4);
+    }
+  }
+  return half;
+}
+
 void copy_plane(const AVFrame& frame, int index, Plane& plane) {
   for (int y = 0; y < plane.height; ++y) {
     const std::uint8_t* row = frame.data[index] + static_cast<std::ptrdiff_t>(y) * frame.linesize[index];
@@ -52,7 +80,9 @@ void copy_plane(const AVFrame& frame, int index, Plane& plane) {
 
 Result<Picture> FramePicture::convert(const AVFrame& frame) {
   const AVPixelFormat stored = without_range(static_cast<AVPixelFormat>(frame.format));
-  const AVPixelFormat wanted = is_grey(stored) ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_YUV420P;
+  const AVPixelFormat wanted = has_alpha(stored) ? AV_PIX_FMT_YUVA420P
+                               : is_grey(stored) ? AV_PIX_FMT_GRAY8
+                                                 : AV_PIX_FMT_YUV420P;
   const AVFrame* planes = &frame;
   if (stored != wanted) {
     if (!scaled_) scaled_.reset(av_frame_alloc());
@@ -77,11 +107,26 @@ Result<Picture> FramePicture::convert(const AVFrame& frame) {
   }
   Picture picture(frame.width, frame.height);
   copy_plane(*planes, 0, picture.y);
-  if (wanted == AV_PIX_FMT_YUV420P) {
+  if (wanted != AV_PIX_FMT_GRAY8) {
     copy_plane(*planes, 1, picture.u);
     copy_plane(*planes, 2, picture.v);
   }
+  if (wanted == AV_PIX_FMT_YUVA420P) {
+    Plane alpha(frame.width, frame.height);
+    copy_plane(*planes, 3, alpha);
+    put_over_black(picture, alpha, colour_range(frame));
+  }
   return picture;
+}
+
+void FramePicture::put_over_black(Picture& picture, const Plane& alpha, ColourRange range) {
+  const bool opaque = std::ranges::all_of(alpha.samples, [](std::uint8_t a) { return a == 255; });
+  if (opaque) return;
+  was_transparent_ = true;
+  const Plane half = halved(alpha);
+  mix(picture.y, range == ColourRange::kFull ? 0 : 16, alpha);
+  mix(picture.u, 128, half);
+  mix(picture.v, 128, half);
 }
 
 ColourRange colour_range(const AVFrame& frame) {

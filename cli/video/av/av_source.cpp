@@ -11,6 +11,9 @@ extern "C" {
 #include <cstring>
 #include <utility>
 
+#include "cli/program/module.h"
+#include "cli/video/av/av_colour.h"
+#include "cli/video/av/av_filter.h"
 #include "cli/video/av/av_picture.h"
 #include "cli/video/av/av_support.h"
 #include "cli/video/orientation.h"
@@ -71,12 +74,15 @@ class AvSource final : public VideoSource {
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
+  [[nodiscard]] std::vector<std::string> notes() const override;
   /// Time of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
   [[nodiscard]] std::int64_t first_picture_time() const;
 
  private:
   Result<void> open_decoder(const SourceOptions& options);
   void describe(const AVFrame& first);
+  /// Prepares the conversion of HDR and wide colours to BT.709. Without it they are encoded as they are.
+  void convert_colours(const AVFrame& first);
   /// Decodes the next frame into frame_. @return false at the end
   Result<bool> decode();
   /// Sends the next packet, or the end, to the decoder.
@@ -95,7 +101,9 @@ class AvSource final : public VideoSource {
   AvCodec decoder_;
   AvPacket packet_{av_packet_alloc()};
   AvFrame frame_{av_frame_alloc()};
-  AVStream* stream_ = nullptr;  ///< of container_
+  AVStream* stream_ = nullptr;           ///< of container_
+  std::unique_ptr<FrameFilter> filter_;  ///< null: none is needed
+  std::string colour_note_;              ///< empty: colours are as in the source
   FramePicture converter_;
   VideoFormat format_;
   Orientation orientation_;
@@ -159,6 +167,33 @@ void AvSource::describe(const AVFrame& first) {
     const bool known = format_.pixel_aspect.num != 0;
     if (known) std::swap(format_.pixel_aspect.num, format_.pixel_aspect.den);
   }
+  convert_colours(first);
+}
+
+void AvSource::convert_colours(const AVFrame& first) {
+  const auto conversion = colour_conversion(*stream_, first);
+  if (!conversion) return;
+  const auto open = load_module_function<OpenFilterFunction>(kAvFilterModule, kOpenFilterSymbol);
+  Result<std::unique_ptr<FrameFilter>> filter;
+  if (open)
+    (*open)(first, conversion->graph, filter);
+  else
+    filter = fail(open.error());
+  if (!filter) {
+    colour_note_ = conversion->from + " is not converted to BT.709, and looks pale: " + filter.error().text;
+    return;
+  }
+  filter_ = std::move(*filter);
+  colour_note_ = conversion->from + (conversion->hdr ? " tone-mapped to BT.709" : " converted to BT.709");
+  format_.range = ColourRange::kLimited;
+  format_.matrix = ColourMatrix::kBt709;
+}
+
+std::vector<std::string> AvSource::notes() const {
+  std::vector<std::string> notes;
+  if (!colour_note_.empty()) notes.push_back(colour_note_);
+  if (converter_.was_transparent()) notes.emplace_back(kOverBlack);
+  return notes;
 }
 
 Result<std::optional<TimedPicture>> AvSource::next() {
@@ -167,12 +202,14 @@ Result<std::optional<TimedPicture>> AvSource::next() {
     if (!decoded) return fail(decoded.error());
     if (!*decoded) return std::nullopt;
   }
-  auto picture = converter_.convert(*frame_);
+  const bool lies = orientation_.transposed;
+  const int width = lies ? frame_->height : frame_->width, height = lies ? frame_->width : frame_->height;
+  if (width != format_.width || height != format_.height) return size_change(name_, format_, width, height);
+  Result<const AVFrame*> frame = frame_.get();
+  if (filter_) frame = filter_->filter(*frame_);
+  auto picture = frame.and_then([&](const AVFrame* f) { return converter_.convert(*f); });
   if (!picture) return error(picture.error().code, picture.error().text);
   TimedPicture timed{oriented(std::move(*picture), orientation_), next_pts()};
-  if (timed.picture.width() != format_.width || timed.picture.height() != format_.height) {
-    return size_change(name_, format_, timed.picture.width(), timed.picture.height());
-  }
   ++index_;
   return timed;
 }

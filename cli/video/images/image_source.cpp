@@ -1,5 +1,6 @@
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <sstream>
@@ -72,6 +73,9 @@ class ImageSource final : public VideoSource {
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override {
     return static_cast<std::int64_t>(files_.size());
   }
+  [[nodiscard]] std::vector<std::string> notes() const override {
+    return was_transparent_ ? std::vector<std::string>{kOverBlack} : std::vector<std::string>{};
+  }
 
  private:
   [[nodiscard]] static tl::unexpected<Error> error(const std::string& file) {
@@ -80,7 +84,7 @@ class ImageSource final : public VideoSource {
     return fail(ErrorCode::kIo, "cannot read " + file + ": " + (reason.empty() ? "damaged image" : reason));
   }
 
-  Result<Picture> read(const std::string& file) const {
+  Result<Picture> read(const std::string& file) {
     const auto image = OIIO::ImageInput::open(file);
     if (!image) return error(file);
     const OIIO::ImageSpec& spec = image->spec();
@@ -88,7 +92,8 @@ class ImageSource final : public VideoSource {
       return size_change(file, format_, spec.width, spec.height);
     }
     const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-    const int channels = spec.nchannels >= 3 ? 3 : 1;
+    const bool has_alpha = spec.alpha_channel == 3;
+    const int channels = has_alpha ? 4 : spec.nchannels >= 3 ? 3 : 1;
     std::vector<std::uint8_t> samples(pixels * static_cast<std::size_t>(channels));
     if (!image->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, samples.data())) {
       const std::string reason = image->geterror();
@@ -100,11 +105,24 @@ class ImageSource final : public VideoSource {
       for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = samples[i / 3];
       samples = std::move(rgb);
     }
+    if (has_alpha) drop_alpha(samples);
     return picture_from_rgb(samples, spec.width, spec.height, format_.range, format_.matrix);
+  }
+
+  /// OpenImageIO has multiplied the colours by it: they are shown over black.
+  void drop_alpha(std::vector<std::uint8_t>& samples) {
+    const std::size_t pixels = samples.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      was_transparent_ = was_transparent_ || samples[4 * i + 3] < 255;
+      std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
+                  samples.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+    samples.resize(3 * pixels);
   }
 
   std::vector<std::string> files_;
   std::size_t index_ = 0;
+  bool was_transparent_ = false;
   VideoFormat format_;
 };
 

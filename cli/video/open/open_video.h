@@ -29,7 +29,8 @@ bool is_stream_file(const std::string& name);
 ///   `frame_%05d.png`, `*.png` with `*` or `?`, or a folder
 ///                             image sequence through OpenImageIO, in order of number, then name
 ///   anything else             libav: every container, codec and address that ffmpeg opens
-/// Rotated phone video is put upright; grey, 4:2:2, 4:4:4, more than 8 bits and RGB become 8-bit 4:2:0.
+/// Rotated phone video is put upright; grey, 4:2:2, 4:4:4, more than 8 bits and RGB become 8-bit 4:2:0;
+/// through libav HDR, BT.2020 and P3 become BT.709, and transparent parts black.
 ///
 /// @return ErrorCode::kIo when it cannot be read, kUnsupported when it contains no video that we support,
 ///         kTooLarge when the pictures are outside the size limits
