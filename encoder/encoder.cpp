@@ -1,5 +1,6 @@
 #include "encoder/encoder.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,10 +13,14 @@
 #include "encoder/scene/face_scene.h"
 #include "encoder/scene/planar_scene.h"
 #include "encoder/scene/still_scene.h"
+#include "encoder/segment/pass_settings.h"
 #include "encoder/shots/shot_watch.h"
 
 namespace fbs {
 namespace {
+
+/// Where a face that lies is looked for: seconds, some apart, since the first picture may be black.
+constexpr std::array kTurnLooks{0.0, 2.0};
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -83,7 +88,9 @@ struct Encoder::Impl {
   ShotWatch shots;
   std::vector<std::uint8_t> ready{};
   std::unique_ptr<SceneEncoder> scene{};
-  bool face_seen = false;  ///< in any picture
+  bool face_seen = false;      ///< in any picture
+  std::size_t turn_looks = 0;  ///< done
+  int turn = 0;                ///< degrees clockwise
   EncodingReport report{};
   StreamPosition position{};  ///< behind the last picture
   bool analysing = false;     ///< the last picture may be so yet
@@ -97,17 +104,25 @@ struct Encoder::Impl {
 
   /// Marks of the face to track, if the picture shows one.
   /// @return kTooFewFaces when there are faces, but not so many as are asked for
-  [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture, bool all_sizes) const {
+  [[nodiscard]] Result<std::optional<Marks>> look_for_face(const Picture& picture, bool all_sizes) {
     if (settings.marks && report.pictures == 0) return settings.marks;
     const auto number = static_cast<std::size_t>(settings.face);
     const auto faces = finder.find(
         picture, number + 1, all_sizes ? FaceFinder::Effort::kAllSizes : FaceFinder::Effort::kUsualSizes);
+    if (faces.empty() || faces.front().landmarks.belief < FaceFinder::kClear) look_for_turned_face(picture);
     if (faces.empty()) return std::nullopt;
     if (faces.size() > number) return marks_of(faces[number]);
     if (face_seen) return marks_of(faces.front());  // in another shot others may be alone
     return fail(ErrorCode::kTooFewFaces, "no face " + std::to_string(number) + ": picture " +
                                              std::to_string(report.pictures) + " shows " +
                                              std::to_string(faces.size()) + ", and the largest is face 0");
+  }
+
+  void look_for_turned_face(const Picture& picture) {
+    if (settings.live || turn != 0 || turn_looks == kTurnLooks.size()) return;
+    if (static_cast<double>(report.pictures) < kTurnLooks[turn_looks] * fps_of(format)) return;
+    ++turn_looks;
+    turn = finder.turn_to_upright(picture, thread_count(settings));
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
@@ -232,7 +247,9 @@ Result<void> Encoder::finish() {
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (i.report.pictures == 0) return fail(ErrorCode::kInvalidArgument, "no pictures");
   if (!i.face_seen && !i.settings.allow_no_face)
-    return fail(ErrorCode::kNoFace, "no face found in any picture");
+    return fail(ErrorCode::kNoFace, i.turn == 0 ? "no face found in any picture"
+                                                : "no face found in any picture; turned clockwise by " +
+                                                      std::to_string(i.turn) + " degrees they show one");
   if (auto ended = i.scene->finish(); !ended) return ended;
   i.take_from_scene();
   PacketWriter().write(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
@@ -247,6 +264,10 @@ std::vector<std::uint8_t> Encoder::take() {
 
 bool Encoder::is_coding() const {
   return impl_->scene && impl_->scene->is_coding();
+}
+
+int Encoder::turn_to_upright() const {
+  return impl_->turn;
 }
 
 const PictureAnalysis& Encoder::analysis() const {

@@ -59,7 +59,8 @@ class Encoder {
   Result<void> set_bitrate(double kbps);
 
   /// Codes everything still held back and ends the stream.
-  /// @return kNoFace when no picture showed a face; kInvalidArgument when there was no picture at all, or the
+  /// @return kNoFace when no picture showed a face, whose text says if one lies on its side; kInvalidArgument
+  /// when there was no picture at all, or the
   ///         stream has ended already
   Result<void> finish();
 
@@ -68,6 +69,11 @@ class Encoder {
 
   /// Whether another thread is still coding: bytes become ready without another push.
   [[nodiscard]] bool is_coding() const;
+
+  /// Degrees clockwise by which pictures must be turned for a face that lies in them: 90, 180, 270; 0: none
+  /// does, as far as is known. Looked for in two pictures of the first two seconds, where no upright face is
+  /// beyond doubt, and never live.
+  [[nodiscard]] int turn_to_upright() const;
 
   [[nodiscard]] const PictureAnalysis& analysis() const;  ///< of the picture pushed last
   [[nodiscard]] const EncodingReport& report() const;

@@ -27,4 +27,10 @@ void add_from(CLI::App& verb, double& from) {
       ->type_name("SECONDS");
 }
 
+void add_rotate(CLI::App& verb, int& degrees) {
+  verb.add_option("--rotate", degrees, "Turn the pictures clockwise, where the video lies on its side")
+      ->check(CLI::IsMember({90, 180, 270}))
+      ->type_name("90|180|270");
+}
+
 }  // namespace fbs::cli

@@ -76,4 +76,7 @@ inline constexpr std::int64_t kMaxFrames =
 /// --from SECONDS, where a verb begins.
 void add_from(CLI::App& verb, double& from);
 
+/// --rotate DEGREES, where a verb reads a video.
+void add_rotate(CLI::App& verb, int& degrees);
+
 }  // namespace fbs::cli

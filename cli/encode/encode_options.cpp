@@ -162,6 +162,7 @@ void add_encode(CLI::App& app, Run& run) {
       ->type_name("SECONDS");
   verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
+  add_rotate(*verb, a.rotate);
   verb->add_flag("--allow-no-face", a.settings.allow_no_face,
                  "Encode a video without a face, too, instead of failing");
   verb->add_flag("--quiet", a.quiet, "Print no progress bar and no summary, and measure no PSNR");

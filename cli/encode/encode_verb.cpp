@@ -189,7 +189,7 @@ Result<void> check_files(const EncodeArguments& a) {
 Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop) {
   if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   auto opened = open_source_part(arguments.input, {arguments.frames, arguments.duration},
-                                 arguments.sequence_rate, stop);
+                                 arguments.sequence_rate, arguments.rotate, stop);
   if (!opened) return fail(opened.error());
   SourcePart& source = *opened;
   auto settings = settings_of(arguments, source);

@@ -83,6 +83,7 @@ bool is_pipe(const std::string& name) {
 Result<void> ClipEvaluation::copy_source(const std::string& name) {
   clip_.read_from = run_.path("source.y4m");
   SourceOptions options;
+  options.rotate = arguments_.rotate;
   options.stop = &stop_;
   auto source = open_video_source(name, options);
   if (!source) return fail(source.error());
@@ -109,12 +110,13 @@ Result<void> ClipEvaluation::copy_stream(RdPoint& point) {
 
 Result<void> ClipEvaluation::open(const std::string& source) {
   clip_.read_from = source;
-  if (is_pipe(source))
+  if (is_pipe(source) || arguments_.rotate != 0)
     if (auto copied = copy_source(source); !copied) return copied;
   auto opened = open_video_source(clip_.read_from);
   if (!opened) return fail(opened.error());
   clip_.format = (*opened)->format();
-  key_ = {{"source", file_stamp(clip_.read_from)},
+  key_ = {{"source", file_stamp(is_pipe(source) ? clip_.read_from : source)},
+          {"rotate", arguments_.rotate},
           {"frames", arguments_.frames.value_or(0)},
           {"program", program_stamp()}};
   return {};
@@ -259,7 +261,10 @@ Result<RdPoint> ClipEvaluation::peer_point(const PeerCodec& codec, const PeerVar
   const std::string name = codec.encoder + "-" + std::to_string(variant.divisor) + "x" +
                            std::to_string(variant.step) + "-crf" + std::to_string(crf);
   point.file = run_.path(name + "." + codec.suffix);
-  json key = {{"source", key_["source"]}, {"frames", key_["frames"]}, {"options", codec.options}};
+  json key = {{"source", key_["source"]},
+              {"rotate", key_["rotate"]},
+              {"frames", key_["frames"]},
+              {"options", codec.options}};
   const auto made = run_.find(name, key);
   if (!made || *made != file_stamp(point.file)) {
     if (auto coded = encode_peer(clip_.read_from, limits_,

@@ -48,6 +48,7 @@ void add_evaluate(CLI::App& app, Run& run) {
       ->expected(1, 16);
   verb->add_flag("--live", a.live, "Encode as live pictures are");
   verb->add_flag("--allow-no-face", a.allow_no_face, "Measure a video without a face instead of failing");
+  add_rotate(*verb, a.rotate);
   verb->add_option("--frames", a.frames, "Encode and measure the first N pictures only")
       ->check(CLI::Range(std::int64_t{1}, kMaxFrames))
       ->type_name("N");

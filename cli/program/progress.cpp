@@ -89,13 +89,15 @@ void Progress::draw(Clock::time_point now) {
   drawn_ = true;
 }
 
+void Progress::clear() {
+  if (!std::exchange(drawn_, false)) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+}
+
 void Progress::finish() {
   if (const std::int64_t done = std::exchange(done_, 0); done > 0) report_progress(label_, done, total_);
-  if (drawn_) {
-    std::fputs("\r\033[K", stderr);
-    std::fflush(stderr);
-  }
-  drawn_ = false;
+  clear();
   visible_ = false;
 }
 

@@ -23,6 +23,9 @@ class Progress {
   /// @param done  pictures finished so far; may exceed the total, which is only an estimate
   void update(std::int64_t done);
 
+  /// Clears the line until the next update: something else is to be printed.
+  void clear();
+
   /// Clears the line. Calling it again does nothing.
   void finish();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -72,6 +73,8 @@ class ClosedLoop {
     while (encoder_.is_coding() && !source.is_ready(kPatience)) continue;
     return pass_on();
   }
+
+  [[nodiscard]] int turn_to_upright() const { return encoder_.turn_to_upright(); }
 
   Result<Encoded> finish() {
     if (auto finished = encoder_.finish(); !finished) return fail(finished.error());
@@ -149,6 +152,7 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
   // duration of the previous one.
   const bool waits = !settings.live && !source.has_constant_rate();
   Durations durations(nominal);
+  bool warned = quiet;
   std::int64_t done = 0, last_pts = -nominal;
   auto current = source.next();
   while (current && *current) {
@@ -162,12 +166,22 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
     }
     last_pts = (*current)->pts;
     if (auto pushed = loop.push(std::move(**current), duration, see); !pushed) return fail(pushed.error());
+    if (!warned && loop.turn_to_upright() != 0) {
+      warned = true;
+      progress.clear();
+      print_turn_warning(loop.turn_to_upright());
+    }
     progress.update(++done);
     if (auto waited = loop.wait_for(source); !waited) return fail(waited.error());
     current = next ? std::move(*next) : source.next();
   }
   if (!current) return fail(current.error());
   return loop.finish();
+}
+
+void print_turn_warning(int degrees) {
+  std::fprintf(stderr, "fbs: a face %s; --rotate %d puts it upright\n",
+               degrees == 180 ? "is upside down" : "lies on its side", degrees);
 }
 
 std::string notes_of(const EncodingReport& report) {

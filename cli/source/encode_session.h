@@ -19,12 +19,17 @@ struct Encoded {
   EncodingReport report;
 };
 
-/// Encodes all of `source`, passes each piece of the stream to `take`, and measures it.
+/// Encodes all of `source`, passes each piece of the stream to `take`, and measures it. Says so, unless
+/// `quiet`, as soon as a face is found that lies on its side.
 /// @param see    called with every picture after its analysis; may be empty
 /// @param sound  puts it into the stream; null: the stream has none
 [[nodiscard]] Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settings,
                                             const TakeBytes& take, const SeePicture& see, Measured what,
                                             bool quiet, SoundInterleaver* sound = nullptr);
+
+/// Says on standard error that the pictures should be turned.
+/// @param degrees  Encoder::turn_to_upright()
+void print_turn_warning(int degrees);
 
 /// Notes for the user on a video with cuts, or in which no face could be tracked: a line, or nothing.
 /// "2 cuts; no face followed in 40 of 300 pictures".

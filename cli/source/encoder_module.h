@@ -36,6 +36,7 @@ struct EncodeArguments {
   std::optional<std::int64_t> frames;   ///< encode at most this many pictures
   std::optional<double> duration;       ///< encode at most this many seconds of the source
   std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
+  int rotate = 0;                       ///< degrees clockwise: 0, 90, 180, 270
   bool quiet = false;
 };
 
@@ -47,6 +48,7 @@ struct TrackArguments {
   std::optional<std::int64_t> frames;   ///< track at most this many pictures
   std::optional<double> duration;       ///< track at most this many seconds of the source
   std::optional<double> sequence_rate;  ///< of images, pictures per second; nothing: 25
+  int rotate = 0;                       ///< degrees clockwise: 0, 90, 180, 270
   bool quiet = false;
 };
 
@@ -71,6 +73,7 @@ struct EvaluateArguments {
   std::vector<int> qualities;        ///< used without streams; empty: kDefaultQualities
   bool live = false;                 ///< encode as live pictures are
   bool allow_no_face = false;
+  int rotate = 0;                        ///< of the source, degrees clockwise: 0, 90, 180, 270
   std::optional<std::int64_t> frames;    ///< encode and measure at most this many pictures of the source
   bool peers = false;                    ///< compare with other codecs, too
   std::vector<std::string> peer_codecs;  ///< their names, in small letters; empty: all that ffmpeg has

@@ -64,10 +64,11 @@ Error about_input(Error error, const std::string& name) {
 }
 
 Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
-                                    std::optional<double> sequence_rate, const StopSignal& stop) {
+                                    std::optional<double> sequence_rate, int rotate, const StopSignal& stop) {
   if (sequence_rate && !is_image_sequence(name))
     return fail(ErrorCode::kInvalidArgument, "--rate is for images: " + name + " has its own");
   SourceOptions options;
+  options.rotate = rotate;
   options.stop = &stop;
   if (sequence_rate)
     options.sequence_rate = {static_cast<std::uint32_t>(std::lround(*sequence_rate * 1000)), 1000};

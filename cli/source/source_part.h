@@ -61,8 +61,9 @@ class SourcePart final : public VideoSource {
 /// Opens `name` (open_video_source()) up to its limits.
 /// @param sequence_rate  pictures per second of image sequences, 25 if none is given; refused for other
 /// sources
+/// @param rotate  SourceOptions::rotate
 [[nodiscard]] Result<SourcePart> open_source_part(const std::string& name, const PartLimits& limits,
-                                                  std::optional<double> sequence_rate,
+                                                  std::optional<double> sequence_rate, int rotate,
                                                   const StopSignal& stop);
 
 /// Says on standard error that a source is not whole, and its notes().

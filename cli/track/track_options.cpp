@@ -40,6 +40,7 @@ void add_track(CLI::App& app, Run& run) {
       ->type_name("SECONDS");
   verb->add_option("--rate", a.sequence_rate, "Pictures per second, for image sequences (default: 25)")
       ->check(number_within(0.01, 1000));
+  add_rotate(*verb, a.rotate);
   verb->add_flag("--quiet", a.quiet, "Print no progress bar");
   verb->footer(kTrackExamples);
 }

@@ -7,6 +7,7 @@
 #include "cli/program/module.h"
 #include "cli/program/outcome.h"
 #include "cli/program/progress.h"
+#include "cli/source/encode_session.h"
 #include "cli/source/encoder_module.h"
 #include "cli/source/source_part.h"
 #include "cli/source/until_stopped.h"
@@ -62,6 +63,8 @@ class Tracker {
     return out_.add(row);
   }
 
+  [[nodiscard]] int turn_to_upright() const { return encoder_.turn_to_upright(); }
+
   /// @return kNoFace when no picture showed a face
   Result<void> finish() { return encoder_.finish(); }
 
@@ -77,11 +80,17 @@ class Tracker {
 
 Result<void> track_all(SourcePart& source, Tracker& tracker, bool quiet) {
   Progress progress("tracking", source.frame_count_estimate(), quiet);
+  bool warned = quiet;
   for (std::int64_t done = 0;;) {
     const auto picture = source.next();
     if (!picture) return fail(picture.error());
     if (!*picture) return tracker.finish();
     if (auto added = tracker.add(**picture); !added) return added;
+    if (!warned && tracker.turn_to_upright() != 0) {
+      warned = true;
+      progress.clear();
+      print_turn_warning(tracker.turn_to_upright());
+    }
     progress.update(++done);
   }
 }
@@ -99,7 +108,7 @@ Result<TableFormat> check(const TrackArguments& a) {
 Result<Outcome> track(const TrackArguments& a, const StopSignal& stop) {
   const auto format = check(a);
   if (!format) return fail(format.error());
-  auto opened = open_source_part(a.input, {a.frames, a.duration}, a.sequence_rate, stop);
+  auto opened = open_source_part(a.input, {a.frames, a.duration}, a.sequence_rate, a.rotate, stop);
   if (!opened) return fail(opened.error());
   SourcePart& source = *opened;
   const auto settings = settings_of(a);

@@ -30,6 +30,10 @@ Orientation orientation_from_matrix(const std::array<std::int32_t, 9>& matrix) {
   return {};
 }
 
+Orientation orientation_of_turn(int degrees) {
+  return {degrees == 180 || degrees == 270, degrees == 90 || degrees == 180, degrees == 90 || degrees == 270};
+}
+
 Picture oriented(Picture picture, Orientation orientation) {
   if (orientation == Orientation{}) return picture;
   Picture shown;

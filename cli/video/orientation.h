@@ -21,6 +21,9 @@ struct Orientation {
 /// point (p, q) is shown at (a p + c q, b p + d q). Angles other than quarter turns count as upright.
 Orientation orientation_from_matrix(const std::array<std::int32_t, 9>& matrix);
 
+/// @param degrees  clockwise: 0, 90, 180, 270
+Orientation orientation_of_turn(int degrees);
+
 /// The picture as displayed. With odd sides chroma may shift by half a sample, since 4:2:0 pairs pixels from
 /// the top left.
 Picture oriented(Picture picture, Orientation orientation);

@@ -60,6 +60,7 @@ inline constexpr const char* kOverBlack = "transparent parts are shown over blac
 struct SourceOptions {
   Rational sequence_rate{25, 1};     ///< pictures per second of image sequences
   int decoder_threads = 1;           ///< at least 1
+  int rotate = 0;                    ///< degrees clockwise: 0, 90, 180, 270
   const StopSignal* stop = nullptr;  ///< must outlive the source; interrupts a read that waits, with an error
 };
 

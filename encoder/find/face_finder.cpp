@@ -1,9 +1,12 @@
 #include "encoder/find/face_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <opencv2/core.hpp>
 
+#include "common/workers.h"
 #include "encoder/image/planes.h"
 
 namespace fbs {
@@ -105,6 +108,29 @@ std::vector<FoundFace> FaceFinder::find(const Picture& picture, const EyeDistanc
   }
   sort(faces);
   return faces;
+}
+
+int FaceFinder::turn_to_upright(const Picture& picture, int threads) const {
+  struct Turn {
+    cv::RotateFlags way;
+    int degrees;
+    double belief = 0;
+  };
+  std::array turns{Turn{cv::ROTATE_90_CLOCKWISE, 90}, Turn{cv::ROTATE_180, 180},
+                   Turn{cv::ROTATE_90_COUNTERCLOCKWISE, 270}};
+  Workers workers(std::min(threads, static_cast<int>(turns.size())));
+  workers.run(static_cast<int>(turns.size()), [&](int k, int) {
+    Turn& turn = turns[static_cast<std::size_t>(k)];
+    const bool lies = turn.degrees != 180;
+    Picture turned;
+    turned.y = lies ? Plane(picture.height(), picture.width()) : Plane(picture.width(), picture.height());
+    cv::Mat out(turned.height(), turned.width(), CV_8UC1, turned.y.samples.data());
+    cv::rotate(view(picture.y), out, turn.way);
+    const auto faces = find(turned, 1, Effort::kUsualSizes);
+    if (!faces.empty()) turn.belief = faces.front().landmarks.belief;
+  });
+  const Turn& best = *std::ranges::max_element(turns, {}, &Turn::belief);
+  return best.belief >= kClear ? best.degrees : 0;
 }
 
 }  // namespace fbs

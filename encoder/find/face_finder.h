@@ -26,6 +26,9 @@ class FaceFinder {
   /// 196 pictures without a face and 620 of text none passes.
   static constexpr double kBelieved = 0.5, kBelievedIfSmall = 0.8;
 
+  /// Belief of a face beyond doubt. An upright face has 0.6 at most when it is turned.
+  static constexpr double kClear = 0.9;
+
   enum class Effort : std::uint8_t { kUsualSizes, kAllSizes };
 
   /// Errors of load_landmarks().
@@ -41,6 +44,12 @@ class FaceFinder {
   /// Finds faces of certain sizes, in the same order.
   [[nodiscard]] std::vector<FoundFace> find(const Picture& picture, const EyeDistances& sizes,
                                             std::size_t wanted) const;
+
+  /// Quarter turns that put upright a face that lies on its side or stands on its head: 90, 180 or 270
+  /// degrees clockwise; 0: no such face is beyond doubt. Of 1400 pictures that are upright, or have no face,
+  /// none is. Takes three times as long as find() of usual sizes.
+  /// @param threads  at least 1
+  [[nodiscard]] int turn_to_upright(const Picture& picture, int threads) const;
 
   [[nodiscard]] const LandmarkSearch& landmarks() const { return landmarks_; }
 

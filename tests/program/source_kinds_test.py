@@ -1,5 +1,5 @@
 """Sources other than plain 8-bit 4:2:0 at a constant rate: coded, with their timestamps."""
-from harness import TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, read_y4m
+from harness import TALK_Y4M, ProgramTest, Y4m, ffmpeg, ffprobe, flat_y4m, read_y4m
 
 
 class SourceKinds(ProgramTest):
@@ -68,6 +68,25 @@ class SourceKinds(ProgramTest):
                 upright = read_y4m(self.folder / "upright.y4m")
                 self.assertGreater(upright.luma_psnr(read_y4m(self.short)), 28, "the test's own video is wrong")
                 self.comes_back("in.mp4")
+
+    def test_face_that_lies_is_said_and_turned(self):
+        for degrees, turn, how in ((90, "cclock", "lies on its side"), (270, "clock", "lies on its side"),
+                                   (180, "clock,transpose=clock", "is upside down")):
+            with self.subTest(degrees):
+                self.convert("in.mkv", "-c:v", "ffv1", "-vf", "transpose=" + turn)
+                said = f"fbs: a face {how}; --rotate {degrees} puts it upright\n".encode()
+                self.assertIn(said, self.fbs("encode", "in.mkv", "no.fbs", "--allow-no-face").stderr)
+                self.fail_cleanly("encode", "in.mkv", "no.fbs", "--quiet", says=[f"turned clockwise by {degrees} degrees"])
+                turned = self.fbs("encode", "in.mkv", "out.fbs", "--rotate", degrees)
+                self.assertNotIn(b"upright", turned.stderr)
+                self.succeed("encode", self.short, "plain.fbs")
+                self.assertEqual((self.folder / "out.fbs").read_bytes(), (self.folder / "plain.fbs").read_bytes())
+        self.assertIn(said, self.fbs("track", "in.mkv", "no.csv").stderr)
+        self.succeed("evaluate", "in.mkv", "out.fbs", "--rotate", degrees)
+
+    def test_video_without_a_face_does_not_lie(self):
+        self.write("grey.y4m", flat_y4m(176, 144, 70, lambda x, y: x * y // 16))
+        self.assertNotIn(b"upright", self.fbs("encode", "grey.y4m", "out.fbs", "--allow-no-face").stderr)
 
     def test_variable_rate_keeps_its_timestamps(self):
         ffmpeg("-i", TALK_Y4M, "-vf", "select='not(eq(mod(n,7),2)+between(n,40,55))'", "-fps_mode", "vfr",

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "bitstream/packet.h"
 #include "cli/files/number_pattern.h"
 #include "cli/program/module.h"
+#include "cli/video/orientation.h"
 #include "cli/video/video_modules.h"
 #include "cli/video/y4m/y4m.h"
 
@@ -29,6 +31,38 @@ Result<std::unique_ptr<VideoSource>> open_by_module(const char* module, const st
   (*open)(input, options, source);
   return source;
 }
+
+/// A source whose pictures are turned.
+class TurnedSource final : public VideoSource {
+ public:
+  TurnedSource(std::unique_ptr<VideoSource> source, Orientation turn)
+      : source_(std::move(source)), turn_(turn), format_(source_->format()) {
+    if (!turn.transposed) return;
+    std::swap(format_.width, format_.height);
+    if (format_.pixel_aspect.num != 0) std::swap(format_.pixel_aspect.num, format_.pixel_aspect.den);
+  }
+
+  [[nodiscard]] const VideoFormat& format() const override { return format_; }
+  Result<std::optional<TimedPicture>> next() override {
+    auto picture = source_->next();
+    if (picture && *picture) (*picture)->picture = oriented(std::move((*picture)->picture), turn_);
+    return picture;
+  }
+  [[nodiscard]] bool is_ready(std::chrono::milliseconds patience) const override {
+    return source_->is_ready(patience);
+  }
+  [[nodiscard]] bool has_constant_rate() const override { return source_->has_constant_rate(); }
+  [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override {
+    return source_->frame_count_estimate();
+  }
+  [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
+  [[nodiscard]] std::vector<std::string> notes() const override { return source_->notes(); }
+
+ private:
+  std::unique_ptr<VideoSource> source_;
+  Orientation turn_;
+  VideoFormat format_;
+};
 
 class NullSink final : public VideoSink {
  public:
@@ -94,8 +128,9 @@ bool is_stream_file(const std::string& name) {
   return begins_with(kSignature) || (begins_with(kEbmlHead) && start.find("V_FBS") != std::string::npos);
 }
 
-Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
-                                                       const SourceOptions& options) {
+namespace {
+
+Result<std::unique_ptr<VideoSource>> open_as_stored(const std::string& input, const SourceOptions& options) {
   if (input == "-" || input.ends_with(".y4m")) return open_y4m_source(input);
   if (input.starts_with("camera:")) return open_by_module(kCameraModule, input, options);
   if (is_image_sequence(input)) return open_by_module(kImageModule, input, options);
@@ -103,6 +138,15 @@ Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
     return fail(ErrorCode::kUnsupported,
                 "cannot read " + input + ": it is an fbs stream, not a video; fbs decode makes one of it");
   return open_by_module(kAvModule, input, options);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VideoSource>> open_video_source(const std::string& input,
+                                                       const SourceOptions& options) {
+  auto source = open_as_stored(input, options);
+  if (!source || options.rotate == 0) return source;
+  return std::make_unique<TurnedSource>(std::move(*source), orientation_of_turn(options.rotate));
 }
 
 bool has_sound_track(const std::string& output) {

@@ -26,6 +26,10 @@ TEST(Orientation, QuarterTurnsMoveTheTopLeftCorner) {
   EXPECT_EQ(anticlockwise.y.row(63)[0], 200);
   const Picture upside_down = shown(-kOne, 0, 0, -kOne);
   EXPECT_EQ(upside_down.y.row(65)[63], 200);
+  EXPECT_EQ(oriented(stored, orientation_of_turn(0)), stored);
+  EXPECT_EQ(oriented(stored, orientation_of_turn(90)), clockwise);
+  EXPECT_EQ(oriented(stored, orientation_of_turn(180)), upside_down);
+  EXPECT_EQ(oriented(stored, orientation_of_turn(270)), anticlockwise);
   const Picture mirrored = shown(-kOne, 0, 0, kOne);
   EXPECT_EQ(mirrored.y.row(0)[63], 200);
 }
