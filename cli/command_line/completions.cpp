@@ -46,7 +46,8 @@ std::string short_text(const std::string& description) {
 
 bool takes_file(const CLI::Option& option) {
   const std::string value = value_of(option);
-  return value == "FILE" || value == "STREAM" || value == "STREAM|PICTURE" || value == "DIR";
+  return value == "FILE" || value == "[FILE]" || value == "STREAM" || value == "STREAM|PICTURE" ||
+         value == "DIR";
 }
 
 std::string bash_completions(const CLI::App& app) {

@@ -15,6 +15,8 @@ constexpr const char* kEvaluateExamples =
     "  fbs evaluate talk.mkv --quality 30 50 70        choose the qualities\n"
     "  fbs evaluate talk.mkv --peers --html talk.html  draw curves beside x264, x265 and AV1\n"
     "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
+    "  fbs evaluate talk.mkv --json talk.json --csv -  results for programs: JSON, and a line for each "
+    "picture\n"
     "\n"
     "A run with --html or --keep that is interrupted goes on where it was when it is started again.";
 
@@ -58,8 +60,10 @@ void add_evaluate(CLI::App& app, Run& run) {
           "Table of 68 landmarks (see export) or stream whose mesh says where the face is, instead of the "
           "streams that are measured")
       ->type_name("FILE");
-  verb->add_option("--html", a.html, "Write a report with curves and pictures")->type_name("FILE");
-  verb->add_option("--csv", a.csv, "Write the values of each picture")->type_name("FILE");
+  verb->add_option("--html", a.html, "Write a report with curves and pictures, or - for standard output")
+      ->type_name("FILE");
+  verb->add_option("--csv", a.csv, "Write the values of each picture, or - for standard output")
+      ->type_name("FILE");
   verb->add_option("--stills", a.stills,
                    "Folder for JPEG files of a typical picture and of the worst: source, streams, difference")
       ->type_name("DIR");
@@ -68,7 +72,11 @@ void add_evaluate(CLI::App& app, Run& run) {
       ->type_name("DIR");
   verb->add_option("--jobs", a.jobs, "Videos of a folder to evaluate at the same time (default: 1)")
       ->check(CLI::Range(1, 64));
-  verb->add_flag("--json", a.json, "Print JSON");
+  verb->add_option_function<std::string>(
+          "--json", [&json = a.json](const std::string& file) { json = file.empty() ? "-" : file; },
+          "Write the results as JSON, on standard output unless a file (.json) is named")
+      ->expected(0, 1)
+      ->type_name("[FILE]");
   verb->add_flag("--quiet", a.quiet, "Print no progress");
   verb->footer(kEvaluateExamples);
 }

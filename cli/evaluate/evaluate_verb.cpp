@@ -48,14 +48,16 @@ Result<void> check_streams(const EvaluateArguments& a) {
 }
 
 Result<void> check_outputs(const EvaluateArguments& a, const std::vector<std::string>& clips) {
-  for (const auto& [option, name] : {std::pair{"--csv", a.csv}, std::pair{"--html", a.html}})
-    if (name == "-") return refuse(std::string(option) + " - : needs the name of a file");
+  // A video behind --json would be its FILE.
+  if (!a.json.empty() && a.json != "-" && extension_of(a.json) != ".json" && !is_device(a.json))
+    return refuse("--json " + a.json +
+                  ": the name of the file ends in .json; for standard output use --json -");
   std::vector<NamedFile> inputs{{"SOURCE", a.source}, {"--region", a.region}};
   for (const std::string& stream : a.streams) inputs.push_back({"STREAM", stream});
   for (const std::string& clip : clips) inputs.push_back({"the video", clip});
-  const std::vector<NamedFile> outputs{{"--csv", a.csv}, {"--html", a.html}};
+  const std::vector<NamedFile> outputs{{"--csv", a.csv}, {"--html", a.html}, {"--json", a.json}};
   if (auto distinct = check_distinct(inputs, outputs); !distinct) return distinct;
-  for (const std::string& name : {a.csv, a.html}) {
+  for (const std::string& name : {a.csv, a.html, a.json}) {
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty() && !fs::is_directory(folder))
       return refuse("cannot write " + name + ": there is no folder " + folder.string());
@@ -79,7 +81,7 @@ Result<void> check_arguments(const EvaluateArguments& a, const std::vector<std::
 
 /// Folder for finished results; empty: none.
 std::string kept_folder(const EvaluateArguments& arguments) {
-  if (!arguments.keep.empty() || arguments.html.empty()) return arguments.keep;
+  if (!arguments.keep.empty() || arguments.html.empty() || arguments.html == "-") return arguments.keep;
   return fs::path(arguments.html).replace_extension(".fbs-run").string();
 }
 
@@ -96,11 +98,19 @@ nlohmann::json folder_json(const EvaluateArguments& arguments, const FolderRepor
   return out;
 }
 
-Result<void> write_files(const EvaluateArguments& arguments, const std::vector<ClipReport>& clips) {
+Result<void> write_files(const EvaluateArguments& arguments, const std::vector<ClipReport>& clips,
+                         const nlohmann::json& results) {
   if (!arguments.csv.empty())
     if (auto written = write_csv(arguments.csv, clips); !written) return written;
+  if (!arguments.json.empty())
+    if (auto written = write_json(arguments.json, results); !written) return written;
   if (arguments.html.empty()) return {};
   return write_html(arguments.html, arguments.source, clips);
+}
+
+/// Whether nothing else goes there.
+bool has_standard_output(const EvaluateArguments& a) {
+  return a.csv != "-" && a.html != "-" && a.json != "-";
 }
 
 Result<Outcome> evaluate_single(const EvaluateArguments& arguments, const Tools& tools, const RunFolder& run,
@@ -109,16 +119,14 @@ Result<Outcome> evaluate_single(const EvaluateArguments& arguments, const Tools&
   if (!clip) return fail(clip.error());
   const bool whole = clip->whole;
   std::vector<ClipReport> clips{std::move(*clip)};
-  if (auto written = write_files(arguments, clips); !written) return fail(written.error());
+  if (auto written = write_files(arguments, clips, clip_json(clips.front())); !written)
+    return fail(written.error());
   if (!arguments.stills.empty()) {
     const auto stills = make_stills(clips.front());
     if (!stills) return fail(stills.error());
     if (auto written = write_stills(arguments.stills, *stills); !written) return fail(written.error());
   }
-  if (arguments.json)
-    std::printf("%s\n", clip_json(clips.front()).dump(1).c_str());
-  else
-    print_clip(clips.front());
+  if (has_standard_output(arguments)) print_clip(clips.front());
   return whole ? Outcome::kComplete : Outcome::kPartial;
 }
 
@@ -127,11 +135,9 @@ Result<Outcome> evaluate_clips(const EvaluateArguments& arguments, const std::ve
   const auto report = evaluate_folder(arguments, names, tools, run, stop);
   if (!report) return fail(report.error());
   if (report->clips.empty()) return fail(ErrorCode::kInvalidArgument, report->failed.front());
-  if (auto written = write_files(arguments, report->clips); !written) return fail(written.error());
-  if (arguments.json)
-    std::printf("%s\n", folder_json(arguments, *report).dump(1).c_str());
-  else
-    print_clips(report->clips);
+  if (auto written = write_files(arguments, report->clips, folder_json(arguments, *report)); !written)
+    return fail(written.error());
+  if (has_standard_output(arguments)) print_clips(report->clips);
   for (const std::string& line : report->failed) std::fprintf(stderr, "fbs: left out: %s\n", line.c_str());
   const bool whole =
       std::all_of(report->clips.begin(), report->clips.end(), [](const ClipReport& c) { return c.whole; });

@@ -26,7 +26,7 @@ constexpr const char* kExportExamples =
 
 struct ExportArguments {
   std::string input, output;
-  std::string format;  ///< of a table: "csv", "json"; empty: by the name of the output
+  std::string format;  ///< "csv", "json", "glb", "gltf"; empty: by the name of the output
   bool draco = false;  ///< of a .glb or .gltf
 };
 
@@ -44,7 +44,16 @@ Result<OutputKind> model_kind(const std::string& name) {
   return fail(ErrorCode::kUnsupported, name + ": unknown format; use .glb, .gltf, .obj, .csv or .json");
 }
 
+/// --format of a model on standard output, or of one whose name says so anyway.
+std::optional<OutputKind> asked_model(const ExportArguments& a) {
+  if (a.output != "-" && extension_of(a.output) != "." + a.format) return std::nullopt;
+  if (a.format == "glb") return OutputKind::kGlb;
+  if (a.format == "gltf") return OutputKind::kGltf;
+  return std::nullopt;
+}
+
 Result<Output> output_of(const ExportArguments& a) {
+  if (const auto model = asked_model(a)) return Output{*model, {}};
   const auto table = table_format(a.output, a.format);
   if (!table) return fail(table.error());
   Output out;
@@ -56,7 +65,8 @@ Result<Output> output_of(const ExportArguments& a) {
     return fail(kind.error());
   }
   if (a.draco && out.kind != OutputKind::kGlb && out.kind != OutputKind::kGltf)
-    return fail(ErrorCode::kInvalidArgument, "--draco needs an OUTPUT that ends in .glb or .gltf");
+    return fail(ErrorCode::kInvalidArgument,
+                "--draco needs an OUTPUT that ends in .glb or .gltf, or --format");
   return out;
 }
 
@@ -173,12 +183,11 @@ void add_export(CLI::App& app, Run& run) {
   verb->add_option("INPUT", a.input, "Stream to export, or - for standard input")->required();
   verb->add_option(
           "OUTPUT", a.output,
-          "Model (.glb, .gltf, or a sequence head_%05d.obj), table (.csv, .json), or - for a table on "
-          "standard output")
+          "Model (.glb, .gltf, or a sequence head_%05d.obj), table (.csv, .json), or - for standard output")
       ->required();
-  verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
-      ->check(CLI::IsMember({"csv", "json"}))
-      ->type_name("csv|json");
+  verb->add_option("--format", a.format, "On standard output (default: csv)")
+      ->check(CLI::IsMember({"csv", "json", "glb", "gltf"}))
+      ->type_name("csv|json|glb|gltf");
   verb->add_flag("--draco", a.draco, "Compress the mesh of a .glb or .gltf with Draco");
   verb->footer(kExportExamples);
 }

@@ -8,11 +8,11 @@ namespace fbs::cli {
 
 Result<std::optional<TableFormat>> table_format(const std::string& output, const std::string& format) {
   std::optional<TableFormat> asked, named;
-  if (!format.empty()) asked = format == "json" ? TableFormat::kJson : TableFormat::kCsv;
+  if (format == "csv" || format == "json") asked = format == "json" ? TableFormat::kJson : TableFormat::kCsv;
   if (output == "-") return asked.value_or(TableFormat::kCsv);
   if (output.ends_with(".csv")) named = TableFormat::kCsv;
   if (output.ends_with(".json")) named = TableFormat::kJson;
-  if (asked && asked != named)
+  if (!format.empty() && (!asked || asked != named))
     return fail(ErrorCode::kInvalidArgument,
                 output + ": --format " + format + " needs a name that ends in ." + format + ", or -");
   return named;

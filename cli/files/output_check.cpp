@@ -40,13 +40,6 @@ bool same_file(const Place& a, const Place& b) {
   return !a.existing && !b.existing && !a.made.empty() && a.made == b.made;
 }
 
-/// Whether the name denotes a pipe or device, or one of the program's open files.
-bool is_device(const std::string& name) {
-  struct stat status {};
-  if (name.starts_with("/dev/") || name.starts_with("/proc/")) return true;
-  return stat(name.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-}
-
 Result<void> check_pair(const NamedFile& written, const char* stream_of_written, const NamedFile& other,
                         const char* stream_of_other) {
   if (written.name.empty() || other.name.empty()) return {};
@@ -60,6 +53,12 @@ Result<void> check_pair(const NamedFile& written, const char* stream_of_written,
 }
 
 }  // namespace
+
+bool is_device(const std::string& name) {
+  struct stat status {};
+  if (name.starts_with("/dev/") || name.starts_with("/proc/")) return true;
+  return stat(name.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
 
 std::string extension_of(const std::string& name) {
   std::string extension = fs::path(name).extension().string();

@@ -24,6 +24,9 @@ Result<void> check_distinct(std::span<const NamedFile> inputs, std::span<const N
 /// @return ErrorCode::kUnsupported for other names, with one that would do
 Result<void> check_stream_name(const std::string& output);
 
+/// Whether the name denotes a pipe or device, or one of the program's open files.
+[[nodiscard]] bool is_device(const std::string& name);
+
 /// ".mp4" of "talk.MP4"; empty when there is none.
 std::string extension_of(const std::string& name);
 

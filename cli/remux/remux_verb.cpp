@@ -98,8 +98,10 @@ Result<Outcome> run_remux(const RemuxArguments& arguments) {
   if (!file) return fail(file.error());
   const auto stream = file->read_all();
   if (!stream) return fail(stream.error());
-  const auto done = is_matroska_name(arguments.output) ? put_in(arguments, *file, *stream)
-                                                       : take_out(arguments, *file, *stream);
+  // On standard output, whichever the input is not.
+  const bool puts_in =
+      is_matroska_name(arguments.output) || (arguments.output == "-" && !file->is_matroska());
+  const auto done = puts_in ? put_in(arguments, *file, *stream) : take_out(arguments, *file, *stream);
   return done.map([] { return Outcome::kComplete; });
 }
 
@@ -110,7 +112,8 @@ void add_remux(CLI::App& app, Run& run) {
       app, run, "remux", "Put a stream into a Matroska file, or take it out, without loss", run_remux);
   verb->add_option("INPUT", a.input, "Stream (.fbs, or - for standard input) or Matroska file (.mkv)")
       ->required();
-  verb->add_option("OUTPUT", a.output, "Matroska file (.mkv) or stream (.fbs, or - for standard output)")
+  verb->add_option("OUTPUT", a.output,
+                   "Matroska file (.mkv) or stream (.fbs), or - for standard output: whichever INPUT is not")
       ->required();
   verb->add_flag("--quiet", a.quiet, "Print nothing but errors");
   verb->footer(kRemuxExamples);

@@ -83,10 +83,10 @@ struct EvaluateArguments {
       region;        ///< table of landmarks, or a stream, that gives the face; empty: the measured streams do
   std::string csv;   ///< file for the values of each picture; empty: none
   std::string html;  ///< file for the report; empty: none
+  std::string json;  ///< file for the results; empty: none
   std::string stills;       ///< folder for pictures; empty: none
   std::string keep;         ///< folder for finished results; empty: beside the report, else a temporary one
   std::optional<int> jobs;  ///< videos of a folder evaluated at the same time
-  bool json = false;
   bool quiet = false;
 };
 

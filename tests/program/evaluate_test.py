@@ -51,6 +51,14 @@ class Reports(EvaluateTest):
         self.assertIn("24 of 24 pictures", page)
         self.assertRegex(page, r'class="summary">At [\d.]+ kbit/s')
 
+    def test_results_go_to_files_or_standard_output(self):
+        call = "evaluate", TALK_Y4M, TALK_ONE_FBS, "--quiet"
+        table = self.succeed(*call, "--json", "out.json", "--csv", "out.csv", "--html", "out.html")
+        self.assertIn(b"kbit/s", table)
+        for option, file in (("--json", "out.json"), ("--csv", "out.csv"), ("--html", "out.html")):
+            self.assertEqual(self.succeed(*call, option, "-"), (self.folder / file).read_bytes(), option)
+        self.assertEqual(self.succeed(*call, "--json"), (self.folder / "out.json").read_bytes())
+
     def test_streams_share_the_face_of_the_first(self):
         report = json.loads(self.succeed("evaluate", TALK_Y4M, TALK_ONE_FBS, TALK_FBS, "--json", "--csv", "out.csv"))
         self.assertEqual([point["point"] for point in report["points"]], [str(TALK_ONE_FBS), str(TALK_FBS)])
@@ -234,7 +242,8 @@ class Refused(EvaluateTest):
                            ("talk.y4m talk.fbs --html talk.fbs", "--html talk.fbs is the same file as STREAM"),
                            ("clips --html clips/talk.y4m", "the same file as the video"),
                            ("talk.y4m --html out --csv out", "the same file"),
-                           ("talk.y4m --csv -", "needs the name of a file"),
+                           ("talk.y4m --csv - --json", "the same file"),
+                           ("--json talk.y4m talk.fbs", "--json talk.y4m: the name of the file ends in .json"),
                            ("talk.y4m --html absent/out.html", "there is no folder absent"),
                            ("talk.y4m --region faces.csv", "more than talk.y4m"),
                            ("talk.y4m --region talk.y4m", "has no columns"),

@@ -207,6 +207,7 @@ class Model(ProgramTest):
         self.fail_cleanly("export", TALK_FBS, "head_%05d.obj", "--draco", says=["--draco"])
         self.fail_cleanly("export", TALK_FBS, "head.glb", "--format", "json", says=["--format json", ".json"])
         self.fail_cleanly("export", TALK_FBS, "out.csv", "--format", "json", says=["--format json"])
+        self.fail_cleanly("export", TALK_FBS, "out.csv", "--format", "glb", says=["--format glb"])
         self.fail_cleanly("export", TALK_FBS, "-", "--format", "xml", says=["--format"])
         self.fail_cleanly("export", TALK_FBS, "head.obj", says=["head.obj", "%05d"])
 
@@ -288,6 +289,10 @@ class Table(ProgramTest):
         self.succeed("export", TALK_FBS, "out.json")
         self.assertEqual(self.succeed("export", TALK_FBS, "-"), (self.folder / "out.csv").read_bytes())
         self.assertEqual(self.succeed("export", TALK_FBS, "-", "--format", "json"), (self.folder / "out.json").read_bytes())
+        for model in ("glb", "gltf"):
+            self.succeed("export", TALK_FBS, "out." + model, "--draco")
+            self.assertEqual(self.succeed("export", TALK_FBS, "-", "--format", model, "--draco"),
+                             (self.folder / f"out.{model}").read_bytes())
 
     def test_jaw_opens_with_the_lips(self):
         rows = rows_of(self.succeed("export", TALK_FBS, "-").decode())

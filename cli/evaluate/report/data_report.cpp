@@ -93,6 +93,15 @@ json clip_json(const ClipReport& clip) {
   return out;
 }
 
+Result<void> write_json(const std::string& file, const json& results) {
+  auto out = AtomicFile::create(file);
+  if (!out) return fail(out.error());
+  const std::string text = results.dump(1) + "\n";
+  return out->write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())).and_then([&] {
+    return out->commit();
+  });
+}
+
 Result<void> write_csv(const std::string& file, const std::vector<ClipReport>& clips) {
   auto out = AtomicFile::create(file);
   if (!out) return fail(out.error());
