@@ -37,6 +37,7 @@ constexpr const char* kExamples =
     "  fbs track talk.mkv talk.csv                     the same of a video, without a stream\n"
     "  fbs retarget --motion a.fbs --face b.fbs c.fbs  b's face with a's motion\n"
     "  fbs remux talk.fbs talk.mkv                     into a Matroska file, and back, without loss\n"
+    "  fbs doctor                                      versions and machine, for bug reports\n"
     "\n"
     "Run `fbs VERB --help` for the options of a verb.\n"
     "Exit code: 0 on success; 2 on failure, with one line on standard error; 3 or 4 when decode\n"
@@ -82,6 +83,7 @@ int run_program(int argc, char** argv) {
   fbs::cli::add_track(app, run);
   fbs::cli::add_retarget(app, run);
   fbs::cli::add_remux(app, run);
+  fbs::cli::add_doctor(app, run);
   fbs::cli::add_completions(app, run);
   try {
     app.parse(argc, argv);

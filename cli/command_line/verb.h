@@ -26,6 +26,7 @@ void add_export(CLI::App& app, Run& run);
 void add_track(CLI::App& app, Run& run);
 void add_retarget(CLI::App& app, Run& run);
 void add_remux(CLI::App& app, Run& run);
+void add_doctor(CLI::App& app, Run& run);
 void add_completions(CLI::App& app, Run& run);
 
 /// A verb that is being added, and the arguments that its options fill.

@@ -15,7 +15,7 @@ constexpr const char* kEvaluateExamples =
     "  fbs evaluate talk.mkv --quality 30 50 70        choose the qualities\n"
     "  fbs evaluate talk.mkv --peers --html talk.html  draw curves beside x264, x265 and AV1\n"
     "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
-    "  fbs evaluate talk.mkv --json talk.json --csv -  results for programs: JSON, and a line for each "
+    "  fbs evaluate talk.mkv --json talk.json --csv -  results for programs, in a file and printed\n"
     "picture\n"
     "\n"
     "A run with --html or --keep that is interrupted goes on where it was when it is started again.";

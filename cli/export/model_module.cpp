@@ -13,3 +13,7 @@ FBS_MODULE_EXPORT void fbs_read_wire_frame(const std::string& name,
                                            fbs::Result<std::shared_ptr<const fbs::WireFrame>>& frame) {
   frame = fbs::read_wire_frame_gltf(name);
 }
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  return "";  // tinygltf, which is part of the module and has no version
+}

@@ -1,6 +1,10 @@
 #include "cli/stream/matroska_module.h"
 
+#include <ebml/EbmlVersion.h>
+#include <matroska/KaxVersion.h>
+
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "cli/matroska/matroska_reader.h"
@@ -43,4 +47,10 @@ FBS_MODULE_EXPORT void fbs_stream_to_matroska(std::span<const std::uint8_t> stre
 FBS_MODULE_EXPORT void fbs_stream_of_matroska(std::span<const std::uint8_t> file,
                                               fbs::Result<fbs::cli::MatroskaStream>& stream) {
   stream = fbs::cli::read_stream(file);
+}
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  static const std::string text =
+      "libebml " + libebml::EbmlCodeVersion + "\nlibmatroska " + libmatroska::KaxCodeVersion;
+  return text.c_str();
 }

@@ -1,5 +1,8 @@
 // fbs play: shows a stream in a window.
+#include <SDL.h>
+
 #include <array>
+#include <string>
 
 #include "cli/files/output_check.h"
 #include "cli/play/play_arguments.h"
@@ -35,4 +38,12 @@ Result<Outcome> play(const PlayArguments& arguments) {
 FBS_MODULE_EXPORT void fbs_run_play(const fbs::cli::PlayArguments& arguments,
                                     fbs::Result<fbs::cli::Outcome>& result) {
   result = fbs::cli::play(arguments);
+}
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  SDL_version v{};
+  SDL_GetVersion(&v);
+  static const std::string text =
+      "SDL " + std::to_string(v.major) + "." + std::to_string(v.minor) + "." + std::to_string(v.patch);
+  return text.c_str();
 }

@@ -15,6 +15,10 @@
 
 namespace fbs {
 
+/// In every module, for `fbs doctor`: `const char* fbs_module_libraries()` returns a line "NAME VERSION" for
+/// each big library that is loaded with it.
+inline constexpr const char* kLibrariesSymbol = "fbs_module_libraries";
+
 /// Loads `name` (`fbs_av`, without folder or `.so`) and finds `symbol` in it. The module is looked for in the
 /// folder of the running executable, then in its ../lib/fbs, and stays loaded until the program ends, so that
 /// objects it made may be destroyed at any time. Loading twice is cheap.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 #include <string_view>
@@ -105,4 +106,9 @@ FBS_MODULE_EXPORT void fbs_open_source(const std::string& input, const fbs::Sour
   } catch (const std::exception& problem) {
     source = fbs::fail(fbs::ErrorCode::kIo, "cannot read " + input + ": " + problem.what());
   }
+}
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  static const std::string text = "OpenCV " + cv::getVersionString();
+  return text.c_str();
 }

@@ -13,7 +13,7 @@ set(floors
   encoder
   fbs library
   cli/program cli/files cli/video cli/video/y4m cli/video/images cli/video/av cli/video/open cli/stream cli/matroska cli/display cli/source cli/command_line
-  cli/inspect cli/remux cli/decode cli/play/sound cli/play cli/encode cli/export cli/track cli/retarget
+  cli/doctor cli/inspect cli/remux cli/decode cli/play/sound cli/play cli/encode cli/export cli/track cli/retarget
   cli/evaluate/run cli/evaluate/peers cli/evaluate/quality cli/evaluate/rate_distortion cli/evaluate/report cli/evaluate
   cli)
 # These stand side by side: neither may include the other.
@@ -29,14 +29,14 @@ set(foreign
   "opencv2/video/@encoder/track/head"
   "opencv2/videoio@cli/video"
   "opencv2/highgui@none"
-  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/blend|encoder/plan|encoder/analysis|encoder/segment|encoder/scene|cli/(video|display|source|play|encode|evaluate/quality)"
-  "opus(/|\\.h)@decoder/sound|encoder/sound"
-  "codec2(/|\\.h)@decoder/sound|encoder/sound"
-  "aom/@encoder/patterns"
-  "dav1d/@decoder/pattern"
-  "hwy/@decoder/vectors|decoder/field|decoder/raster"
-  "draco/@bitstream/payload|decoder/export"
-  "nlohmann@encoder/find|cli/(stream|inspect|evaluate(/.*)?)"
+  "opencv2/@encoder/image|encoder/shots|encoder/landmarks|encoder/model|encoder/find|encoder/track(/head|/snake)?|encoder/fit|encoder/surround|encoder/blend|encoder/plan|encoder/analysis|encoder/segment|encoder/scene|cli/(video|display|doctor|source|play|encode|evaluate/quality)"
+  "opus(/|\\.h)@decoder/sound|encoder/sound|cli/doctor"
+  "codec2(/|\\.h)@decoder/sound|encoder/sound|cli/doctor"
+  "aom/@encoder/patterns|cli/doctor"
+  "dav1d/@decoder/pattern|cli/doctor"
+  "hwy/@decoder/vectors|decoder/field|decoder/raster|cli/doctor"
+  "draco/@bitstream/payload|decoder/export|cli/doctor"
+  "nlohmann@encoder/find|cli/(stream|doctor|inspect|evaluate(/.*)?)"
   "OpenImageIO@cli/video/images"
   "libav|libsw@cli/video/av"
   "(matroska|ebml|webm)/@cli/matroska"

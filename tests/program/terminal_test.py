@@ -1,6 +1,8 @@
 """Output on the terminal: help, a progress bar for terminals only, and silence with --quiet."""
+import json
 import os
 import pty
+import shutil
 import subprocess
 import time
 import unittest
@@ -30,6 +32,20 @@ class Terminal(ProgramTest):
 
     def test_version(self):
         self.assertRegex(self.succeed("--version").decode(), r"\Afbs \d+\.\d+\.\d+\n\Z")
+
+    def test_doctor_says_what_loads(self):
+        report = json.loads(self.succeed("doctor", "--json"))
+        self.assertEqual(f"fbs {report['fbs']}\n".encode(), self.succeed("--version"))
+        self.assertLessEqual({"dav1d", "Draco", "Highway", "Opus", "Codec 2"}, set(report["libraries"]))
+        self.assertTrue(all(module["loads"] for module in report["modules"].values()), report["modules"])
+        self.assertLessEqual({"libaom", "OpenCV"}, set(report["modules"]["fbs_encoder"]["libraries"]))
+        text = self.succeed("doctor").decode()
+        for name in [*report, *report["modules"]]:
+            if name != "modules":
+                self.assertRegex(text, rf"(?m)^{name} +\S")
+        shutil.copy(FBS, self.folder / "alone")  # without its modules
+        alone = subprocess.run([self.folder / "alone", "doctor"], capture_output=True, text=True, check=True)
+        self.assertRegex(alone.stdout, r"(?m)^fbs_av +missing: module fbs_av\.so not found")
 
     def test_quiet_prints_nothing(self):
         for arguments in (("encode", TALK_Y4M, "out.fbs"), ("decode", TALK_FBS, "out.y4m")):

@@ -1,5 +1,11 @@
 // The functions that the module fbs_av exports.
 
+extern "C" {
+#include <libavutil/avutil.h>
+}
+
+#include <string>
+
 #include "cli/program/module.h"
 #include "cli/video/av/av_png.h"
 #include "cli/video/av/av_sink.h"
@@ -26,4 +32,9 @@ FBS_MODULE_EXPORT void fbs_open_sink(const std::string& output, const fbs::Video
 FBS_MODULE_EXPORT void fbs_encode_png(const fbs::RgbImage& image, int width, int height,
                                       fbs::Result<std::vector<std::uint8_t>>& png) {
   png = fbs::encode_png(image, width, height);
+}
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  static const std::string text = std::string("FFmpeg ") + av_version_info();
+  return text.c_str();
 }

@@ -91,3 +91,9 @@ FBS_MODULE_EXPORT void fbs_open_filter(const AVFrame& first, const std::string& 
   else
     filter = std::move(opened);
 }
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  static const std::string text = std::string("FFmpeg ") + av_version_info() + "\nzscale " +
+                                  (avfilter_get_by_name("zscale") != nullptr ? "yes" : "no");
+  return text.c_str();
+}

@@ -1,6 +1,9 @@
 // The functions that the module fbs_image exports. OpenImageIO may throw; no exception leaves this file.
 
+#include <OpenImageIO/imageio.h>
+
 #include <exception>
+#include <string>
 
 #include "cli/program/module.h"
 #include "cli/video/images/image_files.h"
@@ -32,4 +35,11 @@ FBS_MODULE_EXPORT void fbs_read_image(const std::string& name, const fbs::VideoF
   } catch (const std::exception& problem) {
     picture = fbs::fail(fbs::ErrorCode::kIo, "cannot read " + name + ": " + problem.what());
   }
+}
+
+FBS_MODULE_EXPORT const char* fbs_module_libraries() {
+  static const int version = OIIO::openimageio_version();  // 20407 is 2.4.7
+  static const std::string text = "OpenImageIO " + std::to_string(version / 10000) + "." +
+                                  std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
+  return text.c_str();
 }
