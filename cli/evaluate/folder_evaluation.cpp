@@ -1,9 +1,12 @@
 #include "cli/evaluate/folder_evaluation.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cctype>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -11,6 +14,8 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+
+#include "cli/program/progress.h"
 
 namespace fbs::cli {
 namespace {
@@ -56,12 +61,21 @@ Result<FolderReport> evaluate_folder(const EvaluateArguments& arguments,
   EvaluateArguments each = arguments;
   each.quiet = true;  // several bars at the same time would be unreadable
   std::vector<std::optional<Result<ClipReport>>> results(clips.size());
-  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> next = 0, finished = 0;
+  const auto begun = std::chrono::steady_clock::now();
+  const auto time_left = [&](std::size_t done) -> std::string {
+    if (isatty(STDERR_FILENO) != 1) return "";
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+    const double left = taken.count() / static_cast<double>(done) * static_cast<double>(clips.size() - done);
+    return ", " + std::to_string(done) + " of " + std::to_string(clips.size()) +
+           (done < clips.size() ? ", " + duration_text(left) + " left" : "");
+  };
   const auto work = [&] {
     for (std::size_t i = next++; i < clips.size() && !stop.raised(); i = next++) {
       results[i] = evaluate_one(each, clips[i], tools, run, stop);
       if (!arguments.quiet && !stop.raised())
-        std::fprintf(stderr, "fbs: %s: %s\n", clips[i].c_str(), *results[i] ? "evaluated" : "failed");
+        std::fprintf(stderr, "fbs: %s: %s%s\n", clips[i].c_str(), *results[i] ? "evaluated" : "failed",
+                     time_left(++finished).c_str());
     }
   };
   std::vector<std::thread> threads;

@@ -23,7 +23,8 @@ int terminal_columns() {
   return size.ws_col;
 }
 
-/// "7 s", "2:05" or "1:02:05".
+}  // namespace
+
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
   std::array<char, 48> text{};
@@ -37,25 +38,24 @@ std::string duration_text(double seconds) {
   return text.data();
 }
 
-}  // namespace
-
-std::string progress_text(const std::string& label, std::int64_t done, std::optional<std::int64_t> total,
-                          double seconds, int columns) {
-  const double speed = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+std::string progress_text(const std::string& label, const ProgressState& state, int columns) {
+  const auto done = static_cast<double>(state.done);
+  const double speed = state.seconds > 0 ? done / state.seconds : 0;
   std::array<char, 64> speed_text{};
   std::snprintf(speed_text.data(), speed_text.size(), "  %.1f pictures/s", speed);
 
   std::string text = label;
-  if (total && *total > 0) {
-    const std::int64_t expected = std::max(*total, done);
-    const double share = static_cast<double>(done) / static_cast<double>(expected);
+  if (state.total && *state.total > 0) {
+    const std::int64_t expected = std::max(*state.total, state.done);
+    const double all = static_cast<double>(expected) + state.after;
+    const double behind = done + std::min(state.passed, state.after);
     std::array<char, 16> percent{};
-    std::snprintf(percent.data(), percent.size(), " %3d %%", static_cast<int>(100 * share));
+    std::snprintf(percent.data(), percent.size(), " %3d %%", static_cast<int>(100 * behind / all));
     text += percent.data();
-    text += "  " + std::to_string(done) + "/" + std::to_string(expected) + speed_text.data();
-    if (speed > 0) text += "  " + duration_text(static_cast<double>(expected - done) / speed) + " left";
+    text += "  " + std::to_string(state.done) + "/" + std::to_string(expected) + speed_text.data();
+    if (speed > 0) text += "  " + duration_text((all - behind) / speed) + " left";
   } else {
-    text += "  " + std::to_string(done) + speed_text.data();
+    text += "  " + std::to_string(state.done) + speed_text.data();
   }
   return text.substr(0, static_cast<std::size_t>(std::max(columns - 1, 0)));
 }
@@ -65,7 +65,8 @@ Progress::Progress(std::string label, std::optional<std::int64_t> total, bool qu
       total_(total),
       visible_(!quiet && isatty(STDERR_FILENO) == 1),
       begun_(Clock::now()),
-      last_told_(begun_) {}
+      last_told_(begun_),
+      last_done_(begun_) {}
 
 Progress::~Progress() {
   finish();
@@ -75,15 +76,25 @@ void Progress::update(std::int64_t done) {
   if (!visible_ && !reports()) return;
   done_ = done;
   const Clock::time_point now = Clock::now();
+  last_done_ = now;
   if (now - last_told_ < kRedrawInterval) return;
   last_told_ = now;
   report_progress(label_, done, total_);
-  if (visible_) draw(now);
+  if (visible_) draw(now, 0);
 }
 
-void Progress::draw(Clock::time_point now) {
-  const double seconds = std::chrono::duration<double>(now - begun_).count();
-  const std::string text = progress_text(label_, done_, total_, seconds, terminal_columns());
+void Progress::wait() {
+  using Seconds = std::chrono::duration<double>;
+  const Clock::time_point now = Clock::now();
+  const double seconds = Seconds(last_done_ - begun_).count();
+  if (!visible_ || seconds <= 0) return;
+  draw(now, Seconds(now - last_done_).count() * static_cast<double>(done_) / seconds);
+}
+
+void Progress::draw(Clock::time_point now, double passed) {
+  const double seconds = std::chrono::duration<double>((passed > 0 ? last_done_ : now) - begun_).count();
+  const std::string text =
+      progress_text(label_, {done_, total_, seconds, after_, passed}, terminal_columns());
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);
   drawn_ = true;

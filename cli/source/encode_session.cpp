@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -45,6 +46,18 @@ class Durations {
 
   std::int64_t nominal_, ahead_ = 0;  // 1/90000 s
 };
+
+/// How long the coding of patterns takes that follows the last picture, as pictures: of a segment, whose
+/// length PatternPass limits. Measured on two cores; live and with one pattern there is none.
+double coding_after(const VideoSource& source, const EncoderSettings& settings) {
+  constexpr double kSegmentSeconds = 40;
+  const auto pictures = source.frame_count_estimate();
+  if (!pictures || settings.live || settings.patterns == 1) return 0;
+  const Rational& rate = source.format().frame_rate;
+  const double segment = kSegmentSeconds * rate.num / rate.den;
+  const double times = (0.6 + 0.18 * settings.effort) * (settings.bitrate > 0 ? 1.5 : 1);
+  return times * std::min(static_cast<double>(*pictures), segment);
+}
 
 /// Measures the stream as it is encoded; for PSNR, it is decoded.
 class ClosedLoop {
@@ -148,6 +161,7 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
   const std::uint32_t nominal = nominal_duration(source.format().frame_rate);
   ClosedLoop loop(std::move(*encoder), nominal, sound, take, what);
   Progress progress("encoding", source.frame_count_estimate(), quiet);
+  progress.expect_after(coding_after(source, settings));
   // A picture's duration is known when the next one arrives; to avoid the wait, a live picture gets the
   // duration of the previous one.
   const bool waits = !settings.live && !source.has_constant_rate();
@@ -176,7 +190,10 @@ Result<Encoded> encode_source(VideoSource& source, const EncoderSettings& settin
     current = next ? std::move(*next) : source.next();
   }
   if (!current) return fail(current.error());
-  return loop.finish();
+  if (!progress.visible()) return loop.finish();
+  auto encoded = std::async(std::launch::async, [&loop] { return loop.finish(); });
+  while (encoded.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) progress.wait();
+  return encoded.get();
 }
 
 void print_turn_warning(int degrees) {

@@ -232,7 +232,7 @@ def evaluate(
     >>> [point["frames"] for point in result["points"]]
     [20]
     """
-    arguments = ["evaluate", _program.argument(video), *map(_program.argument, streams), "--json"]
+    arguments = ["evaluate", _program.argument(video), *map(_program.argument, streams), "--json=-"]
     if quality:
         arguments += ["--quality", *map(str, quality)]
     for name, path in (("--html", html), ("--csv", csv), ("--region", region), ("--keep", keep)):
