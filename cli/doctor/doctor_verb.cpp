@@ -5,8 +5,9 @@
 #include <opus/opus.h>
 #include <sys/utsname.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>

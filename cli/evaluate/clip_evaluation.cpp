@@ -92,7 +92,10 @@ Result<void> ClipEvaluation::copy_source(const std::string& name) {
   for (;;) {
     auto picture = (*source)->next();
     if (!picture) return fail(picture.error());
-    if (!*picture) return (*sink)->finish();
+    if (!*picture) {
+      if (!arguments_.quiet) print_notes(name, **source);  // the copy has none
+      return (*sink)->finish();
+    }
     if (auto written = (*sink)->write((*picture)->picture, (*picture)->pts); !written) return written;
   }
 }

@@ -77,11 +77,14 @@ Result<SourcePart> open_source_part(const std::string& name, const PartLimits& l
   return SourcePart(std::move(*opened), limits, &stop);
 }
 
+void print_notes(const std::string& name, const VideoSource& source) {
+  for (const std::string& note : source.notes())
+    std::fprintf(stderr, "fbs: %s: %s\n", name.c_str(), note.c_str());
+}
+
 void print_source_warning(const std::string& name, const SourcePart& source, std::uint64_t pictures,
                           const char* done, bool quiet) {
-  if (!quiet)
-    for (const std::string& note : source.notes())
-      std::fprintf(stderr, "fbs: %s: %s\n", name.c_str(), note.c_str());
+  if (!quiet) print_notes(name, source);
   if (source.failure())
     std::fprintf(stderr, "fbs: %s; the %llu pictures before are %s\n", source.failure()->text.c_str(),
                  static_cast<unsigned long long>(pictures), done);

@@ -66,6 +66,9 @@ class SourcePart final : public VideoSource {
                                                   std::optional<double> sequence_rate, int rotate,
                                                   const StopSignal& stop);
 
+/// Says a source's notes() on standard error.
+void print_notes(const std::string& name, const VideoSource& source);
+
 /// Says on standard error that a source is not whole, and its notes().
 /// @param pictures  that were read
 /// @param done      what happened to them: "encoded"
