@@ -5,6 +5,7 @@
 #include "decoder/field/blend_kernels_plain.h"
 #include "decoder/field/warped_block.h"
 #include "decoder/vectors/fixed_vectors.h"
+#include "decoder/vectors/scalar.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/blend_kernels.cpp"
@@ -145,12 +146,12 @@ HWY_EXPORT(blend_chroma);
 
 void blend_luma_block(std::span<const BlendedSource> sources, NodeSteps steps, std::uint8_t* out,
                       std::ptrdiff_t stride) {
-  HWY_DYNAMIC_DISPATCH(blend_luma)(sources, steps, out, stride);
+  FBS_DISPATCH(blend_luma, plain::blend_luma_block)(sources, steps, out, stride);
 }
 
 void blend_chroma_block(std::span<const BlendedSource> sources, NodeSteps steps,
                         const std::array<std::uint8_t*, 2>& out, std::ptrdiff_t stride) {
-  HWY_DYNAMIC_DISPATCH(blend_chroma)(sources, steps, out, stride);
+  FBS_DISPATCH(blend_chroma, plain::blend_chroma_block)(sources, steps, out, stride);
 }
 
 void copy_samples(SampleBlock from, glm::ivec2 size, std::uint8_t* out, std::ptrdiff_t stride) {

@@ -5,6 +5,7 @@
 #include "decoder/field/node_kernels_plain.h"
 #include "decoder/field/node_weights.h"
 #include "decoder/vectors/fixed_vectors.h"
+#include "decoder/vectors/scalar.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/node_kernels.cpp"
@@ -185,16 +186,16 @@ HWY_EXPORT(motions);
 
 void weigh_nodes(std::span<const NodePlace> places, const std::int32_t* corners, const std::uint16_t* outside,
                  std::size_t row, int step_log2, std::uint16_t* out) {
-  HWY_DYNAMIC_DISPATCH(weigh)(places, corners, outside, row, step_log2, out);
+  FBS_DISPATCH(weigh, plain::weigh_nodes)(places, corners, outside, row, step_log2, out);
 }
 
 void displace_nodes(const NodeCover& cover, const std::int32_t* moved, const NodeLimits& limits,
                     std::size_t row, std::int32_t* out) {
-  HWY_DYNAMIC_DISPATCH(displace)(cover, moved, limits, row, out);
+  FBS_DISPATCH(displace, plain::displace_nodes)(cover, moved, limits, row, out);
 }
 
 void find_motions(const BlockNodes& nodes, std::size_t first, BlockMotions& out) {
-  HWY_DYNAMIC_DISPATCH(motions)(nodes, first, out);
+  FBS_DISPATCH(motions, plain::find_motions)(nodes, first, out);
 }
 
 }  // namespace fbs

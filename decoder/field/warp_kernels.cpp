@@ -4,6 +4,7 @@
 
 #include "decoder/field/warp_kernels_plain.h"
 #include "decoder/vectors/fixed_vectors.h"
+#include "decoder/vectors/scalar.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/field/warp_kernels.cpp"
@@ -375,22 +376,22 @@ HWY_EXPORT(bent_chroma);
 
 void warp_even_luma(const std::uint8_t* from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
                     std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(even_luma)(from, stride, fraction, size, out);
+  FBS_DISPATCH(even_luma, plain::warp_even_luma)(from, stride, fraction, size, out);
 }
 
 void warp_even_chroma(const ChromaSamples& from, std::ptrdiff_t stride, glm::ivec2 fraction, int size,
                       const ChromaOut& out) {
-  HWY_DYNAMIC_DISPATCH(even_chroma)(from, stride, fraction, size, out);
+  FBS_DISPATCH(even_chroma, plain::warp_even_chroma)(from, stride, fraction, size, out);
 }
 
 void warp_bent_luma(const std::uint8_t* from, std::ptrdiff_t stride, const PatchNodes& nodes,
                     std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(bent_luma)(from, stride, nodes, out);
+  FBS_DISPATCH(bent_luma, plain::warp_bent_luma)(from, stride, nodes, out);
 }
 
 void warp_bent_chroma(const ChromaSamples& from, std::ptrdiff_t stride, const PatchNodes& nodes,
                       const ChromaOut& out) {
-  HWY_DYNAMIC_DISPATCH(bent_chroma)(from, stride, nodes, out);
+  FBS_DISPATCH(bent_chroma, plain::warp_bent_chroma)(from, stride, nodes, out);
 }
 
 }  // namespace fbs

@@ -7,6 +7,10 @@
 
 #include "decoder/pattern/obu.h"
 #include "decoder/pattern/upscale.h"
+#include "decoder/vectors/scalar.h"
+
+// In no header of dav1d that is installed, but exported for its program; missing where a build hides it.
+extern "C" [[gnu::weak]] void dav1d_set_cpu_flags_mask(unsigned mask);
 
 namespace fbs {
 namespace {
@@ -103,6 +107,7 @@ void PatternDecoder::Deleter::operator()(Context* c) const {
 
 Result<PatternDecoder> PatternDecoder::create(int width, int height) {
   std::unique_ptr<Context, Deleter> context(new Context{nullptr, width, height});
+  if (kScalarOnly && dav1d_set_cpu_flags_mask != nullptr) dav1d_set_cpu_flags_mask(0);
   Dav1dSettings settings;
   dav1d_default_settings(&settings);
   settings.n_threads = 1;

@@ -8,6 +8,7 @@
 #include "decoder/raster/blend_weights.h"
 #include "decoder/raster/triangle_kernels_plain.h"
 #include "decoder/vectors/fixed_vectors.h"
+#include "decoder/vectors/scalar.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "decoder/raster/triangle_kernels.cpp"
@@ -352,11 +353,11 @@ HWY_EXPORT(covered);
 void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
                          DepthPlane& depth) {
-  HWY_DYNAMIC_DISPATCH(draw_short)(triangle, scale, sources, target, depth);
+  FBS_DISPATCH(draw_short, plain::draw_short_triangle)(triangle, scale, sources, target, depth);
 }
 
 int count_covered(const DepthPlane& depth, const SampleArea& part) {
-  return HWY_DYNAMIC_DISPATCH(covered)(depth, part);
+  return FBS_DISPATCH(covered, plain::count_covered)(depth, part);
 }
 
 }  // namespace fbs

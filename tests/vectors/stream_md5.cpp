@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "decoder/vectors/scalar.h"
 #include "tests/vectors/stream_digest.h"
 
 namespace {
@@ -21,7 +22,7 @@ int check(const std::string& folder) {
     ++wrong;
     std::cout << v.file << ": expected " << v.expected << ", got " << got << '\n';
   }
-  std::cout << vectors.size() << " vectors, " << wrong << " wrong\n";
+  std::cout << vectors.size() << " vectors, " << wrong << " wrong, kernels " << fbs::kernel_name() << '\n';
   return vectors.empty() || wrong > 0 ? 1 : 0;
 }
 
