@@ -1,6 +1,7 @@
 #include "common/workers.h"
 
 #include <algorithm>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -10,17 +11,24 @@ int core_count() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // 0: unknown
 }
 
-std::vector<std::thread> start_threads(int count, const std::function<void(int)>& work) {
+std::vector<std::thread> start_threads(const ThreadPlan& plan, const std::function<void(int)>& work) {
   std::vector<std::thread> out;
-  out.reserve(static_cast<std::size_t>(std::max(count, 0)));
+  out.reserve(static_cast<std::size_t>(std::max(plan.count, 0)));
+  const auto begin = [hooks = plan.hooks, name = plan.name, work](int k) {
+    if (hooks.thread_start != nullptr) hooks.thread_start(hooks.user, name);
+    work(k);
+  };
   try {
-    for (int k = 0; k < count; ++k) out.emplace_back(work, k);
+    for (int k = 0; k < plan.count; ++k) out.emplace_back(begin, k);
   } catch (const std::system_error&) {  // the system has no more threads
+    plan.hooks.say(LogLevel::kWarning, "the system gives " + std::to_string(out.size()) + " of " +
+                                           std::to_string(plan.count) + " threads " + plan.name);
   }
   return out;
 }
 
-Workers::Workers(int count) : threads_(start_threads(count - 1, [this](int k) { work(1 + k); })) {}
+Workers::Workers(int count, const Hooks& hooks)
+    : threads_(start_threads({count - 1, "fbs-worker", hooks}, [this](int k) { work(1 + k); })) {}
 
 Workers::~Workers() {
   {

@@ -8,19 +8,29 @@
 #include <thread>
 #include <vector>
 
+#include "common/hooks.h"
+
 namespace fbs {
 
 /// Cores that this process may use, at least 1.
 [[nodiscard]] int core_count();
 
-/// Starts threads, fewer if the system has no more.
+/// The threads to be started for a purpose.
+struct ThreadPlan {
+  int count;
+  const char* name;  ///< for Hooks::thread_start
+  Hooks hooks;
+};
+
+/// Starts threads, fewer if the system has no more, which is logged.
 /// @param work  called once by each, with its number from 0
-[[nodiscard]] std::vector<std::thread> start_threads(int count, const std::function<void(int)>& work);
+[[nodiscard]] std::vector<std::thread> start_threads(const ThreadPlan& plan,
+                                                     const std::function<void(int)>& work);
 
 class Workers {
  public:
   /// @param count  threads, at least 1: the one that calls run(), and others as far as the system permits
-  explicit Workers(int count = 1);
+  explicit Workers(int count = 1, const Hooks& hooks = {});
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,8 @@ namespace {
 
 /// Where a face that lies is looked for: seconds, some apart, since the first picture may be black.
 constexpr std::array kTurnLooks{0.0, 2.0};
+
+constexpr double kRateTolerance = 0.1;  // relative to the bitrate; a larger deviation is logged
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -96,10 +99,18 @@ struct Encoder::Impl {
   bool analysing = false;     ///< the last picture may be so yet
   bool has_ended = false;     ///< the stream has its end packet
   PictureAnalysis nothing{};
+  std::uint64_t lost = 0;   ///< pictures, the last ones, whose face was not followed
+  std::uint64_t bytes = 0;  ///< of the scenes so far
 
   void take_from_scene() {
-    const auto bytes = scene->take();
-    ready.insert(ready.end(), bytes.begin(), bytes.end());
+    const auto taken = scene->take();
+    ready.insert(ready.end(), taken.begin(), taken.end());
+    bytes += taken.size();
+  }
+
+  /// Logs what happens at the picture of this number.
+  void say(LogLevel level, std::uint64_t picture, const std::string& text) const {
+    if (settings.hooks.logs()) settings.hooks.say(level, "picture " + std::to_string(picture) + ": " + text);
   }
 
   /// Marks of the face to track, if the picture shows one.
@@ -141,6 +152,9 @@ struct Encoder::Impl {
       settings.first_pattern.reset();  // later scenes have another first picture
     }
     ++report.scenes;
+    lost = 0;
+    say(LogLevel::kInfo, report.pictures,
+        marks ? "a scene begins, with a face" : "a scene begins, without a face");
     return {};
   }
 
@@ -149,6 +163,7 @@ struct Encoder::Impl {
     const ShotWatch::Step step = shots.next(picture);
     if (step.cut) {
       ++report.cuts;
+      say(LogLevel::kInfo, report.pictures, "a cut");
       scene->cut();
     }
     if (!step.searches) return {};
@@ -168,11 +183,35 @@ struct Encoder::Impl {
       scene->give_landmarks(seen->second);
   }
 
+  /// Logs where the face is lost, and found again.
+  void note_face(const PictureAnalysis& seen) {
+    const std::uint64_t picture = report.pictures - 1;
+    if (seen.followed) {
+      if (lost > 0) say(LogLevel::kInfo, picture, "the face is found again, after " + std::to_string(lost));
+      lost = 0;
+    } else if (seen.face && lost++ == 0) {
+      say(LogLevel::kWarning, picture, "the face is lost");
+    }
+  }
+
+  /// Logs a bitrate that a file has not met.
+  void note_rate() const {
+    if (settings.bitrate <= 0 || settings.live || position.time == 0) return;
+    const double kbps =
+        8e-3 * static_cast<double>(bytes) * kTicksPerSecond / static_cast<double>(position.time);
+    if (std::abs(kbps / settings.bitrate - 1) <= kRateTolerance) return;
+    std::array<char, 80> text{};
+    std::snprintf(text.data(), text.size(), "target %.2f kbit/s not reachable, got %.2f", settings.bitrate,
+                  kbps);
+    settings.hooks.say(LogLevel::kWarning, text.data());
+  }
+
   /// Waits until the scene has analysed the picture pushed last.
   void end_picture() {
     if (!std::exchange(analysing, false)) return;
     const PictureAnalysis& seen = scene->analysis();
     shots.end_picture(seen.followed);
+    note_face(seen);
     if (!seen.followed) ++report.without_face;
     if (seen.had_landmarks) ++report.with_landmarks;
     if (seen.from_landmarks) ++report.from_landmarks;
@@ -251,7 +290,9 @@ Result<void> Encoder::finish() {
                                                 : "no face found in any picture; turned clockwise by " +
                                                       std::to_string(i.turn) + " degrees they show one");
   if (auto ended = i.scene->finish(); !ended) return ended;
+  i.end_picture();
   i.take_from_scene();
+  i.note_rate();
   PacketWriter().write(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
   i.has_ended = true;
   return {};

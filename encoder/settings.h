@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/hooks.h"
 #include "common/picture.h"
 #include "encoder/effort.h"
 #include "encoder/find/marks.h"
@@ -71,6 +72,7 @@ struct EncoderSettings {
   std::optional<LiveSettings> live;  ///< without look-ahead
   /// The stream is the same for any number. 0: as many as there are cores.
   int threads = 0;
+  Hooks hooks{};
   int group_pictures = 0;  ///< pictures in a motion packet, 1..256; 0: one second's
 };
 

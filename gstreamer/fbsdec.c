@@ -17,6 +17,7 @@
 
 #include "caps.h"
 #include "elements.h"
+#include "log.h"
 
 GST_DEBUG_CATEGORY_STATIC(fbs_dec_debug);
 #define GST_CAT_DEFAULT fbs_dec_debug
@@ -220,12 +221,19 @@ static GstFlowReturn gst_fbs_dec_handle_frame(GstVideoDecoder* decoder, GstVideo
 
 /* ---- life ---- */
 
+/* An fbs_log. */
+static void log_line(void* self, int level, const char* text) {
+  GST_CAT_LEVEL_LOG(GST_CAT_DEFAULT, gst_fbs_debug_level(level), GST_OBJECT(self), "%s", text);
+}
+
 static gboolean gst_fbs_dec_start(GstVideoDecoder* decoder) {
   GstFbsDec* const self = GST_FBS_DEC(decoder);
   fbs_decoder_settings settings;
   fbs_decoder_default_settings(&settings, sizeof settings);
   settings.threads =
       self->threads > 0 ? self->threads : (gint)CLAMP(g_get_num_processors(), 1, FBS_MAX_THREADS);
+  settings.log = log_line;
+  settings.user = self;
   if (fbs_decoder_open(&self->decoder, &settings) != FBS_OK) {
     GST_ELEMENT_ERROR(self, LIBRARY, INIT, (NULL), (NULL));
     return FALSE;

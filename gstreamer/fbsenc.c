@@ -18,6 +18,7 @@
 
 #include "caps.h"
 #include "elements.h"
+#include "log.h"
 
 GST_DEBUG_CATEGORY_STATIC(fbs_enc_debug);
 #define GST_CAT_DEFAULT fbs_enc_debug
@@ -134,8 +135,15 @@ static void close_stream(GstFbsEnc* self) {
   drop_frames(self);
 }
 
+/* An fbs_log. */
+static void log_line(void* self, int level, const char* text) {
+  GST_CAT_LEVEL_LOG(GST_CAT_DEFAULT, gst_fbs_debug_level(level), GST_OBJECT(self), "%s", text);
+}
+
 static fbs_status open_encoder(GstFbsEnc* self) {
   fbs_encoder_settings settings = self->settings;
+  settings.log = log_line;
+  settings.user = self;
   return gst_fbs_encoder_stream_open(&self->stream, &settings);
 }
 

@@ -32,6 +32,7 @@ fbs_status status_of(ErrorCode code) {
 }
 
 fbs_status LastError::set(fbs_status status, const char* text, std::uint64_t offset) {
+  const std::lock_guard lock(mutex_);
   const std::size_t size = std::min(std::strlen(text), text_.size() - 1);
   std::copy_n(text, size, text_.begin());
   text_[size] = '\0';

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 
@@ -17,7 +18,8 @@ inline constexpr const char* kNullPointer = "a null pointer";
 
 [[nodiscard]] fbs_status status_of(ErrorCode code);
 
-/// The text of fbs_decoder_error(). Allocates nothing, since it may have to report a lack of memory.
+/// The text of fbs_decoder_error(). Allocates nothing, since it may have to report a lack of memory. Two
+/// threads may set it at once.
 class LastError {
  public:
   /// Each sets the text, cut to one short line, and returns the status.
@@ -25,11 +27,13 @@ class LastError {
   fbs_status set(fbs_status status, const char* text, std::uint64_t offset = 0);
   fbs_status set(const Error& error) { return set(status_of(error.code), error.text.c_str()); }
   fbs_status set_argument(const char* text) { return set(FBS_ERROR_ARGUMENT, text); }
+  void clear() { set(FBS_OK, ""); }
 
   [[nodiscard]] const char* text() const { return text_.data(); }
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
  private:
+  std::mutex mutex_;
   std::array<char, 256> text_{};
   std::uint64_t offset_ = 0;
 };

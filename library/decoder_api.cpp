@@ -12,6 +12,7 @@
 #include "fbs/fbs.h"
 #include "library/boundary.h"
 #include "library/caller_picture.h"
+#include "library/decoder_watch.h"
 #include "library/face_data.h"
 #include "library/settings_struct.h"
 #include "library/stream_entry.h"
@@ -22,21 +23,24 @@ using namespace fbs;
 
 constexpr const char* kNoPicture = "there is no picture yet";
 
-constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0, 1};
+constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0, 1, nullptr, nullptr, nullptr};
 /// sizeof(fbs_decoder_settings) in version 0.1.
 constexpr std::size_t kFirstSize = offsetof(fbs_decoder_settings, max_pixels) + sizeof(std::uint64_t);
 
 std::unique_ptr<StreamDecoder> new_stream(const fbs_decoder_settings& settings) {
   auto stream = std::make_unique<StreamDecoder>();
   if (settings.max_pixels > 0) stream->limit_pixels(settings.max_pixels);
-  stream->use_threads(settings.threads);
+  stream->use_threads(settings.threads, hooks_of(settings));
   return stream;
 }
 
 }  // namespace
 
 struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is C
-  explicit fbs_decoder(const fbs_decoder_settings& s) : settings(s), stream(new_stream(s)) {}
+  explicit fbs_decoder(const fbs_decoder_settings& s)
+      : settings(s), watch(hooks_of(s)), stream(new_stream(s)) {
+    watch.open(s.threads);
+  }
 
   [[nodiscard]] bool has_picture() const { return !broken && stream->pictures() > 0; }
 
@@ -60,6 +64,7 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   fbs_status with_face(Body&& body) const;
 
   fbs_decoder_settings settings;
+  DecoderWatch watch;
   std::unique_ptr<StreamDecoder> stream;  ///< never null
   StreamEntry entry{false};
   StateEdit edit;
@@ -180,11 +185,14 @@ fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info) {
   return guarded(d.error, [&] {
     const auto status = d.stream->next();
     d.broken = false;
-    if (!status)
-      return d.error.set(status_of(status.error().code), status.error().text.c_str(),
-                         d.entry.fed_offset(status.error().byte_offset));
+    if (!status) {
+      const std::uint64_t offset = d.entry.fed_offset(status.error().byte_offset);
+      d.watch.note_error(status.error(), offset);
+      return d.error.set(status_of(status.error().code), status.error().text.c_str(), offset);
+    }
     if (*status != DecodeStatus::kPicture) return *status == DecodeStatus::kEnd ? FBS_END : FBS_NEED_DATA;
     if (!d.stream->held()) d.drawn_with.reset();
+    d.watch.note_picture(*d.stream);
     if (info != nullptr)
       *info = {d.stream->position().pictures,
                d.stream->position().time,
@@ -202,9 +210,10 @@ fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
   return guarded(d.error, [&] {
     d.stream = new_stream(d.settings);
     d.entry = StreamEntry(true);
+    d.watch.reset();
     d.finished = d.broken = false;
     d.drawn_with.reset();
-    d.error = {};
+    d.error.clear();
     return FBS_OK;
   });
 }

@@ -32,7 +32,7 @@ Picture copy_of(const fbs_const_picture& picture, const VideoFormat& format) {
 struct fbs_encoder {  // NOLINT(readability-identifier-naming): the interface is C
   enum class Phase { kPushing, kFinished, kFailed };
 
-  fbs_encoder(const VideoFormat& f, Encoder e) : format(f), encoder(std::move(e)) {}
+  fbs_encoder(const VideoFormat& f, Encoder e, const Hooks& h) : format(f), hooks(h), encoder(std::move(e)) {}
 
   /// Calls `body`, which encodes. If it fails, the encoding has ended; after an exception the encoder's state
   /// is undefined.
@@ -40,6 +40,7 @@ struct fbs_encoder {  // NOLINT(readability-identifier-naming): the interface is
   fbs_status encode(Body&& body);
 
   VideoFormat format;
+  Hooks hooks;
   Encoder encoder;
   PacketQueue packets;
   Phase phase = Phase::kPushing;
@@ -55,6 +56,7 @@ fbs_status fbs_encoder::encode(Body&& body) {
       phase = before;
       return FBS_OK;
     }
+    hooks.say(LogLevel::kError, done.error().text);
     packets.add(encoder.take());
     return error.set(done.error());
   });
@@ -72,11 +74,16 @@ fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* setti
     return FBS_ERROR_ARGUMENT;
   LastError ignored;
   return guarded(ignored, [&] {
+    const Hooks hooks = hooks_of(taken);
+    const auto refused = [&](const Error& error) {
+      hooks.say(LogLevel::kError, error.text);
+      return status_of(error.code);
+    };
     const auto input = encoder_input(taken);
-    if (!input) return status_of(input.error().code);
+    if (!input) return refused(input.error());
     auto encoder = Encoder::create(input->format, input->settings);
-    if (!encoder) return status_of(encoder.error().code);
-    *out = std::make_unique<fbs_encoder>(input->format, std::move(*encoder)).release();
+    if (!encoder) return refused(encoder.error());
+    *out = std::make_unique<fbs_encoder>(input->format, std::move(*encoder), hooks).release();
     return FBS_OK;
   });
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "library/settings_struct.h"
+
 namespace fbs {
 namespace {
 
@@ -62,6 +64,7 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
     out.settings.live = LiveSettings{settings.live_delay, settings.live_buffer,
                                      static_cast<Resilience>(settings.resilience), settings.join};
   out.settings.threads = settings.threads;
+  out.settings.hooks = hooks_of(settings);
   return out;
 }
 

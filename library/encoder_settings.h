@@ -26,7 +26,10 @@ inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_set
                                                           0,
                                                           FBS_TUNE_EYE,
                                                           FBS_RESILIENCE_NONE,
-                                                          0};
+                                                          0,
+                                                          nullptr,
+                                                          nullptr,
+                                                          nullptr};
 
 /// sizeof(fbs_encoder_settings) in version 0.1.
 inline constexpr std::size_t kFirstEncoderSettingsSize =

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "common/hooks.h"
+
 namespace fbs {
 
 /// Fills a caller's struct of the size given. Members that only the caller knows become 0.
@@ -28,6 +30,12 @@ template <class Settings>
   if (size <= sizeof settings) return true;
   const auto* const bytes = reinterpret_cast<const unsigned char*>(&from);
   return std::all_of(bytes + sizeof settings, bytes + size, [](unsigned char byte) { return byte == 0; });
+}
+
+/// The hooks of settings of a decoder or an encoder.
+template <class Settings>
+[[nodiscard]] Hooks hooks_of(const Settings& settings) {
+  return {settings.log, settings.thread_start, settings.user};
 }
 
 }  // namespace fbs

@@ -15,7 +15,8 @@ void copy(const Plane& from, const PlaneView& to) {
 
 }  // namespace
 
-PicturesAhead::PicturesAhead(int threads) : threads_(start_threads(threads, [this](int) { work(); })) {}
+PicturesAhead::PicturesAhead(int threads, const Hooks& hooks)
+    : threads_(start_threads({threads, "fbs-draw", hooks}, [this](int) { work(); })) {}
 
 PicturesAhead::~PicturesAhead() {
   {

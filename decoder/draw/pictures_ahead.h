@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/hooks.h"
 #include "common/picture.h"
 #include "common/result.h"
 #include "decoder/draw/renderer.h"
@@ -21,7 +22,7 @@ namespace fbs {
 class PicturesAhead {
  public:
   /// @param threads  besides the caller's, at least 1; fewer if the system has no more
-  explicit PicturesAhead(int threads);
+  explicit PicturesAhead(int threads, const Hooks& hooks = {});
   ~PicturesAhead();
   PicturesAhead(const PicturesAhead&) = delete;
   PicturesAhead& operator=(const PicturesAhead&) = delete;

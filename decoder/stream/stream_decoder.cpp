@@ -80,8 +80,8 @@ DecodeStatus StreamDecoder::hold() {
   return DecodeStatus::kPicture;
 }
 
-void StreamDecoder::use_threads(int threads) {
-  ahead_ = threads > 1 ? std::make_unique<PicturesAhead>(threads - 1) : nullptr;
+void StreamDecoder::use_threads(int threads, const Hooks& hooks) {
+  ahead_ = threads > 1 ? std::make_unique<PicturesAhead>(threads - 1, hooks) : nullptr;
 }
 
 void StreamDecoder::draw_ahead() {

@@ -87,7 +87,7 @@ class StreamDecoder {
 
   /// Threads that draw, at least 1; 1 by default. With more, render() also draws pictures that follow and
   /// whose packets have come, side by side. Pictures are the same, and none is later.
-  void use_threads(int threads);
+  void use_threads(int threads, const Hooks& hooks = {});
 
   /// Advances to the next picture. Returns errors of PacketReader and of the payloads, with the byte offset
   /// of the packet; kTruncated when the stream ends inside a packet or before its setup; kInvalidStream when

@@ -36,7 +36,7 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
                  start.geometry, pose_of(start.seen), view(start.first.y),
                  Effort::of(settings.effort).landmark_rest),
       fit_(start.setup, start.geometry, {first_frame(start, start.pattern, false), start.seen}),
-      workers_(std::min(start.threads, kMostStarts)) {
+      workers_(std::min(start.threads, kMostStarts), start.hooks) {
   now_.pose = pose_of(start.seen);
   report_.face = report_.followed = true;
   report_.geometry = start.geometry;

@@ -23,6 +23,7 @@ struct AnalysisStart {
   glm::dvec2 centre;           ///< of the head in it, pixels
   double eye_distance_px = 0;  ///< in it
   int threads = 1;             ///< at least 1; the fits are the same
+  Hooks hooks{};
 };
 
 /// Tracks head and features and fits the state to each picture. Holds everything about the face that lasts

@@ -7,8 +7,8 @@
 
 namespace fbs {
 
-Background::Background(std::size_t most)
-    : most_(most), thread_(start_threads(most > 0 ? 1 : 0, [this](int) { work(); })) {}
+Background::Background(std::size_t most, const char* name, const Hooks& hooks)
+    : most_(most), thread_(start_threads({most > 0 ? 1 : 0, name, hooks}, [this](int) { work(); })) {}
 
 Background::~Background() {
   if (thread_.empty()) return;

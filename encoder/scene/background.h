@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/hooks.h"
 #include "common/result.h"
 
 namespace fbs {
@@ -18,7 +19,8 @@ class Background {
   using Task = std::function<Result<void>()>;
 
   /// @param most  tasks that may wait; 0: the caller does each at once
-  explicit Background(std::size_t most);
+  /// @param name  of the thread
+  explicit Background(std::size_t most, const char* name = "fbs-work", const Hooks& hooks = {});
   /// Drops tasks that have not begun.
   ~Background();
   Background(const Background&) = delete;

@@ -91,13 +91,13 @@ Result<std::unique_ptr<SceneEncoder>> FaceScene::begin(const VideoFormat& format
 
 FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, const FirstPicture& first,
                      FaceCoder::Start start, std::size_t ahead)
-    : analysis_(
-          settings, finder,
-          {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
-           start.scene.patterns.front().seen, first.centre, start.eye_distance_px, thread_count(settings)}),
+    : analysis_(settings, finder,
+                {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
+                 start.scene.patterns.front().seen, first.centre, start.eye_distance_px,
+                 thread_count(settings), settings.hooks}),
       coder_(settings, std::move(start)),
-      coding_(ahead),
-      analysing_(std::min<std::size_t>(ahead, 1)) {}
+      coding_(ahead, "fbs-code", settings.hooks),
+      analysing_(std::min<std::size_t>(ahead, 1), "fbs-analyse", settings.hooks) {}
 
 Result<void> FaceScene::code(std::function<Result<void>()> task) {
   return coding_.add([this, task = std::move(task)]() -> Result<void> {

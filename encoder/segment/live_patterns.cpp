@@ -80,7 +80,7 @@ std::vector<double> least_errors(const SegmentErrors& errors) {
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
     : settings_(settings),
-      workers_(settings.threads),
+      workers_(settings.threads, settings.hooks),
       store_(format, rest, settings.groups_per_key),
       sequence_(format, settings.reduced, settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
@@ -297,6 +297,14 @@ void LivePatterns::count_regret(const Plan& plan) {
   since_pattern_ = pictures - static_cast<std::ptrdiff_t>(last);
 }
 
+void LivePatterns::note_sent(double bytes, double seconds) {
+  rate_->add(bytes, seconds);
+  const bool was_over = std::exchange(over_, rate_->room() < 0);
+  if (over_ && !was_over)
+    settings_.hooks.say(LogLevel::kWarning, "more waits to be sent than the buffer allows");
+  if (was_over && !over_) settings_.hooks.say(LogLevel::kInfo, "what waits to be sent fits the buffer again");
+}
+
 Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
                                                             const StateRefit& refit) {
   if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
@@ -315,7 +323,7 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   count_regret(*plan);
   const double seconds = store_.seconds();
   sequence_.pass(seconds);
-  if (rate_) rate_->add(static_cast<double>(bytes_of(*out)), seconds);
+  if (rate_) note_sent(static_cast<double>(bytes_of(*out)), seconds);
   modes_ = store_.segment().states.back().blend;
   store_.end_segment();
   errors_ = {};

@@ -28,6 +28,7 @@ struct LivePatternSettings {
   int groups_per_key = 1;   ///< SceneTiming::groups_per_key
   bool alone = false;       ///< each pattern needs the first alone
   int threads = 1;          ///< at least 1; the stream is the same
+  Hooks hooks{};
 };
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
@@ -54,6 +55,8 @@ class LivePatterns : public PatternStage {
                                                               const StateRefit& refit) override;
 
  private:
+  /// Counts what is sent, and logs when it is too much.
+  void note_sent(double bytes, double seconds);
   /// Patterns to be made of the segment.
   struct Plan {
     std::vector<std::size_t> times;  ///< their pictures, rising
@@ -109,6 +112,7 @@ class LivePatterns : public PatternStage {
   SegmentStore store_;
   LiveSequence sequence_;
   std::optional<LiveRate> rate_;
+  bool over_ = false;  ///< the rate has no room
   Size key_, later_;  ///< of a whole picture, and of one that others predict
   // The scene's:
   PatternRegret regret_;

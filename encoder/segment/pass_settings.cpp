@@ -36,6 +36,7 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
   out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's
+  out.hooks = settings.hooks;
   return out;
 }
 
@@ -71,6 +72,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.bitrate_kbps = settings.bitrate;
   out.key_interval = settings.key_interval;
   out.threads = thread_count(settings);
+  out.hooks = settings.hooks;
   out.lambda = motion.lambda;
   out.effort = Effort::of(settings.effort);
   if (settings.track_only) out.effort.refits = 0;

@@ -40,7 +40,7 @@ constexpr double kRateTolerance = 0.02;
 PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
                          const CodedState& rest)
     : settings_(settings),
-      workers_(settings.threads),
+      workers_(settings.threads, settings.hooks),
       store_(format, rest, settings.groups_per_key),
       most_(store_.slots()),
       point_(settings.point) {

@@ -31,6 +31,7 @@ struct PatternPassSettings {
   double lambda = 0;          ///< squared luma levels that a bit is worth
   double key_interval = 0;    ///< EncoderSettings::key_interval
   int threads = 1;            ///< at least 1; the stream is the same
+  Hooks hooks{};
 };
 
 class PatternPass : public PatternStage {

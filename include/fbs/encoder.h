@@ -62,6 +62,10 @@ typedef struct fbs_encoder_settings {
   double join;         /**< live: a viewer who comes in the middle of a scene can join it within so many
                             seconds, at the cost of parts of its head all along; 0 (default): only where a scene
                             begins */
+  fbs_log log;         /**< null (default): nobody is told */
+  fbs_thread_start thread_start; /**< null (default): nothing is done. Not called on the threads of libaom and
+                                      OpenCV */
+  void* user;                    /**< passed to both; lives as long as the encoder */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

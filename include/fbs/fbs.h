@@ -22,6 +22,7 @@
  * Every function may be called in any order and with null pointers: a call that makes no sense is answered by
  * FBS_ERROR_ARGUMENT and changes nothing, except for the error text. What a function gives out through a
  * pointer is set on FBS_OK only. An object belongs to one thread at a time; several may be used side by side.
+ * Only a decoder may also be fed by another thread while a picture is drawn: fbs_decoder_feed().
  * Nothing is printed. Exceptions of C++ do not leave the library.
  *
  * A struct of settings begins with its size as the caller knows it, so that later versions can add members:
@@ -188,6 +189,29 @@ typedef struct fbs_face_edit {
   float lids;             /**< -1: opened wider, 1: shut */
 } fbs_face_edit;
 
+/* ---- log and threads ---- */
+
+/** How much a line of the log matters. */
+typedef enum fbs_log_level {
+  FBS_LOG_ERROR,   /**< the work has ended */
+  FBS_LOG_WARNING, /**< a viewer may see it: damage, a lost face, a bitrate that is not met */
+  FBS_LOG_INFO,    /**< scenes, and the end of what a warning was about */
+  FBS_LOG_DEBUG    /**< versions, threads, processor */
+} fbs_log_level;
+
+/** Told what happens, for people to read: wording is no part of the interface. May be called by any thread,
+ * the library's own too, several at once, during any call for the object and for an encoder between calls.
+ * Returns soon, throws nothing, and calls no function of the object.
+ * @param user   that of the settings
+ * @param level  fbs_log_level
+ * @param text   one line, valid during the call */
+typedef void (*fbs_log)(void* user, int level, const char* text);
+
+/** Called on each thread that the library starts, before its work: to set priority, cores, or the name that a
+ * debugger shows. Several may call it at once. Throws nothing, and calls no function of the object.
+ * @param name  "fbs-draw", "fbs-code", "fbs-analyse" or "fbs-worker": at most 15 characters */
+typedef void (*fbs_thread_start)(void* user, const char* name);
+
 /* ---- decoder ---- */
 
 typedef struct fbs_decoder fbs_decoder;
@@ -205,6 +229,9 @@ typedef struct fbs_decoder_settings {
    * drawn in a row, others draw those that follow and whose packets have been fed; pictures are the same, and
    * none is later. Each takes about 20 bytes per pixel. Default: 1. */
   int threads;
+  fbs_log log;                   /**< null (default): nobody is told */
+  fbs_thread_start thread_start; /**< null (default): nothing is done */
+  void* user;                    /**< passed to both; lives as long as the decoder */
 } fbs_decoder_settings;
 
 /** @param settings     null: nothing happens
@@ -222,6 +249,9 @@ FBS_API void fbs_decoder_close(fbs_decoder** decoder);
 
 /** Copies the next bytes of the stream, in pieces of any size. Bytes not yet decoded are kept: call
  * fbs_decoder_next() until it needs data.
+ * This function and fbs_decoder_feed_packet() may run in one thread while another is in
+ * fbs_decoder_get_picture(), fbs_decoder_draw() or fbs_decoder_draw_state(), and leave pictures valid. No
+ * other two calls for one decoder run at once.
  * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
  *         FBS_ERROR_NO_MEMORY, with nothing taken */
 FBS_API fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size);

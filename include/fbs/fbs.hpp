@@ -38,6 +38,16 @@ class Error : public std::runtime_error {
   std::uint64_t offset_;
 };
 
+/// Has settings of a decoder or an encoder log to `sink`, called with an fbs_log_level and a line of text. It
+/// outlives the object, and any thread may call it: fbs_log. Takes the member `user`.
+template <class Settings, class Sink>
+void log_to(Settings& settings, Sink& sink) {
+  settings.user = &sink;
+  settings.log = [](void* user, int level, const char* text) noexcept {
+    (*static_cast<Sink*>(user))(static_cast<fbs_log_level>(level), text);
+  };
+}
+
 /// An fbs_decoder. The functions are those of fbs/fbs.h, which describes them.
 class Decoder {
  public:

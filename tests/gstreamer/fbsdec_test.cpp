@@ -65,6 +65,31 @@ TEST(FbsDec, GoesOnBehindALostGroupAndAsksForAScene) {
   EXPECT_EQ(scene_requests(harness.get()), 1);
 }
 
+/// Whether a line of the library's has come into GStreamer's log.
+struct SeenLine {
+  static void look(GstDebugCategory* category, GstDebugLevel level, const gchar*, const gchar*, gint,
+                   GObject* element, GstDebugMessage* message, gpointer self) {
+    const std::string text = gst_debug_message_get(message);
+    if (std::string(gst_debug_category_get_name(category)) == "fbsdec" && level == GST_LEVEL_INFO &&
+        GST_IS_ELEMENT(element) && text.find("a scene of 112x112 begins") != std::string::npos)
+      static_cast<SeenLine*>(self)->seen = true;
+  }
+  bool seen = false;
+};
+
+TEST(FbsDec, LogsWhatTheLibraryLogs) {
+  SeenLine line;
+  gst_debug_add_log_function(&SeenLine::look, &line, nullptr);
+  gst_debug_set_active(TRUE);
+  gst_debug_set_threshold_for_name("fbsdec", GST_LEVEL_INFO);
+  const std::vector<Buffer> groups = encoded(1);
+  const Harness harness = group_harness("fbsdec");
+  push(harness.get(), copy_of(groups.front()));
+  gst_debug_unset_threshold_for_name("fbsdec");
+  gst_debug_remove_log_function(&SeenLine::look);
+  EXPECT_TRUE(line.seen);
+}
+
 TEST(FbsDec, JoinsAtAScene) {
   const std::vector<Buffer> groups = encoded(kPictures, {30});
   const Decoded expected = decoded(joined(groups));

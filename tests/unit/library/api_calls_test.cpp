@@ -93,7 +93,7 @@ TEST(ApiCalls, SettingsMayBeOfAnotherVersion) {
   later.unknown = 1;
   EXPECT_EQ(fbs_decoder_open(&decoder, &later.known), FBS_ERROR_ARGUMENT) << "it asks for what we cannot do";
 
-  fbs_decoder_settings untouched{77, 77, 77};
+  fbs_decoder_settings untouched{77, 77, 77, nullptr, nullptr, nullptr};
   fbs_decoder_default_settings(&untouched, sizeof untouched.struct_size);
   EXPECT_EQ(untouched.struct_size, 77u) << "no version is so small";
 }

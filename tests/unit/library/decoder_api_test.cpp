@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <numeric>
+#include <thread>
 
 #include "bitstream/packet.h"
 #include "bitstream/syntax.h"
@@ -48,6 +50,41 @@ TEST(DecoderApi, VectorsInPiecesOfAnySize) {
       EXPECT_EQ(result.errors.empty() ? FBS_OK : result.errors.front(),
                 status_of_vector(vector.expected.error));
     }
+  }
+}
+
+// While one thread draws, outside the lock, another feeds what follows.
+TEST(DecoderApi, IsFedWhileItDraws) {
+  const auto bytes = vector_bytes("turns.fbs");
+  for (const int threads : {1, 3}) {
+    fbs_decoder_settings settings;
+    fbs_decoder_default_settings(&settings, sizeof settings);
+    settings.threads = threads;
+    fbs_decoder* opened = nullptr;
+    ASSERT_EQ(fbs_decoder_open(&opened, &settings), FBS_OK);
+    const ApiDecoder decoder(opened);
+    std::mutex mutex;
+    std::thread feeder([&] {
+      for (std::size_t at = 0; at < bytes.size(); at += 50) {
+        const std::lock_guard lock(mutex);
+        fbs_decoder_feed(opened, bytes.data() + at, std::min<std::size_t>(50, bytes.size() - at));
+      }
+      const std::lock_guard lock(mutex);
+      fbs_decoder_finish(opened);
+    });
+    Md5 md5;
+    for (fbs_status status = FBS_OK; status != FBS_END;) {
+      {
+        const std::lock_guard lock(mutex);
+        status = fbs_decoder_next(opened, nullptr);
+      }
+      if (status == FBS_OK)
+        md5.add(shown_by(opened));
+      else if (status != FBS_END)
+        std::this_thread::yield();
+    }
+    feeder.join();
+    EXPECT_EQ(md5.hex(), heard(bytes).md5) << threads << " threads";
   }
 }
 
