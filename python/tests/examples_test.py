@@ -3,6 +3,8 @@
 import doctest
 import inspect
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -34,6 +36,18 @@ def test_the_manual_runs(talker, tmp_path, monkeypatch, capsys):
     assert names["turned"].tobytes() != names["as_sent"].tobytes() != names["higher"].tobytes()
     assert names["picture"].number == len(fbs.decode("again.fbs")) - 1
     assert "cannot read nobody.mkv" in capsys.readouterr().err
+
+
+def test_the_sample_shows_the_video_again(talker):
+    """samples/round_trip.py, which knows nothing of files of ours."""
+    source = fbs.decode(talker / "talk.fbs")
+    raw = b"".join(picture.tobytes() for picture in fbs.Decoder(talker / "talk.fbs"))
+    command = [sys.executable, SOURCE / "samples/round_trip.py", "176", "144", "30"]
+    done = subprocess.run(command, input=raw, capture_output=True, check=True)
+    assert int(done.stderr.split()[0]) < 4000
+    shown, sent = (np.frombuffer(data, np.uint8).astype(float) for data in (done.stdout, raw))
+    assert len(shown) == len(source) * 176 * 144 * 3 // 2
+    assert np.mean((shown - sent) ** 2) < 50
 
 
 def test_there_are_examples():

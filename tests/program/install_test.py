@@ -172,6 +172,21 @@ class Install(ProgramTest):
         self.compile_with_pkg_config(lib, "fbs-encoder", ["encode_frames"], "--static")
         self.check_encoding(self.folder, lib)
 
+    def test_go_calls_what_is_installed(self):
+        if not shutil.which("go"):
+            self.skipTest("no go")
+        raw = b"".join(read_y4m(TALK_Y4M).pictures[:PICTURES])
+        flags = run("pkg-config", "--cflags", "--libs", "fbs-encoder", env=self.environment(self.lib)).split()
+        run(CXX, "-std=c++17", SAMPLES / "round_trip.cpp", "-o", self.folder / "round_trip", *flags)
+        printed = []
+        for command in ([self.folder / "round_trip"], ["go", "run", SAMPLES / "round_trip.go"]):
+            done = subprocess.run([*command, "176", "144", "25"], input=raw, capture_output=True, timeout=MAX_SECONDS,
+                                  env=self.environment(self.lib))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            printed.append(done.stdout)
+        self.assertEqual(len(printed[0]), len(raw))
+        self.assertEqual(*printed)
+
     def test_find_package(self):
         streams = []
         for kind in ("", "_static"):

@@ -4,7 +4,7 @@ import io
 import json
 import subprocess
 
-from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, ffmpeg, read_y4m, talker
+from harness import BUILD, MAX_SECONDS, TALK_FBS, ProgramTest, Y4m, ffmpeg, read_y4m, talker
 
 PICTURES = 120  # of TALK_FBS
 PIXELS = 176 * 144
@@ -46,6 +46,18 @@ class Samples(ProgramTest):
         printed = {self.sample("feed_in_pieces", TALK_FBS, str(size)) for size in (1, 7, 4096, 1 << 20)}
         self.assertEqual(len(printed), 1, printed)
         self.assertTrue(printed.pop().startswith(f"{PICTURES} pictures, 0 of them held"))
+
+    def test_round_trip_shows_the_video_again(self):
+        talker(self.folder / "in.y4m", "--size", "176x144", "--frames", "40")
+        source = read_y4m(self.folder / "in.y4m")
+        done = subprocess.run([BUILD / "round_trip", "176", "144", "30"], check=True, capture_output=True,
+                              input=b"".join(source.pictures), timeout=MAX_SECONDS)
+        self.assertLess(int(done.stderr.split()[0]), 4000)
+        size = len(source.pictures[0])
+        shown = Y4m(source.header + b"".join(b"FRAME\n" + done.stdout[at:at + size]
+                                             for at in range(0, len(done.stdout), size)))
+        self.assertEqual(len(shown.pictures), 40)
+        self.assertGreater(shown.luma_psnr(source), 28)
 
     def test_encode_frames_encodes_all_of_them(self):
         talker(self.folder / "frames.y4m", "--size", "176x144", "--frames", "75")
