@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from fbs import _program
+from fbs import _program, _video
 from fbs._encoder import Encoder, Rate, rate_of
 from fbs._picture import Picture, PictureLike
-from fbs.errors import ArgumentError, Error, FileError
+from fbs.errors import ArgumentError, Error, FileError, PartialWarning
 
 if TYPE_CHECKING:
     from fbs._program import PathLike, Progress
@@ -138,8 +139,13 @@ def encode(
             arguments += [name, str(value)]
     flags = (("--allow-no-face", allow_no_face), ("--live", live), ("--no-sound", not sound))
     arguments += [flag for flag, is_set in flags if is_set]
+    pictures = None
+    if _video.is_foreign(video):
+        pictures, arguments[1] = _video.as_y4m(video), "-"
+        if sound and _video.has_sound(video):
+            warnings.warn(f"{os.fspath(video)}: without its sound, which this package cannot read", PartialWarning, 2)
     with discarded_part(path):
-        _program.run([*arguments, *options], on_progress=on_progress)
+        _program.run([*arguments, *options], on_progress=on_progress, stdin=pictures)
     return path
 
 

@@ -13,9 +13,11 @@ import signal
 import subprocess
 import sys
 import sysconfig
+import threading
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Optional, Union
 
@@ -66,6 +68,11 @@ def program() -> str:
     return found
 
 
+def lacks(module: str) -> bool:
+    """Whether the program is the package's own, and was packed without a module of this name."""
+    return program() == str(_OWN) and not _OWN.with_name(f"{module}.so").exists()
+
+
 def argument(path: PathLike) -> str:
     """Name a file so that the program does not take it for an option, or ``-`` for a pipe."""
     name = os.fspath(path)
@@ -79,6 +86,7 @@ def run(
     cwd: PathLike | None = None,
     timeout: float | None = None,
     launcher: Sequence[str] = (),
+    stdin: Iterator[bytes] | None = None,
 ) -> str:
     """Run ``fbs ARGUMENTS`` and wait for its end.
 
@@ -98,6 +106,8 @@ def run(
         Seconds.
     launcher : sequence of str, optional
         A command that runs the program, such as ``("nice",)``.
+    stdin : iterator of bytes, optional
+        What the program reads from its standard input. An exception of the iterator is raised here.
 
     Returns
     -------
@@ -117,13 +127,15 @@ def run(
         There are results, but the source was truncated or damaged, or something was left out.
     """
     name = program()
-    child = _Child([*launcher, name, *map(os.fspath, arguments)], cwd)
+    child = _Child([*launcher, name, *map(os.fspath, arguments)], cwd, stdin)
     try:
         child.follow(on_progress, None if timeout is None else time.monotonic() + timeout)
     except TimeoutError:
         raise errors.ProgramTimeoutError(f"fbs took more than {timeout:g} s") from None
     finally:
         child.end()
+    if child.input_fault is not None:
+        raise child.input_fault
     if child.exit_code == _PARTIAL and child.error is None:
         warnings.warn(_notes(child.log), errors.PartialWarning, stacklevel=3)
     elif child.exit_code != 0:
@@ -134,13 +146,14 @@ def run(
 class _Child:
     """A running program and its output."""
 
-    def __init__(self, command: list[str], cwd: PathLike | None) -> None:
+    def __init__(self, command: list[str], cwd: PathLike | None, stdin: Iterator[bytes] | None) -> None:
         self.error: str | None = None
+        self.input_fault: BaseException | None = None
         self._report, theirs = os.pipe()
         try:
             self._process = subprocess.Popen(
                 command,
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.DEVNULL if stdin is None else subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 cwd=cwd,
@@ -157,6 +170,22 @@ class _Child:
         self._said = {
             pipe: bytearray() for pipe in (self._process.stdout.fileno(), self._process.stderr.fileno(), self._report)
         }
+
+        if stdin is not None:
+            threading.Thread(target=self._write, args=[stdin], daemon=True).start()
+
+    def _write(self, pieces: Iterator[bytes]) -> None:
+        assert self._process.stdin is not None
+        pipe = self._process.stdin
+        try:
+            for piece in pieces:
+                pipe.write(piece)
+            pipe.close()
+        except BrokenPipeError:  # the program has ended
+            pass
+        except BaseException as problem:
+            self.input_fault = problem
+            self._process.kill()  # or it would take what has come for all
 
     def follow(self, on_progress: Progress | None, end: float | None) -> None:
         """Read until the program ends; TimeoutError at the time `end` of the monotonic clock."""
@@ -195,9 +224,10 @@ class _Child:
                 pass
             self._process.wait()
         os.close(self._report)
-        for pipe in (self._process.stdout, self._process.stderr):
+        for pipe in (self._process.stdin, self._process.stdout, self._process.stderr):
             if pipe is not None:
-                pipe.close()
+                with suppress(BrokenPipeError):
+                    pipe.close()
 
     @property
     def exit_code(self) -> int:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from fbs import _program
+from fbs import _program, _video
 from fbs.errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -95,7 +95,10 @@ def track(
         for option, value in (("--face", face or None), ("--frames", frames), ("--duration", duration), ("--rate", fps)):
             if value is not None:
                 arguments += [option, str(value)]
-    return _table_of(_program.run(arguments, on_progress=on_progress))
+    pictures = None
+    if arguments[0] == "track" and _video.is_foreign(video):
+        pictures, arguments[1] = _video.as_y4m(video), "-"
+    return _table_of(_program.run(arguments, on_progress=on_progress, stdin=pictures))
 
 
 def _table_of(text: str) -> Table:

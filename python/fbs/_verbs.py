@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from fbs import _program
+from fbs import _program, _video
 from fbs._decoder import Decoder
 from fbs._encoding import discarded_part
 from fbs._source import Source
@@ -79,6 +80,10 @@ def decode(
         return _all_pictures(stream, keep_going, on_progress)
     if not isinstance(stream, (str, Path)) and not hasattr(stream, "__fspath__"):
         raise ArgumentError("a file is written of a stream that is in a file")
+    if _video.is_foreign(path) and "%" not in os.fspath(path) and not options:
+        with Decoder(stream, keep_going=keep_going) as decoder:
+            _video.write(path, decoder)
+        return Path(path)
     arguments = ["decode", _program.argument(stream), _program.argument(path), "--quiet"]
     if keep_going:
         arguments.append("--keep-going")
@@ -136,15 +141,15 @@ def retarget(
     NoFaceError
         One of the inputs shows no face.
     """
-    arguments = ["retarget", "--motion", _program.argument(motion), "--face", _program.argument(face)]
+    arguments = ["retarget", "--motion", _program.argument(motion), "--face"]
     if quality is not None:
         arguments.append(f"--quality={quality}")
     if wire_frame is not None:
         arguments += ["--wire-frame", _program.argument(wire_frame)]
     if not sound:
         arguments.append("--no-sound")
-    with discarded_part(path):
-        _program.run([*arguments, "--quiet", *options, _program.argument(path)])
+    with discarded_part(path), _video.readable(face, most=1) as name:
+        _program.run([*arguments[:4], name, *arguments[4:], "--quiet", *options, _program.argument(path)])
     return Path(path)
 
 
@@ -232,7 +237,7 @@ def evaluate(
     >>> [point["frames"] for point in result["points"]]
     [20]
     """
-    arguments = ["evaluate", _program.argument(video), *map(_program.argument, streams), "--json=-"]
+    arguments = [*map(_program.argument, streams), "--json=-"]
     if quality:
         arguments += ["--quality", *map(str, quality)]
     for name, path in (("--html", html), ("--csv", csv), ("--region", region), ("--keep", keep)):
@@ -244,5 +249,7 @@ def evaluate(
         arguments.append(f"--jobs={jobs}")
     flags = (("--peers", peers), ("--live", live), ("--allow-no-face", allow_no_face))
     arguments += [flag for flag, is_set in flags if is_set]
-    result: dict[str, Any] = json.loads(_program.run([*arguments, *options], on_progress=on_progress))
+    with _video.readable(video, most=frames) as name:
+        printed = _program.run(["evaluate", name, *arguments, *options], on_progress=on_progress)
+    result: dict[str, Any] = json.loads(printed)
     return result

@@ -77,7 +77,7 @@ def install(build):
         settings["cmake.define.CMAKE_CXX_COMPILER_LAUNCHER"] = launcher
     options = [word for name, value in settings.items() for word in ("-C", f"{name}={value}")]
     run(python, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", wheels, PACKAGE, *options)
-    (wheel,) = wheels.glob("fbs-*.whl")
+    (wheel,) = wheels.glob("fbs_codec-*.whl")
     run(python, "-m", "pip", "install", "--no-deps", "--force-reinstall", wheel)
     print(f"{wheel.name}: {wheel.stat().st_size} bytes")
 
