@@ -249,7 +249,7 @@ def evaluate(
         arguments.append(f"--jobs={jobs}")
     flags = (("--peers", peers), ("--live", live), ("--allow-no-face", allow_no_face))
     arguments += [flag for flag, is_set in flags if is_set]
-    with _video.readable(video, most=frames) as name:
+    with _video.readable(video) as name:
         printed = _program.run(["evaluate", name, *arguments, *options], on_progress=on_progress)
     result: dict[str, Any] = json.loads(printed)
     return result
