@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # release.sh [FOLDER]: makes what is published of a version, of the commit that is checked out: source archive, Debian packages,
-# the package for npm, and their checksums. FOLDER (default: build/fbs-VERSION) is made anew. Takes minutes.
+# the package for npm, wheels of Python, and their checksums. FOLDER (default: build/fbs-VERSION) is made anew. Takes minutes.
 # What it makes is tried by tests/packages/try_packages.sh FOLDER.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -30,7 +30,7 @@ lintian --fail-on error --suppress-tags initial-upload-closes-no-bugs "$out"/*.d
 web/build.sh
 npm pack --silent --pack-destination "$out" ./build/web/package
 
-# Wheels and the sdist of the Python package: made into "$out" here.
+python/wheels/build.sh "$out"
 
 cd "$out"
 sha256sum -- * >SHA256SUMS

@@ -2,26 +2,20 @@
 #include <codec2/version.h>
 #include <dav1d/dav1d.h>
 #include <draco/core/draco_version.h>
+#include <hwy/base.h>
 #include <opus/opus.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-// clang-format off
-#include "decoder/vectors/fixed_vectors.h"
-#include <hwy/base.h>
-#include <hwy/targets.h>
-// clang-format on
-
 #include "bitstream/syntax.h"
 #include "cli/command_line/verb.h"
 #include "common/workers.h"
+#include "decoder/vectors/scalar.h"
 
 namespace fbs::cli {
 namespace {
@@ -56,13 +50,6 @@ std::string system_name() {
          name.machine;
 }
 
-/// Of the decoder: the best set of vectors that both processor and program have.
-std::string vector_kernels() {
-  const auto sets = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);
-  return sets == 0 ? "none"
-                   : hwy::TargetName(static_cast<std::int64_t>(std::uint64_t{1} << std::countr_zero(sets)));
-}
-
 /// "NAME VERSION" lines as an object.
 Json libraries_of(const std::string& lines) {
   Json out = Json::object();
@@ -91,7 +78,7 @@ Json report() {
           {"system", system_name()},
           {"processor", value_in("/proc/cpuinfo", "model name", ':')},
           {"threads", core_count()},
-          {"kernels", vector_kernels()},
+          {"kernels", kernel_name()},
           {"libraries",
            {{"Codec 2", CODEC2_VERSION},
             {"dav1d", dav1d_version()},

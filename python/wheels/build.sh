@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # build.sh [OUT]: makes the wheels of the Python package for this kind of machine, and its source distribution, in OUT (dist).
-# Then tries each in a bare environment, and prints a table.
+# Then tries each wheel in a bare environment, and prints a table.
 #
 # Uses each CPython 3.9 to 3.13, or of $FBS_PYTHONS, that is in PATH, in pyenv or in /opt/python. From 3.12 on one wheel
 # serves all (abi3). Debian's libraries go into the wheels: docs/python.md says what those need. FFmpeg, cameras and
