@@ -257,23 +257,29 @@ Result<void> PatternPass::aim(const Scene& scene, double bytes) {
 }
 
 Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& draft) {
-  // The nearest known quantisers with too many bytes and with few enough.
+  // The nearest known quantisers with too many bytes and with few enough, and the logarithms of what they
+  // took of those allowed.
   int over = -1, under = 64;
+  double excess_over = 0, excess_under = 0;  // 0: unknown
   SegmentDraft best = draft;
   double nearest = 0;
   for (int trial = 0;; ++trial) {
     const auto taken = taken_by(scene.setup, draft);
     if (!taken) return fail(taken.error());
     const int quantiser = coding_.quantiser;
-    (*taken > bytes ? over : under) = quantiser;
-    const double miss = std::abs(std::log(*taken / bytes));
+    const double excess = std::log(*taken / bytes), miss = std::abs(excess);
+    (excess > 0 ? over : under) = quantiser;
+    (excess > 0 ? excess_over : excess_under) = excess;
     if (trial == 0 || miss < nearest) {
       nearest = miss;
       best = draft;
     }
     if (trial == kMaxRateTrials || nearest < kRateTolerance || over + 1 >= under) break;
-    const int step = static_cast<int>(std::lround(std::log(*taken / bytes) / std::log(kBytesPerStep)));
-    const int next = std::clamp(quantiser + step, over + 1, under - 1);
+    const double per_step = excess_over > 0 && excess_under < 0
+                                ? (excess_over - excess_under) / (under - over)
+                                : std::log(kBytesPerStep);
+    const int next =
+        std::clamp(quantiser + static_cast<int>(std::lround(excess / per_step)), over + 1, under - 1);
     if (next == quantiser) break;
     coding_.quantiser = next;
     if (auto coded = draft.code(store_, scene, coding_, workers_); !coded) return coded;
