@@ -16,8 +16,8 @@ std::string picture_number(const StreamDecoder& stream) {
 
 void DecoderWatch::open(int threads) const {
   if (hooks_.logs())
-    hooks_.say(LogLevel::kDebug, std::string("decoder " FBS_VERSION ", kernels ") + kernel_name() +
-                                     ", threads " + std::to_string(threads));
+    hooks_.say(LogLevel::kDebug,
+               std::string("decoder: kernels ") + kernel_name() + ", threads " + std::to_string(threads));
 }
 
 void DecoderWatch::note_picture(const StreamDecoder& stream) {
