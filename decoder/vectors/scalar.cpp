@@ -8,6 +8,7 @@
 #include <string_view>
 
 namespace fbs {
+#ifndef __EMSCRIPTEN__
 namespace {
 
 bool asks_for_scalar() {
@@ -19,6 +20,7 @@ bool asks_for_scalar() {
 }  // namespace
 
 const bool kScalarOnly = asks_for_scalar();
+#endif
 
 const char* kernel_name() {
   const auto usable = HWY_SUPPORTED_TARGETS & HWY_TARGETS;

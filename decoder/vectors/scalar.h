@@ -4,7 +4,11 @@
 namespace fbs {
 
 /// Whether the environment variable FBS_CPU is "scalar". Read when the library is loaded.
+#ifdef __EMSCRIPTEN__
+inline constexpr bool kScalarOnly = false;  // pages have no environment
+#else
 extern const bool kScalarOnly;
+#endif
 
 /// The vectors that kernels use, such as "AVX2", or "scalar".
 [[nodiscard]] const char* kernel_name();
