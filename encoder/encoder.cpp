@@ -23,7 +23,8 @@ namespace {
 /// Where a face that lies is looked for: seconds, some apart, since the first picture may be black.
 constexpr std::array kTurnLooks{0.0, 2.0};
 
-constexpr double kRateTolerance = 0.1;  // relative to the bitrate; a larger deviation is logged
+/// Relative to a bitrate; a larger deviation is reported.
+constexpr double kRateTolerance = 0.1;
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -196,10 +197,10 @@ struct Encoder::Impl {
 
   /// Logs a bitrate that a file has not met.
   void note_rate() const {
-    if (settings.bitrate <= 0 || settings.live || position.time == 0) return;
-    const double kbps =
-        8e-3 * static_cast<double>(bytes) * kTicksPerSecond / static_cast<double>(position.time);
-    if (std::abs(kbps / settings.bitrate - 1) <= kRateTolerance) return;
+    if (settings.live) return;
+    const double seconds = static_cast<double>(position.time) / kTicksPerSecond;
+    const double kbps = 8e-3 * static_cast<double>(bytes) / seconds;
+    if (!misses_bitrate(settings, kbps, seconds)) return;
     std::array<char, 80> text{};
     std::snprintf(text.data(), text.size(), "target %.2f kbit/s not reachable, got %.2f", settings.bitrate,
                   kbps);
@@ -318,6 +319,13 @@ const PictureAnalysis& Encoder::analysis() const {
 const EncodingReport& Encoder::report() const {
   impl_->end_picture();
   return impl_->report;
+}
+
+bool misses_bitrate(const EncoderSettings& settings, double kbps, double seconds) {
+  if (settings.bitrate <= 0 || seconds <= 0) return false;
+  const double waiting = settings.live ? settings.live->buffer / seconds : 0;
+  const double more = kbps / settings.bitrate - 1;
+  return more < -kRateTolerance || more > kRateTolerance + waiting;
 }
 
 }  // namespace fbs

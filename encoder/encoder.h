@@ -84,4 +84,9 @@ class Encoder {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Whether a stream misses EncoderSettings::bitrate by a tenth or more. A live one may exceed it by what
+/// waits in its buffer and is sent later.
+/// @param kbps  of the whole stream, which lasts so many seconds
+[[nodiscard]] bool misses_bitrate(const EncoderSettings& settings, double kbps, double seconds);
+
 }  // namespace fbs

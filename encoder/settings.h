@@ -38,6 +38,9 @@ enum class Tune : std::uint8_t {
   kPsnr,  ///< the frame as a whole: least squared difference
 };
 
+/// Longest segment of a file, seconds: pictures not yet coded are on disk, and its end is a delay.
+inline constexpr double kSegmentSeconds = 40;
+
 struct EncoderSettings {
   int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
   double bitrate = 0;          ///< total kbit/s, which determines quality; 0: quality decides

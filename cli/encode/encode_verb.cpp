@@ -26,8 +26,7 @@ namespace fbs::cli {
 namespace {
 
 constexpr const char* kFinishingStream = "fbs: finishing the stream; a second signal ends at once";
-constexpr double kLeastBitrate = 0.5;   // kbit/s of the pictures, beside sound
-constexpr double kRateTolerance = 0.1;  // relative to --bitrate; a larger deviation is reported
+constexpr double kLeastBitrate = 0.5;  // kbit/s of the pictures, beside sound
 
 std::string rate_text(const char* name, double kbps) {
   std::array<char, 32> text{};
@@ -155,21 +154,12 @@ Error with_advice(Error error) {
   return error;
 }
 
-/// Whether the rate is another than was asked for. What still waits in the buffer of a live stream is sent
-/// later.
-bool misses_rate(const EncodeArguments& arguments, const Measure& measure) {
-  const double asked = arguments.settings.bitrate;
-  if (asked <= 0 || measure.seconds <= 0) return false;
-  const double waiting = is_live(arguments) ? arguments.buffer.value_or(LiveSettings{}.buffer) : 0;
-  const double more = measure.kbps() / asked - 1;
-  return more < -kRateTolerance || more > kRateTolerance + waiting / measure.seconds;
-}
-
-void print_warnings(const EncodeArguments& arguments, const SourcePart& source, const Measure& measure) {
+void print_warnings(const EncodeArguments& arguments, const EncoderSettings& settings,
+                    const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded", arguments.quiet);
-  if (misses_rate(arguments, measure))
+  if (misses_bitrate(settings, measure.kbps(), measure.seconds))
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
-                 arguments.settings.bitrate, measure.kbps());
+                 settings.bitrate, measure.kbps());
 }
 
 Result<void> check_files(const EncodeArguments& a) {
@@ -219,7 +209,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());
   if (auto committed = file->commit(); !committed) return fail(committed.error());
-  print_warnings(arguments, source, encoded->measure);
+  print_warnings(arguments, *settings, source, encoded->measure);
   if (!arguments.quiet) print_summary(arguments.output, *encoded);
   return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;
 }

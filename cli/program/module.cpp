@@ -59,7 +59,8 @@ Result<void*> load_module_symbol(const std::string& name, const char* symbol) {
       return address;
     });
   }
-  return fail(ErrorCode::kUnsupported, "module " + name + ".so not found; searched " + searched + FBS_MODULE_HINT);
+  return fail(ErrorCode::kUnsupported,
+              "module " + name + ".so not found; searched " + searched + FBS_MODULE_HINT);
 }
 
 }  // namespace fbs

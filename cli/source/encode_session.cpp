@@ -47,10 +47,9 @@ class Durations {
   std::int64_t nominal_, ahead_ = 0;  // 1/90000 s
 };
 
-/// How long the coding of patterns takes that follows the last picture, as pictures: of a segment, whose
-/// length PatternPass limits. Measured on two cores; live and with one pattern there is none.
+/// How long the coding of patterns takes that follows the last picture, as pictures: of a segment, of
+/// kSegmentSeconds at most. Measured on two cores; live and with one pattern there is none.
 double coding_after(const VideoSource& source, const EncoderSettings& settings) {
-  constexpr double kSegmentSeconds = 40;
   const auto pictures = source.frame_count_estimate();
   if (!pictures || settings.live || settings.patterns == 1) return 0;
   const Rational& rate = source.format().frame_rate;

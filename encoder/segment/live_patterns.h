@@ -113,7 +113,7 @@ class LivePatterns : public PatternStage {
   LiveSequence sequence_;
   std::optional<LiveRate> rate_;
   bool over_ = false;  ///< the rate has no room
-  Size key_, later_;  ///< of a whole picture, and of one that others predict
+  Size key_, later_;   ///< of a whole picture, and of one that others predict
   // The scene's:
   PatternRegret regret_;
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first

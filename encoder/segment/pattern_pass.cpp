@@ -14,9 +14,6 @@
 namespace fbs {
 namespace {
 
-/// Longest segment, seconds: pictures not yet coded are on disk, and its end is a delay.
-constexpr double kSegmentSeconds = 40;
-
 /// Limit for the patterns of a segment, bytes, of which several copies exist in the making.
 constexpr double kSegmentBytes = 64e6;
 

@@ -17,7 +17,7 @@ namespace {
 /// Luminance of white paper in HDR, which SDR shows as its white: ITU-R BT.2408.
 constexpr int kReferenceWhite = 203;  // cd/m2
 
-/// Of HLG, and of PQ that does not say.
+/// The peak luminance of HLG, and that of PQ where the file does not say.
 constexpr double kUsualPeak = 1000;  // cd/m2
 
 /// Up to this share of white, faces among it, HDR is shown as it is; what is brighter is compressed.
