@@ -19,8 +19,9 @@ class CutDetector {
   [[nodiscard]] bool is_cut(const Picture& picture);
 
   /// Share of a picture's contrast that another one's blocks cannot explain, 0..1.
-  /// @param of, by  CV_32F, of one size
-  [[nodiscard]] static double unexplained(const cv::Mat1f& of, const cv::Mat1f& by);
+  /// @param of, by  of one size
+  /// @param reach   how far blocks may have moved, samples
+  [[nodiscard]] static double unexplained(const cv::Mat1f& of, const cv::Mat1f& by, int reach);
 
  private:
   cv::Mat1f before_;  ///< reduced luma; empty ahead of the first picture
