@@ -1,9 +1,16 @@
 #include "encoder/blend/mode_errors.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 namespace fbs {
 namespace {
+
+/// How far a part of the face may lie from where a pattern shows it and still be drawn from there without
+/// motion, mean over its triangles, eye distances. Farther off, an eye of skin may have the least error.
+constexpr double kStillWithin = 0.03;
+/// Error of a blend that must not be.
+constexpr double kTorn = 1e30;
 
 /// The region with the largest share of a triangle.
 Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {
@@ -22,6 +29,21 @@ std::array<std::vector<std::uint32_t>, kRegionCount> triangles_by_region(const V
     if (!surface.runs_of(k).empty())
       out[static_cast<std::size_t>(region_of(surface.triangles()[k], geometry))].push_back(k);
   return out;
+}
+
+/// How far triangles of the head lie from where a pattern shows them: mean over their corners, eye distances.
+double distance_from(const TextureMesh& texture, const PictureMesh& picture, const WireFrame& frame,
+                     std::span<const std::uint32_t> triangles) {
+  const auto at = [&](std::size_t vertex) { return glm::dvec2(picture.mesh.head[vertex]); };
+  double sum = 0, corners = 1;
+  for (const std::uint32_t k : triangles) {
+    const SurfaceTriangle& t = picture.surface.triangles()[k];
+    if (!t.head) continue;
+    for (const std::uint16_t c : t.corners) sum += glm::length(at(c) - glm::dvec2(texture.head[c]));
+    corners += 3;
+  }
+  const auto [right, left] = frame.pupil_vertices();
+  return sum / (corners * std::max(1.0, glm::length(at(right) - at(left))));
 }
 
 using Samples = std::vector<std::int16_t>;
@@ -129,10 +151,16 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
         error[i] = static_cast<std::int16_t>(error[i] - shown[i]);
       return error;
     };
+    const auto is_torn = [&](const WeightedSource& s) {
+      return s.source.still && r <= static_cast<std::size_t>(Region::kFace) &&
+             distance_from(scene_.patterns[available[s.source.pattern]].texture, picture,
+                           scene_.geometry.geometry().wire_frame(), triangles[r]) > kStillWithin;
+    };
     RegionGram gram;
-    for (int mode = 0; mode < kBlendModeCount; ++mode)
-      out[r][mode] =
-          scale * gram.error(weights.blend(static_cast<Region>(r), static_cast<BlendMode>(mode)), sample);
+    for (int mode = 0; mode < kBlendModeCount; ++mode) {
+      const RegionBlend blend = weights.blend(static_cast<Region>(r), static_cast<BlendMode>(mode));
+      out[r][mode] = std::ranges::any_of(blend, is_torn) ? kTorn : scale * gram.error(blend, sample);
+    }
   }
   return out;
 }
