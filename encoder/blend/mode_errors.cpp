@@ -9,8 +9,6 @@ namespace {
 /// How far a part of the face may lie from where a pattern shows it and still be drawn from there without
 /// motion, mean over its triangles, eye distances. Farther off, an eye of skin may have the least error.
 constexpr double kStillWithin = 0.03;
-/// Error of a blend that must not be.
-constexpr double kTorn = 1e30;
 
 /// The region with the largest share of a triangle.
 Region region_of(const SurfaceTriangle& t, const SceneGeometry& geometry) {

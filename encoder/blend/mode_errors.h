@@ -14,7 +14,10 @@
 
 namespace fbs {
 
-/// Squared luma error of a region in each mode, in samples of the full picture.
+/// The error of a mode that draws a part of the face without motion from where it does not lie.
+inline constexpr double kTorn = 1e30;
+
+/// Squared luma error of a region in each mode, in samples of the full picture, or kTorn.
 using ModeErrors = std::array<std::array<double, kBlendModeCount>, kRegionCount>;
 
 /// Works on decoded patterns at a reduced size. Several threads may use one object.

@@ -28,18 +28,44 @@ TEST(BlendErrors, AgreeWithTheRenderer) {
   for (const std::size_t count : {3, 6}) {
     const BlendedScene s(count, static_cast<unsigned>(count));
     const BlendErrors blend(s.blend(), 0);
-    for (unsigned seed = 1; seed <= 2; ++seed) {
-      const State state = any_state(seed, 13);
+    // Two that lie elsewhere, and one of a pattern just before and just behind it.
+    std::vector<State> states = {any_state(1, 13), any_state(2, 13)};
+    for (const int after : {-1, 1}) {
+      states.push_back(s.scene.patterns[1].seen);
+      states.back().picture += after;
+    }
+    std::array<int, kBlendModeCount> compared{};
+    for (const State& state : states) {
       Picture source(BlendedScene::kWidth, BlendedScene::kHeight);
       source.y = wave_plane(BlendedScene::kWidth, BlendedScene::kHeight, 77);
       const ModeErrors errors = blend.errors(source.y, state, s.all());
       for (int m = 0; m < kBlendModeCount; ++m) {
         const auto mode = static_cast<BlendMode>(m);
+        if (over_regions(errors, mode) >= kTorn) continue;
+        ++compared[static_cast<std::size_t>(m)];
         const double drawn = squares(rendered(s.scene, with_mode(state, mode)), source);
         EXPECT_NEAR(over_regions(errors, mode) / drawn, 1, 0.04) << count << " patterns, mode " << m;
       }
     }
+    for (const BlendMode mode : {BlendMode::kByState, BlendMode::kStillBefore, BlendMode::kStillAfter})
+      EXPECT_GT(compared[static_cast<std::size_t>(mode)], 0) << static_cast<int>(mode);
   }
+}
+
+TEST(BlendErrors, FaceThatLiesElsewhereIsNotDrawnStill) {
+  const BlendedScene s(3);
+  State state = s.scene.patterns[1].seen;
+  const Plane& source = s.scene.patterns[1].picture.y;
+  const BlendErrors blend(s.blend(), 0);
+  const auto still = static_cast<std::size_t>(BlendMode::kStillBefore);
+  const auto is_torn = [&](Region region) {
+    return blend.errors(source, state, s.all())[static_cast<std::size_t>(region)][still] == kTorn;
+  };
+  EXPECT_FALSE(is_torn(Region::kRightEye));
+  state.pose[kShiftX] += 5 * 64;  // a tenth of the eye distance
+  EXPECT_TRUE(is_torn(Region::kRightEye));
+  EXPECT_TRUE(is_torn(Region::kMouth));
+  EXPECT_FALSE(is_torn(Region::kGround));
 }
 
 TEST(BlendErrors, ReducedOnesCountSamplesOfTheFullPicture) {
