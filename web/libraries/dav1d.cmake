@@ -1,6 +1,6 @@
 # Pictures of 8 bits, no assembly: there is none for WebAssembly.
 set(dav1d ${SOURCES}/dav1d)
-set(dav1d_config ${CMAKE_CURRENT_BINARY_DIR}/dav1d)
+set(dav1d_config ${CMAKE_CURRENT_BINARY_DIR}/dav1d_config)
 file(WRITE ${dav1d_config}/config.h [[
 #define ARCH_AARCH64 0
 #define ARCH_ARM 0
@@ -17,6 +17,25 @@ file(WRITE ${dav1d_config}/config.h [[
 #define HAVE_POSIX_MEMALIGN 1
 #define HAVE_UNISTD_H 1
 ]])
+# Wrong arguments are not printed: printf is 5 kB.
+file(WRITE ${dav1d_config}/common/validate.h [[
+#include <stdlib.h>
+#define validate_input_or_ret_with_msg(x, r, ...) if (!(x)) return r
+#define validate_input_or_ret(x, r) if (!(x)) return r
+#define validate_input(x) if (!(x)) return
+]])
+# Film grain is not applied.
+file(WRITE ${dav1d_config}/no_grain.c [[
+#include "common/bitdepth.h"
+#include "src/fg_apply.h"
+void bitfn(dav1d_film_grain_dsp_init)(Dav1dFilmGrainDSPContext* dsp) {}
+void bitfn(dav1d_prep_grain)(const Dav1dFilmGrainDSPContext* dsp, Dav1dPicture* out, const Dav1dPicture* in,
+                             uint8_t scaling[3][SCALING_SIZE], entry grain[3][GRAIN_HEIGHT + 1][GRAIN_WIDTH]) {}
+void bitfn(dav1d_apply_grain_row)(const Dav1dFilmGrainDSPContext* dsp, Dav1dPicture* out, const Dav1dPicture* in,
+                                  const uint8_t scaling[3][SCALING_SIZE],
+                                  const entry grain[3][GRAIN_HEIGHT + 1][GRAIN_WIDTH], int row) {}
+void bitfn(dav1d_apply_grain)(const Dav1dFilmGrainDSPContext* dsp, Dav1dPicture* out, const Dav1dPicture* in) {}
+]])
 file(WRITE ${dav1d_config}/vcs_version.h "#define DAV1D_VERSION \"1\"\n")
 
 prefixed(dav1d_sources ${dav1d}/src
@@ -24,8 +43,9 @@ prefixed(dav1d_sources ${dav1d}/src
   picture.c qm.c ref.c refmvs.c scan.c tables.c thread_task.c warpmv.c wedge.c)
 # Compiled once for each depth of samples.
 prefixed(dav1d_depth_sources ${dav1d}/src
-  cdef_apply_tmpl.c cdef_tmpl.c fg_apply_tmpl.c filmgrain_tmpl.c ipred_prepare_tmpl.c ipred_tmpl.c itx_tmpl.c
-  lf_apply_tmpl.c loopfilter_tmpl.c looprestoration_tmpl.c lr_apply_tmpl.c mc_tmpl.c recon_tmpl.c)
+  cdef_apply_tmpl.c cdef_tmpl.c ipred_prepare_tmpl.c ipred_tmpl.c itx_tmpl.c lf_apply_tmpl.c loopfilter_tmpl.c
+  looprestoration_tmpl.c lr_apply_tmpl.c mc_tmpl.c recon_tmpl.c)
+list(APPEND dav1d_depth_sources ${dav1d_config}/no_grain.c)
 set_source_files_properties(${dav1d_depth_sources} PROPERTIES COMPILE_DEFINITIONS BITDEPTH=8)
 
 add_library(dav1d STATIC ${dav1d_sources} ${dav1d_depth_sources})

@@ -1,7 +1,29 @@
 # Points without triangles, decoded one after another: what a stream has.
 set(draco ${SOURCES}/draco/src)
-set(draco_config ${CMAKE_CURRENT_BINARY_DIR}/draco)
+set(draco_config ${CMAKE_CURRENT_BINARY_DIR}/draco_config)
 file(WRITE ${draco_config}/draco/draco_features.h "#define DRACO_POINT_CLOUD_COMPRESSION_SUPPORTED\n")
+# Points are predicted by the one before, whatever the stream says: Draco's own choice has the schemes of meshes, too.
+set(draco_schemes draco/compression/attributes/prediction_schemes)
+file(WRITE ${draco_config}/${draco_schemes}/prediction_scheme_decoder_factory.h [[
+#pragma once
+#include "draco/compression/attributes/prediction_schemes/prediction_scheme_delta_decoder.h"
+#include "draco/compression/point_cloud/point_cloud_decoder.h"
+#include "draco/core/bit_utils.h"
+namespace draco {
+template <typename DataTypeT, class TransformT>
+std::unique_ptr<PredictionSchemeDecoder<DataTypeT, TransformT>> CreatePredictionSchemeForDecoder(
+    PredictionSchemeMethod method, int attribute, const PointCloudDecoder* decoder, const TransformT& transform) {
+  if (method == PREDICTION_NONE) return nullptr;
+  return std::make_unique<PredictionSchemeDeltaDecoder<DataTypeT, TransformT>>(
+      decoder->point_cloud()->attribute(attribute), transform);
+}
+template <typename DataTypeT, class TransformT>
+std::unique_ptr<PredictionSchemeDecoder<DataTypeT, TransformT>> CreatePredictionSchemeForDecoder(
+    PredictionSchemeMethod method, int attribute, const PointCloudDecoder* decoder) {
+  return CreatePredictionSchemeForDecoder<DataTypeT, TransformT>(method, attribute, decoder, TransformT());
+}
+}  // namespace draco
+]])
 
 prefixed(draco_sources ${draco}/draco
   attributes/attribute_quantization_transform.cc attributes/attribute_octahedron_transform.cc
@@ -18,9 +40,17 @@ prefixed(draco_sources ${draco}/draco
   compression/point_cloud/point_cloud_sequential_decoder.cc
   core/bit_utils.cc core/data_buffer.cc core/decoder_buffer.cc core/divide.cc core/draco_types.cc core/hash_utils.cc
   core/options.cc core/quantization_utils.cc core/status.cc
-  metadata/geometry_metadata.cc metadata/metadata.cc metadata/metadata_decoder.cc
+  metadata/geometry_metadata.cc metadata/metadata.cc
   point_cloud/point_cloud.cc)
-add_library(draco STATIC ${draco_sources})
+# A head has no metadata.
+file(WRITE ${draco_config}/no_metadata.cc [[
+#include "draco/metadata/metadata_decoder.h"
+namespace draco {
+MetadataDecoder::MetadataDecoder() : buffer_(nullptr) {}
+bool MetadataDecoder::DecodeGeometryMetadata(DecoderBuffer*, GeometryMetadata*) { return false; }
+}  // namespace draco
+]])
+add_library(draco STATIC ${draco_sources} ${draco_config}/no_metadata.cc)
 target_compile_options(draco PRIVATE -Os)
 target_include_directories(draco PRIVATE ${draco_config} ${draco})
 install(TARGETS draco EXPORT draco ARCHIVE DESTINATION lib INCLUDES DESTINATION include)
