@@ -29,6 +29,6 @@ rm -rf "$package"
 mkdir -p "$package/src"
 cp web/src/*.js web/src/*.ts "$package/src/"
 cp "$out/simd/fbs.wasm" "$package/src/fbs-simd.wasm"
-cp "$out/plain/fbs.wasm" "$package/src/fbs.wasm"
+cp "$out/plain/"{fbs,opus,codec2}.wasm "$package/src/"  # sound has no use for vectors
 chmod 644 "$package"/src/*.wasm
 cp web/package.json web/README.md LICENSE "$package/"

@@ -22,6 +22,9 @@ export class FbsModule {
   private constructor();
   /** Names of the weights in Face.blendshapes. */
   readonly blendshapeNames: readonly string[];
+  /** Loads a decoder of sound; `module`: default, it is fetched. In pages and workers that which a stream needs is fetched
+   * by itself. Node fetches no files: give the module there. */
+  loadSound(codec: "opus" | "codec2", module?: WebAssembly.Module): Promise<void>;
   /** Opens a decoder of one stream. All decoders of a module share its memory, at most 2 GB. */
   open(): FbsDecoder;
 }
@@ -55,9 +58,10 @@ export class FbsDecoder {
   /** Sets the changes to the motion of the stream; omitted members are 0. */
   edit(edit: FaceEdit): void;
 
-  /** The sound from the end of the last call or seek() up to a time, or as far as it has arrived; null until some has. */
+  /** The sound from the end of the last call or seek() up to a time, or as far as it has arrived; null until some
+   * has, and its decoder (loadSound). */
   sound(end: number): Sound | null;
-  /** Hz; 0 until sound has arrived. */
+  /** Hz; 0 until sound has arrived, and its decoder. */
   readonly soundRate: number;
   /** End of the pictures that have arrived, seconds. */
   readonly arrivedTime: number;

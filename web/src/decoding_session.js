@@ -10,6 +10,9 @@ import { openStream, readStream } from "./stream_source.js";
  * @typedef {(answer: Answer, transfer?: Transferable[]) => void} Send
  */
 
+/** @param {Error} fault  in loading a module */
+const codeOf = (fault) => (fault instanceof FbsError ? fault.code : "network");
+
 export class DecodingSession {
   /**
    * @param {number} generation  of the answers
@@ -40,6 +43,8 @@ export class DecodingSession {
      */
     this.wanted = null;
     this.toldWaiting = false;
+    /** @type {number | null} */
+    this.soundWanted = null;
   }
 
   /**
@@ -56,6 +61,8 @@ export class DecodingSession {
     const decoder = ready.open();
     this.decoder = decoder;
     decoder.edit(this.editing);
+    ready.codecs.awaitedRate = 0;
+    ready.codecs.changed = (fault) => this.takeCodec(fault);
     try {
       await readStream(await stream, (bytes) => {
         if (signal.aborted) return;
@@ -82,11 +89,23 @@ export class DecodingSession {
     this.decoder = null;
   }
 
+  /**
+   * The decoder of the sound has come, or not.
+   * @param {Error} [fault]
+   */
+  takeCodec(fault) {
+    if (!this.decoder) return;
+    if (fault) this.report(new FbsError(codeOf(fault), `the sound's decoder could not be loaded: ${fault.message}`), false);
+    else this.tellArrival(this.decoder);
+    if (this.soundWanted !== null) this.sound(this.soundWanted);
+  }
+
   /** @param {FbsDecoder} decoder */
   tellArrival(decoder) {
     const { generation, complete } = this;
     const { all, sound } = decoder.arrivedBytes;
-    const { arrivedTime: time, soundRate } = decoder;
+    const { arrivedTime: time } = decoder;
+    const soundRate = decoder.soundRate || decoder.module.codecs.awaitedRate;
     const arrival = { bytes: all, soundBytes: sound, time, soundRate, complete };
     this.send({ type: "arrival", generation, arrival });
   }
@@ -112,13 +131,20 @@ export class DecodingSession {
   /** @param {number} generation @param {number} time */
   seek(generation, time) {
     this.generation = generation;
+    this.soundWanted = null;
     this.wanted = { skipTo: time, isSeek: true, seek: true };
     this.toldWaiting = false;
     this.answer();
   }
 
-  /** @param {number} to */
+  /**
+   * Sound that has no decoder yet is waited for: it begins with its pictures.
+   * @param {number} to
+   */
   sound(to) {
+    const awaited = this.decoder?.module.codecs.awaitedRate;
+    this.soundWanted = awaited ? to : null;
+    if (awaited) return;
     const sound = this.wanted?.seek ? null : this.decoder?.sound(to) ?? null;
     this.send({ type: "sound", generation: this.generation, sound }, sound ? [sound.samples.buffer] : []);
   }

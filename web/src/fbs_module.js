@@ -3,6 +3,8 @@
  * Times are seconds, from the first picture of the stream.
  */
 
+import { SoundCodecs, SYSTEM, trap } from "./sound_codecs.js";
+
 /**
  * @typedef {import("./types").Format} Format
  * @typedef {import("./types").Picture} Picture
@@ -77,22 +79,20 @@ export async function compileModule(url = moduleUrl()) {
  * @param {WebAssembly.Module} [module]  default: it is fetched
  */
 export async function loadModule(module) {
-  const wasi = { proc_exit: trap, fd_write: () => 8, fd_close: () => 8, fd_seek: () => 8 };  // 8: there is no such file
-  const imports = { env: { emscripten_notify_memory_growth() {} }, wasi_snapshot_preview1: wasi };
+  const codecs = new SoundCodecs(compileModule);
+  const imports = { ...SYSTEM, env: { ...SYSTEM.env, ...codecs.functions() } };
   const instance = await WebAssembly.instantiate(module ?? (await compileModule()), imports);
+  codecs.memory = /** @type {WebAssembly.Memory} */ (instance.exports.memory);
   /** @type {any} */ (instance.exports)._initialize();
-  return new FbsModule(instance);
-}
-
-function trap() {
-  throw new WebAssembly.RuntimeError("the decoder has given up");
+  return new FbsModule(instance, codecs);
 }
 
 export class FbsModule {
-  /** @param {WebAssembly.Instance} instance */
-  constructor(instance) {
+  /** @param {WebAssembly.Instance} instance  @param {SoundCodecs} codecs */
+  constructor(instance, codecs) {
     /** @type {any} */
     this.functions = instance.exports;
+    this.codecs = codecs;
     /** Names of the weights in Face.blendshapes. */
     this.blendshapeNames = Object.freeze(Array.from({ length: BLENDSHAPES }, (_, k) =>
       this.text(this.functions.fbs_blendshape_name(k))));
@@ -102,6 +102,15 @@ export class FbsModule {
   text(address) {
     const bytes = new Uint8Array(this.functions.memory.buffer, address);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+  }
+
+  /**
+   * Loads a decoder of sound. Those that a stream needs are fetched when it has come: sound() has none until then.
+   * @param {"opus" | "codec2"} codec
+   * @param {WebAssembly.Module} [module]  default: it is fetched
+   */
+  loadSound(codec, module) {
+    return this.codecs.load(codec, module);
   }
 
   open() {

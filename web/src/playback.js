@@ -212,9 +212,9 @@ export class Playback {
   go() {
     if (!this.playing || this.clock.running || !this.shown || this.seeking) return;
     if (this.sound && this.sound !== this.clock) return;  // still being opened
+    if (this.sound && this.sound.end <= this.position && !this.soundStarved) return this.requestSound();
     if (!this.pending && !this.requested && !this.atEnd) this.request(this.position);
     if (this.waiting && !this.pending) return;
-    if (this.sound && this.sound.end <= this.position && !this.soundStarved) return this.requestSound();
     this.clock.start(this.position);
     this.emit("playing");
     this.tick();

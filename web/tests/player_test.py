@@ -212,6 +212,28 @@ class TestPlayer(unittest.TestCase):
                 });""", other.url(""))
             self.assertEqual(said, material.WIDTH)
 
+    def test_sound_waits_for_its_decoder_and_pictures_do_not(self):
+        with Server(self.server.folders) as other:
+            other.withheld = "opus.wasm"
+            self.driver.get(other.url("pages/player.html"))
+            self.assertEqual(self.make("talk.fbs"), "loadeddata")
+            self.inner(".bar button").click()
+            time.sleep(0.3)
+            self.assertEqual(self.js("return [player.paused, player.currentTime]"), [False, 0])
+            other.gate.set()
+            self.until("player.currentTime > 0.2")
+            self.assertGreater(self.js("return player.playback.sound.end"), 0.2)
+
+    def test_plays_without_sound_where_its_decoder_is_missing(self):
+        with Server(self.server.folders) as other:
+            other.missing = "opus.wasm"
+            self.driver.get(other.url("pages/player.html"))
+            self.make("talk.fbs")
+            self.until("player.error")
+            self.assertEqual(self.js("return [player.error.code, player.error.fatal]"), ["http", False])
+            self.inner(".bar button").click()
+            self.until("player.currentTime > 0.2")
+
     def test_does_not_start_where_it_must_not(self):
         self.make("talk.fbs", autoplay="")  # no sound without a gesture
         self.until("events.includes('pause')")

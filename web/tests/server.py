@@ -46,6 +46,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if path is None:
             self.send_error(404)
             return
+        if path.name == self.server.withheld:
+            self.server.gate.wait(30)
         content = path.read_bytes()
         self.send_response(200)
         self.send_header("Content-Type", TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream")
@@ -89,6 +91,7 @@ class Server(http.server.ThreadingHTTPServer):
         self.link = Link()
         self.gate = threading.Event()
         self.compresses = False
+        self.missing = self.withheld = None  # names of a file that is not there, and of one that waits for the gate
         self.reports = []
         self.thread = threading.Thread(target=self.serve_forever, daemon=True)
 
@@ -96,7 +99,7 @@ class Server(http.server.ThreadingHTTPServer):
         name, _, rest = urllib.parse.unquote(path).lstrip("/").partition("/")
         folder = self.folders.get(name)
         file = (folder / rest).resolve() if folder else None
-        return file if file and file.is_file() and file.is_relative_to(folder) else None
+        return file if file and file.is_file() and file.is_relative_to(folder) and file.name != self.missing else None
 
     def url(self, path):
         return f"http://127.0.0.1:{self.server_port}/{path}"
