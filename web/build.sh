@@ -31,4 +31,28 @@ cp web/src/*.js web/src/*.ts "$package/src/"
 cp "$out/simd/fbs.wasm" "$package/src/fbs-simd.wasm"
 cp "$out/plain/"{fbs,opus,codec2}.wasm "$package/src/"  # sound has no use for vectors
 chmod 644 "$package"/src/*.wasm
+# The service worker knows the files, and another version by its hash.
+(
+  cd "$package/src"
+  files=$(ls -- *.js *.wasm | grep -v '^service_worker.js$')
+  version=$(cat -- *.js *.wasm | sha256sum | cut -c1-16)
+  sed -i "s/@VERSION@/$version/; s/@FILES@/$(echo $files)/" service_worker.js
+)
 cp web/package.json web/README.md LICENSE "$package/"
+# license NAME FILE...: of what is in the modules
+license() {
+  printf '==== %s\n\n' "$1"
+  cat "${@:2}"
+  printf '\n\n'
+}
+{
+  echo "The modules of this package contain parts of these libraries. libcodec2 is in codec2.wasm alone."
+  echo
+  license "dav1d" "$out/sources/dav1d/COPYING"
+  license "Draco" "$out/sources/draco/debian/copyright" /usr/share/common-licenses/Apache-2.0
+  license "Opus" "$out/sources/opus/COPYING"
+  license "Codec 2, GNU Lesser General Public License 2.1" "$out/sources/codec2/COPYING"
+  for name in libhwy-dev libglm-dev emscripten; do
+    license "$name" "/usr/share/doc/$name/copyright"
+  done
+} >"$package/LICENSE-THIRD-PARTY"

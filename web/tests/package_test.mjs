@@ -28,9 +28,10 @@ try {
   const [{ filename, files }] = JSON.parse(run("npm", "pack", "--json", "--offline", "--pack-destination", user));
   const names = files.map((file) => file.path);
   for (const name of ["package.json", "README.md", "LICENSE", "src/index.js", "src/index.d.ts", "src/types.d.ts", "src/fbs.wasm",
-                      "src/fbs-simd.wasm", "src/opus.wasm", "src/codec2.wasm", "src/worker.js"])
+                      "src/fbs-simd.wasm", "src/opus.wasm", "src/codec2.wasm", "src/worker.js",
+                      "src/service_worker.js", "LICENSE-THIRD-PARTY"])
     check(names.includes(name), `${name} is not in the package`);
-  const others = names.filter((name) => !/^(package\.json|README\.md|LICENSE|src\/[\w-]+\.(js|d\.ts|wasm))$/.test(name));
+  const others = names.filter((name) => !/^(package\.json|README\.md|LICENSE|LICENSE-THIRD-PARTY|src\/[\w-]+\.(js|d\.ts|wasm))$/.test(name));
   check(others.length === 0, `not ours to ship: ${others}`);
 
   const installed = path.join(user, "node_modules/fbs-player");
@@ -38,7 +39,7 @@ try {
   run("tar", "xf", path.join(user, filename), "-C", installed, "--strip-components=1");
   const { exports: entries } = JSON.parse(readFileSync(path.join(installed, "package.json"), "utf8"));
   for (const file of Object.values(entries).flatMap((entry) => (typeof entry === "string" ? [entry] : Object.values(entry))))
-    check(existsSync(path.join(installed, file)), `${file} is exported, but not there`);
+    check(existsSync(path.join(installed, file.replace("*", "fbs"))), `${file} is exported, but not there`);
   cwd = user;
   writeFileSync(path.join(user, "user.mjs"), 'import { moduleUrl } from "fbs-player/decoder"; console.log(moduleUrl().pathname);');
   check(existsSync(run("node", "user.mjs").trim()), "fbs-player/decoder does not find its module");

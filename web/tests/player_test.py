@@ -4,7 +4,11 @@ import array
 import hashlib
 import json
 import math
+import pathlib
+import re
+import shutil
 import sys
+import tempfile
 import time
 import unittest
 
@@ -233,6 +237,51 @@ class TestPlayer(unittest.TestCase):
             self.assertEqual(self.js("return [player.error.code, player.error.fatal]"), ["http", False])
             self.inner(".bar button").click()
             self.until("player.currentTime > 0.2")
+
+    def test_service_worker_keeps_one_version(self):
+        with tempfile.TemporaryDirectory() as folder, Server({"site": folder, "media": material.FOLDER}) as other:
+            source = pathlib.Path(folder) / "package/src"
+            shutil.copytree(material.WEB / "package", source.parents[0])
+            (pathlib.Path(folder) / "sw.js").write_text(
+                'importScripts("package/src/service_worker.js");\nkeepFbsPlayer("package/src/");\n')
+            page = (material.ROOT / "web/tests/pages/player.html").read_text()
+            (pathlib.Path(folder) / "index.html").write_text(page.replace("/package/", "package/"))
+            other.cacheable = False
+
+            def visit():
+                """What is asked of the server, and the version that the page has."""
+                self.driver.get(other.url("site/index.html"))
+                del other.asked[:]
+                self.assertEqual(self.make("talk.fbs"), "loadeddata")
+                self.until("player.playback.arrival.complete")
+                version = self.driver.execute_async_script("""
+                    fetch("package/src/index.js").then((answer) => answer.text()).then(arguments[0]);""")
+                return [path for path in other.asked if "/package/" in path], "another" in version
+
+            asked, _ = visit()
+            self.assertIn("/site/package/src/fbs-simd.wasm", asked)
+            self.driver.execute_async_script("""
+                const [done] = arguments;
+                navigator.serviceWorker.register("sw.js", { updateViaCache: "none" });
+                navigator.serviceWorker.ready.then(done);""")
+            self.assertEqual(visit(), ([], False))
+            # A new version: the page that is open keeps the old one, the next has the new one.
+            with (source / "index.js").open("a") as out:
+                out.write("// another\n")
+            worker = source / "service_worker.js"
+            worker.write_text(re.sub('VERSION = "\\w+"', 'VERSION = "another"', worker.read_text()))
+            self.driver.execute_async_script("""
+                const [done] = arguments;
+                navigator.serviceWorker.ready.then(async (found) => {
+                  await found.update();
+                  while (!found.waiting) await new Promise((resolve) => setTimeout(resolve, 20));
+                  done();
+                });""")
+            self.assertEqual(visit(), ([], False))
+            self.driver.get("about:blank")
+            time.sleep(0.5)
+            self.assertEqual(visit(), ([], True))
+            self.assertEqual(self.js("return caches.keys().then((names) => names.length)"), 1)
 
     def test_does_not_start_where_it_must_not(self):
         self.make("talk.fbs", autoplay="")  # no sound without a gesture

@@ -43,6 +43,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         url = urllib.parse.urlsplit(self.path)
         query = dict(urllib.parse.parse_qsl(url.query))
         path = self.server.find(url.path)
+        self.server.asked.append(url.path)
         if path is None:
             self.send_error(404)
             return
@@ -56,7 +57,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.send_header("Content-Encoding", "gzip")
         self.send_header("Content-Length", str(len(content)))
         self.send_header("Access-Control-Allow-Origin", "*")
-        self.send_header("Cache-Control", "no-store" if query or path.suffix == ".json" else "max-age=3600")
+        self.send_header("Cache-Control", "no-store" if query or path.suffix == ".json" or not self.server.cacheable else "max-age=3600")
         self.end_headers()
         cut, hold = (int(query.get(name, len(content))) for name in ("cut", "hold"))
         try:
@@ -91,6 +92,8 @@ class Server(http.server.ThreadingHTTPServer):
         self.link = Link()
         self.gate = threading.Event()
         self.compresses = False
+        self.cacheable = True
+        self.asked = []  # paths
         self.missing = self.withheld = None  # names of a file that is not there, and of one that waits for the gate
         self.reports = []
         self.thread = threading.Thread(target=self.serve_forever, daemon=True)
