@@ -23,10 +23,11 @@ export function prepareDecoder() {
 
 /** @returns {Worker} */
 function startWorker() {
-  const url = new URL("./worker.js", import.meta.url);
-  if (url.origin === location.origin) return new Worker(url, { type: "module" });
+  const here = import.meta.url;
+  // Bundlers know a worker by this very expression.
+  if (new URL(here).origin === location.origin) return new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
   // A worker must come from the page's own origin: this one does, and imports the other.
-  const text = new Blob([`import ${JSON.stringify(url.href)};`], { type: "text/javascript" });
+  const text = new Blob([`import ${JSON.stringify(new URL("worker.js", here).href)};`], { type: "text/javascript" });
   return new Worker(URL.createObjectURL(text), { type: "module" });
 }
 

@@ -3,8 +3,8 @@
 
 Size of the package; for each stream (those of the tests if none is named) pictures per second of the processor's time in
 node, and by the clock in Chromium's worker, with the ratio to the program's on one thread; and seconds from a click to the
-first picture over a link of 50 kbit/s: on a page whose decoder has been loaded, and on one where nothing has, not even the
-player's scripts."""
+first picture over links of 50 and 500 kbit/s, by gzip and by brotli: where nothing has been loaded, not even the player's
+scripts; where a service worker has the player; and where a page has loaded the decoder before."""
 import pathlib
 import resource
 import statistics
@@ -14,9 +14,9 @@ import time
 
 import material
 from browser import chromium
-from server import Server
+from server import Server, packed
 
-LINK = 50000  # bit/s
+LINKS = (50, 500)  # kbit/s
 RUNS = 3
 
 DECODE = """
@@ -59,18 +59,24 @@ import("/package/src/index.js").then(async ({ prepareDecoder }) => {
 """
 
 
-def packed(content, *tool):
-    return len(subprocess.run(tool, input=content, stdout=subprocess.PIPE, check=True).stdout)
+KEEP = """
+const done = arguments[0];
+navigator.serviceWorker.register("/pages/keep.js", { scope: "/pages/" });
+navigator.serviceWorker.ready.then(async ({ active }) => {
+  while (active.state !== "activated") await new Promise((resolve) => setTimeout(resolve, 20));
+  done();
+});
+"""
 
 
 def print_sizes():
     source = material.WEB / "package/src"
     print("bytes                   raw    gzip  brotli")
-    for name, files in (("fbs-simd.wasm", ["fbs-simd.wasm"]), ("fbs.wasm", ["fbs.wasm"]), ("all scripts", sorted(source.glob("*.js")))):
+    modules = [[f"{name}.wasm"] for name in ("fbs-simd", "fbs", "opus", "codec2")]
+    for files in (*modules, sorted(path.name for path in source.glob("*.js"))):
         contents = [(source / file).read_bytes() for file in files]
-        row = [sum(map(len, contents)), sum(packed(c, "gzip", "-9", "-c") for c in contents),
-               sum(packed(c, "brotli", "-q", "11", "-c") for c in contents)]
-        print(f"{name:<17}" + "".join(f"{size:>10}" if k == 0 else f"{size:>8}" for k, size in enumerate(row)))
+        row = [sum(map(len, contents))] + [sum(len(packed(c, coding)) for c in contents) for coding in ("gzip", "br")]
+        print(f"{files[0] if len(files) == 1 else 'all scripts':<17}{row[0]:>10}{row[1]:>8}{row[2]:>8}")
 
 
 def native_seconds(stream):
@@ -102,16 +108,26 @@ def print_rate(driver, server, stream):
 
 
 def print_clicks(server, stream):
-    for what, prepare in (("decoder loaded", True), ("nothing loaded", False)):
-        with chromium() as driver:
+    print("  seconds to the first picture   nothing loaded   service worker   decoder loaded")
+    for rate in LINKS:
+        for coding in ("gzip", "br"):
+            server.compresses = coding
+            times = [click(server, stream, rate, prepare) for prepare in (None, KEEP, PREPARE)]
+            print(f"  {rate:>4} kbit/s, {coding:<14}" + "".join(f"{text:>17}" for text in times))
+
+
+def click(server, stream, rate, prepare):
+    with chromium() as driver:
+        driver.set_script_timeout(300)
+        driver.get(server.url("pages/blank.html"))
+        if prepare:
+            driver.execute_async_script(prepare)
+        if prepare == KEEP:  # another visit
             driver.get(server.url("pages/blank.html"))
-            driver.set_script_timeout(300)
-            if prepare:
-                driver.execute_async_script(PREPARE)
-            server.link.rate = LINK
-            seconds, event = driver.execute_async_script(CLICK, f"/media/{stream.name}")
-            server.link.rate = None
-            print(f"  {seconds:.1f} s to the first picture, {what}" + ("" if event == "loadeddata" else f": {event}"))
+        server.link.rate = 1000 * rate
+        seconds, event = driver.execute_async_script(CLICK, f"/media/{stream.name}")
+        server.link.rate = None
+        return f"{seconds:.1f}" + ("" if event == "loadeddata" else f" {event}")
 
 
 def main():
@@ -122,7 +138,6 @@ def main():
         folders = {"package": material.WEB / "package", "pages": material.ROOT / "web/tests/pages", "media": stream.resolve().parent}
         print(f"{stream.name}, {stream.stat().st_size} bytes")
         with Server(folders) as server:
-            server.compresses = True
             with chromium() as driver:
                 driver.set_script_timeout(300)
                 pictures = print_rate(driver, server, stream)

@@ -40,6 +40,11 @@ try {
   const { exports: entries } = JSON.parse(readFileSync(path.join(installed, "package.json"), "utf8"));
   for (const file of Object.values(entries).flatMap((entry) => (typeof entry === "string" ? [entry] : Object.values(entry))))
     check(existsSync(path.join(installed, file.replace("*", "fbs"))), `${file} is exported, but not there`);
+  // Bundlers find worker and modules by these expressions alone.
+  const scripts = names.filter((name) => name.endsWith(".js")).map((name) => readFileSync(path.join(installed, name), "utf8"));
+  for (const text of ['new Worker(new URL("./worker.js", import.meta.url), { type: "module" })',
+                      ...names.filter((name) => name.endsWith(".wasm")).map((name) => `new URL(".${name.slice(3)}", import.meta.url)`)])
+    check(scripts.some((script) => script.includes(text)), `no script has ${text}`);
   cwd = user;
   writeFileSync(path.join(user, "user.mjs"), 'import { moduleUrl } from "fbs-player/decoder"; console.log(moduleUrl().pathname);');
   check(existsSync(run("node", "user.mjs").trim()), "fbs-player/decoder does not find its module");

@@ -2,16 +2,27 @@
 
     /media/talk.fbs?hold=4000    sends so many bytes, and the rest when `gate` is set
     /media/talk.fbs?cut=4000     breaks the connection after so many"""
+import functools
 import gzip
 import http.server
 import mimetypes
 import pathlib
+import subprocess
 import threading
 import time
 import urllib.parse
 
 PIECE = 256  # bytes that a slow link sends at once
 TYPES = {".wasm": "application/wasm", ".js": "text/javascript", ".mjs": "text/javascript", ".fbs": "application/octet-stream"}
+
+
+@functools.lru_cache(maxsize=None)
+def packed(content, coding):
+    """Compressed as well as "gzip" or "br" can."""
+    if coding == "gzip":
+        return gzip.compress(content, 9, mtime=0)
+    script = 'const z = require("zlib"); process.stdout.write(z.brotliCompressSync(require("fs").readFileSync(0)))'
+    return subprocess.run(["node", "-e", script], input=content, stdout=subprocess.PIPE, check=True).stdout
 
 
 class Link:
@@ -52,9 +63,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         content = path.read_bytes()
         self.send_response(200)
         self.send_header("Content-Type", TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream")
-        if self.server.compresses and path.suffix in (".js", ".wasm", ".html") and "gzip" in self.headers.get("Accept-Encoding", ""):
-            content = gzip.compress(content, 9, mtime=0)
-            self.send_header("Content-Encoding", "gzip")
+        coding = self.server.compresses
+        if coding and path.suffix in (".js", ".wasm", ".html") and coding in self.headers.get("Accept-Encoding", ""):
+            content = packed(content, coding)
+            self.send_header("Content-Encoding", coding)
         self.send_header("Content-Length", str(len(content)))
         self.send_header("Access-Control-Allow-Origin", "*")
         self.send_header("Cache-Control", "no-store" if query or path.suffix == ".json" or not self.server.cacheable else "max-age=3600")
@@ -91,7 +103,7 @@ class Server(http.server.ThreadingHTTPServer):
         self.folders = {name: pathlib.Path(folder).resolve() for name, folder in folders.items()}
         self.link = Link()
         self.gate = threading.Event()
-        self.compresses = False
+        self.compresses = None  # or a coding of packed()
         self.cacheable = True
         self.asked = []  # paths
         self.missing = self.withheld = None  # names of a file that is not there, and of one that waits for the gate

@@ -1,0 +1,2 @@
+importScripts("/package/src/service_worker.js");
+keepFbsPlayer("/package/src/");
