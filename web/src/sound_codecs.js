@@ -57,7 +57,8 @@ export class SoundCodecs {
    * @param {WebAssembly.Module} [module]  default: it is fetched
    */
   load(codec, module) {
-    const load = this.loads.get(codec) ?? this.instantiate(codec, module);
+    const load = !module && !this.failed.has(codec) && this.loads.get(codec) || this.instantiate(codec, module);
+    this.failed.delete(codec);
     this.loads.set(codec, load);
     return load;
   }
@@ -65,6 +66,7 @@ export class SoundCodecs {
   /** @param {Codec} codec  @param {WebAssembly.Module} [module] */
   async instantiate(codec, module) {
     const instance = await WebAssembly.instantiate(module ?? (await this.compile(codecUrl(codec))), SYSTEM);
+    if (this.loaded.has(codec)) return;  // by another call, and decoders may be in it
     /** @type {any} */
     const functions = instance.exports;
     functions._initialize();

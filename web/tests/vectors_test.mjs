@@ -1,4 +1,5 @@
-// vectors_test.mjs PACKAGE VECTORS: decodes every test vector by both modules of the package and compares with vectors.txt.
+// vectors_test.mjs PACKAGE VECTORS: decodes every test vector by both modules of the package and compares with vectors.txt;
+// and the sound of two, by the modules that decode it.
 import { createHash } from "node:crypto";
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
@@ -48,6 +49,18 @@ for (const name of ["fbs-simd.wasm", "fbs.wasm"]) {
     ++wrong;
     console.log(`${name}: ${file}: expected ${expected}, got ${got}`);
   }
+}
+const compiled = async (name) => WebAssembly.compile(await readFile(path.join(folder, "src", name)));
+for (const [codec, rate] of [["opus", 48000], ["codec2", 8000]]) {
+  const module = await loadModule(await compiled("fbs.wasm")), decoder = module.open();
+  decoder.feed(await readFile(path.join(vectors, `sound_${codec}.fbs`)));
+  decoder.finish();
+  const before = decoder.soundRate;
+  await module.loadSound(codec, await compiled(`${codec}.wasm`));
+  const sound = decoder.sound(1);
+  if (before === 0 && decoder.soundRate === rate && sound?.sampleRate === rate && sound.samples.some((x) => x > 1000)) continue;
+  ++wrong;
+  console.log(`${codec}: rates ${before} and ${decoder.soundRate}, samples ${sound?.samples.length}`);
 }
 console.log(`${table.length} vectors, ${wrong} wrong`);
 process.exit(table.length === 0 || wrong > 0 ? 1 : 0);
