@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <limits>
+#include <type_traits>
+
+#include "cli/video/dither.h"
 
 namespace fbs {
 namespace {
@@ -80,6 +84,48 @@ struct FromRgb {
   }
 };
 
+/// @param red  place of red in a pixel's three samples: 0 or 2
+template <class Sample>
+Picture from_rgb(std::span<const Sample> rgb, int width, int height, const FromRgb& m, int red) {
+  assert(rgb.size() == 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  constexpr bool kWide = sizeof(Sample) > 1;
+  using Sum = std::conditional_t<kWide, std::int64_t, int>;
+  constexpr Sum kUnit = Sum{std::numeric_limits<Sample>::max()} / 255 << kShift;  // a level
+  const auto rounding = [](int x, int y, Sum unit) { return kWide ? dither(x, y, unit) : unit / 2; };
+  Picture picture(width, height);
+  const int blue = 2 - red;
+  const std::size_t stride = 3 * static_cast<std::size_t>(width);
+
+  const Sample* in = rgb.data();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, in += 3) {
+      const Sum sum = Sum{m.y_r} * in[red] + Sum{m.y_g} * in[1] + Sum{m.y_b} * in[blue];
+      picture.y.row(y)[x] = clip(m.black + static_cast<int>((sum + rounding(x, y, kUnit)) / kUnit));
+    }
+  }
+
+  for (int cy = 0; cy < picture.u.height; ++cy) {
+    const Sample* upper = rgb.data() + static_cast<std::size_t>(2 * cy) * stride;
+    const Sample* lower = 2 * cy + 1 < height ? upper + stride : upper;
+    for (int cx = 0; cx < picture.u.width; ++cx) {
+      const int left = 6 * cx;
+      const int right = 2 * cx + 1 < width ? left + 3 : left;
+      const auto four = [&](int c) {
+        return Sum{upper[left + c]} + upper[right + c] + lower[left + c] + lower[right + c];
+      };
+      const Sum r = four(red);
+      const Sum g = four(1);
+      const Sum b = four(blue);
+      const auto level = [&](Sum sum) {  // at least 0 before the division, which so rounds down
+        return clip(static_cast<int>((512 * kUnit + sum + rounding(cx, cy, 4 * kUnit)) / (4 * kUnit)));
+      };
+      picture.u.row(cy)[cx] = level(m.cb_r * r + m.cb_g * g + m.cb_b * b);
+      picture.v.row(cy)[cx] = level(m.cr_r * r + m.cr_g * g + m.cr_b * b);
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 RgbImage rgb_from_picture(const Picture& picture, ColourRange range, ColourMatrix matrix,
@@ -109,38 +155,12 @@ RgbImage rgb_from_picture(const Picture& picture, ColourRange range, ColourMatri
 
 Picture picture_from_rgb(std::span<const std::uint8_t> rgb, int width, int height, ColourRange range,
                          ColourMatrix matrix, ChannelOrder order) {
-  assert(rgb.size() == 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  const FromRgb m(range, matrix);
-  Picture picture(width, height);
-  const int red = order == ChannelOrder::kRgb ? 0 : 2;
-  const int blue = 2 - red;
-  const std::size_t stride = 3 * static_cast<std::size_t>(width);
+  return from_rgb(rgb, width, height, FromRgb(range, matrix), order == ChannelOrder::kRgb ? 0 : 2);
+}
 
-  const std::uint8_t* in = rgb.data();
-  for (std::uint8_t& sample : picture.y.samples) {
-    const int sum = m.y_r * in[red] + m.y_g * in[1] + m.y_b * in[blue];
-    sample = clip(m.black + ((sum + kHalf) >> kShift));
-    in += 3;
-  }
-
-  for (int cy = 0; cy < picture.u.height; ++cy) {
-    const std::uint8_t* upper = rgb.data() + static_cast<std::size_t>(2 * cy) * stride;
-    const std::uint8_t* lower = 2 * cy + 1 < height ? upper + stride : upper;
-    for (int cx = 0; cx < picture.u.width; ++cx) {
-      const int left = 6 * cx;
-      const int right = 2 * cx + 1 < width ? left + 3 : left;
-      const auto four = [&](int c) {
-        return upper[left + c] + upper[right + c] + lower[left + c] + lower[right + c];
-      };
-      const int r = four(red);
-      const int g = four(1);
-      const int b = four(blue);
-      const auto level = [](int sum) { return clip(128 + ((sum + 2 * (1 << kShift)) >> (kShift + 2))); };
-      picture.u.row(cy)[cx] = level(m.cb_r * r + m.cb_g * g + m.cb_b * b);
-      picture.v.row(cy)[cx] = level(m.cr_r * r + m.cr_g * g + m.cr_b * b);
-    }
-  }
-  return picture;
+Picture picture_from_rgb(std::span<const std::uint16_t> rgb, int width, int height, ColourRange range,
+                         ColourMatrix matrix) {
+  return from_rgb(rgb, width, height, FromRgb(range, matrix), 0);
 }
 
 }  // namespace fbs

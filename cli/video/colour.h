@@ -31,4 +31,9 @@ RgbImage rgb_from_picture(const Picture& picture, ColourRange range, ColourMatri
 Picture picture_from_rgb(std::span<const std::uint8_t> rgb, int width, int height, ColourRange range,
                          ColourMatrix matrix, ChannelOrder order = ChannelOrder::kRgb);
 
+/// The same of samples of 16 bits, dithered (dither.h).
+/// @param rgb  3 * width * height samples, 65535 is white; red comes first
+Picture picture_from_rgb(std::span<const std::uint16_t> rgb, int width, int height, ColourRange range,
+                         ColourMatrix matrix);
+
 }  // namespace fbs

@@ -5,6 +5,10 @@ extern "C" {
 }
 
 #include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "cli/video/colour.h"
 
 namespace fbs {
 namespace {
@@ -46,6 +50,24 @@ bool has_alpha(AVPixelFormat format) {
   return description != nullptr && (description->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
 }
 
+/// RGB of more than 8 bits, which swscale would make up to .9 levels too bright: it takes 65536 for white.
+bool is_deep_rgb(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return is_rgb(format) && !has_alpha(format) && description->comp[0].depth > 8;
+}
+
+/// @param frame  AV_PIX_FMT_RGB48
+Picture picture_of_rgb48(const AVFrame& frame) {
+  const std::size_t row_bytes = 6 * static_cast<std::size_t>(frame.width);
+  std::vector<std::uint16_t> rgb(3 * static_cast<std::size_t>(frame.width) *
+                                 static_cast<std::size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y) {
+    std::memcpy(rgb.data() + static_cast<std::size_t>(y) * row_bytes / 2,
+                frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0], row_bytes);
+  }
+  return picture_from_rgb(rgb, frame.width, frame.height, ColourRange::kLimited, ColourMatrix::kBt601);
+}
+
 /// Mixes samples with a level by their opacity, 0..255.
 void mix(Plane& plane, int level, const Plane& alpha) {
   for (std::size_t i = 0; i < plane.samples.size(); ++i) {
@@ -80,9 +102,10 @@ void copy_plane(const AVFrame& frame, int index, Plane& plane) {
 
 Result<Picture> FramePicture::convert(const AVFrame& frame) {
   const AVPixelFormat stored = without_range(static_cast<AVPixelFormat>(frame.format));
-  const AVPixelFormat wanted = has_alpha(stored) ? AV_PIX_FMT_YUVA420P
-                               : is_grey(stored) ? AV_PIX_FMT_GRAY8
-                                                 : AV_PIX_FMT_YUV420P;
+  const AVPixelFormat wanted = has_alpha(stored)     ? AV_PIX_FMT_YUVA420P
+                               : is_grey(stored)     ? AV_PIX_FMT_GRAY8
+                               : is_deep_rgb(stored) ? AV_PIX_FMT_RGB48
+                                                     : AV_PIX_FMT_YUV420P;
   const AVFrame* planes = &frame;
   if (stored != wanted) {
     if (!scaled_) scaled_.reset(av_frame_alloc());
@@ -105,6 +128,7 @@ Result<Picture> FramePicture::convert(const AVFrame& frame) {
     if (rows != frame.height) return fail(ErrorCode::kUnsupported, "picture cannot be converted to 4:2:0");
     planes = scaled_.get();
   }
+  if (wanted == AV_PIX_FMT_RGB48) return picture_of_rgb48(*planes);
   Picture picture(frame.width, frame.height);
   copy_plane(*planes, 0, picture.y);
   if (wanted != AV_PIX_FMT_GRAY8) {

@@ -7,8 +7,9 @@
 
 namespace fbs {
 
-/// Copies 8-bit 4:2:0 and grey; converts everything else with swscale (bicubic, accurate rounding). YCbCr
-/// keeps its range and matrix; RGB becomes limited-range BT.601. Transparent parts are shown over black.
+/// Copies 8-bit 4:2:0 and grey; converts everything else with swscale (bicubic, accurate rounding),
+/// which dithers more than 8 bits. YCbCr keeps its range and matrix; RGB becomes limited-range BT.601.
+/// Transparent parts are shown over black.
 class FramePicture {
  public:
   /// @return ErrorCode::kUnsupported when swscale does not know the pixel format

@@ -11,7 +11,8 @@
 
 namespace fbs {
 
-/// RGB becomes limited-range BT.601, grey and more than 8 bits are converted, alpha is dropped.
+/// RGB becomes limited-range BT.601; grey is converted, more than 8 bits are dithered, transparent parts are
+/// shown over black.
 Result<std::unique_ptr<VideoSource>> open_image_source(const std::string& input,
                                                        const SourceOptions& options);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
+#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -91,29 +93,38 @@ class ImageSource final : public VideoSource {
     if (spec.width != format_.width || spec.height != format_.height) {
       return size_change(file, format_, spec.width, spec.height);
     }
+    return spec.format.basesize() > 1 ? read<std::uint16_t>(file, *image) : read<std::uint8_t>(file, *image);
+  }
+
+  template <class Sample>
+  Result<Picture> read(const std::string& file, OIIO::ImageInput& image) {
+    const OIIO::ImageSpec& spec = image.spec();
     const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
     const bool has_alpha = spec.alpha_channel == 3;
     const int channels = has_alpha ? 4 : spec.nchannels >= 3 ? 3 : 1;
-    std::vector<std::uint8_t> samples(pixels * static_cast<std::size_t>(channels));
-    if (!image->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, samples.data())) {
-      const std::string reason = image->geterror();
+    std::vector<Sample> samples(pixels * static_cast<std::size_t>(channels));
+    const OIIO::TypeDesc type = sizeof(Sample) > 1 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+    if (!image.read_image(0, 0, 0, channels, type, samples.data())) {
+      const std::string reason = image.geterror();
       return fail(ErrorCode::kInvalidStream,
                   "cannot read " + file + ": " + (reason.empty() ? "damaged image" : reason));
     }
     if (channels == 1) {
-      std::vector<std::uint8_t> rgb(3 * pixels);
+      std::vector<Sample> rgb(3 * pixels);
       for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = samples[i / 3];
       samples = std::move(rgb);
     }
     if (has_alpha) drop_alpha(samples);
-    return picture_from_rgb(samples, spec.width, spec.height, format_.range, format_.matrix);
+    return picture_from_rgb(std::span<const Sample>(samples), spec.width, spec.height, format_.range,
+                            format_.matrix);
   }
 
   /// OpenImageIO has multiplied the colours by it: they are shown over black.
-  void drop_alpha(std::vector<std::uint8_t>& samples) {
+  template <class Sample>
+  void drop_alpha(std::vector<Sample>& samples) {
     const std::size_t pixels = samples.size() / 4;
     for (std::size_t i = 0; i < pixels; ++i) {
-      was_transparent_ = was_transparent_ || samples[4 * i + 3] < 255;
+      was_transparent_ = was_transparent_ || samples[4 * i + 3] < std::numeric_limits<Sample>::max();
       std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
                   samples.begin() + static_cast<std::ptrdiff_t>(3 * i));
     }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "cli/video/colour.h"
@@ -33,8 +36,19 @@ float srgb_of(float linear) {
   return v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
 }
 
-std::uint8_t level_of(float srgb) {
-  return srgb > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(srgb, 1.0F))) : std::uint8_t{0};
+/// @param samples  of 1 or 3 channels, linear light or of sRGB's curve
+template <class Sample>
+Picture picture_of(std::span<const float> samples, bool linear, std::size_t channels,
+                   const VideoFormat& format) {
+  constexpr Sample kWhite = std::numeric_limits<Sample>::max();
+  std::vector<Sample> rgb(samples.size() / channels * kChannels);
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    const float v = samples[channels == 1 ? i / kChannels : i];
+    const float srgb = linear ? srgb_of(v) : v;
+    rgb[i] = srgb > 0 ? static_cast<Sample>(std::lround(kWhite * std::min(srgb, 1.0F))) : Sample{0};
+  }
+  return picture_from_rgb(std::span<const Sample>(rgb), format.width, format.height, format.range,
+                          format.matrix);
 }
 
 }  // namespace
@@ -53,13 +67,8 @@ Result<Picture> read_still_image(const std::string& name, const VideoFormat& for
   std::vector<float> samples(pixels * channels);
   if (!image->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, samples.data()))
     return fail(ErrorCode::kInvalidStream, "cannot read " + name + ": " + reason_of(image->geterror()));
-  const bool linear = is_linear(spec);
-  std::vector<std::uint8_t> rgb(pixels * kChannels);
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    const float v = samples[channels == 1 ? i / kChannels : i];
-    rgb[i] = level_of(linear ? srgb_of(v) : v);
-  }
-  return picture_from_rgb(rgb, spec.width, spec.height, format.range, format.matrix);
+  return spec.format.basesize() > 1 ? picture_of<std::uint16_t>(samples, is_linear(spec), channels, format)
+                                    : picture_of<std::uint8_t>(samples, is_linear(spec), channels, format);
 }
 
 }  // namespace fbs

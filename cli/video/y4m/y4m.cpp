@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/files/atomic_file.h"
+#include "cli/video/dither.h"
 #include "cli/video/picture_size.h"
 #include "cli/video/timestamps.h"
 
@@ -56,7 +57,7 @@ struct StoredPlane {
 };
 
 /// Averages the samples under each sample of `plane`, which has one sample per 2^shift pixels in each
-/// direction.
+/// direction. More than 8 bits are dithered.
 void reduce(const StoredPlane& stored, int shift, Plane& plane) {
   const auto first = [shift](int position, int stored_shift) { return (position << shift) >> stored_shift; };
   const auto last = [shift](int position, int stored_shift, int size) {
@@ -73,7 +74,8 @@ void reduce(const StoredPlane& stored, int shift, Plane& plane) {
         for (int i = left; i <= right; ++i) sum += stored.sample(i, j);
       }
       const int unit = (bottom - top + 1) * (right - left + 1) << (stored.bits - 8);
-      plane.row(y)[x] = static_cast<std::uint8_t>(std::min((sum + unit / 2) / unit, 255));
+      const int rounding = stored.bits > 8 ? dither(x, y, unit) : unit / 2;
+      plane.row(y)[x] = static_cast<std::uint8_t>(std::min((sum + rounding) / unit, 255));
     }
   }
 }

@@ -2,8 +2,9 @@
 //
 // A line of text ("YUV4MPEG2 W352 H288 F30000:1001 Ip A128:117 C420mpeg2"), then for each picture a line
 // "FRAME" and the planes. Read: 4:2:0 in all its variants, mono, 4:1:1, 4:2:2, 4:4:4 (alpha dropped), 8 to
-// 16 bits; what is not 8-bit 4:2:0 is converted by box averages. Written: C420mpeg2 with XCOLORRANGE, and our
-// own XMATRIX=BT601 or BT709 where the matrix is known and the line stays short; other programs ignore it.
+// 16 bits; what is not 8-bit 4:2:0 is converted by box averages, more than 8 bits dithered. Written:
+// C420mpeg2 with XCOLORRANGE, and our own XMATRIX=BT601 or BT709 where the matrix is known and the line stays
+// short; other programs ignore it.
 #pragma once
 
 #include <memory>

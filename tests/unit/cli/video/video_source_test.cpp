@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -215,6 +216,75 @@ TEST(VideoSource, MissingCameraIsAnError) {
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().code, ErrorCode::kIo);
   EXPECT_FALSE(open_video_source("camera:front"));
+}
+
+/// A slope of 8 levels over the width, with samples of more than 8 bits: 64 columns a level.
+constexpr int kSlopeWidth = 512, kSlopeHeight = 64;
+
+/// @param level_at  the slope at a column, in levels of 8 bits
+/// @return the largest difference of a mean over 8 x 8 samples
+template <class Function>
+double worst_mean(const Plane& plane, Function level_at) {
+  double worst = 0;
+  for (int y = 0; y < plane.height; y += 8) {
+    for (int x = 0; x < plane.width; x += 8) {
+      double sum = 0;
+      for (int i = 0; i < 64; ++i) sum += plane.row(y + i / 8)[x + i % 8] - level_at(x + i % 8);
+      worst = std::max(worst, std::abs(sum / 64));
+    }
+  }
+  return worst;
+}
+
+int longest_run(const Plane& plane) {
+  int longest = 0, run = 0;
+  for (std::size_t i = 1; i < plane.samples.size(); ++i) {
+    run = plane.samples[i] == plane.samples[i - 1] ? run + 1 : 0;
+    longest = std::max(longest, run + 1);
+  }
+  return longest;
+}
+
+void append(std::string& bytes, unsigned sample, bool low_first) {
+  const auto low = static_cast<char>(sample & 255), high = static_cast<char>(sample >> 8);
+  bytes += low_first ? low : high;
+  bytes += low_first ? high : low;
+}
+
+TEST_F(VideoSourceFiles, SlopesOfTenBitsHaveNoBands) {
+  const auto level_at = [](int x) { return 100 + x / 16 / 4.0; };
+  std::string bytes = "YUV4MPEG2 W512 H64 F25:1 C420p10\nFRAME\n";
+  for (int i = 0; i < kSlopeWidth * kSlopeHeight; ++i)
+    append(bytes, static_cast<unsigned>(4 * level_at(i % kSlopeWidth)), true);
+  for (int i = 0; i < kSlopeWidth * kSlopeHeight / 2; ++i) append(bytes, 512, true);
+  for (const char* name : {"slope.y4m", "slope.mkv"}) {  // libav goes by what is inside
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    const auto source = open_video_source(path(name));
+    ASSERT_TRUE(source) << source.error().text;
+    const auto pictures = read_all(**source);
+    ASSERT_EQ(pictures.size(), 1U);
+    EXPECT_LT(worst_mean(pictures[0].picture.y, level_at), 0.02) << name;
+    EXPECT_LT(longest_run(pictures[0].picture.y), 60) << name;
+    EXPECT_EQ(pictures[0].picture.u, Plane(kSlopeWidth / 2, kSlopeHeight / 2, 128)) << name;
+  }
+}
+
+TEST_F(VideoSourceFiles, SlopesOfImagesOfSixteenBitsHaveNoBands) {
+  std::string bytes = "P6 512 64 65535\n";
+  for (int i = 0; i < 3 * kSlopeWidth * kSlopeHeight; ++i)
+    append(bytes, static_cast<unsigned>(std::lround(257 * (100 + i / 3 % kSlopeWidth / 64.0))), false);
+  for (const auto& [file, input] :
+       {std::pair{"slope_1.ppm", "slope_%d.ppm"}, std::pair{"slope.ppm", "slope.ppm"}}) {
+    std::ofstream(path(file), std::ios::binary) << bytes;
+    const auto source = open_video_source(path(input));  // by OpenImageIO, then by libav
+    ASSERT_TRUE(source) << source.error().text;
+    const auto pictures = read_all(**source);
+    ASSERT_EQ(pictures.size(), 1U);
+    const Plane& luma = pictures[0].picture.y;
+    EXPECT_LT(worst_mean(luma, [](int x) { return 16 + (100 + x / 64.0) * 219 / 255; }), 0.05) << input;
+    EXPECT_LT(longest_run(luma), 60) << input;
+    EXPECT_EQ(pictures[0].picture.u, Plane(kSlopeWidth / 2, kSlopeHeight / 2, 128)) << input;
+  }
 }
 
 }  // namespace
