@@ -4,13 +4,11 @@
 # What it makes is tried by tests/packages/try_packages.sh FOLDER.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-version=$(sed -n 's/^project(fbs VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(sed -nE 's/^#define FBS_VERSION_(MAJOR|MINOR|PATCH) //p' include/fbs/fbs.h | paste -sd .)
 out=${1:-build/fbs-$version}
 
 [ -z "$(git status --porcelain)" ] || { echo "there are changes that no commit has" >&2; exit 1; }
-for file in python/pyproject.toml web/package.json; do
-  tr -d ' "' <"$file" | grep -q "^version[:=]$version,\?$" || { echo "$file is not of version $version" >&2; exit 1; }
-done
+grep -q "\"version\": \"$version\"" web/package.json || { echo "web/package.json is not of version $version" >&2; exit 1; }
 grep -q "^## \[$version\] - 20" CHANGELOG.md || echo "CHANGELOG.md has no date for version $version yet" >&2
 command -v npm >/dev/null || { echo "npm is missing: it comes with Node.js, or as Debian's package" >&2; exit 1; }
 scripts/install_packages.sh packages.txt program_packages.txt all_packages.txt web_packages.txt release_packages.txt

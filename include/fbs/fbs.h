@@ -48,10 +48,10 @@ extern "C" {
 /** Version of this header. The library's soname changes with the first number, or while that is 0 with the
  * second. */
 #define FBS_VERSION_MAJOR 0
-#define FBS_VERSION_MINOR 1
+#define FBS_VERSION_MINOR 2
 #define FBS_VERSION_PATCH 0
 
-/** Version of the running library: "0.1.0". */
+/** Version of the running library: "0.2.0". */
 FBS_API const char* fbs_version_string(void);
 /** Version of the running library: major << 16 | minor << 8 | patch. */
 FBS_API uint32_t fbs_version_number(void);

@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     from fbs._table import track
     from fbs._verbs import decode, evaluate, inspect, retarget
 
-__version__ = "0.1.0"
+    __version__: str
 
 # Loaded on demand: errors and the program need neither numpy nor the extension.
 _HOMES = {
@@ -119,6 +119,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("fbs._fbs").version()
     if name not in _HOMES:
         raise AttributeError(f"module 'fbs' has no attribute {name!r}")
     value = getattr(import_module(f"fbs.{_HOMES[name]}"), name)

@@ -1,13 +1,15 @@
-"""try.py WHEELS FOLDER: tries the installed package with FOLDER's talk.y4m and talk.mp4, and prints a line of the table."""
+"""try.py DISTRIBUTION FOLDER: tries the package that was installed from DISTRIBUTION, a wheel of build.sh or an sdist, with
+FOLDER's talk.y4m and talk.mp4, and prints a line of the table."""
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import time
 
-wheels, material = map(pathlib.Path, sys.argv[1:])
+distribution, material = map(pathlib.Path, sys.argv[1:])
 version = "%d.%d" % sys.version_info[:2]
 start = time.perf_counter()
 import fbs  # noqa: E402
@@ -21,11 +23,21 @@ def timed(function, *arguments):
     return function(*arguments), time.perf_counter() - begin
 
 
-tag = "cp" + version.replace(".", "") if sys.version_info < (3, 12) else "abi3"
-(wheel,) = wheels.glob(f"fbs_codec-*-{tag}-*.whl" if tag != "abi3" else "fbs_codec-*-abi3-*.whl")
+portable = distribution.suffix == ".whl"
 package = pathlib.Path(fbs.__file__).parent
-parts = [*package.rglob("*"), *(package.parent / "fbs_codec.libs").rglob("*")]
+libraries = package.parent / "fbs_codec.libs"
+parts = [*package.rglob("*"), *libraries.rglob("*")]
 installed = sum(part.stat().st_size for part in parts if part.is_file()) / 1e6
+
+(info,) = package.parent.glob("fbs_codec-*.dist-info")
+licences = {path.relative_to(info / "licenses").as_posix(): path.read_text() for path in (info / "licenses").rglob("*") if path.is_file()}
+assert "The fbs authors" in licences["LICENSE"]
+if portable:
+    bundled = dict(line.split() for line in licences["bundled"].splitlines())
+    assert bundled.keys() == {path.name for path in libraries.iterdir()}, "a library without a licence"
+    terms = {f"{name}.txt": licences[f"{name}.txt"] for name in (*bundled.values(), "nanobind", "libcli11-dev")}
+    referred = {name for text in terms.values() for name in re.findall(r"/usr/share/common-licenses/([\w+-]+(?:\.\d+)*)", text)}
+    assert all(map(str.strip, terms.values())) and all(licences[f"common-{name}.txt"] for name in referred)
 
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
@@ -35,21 +47,20 @@ with tempfile.TemporaryDirectory() as folder:
     assert fbs.track(material / "talk.y4m", frames=3)["success"].sum() == 3
     try:
         fbs.encode(material / "talk.mp4", "other.fbs")
-        sys.exit("a bare environment reads .mp4")
+        assert not portable, "a bare environment reads .mp4"
     except fbs.UnsupportedError:
-        pass
+        assert portable, "FFmpeg was left out"
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:", "av>=12"]
-    if subprocess.run(pip, capture_output=True).returncode == 0:
+    video = "FFmpeg" if not portable else "PyAV" if subprocess.run(pip, capture_output=True).returncode == 0 else "no wheel of PyAV"
+    if not video.startswith("no"):
         fbs.encode(material / "talk.mp4", "other.fbs")
         fbs.decode("other.fbs", "other.mp4")
         fbs.encode("other.mp4", "again.fbs")
         assert len(list(fbs.Decoder("again.fbs"))) == 100
-        video = "yes"
-    else:
-        video = "no wheel of PyAV"
     size = os.path.getsize("talk.fbs")
 
 print(
-    f"{version:7} {wheel.name[:48]:48} {wheel.stat().st_size / 1e6:6.1f} {installed:9.1f} {imported * 1000:9.0f}"
+    f"{version:7} {distribution.name[:52]:52} {distribution.stat().st_size / 1e6:6.1f} {installed:9.1f} {len(licences):9}"
+    f" {imported * 1000:9.0f}"
     f" {encode_s:9.1f} {size:8} {100 / decode_s:10.0f}  {video}"
 )
