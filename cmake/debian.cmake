@@ -2,11 +2,10 @@
 # build/debian/packages. Their dependencies on packages of Debian are those that dpkg-shlibdeps finds.
 set(CPACK_GENERATOR DEB)
 # Who makes them answers for them: DEBFULLNAME and DEBEMAIL, as for Debian's own tools. Packages for oneself need neither.
-set(contact "The fbs authors <fbs@localhost>")
-if(DEFINED ENV{DEBEMAIL})
-  set(contact "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+set(CPACK_PACKAGE_CONTACT "The fbs authors <maintainers@fbs.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
-set(CPACK_PACKAGE_CONTACT "${contact}" CACHE STRING "Maintainer of the Debian packages")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each has its own
 set(CPACK_STRIP_FILES ON)

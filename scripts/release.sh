@@ -10,6 +10,8 @@ out=${1:-build/fbs-$version}
 [ -z "$(git status --porcelain)" ] || { echo "there are changes that no commit has" >&2; exit 1; }
 grep -q "\"version\": \"$version\"" web/package.json || { echo "web/package.json is not of version $version" >&2; exit 1; }
 grep -q "^## \[$version\] - 20" CHANGELOG.md || echo "CHANGELOG.md has no date for version $version yet" >&2
+[ -n "${DEBFULLNAME:-}" ] && [ -n "${DEBEMAIL:-}" ] ||
+  echo "DEBFULLNAME and DEBEMAIL are not set: the Debian packages name no maintainer whom mail reaches" >&2
 command -v npm >/dev/null || { echo "npm is missing: it comes with Node.js, or as Debian's package" >&2; exit 1; }
 scripts/install_packages.sh packages.txt program_packages.txt all_packages.txt web_packages.txt release_packages.txt
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)  # the date of all that is packed
