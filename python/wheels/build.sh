@@ -47,7 +47,7 @@ for version in 3.9 3.10 3.11 3.12; do
   "$work/python$version/bin/pip" install --quiet --upgrade pip 'scikit-build-core>=0.11' 'nanobind>=2.4'
   "$work/python$version/bin/pip" wheel --quiet --no-deps --no-build-isolation -w "$work/raw" ./python \
     -C "build-dir=$work/extension$version" \
-    -C "cmake.define.fbs_ROOT=$work/prefix" -C "cmake.define.FBS_PYTHON_LEAVE_OUT=av;camera;image;player"
+    -C "cmake.define.fbs_ROOT=$work/prefix" -C "cmake.define.FBS_PYTHON_LEAVE_OUT=av;avfilter;camera;image;player"
 done
 for wheel in "$work"/raw/*.whl; do
   PATH="$work/tools/bin:$PATH" "$work/tools/bin/auditwheel" repair --plat "$platform" -w "$work/repaired" "$wheel" >"$work/auditwheel.log" 2>&1 ||

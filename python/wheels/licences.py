@@ -16,8 +16,8 @@ COMMON = pathlib.Path("/usr/share/common-licenses")
 
 
 def package_of(library):
-    """The Debian package that has libNAME-HASH.so.N, as auditwheel calls libNAME.so.N."""
-    name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", library)
+    """The Debian package that has libNAME.so.N, which auditwheel calls libNAME-HASH.so.N."""
+    name = re.sub(r"-[0-9a-f]{8}(?=\.)", "", library)
     found = subprocess.run(["dpkg", "-S", f"*/{name}"], capture_output=True, text=True).stdout.splitlines()
     packages = {line.split(":")[0] for line in found if not line.startswith("diversion")}
     if not packages:
@@ -39,4 +39,5 @@ for path in importlib.metadata.files("nanobind"):
     if path.name.startswith("LICENSE"):
         (folder / "nanobind.txt").write_text(path.read_text())
 for name in sorted(common):
-    (folder / f"common-{name}.txt").write_text((COMMON / name).read_text())
+    terms = COMMON / name if (COMMON / name).exists() else COMMON / name.removesuffix(".0")  # some say GPL-2.0 for GPL-2
+    (folder / f"common-{name}.txt").write_text(terms.read_text())

@@ -35,6 +35,7 @@ assert "The fbs authors" in licences["LICENSE"]
 if portable:
     bundled = dict(line.split() for line in licences["bundled"].splitlines())
     assert bundled.keys() == {path.name for path in libraries.iterdir()}, "a library without a licence"
+    assert not any("libav" in name for name in bundled), "FFmpeg was left out"
     terms = {f"{name}.txt": licences[f"{name}.txt"] for name in (*bundled.values(), "nanobind", "libcli11-dev")}
     referred = {name for text in terms.values() for name in re.findall(r"/usr/share/common-licenses/([\w+-]+(?:\.\d+)*)", text)}
     assert all(map(str.strip, terms.values())) and all(licences[f"common-{name}.txt"] for name in referred)
