@@ -154,9 +154,11 @@ Error with_advice(Error error) {
   return error;
 }
 
-void print_warnings(const EncodeArguments& arguments, const EncoderSettings& settings,
-                    const SourcePart& source, const Measure& measure) {
+/// @param settings  of the encoder, whose bitrate is the total without the sound
+void print_warnings(const EncodeArguments& arguments, EncoderSettings settings, const SourcePart& source,
+                    const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded", arguments.quiet);
+  settings.bitrate = arguments.settings.bitrate;  // as what was measured, with the sound
   if (misses_bitrate(settings, measure.kbps(), measure.seconds))
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
                  settings.bitrate, measure.kbps());

@@ -201,7 +201,8 @@ class Sound(SpokenTalk):
     def test_the_bitrate_is_the_total(self):
         self.source()
         for options, rate in (((), 12), ((), 5), (("--sound", "codec2"), 15)):
-            self.succeed("encode", "talk.mkv", "talk.fbs", "--bitrate", rate, "--quiet", *options)
+            done = self.fbs("encode", "talk.mkv", "talk.fbs", "--bitrate", rate, "--quiet", *options)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
             total = self.bytes_of("talk.fbs")["total"] * 8 / self.SECONDS / 1000
             self.assertTrue(0.9 * rate < total < 1.1 * rate, (rate, total))
 
