@@ -33,6 +33,20 @@ bool is_size(double value) {
   return value >= 0 && std::isfinite(value);
 }
 
+Result<void> check_start(const EncoderSettings& settings) {
+  const double start = settings.start.value_or(0);
+  if (!is_size(start))
+    return fail(ErrorCode::kInvalidArgument, "a time to start that is negative or not finite");
+  if (start == 0) return {};
+  if (settings.bitrate == 0) return fail(ErrorCode::kInvalidArgument, "a time to start needs a bitrate");
+  if (settings.patterns == 1)
+    return fail(ErrorCode::kInvalidArgument, "a time to start needs more than one pattern");
+  if (settings.live && settings.live->relies_on_first())
+    return fail(ErrorCode::kInvalidArgument,
+                "no time to start with strong resilience or a time to join, which rely on the first pattern");
+  return {};
+}
+
 Result<void> check_settings(const EncoderSettings& settings) {
   if (settings.quality < 0 || settings.quality > 100)
     return fail(ErrorCode::kInvalidArgument, "quality outside 0..100");
@@ -40,6 +54,7 @@ Result<void> check_settings(const EncoderSettings& settings) {
     return fail(ErrorCode::kInvalidArgument, "pictures in a group outside 1..256");
   if (!is_size(settings.bitrate) || !is_size(settings.seconds) || !is_size(settings.motion_bitrate))
     return fail(ErrorCode::kInvalidArgument, "a rate or length that is negative or not finite");
+  if (auto start = check_start(settings); !start) return start;
   if (settings.patterns < 0 || settings.patterns > kMaxPatterns)
     return fail(ErrorCode::kInvalidArgument, "number of patterns outside 0..64");
   if (settings.pattern_quantiser < -1 || settings.pattern_quantiser > 63)

@@ -30,6 +30,9 @@ struct LiveSettings {
   /// s; the head of a scene is sent again in parts, so that a viewer who comes in its middle, or has lost the
   /// head, can join it within this time if a tenth of the packets is lost. 0: only where a scene begins.
   double join = 0;
+
+  /// Whether viewers may have a scene's first pattern and none of those behind it.
+  [[nodiscard]] bool relies_on_first() const { return resilience == Resilience::kStrong || join > 0; }
 };
 
 /// What bytes are spent for.
@@ -42,13 +45,17 @@ enum class Tune : std::uint8_t {
 inline constexpr double kSegmentSeconds = 40;
 
 struct EncoderSettings {
-  int quality = 50;            ///< 0..100; moves the pattern's quantiser, the steps and lambda together
-  double bitrate = 0;          ///< total kbit/s, which determines quality; 0: quality decides
-  double seconds = 0;          ///< length of the video, for bitrate; 0: unknown, ten are assumed
-  double motion_bitrate = 0;   ///< kbit/s of the motion alone; 0: quality decides
-  Tune tune = Tune::kEye;      ///< of files: live patterns are all of one contrast
-  int patterns = 0;            ///< of a scene: 1..64; 0: chosen by rate and distortion
-  int pattern_quantiser = -1;  ///< of AV1, 0..63; -1: quality decides; for experiments
+  int quality = 50;    ///< 0..100; moves the pattern's quantiser, the steps and lambda together
+  double bitrate = 0;  ///< total kbit/s, which determines quality; 0: quality decides
+  double seconds = 0;  ///< length of the video, for bitrate; 0: unknown, ten are assumed
+  /// With a bitrate, s of it: the first picture is there after so long, coarse if need be, and a finer
+  /// pattern follows. As coarse as can be it may still take longer. 0: as fine as the rate as a whole allows.
+  /// Empty: 1 live, unless LiveSettings::relies_on_first(), otherwise 0.
+  std::optional<double> start;
+  double motion_bitrate = 0;             ///< kbit/s of the motion alone; 0: quality decides
+  Tune tune = Tune::kEye;                ///< of files: live patterns are all of one contrast
+  int patterns = 0;                      ///< of a scene: 1..64; 0: chosen by rate and distortion
+  int pattern_quantiser = -1;            ///< of AV1, 0..63; -1: quality decides; for experiments
   std::optional<bool> reduced_patterns;  ///< whether at half width and height; chosen by rate and distortion
   int effort = Effort::kDefault;         ///< 0..Effort::kMost: more takes longer and fewer bytes
   int face = 0;                          ///< which face to follow, the largest being 0

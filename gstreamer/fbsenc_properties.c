@@ -16,6 +16,7 @@ enum {
   PROP_BUFFER,
   PROP_RESILIENCE,
   PROP_JOIN,
+  PROP_START,
   PROP_THREADS,
 };
 
@@ -92,6 +93,9 @@ static void set_property(GObject* object, guint id, const GValue* value, GParamS
     case PROP_JOIN:
       s->join = g_value_get_double(value);
       break;
+    case PROP_START:
+      s->start = g_value_get_double(value);
+      break;
     case PROP_RESILIENCE:
       s->resilience = g_value_get_enum(value);
       break;
@@ -144,6 +148,9 @@ static void get_property(GObject* object, guint id, GValue* value, GParamSpec* s
       break;
     case PROP_JOIN:
       g_value_set_double(value, s->join);
+      break;
+    case PROP_START:
+      g_value_set_double(value, s->start);
       break;
     case PROP_RESILIENCE:
       g_value_set_enum(value, s->resilience);
@@ -211,6 +218,13 @@ void gst_fbs_enc_install_properties(GObjectClass* type) {
                  "Live: seconds within which a viewer can join in the middle of a scene (0 = only where one "
                  "begins)",
                  3600, 0);
+  g_object_class_install_property(
+      type, PROP_START,
+      g_param_spec_double(
+          "start", "Start",
+          "With a bit rate: the first picture is there after so many seconds of it, coarse if need "
+          "be (0 = as fine as the rate as a whole allows, -1 = 1 live, without join and strong resilience)",
+          -1, 3600, -1, PROPERTY_FLAGS));
   install_int(type, PROP_THREADS, "threads", "Threads",
               "Live: more than 1 code while the next pictures are analysed (0 = as many as there are cores)",
               0, FBS_MAX_THREADS, 0);

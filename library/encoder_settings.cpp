@@ -46,6 +46,8 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   for (const double seconds :
        {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer, settings.join})
     if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
+  if (settings.start != -1 && !within(settings.start, kMaxSeconds))
+    return fail(ErrorCode::kInvalidArgument, "a time out of range");
   if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
     return fail(ErrorCode::kInvalidArgument, "the tune is unknown");
   if (settings.resilience < FBS_RESILIENCE_NONE || settings.resilience > FBS_RESILIENCE_STRONG)
@@ -53,6 +55,7 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   EncoderInput out{*format, {}};
   out.settings.quality = settings.quality;
   out.settings.bitrate = settings.bitrate;
+  if (settings.start != -1) out.settings.start = settings.start;
   out.settings.seconds = settings.seconds;
   out.settings.effort = settings.effort;
   out.settings.tune = settings.tune == FBS_TUNE_PSNR ? Tune::kPsnr : Tune::kEye;

@@ -29,7 +29,8 @@ inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_set
                                                           0,
                                                           nullptr,
                                                           nullptr,
-                                                          nullptr};
+                                                          nullptr,
+                                                          -1};
 
 /// sizeof(fbs_encoder_settings) in version 0.1.
 inline constexpr std::size_t kFirstEncoderSettingsSize =

@@ -71,6 +71,8 @@ Result<void> check_live(const EncodeArguments& a) {
                                         : nullptr;
     if (option != nullptr) return refuse(std::string(option) + " needs --live");
   }
+  if (a.settings.start.value_or(0) > 0 && a.settings.bitrate <= 0)
+    return refuse("--start needs --bitrate, the rate that the first picture comes at");
   if (a.buffer && a.settings.bitrate <= 0) return refuse("--buffer needs --bitrate, the rate of the channel");
   return {};
 }

@@ -13,7 +13,7 @@
 namespace fbs {
 namespace {
 
-constexpr int kMaxQuantiser = 63, kMaxSpeed = 6;  // libaom's
+constexpr int kMaxSpeed = 6;  // libaom's
 
 void copy_plane(const Plane& from, aom_image_t& image, int plane) {
   for (int y = 0; y < from.height; ++y)

@@ -20,6 +20,8 @@ inline constexpr int kRealTimeSpeed = 7;
 /// Speed for trials.
 inline constexpr int kTrialSpeed = 6;
 
+inline constexpr int kMaxQuantiser = 63;  ///< the coarsest of libaom's scale
+
 struct Av1Settings {
   int quantiser = 40;  ///< libaom's scale, 0..63
   int speed = kSentSpeed;

@@ -1,8 +1,11 @@
 #include "encoder/patterns/first_pattern.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "decoder/pattern/pattern_decoder.h"
+#include "decoder/pattern/upscale.h"
+#include "encoder/patterns/downscale.h"
 #include "encoder/patterns/pattern_encoder.h"
 
 namespace fbs {
@@ -29,10 +32,50 @@ Result<std::size_t> FirstPattern::bytes(int quantiser) {
   return bytes_[quantiser];
 }
 
+Result<int> FirstPattern::finest_within(std::size_t bytes, int from) {
+  const auto wanted = this->bytes(from);  // which often fits
+  if (!wanted) return fail(wanted.error());
+  if (*wanted <= bytes) return from;
+  int low = std::min(from + 1, kMaxQuantiser), high = kMaxQuantiser;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    const auto taken = this->bytes(middle);
+    if (!taken) return fail(taken.error());
+    if (*taken <= bytes)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
+}
+
 Result<CodedPattern> FirstPattern::take(int quantiser) {
   if (auto coded = code(quantiser); !coded) return fail(coded.error());
   CodedPattern out = std::move(*last_);
   last_.reset();
+  return out;
+}
+
+Result<CodedPattern> code_start_pattern(const VideoFormat& format, const Picture& picture,
+                                        const StartPatternSettings& settings, std::size_t bytes) {
+  if (!settings.reduced) {
+    FirstPattern full(format, picture, settings.speed);
+    const auto coarsest = full.bytes(kMaxQuantiser);
+    if (!coarsest) return fail(coarsest.error());
+    if (*coarsest <= bytes) {
+      const auto quantiser = full.finest_within(bytes, settings.finest);
+      return quantiser ? full.take(*quantiser) : fail(quantiser.error());
+    }
+  }
+  VideoFormat size = format;
+  size.width = reduced_size(format.width);
+  size.height = reduced_size(format.height);
+  const Picture small = downscaled(picture);
+  FirstPattern half(size, small, settings.speed);
+  const auto quantiser = half.finest_within(bytes, settings.finest);
+  if (!quantiser) return fail(quantiser.error());
+  auto out = half.take(*quantiser);
+  if (out) out->decoded = upscaled(out->decoded, format.width, format.height);
   return out;
 }
 

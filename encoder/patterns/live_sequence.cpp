@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "encoder/patterns/downscale.h"
+#include "encoder/patterns/first_pattern.h"
 
 namespace fbs {
 namespace {
@@ -79,18 +80,29 @@ Result<SequencePattern> LiveSequence::code_next(const Picture& picture) {
 
 Result<SequencePattern> LiveSequence::code(Picture picture, int quantiser) {
   picture = to_coded_size(std::move(picture));
-  const int now = speed();
+  const int now = speed(), first_speed = std::min(now, speeds_at(coded_).unhurried);
   const bool is_first = first_.picture.y.samples.empty();
-  if (is_first) first_ = {picture, quantiser, std::min(now, speeds_at(coded_).unhurried)};
-  if (!codec_) {
-    if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
-    if (!is_first)
+  if (is_first) first_ = {picture, quantiser, first_speed, false};
+  if (is_first || (first_.coarse && (alone_ || !codec_))) {
+    if (auto opened = open(quantiser, first_speed); !opened) return fail(opened.error());
+  } else {
+    if (!codec_) {
+      if (auto opened = open(first_.quantiser, first_.speed); !opened) return fail(opened.error());
       if (auto again = code_next(first_.picture); !again) return again;
-  }
-  if (!is_first)
+    }
     if (auto set = codec_->encoder.set(quantiser, now); !set) return fail(set.error());
+  }
   ++coded_lately_;
   return code_next(picture);
+}
+
+Result<SequencePattern> LiveSequence::code_start(const Picture& picture, int finest, std::size_t bytes) {
+  const bool reduced = coded_.width != format_.width;
+  auto coded = code_start_pattern(format_, picture, {finest, reduced, kTrialSpeed}, bytes);
+  if (!coded) return fail(coded.error());
+  first_ = {picture, finest, kTrialSpeed, true};
+  ++coded_lately_;
+  return SequencePattern{0, std::move(coded->av1), std::move(coded->decoded)};
 }
 
 }  // namespace fbs

@@ -32,6 +32,11 @@ class LiveSequence {
   /// @param picture    of full size
   /// @param quantiser  libaom's scale, 0..63
   [[nodiscard]] Result<SequencePattern> code(Picture picture, int quantiser);
+  /// Codes the scene's first pattern for no more than so many bytes: see code_start_pattern(). The next one
+  /// begins an AV1 sequence of its own, since predicted from so coarse a pattern it takes as many bytes.
+  /// @param picture  of full size
+  /// @param finest   quantiser that is fine enough
+  [[nodiscard]] Result<SequencePattern> code_start(const Picture& picture, int finest, std::size_t bytes);
   /// This much of the video has passed: time to code more.
   void pass(double seconds);
 
@@ -56,7 +61,8 @@ class LiveSequence {
   struct First {
     Picture picture;  ///< empty: the scene has no pattern
     int quantiser, speed;
-  } first_{};  ///< pattern, as it was coded
+    bool coarse;  ///< by code_start()
+  } first_{};     ///< pattern, as it was coded
 };
 
 }  // namespace fbs

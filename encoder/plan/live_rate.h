@@ -18,6 +18,8 @@ class LiveRate {
 
   /// Bytes that may be sent now; negative: more than the buffer allows is waiting.
   [[nodiscard]] double room() const { return capacity_ - waiting_; }
+  /// The same for another longest wait, s.
+  [[nodiscard]] double room(double seconds) const { return bytes_per_second_ * seconds - waiting_; }
 
   /// How much more a bit is worth than at the start: rises while more is sent than the channel takes, and
   /// falls while it is idle. 1/kMaxFactor..kMaxFactor

@@ -22,10 +22,9 @@ constexpr double kLearn = 0.5;
 /// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone.
 constexpr int kKeyBoost = 12;
 
-/// Trials to find the size of the first pattern.
-constexpr int kMaxKeyTrials = 3;
-
-constexpr int kMaxQuantiser = 63;
+/// It is replaced once there is room for a pattern of so many times its bytes. With 3 that comes later and is
+/// no better (four clips at 5 kbit/s).
+constexpr double kFiner = 2;
 
 /// How many pictures share their errors at most where states may be fitted anew: more where time is short.
 /// That takes 4 % of it, and 2 to 3 % more of the rate.
@@ -93,6 +92,7 @@ void LivePatterns::begin_scene(const CodedState& rest) {
   since_pattern_ = 0;
   modes_ = {};
   next_slot_ = 0;
+  coarse_ = 0;
 }
 
 bool LivePatterns::segment_ends(std::size_t next) const {
@@ -126,52 +126,84 @@ double LivePatterns::room() const {
   return rate_ ? rate_->room() : std::numeric_limits<double>::infinity();
 }
 
-Result<int> LivePatterns::key_quantiser() {
+double LivePatterns::start_room() const {
+  if (begun_ || !rate_ || settings_.start == 0) return std::numeric_limits<double>::infinity();
+  return rate_->room(settings_.start) - static_cast<double>(store_.segment().groups.front().payload.size()) -
+         kPatternHeadBytes;
+}
+
+double LivePatterns::motion_bytes() const {
+  double bytes = kPatternHeadBytes;
+  for (const Segment::Group& g : store_.segment().groups) bytes += static_cast<double>(g.payload.size());
+  return bytes;
+}
+
+Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, double room) {
   const double price = rate_ ? rate_->price() : 1;
-  const int wanted = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
-  if (!rate_) return wanted;
-  auto picture = store_.segment().pictures.read(0);
+  // What takes the place of a coarse pattern is as fine as that was to be.
+  if (coarse_ == 0) wanted_ = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
+  if (!rate_) return wanted_;
+  auto picture = store_.segment().pictures.read(time);
   if (!picture) return fail(picture.error());
+  store_.reduce_contrast(scene, time, *picture);
   const Picture coded = sequence_.to_coded_size(std::move(*picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
-  int quantiser = key_.bits > 0 ? affordable(key_, wanted, room()).value_or(kMaxQuantiser) : wanted;
-  for (int i = 0; i < kMaxKeyTrials; ++i) {
-    const auto bytes = trial.bytes(quantiser);
-    if (!bytes) return fail(bytes.error());
-    key_ = {8.0 * static_cast<double>(*bytes), quantiser};
-    const int next = affordable(key_, wanted, room()).value_or(kMaxQuantiser);
-    if (next == quantiser) break;
-    quantiser = next;
-  }
+  const auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, room)), wanted_);
+  if (!quantiser) return quantiser;
+  const auto bytes = trial.bytes(*quantiser);
+  if (!bytes) return fail(bytes.error());
+  key_ = {8.0 * static_cast<double>(*bytes), *quantiser};
   return quantiser;
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
-  const auto quantiser = key_quantiser();
+  auto quantiser = key_quantiser(scene, 0, room() - motion_bytes());
   if (!quantiser) return fail(quantiser.error());
-  Plan plan{{0}, *quantiser, settings_.quantiser};
+  Plan plan{{0}, *quantiser, settings_.quantiser, true};
+  double left = room() - key_.bits / 8;
+  if (const double in_time = start_room(); key_.bits > 8 * in_time) {
+    const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key_.bits / 8);
+    plan.start = static_cast<std::size_t>(coarse);
+    left = room() - motion_bytes() - coarse;
+    if (store_.segment().states.size() == 1 || left < kFiner * coarse) return plan;
+    quantiser = key_quantiser(scene, 1, left);
+    if (!quantiser) return fail(quantiser.error());
+    plan.times.push_back(1);
+    plan.first = *quantiser;
+    left -= key_.bits / 8;
+  }
   if (store_.segment().states.size() == 1) return plan;
   auto draft = SegmentDraft::of_sources(store_, plan.times, 0);
   if (!draft) return fail(draft.error());
   SequenceSettings trial;
-  trial.quantiser = *quantiser;
+  trial.quantiser = plan.first;
   trial.speed = kTrialSpeed;
   trial.boost = 0;
   trial.reduced = settings_.reduced;
   if (auto tried = draft->code(store_, scene, trial, workers_); !tried) return fail(tried.error());
-  learn(draft->coded.front().av1.size(), *quantiser, true);
+  learn(draft->coded.front().av1.size(), plan.first, true);
   if (auto measured = measure(draft->usable(scene), 1); !measured) return fail(measured.error());
   const std::vector<double> least = least_errors(std::exchange(errors_, {}));
   regret_.begin(least.front());
-  add_paying(least, 1, room() - key_.at(*quantiser) / 8, plan);
+  add_paying(least, plan.times.size(), left, plan);
   return plan;
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size_t shared) {
+  const bool refines = coarse_ > 0 && store_.segment().shots.size() == 1;
+  if (refines) {
+    const double left = room() - motion_bytes();
+    if (left < kFiner * coarse_) return Plan{};
+    const std::size_t last = store_.segment().states.size() - 1;  // nearest to what is not yet known
+    const auto finer = key_quantiser(scene, last, left);
+    if (!finer) return fail(finer.error());
+    return key_.bits <= 8 * left ? Plan{{last}, *finer, *finer, true} : Plan{};
+  }
   SegmentDraft none;
   none.place(store_, scene);
   if (auto measured = measure(none.usable(scene), shared); !measured) return fail(measured.error());
   Plan plan;
+  plan.key = coarse_ > 0;
   add_paying(least_errors(errors_), 0, room(), plan);
   plan.first = plan.others;
   return plan;
@@ -182,7 +214,7 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   std::ptrdiff_t last = -since_pattern_;  // pattern, or cut
   bool cut = false;
   const auto is_bought = [&]() {
-    const Size& size = cut ? key_ : later_;
+    const Size& size = cut || plan.key ? key_ : later_;
     const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price), room);
     if (!quantiser || !pays(size.at(*quantiser), price)) return false;
     plan.others = *quantiser;
@@ -259,12 +291,17 @@ Result<SegmentDraft> LivePatterns::make(const Scene& scene, const Plan& plan, co
       if (auto solved = draft->solve(store_, scene, solver, workers_); !solved) return fail(solved.error());
     }
     for (Picture& picture : draft->to_code(store_, scene, workers_)) {
-      const std::size_t k = coded.size();
-      const int quantiser = k == 0 ? plan.first : plan.others;
-      auto next = sequence_.code(std::move(picture), quantiser);
+      const std::size_t k = coded.size(), first = plan.start ? 1 : 0;
+      const int quantiser = k <= first ? plan.first : plan.others;
+      const bool coarse = k < first;
+      auto next = coarse ? sequence_.code_start(picture, quantiser, *plan.start)
+                         : sequence_.code(std::move(picture), quantiser);
       if (!next) return fail(next.error());
-      learn(next->av1.size(), quantiser, k == 0 && (store_.is_first() || store_.segment().shots.size() > 1));
+      coarse_ = coarse ? static_cast<double>(next->av1.size()) : 0;
+      if (!coarse)
+        learn(next->av1.size(), quantiser, k == first && (plan.key || store_.segment().shots.size() > 1));
       next->picture = k;
+      if (coarse) draft->start = *next;
       coded.push_back(std::move(*next));
     }
   }
@@ -319,7 +356,8 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   auto out = draft->packets(store_, scene.setup, store_.coders(), sequence_.alone());
   if (!out) return out;
   draft->keep(store_, scene);
-  next_slot_ = (next_slot_ + plan->times.size()) % static_cast<std::size_t>(store_.slots());
+  next_slot_ =
+      (next_slot_ + plan->times.size() - (plan->start ? 1 : 0)) % static_cast<std::size_t>(store_.slots());
   count_regret(*plan);
   const double seconds = store_.seconds();
   sequence_.pass(seconds);
@@ -327,6 +365,7 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   modes_ = store_.segment().states.back().blend;
   store_.end_segment();
   errors_ = {};
+  begun_ = true;
   return out;
 }
 

@@ -25,6 +25,7 @@ struct LivePatternSettings {
   bool refits = true;       ///< states are fitted to the blend
   double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
   double buffer = 0;        ///< LiveSettings::buffer
+  double start = 0;         ///< EncoderSettings::start; 0: none
   int groups_per_key = 1;   ///< SceneTiming::groups_per_key
   bool alone = false;       ///< each pattern needs the first alone
   int threads = 1;          ///< at least 1; the stream is the same
@@ -61,6 +62,9 @@ class LivePatterns : public PatternStage {
   struct Plan {
     std::vector<std::size_t> times;  ///< their pictures, rising
     int first = 0, others = 0;       ///< quantisers
+    bool key = false;                ///< the first of them is not predicted
+    /// So many bytes at most has the scene's first pattern, which is coarse.
+    std::optional<std::size_t> start{};
   };
   /// Predicted bits of a pattern: those of the last one like it.
   struct Size {
@@ -68,8 +72,13 @@ class LivePatterns : public PatternStage {
     int quantiser = 0;
     [[nodiscard]] double at(int other_quantiser) const;
   };
-  /// The quantiser to code the scene's first pattern with.
-  [[nodiscard]] Result<int> key_quantiser();
+  /// The quantiser to code a picture of the segment with that nothing predicts.
+  /// @param room  bytes that it may take
+  [[nodiscard]] Result<int> key_quantiser(const Scene& scene, std::size_t time, double room);
+  /// Bytes of the frame of the stream's first pattern with which it is there in time.
+  [[nodiscard]] double start_room() const;
+  /// Bytes of the segment besides frames of patterns, approximate.
+  [[nodiscard]] double motion_bytes() const;
   /// Plans a scene's first segment.
   [[nodiscard]] Result<Plan> plan_first(const Scene& scene);
   /// Plans another one, by the errors of its pictures without patterns of their own.
@@ -112,13 +121,16 @@ class LivePatterns : public PatternStage {
   SegmentStore store_;
   LiveSequence sequence_;
   std::optional<LiveRate> rate_;
-  bool over_ = false;  ///< the rate has no room
-  Size key_, later_;   ///< of a whole picture, and of one that others predict
+  bool over_ = false;   ///< the rate has no room
+  bool begun_ = false;  ///< the stream has a pattern
+  int wanted_ = 0;      ///< quantiser of the last pattern that nothing predicted, if there had been room
+  Size key_, later_;    ///< of a whole picture, and of one that others predict
   // The scene's:
   PatternRegret regret_;
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
   RegionModes modes_{};               ///< of the last picture
   std::size_t next_slot_ = 0;
+  double coarse_ = 0;     ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine
   SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
 };
 

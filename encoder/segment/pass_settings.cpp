@@ -14,8 +14,17 @@ namespace {
 /// is sent again, and longer where viewers can join anywhere.
 constexpr double kLiveKeySeconds = 10, kStrongKeySeconds = 20, kJoinedKeySeconds = 40;
 
+/// Default of a live stream, s.
+constexpr double kLiveStart = 1;
+
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
+
+/// EncoderSettings::start, s; 0: none.
+double start_of(const EncoderSettings& settings) {
+  const bool by_default = settings.bitrate > 0 && settings.live && !settings.live->relies_on_first();
+  return settings.start.value_or(by_default ? kLiveStart : 0);
+}
 
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
                                   const VideoFormat& format) {
@@ -33,6 +42,7 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.refits = effort.refits > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
+  out.start = start_of(settings);
   out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
   out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's
@@ -70,6 +80,7 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   out.lone_quantiser = settings.pattern_quantiser < 0 ? motion.pattern_quantiser : settings.pattern_quantiser;
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
+  out.start = start_of(settings);
   out.key_interval = settings.key_interval;
   out.threads = thread_count(settings);
   out.hooks = settings.hooks;

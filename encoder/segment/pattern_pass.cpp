@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "encoder/image/pyramid.h"
+#include "encoder/patterns/first_pattern.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
 #include "encoder/plan/scene_timing.h"
@@ -79,7 +80,11 @@ bool PatternPass::segment_ends(std::size_t next) const {
 }
 
 Result<SegmentDraft> PatternPass::draft() const {
-  return SegmentDraft::of_sources(store_, times_wanted(), 0);
+  std::vector<std::size_t> times = times_wanted();
+  if (start_ && std::ranges::find(times, 1) == times.end()) times.insert(times.begin() + 1, 1);
+  auto draft = SegmentDraft::of_sources(store_, std::move(times), 0);
+  if (draft) draft->start = start_;
+  return draft;
 }
 
 Result<double> PatternPass::loss_between(const Scene& scene) {
@@ -186,6 +191,8 @@ Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const Segme
   if (!out) return out;
   draft.keep(store_, scene);
   store_.end_segment();
+  start_.reset();
+  begun_ = true;
   return out;
 }
 
@@ -253,6 +260,22 @@ Result<void> PatternPass::aim(const Scene& scene, double bytes) {
   return {};
 }
 
+Result<void> PatternPass::begin_coarse(const Scene& scene, double bytes, double other_bytes) {
+  const double in_time = 125 * settings_.bitrate_kbps * settings_.start - other_bytes - kPatternHeadBytes -
+                         static_cast<double>(store_.segment().groups.front().payload.size());
+  auto draft = this->draft();
+  if (!draft) return fail(draft.error());
+  if (auto coded = draft->code(store_, scene, trial_coding(coding_.reduced), workers_); !coded) return coded;
+  const auto key = static_cast<double>(draft->coded.front().av1.size());
+  if (key <= in_time) return {};
+  auto coarse = code_start_pattern(store_.format(), draft->to_code(store_, scene, workers_).front(),
+                                   {0, coding_.reduced, coding_.speed},
+                                   static_cast<std::size_t>(std::clamp(in_time, 0.0, kCoarseShare * key)));
+  if (!coarse) return fail(coarse.error());
+  start_ = SequencePattern{0, std::move(coarse->av1), std::move(coarse->decoded)};
+  return aim(scene, bytes);
+}
+
 Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& draft) {
   // The nearest known quantisers with too many bytes and with few enough, and the logarithms of what they
   // took of those allowed.
@@ -292,7 +315,11 @@ Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::si
   if (settings_.bitrate_kbps > 0) {
     const double seconds = store_.seconds();
     allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
-    if (auto aimed = aim(scene, std::max(allowed, 1.0)); !aimed) return fail(aimed.error());
+    const double bytes = std::max(allowed, 1.0);
+    if (auto aimed = aim(scene, bytes); !aimed) return fail(aimed.error());
+    if (settings_.start > 0 && !begun_ && store_.segment().groups.size() > 1)
+      if (auto coarse = begin_coarse(scene, bytes, static_cast<double>(other_bytes)); !coarse)
+        return fail(coarse.error());
   } else if (auto sized = choose_size(scene); !sized) {
     return fail(sized.error());
   }

@@ -23,6 +23,7 @@ struct PatternPassSettings {
   std::size_t count = 0;         ///< patterns of the scene; 0: as the point says
   int groups_per_key = 1;        ///< SceneTiming::groups_per_key
   double bitrate_kbps = 0;       ///< of all packets; 0: the point decides
+  double start = 0;              ///< EncoderSettings::start; 0: none
   int lone_quantiser = 40;       ///< for a scene too short for a second pattern
   std::optional<int> quantiser;  ///< of the patterns; empty: as the point says
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
@@ -77,6 +78,10 @@ class PatternPass : public PatternStage {
   [[nodiscard]] Result<int> quality_for(const Scene& scene, double bytes);
   /// Sets quality and size for this many bytes.
   Result<void> aim(const Scene& scene, double bytes);
+  /// Makes a coarse first pattern where that of the segment is not there in time.
+  /// @param bytes  of the segment
+  /// @param other_bytes  written before it
+  Result<void> begin_coarse(const Scene& scene, double bytes, double other_bytes);
   /// Codes the patterns again with other quantisers until the segment takes this many bytes, within a few
   /// percent.
   Result<void> meet(const Scene& scene, double bytes, SegmentDraft& draft);
@@ -88,9 +93,11 @@ class PatternPass : public PatternStage {
   PatternPassSettings settings_;
   Workers workers_;
   SegmentStore store_;
-  std::int32_t most_;      ///< patterns in a segment
-  double left_bytes_ = 0;  ///< of the rate, left over by earlier segments; negative: overspent
-  cv::Mat shot_first_;     ///< of the last shot's pictures in the segment, reduced luma
+  std::int32_t most_;                     ///< patterns in a segment
+  double left_bytes_ = 0;                 ///< of the rate, left over by earlier segments; negative: overspent
+  std::optional<SequencePattern> start_;  ///< of the segment: SegmentDraft::start
+  bool begun_ = false;                    ///< the stream has a pattern
+  cv::Mat shot_first_;                    ///< of the last shot's pictures in the segment, reduced luma
   // Operating point of the segment: from the settings, or to meet the bitrate.
   PatternPoint point_;
   SequenceSettings coding_;

@@ -39,8 +39,12 @@ std::vector<Picture> SegmentDraft::to_code(const SegmentStore& store, const Scen
 
 Result<void> SegmentDraft::code(const SegmentStore& store, const Scene& scene, const SequenceSettings& coding,
                                 Workers& workers) {
-  auto sequence = code_pattern_sequence(store.format(), to_code(store, scene, workers), coding);
+  const std::vector<Picture> all = to_code(store, scene, workers);
+  const std::size_t before = start ? 1 : 0;
+  auto sequence = code_pattern_sequence(store.format(), std::span(all).subspan(before), coding);
   if (!sequence) return fail(sequence.error());
+  for (SequencePattern& p : *sequence) p.picture += before;
+  if (start) sequence->insert(sequence->begin(), *start);
   take(store, scene, std::move(*sequence));
   return {};
 }
@@ -77,7 +81,7 @@ SegmentPatterns SegmentDraft::usable(const Scene& scene) const {
     AvailablePatterns available(old);
     std::iota(available.begin(), available.end(), std::size_t{0});
     for (std::size_t k = 0; k < sent; ++k) {
-      const std::size_t place = (first_slot + k) % slots;
+      const std::size_t place = slot(k, slots);
       if (place == available.size())
         available.push_back(old + k);
       else
@@ -101,7 +105,7 @@ Result<std::vector<TypedPayload>> SegmentDraft::packets(const SegmentStore& stor
   std::vector<PatternSyntax> syntax;
   std::vector<std::size_t> bytes;
   for (std::size_t k = 0; k < coded.size(); ++k) {
-    syntax.push_back(store.pattern_syntax(slot(k, store), shown[k], coded[k].av1));
+    syntax.push_back(store.pattern_syntax(slot(k, store.slots()), shown[k], coded[k].av1));
     syntax.back().alone = alone && store.number_of(shown[k]) > 0;
     bytes.push_back(syntax.back().alone ? kMaxPatternsTogether : syntax.back().av1.size());
   }
@@ -146,7 +150,7 @@ void SegmentDraft::keep(const SegmentStore& store, Scene& scene) const {
   if (store.is_first()) scene.patterns.clear();
   for (std::size_t k = 0; k < coded.size(); ++k) {
     Pattern pattern = patterns[old + k];
-    pattern.slot = static_cast<std::int32_t>(slot(k, store));
+    pattern.slot = static_cast<std::int32_t>(slot(k, store.slots()));
     scene.patterns.store(std::move(pattern));
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,21 @@
 
 namespace fbs {
 
+/// Bytes of a scene's first pattern and its picture besides frame and motion, about: packet headers, whole
+/// state, modes.
+inline constexpr double kPatternHeadBytes = 20;
+
+/// A coarse first pattern has at most this share of the bytes of what was wanted: more of them delay what
+/// takes its place.
+inline constexpr double kCoarseShare = 1.0 / 3;
+
 struct SegmentDraft {
   std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
   std::vector<Picture> pictures;   ///< to be coded, in the order of times
   std::vector<SequencePattern> coded;
+  /// The scene's first pattern, if it is a coarse one for the start: coded already, and the next one takes
+  /// its slot. pictures[0] is its picture.
+  std::optional<SequencePattern> start;
   std::size_t first_slot = 0;        ///< of the first in coding order; the others follow, around the store
   std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
   std::vector<std::size_t> arrived;  ///< arrivals()
@@ -30,7 +42,7 @@ struct SegmentDraft {
   /// The pictures as patterns have them: of reduced contrast.
   [[nodiscard]] std::vector<Picture> to_code(const SegmentStore& store, const Scene& scene,
                                              Workers& workers) const;
-  /// Codes the pictures as an AV1 sequence of their own.
+  /// Codes the pictures, but for that of `start`, as an AV1 sequence of their own.
   Result<void> code(const SegmentStore& store, const Scene& scene, const SequenceSettings& coding,
                     Workers& workers);
   /// Takes the pictures as patterns, without loss and in display order.
@@ -54,8 +66,8 @@ struct SegmentDraft {
   void keep(const SegmentStore& store, Scene& scene) const;
 
  private:
-  [[nodiscard]] std::size_t slot(std::size_t k, const SegmentStore& store) const {
-    return (first_slot + k) % static_cast<std::size_t>(store.slots());
+  [[nodiscard]] std::size_t slot(std::size_t k, std::size_t slots) const {
+    return (first_slot + k - (start && k > 0 ? 1 : 0)) % slots;
   }
 };
 

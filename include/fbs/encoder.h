@@ -66,6 +66,9 @@ typedef struct fbs_encoder_settings {
   fbs_thread_start thread_start; /**< null (default): nothing is done. Not called on the threads of libaom and
                                       OpenCV */
   void* user;                    /**< passed to both; lives as long as the encoder */
+  double start; /**< with bitrate, seconds of it: the first picture is there after so long, coarse if need be,
+                   and a finer one follows. 0: as fine as the rate as a whole allows; -1 (default): 1 live
+                   without `join` and FBS_RESILIENCE_STRONG, with which it must be 0, otherwise 0 */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

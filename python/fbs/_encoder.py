@@ -94,6 +94,10 @@ class Encoder:
     join : float
         Live: a viewer who comes in the middle of a scene can join it within so many seconds, at the cost of parts of
         its head all along. 0: only where a scene begins.
+    start : float, optional
+        With `bitrate`, seconds of it: the first picture is there after so long, coarse if need be, and a finer one
+        follows. 0: as fine as the rate as a whole allows. None: 1 live without `join` and strong resilience, with
+        which it must be 0, otherwise 0.
     threads : int
         Threads that encode; the stream is the same for any number. 0: as many as there are cores.
     matrix : {"bt601", "bt709", "unspecified"}
@@ -134,6 +138,7 @@ class Encoder:
         live_buffer: float = 2,
         resilience: str = "none",
         join: float = 0,
+        start: float | None = None,
         threads: int = 0,
         matrix: str = "bt601",
         full_range: bool = False,
@@ -151,6 +156,7 @@ class Encoder:
         _require("patterns", 0 <= patterns <= 64, patterns, "1 to 64, or 0")
         _require("face", face >= 0, face, "not negative")
         _require("matrix", matrix in MATRICES, matrix, "one of " + ", ".join(MATRICES))
+        _require("start", not start or (start > 0 and bitrate is not None), start, "0, or positive with a bitrate")
         times = {"key_interval": key_interval, "live_delay": live_delay, "live_buffer": live_buffer, "join": join}
         for name, value in times.items():
             _require(name, value >= 0, value, "not negative")
@@ -179,6 +185,7 @@ class Encoder:
                 "live_buffer": float(live_buffer),
                 "resilience": _RESILIENCES.index(resilience),
                 "join": float(join),
+                "start": -1.0 if start is None else float(start),
                 "threads": threads,
             }
         )

@@ -49,6 +49,7 @@ void open(Encoder* self, const nb::dict& settings) {
   take(settings, "threads", s.threads);
   take(settings, "resilience", s.resilience);
   take(settings, "join", s.join);
+  take(settings, "start", s.start);
   fbs_encoder* encoder = nullptr;
   const fbs_status status = fbs_encoder_open(&encoder, &s);
   if (status < 0) throw StatusError(status);

@@ -139,6 +139,8 @@ def test_landmarks_are_there_as_they_are_tracked(pictures):
         ({"fps": 0}, "fps"),
         ({"fps": float("nan")}, "fps"),
         ({"live_delay": -1}, "live_delay"),
+        ({"start": 1}, "start"),
+        ({"bitrate": 5, "start": -1}, "start"),
     ],
 )
 def test_settings_out_of_range_are_named(settings, says):

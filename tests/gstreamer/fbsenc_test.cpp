@@ -123,7 +123,7 @@ TEST(FbsEnc, AnswersARequestDownstreamBeforeTheSceneWithItsTimes) {
 
 TEST(FbsEnc, TheBitrateMayChangeWhileItPlays) {
   const auto bytes_at = [](guint bitrate) {
-    const Harness harness = encoder_harness("fbsenc threads=1 effort=0 live=true bitrate=8000");
+    const Harness harness = encoder_harness("fbsenc threads=1 effort=0 live=true bitrate=8000 start=0.5");
     for (int k = 0; k < 8; ++k) push(harness.get(), talker_buffer(k));
     pull(harness.get());
     GstElement* const element = gst_harness_find_element(harness.get(), "fbsenc");

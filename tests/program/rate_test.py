@@ -53,6 +53,21 @@ class Rate(ProgramTest):
         rate, said = self.total(first_pictures(self, "claire_qcif", 180), 3)
         self.assertEqual(said, "", f"{rate} kbit/s")
 
+    def test_start(self):
+        """The first picture comes in time, and the others are hardly worse for it."""
+        for live in ["--live"], []:
+            with self.subTest(live=live):
+                points = []
+                for start in (0, 1):
+                    reported, _ = self.encode(CLOSE_Y4M, "--bitrate", 5, "--start", start, *live)
+                    point = json.loads(self.succeed("evaluate", CLOSE_Y4M, "out.fbs", "--json"))["points"][0]
+                    points.append((reported["bytes"]["startup"], point["psnr_face"]))
+                    if not live:
+                        self.assertAlmostEqual(self.rate(reported), 5, delta=0.03 * 5)
+                self.assertGreater(points[0][0], 625)
+                self.assertLessEqual(points[1][0], 625)
+                self.assertGreater(points[1][1], points[0][1] - 0.5)
+
     def motion(self, source):
         worse = 0
         for kbps in (0.3, 0.6, 1.2):

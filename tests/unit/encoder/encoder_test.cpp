@@ -449,7 +449,24 @@ TEST(Encoder, RefusesSettingsOutOfRange) {
     EXPECT_EQ(with([&](auto& s) { s.key_interval = bad; }), ErrorCode::kInvalidArgument) << bad;
     EXPECT_EQ(with([&](auto& s) { s.live.emplace().delay = bad; }), ErrorCode::kInvalidArgument) << bad;
     EXPECT_EQ(with([&](auto& s) { s.live.emplace().buffer = bad; }), ErrorCode::kInvalidArgument) << bad;
+    EXPECT_EQ(with([&](auto& s) { s.bitrate = 5, s.start = bad; }), ErrorCode::kInvalidArgument) << bad;
   }
+  EncoderSettings starts;
+  starts.start = 1;
+  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument) << "of no rate";
+  starts.bitrate = 5;
+  EXPECT_TRUE(Encoder::create(format, starts));
+  starts.live.emplace().resilience = Resilience::kStrong;
+  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
+  starts.live.emplace().join = 20;
+  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
+  starts.start = 0;
+  EXPECT_TRUE(Encoder::create(format, starts));
+  starts = {};
+  starts.bitrate = 5;
+  starts.start = 1;
+  starts.patterns = 1;
+  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
   VideoFormat small = format, large = format;
   small.width = 63;
   large.height = 8193;

@@ -213,8 +213,9 @@ TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
   EncoderSettings settings = live_settings();
   settings.quality = 90;  // more patterns
   settings.live->resilience = Resilience::kPacket;
-  for (const int threads : {1, 2}) {
+  for (const int threads : {1, 2, 3}) {
     settings.threads = threads;
+    if (threads == 3) settings.bitrate = 40, settings.start = 0.15;  // the head has a coarse one
     LiveLine line(settings);
     for (int i = 0; i < kPictures; ++i) {
       if (i == kPictures / 2) line.lose_patterns();
@@ -230,6 +231,32 @@ TEST(Live, PatternsBehindALostOneNeedTheHeadAlone) {
     EXPECT_GT(psnr_of(line.shown), 27);
   }
   EXPECT_FALSE(Encoder::create(clip().format(), {})->lose_patterns());
+}
+
+class LiveStart : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Live, LiveStart, testing::Values(kGroup, 15));
+
+TEST_P(LiveStart, TheFirstPictureIsThereInTimeAndAFinerOneTakesItsPlace) {
+  constexpr double kStart = 0.25;
+  EncoderSettings settings = live_settings(GetParam());
+  settings.bitrate = 20;
+  std::vector<std::uint64_t> startup;
+  std::vector<double> first, later;
+  for (const double start : {0.0, kStart}) {
+    settings.start = start;
+    LiveLine line(settings);
+    for (int i = 0; i < kPictures; ++i) line.push(clip()[i]);
+    line.finish();
+    startup.push_back(line.bytes.startup);
+    first.push_back(squared_error(line.shown.front().y, clip()[0].y).psnr());
+    later.push_back(squared_error(line.shown.back().y, clip()[kPictures - 1].y).psnr());
+  }
+  const double in_time = 125 * settings.bitrate * kStart;
+  EXPECT_GT(static_cast<double>(startup[0]), in_time);
+  EXPECT_LE(static_cast<double>(startup[1]), in_time);
+  EXPECT_GT(static_cast<double>(startup[1]), 0.5 * in_time);
+  EXPECT_LT(first[1], first[0]);
+  EXPECT_GT(later[1], later[0] - 0.5);
 }
 
 TEST(Live, AFileHasNoScenesOnRequest) {

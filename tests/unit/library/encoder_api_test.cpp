@@ -284,7 +284,9 @@ TEST(EncoderApi, SettingsOutOfRangeAreRefused) {
     EXPECT_TRUE(refuses([&](Settings& s) { s.key_interval = value; })) << value;
     EXPECT_TRUE(refuses([&](Settings& s) { s.live = 1, s.live_delay = value; })) << value;
     EXPECT_TRUE(refuses([&](Settings& s) { s.live = 1, s.live_buffer = value; })) << value;
+    EXPECT_TRUE(refuses([&](Settings& s) { s.bitrate = 5, s.start = value == -1 ? -2 : value; })) << value;
   }
+  EXPECT_TRUE(refuses([](Settings& s) { s.start = 1; })) << "of no rate";
   EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.live_delay = 0; }));
   EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.patterns = 2; }));
 }

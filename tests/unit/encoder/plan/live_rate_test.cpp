@@ -23,6 +23,13 @@ TEST(LiveRate, WhatIsSentWaitsUntilTheChannelHasTakenIt) {
   EXPECT_EQ(rate.room(), 2000) << "an idle channel saves nothing up";
 }
 
+TEST(LiveRate, LessMayBeSentForAShorterWait) {
+  LiveRate rate(kKbps, kBuffer);
+  rate.add(300, 0);
+  EXPECT_EQ(rate.room(0.5), 200);
+  EXPECT_EQ(rate.room(0.1), -200);
+}
+
 TEST(LiveRate, TheChannelMayChange) {
   LiveRate rate(kKbps, kBuffer);
   const double before = rate.price();

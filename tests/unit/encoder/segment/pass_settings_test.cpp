@@ -89,6 +89,14 @@ TEST(PassSettings, AShotWithoutAFaceHasMorePatternsAndNothingToFit) {
   EXPECT_EQ(pass.point_at(70).quantiser, PatternPoint::without_face(70).quantiser);
 }
 
+TEST(PassSettings, FilesStartInASecondOnlyIfAskedTo) {
+  EncoderSettings settings;
+  settings.bitrate = 5;
+  EXPECT_EQ(pass_settings(settings, kMotion).start, 0);
+  settings.start = 2;
+  EXPECT_EQ(pass_settings(settings, kMotion).start, 2);
+}
+
 TEST(PassSettings, OnlyALiveStageEndsASegmentWithEachGroup) {
   const CodedState rest{};
   for (const auto& make : {&face_patterns, &planar_patterns}) {
