@@ -148,7 +148,7 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   store_.reduce_contrast(scene, time, *picture);
   const Picture coded = sequence_.to_coded_size(std::move(*picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
-  const auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, room)), wanted_);
+  auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, room)), wanted_);
   if (!quantiser) return quantiser;
   const auto bytes = trial.bytes(*quantiser);
   if (!bytes) return fail(bytes.error());
