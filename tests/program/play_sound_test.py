@@ -131,7 +131,8 @@ class PlaySound(Play):
         self.wait_for_picture(75)
         before = len(self.times())
         self.press("Down")  # five seconds back: to the beginning
-        self.wait_for_picture(30, before)
+        wait_for(lambda: any(row[0] < 10 for row in self.times()[before:]), "the beginning")
+        self.wait_for_picture(30, len(self.times()))
         self.press("space")
         self.quit(player)
         rows, heard, sound = self.times(), self.heard(), self.decoded_sound()
