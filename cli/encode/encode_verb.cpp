@@ -156,11 +156,10 @@ Error with_advice(Error error) {
   return error;
 }
 
-/// @param settings  of the encoder, whose bitrate is the total without the sound
-void print_warnings(const EncodeArguments& arguments, EncoderSettings settings, const SourcePart& source,
-                    const Measure& measure) {
+/// @param settings  their bitrate is the total, with the sound
+void print_warnings(const EncodeArguments& arguments, const EncoderSettings& settings,
+                    const SourcePart& source, const Measure& measure) {
   print_source_warning(arguments.input, source, measure.pictures, "encoded", arguments.quiet);
-  settings.bitrate = arguments.settings.bitrate;  // as what was measured, with the sound
   if (misses_bitrate(settings, measure.kbps(), measure.seconds))
     std::fprintf(stderr, "fbs: %s: target %.2f kbit/s not reachable, got %.2f\n", arguments.output.c_str(),
                  settings.bitrate, measure.kbps());
@@ -213,6 +212,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
   if (overlay)
     if (auto finished = overlay->finish(); !finished) return fail(finished.error());
   if (auto committed = file->commit(); !committed) return fail(committed.error());
+  settings->bitrate = arguments.settings.bitrate;  // as what was measured, with the sound
   print_warnings(arguments, *settings, source, encoded->measure);
   if (!arguments.quiet) print_summary(arguments.output, *encoded);
   return source.is_whole() ? Outcome::kComplete : Outcome::kPartial;

@@ -356,8 +356,7 @@ Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::s
   auto out = draft->packets(store_, scene.setup, store_.coders(), sequence_.alone());
   if (!out) return out;
   draft->keep(store_, scene);
-  next_slot_ =
-      (next_slot_ + plan->times.size() - (plan->start ? 1 : 0)) % static_cast<std::size_t>(store_.slots());
+  next_slot_ = draft->slot(draft->coded.size(), static_cast<std::size_t>(store_.slots()));
   count_regret(*plan);
   const double seconds = store_.seconds();
   sequence_.pass(seconds);

@@ -65,7 +65,8 @@ struct SegmentDraft {
   /// Puts the patterns into the scene, as the decoder has them after the segment.
   void keep(const SegmentStore& store, Scene& scene) const;
 
- private:
+  /// The slot of a pattern in coding order or, behind the last, of the one that follows.
+  /// @param slots  of the store
   [[nodiscard]] std::size_t slot(std::size_t k, std::size_t slots) const {
     return (first_slot + k - (start && k > 0 ? 1 : 0)) % slots;
   }

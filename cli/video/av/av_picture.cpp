@@ -50,7 +50,7 @@ bool has_alpha(AVPixelFormat format) {
   return description != nullptr && (description->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
 }
 
-/// RGB of more than 8 bits, which swscale would make up to .9 levels too bright: it takes 65536 for white.
+/// RGB of more than 8 bits, which swscale would make up to .8 levels too bright: it takes 65536 for white.
 bool is_deep_rgb(AVPixelFormat format) {
   const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
   return is_rgb(format) && !has_alpha(format) && description->comp[0].depth > 8;
