@@ -26,12 +26,6 @@ constexpr int kKeyBoost = 12;
 /// no better (four clips at 5 kbit/s).
 constexpr double kFiner = 2;
 
-/// How many pictures share their errors at most where states may be fitted anew: more where time is short.
-/// That takes 4 % of it, and 2 to 3 % more of the rate.
-std::size_t shared_before(const StateRefit& refit, const VideoFormat& format) {
-  return refit && format.width * format.height > 352 * 288 ? 3 : 1;
-}
-
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
 constexpr double kWindowDelay = 0.7;
 /// SolverSettings::pull: stronger than for files, since later windows are drawn from the patterns, too.
@@ -41,7 +35,8 @@ constexpr double kPull = 0.4;
 /// second, with these 47 % (unsolved).
 constexpr double kWindowPrice = 2, kWindowPatience = 4;
 
-/// Most pictures that share errors in a draft.
+/// Most pictures that share errors in a draft, where windows are drafted or time is short: it takes 4 % less
+/// of it at 640x480, and 2 to 3 % more of the rate.
 constexpr std::size_t kDraftShared = 3;
 
 /// Viewers look at the face more than at the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR,
@@ -78,19 +73,17 @@ std::vector<double> least_errors(const SegmentErrors& errors) {
 
 LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
                            const CodedState& rest)
-    : settings_(settings),
-      workers_(settings.threads, settings.hooks),
-      store_(format, rest, settings.groups_per_key),
+    : PatternStage(format, settings, rest),
+      settings_(settings),
       sequence_(format, settings.reduced, settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
 void LivePatterns::begin_scene(const CodedState& rest) {
-  store_.begin_scene(rest);
+  PatternStage::begin_scene(rest);
   sequence_.begin_scene();
   regret_ = {};
   since_pattern_ = 0;
-  modes_ = {};
   next_slot_ = 0;
   coarse_ = 0;
 }
@@ -257,63 +250,25 @@ void LivePatterns::learn(std::size_t bytes, int quantiser, bool key) {
   }
 }
 
-Result<void> LivePatterns::measure(const SegmentPatterns& patterns, std::size_t shared) {
-  if (!errors_.runs.empty()) return {};
-  auto errors = mode_errors(store_.segment(), patterns, shared, workers_);
-  if (!errors) return fail(errors.error());
-  errors_ = std::move(*errors);
-  return {};
-}
-
-Result<void> LivePatterns::choose(const SegmentPatterns& patterns, std::size_t shared) {
-  if (auto measured = measure(patterns, shared); !measured) return measured;
-  store_.set_modes(errors_.cheapest_modes(settings_.lambda, modes_));
-  return {};
-}
-
-Result<SegmentDraft> LivePatterns::make(const Scene& scene, const Plan& plan, const StateRefit& refit) {
-  auto draft = SegmentDraft::of_sources(store_, plan.times, next_slot_);
-  if (!draft) return draft;
+Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDraft& draft) {
   std::vector<SequencePattern> coded;
-  if (!plan.times.empty()) {
-    errors_ = {};
-    if (solves()) {
-      // As a file's: see PatternPass::make().
-      SequenceSettings trial;
-      trial.quantiser = plan.others;
-      trial.speed = kTrialSpeed;
-      trial.reduced = true;
-      if (auto tried = draft->code(store_, scene, trial, workers_); !tried) return fail(tried.error());
-      if (auto chosen = choose(draft->usable(scene), kDraftShared); !chosen) return fail(chosen.error());
-      errors_ = {};
-      SolverSettings solver;
-      solver.pull = kPull;
-      if (auto solved = draft->solve(store_, scene, solver, workers_); !solved) return fail(solved.error());
-    }
-    for (Picture& picture : draft->to_code(store_, scene, workers_)) {
-      const std::size_t k = coded.size(), first = plan.start ? 1 : 0;
-      const int quantiser = k <= first ? plan.first : plan.others;
-      const bool coarse = k < first;
-      auto next = coarse ? sequence_.code_start(picture, quantiser, *plan.start)
-                         : sequence_.code(std::move(picture), quantiser);
-      if (!next) return fail(next.error());
-      coarse_ = coarse ? static_cast<double>(next->av1.size()) : 0;
-      if (!coarse)
-        learn(next->av1.size(), quantiser, k == first && (plan.key || store_.segment().shots.size() > 1));
-      next->picture = k;
-      if (coarse) draft->start = *next;
-      coded.push_back(std::move(*next));
-    }
+  for (Picture& picture : draft.to_code(store_, scene, workers_)) {
+    const std::size_t k = coded.size(), first = plan.start ? 1 : 0;
+    const int quantiser = k <= first ? plan.first : plan.others;
+    const bool coarse = k < first;
+    auto next = coarse ? sequence_.code_start(picture, quantiser, *plan.start)
+                       : sequence_.code(std::move(picture), quantiser);
+    if (!next) return fail(next.error());
+    coarse_ = coarse ? static_cast<double>(next->av1.size()) : 0;
+    if (!coarse)
+      learn(next->av1.size(), quantiser, k == first && (plan.key || store_.segment().shots.size() > 1));
+    next->picture = k;
+    if (coarse) draft.start = *next;
+    coded.push_back(std::move(*next));
   }
-  draft->take(store_, scene, std::move(coded));
-  const std::size_t shared = shared_before(refit, store_.format());
-  if (auto chosen = choose(draft->usable(scene), shared); !chosen) return fail(chosen.error());
-  if (!refit) return draft;
-  if (auto done = refit(store_.segment(), draft->usable(scene), workers_); !done) return fail(done.error());
-  errors_ = {};
-  draft->place(store_, scene);  // patterns depend on their seen states
-  if (auto chosen = choose(draft->usable(scene), 1); !chosen) return fail(chosen.error());
-  return draft;
+  draft.alone = sequence_.alone();
+  draft.take(store_, scene, std::move(coded));
+  return {};
 }
 
 void LivePatterns::count_regret(const Plan& plan) {
@@ -334,38 +289,42 @@ void LivePatterns::count_regret(const Plan& plan) {
   since_pattern_ = pictures - static_cast<std::ptrdiff_t>(last);
 }
 
-void LivePatterns::note_sent(double bytes, double seconds) {
-  rate_->add(bytes, seconds);
+void LivePatterns::note_sent(std::size_t bytes) {
+  const double seconds = store_.seconds();
+  sequence_.pass(seconds);
+  if (!rate_) return;
+  rate_->add(static_cast<double>(bytes), seconds);
   const bool was_over = std::exchange(over_, rate_->room() < 0);
   if (over_ && !was_over)
     settings_.hooks.say(LogLevel::kWarning, "more waits to be sent than the buffer allows");
   if (was_over && !over_) settings_.hooks.say(LogLevel::kInfo, "what waits to be sent fits the buffer again");
 }
 
-Result<std::vector<TypedPayload>> LivePatterns::end_segment(Scene& scene, std::size_t other_bytes,
-                                                            const StateRefit& refit) {
-  if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
+Result<SegmentDraft> LivePatterns::make_segment(const Scene& scene, std::size_t other_bytes,
+                                                const StateRefit& refit) {
   if (rate_) rate_->add(static_cast<double>(other_bytes), 0);
-  const bool lone_picture = store_.is_first() && store_.segment().states.size() == 1;
-  const StateRefit used = settings_.refits && !lone_picture ? refit : StateRefit{};
+  const bool is_first = store_.is_first();
+  Making making;
+  making.refits = refit && settings_.refits && !(is_first && store_.segment().states.size() == 1) ? 1 : 0;
+  if (has_windows() || 1LL * store_.format().width * store_.format().height > 352 * 288)
+    making.draft_pictures = kDraftShared;
   const auto plan =
-      store_.is_first() ? plan_first(scene) : plan_next(scene, shared_before(used, store_.format()));
+      is_first ? plan_first(scene) : plan_next(scene, making.refits > 0 ? making.draft_pictures : 1);
   if (!plan) return fail(plan.error());
-  const auto draft = make(scene, *plan, used);
-  if (!draft) return fail(draft.error());
-  auto out = draft->packets(store_, scene.setup, store_.coders(), sequence_.alone());
-  if (!out) return out;
-  draft->keep(store_, scene);
+  if (settings_.solves && has_windows() && !plan->times.empty()) {
+    making.trial.emplace();
+    making.trial->quantiser = plan->others;
+    making.trial->speed = kTrialSpeed;
+    making.trial->reduced = true;
+    making.solver.pull = kPull;
+  }
+  making.code = [&](SegmentDraft& sources) { return code(scene, *plan, sources); };
+  auto draft = SegmentDraft::of_sources(store_, plan->times, next_slot_);
+  if (draft) draft = make(scene, std::move(*draft), making, refit);
+  if (!draft) return draft;
   next_slot_ = draft->slot(draft->coded.size(), static_cast<std::size_t>(store_.slots()));
   count_regret(*plan);
-  const double seconds = store_.seconds();
-  sequence_.pass(seconds);
-  if (rate_) note_sent(static_cast<double>(bytes_of(*out)), seconds);
-  modes_ = store_.segment().states.back().blend;
-  store_.end_segment();
-  errors_ = {};
-  begun_ = true;
-  return out;
+  return draft;
 }
 
 }  // namespace fbs

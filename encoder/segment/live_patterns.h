@@ -16,20 +16,14 @@
 
 namespace fbs {
 
-struct LivePatternSettings {
-  double delay = 0.2;       ///< LiveSettings::delay
-  bool solves = false;      ///< for patterns, where the delay is long
-  int quantiser = 58;       ///< libaom's scale, 0..63; for all patterns but a scene's first
-  bool reduced = false;     ///< patterns are coded at half width and height
-  double lambda = 0;        ///< squared luma levels that a bit of blend modes is worth
-  bool refits = true;       ///< states are fitted to the blend
-  double bitrate_kbps = 0;  ///< of all packets; 0: the quantiser decides
-  double buffer = 0;        ///< LiveSettings::buffer
-  double start = 0;         ///< EncoderSettings::start; 0: none
-  int groups_per_key = 1;   ///< SceneTiming::groups_per_key
-  bool alone = false;       ///< each pattern needs the first alone
-  int threads = 1;          ///< at least 1; the stream is the same
-  Hooks hooks{};
+struct LivePatternSettings : PatternSettings {
+  double delay = 0.2;    ///< LiveSettings::delay
+  bool solves = false;   ///< for patterns, where the delay is long
+  int quantiser = 58;    ///< libaom's scale, 0..63; for all patterns but a scene's first
+  bool reduced = false;  ///< patterns are coded at half width and height
+  bool refits = true;    ///< states are fitted to the blend
+  double buffer = 0;     ///< LiveSettings::buffer
+  bool alone = false;    ///< each pattern needs the first alone
 };
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
@@ -44,20 +38,12 @@ class LivePatterns : public PatternStage {
     if (rate_) rate_->set(kbps);
   }
   void lose_patterns() override { sequence_.lose_patterns(); }
-  Result<void> add(const Picture& picture) override { return store_.add(picture); }
-  void cut() override { store_.cut(); }
-  void add(std::span<const State> states, std::vector<std::uint8_t> payload) override {
-    store_.add(states, std::move(payload));
-  }
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
-  [[nodiscard]] std::size_t pictures() const override { return store_.segment().pictures.count(); }
-  [[nodiscard]] std::int32_t store() const override { return store_.slots(); }
-  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
-                                                              const StateRefit& refit) override;
 
  private:
-  /// Counts what is sent, and logs when it is too much.
-  void note_sent(double bytes, double seconds);
+  [[nodiscard]] Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
+                                                  const StateRefit& refit) override;
+  void note_sent(std::size_t bytes) override;
   /// Patterns to be made of the segment.
   struct Plan {
     std::vector<std::size_t> times;  ///< their pictures, rising
@@ -95,8 +81,6 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] static std::optional<int> affordable(const Size& size, int from, double room);
   /// Bytes that may be sent now.
   [[nodiscard]] double room() const;
-  /// Whether patterns are solved for.
-  [[nodiscard]] bool solves() const { return settings_.solves && has_windows(); }
   /// Whether the delay is long enough for segments of several groups.
   [[nodiscard]] bool has_windows() const;
   /// Whether a pattern of these bits pays.
@@ -105,33 +89,22 @@ class LivePatterns : public PatternStage {
   /// Records the bytes of a pattern.
   /// @param key  most of it could not be predicted
   void learn(std::size_t bytes, int quantiser, bool key);
-  /// Computes errors_ if they are unknown.
-  /// @param shared  by at most this many pictures
-  Result<void> measure(const SegmentPatterns& patterns, std::size_t shared);
-  /// Sets the blend modes of the segment.
-  Result<void> choose(const SegmentPatterns& patterns, std::size_t shared);
-  /// Makes the patterns, and sets states and blend modes.
-  /// @param refit  empty: states stay as they are
-  [[nodiscard]] Result<SegmentDraft> make(const Scene& scene, const Plan& plan, const StateRefit& refit);
+  /// Codes the pictures of a draft.
+  Result<void> code(const Scene& scene, const Plan& plan, SegmentDraft& draft);
   /// Remembers what pictures have lost since the last pattern.
   void count_regret(const Plan& plan);
 
   LivePatternSettings settings_;
-  Workers workers_;
-  SegmentStore store_;
   LiveSequence sequence_;
   std::optional<LiveRate> rate_;
-  bool over_ = false;   ///< the rate has no room
-  bool begun_ = false;  ///< the stream has a pattern
-  int wanted_ = 0;      ///< quantiser of the last pattern that nothing predicted, if there had been room
-  Size key_, later_;    ///< of a whole picture, and of one that others predict
+  bool over_ = false;  ///< the rate has no room
+  int wanted_ = 0;     ///< quantiser of the last pattern that nothing predicted, if there had been room
+  Size key_, later_;   ///< of a whole picture, and of one that others predict
   // The scene's:
   PatternRegret regret_;
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
-  RegionModes modes_{};               ///< of the last picture
   std::size_t next_slot_ = 0;
-  double coarse_ = 0;     ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine
-  SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
+  double coarse_ = 0;  ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine
 };
 
 }  // namespace fbs

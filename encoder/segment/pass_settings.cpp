@@ -50,10 +50,10 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   return out;
 }
 
-std::unique_ptr<PatternStage> file_patterns(PatternPassSettings pass, const EncoderSettings& settings,
+std::unique_ptr<PatternStage> file_patterns(FilePatternSettings pass, const EncoderSettings& settings,
                                             const VideoFormat& format, const CodedState& rest) {
   pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
-  return std::make_unique<PatternPass>(format, pass, rest);
+  return std::make_unique<FilePatterns>(format, pass, rest);
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px
   return target;
 }
 
-PatternPassSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
-  PatternPassSettings out;
+FilePatternSettings pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
+  FilePatternSettings out;
   if (settings.tune == Tune::kEye) out.point_at = &PatternPoint::by_eye;
   out.point = out.point_at(settings.quality);
   out.count = settings.patterns;
@@ -90,8 +90,8 @@ PatternPassSettings pass_settings(const EncoderSettings& settings, const Operati
   return out;
 }
 
-PatternPassSettings planar_pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
-  PatternPassSettings out = pass_settings(settings, motion);
+FilePatternSettings planar_pass_settings(const EncoderSettings& settings, const OperatingPoint& motion) {
+  FilePatternSettings out = pass_settings(settings, motion);
   out.point_at = &PatternPoint::without_face;
   out.point = out.point_at(settings.quality);
   out.without_face = true;

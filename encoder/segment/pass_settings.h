@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "encoder/plan/rate_control.h"
+#include "encoder/segment/file_patterns.h"
 #include "encoder/segment/live_patterns.h"
-#include "encoder/segment/pattern_pass.h"
 #include "encoder/settings.h"
 
 namespace fbs {
@@ -17,11 +17,11 @@ namespace fbs {
 [[nodiscard]] RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px);
 
 /// @param motion  operating point of the motion
-[[nodiscard]] PatternPassSettings pass_settings(const EncoderSettings& settings,
+[[nodiscard]] FilePatternSettings pass_settings(const EncoderSettings& settings,
                                                 const OperatingPoint& motion);
 
 /// The same for a scene without a face: more patterns, in place of motion.
-[[nodiscard]] PatternPassSettings planar_pass_settings(const EncoderSettings& settings,
+[[nodiscard]] FilePatternSettings planar_pass_settings(const EncoderSettings& settings,
                                                        const OperatingPoint& motion);
 
 /// The stage for the patterns of a scene with a face, live or with look-ahead.

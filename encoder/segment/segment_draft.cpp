@@ -101,7 +101,7 @@ Result<void> SegmentDraft::solve(const SegmentStore& store, const Scene& scene,
 }
 
 Result<std::vector<TypedPayload>> SegmentDraft::packets(const SegmentStore& store, const Setup& setup,
-                                                        SegmentStore::Coders& coders, bool alone) const {
+                                                        SegmentStore::Coders& coders) const {
   std::vector<PatternSyntax> syntax;
   std::vector<std::size_t> bytes;
   for (std::size_t k = 0; k < coded.size(); ++k) {

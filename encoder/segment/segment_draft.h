@@ -29,6 +29,7 @@ struct SegmentDraft {
   /// The scene's first pattern, if it is a coarse one for the start: coded already, and the next one takes
   /// its slot. pictures[0] is its picture.
   std::optional<SequencePattern> start;
+  bool alone = false;                ///< each pattern but the scene's first needs that one alone
   std::size_t first_slot = 0;        ///< of the first in coding order; the others follow, around the store
   std::vector<std::size_t> shown;    ///< picture of each pattern, in coding order
   std::vector<std::size_t> arrived;  ///< arrivals()
@@ -58,10 +59,8 @@ struct SegmentDraft {
                      Workers& workers);
 
   /// The segment's packets in stream order.
-  /// @param alone  each pattern but the scene's first needs that one alone
   [[nodiscard]] Result<std::vector<TypedPayload>> packets(const SegmentStore& store, const Setup& setup,
-                                                          SegmentStore::Coders& coders,
-                                                          bool alone = false) const;
+                                                          SegmentStore::Coders& coders) const;
   /// Puts the patterns into the scene, as the decoder has them after the segment.
   void keep(const SegmentStore& store, Scene& scene) const;
 

@@ -44,7 +44,7 @@ TEST(MotionTarget, SeveralPatternsTakeWhatTheMotionLeaves) {
 TEST(PassSettings, PsnrKeepsContrastAndCoarserPatterns) {
   EncoderSettings settings;
   settings.tune = Tune::kPsnr;
-  const PatternPassSettings pass = pass_settings(settings, kMotion);
+  const FilePatternSettings pass = pass_settings(settings, kMotion);
   EXPECT_EQ(pass.point.quantiser, PatternPoint::at(50).quantiser);
   EXPECT_EQ(pass.point_at(70).quantiser, PatternPoint::at(70).quantiser);
   EXPECT_GT(pass.point.quantiser, PatternPoint::by_eye(50).quantiser);
@@ -53,7 +53,7 @@ TEST(PassSettings, PsnrKeepsContrastAndCoarserPatterns) {
 }
 
 TEST(PassSettings, QualityDecidesWhatIsNotAskedFor) {
-  const PatternPassSettings pass = pass_settings({}, kMotion);
+  const FilePatternSettings pass = pass_settings({}, kMotion);
   EXPECT_EQ(pass.point.quantiser, PatternPoint::by_eye(50).quantiser);
   EXPECT_EQ(pass.lone_quantiser, kMotion.pattern_quantiser);
   EXPECT_EQ(pass.lambda, kMotion.lambda);
@@ -65,7 +65,7 @@ TEST(PassSettings, QualityDecidesWhatIsNotAskedFor) {
 TEST(PassSettings, AQuantiserThatIsAskedForHoldsForALonePatternToo) {
   EncoderSettings settings;
   settings.pattern_quantiser = 33;
-  const PatternPassSettings pass = pass_settings(settings, kMotion);
+  const FilePatternSettings pass = pass_settings(settings, kMotion);
   EXPECT_EQ(pass.quantiser, 33);
   EXPECT_EQ(pass.lone_quantiser, 33);
 }
@@ -82,7 +82,7 @@ TEST(PassSettings, EffortSolvesAndFits) {
 }
 
 TEST(PassSettings, AShotWithoutAFaceHasMorePatternsAndNothingToFit) {
-  const PatternPassSettings pass = planar_pass_settings({}, kMotion);
+  const FilePatternSettings pass = planar_pass_settings({}, kMotion);
   EXPECT_TRUE(pass.without_face);
   EXPECT_EQ(pass.effort.refits, 0);
   EXPECT_EQ(pass.point.per_second, PatternPoint::without_face(50).per_second);

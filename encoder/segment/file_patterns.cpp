@@ -1,4 +1,4 @@
-#include "encoder/segment/pattern_pass.h"
+#include "encoder/segment/file_patterns.h"
 
 #include <algorithm>
 #include <array>
@@ -35,11 +35,10 @@ constexpr double kRateTolerance = 0.02;
 
 }  // namespace
 
-PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& settings,
-                         const CodedState& rest)
-    : settings_(settings),
-      workers_(settings.threads, settings.hooks),
-      store_(format, rest, settings.groups_per_key),
+FilePatterns::FilePatterns(const VideoFormat& format, const FilePatternSettings& settings,
+                           const CodedState& rest)
+    : PatternStage(format, settings, rest),
+      settings_(settings),
       most_(store_.slots()),
       point_(settings.point) {
   coding_.speed = settings.effort.pattern_speed;
@@ -50,8 +49,8 @@ PatternPass::PatternPass(const VideoFormat& format, const PatternPassSettings& s
       std::clamp<double>(kSegmentBytes / bytes, store_.slots(), kMaxSequencePictures));
 }
 
-Result<void> PatternPass::add(const Picture& picture) {
-  if (auto added = store_.add(picture); !added) return added;
+Result<void> FilePatterns::add(const Picture& picture) {
+  if (auto added = PatternStage::add(picture); !added) return added;
   const cv::Mat small =
       reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
   Shot& shot = store_.segment().shots.back();
@@ -64,7 +63,7 @@ Result<void> PatternPass::add(const Picture& picture) {
   return {};
 }
 
-bool PatternPass::segment_ends(std::size_t next) const {
+bool FilePatterns::segment_ends(std::size_t next) const {
   const std::size_t pictures = this->pictures();
   // The motion of a whole segment may be sent before its first picture is shown.
   if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
@@ -79,7 +78,7 @@ bool PatternPass::segment_ends(std::size_t next) const {
   return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
 }
 
-Result<SegmentDraft> PatternPass::draft() const {
+Result<SegmentDraft> FilePatterns::draft() const {
   std::vector<std::size_t> times = times_wanted();
   if (start_ && std::ranges::find(times, 1) == times.end()) times.insert(times.begin() + 1, 1);
   auto draft = SegmentDraft::of_sources(store_, std::move(times), 0);
@@ -87,14 +86,14 @@ Result<SegmentDraft> PatternPass::draft() const {
   return draft;
 }
 
-Result<double> PatternPass::loss_between(const Scene& scene) {
+Result<double> FilePatterns::loss_between(const Scene& scene) {
   auto draft = this->draft();
   if (!draft) return fail(draft.error());
   draft->take_sources(store_, scene);
   return blend_loss(store_.segment(), draft->usable(scene), kLossEvery, workers_);
 }
 
-int PatternPass::quantiser_at(bool reduced) const {
+int FilePatterns::quantiser_at(bool reduced) const {
   if (settings_.quantiser) return *settings_.quantiser;
   const int halvings = reduced ? 1 : 0;
   const int usual =
@@ -106,7 +105,7 @@ int PatternPass::quantiser_at(bool reduced) const {
   return std::max(0, usual - static_cast<int>(std::lround(kStepsPerSharing * std::max(0.0, octaves))));
 }
 
-SequenceSettings PatternPass::trial_coding(bool reduced) const {
+SequenceSettings FilePatterns::trial_coding(bool reduced) const {
   SequenceSettings out = coding_;
   out.speed = kTrialSpeed;
   out.reduced = reduced;
@@ -114,12 +113,12 @@ SequenceSettings PatternPass::trial_coding(bool reduced) const {
   return out;
 }
 
-void PatternPass::set_size(bool reduced) {
+void FilePatterns::set_size(bool reduced) {
   coding_.reduced = reduced;
   coding_.quantiser = quantiser_at(reduced);
 }
 
-std::vector<std::size_t> PatternPass::times_wanted() const {
+std::vector<std::size_t> FilePatterns::times_wanted() const {
   const std::size_t pictures = store_.segment().states.size();
   const double seconds = store_.seconds();
   const std::size_t wanted =
@@ -133,7 +132,7 @@ std::vector<std::size_t> PatternPass::times_wanted() const {
   return pattern_times(store_.segment().shots, std::min(std::clamp<std::size_t>(wanted, 1, most), pictures));
 }
 
-Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::size_t> times) {
+Result<std::vector<Picture>> FilePatterns::trial_pictures(std::span<const std::size_t> times) {
   const std::size_t count = std::min(kTrialPictures, times.size());
   std::vector<Picture> out;
   for (std::size_t k = 0; k < count; ++k) {
@@ -144,7 +143,7 @@ Result<std::vector<Picture>> PatternPass::trial_pictures(std::span<const std::si
   return out;
 }
 
-Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
+Result<bool> FilePatterns::reduced_size_pays(const Scene& scene) {
   const std::vector<std::size_t> times = times_wanted();
   if (times.size() < 2) return false;
   const auto loss = loss_between(scene);
@@ -161,7 +160,7 @@ Result<bool> PatternPass::reduced_size_pays(const Scene& scene) {
   return fbs::reduced_size_pays(*loss, times.size(), motion, *costs[0], *costs[1]);
 }
 
-Result<void> PatternPass::choose_size(const Scene& scene) {
+Result<void> FilePatterns::choose_size(const Scene& scene) {
   auto reduced = Result<bool>(large_enough_to_reduce(store_.format()));
   if (settings_.reduced)
     reduced = *settings_.reduced;
@@ -172,64 +171,14 @@ Result<void> PatternPass::choose_size(const Scene& scene) {
   return {};
 }
 
-Result<void> PatternPass::choose(const Scene& scene, const SegmentDraft& draft, std::size_t most) {
-  const auto errors = mode_errors(store_.segment(), draft.usable(scene), most, workers_);
-  if (!errors) return fail(errors.error());
-  store_.set_modes(errors->cheapest_modes(settings_.lambda));
-  return {};
-}
-
-Result<double> PatternPass::taken_by(const Setup& setup, const SegmentDraft& draft) const {
+Result<double> FilePatterns::taken_by(const Setup& setup, const SegmentDraft& draft) const {
   SegmentStore::Coders coders = store_.coders();
   const auto packets = draft.packets(store_, setup, coders);
   if (!packets) return fail(packets.error());
   return static_cast<double>(bytes_of(*packets));
 }
 
-Result<std::vector<TypedPayload>> PatternPass::packets(Scene& scene, const SegmentDraft& draft) {
-  auto out = draft.packets(store_, scene.setup, store_.coders());
-  if (!out) return out;
-  draft.keep(store_, scene);
-  store_.end_segment();
-  start_.reset();
-  begun_ = true;
-  return out;
-}
-
-Result<void> PatternPass::refit_states(const Scene& scene, SegmentDraft& draft, const StateRefit& refit) {
-  if (auto done = refit(store_.segment(), draft.usable(scene), workers_); !done) return done;
-  draft.place(store_, scene);  // patterns depend on their seen states
-  return {};
-}
-
-Result<SegmentDraft> PatternPass::make(const Scene& scene, const StateRefit& refit) {
-  auto draft = this->draft();
-  if (!draft) return draft;
-  if (settings_.effort.solves) {
-    // Modes are chosen for patterns with coding errors: chosen for lossless ones they gain 5 % less. Always
-    // at half size, since only the kind of errors matters.
-    if (auto coded = draft->code(store_, scene, trial_coding(true), workers_); !coded)
-      return fail(coded.error());
-    if (auto chosen = choose(scene, *draft, settings_.effort.draft_pictures); !chosen)
-      return fail(chosen.error());
-    if (auto solved = draft->solve(store_, scene, SolverSettings{}, workers_); !solved)
-      return fail(solved.error());
-  }
-  if (auto coded = draft->code(store_, scene, coding_, workers_); !coded) return fail(coded.error());
-  // A lone pattern is close to the picture that the states were fitted to.
-  const int refits = draft->times.size() > 1 ? settings_.effort.refits : 0;
-  // States are fitted last, to patterns as sent. Fitted before solving, they would compensate for what
-  // solving corrects: wasted bits of motion.
-  for (int i = 0; i <= refits; ++i) {
-    if (i > 0)
-      if (auto done = refit_states(scene, *draft, refit); !done) return fail(done.error());
-    const std::size_t most = i < refits ? settings_.effort.draft_pictures : settings_.effort.pictures;
-    if (auto chosen = choose(scene, *draft, most); !chosen) return fail(chosen.error());
-  }
-  return draft;
-}
-
-Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
+Result<int> FilePatterns::quality_for(const Scene& scene, double bytes) {
   int low = 0, high = 101;  // the highest that fits, and the lowest that does not
   while (high - low > 4) {
     const int middle = (low + high) / 2;
@@ -246,7 +195,7 @@ Result<int> PatternPass::quality_for(const Scene& scene, double bytes) {
   return low;
 }
 
-Result<void> PatternPass::aim(const Scene& scene, double bytes) {
+Result<void> FilePatterns::aim(const Scene& scene, double bytes) {
   point_ = settings_.point_at(50);
   for (int trial = 0; trial < 2; ++trial) {
     const bool before = coding_.reduced;
@@ -260,7 +209,7 @@ Result<void> PatternPass::aim(const Scene& scene, double bytes) {
   return {};
 }
 
-Result<void> PatternPass::begin_coarse(const Scene& scene, double bytes, double other_bytes) {
+Result<void> FilePatterns::begin_coarse(const Scene& scene, double bytes, double other_bytes) {
   const double in_time = 125 * settings_.bitrate_kbps * settings_.start - other_bytes - kPatternHeadBytes -
                          static_cast<double>(store_.segment().groups.front().payload.size());
   auto draft = this->draft();
@@ -276,7 +225,7 @@ Result<void> PatternPass::begin_coarse(const Scene& scene, double bytes, double 
   return aim(scene, bytes);
 }
 
-Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& draft) {
+Result<void> FilePatterns::meet(const Scene& scene, double bytes, SegmentDraft& draft) {
   // The nearest known quantisers with too many bytes and with few enough, and the logarithms of what they
   // took of those allowed.
   int over = -1, under = 64;
@@ -305,36 +254,37 @@ Result<void> PatternPass::meet(const Scene& scene, double bytes, SegmentDraft& d
     if (auto coded = draft.code(store_, scene, coding_, workers_); !coded) return coded;
   }
   draft = std::move(best);
+  errors_ = {};
   return choose(scene, draft, settings_.effort.pictures);
 }
 
-Result<std::vector<TypedPayload>> PatternPass::end_segment(Scene& scene, std::size_t other_bytes,
-                                                           const StateRefit& refit) {
-  if (store_.segment().states.empty()) return std::vector<TypedPayload>{};
-  double allowed = 0;
-  if (settings_.bitrate_kbps > 0) {
-    const double seconds = store_.seconds();
-    allowed = left_bytes_ + settings_.bitrate_kbps * seconds * 125 - static_cast<double>(other_bytes);
-    const double bytes = std::max(allowed, 1.0);
-    if (auto aimed = aim(scene, bytes); !aimed) return fail(aimed.error());
-    if (settings_.start > 0 && !begun_ && store_.segment().groups.size() > 1)
-      if (auto coarse = begin_coarse(scene, bytes, static_cast<double>(other_bytes)); !coarse)
-        return fail(coarse.error());
-  } else if (auto sized = choose_size(scene); !sized) {
-    return fail(sized.error());
-  }
+Result<SegmentDraft> FilePatterns::make_segment(const Scene& scene, std::size_t other_bytes,
+                                                const StateRefit& refit) {
+  const bool has_rate = settings_.bitrate_kbps > 0;
+  const auto before = static_cast<double>(other_bytes);
+  start_.reset();
+  if (has_rate) left_bytes_ += 125 * settings_.bitrate_kbps * store_.seconds() - before;
+  const double bytes = std::max(left_bytes_, 1.0);
+  if (auto sized = has_rate ? aim(scene, bytes) : choose_size(scene); !sized) return fail(sized.error());
+  if (has_rate && settings_.start > 0 && !begun_ && store_.segment().groups.size() > 1)
+    if (auto coarse = begin_coarse(scene, bytes, before); !coarse) return fail(coarse.error());
+  auto draft = this->draft();
+  if (!draft) return draft;
   // Few pictures do not justify a coarse pattern: its bytes are the startup of a scene with one pattern.
-  if (store_.is_first() && times_wanted().size() == 1 && settings_.bitrate_kbps == 0)
+  if (store_.is_first() && draft->times.size() == 1 && !has_rate)
     coding_.quantiser = settings_.lone_quantiser;
-  auto draft = make(scene, refit);
-  if (!draft) return fail(draft.error());
-  if (settings_.bitrate_kbps > 0) {
-    if (auto met = meet(scene, std::max(allowed, 1.0), *draft); !met) return fail(met.error());
-    const auto taken = taken_by(scene.setup, *draft);
-    if (!taken) return fail(taken.error());
-    left_bytes_ = allowed - *taken;
-  }
-  return packets(scene, *draft);
+  Making making;
+  // Always at half size, since only the kind of errors matters.
+  if (settings_.effort.solves) making.trial = trial_coding(true);
+  // A lone pattern is close to the picture that the states were fitted to.
+  making.refits = draft->times.size() > 1 ? settings_.effort.refits : 0;
+  making.draft_pictures = settings_.effort.draft_pictures;
+  making.pictures = settings_.effort.pictures;
+  making.code = [&](SegmentDraft& sources) { return sources.code(store_, scene, coding_, workers_); };
+  draft = make(scene, std::move(*draft), making, refit);
+  if (draft && has_rate)
+    if (auto met = meet(scene, bytes, *draft); !met) return fail(met.error());
+  return draft;
 }
 
 }  // namespace fbs

@@ -1,5 +1,5 @@
 // The second pass through the whole encoder, on the generated talker.
-#include "encoder/segment/pattern_pass.h"
+#include "encoder/segment/file_patterns.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ EncoderSettings with_patterns(int count) {
   return s;
 }
 
-TEST(PatternPass, EachPictureIsBlendedOnceFromThePatternsAskedFor) {
+TEST(FilePatterns, EachPictureIsBlendedOnceFromThePatternsAskedFor) {
   const Coded c = coded(10, with_patterns(6));
   ASSERT_EQ(c.pictures.size(), static_cast<std::size_t>(kCount));
   EXPECT_EQ(c.records.size(), 6U);
@@ -93,18 +93,18 @@ TEST(PatternPass, EachPictureIsBlendedOnceFromThePatternsAskedFor) {
   EXPECT_EQ(c.patterns.back(), 6U);
 }
 
-TEST(PatternPass, OnePatternNeedsNoBlends) {
+TEST(FilePatterns, OnePatternNeedsNoBlends) {
   const Coded c = coded(10, with_patterns(1));
   ASSERT_EQ(c.pictures.size(), static_cast<std::size_t>(kCount));
   EXPECT_EQ(c.packets.at(PacketType::kPattern), 1);
   EXPECT_EQ(c.packets.count(PacketType::kBlend), 0U);
 }
 
-TEST(PatternPass, MorePatternsDrawPicturesBetter) {
+TEST(FilePatterns, MorePatternsDrawPicturesBetter) {
   EXPECT_GT(coded(10, with_patterns(8)).psnr, coded(10, with_patterns(2)).psnr + 0.3);
 }
 
-TEST(PatternPass, SolvedPatternsDrawPicturesBetterThanPictures) {
+TEST(FilePatterns, SolvedPatternsDrawPicturesBetterThanPictures) {
   EncoderSettings as_they_are = with_patterns(6), solved = as_they_are;
   as_they_are.effort = 1;
   solved.effort = 2;
@@ -112,7 +112,7 @@ TEST(PatternPass, SolvedPatternsDrawPicturesBetterThanPictures) {
 }
 
 // At two pictures a second and quality 100, 63 patterns are used up after 11 seconds.
-TEST(PatternPass, ASecondSegmentReplacesPatterns) {
+TEST(FilePatterns, ASecondSegmentReplacesPatterns) {
   EncoderSettings settings;
   settings.quality = 100;
   const Coded c = coded(2, settings);
@@ -128,7 +128,7 @@ TEST(PatternPass, ASecondSegmentReplacesPatterns) {
   EXPECT_NEAR(psnr(24, kCount), psnr(2, 24), 2) << "drawn from the patterns that the encoder has in mind";
 }
 
-TEST(PatternPass, AShortClipUsesAllItsPatterns) {
+TEST(FilePatterns, AShortClipUsesAllItsPatterns) {
   auto settings = talker_settings(128, 96, 8);
   settings.frame_rate = {10, 1};
   settings.eye_distance = 0.2F;
@@ -137,7 +137,7 @@ TEST(PatternPass, AShortClipUsesAllItsPatterns) {
   EXPECT_EQ(c.packets.at(PacketType::kBlend), c.packets.at(PacketType::kMotion));
 }
 
-TEST(PatternPass, ARateThatCannotBeReachedGivesTheSmallestStream) {
+TEST(FilePatterns, ARateThatCannotBeReachedGivesTheSmallestStream) {
   EncoderSettings low, lowest;
   low.bitrate = 3;
   lowest.bitrate = 0.01;  // less than the head of the scene takes
@@ -148,16 +148,16 @@ TEST(PatternPass, ARateThatCannotBeReachedGivesTheSmallestStream) {
 }
 
 // A decoder keeps no more pictures waiting than kMaxWaitingPictures.
-TEST(PatternPass, SegmentEndsBeforeTooManyPicturesWait) {
+TEST(FilePatterns, SegmentEndsBeforeTooManyPicturesWait) {
   VideoFormat format;
   format.width = 128, format.height = 96;
   for (const std::size_t count : {0, 4}) {
     for (const std::uint32_t fps : {25U, 240U}) {
       format.frame_rate = {fps, 1};
-      PatternPassSettings settings;
+      FilePatternSettings settings;
       settings.point = PatternPoint::at(0);
       settings.count = count;
-      PatternPass pass(format, settings, {});
+      FilePatterns pass(format, settings, {});
       const std::vector<State> group(kMaxGroupPictures);
       const Picture grey(format.width, format.height);
       int pictures = 0;
