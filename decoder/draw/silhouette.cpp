@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -142,8 +143,8 @@ void soften_silhouettes(const ScreenMesh& mesh, const HeadMesh& head, const Head
   const std::vector<HeadEdge> edges = turning_edges(mesh, head, weights);
   if (edges.empty()) return;
   const std::int64_t sample = std::int64_t{1} << static_cast<int>(target.scale);
-  const std::int64_t radius =
-      std::clamp<std::int64_t>(face_width(head, mesh.head) >> kBandLog2, sample, kMaxSoftened * sample);
+  const std::int64_t radius = std::clamp<std::int64_t>(
+      face_width(std::span(mesh.head).first(head.head_count)) >> kBandLog2, sample, kMaxSoftened * sample);
   Marker marker(target, radius);
   for (const HeadEdge& e : edges) marker.mark_along(mesh.head[e[0]], mesh.head[e[1]]);
   const std::int64_t passes = (radius + sample / 2) / sample;

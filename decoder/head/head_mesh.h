@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "common/wire_frame.h"
@@ -31,12 +33,10 @@ struct HeadMesh {
 };
 
 /// Width of the wire-frame without the ring.
-/// @param vertices  of the mesh, in any plane
-template <class Point>
-[[nodiscard]] std::int32_t face_width(const HeadMesh& head, const std::vector<Point>& vertices) {
-  const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(head.head_count);
-  const auto [left, right] =
-      std::minmax_element(vertices.begin(), end, [](const Point& a, const Point& b) { return a.x < b.x; });
+/// @param vertices  its own, in any plane
+[[nodiscard]] inline std::int32_t face_width(std::span<const glm::ivec3> vertices) {
+  const auto [left, right] = std::minmax_element(
+      vertices.begin(), vertices.end(), [](const glm::ivec3& a, const glm::ivec3& b) { return a.x < b.x; });
   return right->x - left->x;
 }
 

@@ -3,16 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "bitstream/syntax.h"
+#include "decoder/head/head_deformation.h"
+#include "decoder/head/head_mesh.h"
 #include "decoder/head/head_projection.h"
-#include "decoder/raster/rasteriser.h"
+#include "decoder/raster/row_runs.h"
+#include "decoder/raster/triangle_setup.h"
 
 namespace fbs {
 namespace {
 
-constexpr int kMiddle = 128, kFaceShareOne = 255, kInverseOneLog2 = 16;
+constexpr int kMiddle = 128, kInverseOneLog2 = 16;
+constexpr std::uint8_t kFaceShareOne = 255;
 
 /// Luma samples of a cell, each way.
 constexpr int kCellLog2 = 2, kCell = 1 << kCellLog2;
@@ -35,20 +41,20 @@ Contrasts inverse(Contrasts contrast) {
 }
 
 /// Cells that the head covers in the pattern are kFaceShareOne, others 0.
-Plane draw_cells(int width, int height, const HeadMesh& head, const TextureMesh& texture) {
+/// @param vertices  of the head in the pattern, 1/64 pixel
+Plane draw_cells(int width, int height, const WireFrame& head, const std::vector<glm::ivec3>& vertices) {
   const auto cells = [](int samples) { return (samples + kCell - 1) / kCell; };
   Plane out(cells(width), cells(height));
-  const Plane face(1, 1, kFaceShareOne);
-  const std::array<ConstPlaneView, 1> face_planes{face};
-  const std::array<PlaneView, 1> target_planes{out};
-  const TextureSource source{face_planes, {}, {}};  // one sample: any corners will do
-  const RasterTarget target{PlaneScale::kLuma, target_planes, {0, 0, out.width, out.height}};
   for (const HeadTriangle& triangle : head.triangles) {
-    if (std::any_of(triangle.begin(), triangle.end(), [&](std::size_t v) { return v >= head.head_count; }))
-      continue;
     ScreenTriangle t;
-    for (std::size_t i = 0; i < t.size(); ++i) t[i] = {texture.head[triangle[i]] >> kCellLog2, 0};
-    draw_triangle(t, {&source, 1}, target);
+    for (std::size_t i = 0; i < t.size(); ++i) t[i].at = glm::ivec2(vertices[triangle[i]]) >> kCellLog2;
+    const TriangleSetup setup(t, PlaneScale::kLuma);
+    if (!setup.faces_viewer()) continue;
+    const int end = std::min(setup.last_row() + 1, out.height);
+    for (int y = std::max(setup.first_row(), 0); y < end; ++y) {
+      const RowRun run = covered_run(setup, y, {0, 0, out.width, out.height});
+      if (!run.empty()) std::fill_n(out.row(y) + run.first, run.count(), kFaceShareOne);
+    }
   }
   return out;
 }
@@ -69,8 +75,8 @@ void blur(std::uint8_t* values, std::ptrdiff_t step, int count, int radius) {
 }
 
 /// Cells on each side over which shares are blurred, three times: a sixteenth of the head's width.
-int blur_radius(const HeadMesh& head, const TextureMesh& texture) {
-  return std::clamp(face_width(head, texture.head) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
+int blur_radius(const std::vector<glm::ivec3>& vertices) {
+  return std::clamp(face_width(vertices) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
 }
 
 /// Replaces each sample by change(sample - 128, contrast).
@@ -115,11 +121,12 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
 
 }  // namespace
 
-ContrastMap::ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture)
-    : cells_(draw_cells(setup.format.width, setup.format.height, head, texture)),
-      luma_(contrasts(kContrastOne, setup.contrast)),
+ContrastMap::ContrastMap(const Setup& setup, const Geometry& head, const State& seen)
+    : luma_(contrasts(kContrastOne, setup.contrast)),
       chroma_(contrasts(setup.chroma_contrast, (kContrastOne + setup.contrast) / 2)) {
-  const int radius = blur_radius(head, texture);
+  const std::vector<glm::ivec3> vertices = project_vertices(head, seen);
+  cells_ = draw_cells(setup.format.width, setup.format.height, head.wire_frame(), vertices);
+  const int radius = blur_radius(vertices);
   for (int pass = 0; pass < kBlurPasses; ++pass) {
     for (int y = 0; y < cells_.height; ++y) blur(cells_.row(y), 1, cells_.width, radius);
     for (int x = 0; x < cells_.width; ++x) blur(cells_.row(0) + x, cells_.width, cells_.height, radius);

@@ -7,8 +7,7 @@
 
 #include "bitstream/syntax.h"
 #include "common/picture.h"
-#include "decoder/animate/screen_mesh.h"
-#include "decoder/head/head_mesh.h"
+#include "common/state.h"
 
 namespace fbs {
 
@@ -23,10 +22,11 @@ class ContrastMap {
     return setup.contrast != kContrastOne || setup.chroma_contrast != kContrastOne;
   }
 
-  /// @param setup    its picture size and contrasts
-  /// @param texture  the pattern's: contrast changes over a wide band along the outline of its head, since a
-  ///                 step would leave a coloured line where AV1 has smoothed it
-  ContrastMap(const Setup& setup, const HeadMesh& head, const TextureMesh& texture);
+  /// @param setup  its picture size and contrasts
+  /// @param head   contrast changes over a wide band along its outline in the pattern, since a step would
+  ///               leave a coloured line where AV1 has smoothed it
+  /// @param seen   the pattern's state
+  ContrastMap(const Setup& setup, const Geometry& head, const State& seen);
 
   /// Converts a coded pattern to the picture it shows.
   void expand(Picture& picture) const;

@@ -24,8 +24,7 @@ Pattern make_pattern(Picture picture, const State& seen, const std::optional<Sce
 
 Pattern make_coded_pattern(Picture coded, const State& seen, const std::optional<SceneGeometry>& geometry,
                            const Setup& setup) {
-  if (geometry && ContrastMap::is_needed(setup))
-    ContrastMap(setup, geometry->head_mesh(), geometry->texture_mesh(seen)).expand(coded);
+  if (geometry && ContrastMap::is_needed(setup)) ContrastMap(setup, geometry->geometry(), seen).expand(coded);
   return make_pattern(std::move(coded), seen, geometry);
 }
 

@@ -48,9 +48,7 @@ const State& SegmentStore::seen_state(const Scene& scene, std::size_t time) cons
 
 void SegmentStore::reduce_contrast(const Scene& scene, std::size_t time, Picture& picture) const {
   if (ContrastMap::is_needed(scene.setup))
-    ContrastMap(scene.setup, scene.geometry->head_mesh(),
-                scene.geometry->texture_mesh(seen_state(scene, time)))
-        .reduce(picture);
+    ContrastMap(scene.setup, scene.geometry->geometry(), seen_state(scene, time)).reduce(picture);
 }
 
 PatternSyntax SegmentStore::pattern_syntax(std::size_t slot, std::size_t time,

@@ -12,9 +12,14 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 128;
 
-TextureMesh texture() {
-  const Scene scene = toy_scene(Picture(kWidth, kHeight));
-  return scene.patterns.front().texture;
+Scene scene() {
+  return toy_scene(Picture(kWidth, kHeight));
+}
+
+/// Of the scene's pattern.
+ContrastMap map_of(const Setup& setup) {
+  const Scene toy = scene();
+  return {setup, toy.geometry->geometry(), toy.patterns.front().seen};
 }
 
 /// @param contrast  of the surround
@@ -35,17 +40,17 @@ Picture two_levels(std::uint8_t low, std::uint8_t high) {
 }
 
 /// A sample in the middle of the face.
-glm::ivec2 middle(const TextureMesh& mesh) {
+glm::ivec2 middle() {
+  const Scene toy = scene();
   glm::ivec2 sum{0, 0};
-  for (std::size_t v = 0; v < kVertexCount; ++v) sum += mesh.head[v];
+  for (std::size_t v = 0; v < kVertexCount; ++v) sum += toy.patterns.front().texture.head[v];
   return sum / static_cast<int>(kVertexCount) / 64;
 }
 
 TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
-  const TextureMesh mesh = texture();
   Picture p = two_levels(28, 228);
-  ContrastMap(setup(128), generic_head_mesh(), mesh).reduce(p);
-  const glm::ivec2 in = middle(mesh);
+  map_of(setup(128)).reduce(p);
+  const glm::ivec2 in = middle();
   EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
   EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
   EXPECT_EQ(std::abs(p.y.row(1)[1] - 128), 50);
@@ -54,9 +59,8 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
 
 // At contrast c one level is 256 / c levels of the pattern, rounded twice.
 TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
-  const TextureMesh mesh = texture();
   for (const std::int32_t surround : {kMinContrast, 205, 255, kContrastOne}) {
-    const ContrastMap map(setup(surround), generic_head_mesh(), mesh);
+    const ContrastMap map = map_of(setup(surround));
     for (int level = 0; level < 256; level += 5) {
       const Picture original =
           two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(255 - level));
@@ -70,13 +74,12 @@ TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
 }
 
 TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
-  const TextureMesh mesh = texture();
   auto raised = setup(192);
   raised.chroma_contrast = 384;
-  const ContrastMap map(raised, generic_head_mesh(), mesh);
+  const ContrastMap map = map_of(raised);
   Picture p = two_levels(168, 168);
   map.reduce(p);
-  const glm::ivec2 in = middle(mesh);
+  const glm::ivec2 in = middle();
   EXPECT_EQ(p.y.row(in.y)[in.x], 168);
   EXPECT_EQ(p.u.row(in.y / 2)[in.x / 2], 128 + 60);
   EXPECT_EQ(p.v.row(1)[1], 128 + 35);
@@ -86,11 +89,10 @@ TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
 
 // SPEC 11.7. Samples wholly inside the face or outside it are looked up in tables.
 TEST(ContrastMap, ExpandsEachLevelByTheRule) {
-  const TextureMesh mesh = texture();
   auto raised = setup(200);
   raised.chroma_contrast = 384;
-  const ContrastMap map(raised, generic_head_mesh(), mesh);
-  const glm::ivec2 in = middle(mesh);
+  const ContrastMap map = map_of(raised);
+  const glm::ivec2 in = middle();
   for (int level = 0; level < 256; ++level) {
     const auto expanded = [&](int contrast) {
       const int inverse = ((256 << 16) + contrast / 2) / contrast;
@@ -108,15 +110,14 @@ TEST(ContrastMap, ExpandsEachLevelByTheRule) {
 
 TEST(ContrastMap, LargestDeviationsStayInRange) {
   Picture p = two_levels(0, 255);
-  ContrastMap(setup(kMinContrast), generic_head_mesh(), texture()).expand(p);
+  map_of(setup(kMinContrast)).expand(p);
   EXPECT_EQ(p.y.row(1)[0], 0);
   EXPECT_EQ(p.y.row(1)[1], 255);
 }
 
 TEST(ContrastMap, ChangesOverAWideBand) {
-  const TextureMesh mesh = texture();
   Picture p = two_levels(228, 228);
-  ContrastMap(setup(kMinContrast), generic_head_mesh(), mesh).reduce(p);
+  map_of(setup(kMinContrast)).reduce(p);
   int between = 0;
   for (const std::uint8_t v : p.y.samples) between += v > 185 && v < 221;
   EXPECT_GT(between, 50);
@@ -128,7 +129,7 @@ TEST(ContrastMap, TakesAnySize) {
     Picture p(w, h);
     for (auto& v : p.y.samples) v = 200;
     const Picture before = p;
-    const ContrastMap map(setup(200, w, h), generic_head_mesh(), texture());
+    const ContrastMap map = map_of(setup(200, w, h));
     map.reduce(p);
     EXPECT_NE(p.y.samples, before.y.samples);
     map.expand(p);
