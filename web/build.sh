@@ -36,7 +36,8 @@ chmod 644 "$package"/src/*.wasm
   cd "$package/src"
   files=$(ls -- *.js *.wasm | grep -v '^service_worker.js$')
   version=$(cat -- *.js *.wasm | sha256sum | cut -c1-16)
-  sed -i "s/@VERSION@/$version/; s/@FILES@/$(echo $files)/" service_worker.js
+  probe=$(sed -n '/VECTOR_PROBE = /{n; s/,$//p}' fbs_module.js)
+  sed -i "s/@VERSION@/$version/; s/@FILES@/$(echo $files)/; s/@PROBE@/$probe/" service_worker.js
 )
 cp web/package.json web/README.md LICENSE "$package/"
 # license NAME FILE...: of what is in the modules

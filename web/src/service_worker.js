@@ -11,10 +11,7 @@
 {
   // What build.sh has put into the package.
   const VERSION = "@VERSION@", FILES = "@FILES@".split(" ");
-  /** A function with one vector instruction, as in fbs_module.js. */
-  const VECTOR_PROBE = new Uint8Array([
-    0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
-  ]);
+  const VECTOR_PROBE = Uint8Array.from("@PROBE@".split(","), Number);
 
   const worker = /** @type {any} */ (self);
 
