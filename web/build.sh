@@ -27,7 +27,8 @@ build plain ""
 package=$out/package
 rm -rf "$package"
 mkdir -p "$package/src"
-cp web/src/*.js web/src/*.ts "$package/src/"
+tsc -p web --noEmit false --removeComments --outDir "$out/scripts"  # comments take a quarter of the bytes
+cp "$out"/scripts/src/*.js web/src/*.ts "$package/src/"
 cp "$out/simd/fbs.wasm" "$package/src/fbs-simd.wasm"
 cp "$out/plain/"{fbs,opus,codec2}.wasm "$package/src/"  # sound has no use for vectors
 chmod 644 "$package"/src/*.wasm
