@@ -30,12 +30,12 @@ mkdir -p "$package/src"
 tsc -p web --noEmit false --removeComments --outDir "$out/scripts"  # comments take a quarter of the bytes
 cp "$out"/scripts/src/*.js web/src/*.ts "$package/src/"
 cp "$out/simd/fbs.wasm" "$package/src/fbs-simd.wasm"
-cp "$out/plain/"{fbs,opus,codec2}.wasm "$package/src/"  # sound has no use for vectors
+cp "$out/plain/"{fbs,preview,opus,codec2}.wasm "$package/src/"  # one picture and sound have no use for vectors
 chmod 644 "$package"/src/*.wasm
 # The service worker knows the files, and another version by its hash.
 (
   cd "$package/src"
-  files=$(ls -- *.js *.wasm | grep -v '^service_worker.js$')
+  files=$(ls -- *.js *.wasm | grep -vx 'service_worker.js\|preview.wasm')
   version=$(cat -- *.js *.wasm | sha256sum | cut -c1-16)
   probe=$(sed -n '/VECTOR_PROBE = /{n; s/,$//p}' fbs_module.js)
   sed -i "s/@VERSION@/$version/; s/@FILES@/$(echo $files)/; s/@PROBE@/$probe/" service_worker.js

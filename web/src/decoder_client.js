@@ -48,7 +48,7 @@ export class DecoderClient {
   load(url) {
     this.worker ??= this.start();
     this.loaded = ++this.generation;
-    this.ask({ type: "load", generation: this.generation, url });
+    this.ask({ type: "load", generation: this.generation, url, preview: !compiled });
   }
 
   /** @param {number} time */
@@ -90,18 +90,23 @@ export class DecoderClient {
   start() {
     const worker = startWorker();
     worker.onmessage = ({ data }) => {
+      if (data.type === "module") return this.giveModule(worker);
       const since = data.type === "arrival" || data.type === "error" ? this.loaded : this.generation;
       if (worker === this.worker && data.generation >= since) this.take(data);
     };
     worker.onerror = () => this.fail(new FbsError("network", "the decoder's worker could not be started"));
     worker.postMessage({ type: "edit", edit: this.editing });
+    return worker;
+  }
+
+  /** @param {Worker} worker */
+  giveModule(worker) {
     prepareDecoder().then(
       (module) => worker.postMessage({ type: "module", module }),
       (fault) => {
         const message = `the decoder could not be loaded: ${fault.message}`;
         if (worker === this.worker) this.fail(new FbsError(fault instanceof FbsError ? fault.code : "network", message));
       });
-    return worker;
   }
 
   /** @param {FbsError} fault */

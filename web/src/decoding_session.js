@@ -1,5 +1,6 @@
 /** One stream in the worker: reads it, and answers requests for its pictures when they can be decoded. */
 import { FbsError } from "./fbs_module.js";
+import { Preview } from "./preview.js";
 import { openStream, readStream } from "./stream_source.js";
 
 /**
@@ -48,15 +49,19 @@ export class DecodingSession {
   }
 
   /**
-   * Reads the stream to its end. Stream and module come at the same time.
+   * Reads the stream to its end. First comes what finds a preview, then the stream, then the module: on a slow link all would
+   * wait for each other.
    * @param {string} url
-   * @param {Promise<FbsModule>} module
+   * @param {boolean} hasPreview  whether one is worth it
+   * @param {() => Promise<FbsModule>} needModule
    */
-  async read(url, module) {
+  async read(url, hasPreview, needModule) {
     const { signal } = this.abort;
+    const preview = hasPreview ? await Preview.load().catch(() => null) : null;
     const stream = openStream(url, signal);
     stream.catch(() => {});  // is seen below
-    const ready = await module;
+    if (preview) await this.show(preview, stream).catch(() => {});  // it is not needed
+    const ready = await needModule();
     if (signal.aborted) return;
     const decoder = ready.open();
     this.decoder = decoder;
@@ -81,6 +86,12 @@ export class DecodingSession {
       this.tellArrival(decoder);
       this.answer();
     }
+  }
+
+  /** @param {Preview} preview  @param {Promise<Response>} stream */
+  async show(preview, stream) {
+    const picture = await preview.picture((await stream).clone());
+    this.send({ type: "preview", generation: this.generation, picture }, [picture.planes.buffer]);
   }
 
   close() {

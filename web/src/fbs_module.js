@@ -40,6 +40,13 @@ const STATUS_CODES = /** @type {const} */ ({
 
 const MATRICES = /** @type {const} */ (["unspecified", "bt601", "bt709"]);
 
+/** @param {ArrayBuffer} memory  @param {number} address  of an fbs_format  @returns {Format} */
+export function formatAt(memory, address) {
+  const [width, height, rateNum, rateDen, aspectNum, aspectDen, matrix, range] = new Uint32Array(memory, address, 8);
+  const pixelAspect = aspectNum > 0 && aspectDen > 0 ? aspectNum / aspectDen : 1;
+  return { width, height, frameRate: rateNum / rateDen, pixelAspect, matrix: MATRICES[matrix], fullRange: range !== 0 };
+}
+
 /** An error of the stream or of the decoder. */
 export class FbsError extends Error {
   /**
@@ -228,10 +235,7 @@ export class FbsDecoder {
   /** @returns {Format}  of the picture that next() announced last */
   format() {
     this.functions.fbs_decoder_get_format(this.decoder, this.block + ANY);
-    const [width, height, rateNum, rateDen, aspectNum, aspectDen, matrix, range] =
-      new Uint32Array(this.memory, this.block + ANY, 8);
-    const pixelAspect = aspectNum > 0 && aspectDen > 0 ? aspectNum / aspectDen : 1;
-    return { width, height, frameRate: rateNum / rateDen, pixelAspect, matrix: MATRICES[matrix], fullRange: range !== 0 };
+    return formatAt(this.memory, this.block + ANY);
   }
 
   /**

@@ -15,7 +15,7 @@ export interface FbsPlayerEventMap extends HTMLElementEventMap {
 
 export class FbsPlayer extends HTMLElement {
   // Like HTMLMediaElement. Further events: play, playing, pause, timeupdate, waiting, seeking, seeked, ended,
-  // loadedmetadata, loadeddata, durationchange, progress, volumechange.
+  // loadedmetadata, loadeddata, durationchange, progress, volumechange; and preview.
   src: string;
   preload: string;
   autoplay: boolean;

@@ -1,10 +1,7 @@
 /** Draws pictures on a canvas: by WebGL, or without it by the 2D context. */
 import { colourMatrix } from "./colour.js";
 
-/**
- * @typedef {import("./types").Format} Format
- * @typedef {import("./types").Picture & { format: Format }} PaintedPicture
- */
+/** @typedef {import("./types").PaintedPicture} PaintedPicture */
 
 const VERTEX_SHADER = `
 attribute vec2 corner;

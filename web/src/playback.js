@@ -301,6 +301,7 @@ export class Playback {
 
   /** @param {Answer} answer */
   take(answer) {
+    if (answer.type === "preview") this.emit("preview", answer.picture);
     if (answer.type === "arrival") this.takeArrival(answer.arrival);
     if (answer.type === "picture" && answer.redraw) this.takeRedrawn(answer.picture);
     if (answer.type === "picture" && !answer.redraw) this.takePicture(answer.picture);

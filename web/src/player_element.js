@@ -265,6 +265,7 @@ export class FbsPlayer extends HTMLElement {
   /** @param {string} type @param {any} detail */
   take(type, detail) {
     if (type === "picture") return this.takePicture(detail);
+    if (type === "preview") this.paint(detail);
     if (type === "error") this.say(detail.message);
     if (type in SPOKEN) this.status.textContent = SPOKEN[type];
     if (type === "loadeddata") this.describe();
@@ -272,11 +273,16 @@ export class FbsPlayer extends HTMLElement {
     if (type === "loadeddata" && this.startsItself) this.play().catch(() => {});
   }
 
-  /** @param {ShownPicture} picture */
-  takePicture(picture) {
+  /** @param {import("./types").PaintedPicture} picture */
+  paint(picture) {
     const { width, height, pixelAspect } = picture.format;
     this.stage.style.setProperty("--fbs-ratio", `${width * pixelAspect} / ${height}`);
     this.painter.paint(picture);
+  }
+
+  /** @param {ShownPicture} picture */
+  takePicture(picture) {
+    this.paint(picture);
     this.tell("face", { time: picture.time, face: picture.face });
   }
 

@@ -21,7 +21,7 @@ export async function openStream(url, signal) {
 
 /**
  * @param {Response} answer
- * @param {(bytes: Uint8Array) => void} take
+ * @param {(bytes: Uint8Array) => unknown} take  true: it takes no more
  * @throws {FbsError}  of the code "network", where the connection breaks
  */
 export async function readStream(answer, take) {
@@ -32,6 +32,6 @@ export async function readStream(answer, take) {
       throw lost(fault);
     });
     if (done) return;
-    take(value);
+    if (take(value)) return reader.cancel();
   }
 }

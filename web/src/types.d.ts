@@ -123,7 +123,8 @@ export interface FaceDetail {
  * requests. */
 export type Request =
   | { type: "module"; module: WebAssembly.Module }
-  | { type: "load"; generation: number; url: string }
+  /** `preview`: there is time for one, since the decoder has not been loaded. */
+  | { type: "load"; generation: number; url: string; preview: boolean }
   /** The next picture that ends after `skipTo`. */
   | { type: "next"; generation: number; skipTo: number; buffer?: ArrayBuffer }
   | { type: "seek"; generation: number; time: number }
@@ -132,13 +133,20 @@ export type Request =
   /** The last picture again, with the edit. */
   | { type: "redraw"; generation: number; buffer?: ArrayBuffer };
 
-export interface ShownPicture extends Picture, Announced {
+export interface PaintedPicture extends Picture {
   format: Format;
+}
+
+export interface ShownPicture extends PaintedPicture, Announced {
   face: Face | null;
 }
 
 /** From the worker. */
 export type Answer =
+  /** The decoder is needed now. */
+  | { type: "module" }
+  /** The first picture, nearly as it will be. */
+  | { type: "preview"; generation: number; picture: PaintedPicture }
   | { type: "arrival"; generation: number; arrival: Arrival }
   | { type: "picture"; generation: number; picture: ShownPicture; redraw: boolean }
   /** The next picture has not arrived; it will be sent when it has. */

@@ -10,8 +10,8 @@ import { loadModule } from "./fbs_module.js";
 
 /** @type {(module: FbsModule | Promise<FbsModule>) => void} */
 let giveModule;
-/** @type {Promise<FbsModule>} */
-const module = new Promise((resolve) => (giveModule = resolve));
+/** @type {Promise<FbsModule> | undefined} */
+let module;
 /** @type {DecodingSession | null} */
 let session = null;
 /** @type {import("./types").FaceEdit} */
@@ -22,13 +22,22 @@ function send(answer, transfer = []) {
   /** @type {any} */ (self).postMessage(answer, transfer);
 }
 
+/** The module, for which the page is asked when it is needed. */
+function needModule() {
+  module ??= new Promise((resolve) => {
+    giveModule = resolve;
+    send({ type: "module" });
+  });
+  return module;
+}
+
 /** @param {Request} request */
 async function take(request) {
   if (request.type === "module") return giveModule(loadModule(request.module));
   if (request.type === "load") {
     session?.close();
     session = new DecodingSession(request.generation, edit, send);
-    return session.read(request.url, module);
+    return session.read(request.url, request.preview, needModule);
   }
   if (request.type === "edit") edit = request.edit;
   if (request.type === "edit") return session?.edit(edit);

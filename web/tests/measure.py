@@ -3,8 +3,9 @@
 
 Size of the package; for each stream (those of the tests if none is named) pictures per second of the processor's time in
 node, and by the clock in Chromium's worker, with the ratio to the program's on one thread; and seconds from a click to the
-first picture over links of 50 and 500 kbit/s, by gzip and by brotli: where nothing has been loaded, not even the player's
-scripts; where a service worker has the player; and where a page has loaded the decoder before."""
+first picture and, where that is a preview, to that of the decoder, over links of 50 and 500 kbit/s, by gzip and by brotli:
+where nothing has been loaded, not even the player's scripts; where a service worker has the player; and where a page has
+loaded the decoder before."""
 import pathlib
 import resource
 import statistics
@@ -38,11 +39,14 @@ import("/package/src/decoder_client.js").then(({ DecoderClient }) => {
 # The element is not known yet where the page is blank: its scripts come with the click.
 CLICK = """
 const [url, done] = arguments;
-const begin = performance.now();
+const begin = performance.now(), seconds = () => (performance.now() - begin) / 1000;
 import("/package/src/index.js").then(() => {
-  const player = document.createElement("fbs-player");
-  for (const name of ["loadeddata", "error"])
-    player.addEventListener(name, (event) => done([(performance.now() - begin) / 1000, name]));
+  const player = document.createElement("fbs-player"), times = [];
+  for (const name of ["preview", "loadeddata", "error"])
+    player.addEventListener(name, () => {
+      times.push(seconds().toFixed(1));
+      if (name !== "preview") done([times, name]);
+    });
   player.src = url;
   document.body.append(player);
 });
@@ -52,7 +56,7 @@ const done = arguments[0];
 import("/package/src/index.js").then(async ({ prepareDecoder }) => {
   await prepareDecoder();
   await fetch("/package/src/worker.js").then((answer) => answer.text());
-  await Promise.all(["decoding_session", "fbs_module", "stream_source"].map(
+  await Promise.all(["decoding_session", "fbs_module", "preview", "stream_source"].map(
     (name) => fetch(`/package/src/${name}.js`).then((answer) => answer.text())));
   done();
 });
@@ -72,7 +76,7 @@ navigator.serviceWorker.ready.then(async ({ active }) => {
 def print_sizes():
     source = material.WEB / "package/src"
     print("bytes                   raw    gzip  brotli")
-    modules = [[f"{name}.wasm"] for name in ("fbs-simd", "fbs", "opus", "codec2")]
+    modules = [[f"{name}.wasm"] for name in ("fbs-simd", "fbs", "preview", "opus", "codec2")]
     for files in (*modules, sorted(path.name for path in source.glob("*.js"))):
         contents = [(source / file).read_bytes() for file in files]
         row = [sum(map(len, contents))] + [sum(len(packed(c, coding)) for c in contents) for coding in ("gzip", "br")]
@@ -125,9 +129,9 @@ def click(server, stream, rate, prepare):
         if prepare == KEEP:  # another visit
             driver.get(server.url("pages/blank.html"))
         server.link.rate = 1000 * rate
-        seconds, event = driver.execute_async_script(CLICK, f"/media/{stream.name}")
+        times, event = driver.execute_async_script(CLICK, f"/media/{stream.name}")
         server.link.rate = None
-        return f"{seconds:.1f}" + ("" if event == "loadeddata" else f" {event}")
+        return ", ".join(times) + ("" if event == "loadeddata" else f" {event}")
 
 
 def main():

@@ -28,7 +28,7 @@ try {
   const [{ filename, files }] = JSON.parse(run("npm", "pack", "--json", "--offline", "--pack-destination", user));
   const names = files.map((file) => file.path);
   for (const name of ["package.json", "README.md", "LICENSE", "src/index.js", "src/index.d.ts", "src/types.d.ts", "src/fbs.wasm",
-                      "src/fbs-simd.wasm", "src/opus.wasm", "src/codec2.wasm", "src/worker.js",
+                      "src/fbs-simd.wasm", "src/preview.wasm", "src/opus.wasm", "src/codec2.wasm", "src/worker.js",
                       "src/service_worker.js", "LICENSE-THIRD-PARTY"])
     check(names.includes(name), `${name} is not in the package`);
   const others = names.filter((name) => !/^(package\.json|README\.md|LICENSE|LICENSE-THIRD-PARTY|src\/[\w-]+\.(js|d\.ts|wasm))$/.test(name));

@@ -62,6 +62,11 @@ class TestPlayer(unittest.TestCase):
         """A player. What comes first: loadeddata, or an error."""
         return self.driver.execute_async_script(MAKE, {"src": f"/media/{src}", "controls": "", **attributes})
 
+    def begin(self, src, **attributes):
+        """A player, of which nothing has come. Previews count as events, too."""
+        self.js(MAKE.replace("const [attributes, done]", "const done = () => {}, [attributes]") +
+                "player.addEventListener('preview', () => events.push('preview'));", {"src": f"/media/{src}", **attributes})
+
     def inner(self, selector):
         return self.js("return player.shadowRoot.querySelector(arguments[0])", selector)
 
@@ -195,12 +200,38 @@ class TestPlayer(unittest.TestCase):
         self.assertEqual(self.js("return [player.currentTime, player.playback.shown.number]"), [2.5, 62])
 
     def test_loads_nothing_before_it_is_asked(self):
-        self.js(MAKE.replace("const [attributes, done]", "const done = () => {}, [attributes]"),
-                {"src": "/media/talk.fbs", "preload": "none", "muted": ""})
+        self.begin("talk.fbs", preload="none", muted="")
         time.sleep(0.2)
         self.assertEqual(self.js("return [player.currentSrc, player.playback.client.worker, events.length]"), ["", None, 0])
         self.js("player.play()")
         self.until("player.currentTime > 0.2")
+
+    def test_a_preview_is_shown_before_the_decoder_has_come(self):
+        with Server(self.server.folders) as other:
+            other.withheld = "fbs-simd.wasm"
+            self.driver.get(other.url("pages/player.html"))
+            self.begin("talk.fbs")
+            self.until("events.length")
+            said = self.js("""
+                fetch("/preview", { method: "POST", body: player.painter.last.planes });
+                return [events, player.videoWidth, player.face, player.duration];""")
+            self.assertEqual(said, [["preview"], 0, None, None])
+            asked = [pathlib.PurePath(path).name for path in other.asked]
+            self.assertLess(asked.index("preview.wasm"), asked.index("talk.fbs"))
+            self.assertEqual(asked.index("fbs-simd.wasm"), len(asked) - 1)
+            other.gate.set()
+            self.until("events.length > 1")
+            self.assertEqual(self.js("return events"), ["preview", "loadedmetadata"])
+            self.js("fetch('/shown', { method: 'POST', body: player.playback.shown.planes })")
+            self.assertGreater(signal_to_noise(other.posted("shown"), other.posted("preview")), 40, "dB")
+
+    def test_plays_without_a_preview(self):
+        with Server(self.server.folders) as other:
+            other.missing = "preview.wasm"
+            self.driver.get(other.url("pages/player.html"))
+            self.begin("talk.fbs")
+            self.until("events.length")
+            self.assertEqual(self.js("return [events[0], player.videoWidth]"), ["loadedmetadata", material.WIDTH])
 
     def test_package_and_stream_of_another_origin(self):
         with Server(self.server.folders) as other:
