@@ -106,7 +106,7 @@ struct Setup {
   MouthInterior mouth;
   std::int32_t patterns = 1;  ///< kept by the decoder, 1..kMaxPatterns; 1: pictures need no blend packets
   std::int32_t contrast = kContrastOne;  ///< of patterns' luma outside the face, kMinContrast..kContrastOne
-  /// Contrast of the patterns' chroma in the face, kContrastOne..kMaxChromaContrast, even.
+  /// Contrast of the patterns' chroma, kContrastOne..kMaxChromaContrast, even.
   std::int32_t chroma_contrast = kContrastOne;
   friend bool operator==(const Setup&, const Setup&) = default;
 };

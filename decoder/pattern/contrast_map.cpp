@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "bitstream/syntax.h"
@@ -25,19 +27,24 @@ constexpr int kCellLog2 = 2, kCell = 1 << kCellLog2;
 
 constexpr int kBlurPasses = 3, kMaxBlurRadius = 64;
 
-static_assert(std::tuple_size_v<Contrasts> == kFaceShareOne + 1);
+/// What to multiply differences from the middle by, fixed point.
+struct Factor {
+  std::int32_t by;
+  int one_log2;
 
-Contrasts contrasts(std::int32_t face, std::int32_t surround) {
-  Contrasts out{};
-  for (int share = 0; share <= kFaceShareOne; ++share)
-    out[share] = surround + ((face - surround) * share + kFaceShareOne / 2) / kFaceShareOne;
-  return out;
+  /// The sample, farther from the middle or nearer to it.
+  [[nodiscard]] std::uint8_t operator()(std::uint8_t sample) const {
+    const std::int32_t difference = ((sample - kMiddle) * by + (1 << (one_log2 - 1))) >> one_log2;
+    return static_cast<std::uint8_t>(std::clamp(kMiddle + difference, 0, 255));
+  }
+};
+
+Factor reducing(std::int32_t contrast) {
+  return {contrast, kContrastOneLog2};
 }
 
-/// 1 / contrast, 16 fractional bits.
-Contrasts inverse(Contrasts contrast) {
-  for (std::int32_t& c : contrast) c = ((kContrastOne << kInverseOneLog2) + c / 2) / c;
-  return contrast;
+Factor expanding(std::int32_t contrast) {
+  return {((kContrastOne << kInverseOneLog2) + contrast / 2) / contrast, kInverseOneLog2};
 }
 
 /// Cells that the head covers in the pattern are kFaceShareOne, others 0.
@@ -79,13 +86,10 @@ int blur_radius(const std::vector<glm::ivec3>& vertices) {
   return std::clamp(face_width(vertices) >> (4 + kCellLog2 + kScreenOneLog2), 1, kMaxBlurRadius);
 }
 
-/// Replaces each sample by change(sample - 128, contrast).
-/// @param samples_per_cell  each way, 4 or 2
-template <class Change>
-void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, const Contrasts& contrast,
-                     Change&& change) {
-  const int step = 16 / samples_per_cell;  // places are in 1/16 cell from the centre of the first one
-  const auto place = [&](int i) { return step * i + step / 2 - 8; };
+/// Changes each sample by the factor of its share of the face.
+/// @param factors  by share, 0..255
+void change_luma(Plane& plane, const Plane& cells, std::span<const Factor> factors) {
+  const auto place = [](int i) { return 4 * i - 6; };  // in 1/16 cell from the centre of the first one
   std::vector<int> columns(static_cast<std::size_t>(cells.width) + 2);  // of cells -1 to the width
   for (int y = 0; y < plane.height; ++y) {
     const int v = place(y), q = v & 15;
@@ -95,23 +99,20 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
     columns.front() = columns[1];
     columns.back() = columns[cells.width];
     std::uint8_t* const row = plane.row(y);
-    const auto changed = [&](std::uint8_t sample, std::int32_t by) {
-      return static_cast<std::uint8_t>(std::clamp(kMiddle + change(sample - kMiddle, by), 0, 255));
-    };
     const auto first_beyond = [&](int cell) {  // the first sample between this column and the next
-      return std::min(plane.width, samples_per_cell * (cell - 1) + samples_per_cell / 2);
+      return std::min(plane.width, kCell * (cell - 1) + kCell / 2);
     };
     for (int x = 0, cell = 0; x < plane.width;) {
       int even = cell;  // nearly everywhere neighbouring cells are alike
       while (even <= cells.width && columns[even + 1] == columns[cell]) ++even;
       const int end = first_beyond(std::max(even, cell + 1));
       if (even > cell) {
-        const std::int32_t by = contrast[(columns[cell] * 16 + 128) >> 8];
-        for (; x < end; ++x) row[x] = changed(row[x], by);
+        const Factor factor = factors[(columns[cell] * 16 + 128) >> 8];
+        for (; x < end; ++x) row[x] = factor(row[x]);
       } else {
         for (; x < end; ++x) {
           const int p = place(x) & 15;
-          row[x] = changed(row[x], contrast[(columns[cell] * (16 - p) + columns[cell + 1] * p + 128) >> 8]);
+          row[x] = factors[(columns[cell] * (16 - p) + columns[cell + 1] * p + 128) >> 8](row[x]);
         }
       }
       cell = std::max(even, cell + 1);
@@ -119,11 +120,23 @@ void for_each_sample(Plane& plane, const Plane& cells, int samples_per_cell, con
   }
 }
 
+/// @param factor_at  of a contrast
+void change(Picture& picture, const Plane& cells, std::int32_t surround, std::int32_t chroma_contrast,
+            Factor (*factor_at)(std::int32_t contrast)) {
+  std::array<Factor, kFaceShareOne + 1> luma{};
+  for (int share = 0; share <= kFaceShareOne; ++share)
+    luma[share] =
+        factor_at(surround + ((kContrastOne - surround) * share + kFaceShareOne / 2) / kFaceShareOne);
+  change_luma(picture.y, cells, luma);
+  const Factor chroma = factor_at(chroma_contrast);
+  for (Plane* plane : {&picture.u, &picture.v})
+    for (std::uint8_t& sample : plane->samples) sample = chroma(sample);
+}
+
 }  // namespace
 
 ContrastMap::ContrastMap(const Setup& setup, const Geometry& head, const State& seen)
-    : luma_(contrasts(kContrastOne, setup.contrast)),
-      chroma_(contrasts(setup.chroma_contrast, (kContrastOne + setup.contrast) / 2)) {
+    : surround_(setup.contrast), chroma_(setup.chroma_contrast) {
   const std::vector<glm::ivec3> vertices = project_vertices(head, seen);
   cells_ = draw_cells(setup.format.width, setup.format.height, head.wire_frame(), vertices);
   const int radius = blur_radius(vertices);
@@ -134,20 +147,11 @@ ContrastMap::ContrastMap(const Setup& setup, const Geometry& head, const State& 
 }
 
 void ContrastMap::expand(Picture& picture) const {
-  const auto change = [](std::int32_t v, std::int32_t by) {
-    return (v * by + (1 << (kInverseOneLog2 - 1))) >> kInverseOneLog2;
-  };
-  const Contrasts chroma = inverse(chroma_);
-  for_each_sample(picture.y, cells_, kCell, inverse(luma_), change);
-  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma, change);
+  change(picture, cells_, surround_, chroma_, expanding);
 }
 
 void ContrastMap::reduce(Picture& picture) const {
-  const auto change = [](std::int32_t v, std::int32_t by) {
-    return (v * by + kContrastOne / 2) >> kContrastOneLog2;
-  };
-  for_each_sample(picture.y, cells_, kCell, luma_, change);
-  for (Plane* plane : {&picture.u, &picture.v}) for_each_sample(*plane, cells_, kCell / 2, chroma_, change);
+  change(picture, cells_, surround_, chroma_, reducing);
 }
 
 }  // namespace fbs

@@ -1,8 +1,7 @@
 // Patterns are coded with less contrast outside the face, so that a given error costs more bits inside it,
-// and with more contrast in the face's chroma: AV1 without a quantiser map. SPEC 11.7. Integers only.
+// and with more contrast in chroma: AV1 without a quantiser map or offset. SPEC 11.7. Integers only.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "bitstream/syntax.h"
@@ -11,10 +10,8 @@
 
 namespace fbs {
 
-/// Contrasts by share of the face, 0..255.
-using Contrasts = std::array<std::int32_t, 256>;
-
-/// The contrast of each sample of a coded pattern.
+/// The contrast of each sample of a coded pattern: of luma by share of the face, of chroma everywhere the
+/// same.
 class ContrastMap {
  public:
   /// Whether patterns are coded with a contrast other than one.
@@ -23,8 +20,8 @@ class ContrastMap {
   }
 
   /// @param setup  its picture size and contrasts
-  /// @param head   contrast changes over a wide band along its outline in the pattern, since a step would
-  ///               leave a coloured line where AV1 has smoothed it
+  /// @param head   luma's contrast changes over a wide band along its outline in the pattern, since a step
+  ///               would leave a line where AV1 has smoothed it
   /// @param seen   the pattern's state
   ContrastMap(const Setup& setup, const Geometry& head, const State& seen);
 
@@ -36,9 +33,7 @@ class ContrastMap {
 
  private:
   Plane cells_;  ///< share of the face in blocks of 4 x 4 luma samples, 0..255
-  /// The surround's chroma loses half of what its luma does: what AV1 leaves wrong is multiplied, and
-  /// coloured lines along a face are seen before grey ones.
-  Contrasts luma_, chroma_;
+  std::int32_t surround_, chroma_;
 };
 
 }  // namespace fbs

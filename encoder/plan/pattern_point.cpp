@@ -24,6 +24,9 @@ constexpr Hull kHullWithoutFace = {{{1.5, 63, 20}, {4, 62, 25}, {7, 60, 38}, {13
 /// of mouth and eyes are 5 % nearer to the source, SSIM there rises by .007, false edges fall by a tenth, and
 /// the frame loses 0.13 dB (ten clips at quality 50).
 constexpr std::int32_t kPsnrContrast = 220, kEyeContrast = 170;
+/// Contrast of patterns' chroma. Against none, kEye's takes 5 % more bytes, and colours of mouth and eyes are
+/// 11 and 8 % nearer to the source (ten clips at quality 50).
+constexpr std::int32_t kPsnrChroma = 320, kEyeChroma = 384;
 /// Steps of the quantiser for which the bytes that kEyeContrast saves pay.
 constexpr int kFinerByEye = 2;
 
@@ -67,6 +70,10 @@ PatternPoint PatternPoint::without_face(int quality) {
 
 std::int32_t surround_contrast(Tune tune) {
   return tune == Tune::kEye ? kEyeContrast : kPsnrContrast;
+}
+
+std::int32_t chroma_contrast(Tune tune) {
+  return tune == Tune::kEye ? kEyeChroma : kPsnrChroma;
 }
 
 int quantiser_of(const PatternPoint& point, int width, int height) {

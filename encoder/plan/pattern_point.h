@@ -25,6 +25,9 @@ struct PatternPoint {
 /// Setup::contrast of a scene with look-ahead. by_eye() goes with that of Tune::kEye.
 [[nodiscard]] std::int32_t surround_contrast(Tune tune);
 
+/// What is wanted of Setup::chroma_contrast: AV1 has one quantiser for luma and chroma.
+[[nodiscard]] std::int32_t chroma_contrast(Tune tune);
+
 /// Quantiser for patterns of another size: large ones get fewer bits per sample.
 [[nodiscard]] int quantiser_of(const PatternPoint& point, int width, int height);
 

@@ -36,8 +36,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
     second_pass_.emplace(
         SecondPass{SegmentRefit(scene_.setup, scene_.geometry->geometry(), scene_.patterns.front(),
                                 start.eye_distance_px, ledger_.motion()),
-                   surround_contrast(settings.tune),
-                   {}});
+                   surround_contrast(settings.tune), ChromaContrast(chroma_contrast(settings.tune))});
 }
 
 Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration) {
@@ -47,7 +46,7 @@ Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation se
   if (!surround_.has_ended()) learn(picture, seen);
   if (!ledger_.packets().started() && seen.face) {
     mouth_colours_.add(picture, seen.vertices);
-    if (second_pass_) second_pass_->face_chroma.add(picture, seen.vertices);
+    if (second_pass_) second_pass_->chroma_contrast.add(picture);
   }
   if (second_pass_) second_pass_->refit.add(seen, duration);
   costs_.push_back(std::move(seen.cost));
@@ -163,7 +162,7 @@ Result<void> FaceCoder::end_segment() {
   if (!ledger_.packets().started()) {
     scene_.setup.patterns = patterns.store();
     scene_.setup.contrast = second_pass_->contrast;
-    scene_.setup.chroma_contrast = second_pass_->face_chroma.contrast();
+    scene_.setup.chroma_contrast = second_pass_->chroma_contrast.contrast();
     pattern_payload_.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }

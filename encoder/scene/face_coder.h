@@ -6,7 +6,7 @@
 
 #include "decoder/scene/scene.h"
 #include "encoder/analysis/face_analysis.h"
-#include "encoder/patterns/face_chroma.h"
+#include "encoder/patterns/chroma_contrast.h"
 #include "encoder/patterns/mouth_colours.h"
 #include "encoder/scene/scene_ledger.h"
 #include "encoder/segment/segment_refit.h"
@@ -73,8 +73,8 @@ class FaceCoder {
   bool fixed_ = false;                             ///< whether fix_head() has been called
   struct SecondPass {
     SegmentRefit refit;
-    std::int32_t contrast;     ///< of patterns outside the face
-    FaceChroma face_chroma{};  ///< until the scene starts
+    std::int32_t contrast;           ///< of patterns outside the face
+    ChromaContrast chroma_contrast;  ///< until the scene starts
   };
   std::optional<SecondPass> second_pass_;     ///< nothing with one pattern
   std::vector<std::uint8_t> surround_again_;  ///< payload to be sent once more, behind the next group

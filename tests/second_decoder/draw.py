@@ -140,8 +140,7 @@ def face_cells(setup, mesh, seen):
 
 def with_full_contrast(setup, mesh, seen, coded):
     """The planes of a pattern as they were before the encoder lessened their contrast."""
-    outside, chroma_outside = 256 - setup.contrast, 256 - (setup.contrast + 1) // 2
-    chroma_inside = 256 + 2 * setup.chroma_contrast
-    cells = face_cells(setup, mesh, seen)
-    return [restore_contrast(coded[0], cell_shares(cells, coded[0].shape, 4), outside, 256)] + [
-        restore_contrast(plane, cell_shares(cells, plane.shape, 8), chroma_outside, chroma_inside) for plane in coded[1:]]
+    shares = cell_shares(face_cells(setup, mesh, seen), coded[0].shape)
+    outside, chroma = 256 - setup.contrast, 256 + 2 * setup.chroma_contrast
+    luma = outside + ((256 - outside) * shares + 127) // 255
+    return [restore_contrast(plane, contrast) for plane, contrast in zip(coded, (luma, chroma, chroma))]

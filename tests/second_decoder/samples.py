@@ -71,23 +71,18 @@ def blur(cells, radius, axis):
     return (total + radius) // (2 * radius + 1)
 
 
-def cell_shares(cells, shape, step):
-    """The share of the face at the samples of a plane, of which each way `step` sixteenths of a cell are apart."""
+def cell_shares(cells, shape):
+    """The share of the face at the samples of plane Y, of which each way four sixteenths of a cell are apart."""
     def between(values, size, axis):
-        place = step * np.arange(size) + step // 2 - 8
+        place = 4 * np.arange(size) - 6
         low, high = (values.take(clamp((place >> 4) + k, 0, values.shape[axis] - 1), axis) for k in (0, 1))
         part = (place % 16).reshape((-1, 1) if axis == 0 else (1, -1))
         return low * (16 - part) + high * part
     return (between(between(cells, shape[0], 0), shape[1], 1) + 128) >> 8
 
 
-def restore_contrast(plane, face, outside, inside):
-    """A plane with its full contrast (SPEC 11.7).
-
-    face             share of the face at each sample, 1/255, an array of the size of the plane
-    outside, inside  contrast with which the plane was coded, 1/256
-    """
-    k = outside + ((inside - outside) * face + 127) // 255
+def restore_contrast(plane, k):
+    """A plane with its full contrast (SPEC 11.7); k is what it was coded with, 1/256, of each sample or of all."""
     return clamp(128 + (((plane - 128) * ((2**24 + k // 2) // k) + 2**15) >> 16), 0, 255)
 
 

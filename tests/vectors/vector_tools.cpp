@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <span>
 
+#include "bitstream/byte_io.h"
 #include "bitstream/motion/motion_decoder.h"
 #include "bitstream/packet.h"
 #include "bitstream/pattern/pattern_packet.h"
@@ -97,6 +99,14 @@ Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth) {
   return stream;
 }
 
+/// The motion that a packet has.
+static std::optional<std::span<const std::uint8_t>> motion_of(const Piece& piece) {
+  if (piece.type == PacketType::kMotion) return piece.payload;
+  if (piece.type != PacketType::kUnit) return std::nullopt;
+  ByteReader reader(piece.payload);
+  return reader.bytes(reader.varint());
+}
+
 std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {
   const Setup setup = must(decode_setup(pieces[place_of(pieces, PacketType::kSetup)].payload));
   std::vector<PatternPiece> out;
@@ -104,7 +114,7 @@ std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {
   std::optional<MotionDecoder> motion;
   std::int32_t pictures = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].type == PacketType::kMotion) pictures += must(motion->decode(pieces[i].payload))->pictures;
+    if (const auto moves = motion_of(pieces[i])) pictures += must(motion->decode(*moves))->pictures;
     if (pieces[i].type != PacketType::kPattern) continue;
     out.push_back({i, must(reader.decode(pieces[i].payload, setup, pictures)), pictures});
     if (!motion) motion.emplace(setup, out.front().patterns.front().state);

@@ -52,9 +52,8 @@ TEST(ContrastMap, FullInTheFaceAndLessOutsideIt) {
   map_of(setup(128)).reduce(p);
   const glm::ivec2 in = middle();
   EXPECT_EQ(std::abs(p.y.row(in.y)[in.x] - 128), 100);
-  EXPECT_EQ(std::abs(p.u.row(in.y / 2)[in.x / 2] - 128), 100);
   EXPECT_EQ(std::abs(p.y.row(1)[1] - 128), 50);
-  EXPECT_EQ(std::abs(p.v.row(1)[1] - 128), 75) << "half of what luma loses";
+  EXPECT_EQ(p.u.samples, two_levels(28, 228).u.samples);
 }
 
 // At contrast c one level is 256 / c levels of the pattern, rounded twice.
@@ -73,7 +72,7 @@ TEST(ContrastMap, ExpandGivesBackWhatReduceTook) {
   }
 }
 
-TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
+TEST(ContrastMap, RaisesAllChroma) {
   auto raised = setup(192);
   raised.chroma_contrast = 384;
   const ContrastMap map = map_of(raised);
@@ -82,7 +81,7 @@ TEST(ContrastMap, RaisesTheChromaOfTheFaceAlone) {
   const glm::ivec2 in = middle();
   EXPECT_EQ(p.y.row(in.y)[in.x], 168);
   EXPECT_EQ(p.u.row(in.y / 2)[in.x / 2], 128 + 60);
-  EXPECT_EQ(p.v.row(1)[1], 128 + 35);
+  EXPECT_EQ(p.v.row(1)[1], 128 + 60);
   map.expand(p);
   for (const std::uint8_t v : p.u.samples) EXPECT_NEAR(v, 168, 1);
 }
@@ -101,10 +100,9 @@ TEST(ContrastMap, ExpandsEachLevelByTheRule) {
     Picture p = two_levels(static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level));
     map.expand(p);
     ASSERT_EQ(p.y.row(in.y)[in.x], level);
-    ASSERT_EQ(p.u.row(in.y / 2)[in.x / 2], expanded(384)) << level;
-    ASSERT_EQ(p.v.row(in.y / 2)[in.x / 2], expanded(384)) << level;
     ASSERT_EQ(p.y.row(1)[1], expanded(200)) << level;
-    for (const Plane* plane : {&p.u, &p.v}) ASSERT_EQ(plane->row(1)[1], expanded(228)) << level;
+    for (const Plane* plane : {&p.u, &p.v})
+      for (const std::uint8_t sample : plane->samples) ASSERT_EQ(sample, expanded(384)) << level;
   }
 }
 
