@@ -25,7 +25,7 @@ constexpr Hull kHullWithoutFace = {{{1.5, 63, 20}, {4, 62, 25}, {7, 60, 38}, {13
 /// the frame loses 0.13 dB (ten clips at quality 50).
 constexpr std::int32_t kPsnrContrast = 220, kEyeContrast = 170;
 /// Contrast of patterns' chroma. Against none, kEye's takes 5 % more bytes, and colours of mouth and eyes are
-/// 11 and 8 % nearer to the source (ten clips at quality 50).
+/// 11 and 7 % nearer to the source (ten clips at quality 50).
 constexpr std::int32_t kPsnrChroma = 320, kEyeChroma = 384;
 /// Steps of the quantiser for which the bytes that kEyeContrast saves pay.
 constexpr int kFinerByEye = 2;
