@@ -24,10 +24,15 @@ class NormalEquations {
 
   /// The whole symmetric left side. Borrows this.
   [[nodiscard]] cv::Mat1d symmetric();
+  /// By Cholesky's method, in the order of OpenCV's, whose last bits streams depend on, but several sums at a
+  /// time. Leaves the left side undefined.
   /// @return nothing when the left side is not positive definite
   [[nodiscard]] std::optional<cv::Mat1d> solve();
 
  private:
+  /// Left becomes U of U^T U, its diagonal inverted. @return false when there is none
+  bool factorise();
+
   int n_;
   std::vector<double> left_, right_;
 };

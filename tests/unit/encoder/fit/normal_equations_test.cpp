@@ -22,6 +22,30 @@ TEST(NormalEquations, UnknownsThatNothingHoldsCannotBeSolvedFor) {
   EXPECT_FALSE(normal.solve());
 }
 
+TEST(NormalEquations, SolvesToTheLastBitLikeOpenCv) {
+  constexpr int kUnknowns = 43;
+  cv::RNG random(1);
+  cv::Mat1d rows(2 * kUnknowns, kUnknowns), right(kUnknowns, 1), expected;
+  random.fill(rows, cv::RNG::UNIFORM, -1, 1);
+  random.fill(right, cv::RNG::UNIFORM, -1, 1);
+  const cv::Mat1d left = rows.t() * rows;
+  NormalEquations normal(kUnknowns);
+  for (int i = 0; i < kUnknowns; ++i) {
+    normal.right(i) = right(i);
+    for (int j = i; j < kUnknowns; ++j) normal.left(i, j) = left(i, j);
+  }
+  cv::Mat1d whole = left.clone();
+  cv::completeSymm(whole);
+  ASSERT_TRUE(cv::solve(whole, right, expected, cv::DECOMP_CHOLESKY));
+  const auto x = normal.solve();
+  ASSERT_TRUE(x);
+#ifdef __x86_64__  // others may fuse products and sums
+  EXPECT_EQ(cv::norm(*x, expected, cv::NORM_INF), 0);
+#else
+  EXPECT_LT(cv::norm(*x, expected, cv::NORM_INF), 1e-9);
+#endif
+}
+
 TEST(NormalEquations, TheUpperTriangleStandsForBoth) {
   NormalEquations normal(2);
   normal.left(0, 1) = 7;
