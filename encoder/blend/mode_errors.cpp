@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "encoder/blend/sample_kernels.h"
+
 namespace fbs {
 namespace {
 
@@ -46,18 +48,6 @@ double distance_from(const TextureMesh& texture, const PictureMesh& picture, con
 
 using Samples = std::vector<std::int16_t>;
 
-double error_product(const Samples& a, const Samples& b) {
-  std::int64_t sum = 0;
-  constexpr std::size_t kPiece = 4096;  // products of errors up to 255 stay within 32 bits
-  for (std::size_t begin = 0; begin < a.size(); begin += kPiece) {
-    const std::size_t end = std::min(a.size(), begin + kPiece);
-    std::int32_t piece = 0;
-    for (std::size_t i = begin; i < end; ++i) piece += std::int32_t{a[i]} * b[i];
-    sum += piece;
-  }
-  return static_cast<double>(sum);
-}
-
 /// Errors of one region's sources, sampled once each, and their products.
 class RegionGram {
  public:
@@ -88,7 +78,7 @@ class RegionGram {
     if (i < j) std::swap(i, j);
     const std::size_t k = i * (i + 1) / 2 + j;
     if (!known_[k]) {
-      products_[k] = error_product(errors_[i], errors_[j]);
+      products_[k] = static_cast<double>(error_product(errors_[i], errors_[j]));
       known_[k] = true;
     }
     return products_[k];
@@ -126,27 +116,25 @@ ModeErrors BlendErrors::errors(const Plane& source, const State& state,
   const double scale = static_cast<double>(1 << (2 * reduction_));
   for (std::size_t r = 0; r < kRegionCount; ++r) {
     if (triangles[r].empty()) continue;
-    Samples shown;
+    std::size_t samples = 0;
     for (const std::uint32_t triangle : triangles[r])
-      for (const SurfaceRun& run : surface.runs_of(triangle)) {
-        const float* t = target.row(run.row) + run.first;
-        for (int i = 0; i < run.count; ++i) shown.push_back(static_cast<std::int16_t>(rounded(t[i])));
-      }
+      for (const SurfaceRun& run : surface.runs_of(triangle)) samples += static_cast<std::size_t>(run.count);
+    ShownSamples shown(samples);
+    std::vector<std::size_t> ends;  // of the triangles' samples
+    for (const std::uint32_t triangle : triangles[r]) {
+      for (const SurfaceRun& run : surface.runs_of(triangle)) shown.add(run, target);
+      ends.push_back(shown.size());
+    }
     const auto sample = [&](BlendSource s) {
       const std::size_t pattern = available[s.pattern];
       const ReducedPlane& luma = luma_of(pattern);
       const TextureMesh& texture = scene_.patterns[pattern].texture;
-      Samples error(shown.size());
-      std::int16_t* e = error.data();
-      for (const std::uint32_t triangle : triangles[r]) {
-        const TriangleSource drawn = triangle_source(picture, triangle, texture, s.still);
-        for (const SurfaceRun& run : surface.runs_of(triangle)) {
-          sample_luma(drawn, run, luma, e);
-          e += run.count;
-        }
-      }
-      for (std::size_t i = 0; i < shown.size(); ++i)
-        error[i] = static_cast<std::int16_t>(error[i] - shown[i]);
+      Samples error(shown.size() + ShownSamples::kLanes);
+      std::size_t begin = 0;
+      for (std::size_t k = 0; k < ends.size(); begin = ends[k++])
+        shown.differences(triangle_source(picture, triangles[r][k], texture, s.still), luma, begin, ends[k],
+                          &error[begin]);
+      error.resize(shown.size());
       return error;
     };
     const auto is_torn = [&](const WeightedSource& s) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "decoder/field/padded_plane.h"
 #include "decoder/head/head_projection.h"
@@ -79,28 +80,39 @@ bool is_at_rest(const SurfaceTriangle& t, const ScreenMesh& mesh, const TextureM
                         t.corners, [&](std::uint16_t k) { return mesh.surround[k] == texture.surround[k]; });
 }
 
-}  // namespace
-
-ReducedPlane reduce(const Plane& plane, int reduction) {
+/// @tparam Sum  holds the sum of a square
+template <class Sum>
+ReducedPlane reduced_by_sums(const Plane& plane, int reduction) {
   ReducedPlane out{plane.width >> reduction, plane.height >> reduction, {}};
   out.samples.resize(static_cast<std::size_t>(out.width) * out.height);
   const int n = 1 << reduction;
   const float scale = 1.0F / static_cast<float>(n * n);
   // First columns, then pairs: loops that the compiler makes vectors of.
-  std::vector<std::uint32_t> sum(static_cast<std::size_t>(out.width) << reduction);
+  std::vector<Sum> sums(static_cast<std::size_t>(out.width) << reduction), pairs(sums.size() / 2);
   for (int y = 0; y < out.height; ++y) {
-    std::fill(sum.begin(), sum.end(), 0);
+    std::fill(sums.begin(), sums.end(), Sum{0});
     for (int i = 0; i < n; ++i) {
       const std::uint8_t* row = plane.row(y * n + i);
-      for (std::size_t x = 0; x < sum.size(); ++x) sum[x] += row[x];
+      for (std::size_t x = 0; x < sums.size(); ++x) sums[x] = static_cast<Sum>(sums[x] + row[x]);
     }
-    for (std::size_t width = sum.size() / 2; width >= static_cast<std::size_t>(out.width) && n > 1;
-         width /= 2)
-      for (std::size_t x = 0; x < width; ++x) sum[x] = sum[2 * x] + sum[2 * x + 1];
+    Sum *from = sums.data(), *half = pairs.data();
+    for (std::size_t width = sums.size() / 2; width >= static_cast<std::size_t>(out.width) && n > 1;
+         width /= 2) {
+      for (std::size_t x = 0; x < width; ++x) half[x] = static_cast<Sum>(from[2 * x] + from[2 * x + 1]);
+      std::swap(from, half);
+    }
     float* to = out.row(y);
-    for (int x = 0; x < out.width; ++x) to[x] = scale * static_cast<float>(sum[x]);
+    for (int x = 0; x < out.width; ++x) to[x] = scale * static_cast<float>(from[x]);
   }
   return out;
+}
+
+}  // namespace
+
+ReducedPlane reduce(const Plane& plane, int reduction) {
+  constexpr int kMaxShort = 4;  // log2; sums of more samples need more bits
+  return reduction > kMaxShort ? reduced_by_sums<std::uint32_t>(plane, reduction)
+                               : reduced_by_sums<std::uint16_t>(plane, reduction);
 }
 
 float border_inset(int reduction) {
@@ -144,34 +156,6 @@ float bilinear(const ReducedPlane& plane, float u, float v) {
   const int x = std::min(static_cast<int>(u), plane.width - 2),
             y = std::min(static_cast<int>(v), plane.height - 2);
   return mixed(plane.row(y) + x, plane.width, u - static_cast<float>(x), v - static_cast<float>(y));
-}
-
-void sample_luma(const TriangleSource& source, const SurfaceRun& run, const ReducedPlane& luma,
-                 std::int16_t* out) {
-  if (!source.place) {
-    const float* from = luma.row(run.row) + run.first;
-    for (int i = 0; i < run.count; ++i) out[i] = static_cast<std::int16_t>(rounded(from[i]));
-    return;
-  }
-  const float* samples = luma.samples.data();
-  const TexturePath path = source.place->along(run.row, run.first, source.inset);
-  const auto sample_all = [&](auto&& lit) {
-    for_each_footprint(path, run.count, {luma.width, luma.height}, [&](int i, int at, float fx, float fy) {
-      out[i] = static_cast<std::int16_t>(rounded(lit(mixed(samples + at, luma.width, fx, fy))));
-    });
-  };
-  if (!source.light) {
-    sample_all([](float sample) { return sample; });
-    return;
-  }
-  const TriangleLight& light = *source.light;
-  const float gain = light.gain.along(run.row, run.first).first;
-  RunValue offset = light.offset.along(run.row, run.first);
-  sample_all([&](float sample) {
-    sample = std::clamp(sample + gain * (sample - 128.0F) + offset.first, 0.0F, 255.0F);
-    offset.first += offset.step;
-    return sample + light.opacity * (light.interior[0] - sample);
-  });
 }
 
 }  // namespace fbs

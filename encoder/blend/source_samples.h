@@ -139,9 +139,4 @@ void for_each_footprint(const TexturePath& source, int count, glm::ivec2 size, U
 /// Bilinear; positions outside repeat the border.
 [[nodiscard]] float bilinear(const ReducedPlane& plane, float u, float v);
 
-/// Luma of one source along a run.
-/// @param out  run.count samples
-void sample_luma(const TriangleSource& source, const SurfaceRun& run, const ReducedPlane& luma,
-                 std::int16_t* out);
-
 }  // namespace fbs

@@ -9,12 +9,19 @@
 namespace fbs {
 namespace {
 
+/// The share with which a residual counts: most are small, and need no quotient.
+double huber_weight(double r) {
+  const double size = std::abs(r) + 1e-9;
+  return size <= kHuberLevels ? 1 : kHuberLevels / size;
+}
+
 /// One fit against one level of the picture.
 class LevelEquations {
  public:
   LevelEquations(const Comparison& comparison, int level, const Fit& fit)
       : c_(comparison),
         level_(level),
+        to_level_(c_.picture.scale(level)),
         jacobian_(fit.pose),
         head_(comparison.geometry, fit),
         shown_(comparison.appearance(fit, head_.vertices)),
@@ -34,15 +41,13 @@ class LevelEquations {
     Sample s;
     if (!c_.picture.sample(level_, jacobian_.projection()(p), s)) return 0;
     const double r = value - static_cast<double>(s.value);
-    const double weight =
-        std::min(1.0, kHuberLevels / (std::abs(r) + 1e-9)) / (kResidualSigma * kResidualSigma);
+    const double weight = huber_weight(r) / (kResidualSigma * kResidualSigma);
     float* row = out.row();
-    const double to_level = c_.picture.scale(level_);
     for (const glm::dvec2& by : jacobian_.at(p))
-      *row++ = static_cast<float>(to_level * (s.dx * by.x + s.dy * by.y));
+      *row++ = static_cast<float>(to_level_ * (s.dx * by.x + s.dy * by.y));
     row = add_shading(k, row);
-    const auto by_x = static_cast<float>(to_level * (s.dx * ex_.x + s.dy * ex_.y));
-    const auto by_y = static_cast<float>(to_level * (s.dx * ey_.x + s.dy * ey_.y));
+    const auto by_x = static_cast<float>(to_level_ * (s.dx * ex_.x + s.dy * ex_.y));
+    const auto by_y = static_cast<float>(to_level_ * (s.dx * ey_.x + s.dy * ey_.y));
     for (const float share : shares) {
       *row++ = share * by_x;
       *row++ = share * by_y;
@@ -65,6 +70,7 @@ class LevelEquations {
 
   const Comparison& c_;
   int level_;
+  double to_level_;  ///< samples of the level per pixel
   PoseJacobian jacobian_;
   PlacedHead head_;
   Appearance shown_;
@@ -107,7 +113,7 @@ double add_picture(const Comparison& c, int level, const Fit& fit, NormalEquatio
   for (std::size_t i = 0; i < c.points.patches().size(); ++i) {
     const SamplePoints::Patch& patch = c.points.patches()[i];
     const std::size_t n = patch.controls.size();
-    patch_equations.begin(patch.columns.size());
+    patch_equations.begin(patch.columns.size(), patch.size());
     double of_patch = 0;
     for (std::size_t k = patch.first; k < patch.end; ++k)
       of_patch +=

@@ -1,50 +1,44 @@
 // The normal equations of the points of one triangle.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "encoder/fit/fit_columns.h"
 #include "encoder/fit/normal_equations.h"
 
 namespace fbs {
 
-/// Dense and in single precision: few control points move one triangle. Sums several rows at a time, which
-/// takes a third of the time. 32 KB of scratch memory, to be reused between triangles.
+/// Dense and in single precision: few control points move one triangle. Keeps the rows and sums them all at
+/// once. To be reused between triangles.
 class PatchEquations {
  public:
-  /// Starts anew for rows of this many columns.
-  void begin(std::size_t columns);
+  /// Starts anew.
+  /// @param columns  of each row  @param most  rows that may follow
+  void begin(std::size_t columns, std::size_t most);
 
   /// The next row, to be filled before each add().
-  [[nodiscard]] float* row() { return rows_[waiting_].data(); }
+  [[nodiscard]] float* row() { return &rows_[count_ * stride_]; }
 
   /// @param r  residual of `row`
   void add(float weight, float r) {
-    weight_[waiting_] = weight;
-    residual_[waiting_] = r;
-    if (++waiting_ == kRows) sum_up();
+    float* end = row() + n_;
+    *end++ = r;
+    std::fill(end, row() + stride_, 0.0F);
+    weights_[count_++] = weight;
   }
 
   /// @param columns  of the equations, rising, so that the upper triangle stays one
   void add_to(std::span<const std::uint16_t> columns, NormalEquations& normal);
 
  private:
-  static constexpr std::size_t kRows = 4, kLanes = 4;
-  static constexpr std::size_t kMaxColumns = (kFitNumbers + kLanes - 1) / kLanes * kLanes;
-  using Columns = std::array<float, kMaxColumns>;
-
-  /// Adds the waiting rows.
-  void sum_up();
-
   std::size_t n_ = 0;
-  std::size_t lanes_ = 0;  ///< n_ in whole lanes; the columns after n_ are zero
-  std::size_t waiting_ = 0;
-  std::array<float, kRows> weight_, residual_;
-  alignas(32) std::array<Columns, kRows> rows_{};
-  alignas(32) Columns right_;
-  alignas(32) std::array<float, kMaxColumns * kMaxColumns> left_;  ///< upper triangle
+  std::size_t stride_ = 0;              ///< n_ and the residual, in whole lanes; the rest is zero
+  std::size_t count_ = 0;               ///< of rows
+  std::vector<float> rows_, weighted_;  ///< in whole groups
+  std::vector<float> weights_;          ///< of the rows
+  std::vector<float> sums_;             ///< upper triangle; the right side is its column n_
 };
 
 }  // namespace fbs

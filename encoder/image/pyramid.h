@@ -32,7 +32,8 @@ template <std::size_t kLevels>
 /// Position on a level of a position on level 0. Pixel centres are whole numbers in both: pyrDown keeps the
 /// samples at even positions in place.
 [[nodiscard]] inline glm::dvec2 on_level(glm::dvec2 finest, int level) {
-  return finest / level_scale(level);
+  constexpr double kShare[] = {1, 0.5, 0.25, 0.125};  // products are faster, and as exact
+  return finest * kShare[level];
 }
 
 /// The least whole factor that reduces a picture's longer side to `long_side` samples or fewer.
@@ -41,13 +42,7 @@ template <std::size_t kLevels>
 }
 
 /// A plane at 1/factor of its size, each sample the mean of those it replaces; never a view.
-[[nodiscard]] inline cv::Mat reduced(const Plane& plane, int factor) {
-  const cv::Mat whole = view(plane);
-  if (factor == 1) return whole.clone();
-  cv::Mat out;
-  cv::resize(whole, out, {whole.cols / factor, whole.rows / factor}, 0, 0, cv::INTER_AREA);
-  return out;
-}
+[[nodiscard]] cv::Mat reduced(const Plane& plane, int factor);
 
 /// A picture at another size, at least a quarter of its own, without aliasing. Averages over areas, after
 /// interpolation to twice the size: OpenCV takes three times as long for means over fractions of samples.

@@ -34,7 +34,7 @@ set(foreign
   "codec2(/|\\.h)@decoder/sound|encoder/sound|cli/doctor"
   "aom/@encoder/patterns|cli/doctor"
   "dav1d/@decoder/pattern|cli/doctor"
-  "hwy/@decoder/vectors|decoder/field|decoder/raster|cli/doctor"
+  "hwy/@decoder/vectors|decoder/field|decoder/raster|encoder/blend|encoder/fit|cli/doctor"
   "draco/@bitstream/payload|decoder/export|cli/doctor"
   "nlohmann@encoder/find|cli/(stream|doctor|inspect|evaluate(/.*)?)"
   "OpenImageIO@cli/video/images"

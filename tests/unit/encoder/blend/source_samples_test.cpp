@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "decoder/head/mouth_interior.h"
+#include "encoder/blend/sample_kernels.h"
 #include "tests/unit/encoder/blend/blended_scene.h"
 
 namespace fbs {
@@ -17,9 +18,14 @@ Plane sampled(const BlendedScene& s, const State& state, bool still) {
   const PictureMesh picture{surface, mesh, s.scene.setup.mouth, 0};
   const ReducedPlane luma = reduce(pattern.picture.y, 0);
   Plane out(format.width, format.height);
-  std::vector<std::int16_t> row(format.width);
+  const ReducedPlane black{luma.width, luma.height, std::vector<float>(luma.samples.size())};
+  std::vector<std::int16_t> row(format.width + ShownSamples::kLanes);
+  ShownSamples shown(out.samples.size());
   for (const SurfaceRun& run : surface.runs()) {
-    sample_luma(triangle_source(picture, run.triangle, pattern.texture, still), run, luma, row.data());
+    const std::size_t begin = shown.size();
+    shown.add(run, black);
+    shown.differences(triangle_source(picture, run.triangle, pattern.texture, still), luma, begin,
+                      shown.size(), row.data());
     for (int i = 0; i < run.count; ++i) out.row(run.row)[run.first + i] = static_cast<std::uint8_t>(row[i]);
   }
   return out;

@@ -12,7 +12,7 @@ TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
   const std::vector<std::uint16_t> place = {0, 1, 2, 5, 6, 9, 13};
   const std::size_t n = 15;
   PatchEquations patch;
-  patch.begin(place.size());
+  patch.begin(place.size(), 5);
   std::vector<double> left(n * n), right(n);
   std::mt19937 random(1);
   std::uniform_real_distribution<float> number(-1, 1);
@@ -40,10 +40,10 @@ TEST(PatchEquations, AddTheirRowsWhereTheColumnsStand) {
 TEST(PatchEquations, BeginForgetsThePatchBefore) {
   const std::vector<std::uint16_t> columns = {0, 1, 2};
   PatchEquations patch;
-  patch.begin(columns.size());
+  patch.begin(columns.size(), 1);
   std::fill_n(patch.row(), columns.size(), 1.0F);
   patch.add(1, 1);
-  patch.begin(columns.size());
+  patch.begin(columns.size(), 1);
   NormalEquations normal(3);
   patch.add_to(columns, normal);
   EXPECT_EQ(cv::countNonZero(normal.symmetric()), 0);

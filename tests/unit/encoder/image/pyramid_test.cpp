@@ -54,6 +54,16 @@ TEST(Reduction, LongerSideFitsAndNoSmallerFactorWould) {
   }
 }
 
+TEST(Reduction, SamplesAreThoseOfOpenCv) {
+  for (const int factor : {2, 3, 4, 6, 10, 20}) {
+    Plane plane(factor * 16, factor * 9);
+    cv::Mat1b samples = view(plane), expected;
+    cv::RNG(static_cast<std::uint64_t>(factor)).fill(samples, cv::RNG::UNIFORM, 0, 256);
+    cv::resize(samples, expected, {16, 9}, 0, 0, cv::INTER_AREA);
+    EXPECT_EQ(cv::norm(reduced(plane, factor), expected, cv::NORM_INF), 0) << factor;
+  }
+}
+
 TEST(Reduction, SamplesAreMeans) {
   Plane plane(6, 4);
   for (int y = 0; y < 4; ++y)
