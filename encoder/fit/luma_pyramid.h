@@ -14,7 +14,8 @@ namespace fbs {
 class LumaPyramid {
  public:
   LumaPyramid() = default;  ///< covers nothing
-  explicit LumaPyramid(const WorkFrame& frame);
+  /// @param levels  1..kFitLevels, the finest first; the others cover nothing
+  explicit LumaPyramid(const WorkFrame& frame, int levels = kFitLevels);
 
   /// Value and slope per sample of the level.
   /// @param at_px  pixels of the picture

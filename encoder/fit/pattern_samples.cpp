@@ -29,8 +29,8 @@ PatternSamples::PatternSamples(const SamplePoints& points, const Geometry& geome
   const Fit seen = fit_of(pattern.seen);
   interior_ = seen.interior;
   const PlacedHead head(geometry, seen);
-  const LumaPyramid pyramid(pattern.frame);
-  for (int level = 0; level < kFitLevels; ++level) {
+  const LumaPyramid pyramid(pattern.frame, pattern.levels);
+  for (int level = 0; level < pattern.levels; ++level) {
     luma_[level].reserve(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       Sample s;

@@ -15,6 +15,7 @@ struct SeenPattern {
   const State& seen;
   int index = 0;                ///< among the stream's patterns
   double interior_opacity = 0;  ///< 0..1; of the mouth interior where the picture was drawn with one
+  int levels = kFitLevels;      ///< at which pictures are compared with it, the finest first
 };
 
 /// Luma at the mesh's position in the seen state, its expression included, without that state's light; and

@@ -22,7 +22,10 @@ class PictureFit {
   PictureFit(const Setup& setup, const Geometry& geometry, const SeenPattern& pattern);
 
   /// Sets the picture for the next calls; shares its luma.
-  void set_picture(const WorkFrame& picture) { comparison_.picture = LumaPyramid(picture); }
+  /// @param levels  as of the pattern: one is enough for the cost alone
+  void set_picture(const WorkFrame& picture, int levels = kFitLevels) {
+    comparison_.picture = LumaPyramid(picture, levels);
+  }
 
   /// Sets the decoder's colours inside the mouth, where more is known of them than setup.mouth.
   void set_mouth(const MouthInterior& mouth) { comparison_.mouth = mouth; }

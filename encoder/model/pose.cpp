@@ -27,10 +27,6 @@ PoseProjection::PoseProjection(const Pose& pose) : shift(pose.shift) {
            s;
 }
 
-glm::dvec2 PoseProjection::operator()(glm::dvec3 p) const {
-  return glm::dvec2(matrix * p) + shift;
-}
-
 std::array<double, kPoseCount> numbers_of(const Pose& pose) {
   return {pose.pitch / kAngleUnit,
           pose.yaw / kAngleUnit,

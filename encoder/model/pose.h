@@ -30,7 +30,7 @@ struct PoseProjection {
   glm::dvec2 shift;
 
   explicit PoseProjection(const Pose& pose);
-  [[nodiscard]] glm::dvec2 operator()(glm::dvec3 p) const;
+  [[nodiscard]] glm::dvec2 operator()(glm::dvec3 p) const { return glm::dvec2(matrix * p) + shift; }
 };
 
 /// The six numbers of the pose in the units of State::pose.

@@ -28,13 +28,4 @@ PoseJacobian::PoseJacobian(const Pose& pose) : projection_(pose) {
   }
 }
 
-std::array<glm::dvec2, 6> PoseJacobian::at(glm::dvec3 p) const {
-  return {glm::dvec2(by_angle_[0] * p),
-          glm::dvec2(by_angle_[1] * p),
-          glm::dvec2(by_angle_[2] * p),
-          {1, 0},
-          {0, 1},
-          std::log(2.0) * glm::dvec2(projection_.matrix * p)};
-}
-
 }  // namespace fbs

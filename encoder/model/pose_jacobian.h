@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/mat3x3.hpp>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "encoder/model/pose.h"
@@ -21,7 +22,14 @@ class PoseJacobian {
   explicit PoseJacobian(const Pose& pose);
   [[nodiscard]] const PoseProjection& projection() const { return projection_; }
   /// Pixels per unit of each number.
-  [[nodiscard]] std::array<glm::dvec2, 6> at(glm::dvec3 p) const;
+  [[nodiscard]] std::array<glm::dvec2, 6> at(glm::dvec3 p) const {
+    return {glm::dvec2(by_angle_[0] * p),
+            glm::dvec2(by_angle_[1] * p),
+            glm::dvec2(by_angle_[2] * p),
+            {1, 0},
+            {0, 1},
+            std::numbers::ln2 * glm::dvec2(projection_.matrix * p)};
+  }
 
  private:
   PoseProjection projection_;

@@ -46,8 +46,9 @@ Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) co
     return WorkFrame::cut(luma, now.pose.shift, eye_distance_px_);
   };
   PictureFit& fit = tools.fit;
-  fit.set_pattern({frame_of(**drawn), shown.state, 0, tools.renderer.interior_opacity(shown.state)});
-  fit.set_picture(frame_of(source));
+  constexpr int kLevels = 1;
+  fit.set_pattern({frame_of(**drawn), shown.state, 0, tools.renderer.interior_opacity(shown.state), kLevels});
+  fit.set_picture(frame_of(source), kLevels);
   return shown.pattern ? fit.cost_at(now) : fit.cost_near(now);
 }
 
