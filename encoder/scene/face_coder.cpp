@@ -39,7 +39,8 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
                    surround_contrast(settings.tune), ChromaContrast(chroma_contrast(settings.tune))});
 }
 
-Result<void> FaceCoder::add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration) {
+Result<void> FaceCoder::add(const SharedPicture& picture, FaceAnalysis::Observation seen,
+                            std::uint32_t duration) {
   if (!surround_.is_still()) observe_surround(picture, seen);
   if (ledger_.scene_ended())
     if (auto begun = begin_again(picture, seen); !begun) return begun;

@@ -31,7 +31,7 @@ class FaceCoder {
 
   /// Adds the next picture with its observation.
   /// @param duration  1/90000 s; 0: the frame rate's
-  Result<void> add(const Picture& picture, FaceAnalysis::Observation seen, std::uint32_t duration);
+  Result<void> add(const SharedPicture& picture, FaceAnalysis::Observation seen, std::uint32_t duration);
   /// The next picture begins another shot.
   void cut();
   Result<void> finish();

@@ -135,10 +135,10 @@ Result<void> FaceScene::lose_patterns() {
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  const auto task = [this, shared = std::make_shared<const Picture>(picture), duration,
+  const auto task = [this, shared = SharedPicture(picture), duration,
                      cut = std::exchange(cut_, false)]() -> Result<void> {
-    auto seen = analysis_.observe(*shared);
-    if (auto kept = waiting_.push(*shared); !kept) return kept;
+    auto seen = analysis_.observe(shared);
+    if (auto kept = waiting_.push(shared); !kept) return kept;
     return code([this, seen = std::move(seen), duration, cut]() mutable -> Result<void> {
       const auto next = waiting_.pop();
       if (!next) return fail(next.error());

@@ -17,7 +17,7 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       position_(setup.before),
       packets_(settings.live.value_or(LiveSettings{})) {}
 
-Result<void> SceneLedger::add(const Picture& picture, std::uint32_t duration) {
+Result<void> SceneLedger::add(const SharedPicture& picture, std::uint32_t duration) {
   if (patterns_)
     if (auto added = patterns_->add(picture); !added) return added;
   durations_.push_back(duration);

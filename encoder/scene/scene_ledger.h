@@ -27,7 +27,7 @@ class SceneLedger {
 
   /// Counts a picture. The pattern stage gets it, too, if there is one.
   /// @param duration  1/90000 s; 0: the frame rate's
-  Result<void> add(const Picture& picture, std::uint32_t duration);
+  Result<void> add(const SharedPicture& picture, std::uint32_t duration);
   /// Whether a group ends with the picture added last.
   [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
   /// Begins another group.

@@ -49,10 +49,10 @@ FilePatterns::FilePatterns(const VideoFormat& format, const FilePatternSettings&
       std::clamp<double>(kSegmentBytes / bytes, store_.slots(), kMaxSequencePictures));
 }
 
-Result<void> FilePatterns::add(const Picture& picture) {
+Result<void> FilePatterns::add(const SharedPicture& picture) {
   if (auto added = PatternStage::add(picture); !added) return added;
   const cv::Mat small =
-      reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
+      reduced(picture->y, reduction_factor(picture->width(), picture->height(), kStillLongSide));
   Shot& shot = store_.segment().shots.back();
   if (shot.pictures == 1) {
     shot.still = true;
@@ -138,7 +138,7 @@ Result<std::vector<Picture>> FilePatterns::trial_pictures(std::span<const std::s
   for (std::size_t k = 0; k < count; ++k) {
     auto picture = store_.segment().pictures.read(times[(times.size() - count) / 2 + k]);
     if (!picture) return fail(picture.error());
-    out.push_back(std::move(*picture));
+    out.push_back(*picture);
   }
   return out;
 }

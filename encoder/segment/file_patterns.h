@@ -35,7 +35,7 @@ class FilePatterns : public PatternStage {
   FilePatterns(const VideoFormat& format, const FilePatternSettings& settings, const CodedState& rest);
 
   using PatternStage::add;
-  Result<void> add(const Picture& picture) override;
+  Result<void> add(const SharedPicture& picture) override;
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
 
  private:

@@ -136,10 +136,11 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   // What takes the place of a coarse pattern is as fine as that was to be.
   if (coarse_ == 0) wanted_ = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
   if (!rate_) return wanted_;
-  auto picture = store_.segment().pictures.read(time);
-  if (!picture) return fail(picture.error());
-  store_.reduce_contrast(scene, time, *picture);
-  const Picture coded = sequence_.to_coded_size(std::move(*picture));
+  const auto source = store_.segment().pictures.read(time);
+  if (!source) return fail(source.error());
+  Picture picture = *source;
+  store_.reduce_contrast(scene, time, picture);
+  const Picture coded = sequence_.to_coded_size(std::move(picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
   auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, room)), wanted_);
   if (!quantiser) return quantiser;

@@ -43,7 +43,7 @@ class PatternStage {
   virtual void begin_scene(const CodedState& rest);
 
   /// The next picture of the scene.
-  virtual Result<void> add(const Picture& picture) { return store_.add(picture); }
+  virtual Result<void> add(const SharedPicture& picture) { return store_.add(picture); }
   /// The picture added next begins another shot.
   void cut() { store_.cut(); }
   /// Adds the next group of pictures.

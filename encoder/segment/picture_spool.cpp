@@ -11,8 +11,8 @@
 namespace fbs {
 namespace {
 
-/// Memory that pictures may take, bytes: a live group at 640x480.
-constexpr std::size_t kInMemory = std::size_t{1} << 22;
+/// Memory that pictures may take, bytes: a live group at 1280x720.
+constexpr std::size_t kInMemory = std::size_t{1} << 23;
 
 std::size_t bytes_of(const Picture& p) {
   return p.y.samples.size() + p.u.samples.size() + p.v.samples.size();
@@ -31,14 +31,14 @@ bool read_all(int file, std::span<std::uint8_t> out, off_t at) {
 
 }  // namespace
 
-Result<void> PictureSpool::add(const Picture& picture) {
+Result<void> PictureSpool::add(SharedPicture picture) {
   if (count_ == 0) {
-    width_ = picture.width();
-    height_ = picture.height();
+    width_ = picture->width();
+    height_ = picture->height();
   }
-  assert(picture.width() == width_ && picture.height() == height_);
+  assert(picture->width() == width_ && picture->height() == height_);
   if (!file_ && (count_ + 1) * bytes_of(picture) <= kInMemory)
-    first_.push_back(picture);
+    first_.push_back(std::move(picture));
   else if (auto written = write(picture); !written)
     return written;
   ++count_;
@@ -57,7 +57,7 @@ Result<void> PictureSpool::write(const Picture& picture) {
   return {};
 }
 
-Result<Picture> PictureSpool::read(std::size_t number) const {
+Result<SharedPicture> PictureSpool::read(std::size_t number) const {
   assert(number < count_);
   if (number < first_.size()) return first_[number];
   Picture picture(width_, height_);
@@ -71,12 +71,12 @@ Result<Picture> PictureSpool::read(std::size_t number) const {
   return picture;
 }
 
-Result<void> PictureQueue::push(const Picture& picture) {
+Result<void> PictureQueue::push(SharedPicture picture) {
   const std::lock_guard lock(mutex_);
-  return new_.add(picture);
+  return new_.add(std::move(picture));
 }
 
-Result<Picture> PictureQueue::pop() {
+Result<SharedPicture> PictureQueue::pop() {
   const std::lock_guard lock(mutex_);
   // A file read to its end makes room for later pictures.
   if (read_ == old_.count()) {

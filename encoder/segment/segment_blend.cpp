@@ -272,10 +272,13 @@ Result<std::vector<Picture>> solve_patterns(const Segment& segment, const Segmen
   const std::int32_t first = segment.states.front().picture;
   std::vector<Picture> out;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    auto picture =
-        k < old ? Result<Picture>(all[k].picture) : segment.pictures.read(all[k].seen.picture - first);
-    if (!picture) return fail(picture.error());
-    out.push_back(std::move(*picture));
+    if (k < old) {
+      out.push_back(all[k].picture);
+      continue;
+    }
+    const auto source = segment.pictures.read(all[k].seen.picture - first);
+    if (!source) return fail(source.error());
+    out.push_back(*source);
   }
   for (const PlaneGroup& group : plane_groups(reduction_to(kSolveWidth, all.front().picture))) {
     const GroupProblem problem(segment, patterns, group, workers);

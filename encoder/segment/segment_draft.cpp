@@ -24,7 +24,7 @@ Result<SegmentDraft> SegmentDraft::of_sources(const SegmentStore& store, std::ve
   for (const std::size_t time : draft.times) {
     auto source = store.segment().pictures.read(time);
     if (!source) return fail(source.error());
-    draft.pictures.push_back(std::move(*source));
+    draft.pictures.push_back(*source);
   }
   return draft;
 }

@@ -19,10 +19,10 @@ void SegmentStore::begin_scene(const CodedState& rest) {
   coders_ = {};
 }
 
-Result<void> SegmentStore::add(const Picture& picture) {
+Result<void> SegmentStore::add(SharedPicture picture) {
   if (std::exchange(cut_, false) || segment_.shots.empty()) segment_.shots.push_back({});
   ++segment_.shots.back().pictures;
-  return segment_.pictures.add(picture);
+  return segment_.pictures.add(std::move(picture));
 }
 
 void SegmentStore::add(std::span<const State> states, std::vector<std::uint8_t> payload) {

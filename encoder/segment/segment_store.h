@@ -30,7 +30,7 @@ class SegmentStore {
   /// Another scene begins; the segment before has ended.
   void begin_scene(const CodedState& rest);
   /// The next picture.
-  Result<void> add(const Picture& picture);
+  Result<void> add(SharedPicture picture);
   /// The picture added next begins another shot.
   void cut() { cut_ = true; }
   /// The next group of the pictures.

@@ -207,7 +207,12 @@ class BadInput(ProgramTest):
         self.fail_cleanly("decode", TALK_FBS, "out_%03d.png", says=["out_001.png"], largest_file=2_000)
 
     def test_disk_that_fills_leaves_no_stream(self):
-        self.fail_cleanly("encode", TALK_Y4M, "out.fbs", says=["temporary directory"], largest_file=1_000)
+        self.fail_cleanly("encode", TALK_Y4M, "out.fbs", says=["out.fbs"], largest_file=1_000)
+
+    def test_disk_that_fills_leaves_no_stream_of_what_memory_does_not_hold(self):
+        head, end, pictures = TALK_Y4M.read_bytes().partition(b"\n")
+        self.write("long.y4m", head + end + 2 * pictures)
+        self.fail_cleanly("encode", "long.y4m", "out.fbs", says=["temporary directory"], largest_file=1_000)
 
     def test_disk_that_fills_leaves_no_table(self):
         self.fail_cleanly("export", TALK_FBS, "out.csv", says=["out.csv"], largest_file=10_000)

@@ -28,11 +28,18 @@ TEST(PictureSpool, TakesPicturesAfterSomeWereRead) {
   for (unsigned k = 0; k < 4; ++k) EXPECT_EQ(*spool.read(k), noise_picture(64, 64, k));
 }
 
-// Two of them are more than it keeps in memory.
+// Three of them are more than it keeps in memory.
 TEST(PictureSpool, LargePicturesGoOnInAFile) {
   PictureSpool spool;
   for (unsigned k = 0; k < 5; ++k) ASSERT_TRUE(spool.add(noise_picture(1600, 1200, k)));
   for (const unsigned k : {4U, 0U, 3U, 2U, 1U}) EXPECT_EQ(*spool.read(k), noise_picture(1600, 1200, k)) << k;
+}
+
+TEST(PictureSpool, SharesThePicturesInMemory) {
+  PictureSpool spool;
+  const SharedPicture picture = noise_picture(64, 64, 1);
+  ASSERT_TRUE(spool.add(picture));
+  EXPECT_EQ((*spool.read(0))->y.samples.data(), picture->y.samples.data()) << "not a copy";
 }
 
 TEST(PictureSpool, MovesWithItsPictures) {
