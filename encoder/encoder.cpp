@@ -176,7 +176,7 @@ struct Encoder::Impl {
 
   /// Ensures, before a picture, that there is a scene for it.
   Result<void> choose_scene(const Picture& picture) {
-    const ShotWatch::Step step = shots.next(picture);
+    const ShotWatch::Step step = shots.next();
     if (step.cut) {
       ++report.cuts;
       say(LogLevel::kInfo, report.pictures, "a cut");

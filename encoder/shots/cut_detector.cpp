@@ -86,10 +86,14 @@ double CutDetector::unexplained(const cv::Mat1f& of, const cv::Mat1f& by, int re
   return energy > 0 ? left / energy : 0;
 }
 
+cv::Mat1f CutDetector::thumbnail(const Picture& picture) {
+  cv::Mat1f out;
+  reduced(picture.y, reduction_factor(picture.width(), picture.height(), kLongSide)).convertTo(out, CV_32F);
+  return out;
+}
+
 bool CutDetector::is_cut(const Picture& picture) {
-  cv::Mat1f now;
-  reduced(picture.y, reduction_factor(picture.width(), picture.height(), kLongSide)).convertTo(now, CV_32F);
-  const cv::Mat1f before = std::exchange(before_, now);
+  const cv::Mat1f now = thumbnail(picture), before = std::exchange(last_, now);
   if (before.empty()) return false;
   if (is_plain(before) != is_plain(now))
     return cv::norm(before, now, cv::NORM_L1) > kSuddenFrom * static_cast<double>(now.total());

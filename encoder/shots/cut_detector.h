@@ -14,9 +14,15 @@ namespace fbs {
 /// not cuts.
 class CutDetector {
  public:
+  /// Luma at that size.
+  [[nodiscard]] static cv::Mat1f thumbnail(const Picture& picture);
+
   /// Takes the next picture; all have one size.
   /// @return whether it begins another shot; false for the first one
   [[nodiscard]] bool is_cut(const Picture& picture);
+
+  /// The thumbnail of that picture; empty ahead of the first.
+  [[nodiscard]] const cv::Mat1f& last() const { return last_; }
 
   /// Share of a picture's contrast that another one's blocks cannot explain, 0..1.
   /// @param of, by  of one size
@@ -24,7 +30,7 @@ class CutDetector {
   [[nodiscard]] static double unexplained(const cv::Mat1f& of, const cv::Mat1f& by, int reach);
 
  private:
-  cv::Mat1f before_;  ///< reduced luma; empty ahead of the first picture
+  cv::Mat1f last_;
 };
 
 }  // namespace fbs

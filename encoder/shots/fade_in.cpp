@@ -2,12 +2,8 @@
 
 #include <utility>
 
-#include "encoder/image/pyramid.h"
-
 namespace fbs {
 namespace {
-
-constexpr int kFadeSide = 64;  // pixels of the reduced picture, about
 
 /// Contrast against the first picture's from which a scene is worth its bytes again: quantised for the dark
 /// one, it is shown with errors as many times as large.
@@ -39,9 +35,7 @@ bool are_alike(const cv::Mat1f& a, const Levels& of_a, const cv::Mat1f& b, const
 
 }  // namespace
 
-bool FadeIn::has_ended(const Picture& picture) {
-  cv::Mat1f now;
-  reduced(picture.y, reduction_factor(picture.width(), picture.height(), kFadeSide)).convertTo(now, CV_32F);
+bool FadeIn::has_ended(const cv::Mat1f& now) {
   const Levels levels(now);
   if (seen_ == 0) {
     first_ = now;

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <opencv2/core.hpp>
 
-#include "common/picture.h"
-
 namespace fbs {
 
 /// Watches a shot for light that comes up and stays: a fade from black, a lamp, an exposure that settles.
@@ -19,10 +17,10 @@ class FadeIn {
     rises_ = false;
   }
 
-  /// Takes the next picture; all have one size.
+  /// Takes the next picture, all of one size: CutDetector::thumbnail().
   /// @return whether it shows the first picture's scene in much more light, which no longer rises. The next
   /// is then compared with this one.
-  [[nodiscard]] bool has_ended(const Picture& picture);
+  [[nodiscard]] bool has_ended(const cv::Mat1f& now);
 
   /// Whether there is much more light than in the first picture, and still more comes.
   [[nodiscard]] bool is_rising() const { return rises_; }

@@ -19,14 +19,14 @@ constexpr double kLongestFade = 3;
 
 }  // namespace
 
-ShotWatch::Step ShotWatch::next(const Picture& picture) {
+ShotWatch::Step ShotWatch::next() {
   if (cut_) {
     follows_ = false;
     cut_to_ = true;
     in_shot_ = 0;
     fade_in_.begin();
   }
-  faded_in_ = fade_in_.has_ended(picture);
+  faded_in_ = fade_in_.has_ended(cuts_.last());
   if (!faded_in_ && follows_ && lasts(lost_, kLostForSeconds)) {
     follows_ = cut_to_ = false;
     in_shot_ = 0;

@@ -26,8 +26,8 @@ class ShotWatch {
   };
   /// Compares the next picture with the one before; all have one size. May precede end_picture() of that one.
   void see(const Picture& picture) { cut_ = cuts_.is_cut(picture); }
-  /// @param picture  seen last
-  [[nodiscard]] Step next(const Picture& picture);
+  /// For the picture seen last.
+  [[nodiscard]] Step next();
 
   /// The picture shows whom the scene follows.
   void recognised() { follows_ = true; }

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "encoder/shots/cut_detector.h"
 #include "tests/unit/talker_clip.h"
 
 namespace fbs {
 namespace {
 
-Picture lit(const Picture& picture, double gain) {
+/// Its thumbnail in another light.
+cv::Mat1f lit(const Picture& picture, double gain) {
   Picture out = picture;
   for (auto& s : out.y.samples) s = static_cast<std::uint8_t>(std::clamp(16 + gain * (s - 16.0), 0.0, 255.0));
-  return out;
+  return CutDetector::thumbnail(out);
 }
 
 /// A picture of somebody who talks.

@@ -12,7 +12,7 @@ namespace {
 
 ShotWatch::Step next(ShotWatch& shots, const Picture& picture) {
   shots.see(picture);
-  return shots.next(picture);
+  return shots.next();
 }
 
 constexpr double kFps = 10;
