@@ -8,6 +8,10 @@
 #include <string>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "cli/encode/overlay.h"
 #include "cli/encode/sound_choice.h"
 #include "cli/encode/sound_track.h"
@@ -179,6 +183,15 @@ Result<void> check_files(const EncodeArguments& a) {
   return check_distinct(inputs, outputs);
 }
 
+/// Pictures come and go all the time. That the system takes their memory back each time costs 1 to 3 % of the
+/// time; kept, there are 3 MB more.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // NOLINT(concurrency-mt-unsafe): ahead of all other threads
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // NOLINT(concurrency-mt-unsafe)
+#endif
+}
+
 Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop) {
   if (auto checked = check_files(arguments); !checked) return fail(checked.error());
   auto opened = open_source_part(arguments.input, {arguments.frames, arguments.duration},
@@ -223,6 +236,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
 
 FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
                                       fbs::Result<fbs::cli::Outcome>& result) {
+  fbs::cli::keep_freed_memory();
   result =
       fbs::cli::until_stopped(arguments.quiet, fbs::cli::kFinishingStream, "nothing written",
                               [&](const fbs::StopSignal& stop) { return fbs::cli::encode(arguments, stop); });
