@@ -242,7 +242,7 @@ class Keys(Play):
 
     def test_damage_is_played_past(self):
         data = bytearray(TALK_FBS.read_bytes())
-        data[len(data) * 2 // 3] ^= 255
+        data[len(data) * 4 // 5] ^= 255  # motion of the last second
         self.write("broken.fbs", data)
         player = self.open("broken.fbs", "--paused", "--record", "seen.y4m")
         self.press(*["Right"] * 30)
