@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, kRowLanes>;
 
-/// Of one row of the result, the products of kRowsTogether rows.
+/// Products of kRowsTogether rows, added up, of one row of the result.
 HWY_INLINE hn::Vec<Lanes> products(const float* weighted, std::size_t stride, hn::Vec<Lanes> a,
                                    hn::Vec<Lanes> b, hn::Vec<Lanes> c, hn::Vec<Lanes> d) {
   const Lanes lanes;

@@ -33,7 +33,7 @@ cv::Mat1b means(const cv::Mat1b& from, int factor) {
 cv::Mat reduced(const Plane& plane, int factor) {
   const cv::Mat1b whole = view(plane);
   if (factor == 1) return whole.clone();
-  // Of squares of 2 x 2 OpenCV rounds halves up, and is fast.
+  // OpenCV rounds halves up in squares of 2 x 2, and is fast.
   if (factor > 2 && whole.cols % factor == 0 && whole.rows % factor == 0) return means(whole, factor);
   cv::Mat out;
   cv::resize(whole, out, {whole.cols / factor, whole.rows / factor}, 0, 0, cv::INTER_AREA);

@@ -155,9 +155,7 @@ Result<bool> FilePatterns::reduced_size_pays(const Scene& scene) {
                [&](int k, int) { costs[k] = trial_cost(store_.format(), *pictures, trial_coding(k == 1)); });
   for (auto& cost : costs)
     if (!cost) return fail(cost.error());
-  double motion = 0;
-  for (const Segment::Group& g : store_.segment().groups) motion += static_cast<double>(g.payload.size());
-  return fbs::reduced_size_pays(*loss, times.size(), motion, *costs[0], *costs[1]);
+  return fbs::reduced_size_pays(*loss, times.size(), store_.motion_bytes(), *costs[0], *costs[1]);
 }
 
 Result<void> FilePatterns::choose_size(const Scene& scene) {

@@ -125,10 +125,8 @@ double LivePatterns::start_room() const {
          kPatternHeadBytes;
 }
 
-double LivePatterns::motion_bytes() const {
-  double bytes = kPatternHeadBytes;
-  for (const Segment::Group& g : store_.segment().groups) bytes += static_cast<double>(g.payload.size());
-  return bytes;
+double LivePatterns::pattern_room() const {
+  return room() - kPatternHeadBytes - store_.motion_bytes();
 }
 
 Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, double room) {
@@ -151,14 +149,14 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
-  auto quantiser = key_quantiser(scene, 0, room() - motion_bytes());
+  auto quantiser = key_quantiser(scene, 0, pattern_room());
   if (!quantiser) return fail(quantiser.error());
   Plan plan{{0}, *quantiser, settings_.quantiser, true};
   double left = room() - key_.bits / 8;
   if (const double in_time = start_room(); key_.bits > 8 * in_time) {
     const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key_.bits / 8);
     plan.start = static_cast<std::size_t>(coarse);
-    left = room() - motion_bytes() - coarse;
+    left = pattern_room() - coarse;
     if (store_.segment().states.size() == 1 || left < kFiner * coarse) return plan;
     quantiser = key_quantiser(scene, 1, left);
     if (!quantiser) return fail(quantiser.error());
@@ -186,7 +184,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
 Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size_t shared) {
   const bool refines = coarse_ > 0 && store_.segment().shots.size() == 1;
   if (refines) {
-    const double left = room() - motion_bytes();
+    const double left = pattern_room();
     if (left < kFiner * coarse_) return Plan{};
     const std::size_t last = store_.segment().states.size() - 1;  // nearest to what is not yet known
     const auto finer = key_quantiser(scene, last, left);

@@ -63,8 +63,6 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] Result<int> key_quantiser(const Scene& scene, std::size_t time, double room);
   /// Bytes of the frame of the stream's first pattern with which it is there in time.
   [[nodiscard]] double start_room() const;
-  /// Bytes of the segment besides frames of patterns, approximate.
-  [[nodiscard]] double motion_bytes() const;
   /// Plans a scene's first segment.
   [[nodiscard]] Result<Plan> plan_first(const Scene& scene);
   /// Plans another one, by the errors of its pictures without patterns of their own.
@@ -81,6 +79,8 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] static std::optional<int> affordable(const Size& size, int from, double room);
   /// Bytes that may be sent now.
   [[nodiscard]] double room() const;
+  /// The same for frames of patterns: what else the segment has is left out, approximately.
+  [[nodiscard]] double pattern_room() const;
   /// Whether the delay is long enough for segments of several groups.
   [[nodiscard]] bool has_windows() const;
   /// Whether a pattern of these bits pays.

@@ -42,6 +42,12 @@ double SegmentStore::seconds() const {
   return static_cast<double>(segment_.states.size()) / fps_of(format_);
 }
 
+double SegmentStore::motion_bytes() const {
+  double bytes = 0;
+  for (const Segment::Group& group : segment_.groups) bytes += static_cast<double>(group.payload.size());
+  return bytes;
+}
+
 const State& SegmentStore::seen_state(const Scene& scene, std::size_t time) const {
   return number_of(time) == 0 ? scene.patterns.front().seen : segment_.states[time];
 }

@@ -44,6 +44,8 @@ class SegmentStore {
   [[nodiscard]] bool is_first() const { return picture_ == 0; }
   /// Its length, nominal.
   [[nodiscard]] double seconds() const;
+  /// Bytes of its motion.
+  [[nodiscard]] double motion_bytes() const;
   /// Number within the scene of a picture of the segment.
   [[nodiscard]] std::int32_t number_of(std::size_t time) const {
     return picture_ + static_cast<std::int32_t>(time);

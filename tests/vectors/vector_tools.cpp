@@ -99,13 +99,17 @@ Bytes joined_with_two(const std::vector<Piece>& pieces, std::size_t nth) {
   return stream;
 }
 
+namespace {
+
 /// The motion that a packet has.
-static std::optional<std::span<const std::uint8_t>> motion_of(const Piece& piece) {
+std::optional<std::span<const std::uint8_t>> motion_of(const Piece& piece) {
   if (piece.type == PacketType::kMotion) return piece.payload;
   if (piece.type != PacketType::kUnit) return std::nullopt;
   ByteReader reader(piece.payload);
   return reader.bytes(reader.varint());
 }
+
+}  // namespace
 
 std::vector<PatternPiece> patterns_of(const std::vector<Piece>& pieces) {
   const Setup setup = must(decode_setup(pieces[place_of(pieces, PacketType::kSetup)].payload));

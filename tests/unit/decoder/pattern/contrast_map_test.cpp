@@ -16,7 +16,7 @@ Scene scene() {
   return toy_scene(Picture(kWidth, kHeight));
 }
 
-/// Of the scene's pattern.
+/// That of the scene's pattern.
 ContrastMap map_of(const Setup& setup) {
   const Scene toy = scene();
   return {setup, toy.geometry->geometry(), toy.patterns.front().seen};
