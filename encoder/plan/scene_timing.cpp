@@ -15,24 +15,31 @@ constexpr double kLookaheadSeconds = 2;
 /// Longest group of a live scene.
 constexpr double kLiveGroupSeconds = 1;
 
+/// Default time between scenes of a live source, s: where viewers join. Twice as long where the head of each
+/// is sent again, and longer where viewers can join anywhere.
+constexpr double kLiveKeySeconds = 10, kStrongKeySeconds = 20, kJoinedKeySeconds = 40;
+
 /// How long the motion of a damaged stream stands still at most.
 constexpr double kKeySeconds = 8;
+
+double key_interval_of(const EncoderSettings& settings) {
+  if (!settings.live || settings.key_interval > 0) return settings.key_interval;
+  if (settings.live->join > 0) return kJoinedKeySeconds;
+  return settings.live->resilience == Resilience::kStrong ? kStrongKeySeconds : kLiveKeySeconds;
+}
 
 }  // namespace
 
 SceneTiming::SceneTiming(const VideoFormat& format, const EncoderSettings& settings)
     : nominal_duration(fbs::nominal_duration(format.frame_rate)) {
-  const double fps = fps_of(format);
+  const double fps = fps_of(format), key_interval = key_interval_of(settings);
+  key_pictures = key_interval > 0 ? std::max(1LL, std::llround(fps * key_interval)) : 0;
   group_pictures = settings.group_pictures > 0
                        ? settings.group_pictures
                        : std::clamp(static_cast<int>(std::lround(fps)), 1, kMaxGroupPictures);
   if (settings.live) {
     const double delay = settings.live->delay, groups = std::ceil(delay / kLiveGroupSeconds);
     group_pictures = std::clamp(static_cast<int>(std::lround(fps * delay / groups)), 1, kMaxGroupPictures);
-  }
-  if (settings.key_interval > 0) {
-    const double others = std::floor(fps * settings.key_interval) - 1;  // the first has a group of its own
-    group_pictures = static_cast<std::size_t>(std::clamp(others, 1.0, static_cast<double>(group_pictures)));
   }
   const bool each = settings.live && settings.live->resilience != Resilience::kNone;
   repeats_moved = settings.live && settings.live->resilience == Resilience::kStrong;

@@ -14,6 +14,9 @@ namespace fbs {
 }
 
 struct SceneTiming {
+  /// Most pictures from one place to join to the next; 0: a scene goes on where there is one pattern, and is
+  /// a segment where there are several.
+  std::uint64_t key_pictures;
   std::size_t group_pictures;      ///< pictures in a motion packet, after the first, which has its own
   int groups_per_key;              ///< every so many groups one needs no group before it
   bool repeats_moved;              ///< see MotionEncoder
@@ -23,11 +26,11 @@ struct SceneTiming {
   SceneTiming(const VideoFormat& format, const EncoderSettings& settings);
 
   /// Whether a group ends with the picture pushed last. The scene's first picture is a group of its own, so
-  /// that a viewer can start with it.
+  /// that a viewer can start with it, and the last group ends with the scene.
   /// @param in_group  pictures of the group so far
   /// @param in_scene  pictures of the scene so far
   [[nodiscard]] bool group_ends(std::size_t in_group, std::uint64_t in_scene) const {
-    return in_scene == 1 || in_group == group_pictures;
+    return in_scene == 1 || in_group == group_pictures || in_scene == key_pictures;
   }
 };
 

@@ -56,7 +56,7 @@ Result<void> FaceCoder::add(const SharedPicture& picture, FaceAnalysis::Observat
     if (auto ended = end_group(); !ended) return ended;
   if (!surround_.has_ended() && ledger_.pictures() >= ledger_.timing().lookahead)
     if (auto done = end_lookahead(); !done) return done;
-  if (second_pass_ || !ledger_.scene_ends(ledger_.timing().group_pictures)) return {};
+  if (second_pass_ || !ledger_.scene_ends()) return {};
   ledger_.end_scene();
   return finish();
 }
@@ -106,7 +106,7 @@ void FaceCoder::learn(const Picture& picture, const FaceAnalysis::Observation& s
   if (before > 0 && before % every == 0) surround_.add(picture, seen.state);
 }
 
-Result<void> FaceCoder::end_group() {
+Result<void> FaceCoder::plan_group() {
   if (!ledger_.in_group()) return {};
   if (ledger_.live() && !second_pass_ && !fixed_) {
     fix_head();
@@ -114,7 +114,16 @@ Result<void> FaceCoder::end_group() {
   }
   if (auto planned = ledger_.plan(costs_, ledger_.end_group()); !planned) return planned;
   costs_.clear();
-  return ledger_.segment_ends() ? end_segment() : Result<void>{};
+  return {};
+}
+
+Result<void> FaceCoder::end_group() {
+  if (auto planned = plan_group(); !planned) return planned;
+  if (!ledger_.segment_ends()) return {};
+  const bool last = ledger_.scene_ends();
+  if (auto ended = end_segment(last); !ended) return ended;
+  if (last) ledger_.end_scene();
+  return {};
 }
 
 void FaceCoder::fit_map() {
@@ -156,20 +165,18 @@ Result<void> FaceCoder::write_head() {
   return {};
 }
 
-Result<void> FaceCoder::end_segment() {
-  PatternStage& patterns = *ledger_.patterns();
-  const std::size_t pictures = patterns.pictures();
+Result<void> FaceCoder::end_segment(bool last) {
   if (!fixed_) fix_head();
   if (!ledger_.packets().started()) {
-    scene_.setup.patterns = patterns.store();
+    scene_.setup.patterns = ledger_.patterns()->slots();
     scene_.setup.contrast = second_pass_->contrast;
     scene_.setup.chroma_contrast = second_pass_->chroma_contrast.contrast();
     pattern_payload_.clear();  // the first segment brings its own
     if (auto written = write_head(); !written) return written;
   }
   SegmentRefit& refit = second_pass_->refit;
-  auto ended =
-      ledger_.end_segment(scene_, [&](Segment& segment, const SegmentPatterns& drawn_from, Workers& workers) {
+  auto ended = ledger_.end_segment(
+      scene_, last, [&](Segment& segment, const SegmentPatterns& drawn_from, Workers& workers) {
         return refit.run(segment, drawn_from, workers);
       });
   if (!ended) return ended;
@@ -177,13 +184,12 @@ Result<void> FaceCoder::end_segment() {
     ledger_.packets().add(PacketType::kSurround, std::exchange(surround_again_, {}));
   if (refit.motion()) ledger_.set_motion(*refit.motion());
   refit.begin_segment(ledger_.motion());
-  if (ledger_.scene_ends(pictures)) ledger_.end_scene();
   return {};
 }
 
 Result<void> FaceCoder::finish() {
-  if (auto ended = end_group(); !ended) return ended;
-  if (second_pass_) return end_segment();
+  if (auto planned = plan_group(); !planned) return planned;
+  if (second_pass_) return end_segment(true);
   if (!fixed_) fix_head();
   return ledger_.packets().started() ? Result<void>{} : write_head();
 }

@@ -48,6 +48,7 @@ class FaceCoder {
   void observe_surround(const Picture& picture, FaceAnalysis::Observation& seen);
   /// Until the scene starts: collects pictures for fitting the surround's map.
   void learn(const Picture& picture, const FaceAnalysis::Observation& seen);
+  Result<void> plan_group();
   Result<void> end_group();
   /// Begins another scene with the same person at this picture: a place to join.
   Result<void> begin_again(const Picture& picture, const FaceAnalysis::Observation& seen);
@@ -60,7 +61,8 @@ class FaceCoder {
   /// been sent, sends the map.
   Result<void> end_lookahead();
   /// With several patterns: codes and writes the pictures held back.
-  Result<void> end_segment();
+  /// @param last  of the scene
+  Result<void> end_segment(bool last);
 
   SceneLedger ledger_;
   Scene scene_;  ///< as the decoder builds it; until its head is fixed, with a guess of the surround's map

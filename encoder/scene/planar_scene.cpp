@@ -46,7 +46,7 @@ PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, co
               planar_patterns(settings, rate.point, setup.format, CodedState{})),
       plane_(std::move(plane)) {
   scene_.setup = setup;
-  scene_.setup.patterns = ledger_.patterns()->store();
+  scene_.setup.patterns = ledger_.patterns()->slots();
 }
 
 Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
@@ -94,7 +94,11 @@ Result<void> PlanarScene::begin_motion() {
 
 Result<void> PlanarScene::end_group() {
   if (ledger_.in_group()) groups_.push_back(ledger_.end_group());
-  return ledger_.segment_ends() ? end_segment() : Result<void>{};
+  if (!ledger_.segment_ends()) return {};
+  const bool last = ledger_.scene_ends();
+  if (auto ended = end_segment(last); !ended) return ended;
+  if (last) ledger_.end_scene();
+  return {};
 }
 
 Result<void> PlanarScene::add_motion() {
@@ -116,23 +120,23 @@ Result<void> PlanarScene::add_motion() {
   return {};
 }
 
-Result<void> PlanarScene::end_segment() {
+Result<void> PlanarScene::end_segment(bool last) {
   if (groups_.empty()) return {};
   if (!ledger_.packets().started())
     if (auto begun = begin_motion(); !begun) return begun;
   if (auto added = add_motion(); !added) return added;
-  if (auto ended = ledger_.end_segment(scene_, {}); !ended) return ended;
+  if (auto ended = ledger_.end_segment(scene_, last, {}); !ended) return ended;
   observed_.clear();
   groups_.clear();
   const bool begins_to_move = ledger_.live() && !moving_ && moves();
   if (!ledger_.live()) moved_ = still_ = 0;
-  if (begins_to_move || ledger_.scene_ends(ledger_.timing().group_pictures)) ledger_.end_scene();
+  if (begins_to_move) ledger_.end_scene();
   return {};
 }
 
 Result<void> PlanarScene::finish() {
-  if (auto ended = end_group(); !ended) return ended;
-  return end_segment();
+  if (ledger_.in_group()) groups_.push_back(ledger_.end_group());
+  return end_segment(true);
 }
 
 }  // namespace fbs

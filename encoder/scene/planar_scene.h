@@ -43,7 +43,8 @@ class PlanarScene : public SceneEncoder {
  private:
   PlanarScene(const Setup& setup, const EncoderSettings& settings, const RatePlan& rate, PicturePlane plane);
   Result<void> end_group();
-  Result<void> end_segment();
+  /// @param last  of the scene
+  Result<void> end_segment(bool last);
   /// Begins another scene with the next picture: a place to join.
   void begin_again();
   /// Fixes whether the scene's plane moves, from its first segment, and writes the head.

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "encoder/segment/pass_settings.h"
-
 namespace fbs {
 
 SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RatePlan& rate,
@@ -11,7 +9,6 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
     : timing_(setup.format, settings),
       rate_(rate),
       live_(settings.live.has_value()),
-      key_interval_(key_interval_of(settings, setup.format)),
       patterns_(std::move(patterns)),
       motion_(setup, seen, rate, timing_),
       position_(setup.before),
@@ -38,8 +35,8 @@ Result<void> SceneLedger::plan(std::span<const PictureCost> costs, std::span<con
   return {};
 }
 
-Result<void> SceneLedger::end_segment(Scene& scene, const StateRefit& refit) {
-  const auto packets = patterns_->end_segment(scene, packets_.counted(), refit);
+Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit& refit) {
+  const auto packets = patterns_->end_segment(scene, last, packets_.counted(), refit);
   if (!packets) return fail(packets.error());
   for (const auto& [type, payload] : *packets) packets_.add(type, payload);
   packets_.count_from_here();
@@ -47,10 +44,8 @@ Result<void> SceneLedger::end_segment(Scene& scene, const StateRefit& refit) {
   return {};
 }
 
-bool SceneLedger::scene_ends(std::size_t more) const {
-  if (key_interval_ == 0) return patterns_ != nullptr;
-  if (live_) return requested_ || live_scene_ends(pictures_);
-  return !in_group() && static_cast<double>(pictures_ + more) > key_interval_;
+bool SceneLedger::scene_ends() const {
+  return timing_.key_pictures > 0 ? requested_ || is_full() : patterns_ != nullptr;
 }
 
 void SceneLedger::begin_again(Setup& setup) {

@@ -42,11 +42,11 @@ class SceneLedger {
   void set_motion(MotionTrack motion) { motion_ = std::move(motion); }
 
   [[nodiscard]] bool segment_ends() const {
-    return patterns_ &&
-           (patterns_->segment_ends(timing_.group_pictures) || (live_ && live_scene_ends(pictures_)));
+    return patterns_ && (patterns_->segment_ends(timing_.group_pictures) || is_full());
   }
   /// Writes the packets of the segment, whose groups have all been planned. The head has been written.
-  Result<void> end_segment(Scene& scene, const StateRefit& refit);
+  /// @param last  the scene ends with it
+  Result<void> end_segment(Scene& scene, bool last, const StateRefit& refit);
 
   void set_bitrate(double kbps) {
     if (patterns_) patterns_->set_bitrate(kbps);
@@ -56,13 +56,8 @@ class SceneLedger {
   }
   /// Ends a live scene with its present group, unless it has ended already.
   void request_scene() { requested_ = !ended_; }
-  /// Whether a live scene ends with the group that completes this many pictures.
-  [[nodiscard]] bool live_scene_ends(std::uint64_t pictures) const {
-    return key_interval_ > 0 && static_cast<double>(pictures + timing_.group_pictures) > key_interval_;
-  }
   /// Whether the next picture is to begin another scene.
-  /// @param more  where the scene is not live: pictures after which it could end next
-  [[nodiscard]] bool scene_ends(std::size_t more) const;
+  [[nodiscard]] bool scene_ends() const;
   void end_scene() {
     ended_ = true;
     requested_ = false;
@@ -83,10 +78,12 @@ class SceneLedger {
   [[nodiscard]] ScenePackets& packets() { return packets_; }
 
  private:
+  /// Whether the scene has as many pictures as it may.
+  [[nodiscard]] bool is_full() const { return timing_.key_pictures > 0 && pictures_ >= timing_.key_pictures; }
+
   SceneTiming timing_;
   RatePlan rate_;
   bool live_;
-  double key_interval_;  ///< pictures; 0: none where there is one pattern, segments where there are several
   std::unique_ptr<PatternStage> patterns_;
   MotionTrack motion_;
   std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal

@@ -35,24 +35,19 @@ constexpr double kRateTolerance = 0.02;
 
 }  // namespace
 
-FilePatterns::FilePatterns(const VideoFormat& format, const FilePatternSettings& settings,
-                           const CodedState& rest)
-    : PatternStage(format, settings, rest),
-      settings_(settings),
-      most_(store_.slots()),
-      point_(settings.point) {
+FilePatterns::FilePatterns(PatternStage& stage, const FilePatternSettings& settings)
+    : PatternPolicy(stage), settings_(settings), most_(store_.slots()), point_(settings.point) {
   coding_.speed = settings.effort.pattern_speed;
   coding_.threads = std::max(2, settings.threads);  // on one core, too: the stream is the same
   if (!settings.without_face) return;
-  const double bytes = 1.5 * format.width * format.height;
+  const double bytes = 1.5 * store_.format().width * store_.format().height;
   most_ = static_cast<std::int32_t>(
       std::clamp<double>(kSegmentBytes / bytes, store_.slots(), kMaxSequencePictures));
 }
 
-Result<void> FilePatterns::add(const SharedPicture& picture) {
-  if (auto added = PatternStage::add(picture); !added) return added;
+void FilePatterns::note_added(const Picture& picture) {
   const cv::Mat small =
-      reduced(picture->y, reduction_factor(picture->width(), picture->height(), kStillLongSide));
+      reduced(picture.y, reduction_factor(picture.width(), picture.height(), kStillLongSide));
   Shot& shot = store_.segment().shots.back();
   if (shot.pictures == 1) {
     shot.still = true;
@@ -60,22 +55,18 @@ Result<void> FilePatterns::add(const SharedPicture& picture) {
   } else if (cv::norm(small, shot_first_, cv::NORM_INF) > kStillLevels) {
     shot.still = false;
   }
-  return {};
 }
 
-bool FilePatterns::segment_ends(std::size_t next) const {
-  const std::size_t pictures = this->pictures();
+bool FilePatterns::segment_ends(std::size_t /*next*/) const {
+  const std::size_t pictures = stage_.pictures();
   // The motion of a whole segment may be sent before its first picture is shown.
   if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
-  const double fps = fps_of(store_.format());
-  if (settings_.key_interval > 0 && static_cast<double>(pictures + next) > settings_.key_interval * fps)
-    return true;
   if (settings_.count > 0) return false;
   if (std::cmp_greater_equal(store_.segment().shots.size(), store_.slots() / 2)) return true;
   const bool any_density = settings_.without_face && settings_.bitrate_kbps > 0;
   const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
   const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
-  return static_cast<double>(pictures) >= std::max(1.0, seconds * fps);
+  return static_cast<double>(pictures) >= std::max(1.0, seconds * fps_of(store_.format()));
 }
 
 Result<SegmentDraft> FilePatterns::draft() const {
@@ -252,8 +243,8 @@ Result<void> FilePatterns::meet(const Scene& scene, double bytes, SegmentDraft& 
     if (auto coded = draft.code(store_, scene, coding_, workers_); !coded) return coded;
   }
   draft = std::move(best);
-  errors_ = {};
-  return choose(scene, draft, settings_.effort.pictures);
+  stage_.errors() = {};
+  return stage_.choose(scene, draft, settings_.effort.pictures);
 }
 
 Result<SegmentDraft> FilePatterns::make_segment(const Scene& scene, std::size_t other_bytes,
@@ -264,14 +255,14 @@ Result<SegmentDraft> FilePatterns::make_segment(const Scene& scene, std::size_t 
   if (has_rate) left_bytes_ += 125 * settings_.bitrate_kbps * store_.seconds() - before;
   const double bytes = std::max(left_bytes_, 1.0);
   if (auto sized = has_rate ? aim(scene, bytes) : choose_size(scene); !sized) return fail(sized.error());
-  if (has_rate && settings_.start > 0 && !begun_ && store_.segment().groups.size() > 1)
+  if (has_rate && settings_.start > 0 && !stage_.begun() && store_.segment().groups.size() > 1)
     if (auto coarse = begin_coarse(scene, bytes, before); !coarse) return fail(coarse.error());
   auto draft = this->draft();
   if (!draft) return draft;
   // Few pictures do not justify a coarse pattern: its bytes are the startup of a scene with one pattern.
   if (store_.is_first() && draft->times.size() == 1 && !has_rate)
     coding_.quantiser = settings_.lone_quantiser;
-  Making making;
+  PatternStage::Making making;
   // Always at half size, since only the kind of errors matters.
   if (settings_.effort.solves) making.trial = trial_coding(true);
   // A lone pattern is close to the picture that the states were fitted to.
@@ -279,7 +270,7 @@ Result<SegmentDraft> FilePatterns::make_segment(const Scene& scene, std::size_t 
   making.draft_pictures = settings_.effort.draft_pictures;
   making.pictures = settings_.effort.pictures;
   making.code = [&](SegmentDraft& sources) { return sources.code(store_, scene, coding_, workers_); };
-  draft = make(scene, std::move(*draft), making, refit);
+  draft = stage_.make(scene, std::move(*draft), making, refit);
   if (draft && has_rate)
     if (auto met = meet(scene, bytes, *draft); !met) return fail(met.error());
   return draft;

@@ -26,22 +26,19 @@ struct FilePatternSettings : PatternSettings {
   std::optional<bool> reduced;   ///< size of the patterns; chosen by rate and distortion
   Effort effort = Effort::of(Effort::kDefault);
   bool without_face = false;  ///< patterns show all motion: often more of them than the decoder keeps at once
-  double key_interval = 0;    ///< EncoderSettings::key_interval
 };
 
-class FilePatterns : public PatternStage {
+class FilePatterns : public PatternPolicy {
  public:
-  /// @param rest  seen state of pattern 0 as coded
-  FilePatterns(const VideoFormat& format, const FilePatternSettings& settings, const CodedState& rest);
+  FilePatterns(PatternStage& stage, const FilePatternSettings& settings);
 
-  using PatternStage::add;
-  Result<void> add(const SharedPicture& picture) override;
+  void note_added(const Picture& picture) override;
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
-
- private:
   [[nodiscard]] Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
                                                   const StateRefit& refit) override;
   void note_sent(std::size_t bytes) override { left_bytes_ -= static_cast<double>(bytes); }
+
+ private:
   /// A draft of the pictures that are to become patterns.
   [[nodiscard]] Result<SegmentDraft> draft() const;
   /// Error of the pictures between lossless patterns.

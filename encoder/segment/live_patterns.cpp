@@ -71,16 +71,14 @@ std::vector<double> least_errors(const SegmentErrors& errors) {
 
 }  // namespace
 
-LivePatterns::LivePatterns(const VideoFormat& format, const LivePatternSettings& settings,
-                           const CodedState& rest)
-    : PatternStage(format, settings, rest),
+LivePatterns::LivePatterns(PatternStage& stage, const LivePatternSettings& settings)
+    : PatternPolicy(stage),
       settings_(settings),
-      sequence_(format, settings.reduced, settings.alone) {
+      sequence_(store_.format(), settings.reduced, settings.alone) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
-void LivePatterns::begin_scene(const CodedState& rest) {
-  PatternStage::begin_scene(rest);
+void LivePatterns::begin_scene() {
   sequence_.begin_scene();
   regret_ = {};
   since_pattern_ = 0;
@@ -89,20 +87,21 @@ void LivePatterns::begin_scene(const CodedState& rest) {
 }
 
 bool LivePatterns::segment_ends(std::size_t next) const {
-  if (!has_windows() || pictures() + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  if (!has_windows(settings_.delay) || stage_.pictures() + kMaxGroupPictures > kMaxWaitingPictures)
+    return true;
   // So many whole groups as are nearest to the delay, besides a scene's first.
   const double end = settings_.delay * fps_of(store_.format()) + 1;
-  return static_cast<double>(pictures()) + 0.5 * static_cast<double>(next) > end;
+  return static_cast<double>(stage_.pictures()) + 0.5 * static_cast<double>(next) > end;
 }
 
-bool LivePatterns::has_windows() const {
-  return settings_.delay >= kWindowDelay;
+bool LivePatterns::has_windows(double delay) {
+  return delay >= kWindowDelay;
 }
 
 bool LivePatterns::pays(double bits, double price) const {
   const double lambda = price * pattern_lambda(settings_.quantiser);
-  return has_windows() ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
-                       : regret_.pays(bits, lambda, 1);
+  return has_windows(settings_.delay) ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
+                                      : regret_.pays(bits, lambda, 1);
 }
 
 double LivePatterns::Size::at(int other_quantiser) const {
@@ -120,7 +119,7 @@ double LivePatterns::room() const {
 }
 
 double LivePatterns::start_room() const {
-  if (begun_ || !rate_ || settings_.start == 0) return std::numeric_limits<double>::infinity();
+  if (stage_.begun() || !rate_ || settings_.start == 0) return std::numeric_limits<double>::infinity();
   return rate_->room(settings_.start) - static_cast<double>(store_.segment().groups.front().payload.size()) -
          kPatternHeadBytes;
 }
@@ -174,8 +173,8 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
   trial.reduced = settings_.reduced;
   if (auto tried = draft->code(store_, scene, trial, workers_); !tried) return fail(tried.error());
   learn(draft->coded.front().av1.size(), plan.first, true);
-  if (auto measured = measure(draft->usable(scene), 1); !measured) return fail(measured.error());
-  const std::vector<double> least = least_errors(std::exchange(errors_, {}));
+  if (auto measured = stage_.measure(draft->usable(scene), 1); !measured) return fail(measured.error());
+  const std::vector<double> least = least_errors(std::exchange(stage_.errors(), {}));
   regret_.begin(least.front());
   add_paying(least, plan.times.size(), left, plan);
   return plan;
@@ -193,10 +192,10 @@ Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size
   }
   SegmentDraft none;
   none.place(store_, scene);
-  if (auto measured = measure(none.usable(scene), shared); !measured) return fail(measured.error());
+  if (auto measured = stage_.measure(none.usable(scene), shared); !measured) return fail(measured.error());
   Plan plan;
   plan.key = coarse_ > 0;
-  add_paying(least_errors(errors_), 0, room(), plan);
+  add_paying(least_errors(stage_.errors()), 0, room(), plan);
   plan.first = plan.others;
   return plan;
 }
@@ -222,7 +221,7 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
     if (is_bought()) break;
   }
   if (t == least.size()) return;
-  if (!has_windows()) {  // nearest to what is not yet known
+  if (!has_windows(settings_.delay)) {  // nearest to what is not yet known
     plan.times.push_back(cut ? static_cast<std::size_t>(last) : least.size() - 1);
     return;
   }
@@ -280,7 +279,7 @@ void LivePatterns::count_regret(const Plan& plan) {
   }
   const std::size_t last = plan.times.back();
   std::size_t t = 0;
-  for (const SegmentErrors::Run& run : errors_.runs)
+  for (const SegmentErrors::Run& run : stage_.errors().runs)
     for (std::size_t i = 0; i < run.pictures; ++i, ++t) {
       if (t == last) regret_.begin(error_of(run.errors, store_.segment().states[t].blend));
       if (t > last) regret_.add(least_error(run.errors));
@@ -303,14 +302,14 @@ Result<SegmentDraft> LivePatterns::make_segment(const Scene& scene, std::size_t 
                                                 const StateRefit& refit) {
   if (rate_) rate_->add(static_cast<double>(other_bytes), 0);
   const bool is_first = store_.is_first();
-  Making making;
+  PatternStage::Making making;
   making.refits = refit && settings_.refits && !(is_first && store_.segment().states.size() == 1) ? 1 : 0;
-  if (has_windows() || 1LL * store_.format().width * store_.format().height > 352 * 288)
+  if (has_windows(settings_.delay) || 1LL * store_.format().width * store_.format().height > 352 * 288)
     making.draft_pictures = kDraftShared;
   const auto plan =
       is_first ? plan_first(scene) : plan_next(scene, making.refits > 0 ? making.draft_pictures : 1);
   if (!plan) return fail(plan.error());
-  if (settings_.solves && has_windows() && !plan->times.empty()) {
+  if (settings_.solves && has_windows(settings_.delay) && !plan->times.empty()) {
     making.trial.emplace();
     making.trial->quantiser = plan->others;
     making.trial->speed = kTrialSpeed;
@@ -319,7 +318,7 @@ Result<SegmentDraft> LivePatterns::make_segment(const Scene& scene, std::size_t 
   }
   making.code = [&](SegmentDraft& sources) { return code(scene, *plan, sources); };
   auto draft = SegmentDraft::of_sources(store_, plan->times, next_slot_);
-  if (draft) draft = make(scene, std::move(*draft), making, refit);
+  if (draft) draft = stage_.make(scene, std::move(*draft), making, refit);
   if (!draft) return draft;
   next_slot_ = draft->slot(draft->coded.size(), static_cast<std::size_t>(store_.slots()));
   count_regret(*plan);

@@ -28,22 +28,23 @@ struct LivePatternSettings : PatternSettings {
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
 /// of a long delay. Patterns go on from window to window as one AV1 sequence.
-class LivePatterns : public PatternStage {
+class LivePatterns : public PatternPolicy {
  public:
-  /// @param rest  seen state of pattern 0 as coded
-  LivePatterns(const VideoFormat& format, const LivePatternSettings& settings, const CodedState& rest);
+  LivePatterns(PatternStage& stage, const LivePatternSettings& settings);
+  /// Whether a delay, s, is long enough for segments of several groups.
+  [[nodiscard]] static bool has_windows(double delay);
 
-  void begin_scene(const CodedState& rest) override;
+  void begin_scene() override;
   void set_bitrate(double kbps) override {
     if (rate_) rate_->set(kbps);
   }
   void lose_patterns() override { sequence_.lose_patterns(); }
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
-
- private:
   [[nodiscard]] Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
                                                   const StateRefit& refit) override;
   void note_sent(std::size_t bytes) override;
+
+ private:
   /// Patterns to be made of the segment.
   struct Plan {
     std::vector<std::size_t> times;  ///< their pictures, rising
@@ -81,8 +82,6 @@ class LivePatterns : public PatternStage {
   [[nodiscard]] double room() const;
   /// The same for frames of patterns: what else the segment has is left out, approximately.
   [[nodiscard]] double pattern_room() const;
-  /// Whether the delay is long enough for segments of several groups.
-  [[nodiscard]] bool has_windows() const;
   /// Whether a pattern of these bits pays.
   /// @param price  LiveRate::price()
   [[nodiscard]] bool pays(double bits, double price) const;

@@ -10,10 +10,6 @@
 namespace fbs {
 namespace {
 
-/// Default time between scenes of a live source, s: where viewers join. Twice as long where the head of each
-/// is sent again, and longer where viewers can join anywhere.
-constexpr double kLiveKeySeconds = 10, kStrongKeySeconds = 20, kJoinedKeySeconds = 40;
-
 /// Default of a live stream, s.
 constexpr double kLiveStart = 1;
 
@@ -50,10 +46,23 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   return out;
 }
 
-std::unique_ptr<PatternStage> file_patterns(FilePatternSettings pass, const EncoderSettings& settings,
-                                            const VideoFormat& format, const CodedState& rest) {
-  pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
-  return std::make_unique<FilePatterns>(format, pass, rest);
+/// @param pass  of a file
+std::unique_ptr<PatternStage> patterns(FilePatternSettings pass, const EncoderSettings& settings,
+                                       const OperatingPoint& motion, const VideoFormat& format,
+                                       const CodedState& rest) {
+  if (!settings.live) {
+    pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
+    auto out = std::make_unique<PatternStage>(format, pass, rest);
+    out->decide_by(std::make_unique<FilePatterns>(*out, pass));
+    return out;
+  }
+  const LivePatternSettings live = live_settings(settings, motion, format);
+  auto out = std::make_unique<PatternStage>(format, live, rest);
+  // A rate is kept by what waits to be sent, not over a whole scene.
+  const bool knows_scenes = LivePatterns::has_windows(live.delay) && live.bitrate_kbps == 0 && !live.alone;
+  out->decide_by(std::make_unique<LivePatterns>(*out, live),
+                 knows_scenes ? std::make_unique<FilePatterns>(*out, pass) : nullptr);
+  return out;
 }
 
 }  // namespace
@@ -81,7 +90,6 @@ FilePatternSettings pass_settings(const EncoderSettings& settings, const Operati
   out.reduced = settings.reduced_patterns;
   out.bitrate_kbps = settings.bitrate;
   out.start = start_of(settings);
-  out.key_interval = settings.key_interval;
   out.threads = thread_count(settings);
   out.hooks = settings.hooks;
   out.lambda = motion.lambda;
@@ -101,25 +109,12 @@ FilePatternSettings planar_pass_settings(const EncoderSettings& settings, const 
 
 std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
                                             const VideoFormat& format, const CodedState& rest) {
-  if (settings.live)
-    return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
-  return file_patterns(pass_settings(settings, motion), settings, format, rest);
+  return patterns(pass_settings(settings, motion), settings, motion, format, rest);
 }
 
 std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
                                               const VideoFormat& format, const CodedState& rest) {
-  if (settings.live)
-    return std::make_unique<LivePatterns>(format, live_settings(settings, motion, format), rest);
-  return file_patterns(planar_pass_settings(settings, motion), settings, format, rest);
-}
-
-double key_interval_of(const EncoderSettings& settings, const VideoFormat& format) {
-  double seconds = settings.key_interval;
-  if (settings.live && seconds == 0) {
-    const bool strong = settings.live->resilience == Resilience::kStrong;
-    seconds = settings.live->join > 0 ? kJoinedKeySeconds : strong ? kStrongKeySeconds : kLiveKeySeconds;
-  }
-  return seconds * fps_of(format);
+  return patterns(planar_pass_settings(settings, motion), settings, motion, format, rest);
 }
 
 }  // namespace fbs

@@ -37,7 +37,4 @@ namespace fbs {
                                                             const VideoFormat& format,
                                                             const CodedState& rest);
 
-/// Most pictures between scenes; 0: where it costs little.
-[[nodiscard]] double key_interval_of(const EncoderSettings& settings, const VideoFormat& format);
-
 }  // namespace fbs

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -30,20 +31,58 @@ struct PatternSettings {
   Hooks hooks{};
 };
 
-/// Takes pictures and their planned motion, and returns packets, a segment at a time. How many patterns there
-/// are and what they may cost is decided by how much is known: see FilePatterns and LivePatterns.
+class PatternStage;
+
+/// Decides how many patterns the segments of a stage have, and what they may cost.
+class PatternPolicy {
+ public:
+  PatternPolicy(const PatternPolicy&) = delete;
+  PatternPolicy& operator=(const PatternPolicy&) = delete;
+  virtual ~PatternPolicy() = default;
+
+  virtual void begin_scene() {}
+  /// The picture has been added to the segment.
+  virtual void note_added(const Picture& /*picture*/) {}
+  /// PatternStage::set_bitrate().
+  virtual void set_bitrate(double /*kbps*/) {}
+  /// PatternStage::lose_patterns().
+  virtual void lose_patterns() {}
+  /// PatternStage::segment_ends().
+  [[nodiscard]] virtual bool segment_ends(std::size_t next) const = 0;
+  /// Decides on the patterns of the segment, which is not empty, and makes them.
+  /// @param other_bytes, refit  as of PatternStage::end_segment()
+  [[nodiscard]] virtual Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
+                                                          const StateRefit& refit) = 0;
+  /// Packets of the segment are as made, and take so many bytes.
+  virtual void note_sent(std::size_t bytes) = 0;
+
+ protected:
+  explicit PatternPolicy(PatternStage& stage);
+
+  PatternStage& stage_;
+  SegmentStore& store_;  ///< the stage's
+  Workers& workers_;     ///< the stage's
+};
+
+/// Takes pictures and their planned motion, and returns packets, a segment at a time. What patterns there are
+/// is decided by how much is known: see FilePatterns and LivePatterns.
 class PatternStage {
  public:
+  /// @param rest  seen state of pattern 0 as coded
+  PatternStage(const VideoFormat& format, const PatternSettings& settings, const CodedState& rest);
   PatternStage(const PatternStage&) = delete;
   PatternStage& operator=(const PatternStage&) = delete;
-  virtual ~PatternStage() = default;
+
+  /// Sets the policies, before anything else is called.
+  /// @param whole  decides in the place of the other on a scene that is known whole; may be null
+  void decide_by(std::unique_ptr<PatternPolicy> policy, std::unique_ptr<PatternPolicy> whole = nullptr);
 
   /// Another scene begins; the segment before has ended.
   /// @param rest  seen state of its pattern 0 as coded
-  virtual void begin_scene(const CodedState& rest);
+  void begin_scene(const CodedState& rest);
 
   /// The next picture of the scene.
-  virtual Result<void> add(const SharedPicture& picture) { return store_.add(picture); }
+  Result<void> add(const SharedPicture& picture);
   /// The picture added next begins another shot.
   void cut() { store_.cut(); }
   /// Adds the next group of pictures.
@@ -53,32 +92,37 @@ class PatternStage {
   }
 
   /// Where the bitrate of a live scene is limited: by this from now on, kbit/s.
-  virtual void set_bitrate(double /*kbps*/) {}
+  void set_bitrate(double kbps) { policy_->set_bitrate(kbps); }
 
   /// A viewer of a live scene has lost a pattern for good: later ones need the scene's first alone.
-  virtual void lose_patterns() {}
+  void lose_patterns() { policy_->lose_patterns(); }
 
   /// Whether the segment should end with the group added last.
   /// @param next  pictures of the group after it
-  [[nodiscard]] virtual bool segment_ends(std::size_t next) const = 0;
+  [[nodiscard]] bool segment_ends(std::size_t next) const { return policy_->segment_ends(next); }
 
   /// Pictures of the segment so far.
   [[nodiscard]] std::size_t pictures() const { return store_.segment().pictures.count(); }
 
   /// Patterns that the decoder keeps.
-  [[nodiscard]] std::int32_t store() const { return store_.slots(); }
+  [[nodiscard]] std::int32_t slots() const { return store_.slots(); }
 
   /// Codes the segment and begins another.
-  /// @param scene  as the decoder has it before the segment, and after; its setup has store()
+  /// @param scene  as the decoder has it before the segment, and after; its setup has slots()
+  /// @param last   the scene ends with it
   /// @param other_bytes  written besides segments since the last one
   /// @param refit  called for segments with several patterns; may be empty
   /// @return packets
-  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, std::size_t other_bytes,
+  [[nodiscard]] Result<std::vector<TypedPayload>> end_segment(Scene& scene, bool last,
+                                                              std::size_t other_bytes,
                                                               const StateRefit& refit);
 
- protected:
-  /// @param rest  seen state of pattern 0 as coded
-  PatternStage(const VideoFormat& format, const PatternSettings& settings, const CodedState& rest);
+  // For policies.
+
+  [[nodiscard]] SegmentStore& store() { return store_; }
+  [[nodiscard]] Workers& workers() { return workers_; }
+  /// Whether the stream has a pattern.
+  [[nodiscard]] bool begun() const { return begun_; }
 
   /// How patterns are made of a draft.
   struct Making {
@@ -92,28 +136,23 @@ class PatternStage {
     /// Codes the pictures of the draft.
     std::function<Result<void>(SegmentDraft&)> code;
   };
-
-  /// Decides on the patterns of the segment, which is not empty, and makes them.
-  [[nodiscard]] virtual Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
-                                                          const StateRefit& refit) = 0;
-  /// Packets of the segment are as made, and take so many bytes.
-  virtual void note_sent(std::size_t bytes) = 0;
-
   /// Makes the patterns, and sets states and blend modes.
   [[nodiscard]] Result<SegmentDraft> make(const Scene& scene, SegmentDraft draft, const Making& making,
                                           const StateRefit& refit);
-  /// Computes errors_ if they are unknown.
+  /// Errors of the segment; empty: unknown, as states or patterns have changed.
+  [[nodiscard]] SegmentErrors& errors() { return errors_; }
+  /// Computes errors() if they are unknown.
   /// @param most  at most this many pictures share theirs
   Result<void> measure(const SegmentPatterns& patterns, std::size_t most);
   /// Sets the blend modes of the segment.
   Result<void> choose(const Scene& scene, const SegmentDraft& draft, std::size_t most);
 
+ private:
   Workers workers_;
   SegmentStore store_;
-  bool begun_ = false;    ///< the stream has a pattern
-  SegmentErrors errors_;  ///< empty: unknown, as states or patterns have changed
-
- private:
+  std::unique_ptr<PatternPolicy> policy_, whole_;
+  bool begun_ = false;
+  SegmentErrors errors_;
   double lambda_;
   RegionModes modes_{};  ///< of the scene's last picture
 };

@@ -26,14 +26,20 @@ TEST(SceneTiming, GroupsStayWithinTheFormatsLimits) {
   EXPECT_EQ(timing_at({1, 10}).lookahead, 1U);
 }
 
-TEST(SceneTiming, AKeyIntervalHasRoomForTheFirstGroupAndAnother) {
+TEST(SceneTiming, AKeyIntervalIsInPicturesAndTenSecondsOfALiveScene) {
   VideoFormat format;
-  format.frame_rate = {25, 1};
+  format.frame_rate = {30000, 1001};
   EncoderSettings settings;
-  for (const auto& [interval, pictures] : {std::pair{1.0, 24U}, {0.3, 6U}, {0.04, 1U}, {9.0, 25U}}) {
+  EXPECT_EQ(SceneTiming(format, settings).key_pictures, 0U);
+  for (const auto& [interval, pictures] : {std::pair{10.0, 300U}, {0.3, 9U}, {0.01, 1U}}) {
     settings.key_interval = interval;
-    EXPECT_EQ(SceneTiming(format, settings).group_pictures, pictures) << interval;
+    const SceneTiming timing(format, settings);
+    EXPECT_EQ(timing.key_pictures, pictures) << interval;
+    EXPECT_TRUE(timing.group_ends(1, pictures)) << interval;
   }
+  settings.key_interval = 0;
+  settings.live.emplace();
+  EXPECT_EQ(SceneTiming(format, settings).key_pictures, 300U);
 }
 
 TEST(SceneTiming, FirstPictureIsAGroupOfItsOwn) {

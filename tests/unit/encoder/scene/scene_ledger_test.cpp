@@ -49,38 +49,30 @@ TEST(SceneLedger, TheFirstPictureIsAGroupOfItsOwn) {
 }
 
 TEST(SceneLedger, WithoutAKeyIntervalAScenesSegmentEndsItAndOnePatternNeverDoes) {
-  EXPECT_TRUE(ledger({}, true).scene_ends(1));
-  EXPECT_FALSE(ledger({}, false).scene_ends(1000));
+  EXPECT_TRUE(ledger({}, true).scene_ends());
+  EXPECT_FALSE(ledger({}, false).scene_ends());
 }
 
-TEST(SceneLedger, ASceneEndsWhenWhatFollowsWouldPassTheKeyInterval) {
-  SceneLedger scene = ledger(settings(3, false), false);
-  groups(scene, 21);
-  EXPECT_FALSE(scene.scene_ends(9));
-  EXPECT_TRUE(scene.scene_ends(10));
-  groups(scene, 1);
-  EXPECT_FALSE(scene.scene_ends(10)) << "never inside a group";
-}
-
-TEST(SceneLedger, ALiveSceneEndsByItsGroupsWhateverFollows) {
-  SceneLedger scene = ledger(settings(1, true), true);
-  groups(scene, 8);
-  EXPECT_FALSE(scene.scene_ends(100));
-  groups(scene, 1);
-  EXPECT_TRUE(scene.scene_ends(0));
-  EXPECT_TRUE(scene.live_scene_ends(9));
-  EXPECT_FALSE(scene.live_scene_ends(8));
+TEST(SceneLedger, ASceneIsAsLongAsTheKeyInterval) {
+  for (const bool live : {false, true}) {
+    SceneLedger scene = ledger(settings(2.5, live), live);
+    EXPECT_EQ(groups(scene, 24).back(), live ? 2U : 10U);
+    EXPECT_FALSE(scene.scene_ends());
+    EXPECT_EQ(groups(scene, 1), std::vector<std::size_t>{live ? 2U : 4U})
+        << "a shorter group, or a whole one";
+    EXPECT_TRUE(scene.scene_ends());
+  }
 }
 
 TEST(SceneLedger, ARequestHoldsUntilTheSceneHasEnded) {
   SceneLedger scene = ledger(settings(0, true), false);
   groups(scene, 3);
-  EXPECT_FALSE(scene.scene_ends(2));
+  EXPECT_FALSE(scene.scene_ends());
   scene.request_scene();
-  EXPECT_TRUE(scene.scene_ends(2));
+  EXPECT_TRUE(scene.scene_ends());
   scene.end_scene();
   scene.request_scene();
-  EXPECT_FALSE(scene.scene_ends(2)) << "it has ended already";
+  EXPECT_FALSE(scene.scene_ends()) << "it has ended already";
 }
 
 TEST(SceneLedger, AnotherSceneSaysWhereInTheStreamItBegins) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 
 #include "bitstream/packet.h"
 #include "common/quality.h"
@@ -157,13 +158,14 @@ TEST(FilePatterns, SegmentEndsBeforeTooManyPicturesWait) {
       FilePatternSettings settings;
       settings.point = PatternPoint::at(0);
       settings.count = count;
-      FilePatterns pass(format, settings, {});
+      PatternStage stage(format, settings, {});
+      stage.decide_by(std::make_unique<FilePatterns>(stage, settings));
       const std::vector<State> group(kMaxGroupPictures);
       const Picture grey(format.width, format.height);
       int pictures = 0;
-      while (!pass.segment_ends(kMaxGroupPictures) && pictures < 2 * kMaxWaitingPictures) {
-        for (int i = 0; i < kMaxGroupPictures; ++i) ASSERT_TRUE(pass.add(grey));
-        pass.add(group, {});
+      while (!stage.segment_ends(kMaxGroupPictures) && pictures < 2 * kMaxWaitingPictures) {
+        for (int i = 0; i < kMaxGroupPictures; ++i) ASSERT_TRUE(stage.add(grey));
+        stage.add(group, {});
         pictures += kMaxGroupPictures;
       }
       EXPECT_LE(pictures, kMaxWaitingPictures) << count << " patterns, " << fps << " pictures a second";

@@ -102,21 +102,11 @@ TEST(PassSettings, OnlyALiveStageEndsASegmentWithEachGroup) {
   for (const auto& make : {&face_patterns, &planar_patterns}) {
     EXPECT_TRUE(make(live(), kMotion, format(), rest)->segment_ends(5));
     EXPECT_FALSE(make({}, kMotion, format(), rest)->segment_ends(5));
-    EXPECT_EQ(make(live(), kMotion, format(), rest)->store(), pattern_store(format()));
+    EXPECT_EQ(make(live(), kMotion, format(), rest)->slots(), pattern_store(format()));
     EncoderSettings late = live();
     late.live->delay = 1;
     EXPECT_FALSE(make(late, kMotion, format(), rest)->segment_ends(5));
   }
-}
-
-TEST(KeyInterval, IsInPicturesAndTenSecondsOfALiveScene) {
-  EncoderSettings settings;
-  EXPECT_EQ(key_interval_of(settings, format()), 0);
-  EXPECT_EQ(key_interval_of(live(), format()), 250);
-  settings.key_interval = 2;
-  EXPECT_EQ(key_interval_of(settings, format()), 50);
-  settings.live.emplace();
-  EXPECT_EQ(key_interval_of(settings, format()), 50);
 }
 
 }  // namespace
