@@ -30,7 +30,8 @@ FaceAnalysis::FaceAnalysis(const EncoderSettings& settings, const FaceFinder& fi
     : track_only_(settings.track_only),
       contours_(settings.expression && settings.contours),
       geometry_(start.geometry),
-      head_(finder, start.geometry, pose_of(start.seen), first, start.eye_distance_px),
+      // A live scene ends soon: patterns of another framing are worth one of their own, a place to join.
+      head_(finder, start.geometry, pose_of(start.seen), first, start.eye_distance_px, !settings.live),
       features_(start.geometry, pose_of(start.seen), first, settings.descent),
       landmarks_(settings.landmark_search && !settings.track_only ? &finder.landmarks() : nullptr,
                  start.geometry, pose_of(start.seen), view(start.first.y),
@@ -49,6 +50,7 @@ FaceAnalysis::Observation FaceAnalysis::observe(const Picture& picture) {
   seen.state = state_of(now_);
   seen.face = report_.followed;
   seen.pose = now_.pose;
+  seen.eye_distance_px = head_.eye_distance_px();
   seen.in_shot = head_.is_in_shot();
   seen.vertices = project_vertices(geometry_, seen.state);
   write_report(seen);

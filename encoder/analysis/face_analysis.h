@@ -39,6 +39,7 @@ class FaceAnalysis {
     PictureCost cost;                  ///< of other states
     std::vector<glm::ivec3> vertices;  ///< project_vertices() of the state
     Pose pose;                         ///< as fitted
+    double eye_distance_px = 0;        ///< the scale of the shot's work frames
     bool in_shot = true;               ///< as far as is known, the shot shows the head
   };
   /// Observes the next picture, beginning with the scene's first.

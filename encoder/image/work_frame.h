@@ -13,13 +13,13 @@ namespace fbs {
 struct WorkFrame {
   static constexpr double kWorkEyeDistance = 48;
 
-  double scale = 1;     ///< work pixels per picture pixel; fixed for a scene
+  double scale = 1;     ///< work pixels per picture pixel; fixed for a shot
   glm::dvec2 origin{};  ///< top left corner of the crop in the picture (pixels, corner-based)
   cv::Mat luma;         ///< 8 bit
   cv::Mat u, v;         ///< 8 bit, luma's size; empty unless asked for
 
   /// @param centre  of the crop, pixels of the picture
-  /// @param eye_distance_px  of the scene's first picture: it sets the scale and the crop's size
+  /// @param eye_distance_px  of the shot's first picture: it sets the scale and the crop's size
   static WorkFrame cut(const Picture& picture, glm::dvec2 centre, double eye_distance_px, bool with_colour);
   /// Cuts from a picture's luma alone.
   static WorkFrame cut(const Plane& luma, glm::dvec2 centre, double eye_distance_px);

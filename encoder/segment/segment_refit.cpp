@@ -18,13 +18,12 @@ static_assert(first_of(PartId::kGround) == kFirstSurround + kSimilarityCount);
 
 SegmentRefit::SegmentRefit(const Setup& setup, const Geometry& geometry, const Pattern& first,
                            double eye_distance_px, MotionTrack motion)
-    : eye_distance_px_(eye_distance_px),
-      fit_(setup, geometry,
+    : fit_(setup, geometry,
            {WorkFrame::cut(first.picture, pose_of(first.seen).shift, eye_distance_px, false), first.seen}),
       before_(std::move(motion)) {}
 
 void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t duration) {
-  Analysed out{picture.state, picture.face, duration, {}, {}};
+  Analysed out{picture.state, picture.face, picture.eye_distance_px, duration, {}, {}};
   const PictureCost& cost = picture.cost;
   std::copy_n(cost.fit.begin() + kFirstSurround, kSurroundCount, out.surround.begin());
   for (const LayerCost& layer : cost.layers)
@@ -39,12 +38,11 @@ Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) co
   if (!shown.analysed.face) return cost_unseen(fit_of(shown.pattern ? shown.state : shown.analysed.state));
   const Plane& source = shown.source.y;
   const Fit now = fit_of(shown.state);
-  const cv::Rect crop = WorkFrame::area({source.width, source.height}, now.pose.shift, eye_distance_px_);
+  const double eye = shown.analysed.eye_distance_px;
+  const cv::Rect crop = WorkFrame::area({source.width, source.height}, now.pose.shift, eye);
   const auto drawn = tools.renderer.draw(shown.state, {crop.x, crop.y, crop.br().x, crop.br().y});
   if (!drawn) return fail(drawn.error());
-  const auto frame_of = [&](const Plane& luma) {
-    return WorkFrame::cut(luma, now.pose.shift, eye_distance_px_);
-  };
+  const auto frame_of = [&](const Plane& luma) { return WorkFrame::cut(luma, now.pose.shift, eye); };
   PictureFit& fit = tools.fit;
   constexpr int kLevels = 1;
   fit.set_pattern({frame_of(**drawn), shown.state, 0, tools.renderer.interior_opacity(shown.state), kLevels});

@@ -46,6 +46,7 @@ class SegmentRefit {
   struct Analysed {
     State state;
     bool face;
+    double eye_distance_px;  ///< FaceAnalysis::Observation's
     std::uint32_t duration;
     std::array<double, kSurroundCount> surround;  ///< of PictureCost::fit: body and ground
     cv::Matx<double, kSurroundCount, kSurroundCount> surround_quadratic;
@@ -65,7 +66,6 @@ class SegmentRefit {
   [[nodiscard]] Result<PictureCost> cost_of(const Shown& shown, Tools& tools) const;
   [[nodiscard]] Result<PictureCost> head_cost(const Shown& shown, Tools& tools) const;
 
-  double eye_distance_px_;
   PictureFit fit_;
   std::vector<Analysed> pictures_;
   MotionTrack before_;                ///< the segment

@@ -53,10 +53,8 @@ bool in_place(const Pose& pose, const Pose& last, std::span<const glm::dvec3> po
          std::abs(pose.log2_scale - last.log2_scale) < kStayedSize;
 }
 
-/// Whether a pose has a size the head may have by now, shows its face, and lies in the picture.
-bool plausible(const Pose& pose, const Pose& last, const Picture& picture,
-               std::span<const glm::dvec3> points) {
-  if (std::abs(pose.log2_scale - last.log2_scale) > kMaxSizeChange) return false;
+/// Whether a pose shows its face, and lies in the picture.
+bool plausible(const Pose& pose, const Picture& picture, std::span<const glm::dvec3> points) {
   if (std::max(std::abs(pose.yaw), std::abs(pose.pitch)) > kMaxTurn) return false;
   const PoseProjection projection(pose);
   const auto inside = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& p) {
@@ -72,6 +70,7 @@ struct Wanted {
   const HeadAppearance& head;
   const Pose& last;
   const HeadVertices& vertices;
+  double size_change;  ///< most that the head may have by now, log2 against the last pose
   std::vector<glm::dvec3> points;
 };
 
@@ -84,7 +83,8 @@ class Detections {
   void refine(const LevelledFrame& now, const Pose& start) {
     if (best_.accepted) return;
     const TrackedPose head = fbs::refine(wanted_.head, now, start, wanted_.points);
-    if (!plausible(head.pose, wanted_.last, wanted_.picture, wanted_.points)) return;
+    if (std::abs(head.pose.log2_scale - wanted_.last.log2_scale) > wanted_.size_change) return;
+    if (!plausible(head.pose, wanted_.picture, wanted_.points)) return;
     const bool stayed = in_place(head.pose, wanted_.last, wanted_.points);
     const bool accepted = head.confidence >= (stayed ? kLostBelow : kSureFrom);
     if (accepted || head.confidence > best_.head.confidence) best_ = {head, accepted};
@@ -135,11 +135,11 @@ Pose pose_of(const FoundFace& face) {
 /// Searches at each face found.
 void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& detections) {
   if (shows_nothing(view(w.picture.y))) return;
-  const double eye = w.last.eye_distance_px(), factor = std::exp2(kMaxSizeChange);
+  const double eye = w.last.eye_distance_px(), factor = std::exp2(w.size_change);
   for (const FoundFace& face : finder.find(w.picture, {eye / factor, eye * factor}, kFacesEverywhere)) {
     if (detections.best().accepted) return;
     const Pose there = pose_of(face);
-    const WorkFrame frame = WorkFrame::cut(w.picture, there.shift, w.head.eye_distance_px(), false);
+    const WorkFrame frame = WorkFrame::cut(w.picture, there.shift, there.eye_distance_px(), false);
     detections.search(LevelledFrame(frame), there, kGridAtFace);
   }
 }
@@ -147,8 +147,10 @@ void search_everywhere(const Wanted& w, const FaceFinder& finder, Detections& de
 }  // namespace
 
 FaceSearch::Detection FaceSearch::find_anywhere(const Picture& picture, const HeadTracker& head,
-                                                const Pose& last, const HeadVertices& vertices) const {
-  const Wanted wanted = {picture, head.appearance(), last, vertices, head.appearance().surface(vertices)};
+                                                const Pose& last, const HeadVertices& vertices,
+                                                double size_change) const {
+  const Wanted wanted = {picture,  head.appearance(), last,
+                         vertices, size_change,       head.appearance().surface(vertices)};
   Detections detections(wanted);
   search_everywhere(wanted, *finder_, detections);
   return detections.best();
@@ -156,7 +158,8 @@ FaceSearch::Detection FaceSearch::find_anywhere(const Picture& picture, const He
 
 FaceSearch::Detection FaceSearch::find(const Picture& picture, const HeadTracker& head, const Pose& last,
                                        const HeadVertices& vertices) {
-  const Wanted wanted = {picture, head.appearance(), last, vertices, head.appearance().surface(vertices)};
+  const Wanted wanted = {picture,  head.appearance(), last,
+                         vertices, kMaxSizeChange,    head.appearance().surface(vertices)};
   Detections detections(wanted);
   search_around(wanted, detections);
   if (lost_pictures_++ % kEverywherePeriod == 1 && !detections.best().accepted)

@@ -34,8 +34,9 @@ class FaceSearch {
                                const HeadVertices& vertices);
 
   /// Searches faces anywhere, and nowhere else: for the first picture of another shot.
+  /// @param size_change  most that the head may have there, log2 against the last pose
   [[nodiscard]] Detection find_anywhere(const Picture& picture, const HeadTracker& head, const Pose& last,
-                                        const HeadVertices& vertices) const;
+                                        const HeadVertices& vertices, double size_change) const;
 
   /// Whether the picture before was lost.
   [[nodiscard]] bool lost() const { return lost_pictures_ > 0; }

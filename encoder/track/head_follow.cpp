@@ -5,18 +5,22 @@
 namespace fbs {
 
 bool HeadFollow::recognises(const Picture& picture, const Pose& last, const HeadVertices& vertices) {
-  const FaceSearch::Detection found = search_.find_anywhere(picture, head_, last, vertices);
+  const double size_change = any_framing_ ? head_tuning::kMaxFramingChange : head_tuning::kMaxSizeChange;
+  const FaceSearch::Detection found = search_.find_anywhere(picture, head_, last, vertices, size_change);
   if (!found.accepted) return false;
-  (void)go_on_from(picture, found.head.pose);
+  const Pose& pose = found.head.pose;
+  const HeadAppearance& head = head_.appearance();
+  const WorkFrame now = WorkFrame::cut(picture, pose.shift, pose.eye_distance_px(), true);
+  if (head.colour_difference(now, pose, head.surface(vertices)) > head_tuning::kStrangersColour) return false;
+  eye_distance_px_ = pose.eye_distance_px();
+  go_on_from(pose, now);
   elsewhere_ = false;
   return true;
 }
 
-WorkFrame HeadFollow::go_on_from(const Picture& picture, const Pose& pose) {
+void HeadFollow::go_on_from(const Pose& pose, const WorkFrame& now) {
   search_.rest();
-  WorkFrame now = frame(picture, pose.shift, true);
   head_.restart(pose, now);
-  return now;
 }
 
 TrackedPose HeadFollow::track(const WorkFrame& now, const HeadVertices& vertices) {
@@ -43,7 +47,8 @@ std::optional<HeadFollow::Found> HeadFollow::follow(const Picture& picture, cons
     head_.restart(last, now);
     return std::nullopt;
   }
-  now = go_on_from(picture, found.head.pose);
+  now = frame(picture, found.head.pose.shift, true);
+  go_on_from(found.head.pose, now);
   const TrackedPose tracked = track(now, vertices);
   return Found{tracked.pose, std::move(now)};
 }

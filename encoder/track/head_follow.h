@@ -12,10 +12,14 @@ class HeadFollow {
  public:
   /// @param finder  searches for a lost face; must outlive the object
   /// @param first   the scene's first picture, in which the head is seen in `pose`
-  /// @param eye_distance_px  in it: the scale of all work frames
+  /// @param eye_distance_px  in it: the scale of work frames, until another shot is framed otherwise
+  /// @param any_framing  whether another shot may be framed much closer or wider
   HeadFollow(const FaceFinder& finder, const Geometry& geometry, const Pose& pose, const WorkFrame& first,
-             double eye_distance_px)
-      : eye_distance_px_(eye_distance_px), head_(geometry, pose, first), search_(finder) {}
+             double eye_distance_px, bool any_framing)
+      : eye_distance_px_(eye_distance_px),
+        any_framing_(any_framing),
+        head_(geometry, pose, first),
+        search_(finder) {}
 
   /// The work frame about a place of a picture.
   [[nodiscard]] WorkFrame frame(const Picture& picture, glm::dvec2 centre, bool with_colour) const {
@@ -41,17 +45,22 @@ class HeadFollow {
   /// @param picture  to be followed next
   [[nodiscard]] bool recognises(const Picture& picture, const Pose& last, const HeadVertices& vertices);
 
+  /// The scale of work frames: pixels.
+  [[nodiscard]] double eye_distance_px() const { return eye_distance_px_; }
+
   /// Certainty of the last picture's pose, 0..1; of the best guess, where the head is lost.
   [[nodiscard]] double confidence() const { return confidence_; }
   [[nodiscard]] const HeadTracker& tracker() const { return head_; }
 
  private:
-  /// Begins anew where a search has found the head.  @return the work frame there
-  WorkFrame go_on_from(const Picture& picture, const Pose& pose);
+  /// Begins anew where a search has found the head.
+  /// @param now  the work frame there
+  void go_on_from(const Pose& pose, const WorkFrame& now);
   /// Tracks, and keeps the confidence.
   TrackedPose track(const WorkFrame& now, const HeadVertices& vertices);
 
   double eye_distance_px_;
+  bool any_framing_;
   HeadTracker head_;
   FaceSearch search_;
   bool elsewhere_ = false;

@@ -55,6 +55,8 @@ HeadAppearance::HeadAppearance(const HeadVertices& neutral, const Pose& pose, co
   for (const SurfacePoint& p : points_) weight_.push_back(weight_of(p.corner));
   const LevelledFrame levelled(first);
   const std::vector<glm::dvec3> points = surface(neutral);
+  if (!first.u.empty())
+    for (const glm::dvec3& p : points) colour_.push_back(colour_at(first, projection(p)));
   for (int level = 0; level < LevelledFrame::kLevels; ++level) {
     for (const glm::dvec3& p : points) {
       Sample s;
@@ -62,6 +64,15 @@ HeadAppearance::HeadAppearance(const HeadVertices& neutral, const Pose& pose, co
       seen_[level].push_back(inside ? s.value : -1.0F);
     }
   }
+}
+
+std::optional<HeadAppearance::Colour> HeadAppearance::colour_at(const WorkFrame& frame, glm::dvec2 picture) {
+  constexpr double kGrey = 128;
+  const glm::dvec2 work = frame.to_work(picture);
+  const cv::Point at(static_cast<int>(std::lround(work.x)), static_cast<int>(std::lround(work.y)));
+  if (!cv::Rect({0, 0}, frame.luma.size()).contains(at)) return std::nullopt;
+  const auto level = [&](const cv::Mat& plane) { return static_cast<double>(plane.at<std::uint8_t>(at)); };
+  return Colour{level(frame.luma), level(frame.u) - kGrey, level(frame.v) - kGrey};
 }
 
 std::vector<glm::dvec3> HeadAppearance::surface(const HeadVertices& vertices) const {
@@ -84,6 +95,31 @@ double HeadAppearance::correlation(const LevelledFrame& now, const Pose& pose,
              static_cast<double>(s.value));
   }
   return sums.value();
+}
+
+double HeadAppearance::colour_difference(const WorkFrame& now, const Pose& pose,
+                                         std::span<const glm::dvec3> points) const {
+  struct Seen {
+    double weight;
+    Colour first, now;
+  };
+  std::vector<Seen> seen;
+  const PoseProjection projection(pose);
+  double sum = 0, before = 0, after = 0;
+  for (std::size_t k = 0; k < colour_.size(); ++k) {
+    const auto colour = colour_[k] ? colour_at(now, projection(points[k])) : std::nullopt;
+    if (!colour) continue;
+    seen.push_back({static_cast<double>(weight_[k]), *colour_[k], *colour});
+    sum += seen.back().weight;
+    before += seen.back().weight * seen.back().first[0];
+    after += seen.back().weight * seen.back().now[0];
+  }
+  if (sum < kMinCorrelationWeight || before == 0) return 0;
+  const double light = after / before;  // colours are as much stronger
+  double difference = 0;
+  for (const Seen& s : seen)
+    for (const std::size_t c : {1, 2}) difference += s.weight * std::abs(s.now[c] - light * s.first[c]);
+  return difference / sum;
 }
 
 }  // namespace fbs

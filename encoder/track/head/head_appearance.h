@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,11 +38,22 @@ class HeadAppearance {
   [[nodiscard]] double correlation(const LevelledFrame& now, const Pose& pose,
                                    std::span<const glm::dvec3> points) const;
 
+  /// How far the colours of the points in `now` are from those of the first picture in the present light:
+  /// difference of both chroma planes together, 8 bits, weighted mean; 0 where too few points are seen.
+  /// @param now  with colour, as the first picture's
+  [[nodiscard]] double colour_difference(const WorkFrame& now, const Pose& pose,
+                                         std::span<const glm::dvec3> points) const;
+
  private:
+  /// Luma, and chroma less its grey.
+  using Colour = std::array<double, 3>;
+  [[nodiscard]] static std::optional<Colour> colour_at(const WorkFrame& frame, glm::dvec2 picture);
+
   double eye_distance_px_;
   std::vector<SurfacePoint> points_;
   std::vector<float> weight_;
   std::array<std::vector<float>, LevelledFrame::kLevels> seen_;
+  std::vector<std::optional<Colour>> colour_;  ///< of the points in the first picture; empty: unknown
 };
 
 }  // namespace fbs

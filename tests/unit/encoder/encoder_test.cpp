@@ -317,10 +317,25 @@ TEST(Encoder, AnotherPersonIsAnotherScene) {
   const Pictures source = interrupted(pictures_of(TalkerClip(settings)));
   const Watched w = watched(source);
   EXPECT_EQ(w.report.cuts, 2U);
-  EXPECT_GE(w.report.scenes, 2U)
-      << "generated people are so alike that the first may be taken for the second";
+  EXPECT_EQ(w.report.scenes, 3U);
   EXPECT_LE(w.report.without_face, 5U);
   for (const std::size_t first : {0, 20, 40}) EXPECT_GT(psnr_from(w.coded, source, first, 20), 28) << first;
+}
+
+// As where a talk is cut between two framings.
+TEST(Encoder, SamePersonFramedCloserStaysInTheScene) {
+  auto settings = talker_settings(128, 96, 20);
+  settings.frame_rate = kRate;
+  settings.eye_distance = 0.34F;
+  const Pictures source = interrupted(pictures_of(TalkerClip(settings)));
+  const Watched w = watched(source);
+  EXPECT_EQ(w.report.cuts, 2U);
+  EXPECT_EQ(w.report.scenes, 1U);
+  EXPECT_EQ(w.report.without_face, 0U);
+  for (const std::size_t first : {0, 20, 40}) EXPECT_GT(psnr_from(w.coded, source, first, 20), 28) << first;
+  EncoderSettings live;
+  live.live.emplace();
+  EXPECT_EQ(watched(source, live).report.scenes, 3U);
 }
 
 // With one pattern a scene has nothing to carry a slide with.

@@ -29,8 +29,12 @@ class RestingHead {
 
   void add(int pictures) {
     for (int t = 0; t < pictures; ++t) {
-      FaceAnalysis::Observation seen{
-          toy_state(), true, {}, scene_.geometry->project_vertices(toy_state()), pose_of(toy_state())};
+      FaceAnalysis::Observation seen{toy_state(),
+                                     true,
+                                     {},
+                                     scene_.geometry->project_vertices(toy_state()),
+                                     pose_of(toy_state()),
+                                     pose_of(toy_state()).eye_distance_px()};
       const CodedState rest = coded_pose(toy_state());
       std::copy(rest.begin(), rest.end(), seen.cost.fit.begin());
       seen.cost.layers.push_back(

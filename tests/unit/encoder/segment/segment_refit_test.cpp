@@ -57,7 +57,7 @@ struct StillSegment {
     return out;
   }
   void analyse(std::size_t t, bool face) {
-    FaceAnalysis::Observation seen{segment.states[t], face, {}, {}, {}};
+    FaceAnalysis::Observation seen{segment.states[t], face, {}, {}, {}, WorkFrame::kWorkEyeDistance};
     seen.cost.layers.push_back(
         {CostLayer::kSurround, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
     refit.add(seen, 0);

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "encoder/find/landmarks.h"
+#include "encoder/model/skinning.h"
+#include "encoder/track/head/head_tuning.h"
 #include "tests/unit/encoder/track/head/head_case.h"
 
 namespace fbs {
@@ -55,6 +57,31 @@ TEST(HeadAppearance, WhatMovesByItselfWeighsLess) {
   }
   EXPECT_GT(lips, 20);
   EXPECT_GT(others, 100);
+}
+
+/// The head's colours in the first picture of a talker, by the first one's appearance.
+double colour_difference(const talker::Settings& settings, double light = 1) {
+  TalkerClip known(talker_settings(352, 288, 1)), shown(settings);
+  const auto head = adapt_head(known.marks(0)), there = adapt_head(shown.marks(0));
+  const auto frame = [](const Picture& picture, const Pose& pose) {
+    return WorkFrame::cut(picture, pose.shift, pose.eye_distance_px(), true);
+  };
+  const HeadVertices neutral = skinned(head->geometry, {});
+  const HeadAppearance appearance(neutral, head->pose, frame(known[0], head->pose));
+  WorkFrame now = frame(shown[0], there->pose);
+  now.luma *= light;
+  for (cv::Mat* plane : {&now.u, &now.v}) plane->convertTo(*plane, CV_8U, light, 128 * (1 - light));
+  return appearance.colour_difference(now, there->pose, appearance.surface(neutral));
+}
+
+TEST(HeadAppearance, ColoursAreOfThePerson) {
+  auto settings = talker_settings(352, 288, 1);
+  EXPECT_EQ(colour_difference(settings), 0);
+  EXPECT_LT(colour_difference(settings, 0.5), head_tuning::kStrangersColour / 2) << "in less light";
+  settings.eye_distance *= 1.7F;
+  EXPECT_LT(colour_difference(settings), head_tuning::kStrangersColour / 2) << "nearer";
+  settings.seed = 6;
+  EXPECT_GT(colour_difference(settings), head_tuning::kStrangersColour) << "somebody else";
 }
 
 }  // namespace
