@@ -19,8 +19,9 @@ constexpr double kLaterShare = 0.35;
 /// How fast the expected size of a pattern follows coded ones.
 constexpr double kLearn = 0.5;
 
-/// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone.
-constexpr int kKeyBoost = 12;
+/// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone. In
+/// a window it is not alone for long.
+constexpr int kKeyBoost = 12, kWindowKeyBoost = 9;
 
 /// It is replaced once there is room for a pattern of so many times its bytes. With 3 that comes later and is
 /// no better (four clips at 5 kbit/s).
@@ -32,8 +33,9 @@ constexpr double kWindowDelay = 0.7;
 constexpr double kPull = 0.4;
 /// What the patterns of such a segment must gain, relative to others, since fewer and finer ones pay; and
 /// PatternRegret's patience. With 1 and 1 woman_presenter_700 takes 99 % more than a file in the face at one
-/// second, with these 47 % (unsolved).
-constexpr double kWindowPrice = 2, kWindowPatience = 4;
+/// second, with 2 and 4 47 % (unsolved). With 2, 4 and kKeyBoost foreman takes 44 and 51 % more in face and
+/// frame, with these 13 and 23 %.
+constexpr double kWindowPrice = 1.4, kWindowPatience = 4;
 
 /// Most pictures that share errors in a draft, where windows are drafted or time is short: it takes 4 % less
 /// of it at 640x480, and 2 to 3 % more of the rate.
@@ -130,8 +132,9 @@ double LivePatterns::pattern_room() const {
 
 Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, double room) {
   const double price = rate_ ? rate_->price() : 1;
+  const int key_boost = has_windows(settings_.delay) ? kWindowKeyBoost : kKeyBoost;
   // What takes the place of a coarse pattern is as fine as that was to be.
-  if (coarse_ == 0) wanted_ = std::max(0, quantiser_at_price(settings_.quantiser, price) - kKeyBoost);
+  if (coarse_ == 0) wanted_ = std::max(0, quantiser_at_price(settings_.quantiser, price) - key_boost);
   if (!rate_) return wanted_;
   const auto source = store_.segment().pictures.read(time);
   if (!source) return fail(source.error());
@@ -150,7 +153,7 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
 Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
   auto quantiser = key_quantiser(scene, 0, pattern_room());
   if (!quantiser) return fail(quantiser.error());
-  Plan plan{{0}, *quantiser, settings_.quantiser, true};
+  Plan plan{{0}, *quantiser, quantiser_at_price(settings_.quantiser, 1), true};
   double left = room() - key_.bits / 8;
   if (const double in_time = start_room(); key_.bits > 8 * in_time) {
     const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key_.bits / 8);

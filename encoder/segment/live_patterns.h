@@ -19,7 +19,7 @@ namespace fbs {
 struct LivePatternSettings : PatternSettings {
   double delay = 0.2;    ///< LiveSettings::delay
   bool solves = false;   ///< for patterns, where the delay is long
-  int quantiser = 58;    ///< libaom's scale, 0..63; for all patterns but a scene's first
+  int quantiser = 58;    ///< libaom's scale; for all patterns but a scene's first. Beyond 63 they get rarer
   bool reduced = false;  ///< patterns are coded at half width and height
   bool refits = true;    ///< states are fitted to the blend
   double buffer = 0;     ///< LiveSettings::buffer

@@ -1,6 +1,7 @@
 #include "encoder/segment/pass_settings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/workers.h"
 #include "encoder/patterns/pattern_size.h"
@@ -15,6 +16,10 @@ constexpr double kLiveStart = 1;
 
 /// Steps of the quantiser: where no pattern comes from the future, fewer and finer ones pay.
 constexpr int kLiveFiner = 2;
+
+/// The same for windows, from quality 50 to 0, or to 100: there patterns come when they pay, and their
+/// quantiser decides how many. Without, claire at 4 s spans 27 to 29 dB in the face, a file 25 to 31.
+constexpr double kWindowSteps = 12;
 
 /// EncoderSettings::start, s; 0: none.
 double start_of(const EncoderSettings& settings) {
@@ -34,6 +39,8 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
   out.quantiser = settings.pattern_quantiser >= 0
                       ? settings.pattern_quantiser
                       : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
+  if (settings.pattern_quantiser < 0 && LivePatterns::has_windows(out.delay))
+    out.quantiser += static_cast<int>(std::lround(kWindowSteps * (50 - settings.quality) / 50));
   out.lambda = motion.lambda;
   out.refits = effort.refits > 0 && !settings.track_only;
   out.bitrate_kbps = settings.bitrate;
