@@ -11,27 +11,31 @@ void draw_atlas(const AtlasLayout& layout, const std::array<ConstPlaneView, 3>& 
     out = HeadAtlas(layout.width, layout.height);
   std::vector<glm::ivec2> seen(positions.begin(), positions.end());
   layout.add_skirt(seen);
-  const std::array<PlaneView, 1> luma{out.y};
-  const std::array<PlaneView, 2> chroma{out.u, out.v};
-  const std::span<const ConstPlaneView> all(planes);
-  for (const MeshTriangle& triangle : layout.triangles) {
-    ScreenTriangle at;
-    TextureSource source{all.first(1), {}, {}};
-    Light seen_light;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto point = static_cast<std::size_t>(triangle[k]);
-      at[k] = {layout.points[point]};
-      source.corners[k] = seen[point];
-      if (point >= light.size()) continue;
-      seen_light.offset[k] = light[point].offset;
-      seen_light.gain[k] = light[point].gain;
+  Rasteriser raster;
+  const auto draw = [&](PlaneScale scale, std::span<const ConstPlaneView> from,
+                        std::span<const PlaneView> to) {
+    const bool is_lit = scale == PlaneScale::kLuma && !light.empty();
+    raster.start(scale, {0, 0, to[0].width, to[0].height},
+                 {from, is_lit ? LightUse::kTakenBack : LightUse::kNone, {}, to});
+    // All have the same depth, at which the first one stays: the last comes first.
+    for (auto t = layout.triangles.rbegin(); t != layout.triangles.rend(); ++t) {
+      ScreenTriangle at;
+      TriangleLook look;
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const auto point = static_cast<std::size_t>((*t)[k]);
+        at[k] = {layout.points[point]};
+        look.corners[k] = seen[point];
+        if (!is_lit || point >= light.size()) continue;
+        look.offset[k] = light[point].offset;
+        look.gain[k] = light[point].gain;
+      }
+      raster.add(at, look);
     }
-    if (!light.empty()) source.finish.light_before = &seen_light;
-    draw_triangle(at, {&source, 1}, {PlaneScale::kLuma, luma, {0, 0, out.y.width, out.y.height}});
-    source.planes = all.last(2);
-    source.finish = {};
-    draw_triangle(at, {&source, 1}, {PlaneScale::kChroma, chroma, {0, 0, out.u.width, out.u.height}});
-  }
+    raster.draw();
+  };
+  const std::array<PlaneView, 3> to{out.y, out.u, out.v};
+  draw(PlaneScale::kLuma, std::span(planes).first(1), std::span(to).first(1));
+  draw(PlaneScale::kChroma, std::span(planes).last(2), std::span(to).last(2));
 }
 
 }  // namespace fbs

@@ -8,8 +8,6 @@
 namespace fbs {
 
 static_assert(kMeshWeightOne == kWeightOne);
-static_assert(kMaxTriangleSources ==
-              kRegionCount * kMaxRegionSources);  // the atlas counts for one warped source
 
 namespace {
 
@@ -26,62 +24,61 @@ SampleArea area_of_head(const ScreenMesh& mesh, PlaneScale scale, const SampleAr
 
 /// A value for each corner of a triangle.
 template <class At>
-auto at_corners(const HeadTriangle& triangle, At&& at) {
-  return std::array{at(triangle[0]), at(triangle[1]), at(triangle[2])};
+auto at_corners(const MeshTriangle& triangle, At&& at) {
+  const auto of = [&](std::size_t k) { return at(static_cast<std::size_t>(triangle[k])); };
+  return std::array{of(0), of(1), of(2)};
 }
 
 }  // namespace
 
-HeadPainter::HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale,
-                         DepthPlane& depth)
-    : d_(drawing), texture_(texture), scale_(scale) {
-  const auto planes = planes_of_scale(drawing.target, scale);
-  const int width = planes[0].width, height = planes[0].height;
-  target_ = {scale, planes, area_of_head(drawing.mesh, scale, drawing.area(scale)), &depth};
-  depth.reset(width, height, target_.area);
-}
-
-void HeadPainter::draw() {
-  if (target_.area.empty()) return;
-  for (const HeadTriangle& triangle : texture_.geometry.head_mesh().triangles) draw(triangle);
-}
-
-void HeadPainter::soften() {
-  if (!target_.area.empty())
-    soften_silhouettes(d_.mesh, texture_.geometry.head_mesh(), texture_.weights, target_);
-}
-
-void HeadPainter::draw(const HeadTriangle& triangle) {
-  const PointWeights& weights = texture_.weights.screen;
-  const auto weight_of = [&](std::size_t source) {
-    return at_corners(triangle, [&](std::size_t v) { return weights.at(v)[source]; });
-  };
-  const auto shows = [](const std::array<std::int32_t, 3>& weight) {
-    return (weight[0] | weight[1] | weight[2]) != 0;
-  };
-  const auto on_screen = at_corners(triangle, [&](std::size_t v) { return glm::ivec2(d_.mesh.head[v]); });
-
-  sources_.clear();
-  Light light;
-  if (const auto weight = weight_of(0); shows(weight)) {
-    sources_.push_back({planes_of_scale(texture_.atlas, scale_),
-                        at_corners(triangle, [&](std::size_t v) { return texture_.layout.points[v]; }),
-                        {},
-                        weight});
-    Finish& finish = sources_.back().finish;
-    if (scale_ == PlaneScale::kLuma && !d_.mesh.light.empty()) {
-      light = {at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].offset; }),
-               at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].gain; })};
-      finish.light = &light;
+void HeadPainter::draw(const std::array<ConstPlaneView, 3>& atlas) {
+  std::array<std::vector<ConstPlaneView>, 2> still;
+  const auto start = [&](PlaneScale scale, std::size_t k) {
+    for (const std::size_t source : weights_.still) {
+      const auto planes = planes_of_scale(d_.sources[source].planes, scale);
+      still[k].insert(still[k].end(), planes.begin(), planes.end());
     }
+    const bool is_lit = scale == PlaneScale::kLuma && !d_.mesh.light.empty();
+    raster_[k].start(scale, area_of_head(d_.mesh, scale, d_.area(scale)),
+                     {planes_of_scale(atlas, scale), is_lit ? LightUse::kAdded : LightUse::kNone, still[k],
+                      planes_of_scale(d_.target, scale)});
+  };
+  start(PlaneScale::kLuma, 0);
+  start(PlaneScale::kChroma, 1);
+  const AtlasLayout& layout = geometry_.atlas_layout();
+  for (const MeshTriangle& triangle :
+       std::span(layout.triangles).first(geometry_.head_mesh().triangles.size())) {
+    const ScreenTriangle t = at_corners(triangle, [&](std::size_t v) {
+      return ScreenVertex{glm::ivec2(d_.mesh.head[v]), d_.mesh.head[v].z};
+    });
+    if (!faces_viewer(t)) continue;
+    const TriangleLook look = look_of(triangle, layout);
+    for (Rasteriser& raster : raster_) raster.add(t, look);
   }
-  for (std::size_t k = 0; k < texture_.weights.still.size(); ++k)
-    if (const auto weight = weight_of(k + 1); shows(weight))
-      sources_.push_back(
-          {planes_of_scale(d_.sources[texture_.weights.still[k]].planes, scale_), on_screen, {}, weight});
-  ScreenTriangle t;
-  for (std::size_t k = 0; k < t.size(); ++k) t[k] = {on_screen[k], d_.mesh.head[triangle[k]].z};
-  draw_triangle(t, sources_, target_);
+  for (Rasteriser& raster : raster_) raster.draw();
+}
+
+TriangleLook HeadPainter::look_of(const MeshTriangle& triangle, const AtlasLayout& layout) {
+  const PointWeights& weights = weights_.screen;
+  sources_.clear();
+  for (std::size_t k = 0; k < weights.sources; ++k)
+    if (const auto weight = at_corners(triangle, [&](std::size_t v) { return weights.at(v)[k]; });
+        (weight[0] | weight[1] | weight[2]) != 0)
+      sources_.push_back({k, weight});
+  TriangleLook out{at_corners(triangle, [&](std::size_t v) { return layout.points[v]; }), {}, {}, sources_};
+  if (sources_.size() == 1 && sources_[0].source == 0) out.sources = {};
+  if (!d_.mesh.light.empty()) {
+    out.offset = at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].offset; });
+    out.gain = at_corners(triangle, [&](std::size_t v) { return d_.mesh.light[v].gain; });
+  }
+  return out;
+}
+
+void HeadPainter::soften(PlaneScale scale) const {
+  const DepthPlane& depth = raster_[scale == PlaneScale::kLuma ? 0 : 1].depth();
+  if (!depth.area.empty())
+    soften_silhouettes(d_.mesh, geometry_.head_mesh(), weights_, scale, depth,
+                       planes_of_scale(d_.target, scale));
 }
 
 }  // namespace fbs

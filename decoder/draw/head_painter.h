@@ -6,42 +6,33 @@
 #include <vector>
 
 #include "decoder/animate/scene_geometry.h"
-#include "decoder/atlas/atlas_layout.h"
 #include "decoder/blend/head_weights.h"
 #include "decoder/draw/drawing.h"
 #include "decoder/raster/rasteriser.h"
-#include "decoder/raster/row_runs.h"
 
 namespace fbs {
 
-/// Textures of the head's triangles.
-struct HeadTexture {
-  const SceneGeometry& geometry;
-  const AtlasLayout& layout;
-  std::array<ConstPlaneView, 3> atlas;  ///< AtlasBlend::planes()
-  const HeadWeights& weights;
-};
-
-/// Draws the triangles of the head, the nearest on top, into the planes of one scale.
+/// Draws the triangles of the head, the nearest on top.
 class HeadPainter {
  public:
-  /// @param depth  scratch memory
-  HeadPainter(const Drawing& drawing, const HeadTexture& texture, PlaneScale scale, DepthPlane& depth);
+  /// @param raster  memory for luma and chroma
+  HeadPainter(const Drawing& drawing, const SceneGeometry& geometry, const HeadWeights& weights,
+              std::array<Rasteriser, 2>& raster)
+      : d_(drawing), geometry_(geometry), weights_(weights), raster_(raster) {}
 
-  void draw();
-  /// To be called when the surround has been drawn, too.
-  void soften();
-
-  [[nodiscard]] PlaneScale scale() const { return scale_; }
+  /// @param atlas  AtlasBlend::planes()
+  void draw(const std::array<ConstPlaneView, 3>& atlas);
+  /// Softens a scale. To be called when the surround has been drawn, too.
+  void soften(PlaneScale scale) const;
 
  private:
-  void draw(const HeadTriangle& triangle);
+  [[nodiscard]] TriangleLook look_of(const MeshTriangle& triangle, const AtlasLayout& layout);
 
   const Drawing& d_;
-  const HeadTexture& texture_;
-  PlaneScale scale_;
-  RasterTarget target_;
-  std::vector<TextureSource> sources_;  ///< of one triangle
+  const SceneGeometry& geometry_;
+  const HeadWeights& weights_;
+  std::array<Rasteriser, 2>& raster_;
+  std::vector<LookSource> sources_;  ///< of one triangle
 };
 
 }  // namespace fbs

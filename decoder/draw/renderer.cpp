@@ -138,19 +138,15 @@ void Renderer::draw(const Scene& scene, const State& state, const PictureBlend& 
   const AtlasLayout& layout = scene.geometry->atlas_layout();
   const HeadWeights weights = head_weights(drawing.blend, wire_frame);
   atlas_.draw(drawing, weights, layout);
-  const HeadTexture texture{*scene.geometry, layout, atlas_.planes(), weights};
   // The head first: what it covers of the surround is not drawn.
-  std::vector<HeadPainter> heads;
-  const auto draw_head = [&](PlaneScale scale, std::size_t k) {
-    surround.head[k] = &depth_[k];
-    heads.emplace_back(drawing, texture, scale, depth_[k]).draw();
-  };
-  draw_head(PlaneScale::kLuma, 0);
-  if (!chroma.empty()) draw_head(PlaneScale::kChroma, 1);
+  HeadPainter head(drawing, *scene.geometry, weights, raster_);
+  head.draw(atlas_.planes());
+  surround.head = {&raster_[0].depth(), chroma.empty() ? nullptr : &raster_[1].depth()};
   surround_.draw(surround);
-  for (HeadPainter& head : heads) {
-    head.soften();
-    draw_mouth(drawing, wire_frame, head.scale());
+  for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
+    if (drawing.area(scale).empty()) continue;
+    head.soften(scale);
+    draw_mouth(drawing, wire_frame, scale);
   }
 }
 

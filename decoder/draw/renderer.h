@@ -11,7 +11,7 @@
 #include "decoder/draw/atlas_blend.h"
 #include "decoder/draw/surround_painter.h"
 #include "decoder/field/surround_field.h"
-#include "decoder/raster/row_runs.h"
+#include "decoder/raster/rasteriser.h"
 #include "decoder/scene/scene.h"
 
 namespace fbs {
@@ -51,7 +51,7 @@ class Renderer {
   SurroundField field_;
   AtlasBlend atlas_;
   SurroundPainter surround_;
-  std::array<DepthPlane, 2> depth_;  ///< of the head in luma and chroma
+  std::array<Rasteriser, 2> raster_;  ///< the head in luma and chroma
 };
 
 }  // namespace fbs

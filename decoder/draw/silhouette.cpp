@@ -48,14 +48,14 @@ std::vector<HeadEdge> turning_edges(const ScreenMesh& mesh, const HeadMesh& head
 /// Marks the samples to be softened in the planes of one scale.
 class Marker {
  public:
-  Marker(const RasterTarget& target, std::int64_t radius)
-      : target_(target), bits_(static_cast<int>(target.scale)), radius_(radius) {
-    const SampleArea& a = target.area;
+  Marker(PlaneScale scale, const DepthPlane& depth, std::int64_t radius)
+      : depth_(depth), bits_(static_cast<int>(scale)), radius_(radius) {
+    const SampleArea& a = depth.area;
     marked_.resize(static_cast<std::size_t>(a.x1 - a.x0) * static_cast<std::size_t>(a.y1 - a.y0));
   }
 
   void mark_along(const glm::ivec3& from, const glm::ivec3& to) {
-    const SampleArea& a = target_.area;
+    const SampleArea& a = depth_.area;
     const int first = row_of(std::min(from.y, to.y) - radius_, a.y0, a.y1);
     const int last = row_of(std::max(from.y, to.y) + radius_, a.y0 - 1, a.y1 - 1);
     for (int y = first; y <= last; ++y) mark_row(from, to, y);
@@ -84,7 +84,7 @@ class Marker {
     const std::int64_t dx = std::int64_t{to.x} - from.x;
     const auto [left, right] =
         std::minmax({from.x + (dx * begin >> kAlongLog2), from.x + (dx * end >> kAlongLog2)});
-    const SampleArea& a = target_.area;
+    const SampleArea& a = depth_.area;
     const int first = row_of(left - radius_, a.x0, a.x1);
     const int last = row_of(right + radius_ + 1, a.x0 - 1, a.x1 - 1);
     for (int x = first; x <= last; ++x) {
@@ -106,23 +106,22 @@ class Marker {
     const std::int64_t ex = dx * along >> kAlongLog2, ey = dy * along >> kAlongLog2;
     if ((cx - ex) * (cx - ex) + (cy - ey) * (cy - ey) > radius_ * radius_) return false;
     const std::int64_t z = from.z + ((std::int64_t{to.z} - from.z) * along >> kAlongLog2);
-    return target_.depth->row(y)[x] >= z - kHidden &&
-           is_far_behind(static_cast<int>((from.x + ex) >> bits_), static_cast<int>((from.y + ey) >> bits_),
-                         z);
+    return depth_.row(y)[x] >= z - kHidden && is_far_behind(static_cast<int>((from.x + ex) >> bits_),
+                                                            static_cast<int>((from.y + ey) >> bits_), z);
   }
 
   [[nodiscard]] bool is_far_behind(int x, int y, std::int64_t z) const {
-    const SampleArea& a = target_.area;
+    const SampleArea& a = depth_.area;
     for (int j = std::max(y - 1, a.y0); j <= std::min(y + 1, a.y1 - 1); ++j)
       for (int i = std::max(x - 1, a.x0); i <= std::min(x + 1, a.x1 - 1); ++i)
-        if (target_.depth->row(j)[i] > z + kFarBehind) return true;
+        if (depth_.row(j)[i] > z + kFarBehind) return true;
     return false;
   }
 
-  const RasterTarget& target_;
+  const DepthPlane& depth_;
   int bits_;
   std::int64_t radius_;
-  std::vector<std::uint8_t> marked_;  ///< of the target's area
+  std::vector<std::uint8_t> marked_;  ///< of the depth's area
   std::vector<glm::ivec2> samples_;
 };
 
@@ -139,17 +138,17 @@ std::uint8_t softened(const PlaneView& plane, glm::ivec2 at) {
 }  // namespace
 
 void soften_silhouettes(const ScreenMesh& mesh, const HeadMesh& head, const HeadWeights& weights,
-                        const RasterTarget& target) {
+                        PlaneScale scale, const DepthPlane& depth, std::span<const PlaneView> planes) {
   const std::vector<HeadEdge> edges = turning_edges(mesh, head, weights);
   if (edges.empty()) return;
-  const std::int64_t sample = std::int64_t{1} << static_cast<int>(target.scale);
+  const std::int64_t sample = std::int64_t{1} << static_cast<int>(scale);
   const std::int64_t radius = std::clamp<std::int64_t>(
       face_width(std::span(mesh.head).first(head.head_count)) >> kBandLog2, sample, kMaxSoftened * sample);
-  Marker marker(target, radius);
+  Marker marker(scale, depth, radius);
   for (const HeadEdge& e : edges) marker.mark_along(mesh.head[e[0]], mesh.head[e[1]]);
   const std::int64_t passes = (radius + sample / 2) / sample;
   std::vector<std::uint8_t> soft(marker.samples().size());
-  for (const PlaneView& plane : target.planes)
+  for (const PlaneView& plane : planes)
     for (std::int64_t pass = 0; pass < passes; ++pass) {
       std::transform(marker.samples().begin(), marker.samples().end(), soft.begin(),
                      [&](glm::ivec2 at) { return softened(plane, at); });

@@ -4,10 +4,13 @@
 // a cut.
 #pragma once
 
+#include <span>
+
+#include "common/picture.h"
 #include "decoder/animate/screen_mesh.h"
 #include "decoder/blend/head_weights.h"
 #include "decoder/head/head_mesh.h"
-#include "decoder/raster/rasteriser.h"
+#include "decoder/raster/row_runs.h"
 
 namespace fbs {
 
@@ -18,8 +21,9 @@ inline constexpr int kMaxSoftened = 8;
 inline constexpr int kSilhouetteReach = 2 * kMaxSoftened + 2;
 
 /// Leaves alone what still sources show: there the picture is as it was seen.
-/// @param target  in which the head has been drawn, with depth
+/// @param depth   of the head
+/// @param planes  in which it has been drawn
 void soften_silhouettes(const ScreenMesh& mesh, const HeadMesh& head, const HeadWeights& weights,
-                        const RasterTarget& target);
+                        PlaneScale scale, const DepthPlane& depth, std::span<const PlaneView> planes);
 
 }  // namespace fbs

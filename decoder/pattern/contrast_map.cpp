@@ -59,7 +59,7 @@ Plane draw_cells(int width, int height, const WireFrame& head, const std::vector
     if (!setup.faces_viewer()) continue;
     const int end = std::min(setup.last_row() + 1, out.height);
     for (int y = std::max(setup.first_row(), 0); y < end; ++y) {
-      const RowRun run = covered_run(setup, y, {0, 0, out.width, out.height});
+      const RowRun run = covered_run(setup.edges(), y, {0, 0, out.width, out.height});
       if (!run.empty()) std::fill_n(out.row(y) + run.first, run.count(), kFaceShareOne);
     }
   }

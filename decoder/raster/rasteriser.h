@@ -1,5 +1,7 @@
 // Draws textured triangles into planes: paper section 2.1, "smearing" the pattern and removing hidden
-// surfaces. SPEC 10. Integers only; no state between calls.
+// surfaces. SPEC 10. Integers only.
+//
+// Which triangle a sample shows is found first, so that each sample is drawn once.
 #pragma once
 
 #include <array>
@@ -7,39 +9,58 @@
 #include <glm/vec2.hpp>
 #include <span>
 
-#include "common/picture.h"
-#include "decoder/raster/blend_weights.h"
-#include "decoder/raster/finish.h"
-#include "decoder/raster/row_runs.h"
-#include "decoder/raster/triangle_setup.h"
+#include "decoder/raster/triangle_kernels.h"
 
 namespace fbs {
 
-inline constexpr std::size_t kMaxTriangleSources = 56;
+/// Planes of one scale: Y; U and V.
+[[nodiscard]] constexpr std::size_t plane_count(PlaneScale scale) {
+  return scale == PlaneScale::kLuma ? 1 : 2;
+}
 
-/// Where the samples of a triangle come from.
-struct TextureSource {
-  std::span<const ConstPlaneView> planes;  ///< all of one size; as many as the scale has: plane_count()
-  std::array<glm::ivec2, 3> corners;       ///< of the triangle in them, 1/64 luma pixel, as ScreenVertex::at
-  Finish finish;
-  /// Weight of the source in a blend, at the corners, 0..kWeightOne; linear over the triangle. The last
-  /// source gets the remainder, whatever its own weight.
-  std::array<std::int32_t, 3> weight{};
+/// A source of a triangle.
+struct LookSource {
+  std::size_t source;                  ///< 0: the texture; k: still source k - 1
+  std::array<std::int32_t, 3> weight;  ///< at the corners, 0..kWeightOne; linear over the triangle
 };
 
-/// Where the samples go.
-struct RasterTarget {
-  PlaneScale scale;
-  std::span<const PlaneView> planes;  ///< all of one size; plane_count(scale)
-  SampleArea area;                    ///< within the planes: the samples that may be drawn
-  DepthPlane* depth = nullptr;        ///< same size as the planes: only nearer samples are drawn; null: all
+/// What a triangle shows.
+struct TriangleLook {
+  std::array<glm::ivec2, 3>
+      corners;  ///< of the triangle in the texture, 1/64 luma pixel, as ScreenVertex::at
+  /// Light of the texture at the corners, as VertexLight.
+  std::array<std::int32_t, 3> offset{}, gain{};
+  /// What is blended, by rising number. The last gets the remainder, whatever its own weight. None: the
+  /// texture
+  std::span<const LookSource> sources{};
 };
 
-/// Draws the triangle's part of each source plane into the target's plane: the samples in the target's area
-/// whose centre is inside the triangle (top-left rule). A triangle that is anticlockwise on the screen or has
-/// no area is not drawn.
-/// @param sources  1..kMaxTriangleSources. Light affects luma only
-void draw_triangle(const ScreenTriangle& triangle, std::span<const TextureSource> sources,
-                   const RasterTarget& target);
+/// Draws the triangles in the planes of one scale. Keeps memory between pictures, nothing else.
+class Rasteriser {
+ public:
+  /// Forgets all triangles; nothing is drawn yet.
+  /// @param area  the samples of the target that may be drawn
+  void start(PlaneScale scale, const SampleArea& area, const Shading& shading);
+
+  /// Adds a triangle to be drawn: it is shown by the samples in the area whose centre is inside (top-left
+  /// rule), unless the depth of another is less there, or the same and that one was added before. A triangle
+  /// that is anticlockwise on the screen or has no area has no samples.
+  void add(const ScreenTriangle& triangle, const TriangleLook& look);
+
+  /// What draw() draws.
+  [[nodiscard]] const TriangleList& triangles() const { return list_; }
+
+  /// Draws all samples that show a triangle; leaves the others alone.
+  void draw() { draw_triangles(list_, shading_, depth_); }
+
+  /// Of what was drawn.
+  [[nodiscard]] const DepthPlane& depth() const { return depth_; }
+
+ private:
+  PlaneScale scale_{};
+  Shading shading_{};
+  DepthPlane depth_;
+  TriangleList list_;
+};
 
 }  // namespace fbs

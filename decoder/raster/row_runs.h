@@ -25,10 +25,10 @@ struct RowRun {
 }
 
 /// The samples of a row within `area` whose centre the triangle covers (top-left rule).
-/// @param triangle  faces the viewer
-[[nodiscard]] inline RowRun covered_run(const TriangleSetup& triangle, int row, const SampleArea& area) {
+/// @param edges  of a triangle that faces the viewer
+[[nodiscard]] inline RowRun covered_run(const std::array<Edge, 3>& edges, int row, const SampleArea& area) {
   std::int64_t first = area.x0, last = area.x1 - 1;
-  for (const Edge& e : triangle.edges()) {
+  for (const Edge& e : edges) {
     const std::int64_t at_zero = e.b * row + e.c;  // inside: a * column + at_zero >= 0
     if (e.a > 0)
       first = std::max(first, -floor_div(at_zero, e.a));

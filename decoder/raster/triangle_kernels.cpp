@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
+#include <vector>
 
-#include "decoder/raster/blend_weights.h"
+#include "decoder/raster/texture_sample.h"
 #include "decoder/raster/triangle_kernels_plain.h"
 #include "decoder/vectors/fixed_vectors.h"
 #include "decoder/vectors/scalar.h"
@@ -22,9 +24,8 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const TextureSource> sources,
-                std::span<const PlaneView> target, DepthPlane& depth) {
-  plain::draw_short_triangle(t, scale, sources, target, depth);
+void draw(const TriangleList& list, const Shading& shading, DepthPlane& depth) {
+  plain::draw_triangles(list, shading, depth);
 }
 
 int covered(const DepthPlane& depth, const SampleArea& part) {
@@ -38,6 +39,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Samples drawn together.
 using Wide = hn::CappedTag<std::int32_t, 8>;
 using Numbers = hn::Vec<Wide>;
+using Offsets = hn::Rebind<std::uint32_t, Wide>;
 using Short = hn::Rebind<std::int16_t, Wide>;
 using Unsigned = hn::Rebind<std::uint16_t, Wide>;
 using Bytes = hn::Rebind<std::uint8_t, Wide>;
@@ -45,283 +47,314 @@ constexpr int kLanes = static_cast<int>(hn::MaxLanes(Wide()));
 
 alignas(32) constexpr std::int32_t kNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Some samples of a row.
-struct Step {
-  int row, column;  ///< of the target
-  int count;        ///< drawn samples, 1..kLanes
-};
-
-/// A quantity at the beginning of rows.
-struct RowStart {
-  std::int32_t value, dx, dy;
-  explicit RowStart(const ShortGradient& g) : value(g.first), dx(g.dx), dy(g.dy) {}
-  /// @param x  samples from the beginning
-  [[nodiscard]] std::int32_t at(int x) const { return value + x * dx; }
-  HWY_INLINE Numbers lanes(int x, Numbers number) const {
-    const Wide d;
-    return hn::Add(hn::Set(d, at(x)), hn::Mul(number, hn::Set(d, dx)));
-  }
-  void step() { value += dy; }
-};
-
-/// All quantities at the beginning of a row.
-struct RowStarts {
-  RowStart u, v, depth, offset, gain;
-  std::array<RowStart, kMaxShortSources - 1> weight;
-  explicit RowStarts(const ShortTriangle& t)
-      : u(t.u),
-        v(t.v),
-        depth(t.depth),
-        offset(t.offset),
-        gain(t.gain),
-        weight{RowStart(t.weight[0]), RowStart(t.weight[1])} {}
-  void step() {
-    u.step();
-    v.step();
-    depth.step();
-    offset.step();
-    gain.step();
-    for (RowStart& w : weight) w.step();
-  }
-};
-
-/// Positions of a step's samples in a texture.
-struct Places {
-  const std::int32_t column, row;  ///< the least
-  hn::Vec<Short> columns, rows;    ///< relative to it
-  hn::Vec<Unsigned> right, down;   ///< fractions, 1/256
-};
-
-HWY_INLINE Places places_of(const RowStarts& start, int x, int count, Numbers number) {
+/// first, first + step, ... modulo 2^32
+HWY_INLINE Numbers series(std::int32_t first, std::int32_t step) {
   const Wide d;
-  const Short s;
-  const Numbers u = start.u.lanes(x, number), v = start.v.lanes(x, number);
-  const std::int32_t column = (start.u.dx >= 0 ? start.u.at(x) : start.u.at(x + count - 1)) >> 16,
-                     row = (start.v.dx >= 0 ? start.v.at(x) : start.v.at(x + count - 1)) >> 16;
-  const auto fraction = [&](Numbers place) HWY_ATTR {
-    return hn::BitCast(Unsigned(), hn::DemoteTo(s, hn::And(hn::ShiftRight<8>(place), hn::Set(d, 255))));
-  };
-  return {column,
-          row,
-          hn::DemoteTo(s, hn::Sub(hn::ShiftRight<16>(u), hn::Set(d, column))),
-          hn::DemoteTo(s, hn::Sub(hn::ShiftRight<16>(v), hn::Set(d, row))),
-          fraction(u),
-          fraction(v)};
+  return hn::Add(hn::Set(d, first), hn::Mul(hn::Load(d, kNumbers), hn::Set(d, step)));
 }
 
-/// Two neighbours of each sample, the left one in the low byte.
-struct Pairs {
-  hn::Vec<Unsigned> top, bottom;
-};
-
-/// Looks up bytes in a few rows.
-/// @param kSpan  rows that the positions lie in, less one
-template <int kSpan>
-HWY_INLINE Pairs pairs_by_table(const ConstPlaneView& texture, const Places& at) {
-  const Short s;
-  const Unsigned u;
-  const hn::FixedTag<std::uint8_t, 16> table;
-  const hn::Repartition<std::uint8_t, Short> places;
-  const auto pair =
-      hn::BitCast(places, hn::Add(hn::Or(at.columns, hn::ShiftLeft<8>(at.columns)), hn::Set(s, 256)));
-  const std::uint8_t* const first = texture.data + at.row * texture.stride + at.column;
-  const auto look_up = [&](int below) HWY_ATTR {
-    return hn::BitCast(u, hn::TableLookupBytes(hn::LoadU(table, first + below * texture.stride), pair));
-  };
-  auto top = look_up(0), bottom = look_up(1);
-  auto above = bottom;
-  for (int k = 1; k <= kSpan; ++k) {
-    const auto is_below = hn::RebindMask(u, hn::Gt(at.rows, hn::Set(s, static_cast<std::int16_t>(k - 1))));
-    const auto under = look_up(k + 1);
-    top = hn::IfThenElse(is_below, above, top);
-    bottom = hn::IfThenElse(is_below, under, bottom);
-    above = under;
-  }
-  return {top, bottom};
+std::int32_t low(std::int64_t value) {
+  return static_cast<std::int32_t>(value);
 }
 
-/// Loads pairs one by one. (Gathers take longer: x86 processors since 2023 make them slow on purpose.)
-HWY_INLINE Pairs pairs_one_by_one(const ConstPlaneView& texture, const Places& at) {
-  const Wide d;
-  alignas(32) std::int32_t offset[8];
-  const Numbers rows =
-      hn::Mul(hn::PromoteTo(d, at.rows), hn::Set(d, static_cast<std::int32_t>(texture.stride)));
-  hn::Store(hn::Add(rows, hn::PromoteTo(d, at.columns)), d, offset);
-  const std::uint8_t* const first = texture.data + at.row * texture.stride + at.column;
-  const auto load = [&](const std::uint8_t* from, int k) {
-    std::uint16_t pair = 0;
-    std::memcpy(&pair, from + offset[k], sizeof pair);
-    return std::endian::native == std::endian::little ? pair
-                                                      : static_cast<std::uint16_t>(pair << 8 | pair >> 8);
-  };
-  const auto load_all = [&](const std::uint8_t* from) HWY_ATTR {
-    auto pairs = hn::Set(Unsigned(), load(from, 0));
-    pairs = hn::InsertLane(pairs, 1, load(from, 1));
-    pairs = hn::InsertLane(pairs, 2, load(from, 2));
-    pairs = hn::InsertLane(pairs, 3, load(from, 3));
-    if constexpr (kLanes == 8) {
-      pairs = hn::InsertLane(pairs, 4, load(from, 4));
-      pairs = hn::InsertLane(pairs, 5, load(from, 5));
-      pairs = hn::InsertLane(pairs, 6, load(from, 6));
-      pairs = hn::InsertLane(pairs, 7, load(from, 7));
+/// Rows that are covered, then shaded: what is kept of them stays in a cache of the second level.
+constexpr int kBandRows = 32;  // bits of a word
+
+/// Draws the planes of one scale, band by band.
+class Painter {
+ public:
+  Painter(const TriangleList& list, const Shading& shading, DepthPlane& depth)
+      : list_(list),
+        shading_(shading),
+        depth_(depth),
+        stride_(depth.area.x1 - depth.area.x0 + kLanes),
+        memory_(static_cast<std::size_t>(stride_ * kBandRows) * list.quantity_count) {
+    for (auto& row : samples_) row.resize(static_cast<std::size_t>(stride_));
+  }
+
+  void draw() {
+    const SampleArea& area = depth_.area;
+    for (first_row_ = area.y0; first_row_ < area.y1; first_row_ += kBandRows) {
+      const int end = std::min(first_row_ + kBandRows, area.y1);
+      for (const DrawnTriangle& t : list_.triangles)
+        if (t.box.y0 < end && t.box.y1 > first_row_) t.is_short ? cover(t, end) : cover_long(t, end);
+      for (int y = first_row_; y < end; ++y) shade(y);
     }
-    return pairs;
+  }
+
+ private:
+  [[nodiscard]] std::ptrdiff_t place(int x, int y) const {
+    return std::ptrdiff_t{y - first_row_} * stride_ + (x - depth_.area.x0);
+  }
+  [[nodiscard]] std::int32_t* quantity(std::size_t q) {
+    return memory_.data() + static_cast<std::ptrdiff_t>(q) * stride_ * kBandRows;
+  }
+
+  /// What is linear, in a row of kLanes samples.
+  struct Lanes {
+    Numbers value;
+    Numbers step;  ///< to the next row
+    HWY_INLINE Lanes(const LinearPlane& plane, int x, int y)
+        : value(series(low(plane.at(x, y)), low(plane.dx))), step(hn::Set(Wide(), low(plane.dy))) {}
+    HWY_INLINE void advance() { value = hn::Add(value, step); }
   };
-  return {load_all(first), load_all(first + texture.stride)};
-}
 
-HWY_INLINE hn::Vec<Unsigned> bilinear(const Pairs& pairs, const Places& at) {
-  const Unsigned u;
-  const auto left = hn::Sub(hn::Set(u, 256), at.right), share = hn::ShiftLeft<8>(at.down);
-  const auto across = [&](hn::Vec<Unsigned> pair) HWY_ATTR {
-    return hn::Add(hn::Mul(hn::And(pair, hn::Set(u, 255)), left), hn::Mul(hn::ShiftRight<8>(pair), at.right));
+  /// Records depth and quantities of the samples that are nearer, in columns of kLanes samples.
+  void cover(const DrawnTriangle& t, int end) {
+    const Wide d;
+    const int y0 = std::max(first_row_, t.box.y0), rows = std::min(end, t.box.y1) - y0;
+    const std::ptrdiff_t width = depth_.width, stride = stride_;
+    const auto quantities = list_.quantities_of(t).first(t.used);
+    const auto edge = [&](const Edge& e, int x) HWY_ATTR { return Lanes({e.c, e.a, e.b}, x, y0); };
+    Numbers nearer[kBandRows];
+    for (int x = t.box.x0; x < t.box.x1; x += kLanes) {
+      Lanes a = edge(t.edges[0], x), b = edge(t.edges[1], x), c = edge(t.edges[2], x), here(t.depth, x, y0);
+      // The area may end before the triangle.
+      const Numbers beyond = hn::VecFromMask(d, hn::Gt(hn::Load(d, kNumbers), hn::Set(d, t.box.x1 - 1 - x)));
+      std::uint32_t drawn = 0;  // a bit for each row
+      std::int32_t* depth = depth_.row(y0) + x;
+      for (int k = 0; k < rows; ++k, depth += width) {
+        const Numbers outside = hn::Or(hn::Or(a.value, b.value), hn::Or(c.value, beyond));  // if negative
+        const Numbers there = hn::LoadU(d, depth);
+        const auto is_nearer = hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Lt(here.value, there));
+        hn::StoreU(hn::IfThenElse(is_nearer, here.value, there), d, depth);
+        nearer[k] = hn::VecFromMask(d, is_nearer);
+        drawn |= static_cast<std::uint32_t>(!hn::AllFalse(d, is_nearer)) << k;
+        a.advance();
+        b.advance();
+        c.advance();
+        here.advance();
+      }
+      if (drawn == 0) continue;
+      const int first = std::countr_zero(drawn), last = 31 - std::countl_zero(drawn);
+      std::int32_t* to = memory_.data() + place(x, y0 + first);
+      for (const LinearPlane& plane : quantities) {
+        Lanes q(plane, x, y0 + first);
+        std::int32_t* out = to;
+        for (int k = first; k <= last; ++k, out += stride, q.advance())
+          hn::StoreU(hn::IfThenElse(hn::MaskFromVec(nearer[k]), q.value, hn::LoadU(d, out)), d, out);
+        to += stride * kBandRows;
+      }
+    }
+  }
+
+  /// The same for a triangle whose numbers do not fit 32 bits: they are clamped, beyond what is drawn of
+  /// them.
+  void cover_long(const DrawnTriangle& t, int end) {
+    const auto quantities = list_.quantities_of(t);
+    const auto most = [&](std::size_t q) {
+      return shading_.has_light() && (q == 2 || q == 3) ? kMaxSampleLight : std::int64_t{1} << 30;
+    };
+    plain::cover(t, first_row_, end, depth_, [&](int y, RowRun run) {
+      for (std::size_t q = 0; q < quantities.size(); ++q)
+        for (int x = run.first; x <= run.last; ++x)
+          quantity(q)[place(x, y)] = low(std::clamp(quantities[q].at(x, y), -most(q), most(q)));
+    });
+  }
+
+  /// First sample from x on that is covered, or is not.
+  HWY_INLINE int next(const std::int32_t* depth, int x, bool is_covered) const {
+    const Wide d;
+    const Numbers nothing = hn::Set(d, kNothingDrawn);
+    const int end = depth_.area.x1;
+    for (; x < end; x += kLanes) {
+      const auto none = hn::Eq(hn::LoadU(d, depth + x), nothing);
+      if (const auto k = hn::FindFirstTrue(d, is_covered ? hn::Not(none) : none); k >= 0)
+        return std::min(x + static_cast<int>(k), end);
+    }
+    return end;
+  }
+
+  void shade(int y) {
+    const std::int32_t* const depth = depth_.row(y);
+    for (int x = next(depth, depth_.area.x0, true); x < depth_.area.x1;) {
+      const int end = next(depth, x, false);
+      shade_span(y, x, end);
+      x = next(depth, end, true);
+    }
+  }
+
+  /// Draws covered samples.
+  void shade_span(int y, int begin, int end) {
+    const int count = end - begin;
+    const std::ptrdiff_t from = place(begin, y);
+    if (shading_.texture.front().width > 0) {
+      if (shading_.target.size() == 2)
+        sample<2, false>(from, count);
+      else if (shading_.light == LightUse::kAdded)
+        sample<1, true>(from, count);
+      else
+        sample<1, false>(from, count);
+    }
+    if (shading_.light == LightUse::kTakenBack) take_back_light(from, count);
+    for (std::size_t p = 0; p < shading_.target.size(); ++p) {
+      if (shading_.still_count() > 0) blend(p, y, begin, count);
+      std::copy_n(samples_[p].data(), count, shading_.target[p].row(y) + begin);
+    }
+  }
+
+  /// Positions in a texture.
+  struct Places {
+    std::uint32_t offset[kLanes];   ///< of the top left one of four samples
+    hn::Vec<Unsigned> right, down;  ///< fractions, 0..256; 256 at the last column and row
   };
-  const auto top = across(pairs.top), bottom = across(pairs.bottom);
-  // (bottom - top) times the lower share, modulo 2^16: where top is larger, the difference has 2^16 too much.
-  const auto too_much = hn::IfThenElseZero(hn::Lt(bottom, top), share);
-  const auto more = hn::Sub(hn::MulHigh(hn::Sub(bottom, top), share), too_much);
-  return hn::ShiftRight<8>(hn::Add(hn::Add(top, more), hn::Set(u, 128)));
-}
-
-/// light_row()
-HWY_INLINE hn::Vec<Unsigned> lit(hn::Vec<Unsigned> luma, const RowStarts& start, int x, Numbers number) {
-  const Wide d;
-  const Numbers before = hn::PromoteTo(d, luma);
-  const Numbers offset = hn::ShiftRight<8>(start.offset.lanes(x, number)),
-                gain = hn::ShiftRight<8>(start.gain.lanes(x, number));
-  const Numbers by_gain = hn::ShiftRight<6>(hn::Mul(hn::Sub(before, hn::Set(d, 128)), gain));
-  const Numbers sum =
-      hn::Add(hn::Add(hn::ShiftLeft<12>(before), offset), hn::Add(by_gain, hn::Set(d, 1 << 11)));
-  const Numbers after = hn::Min(hn::Max(hn::ShiftRight<12>(sum), hn::Zero(d)), hn::Set(d, 255));
-  return hn::BitCast(Unsigned(), hn::DemoteTo(Short(), after));
-}
-
-/// Which samples of a step are drawn: those nearer than the depth recorded, which is updated.
-/// @param any  whether there are any
-/// @return 255 for each, otherwise 0
-HWY_INLINE hn::Vec<Bytes> nearer(std::int32_t* depth, const RowStarts& start, int x, int count,
-                                 Numbers number, bool& any) {
-  const Wide d;
-  const Numbers here = start.depth.lanes(x, number), there = hn::LoadU(d, depth);
-  const auto is_nearer = hn::And(hn::Lt(here, there), hn::Lt(hn::Load(d, kNumbers), hn::Set(d, count)));
-  any = !hn::AllFalse(d, is_nearer);
-  hn::StoreU(hn::IfThenElse(is_nearer, here, there), d, depth);
-  const hn::Rebind<std::int8_t, Wide> narrow;
-  return hn::BitCast(Bytes(), hn::DemoteTo(narrow, hn::VecFromMask(d, is_nearer)));
-}
-
-/// Samples of a plane in place; zero beyond its last column.
-HWY_INLINE Numbers in_place(const ConstPlaneView& plane, const Step& step) {
-  const Wide d;
-  const Bytes b;
-  const std::uint8_t* const from = plane.row(step.row) + step.column;
-  if (step.column + kLanes <= plane.width) return hn::PromoteTo(d, hn::LoadU(b, from));
-  std::uint8_t memory[8] = {};
-  std::copy_n(from, step.count, memory);
-  return hn::PromoteTo(d, hn::LoadU(b, memory));
-}
-
-/// Blends the texture with the other sources.
-HWY_INLINE hn::Vec<Unsigned> blended(hn::Vec<Unsigned> texture, std::span<const TextureSource> sources,
-                                     std::size_t plane, const RowStarts& start, int x, Numbers number,
-                                     const Step& step) {
-  const Wide d;
-  Numbers left = hn::Set(d, kWeightOne), sum = hn::Set(d, kWeightOne / 2), sample = hn::PromoteTo(d, texture);
-  for (std::size_t k = 0; k + 1 < sources.size(); ++k) {
-    const Numbers linear = hn::ShiftRight<kGradientOneLog2>(start.weight[k].lanes(x, number)),
-                  weight = hn::Min(hn::Max(linear, hn::Zero(d)), left);
-    left = hn::Sub(left, weight);
-    sum = hn::Add(sum, hn::Mul(weight, sample));
-    sample = in_place(sources[k + 1].planes[plane], step);
+  static HWY_INLINE void find_places(Numbers u, Numbers v, const ConstPlaneView& texture, Places& out) {
+    const Wide d;
+    const auto clamped = [&](Numbers at, int size) HWY_ATTR {
+      return hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, (size - 1) << 16));
+    };
+    const auto whole = [&](Numbers at, int size)
+                           HWY_ATTR { return hn::Min(hn::ShiftRight<16>(at), hn::Set(d, size - 2)); };
+    const auto fraction = [&](Numbers at, Numbers from) HWY_ATTR {
+      return hn::BitCast(Unsigned(),
+                         hn::DemoteTo(Short(), hn::Sub(hn::ShiftRight<8>(at), hn::ShiftLeft<8>(from))));
+    };
+    u = clamped(u, texture.width);
+    v = clamped(v, texture.height);
+    const Numbers column = whole(u, texture.width), row = whole(v, texture.height),
+                  stride = hn::Set(d, static_cast<std::int32_t>(texture.stride));
+    hn::StoreU(hn::BitCast(Offsets(), hn::Add(hn::Mul(row, stride), column)), Offsets(), out.offset);
+    out.right = fraction(u, column);
+    out.down = fraction(v, row);
   }
-  sum = hn::ShiftRight<kWeightOneLog2>(hn::Add(sum, hn::Mul(left, sample)));
-  return hn::BitCast(Unsigned(), hn::DemoteTo(Short(), sum));
-}
 
-HWY_INLINE void store(hn::Vec<Unsigned> samples, hn::Vec<Bytes> drawn, const PlaneView& plane,
-                      const Step& step) {
-  const Bytes b;
-  std::uint8_t* const out = plane.row(step.row) + step.column;
-  const auto bytes = hn::DemoteTo(b, hn::BitCast(Short(), samples));
-  const auto mixed = [&](hn::Vec<Bytes> before)
-                         HWY_ATTR { return hn::Or(hn::And(bytes, drawn), hn::AndNot(drawn, before)); };
-  if (step.column + kLanes <= plane.width) {
-    hn::StoreU(mixed(hn::LoadU(b, out)), b, out);
-  } else {
-    std::uint8_t memory[8] = {};
-    std::copy_n(out, step.count, memory);
-    hn::StoreU(mixed(hn::LoadU(b, memory)), b, memory);
-    std::copy_n(memory, step.count, out);
+  /// Loads pairs one by one, the left sample in the low byte. (Gathers take longer: x86 processors since 2023
+  /// make them slow on purpose.)
+  static HWY_INLINE hn::Vec<Unsigned> pairs(const std::uint8_t* from, const std::uint32_t* offset) {
+    const auto load = [&](int k) {
+      std::uint16_t pair = 0;
+      std::memcpy(&pair, from + offset[k], sizeof pair);
+      return std::endian::native == std::endian::little ? pair
+                                                        : static_cast<std::uint16_t>(pair << 8 | pair >> 8);
+    };
+    auto out = hn::Set(Unsigned(), load(0));
+    out = hn::InsertLane(out, 1, load(1));
+    out = hn::InsertLane(out, 2, load(2));
+    out = hn::InsertLane(out, 3, load(3));
+    if constexpr (kLanes == 8) {
+      out = hn::InsertLane(out, 4, load(4));
+      out = hn::InsertLane(out, 5, load(5));
+      out = hn::InsertLane(out, 6, load(6));
+      out = hn::InsertLane(out, 7, load(7));
+    }
+    return out;
   }
-}
 
-/// How a triangle's samples are looked up: in a table of this many rows and one more, or one by one.
-enum Lookup : int { kOneByOne = -1, kTwoRows = 1, kFourRows = 3 };
-
-template <int kLookup>
-HWY_INLINE Pairs pairs_of(const ConstPlaneView& texture, const Places& at) {
-  if constexpr (kLookup == kOneByOne)
-    return pairs_one_by_one(texture, at);
-  else
-    return pairs_by_table<kLookup>(texture, at);
-}
-
-template <PlaneScale kScale, int kLookup>
-HWY_INLINE void draw_step(const RowStarts& start, int x, const Step& step, bool has_light,
-                          std::span<const TextureSource> sources, std::span<const PlaneView> target,
-                          DepthPlane& depth) {
-  const Wide d;
-  const Numbers number = hn::Min(hn::Load(d, kNumbers), hn::Set(d, step.count - 1));
-  bool any = false;
-  const auto drawn = nearer(depth.row(step.row) + step.column, start, x, step.count, number, any);
-  if (!any) return;
-  const Places at = places_of(start, x, step.count, number);
-  for (std::size_t k = 0; k < (kScale == PlaneScale::kLuma ? 1 : 2); ++k) {
-    const Pairs pairs = pairs_of<kLookup>(sources[0].planes[k], at);
-    auto samples = bilinear(pairs, at);
-    if (kScale == PlaneScale::kLuma && has_light) samples = lit(samples, start, x, number);
-    if (sources.size() > 1) samples = blended(samples, sources, k, start, x, number, step);
-    store(samples, drawn, target[k], step);
+  static HWY_INLINE hn::Vec<Unsigned> bilinear(const ConstPlaneView& texture, const Places& at) {
+    const Unsigned u;
+    const auto left = hn::Sub(hn::Set(u, 256), at.right), share = hn::ShiftLeft<8>(at.down);
+    const auto across = [&](const std::uint8_t* from) HWY_ATTR {
+      const auto pair = pairs(from, at.offset);
+      return hn::Add(hn::Mul(hn::And(pair, hn::Set(u, 255)), left),
+                     hn::Mul(hn::ShiftRight<8>(pair), at.right));
+    };
+    auto top = across(texture.data);
+    const auto bottom = across(texture.data + texture.stride);
+    top = hn::IfThenElse(hn::Eq(at.down, hn::Set(u, 256)), bottom, top);
+    // (bottom - top) times the lower share, modulo 2^16: where top is larger, the difference has 2^16 too
+    // much.
+    const auto too_much = hn::IfThenElseZero(hn::Lt(bottom, top), share);
+    const auto more = hn::Sub(hn::MulHigh(hn::Sub(bottom, top), share), too_much);
+    return hn::ShiftRight<8>(hn::Add(hn::Add(top, more), hn::Set(u, 128)));
   }
-}
 
-template <PlaneScale kScale, int kLookup>
-void draw_rows(const ShortTriangle& t, std::span<const TextureSource> sources,
-               std::span<const PlaneView> target, DepthPlane& depth) {
-  RunWalker runs = t.runs;
-  RowStarts start(t);
-  for (int row = t.box.y0; row < t.box.y1; ++row, start.step()) {
-    const RowRun run = runs.next();
-    for (int column = run.first; column <= run.last; column += kLanes)
-      draw_step<kScale, kLookup>(start, column - t.box.x0,
-                                 {row, column, std::min(run.last - column + 1, kLanes)}, t.has_light, sources,
-                                 target, depth);
+  /// Clamps samples to 0..255.
+  static HWY_INLINE void store(Numbers samples, std::uint8_t* out) {
+    hn::StoreU(hn::DemoteTo(Bytes(), samples), Bytes(), out);
   }
-}
 
-/// Whether the positions of a step are close enough for a lookup.
-bool fits(std::int32_t per_sample, int columns) {
-  return std::abs(std::int64_t{per_sample}) * (kLanes - 1) <= std::int64_t{columns} << 16;
-}
+  /// lit(), for light within its limits, before store() clamps it
+  static HWY_INLINE Numbers under_light(Numbers luma, Numbers offset, Numbers gain) {
+    const Wide d;
+    const Numbers by_gain =
+        hn::ShiftRight<6>(hn::Mul(hn::Sub(luma, hn::Set(d, 128)), hn::ShiftRight<8>(gain)));
+    return hn::ShiftRight<12>(hn::Add(hn::Add(hn::ShiftLeft<12>(luma), hn::ShiftRight<8>(offset)),
+                                      hn::Add(by_gain, hn::Set(d, 1 << 11))));
+  }
 
-template <PlaneScale kScale>
-void draw_scale(const ShortTriangle& t, std::span<const TextureSource> sources,
-                std::span<const PlaneView> target, DepthPlane& depth) {
-  constexpr int kMostColumns = kReadColumns - 3;  // minus one that fractions add, and the right neighbour
-  if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kTwoRows))
-    draw_rows<kScale, kTwoRows>(t, sources, target, depth);
-  else if (fits(t.u.dx, kMostColumns) && fits(t.v.dx, kFourRows))
-    draw_rows<kScale, kFourRows>(t, sources, target, depth);
-  else
-    draw_rows<kScale, kOneByOne>(t, sources, target, depth);
-}
+  /// Draws into samples_.
+  template <std::size_t kPlanes, bool kLit>
+  void sample(std::ptrdiff_t from, int count) {
+    const Wide d;
+    // Local, as stores of samples might change members in the eyes of a compiler.
+    const std::int32_t *const u = quantity(0) + from, *const v = quantity(1) + from;
+    const std::int32_t *const offset = kLit ? quantity(2) + from : nullptr, *const gain =
+                                                                                kLit ? quantity(3) + from
+                                                                                     : nullptr;
+    const ConstPlaneView texture[2] = {shading_.texture.front(), shading_.texture.back()};
+    std::uint8_t* const out[2] = {samples_[0].data(), samples_[1].data()};
+    for (int k = 0; k < count; k += kLanes) {
+      Places at;
+      find_places(hn::LoadU(d, u + k), hn::LoadU(d, v + k), texture[0], at);
+      for (std::size_t p = 0; p < kPlanes; ++p) {
+        const auto samples = bilinear(texture[p], at);
+        if constexpr (kLit)
+          store(under_light(hn::PromoteTo(d, samples), hn::LoadU(d, offset + k), hn::LoadU(d, gain + k)),
+                out[p] + k);
+        else
+          hn::StoreU(hn::DemoteTo(Bytes(), hn::BitCast(Short(), samples)), Bytes(), out[p] + k);
+      }
+    }
+  }
 
-void draw_short(const ShortTriangle& t, PlaneScale scale, std::span<const TextureSource> sources,
-                std::span<const PlaneView> target, DepthPlane& depth) {
-  if (scale == PlaneScale::kLuma)
-    draw_scale<PlaneScale::kLuma>(t, sources, target, depth);
-  else
-    draw_scale<PlaneScale::kChroma>(t, sources, target, depth);
+  /// Blends still sources with what is in samples_.
+  void blend(std::size_t plane, int y, int begin, int count) {
+    const Wide d;
+    const std::size_t stills = shading_.still_count();
+    const std::int32_t* const weights = quantity(list_.quantity_count - stills) + place(begin, y);
+    const std::ptrdiff_t size = stride_ * kBandRows;
+    const ConstPlaneView* const still = &shading_.still_plane(0, plane);
+    const std::size_t planes = shading_.target.size();
+    std::uint8_t* const out = samples_[plane].data();
+    for (int k = 0; k < count; k += kLanes) {
+      Numbers left = hn::Set(d, kWeightOne), sum = hn::Set(d, kWeightOne / 2);
+      const std::int32_t* weight_at = weights + k;
+      for (std::size_t s = 0; s <= stills; ++s, weight_at += size) {
+        Numbers weight = left;
+        if (s < stills)
+          weight =
+              hn::Min(hn::Max(hn::ShiftRight<kGradientOneLog2>(hn::LoadU(d, weight_at)), hn::Zero(d)), left);
+        left = hn::Sub(left, weight);
+        const bool is_last = hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
+        if (s == 0 && is_last) break;  // the texture alone
+        const Numbers sample = s == 0 ? hn::PromoteTo(d, hn::LoadU(Bytes(), out + k))
+                                      : in_place(still[(s - 1) * planes], begin + k, y);
+        sum = hn::Add(sum, hn::Mul(weight, sample));
+        if (is_last) {
+          store(hn::ShiftRight<kWeightOneLog2>(sum), out + k);
+          break;
+        }
+      }
+    }
+  }
+
+  void take_back_light(std::ptrdiff_t from, int count) {
+    const std::int32_t *const offset = quantity(2) + from, *const gain = quantity(3) + from;
+    for (int k = 0; k < count; ++k) samples_[0][k] = unlit(samples_[0][k], offset[k], gain[k]);
+  }
+
+  /// Samples of a plane in place; zero beyond its last column.
+  static HWY_INLINE Numbers in_place(const ConstPlaneView& plane, int x, int y) {
+    const Wide d;
+    const Bytes b;
+    const std::uint8_t* const from = plane.row(y) + x;
+    if (x + kLanes <= plane.width) return hn::PromoteTo(d, hn::LoadU(b, from));
+    std::uint8_t memory[kLanes] = {};
+    std::copy_n(from, plane.width - x, memory);
+    return hn::PromoteTo(d, hn::LoadU(b, memory));
+  }
+
+  const TriangleList& list_;
+  const Shading& shading_;
+  DepthPlane& depth_;
+  int first_row_ = 0;  ///< of the band
+  std::ptrdiff_t stride_;
+  std::vector<std::int32_t> memory_;                  ///< quantities of the band, each row by row
+  std::array<std::vector<std::uint8_t>, 2> samples_;  ///< of a span, in each plane
+};
+
+void draw(const TriangleList& list, const Shading& shading, DepthPlane& depth) {
+  if (!depth.area.empty()) Painter(list, shading, depth).draw();
 }
 
 int covered(const DepthPlane& depth, const SampleArea& part) {
@@ -347,13 +380,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fbs {
 
-HWY_EXPORT(draw_short);
+HWY_EXPORT(draw);
 HWY_EXPORT(covered);
 
-void draw_short_triangle(const ShortTriangle& triangle, PlaneScale scale,
-                         std::span<const TextureSource> sources, std::span<const PlaneView> target,
-                         DepthPlane& depth) {
-  FBS_DISPATCH(draw_short, plain::draw_short_triangle)(triangle, scale, sources, target, depth);
+void draw_triangles(const TriangleList& list, const Shading& shading, DepthPlane& depth) {
+  FBS_DISPATCH(draw, plain::draw_triangles)(list, shading, depth);
 }
 
 int count_covered(const DepthPlane& depth, const SampleArea& part) {

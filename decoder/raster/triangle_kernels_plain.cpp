@@ -1,65 +1,47 @@
 #include "decoder/raster/triangle_kernels_plain.h"
 
-#include <algorithm>
-
-#include "decoder/raster/blend_weights.h"
-#include "decoder/raster/finish.h"
-#include "decoder/raster/texture_sampler.h"
+#include "decoder/raster/texture_sample.h"
 
 namespace fbs::plain {
 namespace {
 
-/// A quantity along a row of the triangle's box.
-LinearRow along(const ShortGradient& g, int row) {
-  return {g.first + std::int64_t{g.dy} * row, g.dx};
-}
-
-/// A sample of each source in one plane.
+/// A sample of a plane that shows a triangle.
 struct Sample {
-  const ShortTriangle& t;
-  std::span<const TextureSource> sources;
+  std::span<const LinearPlane> quantities;
+  const Shading& shading;
   std::size_t plane;
-  int column, row;
+  int x, y;
 
-  [[nodiscard]] std::uint8_t of_texture(bool has_light) const {
-    const int x = column - t.box.x0, y = row - t.box.y0;
-    std::uint8_t out = 0;
-    sample_row(sources[0].planes[plane], {along(t.u, y).from(x), along(t.v, y).from(x)}, &out, 1);
-    if (has_light) light_row(&out, along(t.offset, y).from(x), along(t.gain, y).from(x), 1);
-    return out;
+  [[nodiscard]] std::int64_t at(std::size_t quantity) const { return quantities[quantity].at(x, y); }
+  [[nodiscard]] int textured() const {
+    if (shading.texture[plane].width == 0) return 0;
+    const int sample = texture_sample(shading.texture[plane], at(0), at(1));
+    if (shading.light == LightUse::kNone) return sample;
+    return shading.light == LightUse::kAdded ? lit(sample, at(2), at(3)) : unlit(sample, at(2), at(3));
   }
-  [[nodiscard]] std::uint8_t blended(bool has_light) const {
+  [[nodiscard]] std::uint8_t blended() const {
+    const std::size_t first_weight = quantities.size() - shading.still_count();
     std::int64_t left = kWeightOne, sum = kWeightOne / 2;
-    for (std::size_t k = 0; k < sources.size(); ++k) {
-      const int sample = k == 0 ? of_texture(has_light) : sources[k].planes[plane].row(row)[column];
-      const std::int64_t weight =
-          k + 1 == sources.size()
-              ? left
-              : std::clamp<std::int64_t>(
-                    along(t.weight[k], row - t.box.y0).at(column - t.box.x0) >> kGradientOneLog2, 0, left);
+    int sample = textured();
+    for (std::size_t k = 0; k < shading.still_count(); ++k) {
+      const auto weight = std::clamp<std::int64_t>(at(first_weight + k) >> kGradientOneLog2, 0, left);
       left -= weight;
       sum += weight * sample;
+      sample = shading.still_plane(k, plane).row(y)[x];
     }
-    return static_cast<std::uint8_t>(sum >> kWeightOneLog2);
+    return static_cast<std::uint8_t>((sum + left * sample) >> kWeightOneLog2);
   }
 };
 
 }  // namespace
 
-void draw_short_triangle(const ShortTriangle& t, PlaneScale scale, std::span<const TextureSource> sources,
-                         std::span<const PlaneView> target, DepthPlane& depth) {
-  RunWalker runs = t.runs;
-  for (int row = t.box.y0; row < t.box.y1; ++row) {
-    const RowRun run = runs.next();
-    for (int column = run.first; column <= run.last; ++column) {
-      const auto here = static_cast<std::int32_t>(along(t.depth, row - t.box.y0).at(column - t.box.x0));
-      if (here >= depth.row(row)[column]) continue;
-      depth.row(row)[column] = here;
-      for (std::size_t k = 0; k < plane_count(scale); ++k)
-        target[k].row(row)[column] =
-            Sample{t, sources, k, column, row}.blended(t.has_light && scale == PlaneScale::kLuma);
-    }
-  }
+void draw_triangles(const TriangleList& list, const Shading& shading, DepthPlane& depth) {
+  for (const DrawnTriangle& t : list.triangles)
+    cover(t, depth.area.y0, depth.area.y1, depth, [&](int y, RowRun run) {
+      for (std::size_t p = 0; p < shading.target.size(); ++p)
+        for (int x = run.first; x <= run.last; ++x)
+          shading.target[p].row(y)[x] = Sample{list.quantities_of(t), shading, p, x, y}.blended();
+    });
 }
 
 int count_covered(const DepthPlane& depth, const SampleArea& part) {

@@ -54,6 +54,13 @@ struct Gradient {
   }
 };
 
+/// A quantity at the samples of a plane.
+struct LinearPlane {
+  std::int64_t first = 0;       ///< at sample (0, 0)
+  std::int64_t dx = 0, dy = 0;  ///< per sample
+  [[nodiscard]] std::int64_t at(int x, int y) const { return first + dx * x + dy * y; }
+};
+
 /// One edge as a half plane: a * column + b * row + c >= 0 holds for samples whose centre lies inside or on a
 /// top or left edge.
 struct Edge {
@@ -73,6 +80,11 @@ class TriangleSetup {
   /// @param value       at the corners, in units of 1 / (1 << value_bits)
   /// @param value_bits  0..16
   [[nodiscard]] Gradient gradient(const std::array<std::int32_t, 3>& value, int value_bits) const;
+
+  /// A gradient over the plane.
+  [[nodiscard]] LinearPlane over_plane(const Gradient& g) const {
+    return {g.at(first_sample_, position_bits_), g.dx, g.dy};
+  }
 
   /// First and last row of the plane that the triangle may cover; none when last < first.
   [[nodiscard]] int first_row() const { return first_row_; }
@@ -99,10 +111,11 @@ inline Edge::Edge(glm::ivec2 from, glm::ivec2 to, int position_bits) {
   const std::int64_t by_x = std::int64_t{from.y} - to.y, by_y = std::int64_t{to.x} - from.x;
   const bool left = by_x > 0;              // the edge goes up: the inside is to its right
   const bool top = by_x == 0 && by_y > 0;  // the edge goes right: the inside is below
-  const std::int64_t sample = std::int64_t{1} << position_bits, centre = sample / 2;
-  a = by_x * sample;
-  b = by_y * sample;
-  c = by_x * (centre - from.x) + by_y * (centre - from.y) - (left || top ? 0 : 1);
+  const std::int64_t centre = std::int64_t{1} << (position_bits - 1);
+  const std::int64_t at_first = by_x * (centre - from.x) + by_y * (centre - from.y) - (left || top ? 0 : 1);
+  a = by_x;
+  b = by_y;
+  c = at_first >> position_bits;  // the rest of the sum is a multiple of what this leaves out
 }
 
 inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
@@ -123,6 +136,8 @@ inline TriangleSetup::TriangleSetup(const ScreenTriangle& t, PlaneScale scale)
 
 inline Gradient TriangleSetup::gradient(const std::array<std::int32_t, 3>& value, int value_bits) const {
   const std::int64_t va = std::int64_t{value[1]} - value[0], vb = std::int64_t{value[2]} - value[0];
+  if (va == 0 && vb == 0)
+    return {std::int64_t{value[0]} * (std::int64_t{1} << (kGradientOneLog2 - value_bits))};
   const auto per_sample = [&](std::int64_t per_area) {
     const int to_q16 = kGradientOneLog2 - value_bits + position_bits_;
     return std::clamp(per_area * (std::int64_t{1} << to_q16) / area_, -kMaxGradient, kMaxGradient);

@@ -65,7 +65,7 @@ VisibleSurface::VisibleSurface(const SceneGeometry& geometry, const ScreenMesh& 
     barycentric_[k] = barycentric_of(t, static_cast<int>(scale));
     const Gradient z = setup.gradient({t[0].depth, t[1].depth, t[2].depth}, kGradientOneLog2);
     for (int row = std::max(0, setup.first_row()); row <= std::min(height_ - 1, setup.last_row()); ++row) {
-      const RowRun run = covered_run(setup, row, area);
+      const RowRun run = covered_run(setup.edges(), row, area);
       if (run.empty()) continue;
       std::uint32_t* out = shown.data() + static_cast<std::ptrdiff_t>(row) * width_;
       const auto show = [&](RowRun r) { std::fill(out + r.first, out + r.last + 1, k); };

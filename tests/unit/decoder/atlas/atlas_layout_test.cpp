@@ -100,7 +100,7 @@ Plane head_samples(const AtlasLayout& layout) {
     const TriangleSetup setup({{{layout.points[t[0]]}, {layout.points[t[1]]}, {layout.points[t[2]]}}},
                               PlaneScale::kLuma);
     for (int y = 0; y < out.height; ++y) {
-      const RowRun run = covered_run(setup, y, {0, 0, out.width, out.height});
+      const RowRun run = covered_run(setup.edges(), y, {0, 0, out.width, out.height});
       if (!run.empty()) std::fill_n(out.row(y) + run.first, run.count(), std::uint8_t{1});
     }
   }

@@ -37,7 +37,7 @@ Plane softened(Plane plane, std::int32_t yaw, std::int32_t depth, std::int32_t w
   HeadWeights weights;
   weights.screen = {1, std::vector(scene.geometry->head_mesh().vertex_count, warped)};
   soften_silhouettes(scene.geometry->screen_mesh(state), scene.geometry->head_mesh(), weights,
-                     {PlaneScale::kLuma, {&view, 1}, area, &depths});
+                     PlaneScale::kLuma, depths, {&view, 1});
   return plane;
 }
 

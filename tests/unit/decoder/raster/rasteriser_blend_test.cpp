@@ -1,4 +1,4 @@
-// draw_triangle with several sources.
+// Textures blended with still sources.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,32 +14,43 @@ namespace {
 
 constexpr int kWidth = 40, kHeight = 30;
 
-/// A source in one plane; as chroma the same in two.
+/// A source: the texture first, then still ones.
 struct BlendedSource {
-  TexturedTriangle triangle;
-  Plane texture;
+  Plane plane;
   std::array<std::int32_t, 3> weight{};
-  Finish finish{};
 };
 
-Plane blended(const std::vector<BlendedSource>& blend, PlaneScale scale = PlaneScale::kLuma,
-              DepthPlane* depth = nullptr) {
+/// @param shown  numbers of the sources that the triangle shows; none: the texture alone
+Plane blended(const TexturedTriangle& t, const std::vector<BlendedSource>& blend,
+              const std::vector<std::size_t>& shown, PlaneScale scale = PlaneScale::kLuma,
+              const Light* light = nullptr) {
   Plane target(kWidth, kHeight, 7), other(kWidth, kHeight, 7);
-  std::vector<std::array<ConstPlaneView, 2>> from;
-  for (const BlendedSource& b : blend) from.push_back({b.texture, b.texture});
-  std::vector<TextureSource> sources;
-  for (std::size_t i = 0; i < blend.size(); ++i) {
-    sources.push_back(
-        source_of(blend[i].triangle, std::span(from[i]).first(plane_count(scale)), blend[i].finish));
-    sources.back().weight = blend[i].weight;
-  }
+  const std::size_t planes = plane_count(scale);
+  std::vector<ConstPlaneView> from;
+  for (const BlendedSource& b : blend) from.insert(from.end(), planes, b.plane);
   const std::array<PlaneView, 2> to = {target, other};
-  draw_triangle(screen_of(blend.front().triangle), sources,
-                {scale, std::span(to).first(plane_count(scale)), whole(target), depth});
+  std::vector<LookSource> sources;
+  for (const std::size_t s : shown) sources.push_back({s, blend[s].weight});
+  TriangleLook look = look_of(t, light == nullptr ? Light{} : *light);
+  look.sources = sources;
+  Rasteriser raster;
+  raster.start(scale, whole(target),
+               {std::span(from).first(planes), light == nullptr ? LightUse::kNone : LightUse::kAdded,
+                std::span(from).subspan(planes), std::span(to).first(planes)});
+  raster.add(screen_of(t), look);
+  raster.draw();
   if (scale == PlaneScale::kChroma) {
     EXPECT_EQ(target, other) << "both planes alike";
   }
   return target;
+}
+
+/// All sources are shown.
+Plane blended(const TexturedTriangle& t, const std::vector<BlendedSource>& blend,
+              PlaneScale scale = PlaneScale::kLuma, const Light* light = nullptr) {
+  std::vector<std::size_t> all;
+  for (std::size_t s = 0; s < blend.size(); ++s) all.push_back(s);
+  return blended(t, blend, all, scale, light);
 }
 
 std::array<std::int32_t, 3> even(std::int32_t weight) {
@@ -53,10 +64,7 @@ TexturedTriangle random_triangle(std::mt19937& random) {
     return glm::ivec2(static_cast<int>(random() % (64 * (kWidth + 16))) - 512,
                       static_cast<int>(random() % (64 * (kHeight + 16))) - 512);
   };
-  TexturedTriangle t = in_place(place(), place(), place());
-  for (TexturedVertex& v : t)
-    v.texture += glm::ivec2(static_cast<int>(random() % 200) - 100, static_cast<int>(random() % 200) - 100);
-  return t;
+  return in_place(place(), place(), place());
 }
 
 /// Weights that sum to at most kWeightOne at each corner, in steps of `unit`.
@@ -73,32 +81,38 @@ void set_weights(std::mt19937& random, std::int32_t unit, bool constant, std::ve
 TEST(RasteriserBlend, ConstantTexturesBlendToTheirWeightedMean) {
   const auto grey = [](int value) { return Plane(kWidth, kHeight, static_cast<std::uint8_t>(value)); };
   for (const PlaneScale scale : {PlaneScale::kLuma, PlaneScale::kChroma}) {
-    EXPECT_EQ(blended({{kWhole, grey(100), even(1024)}, {kWhole, grey(200)}}, scale), grey(175));
-    EXPECT_EQ(blended({{kWhole, grey(0), even(2048)}, {kWhole, grey(255)}}, scale), grey(128))
-        << "halves go up";
+    EXPECT_EQ(blended(kWhole, {{grey(100), even(1024)}, {grey(200)}}, scale), grey(175));
+    EXPECT_EQ(blended(kWhole, {{grey(0), even(2048)}, {grey(255)}}, scale), grey(128)) << "halves go up";
     // Not a multiple of 1/256.
-    EXPECT_EQ(blended({{kWhole, grey(0), even(2049)}, {kWhole, grey(255)}}, scale), grey(127));
-    EXPECT_EQ(
-        blended({{kWhole, grey(40), even(1365)}, {kWhole, grey(80), even(1365)}, {kWhole, grey(240)}}, scale),
-        grey(120));
+    EXPECT_EQ(blended(kWhole, {{grey(0), even(2049)}, {grey(255)}}, scale), grey(127));
+    EXPECT_EQ(blended(kWhole, {{grey(40), even(1365)}, {grey(80), even(1365)}, {grey(240)}}, scale),
+              grey(120));
   }
 }
 
 TEST(RasteriserBlend, LastSourceTakesWhatTheOthersLeave) {
   const Plane white(kWidth, kHeight, 255), black(kWidth, kHeight, 0);
-  EXPECT_EQ(blended({{kWhole, white, even(0)}, {kWhole, black, even(0)}}), black);
-  EXPECT_EQ(blended({{kWhole, white, even(kWeightOne)}, {kWhole, black, even(kWeightOne)}}), white);
-  EXPECT_EQ(
-      blended({{kWhole, white, even(kWeightOne)}, {kWhole, black, even(99)}, {kWhole, black, even(55)}}),
-      white)
+  EXPECT_EQ(blended(kWhole, {{white, even(0)}, {black, even(0)}}), black);
+  EXPECT_EQ(blended(kWhole, {{white, even(kWeightOne)}, {black, even(kWeightOne)}}), white);
+  EXPECT_EQ(blended(kWhole, {{white, even(kWeightOne)}, {black, even(99)}, {black, even(55)}}), white)
       << "nothing is left for those behind";
+}
+
+TEST(RasteriserBlend, SourcesThatAreNotShownDoNotCount) {
+  const auto grey = [](int value) { return Plane(kWidth, kHeight, static_cast<std::uint8_t>(value)); };
+  const std::vector<BlendedSource> blend{
+      {grey(100), even(1024)}, {grey(200), even(1024)}, {grey(50), even(1024)}, {grey(0), even(1024)}};
+  EXPECT_EQ(blended(kWhole, blend, std::vector<std::size_t>{}), grey(100));
+  EXPECT_EQ(blended(kWhole, blend, {1}), grey(200));
+  EXPECT_EQ(blended(kWhole, blend, {0, 2}), grey(63)) << "62.5";
+  EXPECT_EQ(blended(kWhole, blend, {1, 3}), grey(50));
 }
 
 // SPEC 11.6: weights are those at the centre of each sample.
 TEST(RasteriserBlend, WeightsAreLinearOverTheTriangle) {
   const TexturedTriangle t = in_place({0, 0}, {64 * kWidth, 0}, {0, 64 * kHeight});
   const Plane out =
-      blended({{t, Plane(kWidth, kHeight, 200), {0, kWeightOne, 2048}}, {t, Plane(kWidth, kHeight, 0)}});
+      blended(t, {{Plane(kWidth, kHeight, 200), {0, kWeightOne, 2048}}, {Plane(kWidth, kHeight, 0)}});
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       if (!covers(t, PlaneScale::kLuma, x, y)) continue;
@@ -113,24 +127,24 @@ TEST(RasteriserBlend, SourcesThatAgreeGiveThePlainPicture) {
   std::mt19937 random(1);
   for (int i = 0; i < 1500; ++i) {
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
-    const BlendedSource one{random_triangle(random), noise_plane(kWidth, kHeight, static_cast<unsigned>(i))};
+    const TexturedTriangle t = random_triangle(random);
+    const BlendedSource one{noise_plane(kWidth, kHeight, static_cast<unsigned>(i))};
     std::vector<BlendedSource> blend(2 + random() % 20, one);
-    set_weights(random, i % 3 == 0 ? kCoarseStep : 1, i % 4 < 2, blend);
-    ASSERT_EQ(blended(blend, scale), blended({one}, scale)) << i;
+    set_weights(random, i % 3 == 0 ? 16 : 1, i % 4 < 2, blend);
+    ASSERT_EQ(blended(t, blend, scale), blended(t, {one}, scale)) << i;
   }
 }
 
 /// Blends what single sources draw by the format's formula.
-Plane plain_blend(const std::vector<BlendedSource>& blend) {
-  std::vector<Plane> drawn;
-  for (const BlendedSource& b : blend) drawn.push_back(blended({b}));
+Plane plain_blend(const TexturedTriangle& on_screen, const std::vector<BlendedSource>& blend) {
+  std::vector<Plane> drawn{blended(on_screen, {blend[0]})};
+  for (std::size_t s = 1; s < blend.size(); ++s) drawn.push_back(blend[s].plane);
   Plane out(kWidth, kHeight, 7);
-  const ScreenTriangle t = screen_of(blend.front().triangle);
-  const TriangleSetup setup(t, PlaneScale::kLuma);
+  const TriangleSetup setup(screen_of(on_screen), PlaneScale::kLuma);
   if (!setup.faces_viewer()) return out;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      if (!covers(blend.front().triangle, PlaneScale::kLuma, x, y)) continue;
+      if (!covers(on_screen, PlaneScale::kLuma, x, y)) continue;
       std::int64_t left = kWeightOne, sum = kWeightOne / 2;
       for (std::size_t s = 0; s < blend.size(); ++s) {
         const Gradient g = setup.gradient(blend[s].weight, 0);
@@ -145,47 +159,31 @@ Plane plain_blend(const std::vector<BlendedSource>& blend) {
   return out;
 }
 
-// Constant weights in 1/256 and in 1/4096, and linear ones: each has a path of its own.
 TEST(RasteriserBlend, IsTheFormatsFormula) {
   std::mt19937 random(2);
   for (int i = 0; i < 1200; ++i) {
     std::vector<BlendedSource> blend(2 + random() % 5);
-    const TexturedTriangle first = random_triangle(random);
-    for (BlendedSource& b : blend) {
-      b.triangle = random_triangle(random);
-      for (std::size_t k = 0; k < 3; ++k) b.triangle[k].screen = first[k].screen;
-      if (random() % 4 == 0)
-        for (std::size_t k = 0; k < 3; ++k) b.triangle[k].texture = first[k].screen;  // in its place
-      b.texture = noise_plane(kWidth, kHeight, static_cast<unsigned>(random()));
-    }
-    set_weights(random, i % 3 == 0 ? kCoarseStep : 1, i % 3 < 2, blend);
-    ASSERT_EQ(blended(blend), plain_blend(blend)) << i;
+    TexturedTriangle t = random_triangle(random);
+    const TexturedTriangle texture = random_triangle(random);
+    for (std::size_t k = 0; k < 3; ++k) t[k].texture = texture[k].texture;
+    for (BlendedSource& b : blend) b.plane = noise_plane(kWidth, kHeight, static_cast<unsigned>(random()));
+    set_weights(random, i % 3 == 0 ? 16 : 1, i % 3 < 2, blend);
+    ASSERT_EQ(blended(t, blend), plain_blend(t, blend)) << i;
   }
 }
 
-TEST(RasteriserBlend, LightFallsOnItsSourceBeforeTheBlend) {
-  const Plane grey(kWidth, kHeight, 100);
-  const Light light{even(160), even(0)};  // ten levels
-  const Plane out = blended({{kWhole, grey, even(1024), {.light = &light}}, {kWhole, grey}});
-  EXPECT_EQ(out, Plane(kWidth, kHeight, 103)) << "2.5 levels";
+TEST(RasteriserBlend, LightFallsOnTheTextureBeforeTheBlend) {
+  const Plane grey(kWidth, kHeight, 100), white(kWidth, kHeight, 250);
+  const Light ten{even(160), even(0)}, strong{even(1600), even(0)};
+  EXPECT_EQ(blended(kWhole, {{grey, even(1024)}, {grey}}, PlaneScale::kLuma, &ten),
+            Plane(kWidth, kHeight, 103))
+      << "2.5 levels";
+  EXPECT_EQ(blended(kWhole, {{white, even(1024)}, {grey}}, PlaneScale::kLuma, &strong),
+            Plane(kWidth, kHeight, 139))
+      << "white, not more";
 }
 
-TEST(RasteriserBlend, KeepsToTheNearestTriangle) {
-  TexturedTriangle near_one = in_place({300, 200}, {1000, 300}, {500, 900}), far_one = kWhole;
-  for (TexturedVertex& v : far_one) v.depth = 10;
-  const Plane white(kWidth, kHeight, 250), grey(kWidth, kHeight, 150), black(kWidth, kHeight, 50);
-  DepthPlane depth;
-  depth.reset(kWidth, kHeight, whole(white));
-  EXPECT_EQ(blended({{near_one, white, even(2048)}, {near_one, black}}, PlaneScale::kLuma, &depth),
-            blended({{near_one, grey}}));
-  const Plane behind = blended({{far_one, white, even(2048)}, {far_one, black}}, PlaneScale::kLuma, &depth);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      ASSERT_EQ(behind.row(y)[x], covers(near_one, PlaneScale::kLuma, x, y) ? 7 : 150);
-}
-
-// Blends of slivers at the limits of what projection gives: nothing overflows (sanitizers), nothing else is
-// drawn.
+// Slivers at the limits of what projection gives: nothing overflows (sanitizers), nothing else is drawn.
 TEST(RasteriserBlend, SurvivesHostileTriangles) {
   std::mt19937 random(3);
   constexpr int kMaxPosition = 1 << 21;
@@ -193,13 +191,13 @@ TEST(RasteriserBlend, SurvivesHostileTriangles) {
     return random() % 2 == 0 ? static_cast<int>(random() % 2048)
                              : static_cast<int>(random() % (2 * kMaxPosition)) - kMaxPosition;
   };
+  const Plane grey(kWidth, kHeight, 99);
   for (int i = 0; i < 3000; ++i) {
-    std::vector<BlendedSource> blend(3, {{}, noise_plane(kWidth, kHeight, 4)});
+    std::vector<BlendedSource> blend(3, {grey});
     TexturedTriangle t;
     for (TexturedVertex& v : t) v = {{wild(), wild()}, {wild(), wild()}, 0};
-    for (BlendedSource& b : blend) b.triangle = t;
     set_weights(random, 1, false, blend);
-    ASSERT_EQ(blended(blend), blended({blend[0]})) << i;
+    ASSERT_EQ(blended(t, blend), blended(t, {blend[0]})) << i;
   }
 }
 

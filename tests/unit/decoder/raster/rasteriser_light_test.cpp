@@ -1,4 +1,4 @@
-// draw_triangle with a Light.
+// Textures under a light.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ Plane lit(const Plane& pattern, const Light& light) {
   Plane target(pattern.width, pattern.height);
   const int right = 64 * pattern.width, bottom = 64 * pattern.height;
   const std::array<glm::ivec2, 3> p = {glm::ivec2(0, 0), {right, bottom}, {0, bottom}};
-  draw(in_place(p[0], p[1], p[2]), PlaneScale::kLuma, pattern, target, nullptr, {.light = &light});
+  draw(in_place(p[0], p[1], p[2]), PlaneScale::kLuma, pattern, target, light, LightUse::kAdded);
   return target;
 }
 
@@ -79,16 +79,6 @@ TEST(RasteriserLight, IsLinearOverTheTriangle) {
   }
 }
 
-TEST(RasteriserLight, FallsOnLumaAlone) {
-  const Plane grey(kWidth, kHeight, 90);
-  Plane luma(kWidth, kHeight), chroma(kWidth, kHeight);
-  const Light light = even(160, 0);
-  draw(kLarge, PlaneScale::kLuma, grey, luma, nullptr, {.light = &light});
-  draw(kLarge, PlaneScale::kChroma, grey, chroma, nullptr, {.light = &light});
-  EXPECT_EQ(luma.row(2)[2], 100);
-  EXPECT_EQ(chroma.row(2)[2], 90);
-}
-
 /// A triangle a unit or two wide and as long as the screen allows, about a sample's centre.
 TexturedTriangle sliver(std::mt19937& random) {
   const auto within = [&](int n) {
@@ -126,9 +116,7 @@ TEST(RasteriserLight, IsThatOfThePlainRuleOnHostileTriangles) {
       for (std::int32_t& c : *corners)
         c = random() % 2 == 0 ? static_cast<int>(random() % 400) : random() % 2 == 0 ? kMaxLight : -kMaxLight;
     Plane target(32, 24, 77);
-    DepthPlane depth;
-    depth.reset(32, 24, {0, 0, 32, 24});
-    draw(t, PlaneScale::kLuma, pattern, target, &depth, {.light = &light});
+    const DepthPlane depth = draw(t, PlaneScale::kLuma, pattern, target, light, LightUse::kAdded);
     for (int y = 0; y < 24; ++y) {
       for (int x = 0; x < 32; ++x) {
         if (depth.depth[y * 32 + x] != 0) continue;

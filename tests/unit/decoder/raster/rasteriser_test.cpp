@@ -52,8 +52,7 @@ TEST(Rasteriser, DrawsOnlyInsideTheArea) {
     Plane target(24, 20);
     const ConstPlaneView from = white;
     const PlaneView to = target;
-    const TextureSource source = source_of(t, {&from, 1});
-    draw_triangle(screen_of(t), {&source, 1}, {PlaneScale::kLuma, {&to, 1}, area});
+    draw(t, PlaneScale::kLuma, area, {{&from, 1}, LightUse::kNone, {}, {&to, 1}});
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 24; ++x) {
         const bool in_area = x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
@@ -154,9 +153,7 @@ TEST(Rasteriser, TextureInItsPlaceReproducesThePatternBitForBit) {
     const auto p = [&] { return random_point(random, 40 << bits, 30 << bits, 1); };
     const TexturedTriangle t = in_place(p(), p(), p());
     Plane target(40, 30);
-    DepthPlane depth;
-    depth.reset(40, 30, whole(target));
-    draw(t, scale, pattern, target, i % 3 == 0 ? &depth : nullptr);
+    draw(t, scale, pattern, target);
     for (int y = 0; y < 30; ++y)
       for (int x = 0; x < 40; ++x)
         ASSERT_EQ(target.row(y)[x], covers(t, scale, x, y) ? pattern.row(y)[x] : 0) << i;
@@ -283,13 +280,8 @@ TEST(Rasteriser, DrawsIntoPartOfALargerBuffer) {
     Plane expected(24, 20, 77), buffer = untouched;
     const PlaneView to(buffer.row(5) + 30, 24, 20, buffer.width);
     for (int y = 0; y < 20; ++y) std::fill_n(to.row(y), 24, std::uint8_t{77});
-    DepthPlane depth;
-    depth.reset(24, 20, whole(expected));
-    draw(t, PlaneScale::kLuma, pattern, expected, i % 2 == 0 ? &depth : nullptr);
-    depth.reset(24, 20, whole(expected));
-    const TextureSource source = source_of(t, {&from, 1});
-    draw_triangle(screen_of(t), {&source, 1},
-                  {PlaneScale::kLuma, {&to, 1}, whole(expected), i % 2 == 0 ? &depth : nullptr});
+    draw(t, PlaneScale::kLuma, pattern, expected);
+    draw(t, PlaneScale::kLuma, whole(expected), {{&from, 1}, LightUse::kNone, {}, {&to, 1}});
     for (int y = 0; y < 30; ++y) {
       for (int x = 0; x < 60; ++x) {
         const bool inside = x >= 30 && x < 54 && y >= 5 && y < 25;
@@ -306,8 +298,7 @@ TEST(Rasteriser, DrawsAllPlanesAlike) {
   const std::array<ConstPlaneView, 2> from = {pattern, inverse};
   const std::array<PlaneView, 2> to = {a, b};
   const auto t = shifted_texture(kLarge, {77, -40});
-  const TextureSource source = source_of(t, from);
-  draw_triangle(screen_of(t), {&source, 1}, {PlaneScale::kChroma, to, whole(a)});
+  draw(t, PlaneScale::kChroma, whole(a), {from, LightUse::kNone, {}, to});
   draw(t, PlaneScale::kChroma, pattern, alone);
   EXPECT_EQ(a, alone);
   Plane alone_b(24, 20);
@@ -343,10 +334,8 @@ TEST(Rasteriser, HostileCoordinatesStayExact) {
     const PlaneScale scale = i % 2 == 0 ? PlaneScale::kLuma : PlaneScale::kChroma;
     const Plane white(32, 24, 255);
     Plane covered(32, 24), drawn(32, 24);
-    DepthPlane depth;
-    depth.reset(32, 24, whole(drawn));
     draw(t, scale, white, covered);
-    draw(t, scale, pattern, drawn, &depth);
+    draw(t, scale, pattern, drawn);
     for (int y = 0; y < 24; ++y)
       for (int x = 0; x < 32; ++x) ASSERT_EQ(covered.row(y)[x] != 0, covers(t, scale, x, y)) << i;
   }

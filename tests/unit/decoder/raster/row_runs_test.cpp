@@ -28,7 +28,7 @@ TEST(CoveredRun, IsWhereAllEdgesHold) {
     if (!setup.faces_viewer()) continue;
     const SampleArea area{3, 0, 24, 20};
     const int row = static_cast<int>(random() % 20);
-    const RowRun run = covered_run(setup, row, area);
+    const RowRun run = covered_run(setup.edges(), row, area);
     for (int x = area.x0; x < area.x1; ++x) {
       bool inside = true;
       for (const Edge& e : setup.edges()) inside = inside && e.a * x + e.b * row + e.c >= 0;

@@ -49,22 +49,34 @@ inline bool covers(const TexturedTriangle& t, PlaneScale scale, int x, int y) {
   return true;
 }
 
-/// A triangle's texture in some planes.
-inline TextureSource source_of(const TexturedTriangle& t, std::span<const ConstPlaneView> planes,
-                               const Finish& finish = {}) {
-  return {planes, {t[0].texture, t[1].texture, t[2].texture}, finish};
+/// What a triangle shows of a texture, under a light.
+struct Light {
+  std::array<std::int32_t, 3> offset{}, gain{};
+};
+inline TriangleLook look_of(const TexturedTriangle& t, const Light& light = {}) {
+  return {{t[0].texture, t[1].texture, t[2].texture}, light.offset, light.gain};
 }
 
-/// Draws one plane from one source, within all of the target. As chroma it is drawn twice, the second time
-/// into nowhere.
-inline void draw(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
-                 DepthPlane* depth = nullptr, const Finish& finish = {}) {
+/// Draws one triangle.
+/// @return the depth then
+inline DepthPlane draw(const TexturedTriangle& t, PlaneScale scale, const SampleArea& area,
+                       const Shading& shading, const Light& light = {}) {
+  Rasteriser raster;
+  raster.start(scale, area, shading);
+  raster.add(screen_of(t), look_of(t, light));
+  raster.draw();
+  return raster.depth();
+}
+
+/// Draws one plane within all of the target. As chroma it is drawn twice, the second time into nowhere.
+inline DepthPlane draw(const TexturedTriangle& t, PlaneScale scale, const Plane& pattern, Plane& target,
+                       const Light& light = {}, LightUse use = LightUse::kNone) {
   Plane nowhere(target.width, target.height);
   const std::array<ConstPlaneView, 2> from = {pattern, pattern};
   const std::array<PlaneView, 2> to = {target, nowhere};
   const std::size_t planes = plane_count(scale);
-  const TextureSource source = source_of(t, std::span(from).first(planes), finish);
-  draw_triangle(screen_of(t), {&source, 1}, {scale, std::span(to).first(planes), whole(target), depth});
+  return draw(t, scale, whole(target), {std::span(from).first(planes), use, {}, std::span(to).first(planes)},
+              light);
 }
 
 }  // namespace fbs
