@@ -1,7 +1,7 @@
 // Draws textured triangles into planes: paper section 2.1, "smearing" the pattern and removing hidden
 // surfaces. SPEC 10. Integers only.
 //
-// Which triangle a sample shows is found first, so that each sample is drawn once.
+// Which triangle a sample shows is found first, so that each is drawn once, beside its neighbours.
 #pragma once
 
 #include <array>
@@ -26,12 +26,12 @@ struct LookSource {
 
 /// What a triangle shows.
 struct TriangleLook {
-  std::array<glm::ivec2, 3>
-      corners;  ///< of the triangle in the texture, 1/64 luma pixel, as ScreenVertex::at
+  /// Of the triangle in the texture, 1/64 luma pixel, as ScreenVertex::at.
+  std::array<glm::ivec2, 3> corners;
   /// Light of the texture at the corners, as VertexLight.
   std::array<std::int32_t, 3> offset{}, gain{};
   /// What is blended, by rising number. The last gets the remainder, whatever its own weight. None: the
-  /// texture
+  /// texture.
   std::span<const LookSource> sources{};
 };
 

@@ -138,8 +138,7 @@ class Painter {
     }
   }
 
-  /// The same for a triangle whose numbers do not fit 32 bits: they are clamped, beyond what is drawn of
-  /// them.
+  /// The same for a triangle whose numbers do not fit 32 bits: they are clamped to what counts of them.
   void cover_long(const DrawnTriangle& t, int end) {
     const auto quantities = list_.quantities_of(t);
     const auto most = [&](std::size_t q) {
@@ -278,9 +277,8 @@ class Painter {
     const Wide d;
     // Local, as stores of samples might change members in the eyes of a compiler.
     const std::int32_t *const u = quantity(0) + from, *const v = quantity(1) + from;
-    const std::int32_t *const offset = kLit ? quantity(2) + from : nullptr, *const gain =
-                                                                                kLit ? quantity(3) + from
-                                                                                     : nullptr;
+    const std::int32_t* const offset = kLit ? quantity(2) + from : nullptr;
+    const std::int32_t* const gain = kLit ? quantity(3) + from : nullptr;
     const ConstPlaneView texture[2] = {shading_.texture.front(), shading_.texture.back()};
     std::uint8_t* const out[2] = {samples_[0].data(), samples_[1].data()};
     for (int k = 0; k < count; k += kLanes) {

@@ -23,8 +23,8 @@ struct DrawnTriangle {
   std::array<Edge, 3> edges;
   SampleArea box;  ///< contains all samples; not empty
   LinearPlane depth;
-  std::size_t
-      used;       ///< quantities that count; later ones are zero: weights behind the triangle's last source
+  /// Quantities that count; later ones are zero: weights behind the triangle's last source.
+  std::size_t used;
   bool is_short;  ///< whether depth, quantities and edges fit 32 bits in the box, as they nearly always do
 };
 
