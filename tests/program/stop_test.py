@@ -69,7 +69,8 @@ class Stop(ProgramTest):
     def test_encoder_of_a_file_finishes_the_stream(self):
         for stop, code in STOPS.items():
             running = self.start("encode", TALK_Y4M, "out.fbs", "--overlay", "see.y4m")
-            self.wait_for(self.part().exists)
+            overlay = self.part("see.y4m")
+            self.wait_for(lambda: overlay.exists() and overlay.stat().st_size > 1000)  # a picture has been read
             running.send_signal(stop)
             self.ends_with(running, code)
             pictures = len(self.decoded("out.fbs").pictures)
