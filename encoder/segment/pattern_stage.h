@@ -72,6 +72,7 @@ class PatternStage {
   PatternStage(const VideoFormat& format, const PatternSettings& settings, const CodedState& rest);
   PatternStage(const PatternStage&) = delete;
   PatternStage& operator=(const PatternStage&) = delete;
+  ~PatternStage() = default;
 
   /// Sets the policies, before anything else is called.
   /// @param whole  decides in the place of the other on a scene that is known whole; may be null

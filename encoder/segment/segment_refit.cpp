@@ -34,7 +34,7 @@ void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t d
   pictures_.push_back(out);
 }
 
-Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) const {
+Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) {
   if (!shown.analysed.face) return cost_unseen(fit_of(shown.pattern ? shown.state : shown.analysed.state));
   const Plane& source = shown.source.y;
   const Fit now = fit_of(shown.state);
@@ -50,7 +50,7 @@ Result<PictureCost> SegmentRefit::head_cost(const Shown& shown, Tools& tools) co
   return shown.pattern ? fit.cost_at(now) : fit.cost_near(now);
 }
 
-Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, Tools& tools) const {
+Result<PictureCost> SegmentRefit::cost_of(const Shown& shown, Tools& tools) {
   auto cost = head_cost(shown, tools);
   if (!cost) return cost;
   std::copy(shown.analysed.surround.begin(), shown.analysed.surround.end(),

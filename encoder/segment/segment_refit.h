@@ -63,8 +63,8 @@ class SegmentRefit {
     PictureFit fit;
     SegmentRenderer renderer;
   };
-  [[nodiscard]] Result<PictureCost> cost_of(const Shown& shown, Tools& tools) const;
-  [[nodiscard]] Result<PictureCost> head_cost(const Shown& shown, Tools& tools) const;
+  [[nodiscard]] static Result<PictureCost> cost_of(const Shown& shown, Tools& tools);
+  [[nodiscard]] static Result<PictureCost> head_cost(const Shown& shown, Tools& tools);
 
   PictureFit fit_;
   std::vector<Analysed> pictures_;
