@@ -11,7 +11,7 @@ namespace {
 
 /// Whether a packet of this type is looked for behind damage. SPEC 3.2.
 bool is_known(PacketType type) {
-  return type >= PacketType::kSetup && type <= PacketType::kHeadPart;
+  return type >= PacketType::kSetup && type <= PacketType::kReturn;
 }
 
 }  // namespace
@@ -37,7 +37,12 @@ std::uint32_t CheckChain::of(std::span<const std::uint8_t> bytes, const Crc& crc
   return crc.of(bytes, crc.bits() == kCrc16.bits() ? before : before << 8 | 0xFF);
 }
 
-void CheckChain::add(PacketType type, std::uint32_t check) {
+void CheckChain::add(PacketType type, std::span<const std::uint8_t> payload, std::uint32_t check) {
+  if (type == PacketType::kReturn) {
+    in_head_ = false;
+    check_ = static_cast<std::uint16_t>(ByteReader(payload).varint());
+    return;
+  }
   if (type == PacketType::kSetup)
     in_head_ = true;
   else if (!in_head_ || !is_of_scene(type))
@@ -60,7 +65,7 @@ std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType ty
   writer.bytes(payload);
   const Crc& crc = crc_of(payload.size());
   const std::uint32_t check = checks_.of(std::span(stream).subspan(begin), crc);
-  checks_.add(type, check);
+  checks_.add(type, payload, check);
   for (unsigned bits = crc.bits(); bits > 0; bits -= 8)
     writer.u8(static_cast<std::uint8_t>(check >> (bits - 8)));
   return stream.size() - begin;
@@ -138,7 +143,7 @@ Result<ReadResult> PacketReader::Impl::read_packet(bool repaired) {
     return refuse(ErrorCode::kInvalidStream, "packet is damaged, or its scene has lost its head");
   }
   position += packet.size;
-  checks.add(packet.type, check.stored);
+  checks.add(packet.type, payload, check.stored);
   return ReadResult{ReadStatus::kPacket, packet};
 }
 

@@ -29,14 +29,15 @@ void write_signature(std::vector<std::uint8_t>& stream);
 
 /// With what the check of a packet begins. Through the head of a scene, up to its first pattern, checks run
 /// on from packet to packet; every later packet of the scene begins with the check of that pattern packet. So
-/// one that is lost does no harm to others, and none passes for a packet of another scene. SPEC 3.1.
+/// one that is lost does no harm to others, and none passes for a packet of another scene. A return packet
+/// names that check. SPEC 3.1.
 class CheckChain {
  public:
   /// The check of the next packet.
   /// @param bytes  its type, length and payload
   [[nodiscard]] std::uint32_t of(std::span<const std::uint8_t> bytes, const Crc& crc) const;
   /// Goes on behind a packet.
-  void add(PacketType type, std::uint32_t check);
+  void add(PacketType type, std::span<const std::uint8_t> payload, std::uint32_t check);
 
  private:
   static constexpr std::uint16_t kStart = 0xFFFF;

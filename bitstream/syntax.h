@@ -14,7 +14,7 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 8;
+inline constexpr int kFormatVersion = 9;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;
@@ -29,6 +29,7 @@ inline constexpr std::int32_t kMaxBridged = 32;
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< pictures whose motion has arrived but not their blend
 inline constexpr int kKeptPictures = 256;  ///< displayed pictures whose states a pattern may still have
+inline constexpr std::size_t kKeptScenes = 3;  ///< besides the present one, to which a stream may return
 inline constexpr std::size_t kMaxHead = std::size_t{1} << 16;  ///< bytes of a head that is sent in parts
 inline constexpr int kMaxHeadSymbols = 128, kMaxHeadParts = 255;
 inline constexpr std::uint64_t kMaxPassedPictures = 1u << 30;  ///< of a scene that is joined
@@ -81,7 +82,8 @@ enum class PacketType : std::uint8_t {
   kSoundSetup = 9,  ///< what a decoder of the sound must know
   kSound = 10,      ///< sound of the pictures that follow
   kUnit = 11,       ///< kMotion and kBlend of the same pictures
-  kHeadPart = 12    ///< of what a viewer needs who joins a scene
+  kHeadPart = 12,   ///< of what a viewer needs who joins a scene
+  kReturn = 13      ///< goes on with an earlier scene
 };
 
 /// A colour in the video's own range and matrix.
@@ -108,7 +110,16 @@ struct Setup {
   std::int32_t contrast = kContrastOne;  ///< of patterns' luma outside the face, kMinContrast..kContrastOne
   /// Contrast of the patterns' chroma, kContrastOne..kMaxChromaContrast, even.
   std::int32_t chroma_contrast = kContrastOne;
+  /// Scenes before it are kept: the stream may return to them, so a viewer does not join here.
+  bool keeps = false;
   friend bool operator==(const Setup&, const Setup&) = default;
+};
+
+/// Goes on with a scene that is kept.
+struct Return {
+  std::uint32_t scene = 0;  ///< check of its first pattern packet, 16 or 24 bits
+  StreamPosition before;    ///< where in the stream it goes on; can_last() is true
+  friend bool operator==(const Return&, const Return&) = default;
 };
 
 /// The adapted head: position of each vertex of the wire-frame for this face, expressionless. Head units.

@@ -123,11 +123,12 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  const bool has_chroma = setup.chroma_contrast > kContrastOne;
+  const bool has_chroma = setup.keeps || setup.chroma_contrast > kContrastOne;
   const bool has_contrast = has_chroma || setup.contrast < kContrastOne;
   if (setup.patterns > 1 || has_contrast) writer.varint(static_cast<std::uint64_t>(setup.patterns));
   if (has_contrast) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
   if (has_chroma) writer.u8(static_cast<std::uint8_t>((setup.chroma_contrast - kContrastOne) / 2));
+  if (setup.keeps) writer.u8(1);
   return payload;
 }
 
@@ -158,6 +159,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (reader.remaining() > 0) setup.patterns = to_int(reader.varint());
   if (reader.remaining() > 0) setup.contrast = kContrastOne - reader.u8();
   if (reader.remaining() > 0) setup.chroma_contrast = kContrastOne + 2 * reader.u8();
+  const std::uint8_t keeps = reader.remaining() > 0 ? reader.u8() : 0;
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
@@ -166,6 +168,9 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (auto set = set_colour(setup.format, colour); !set) return fail(set.error());
   if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 
+  if (keeps > 1) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
+
+  setup.keeps = keeps != 0;
   setup.format.frame_rate = *frame_rate;
   setup.format.pixel_aspect = *pixel_aspect;
   setup.parts = static_cast<PartMask>(parts << 1 | 1);
