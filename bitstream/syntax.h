@@ -28,7 +28,7 @@ inline constexpr int kNumberBits = 10;   ///< of the number of a group's first p
 inline constexpr std::int32_t kMaxBridged = 32;
 inline constexpr std::uint64_t kMaxPictureNumber = (1u << 31) - 1;  ///< of a picture in its scene
 inline constexpr int kMaxWaitingPictures = 4096;  ///< pictures whose motion has arrived but not their blend
-inline constexpr int kKeptPictures = 256;  ///< displayed pictures whose states a pattern may still have
+inline constexpr int kKeptPictures = 256;      ///< displayed pictures whose states a pattern may still have
 inline constexpr std::size_t kKeptScenes = 3;  ///< besides the present one, to which a stream may return
 inline constexpr std::size_t kMaxHead = std::size_t{1} << 16;  ///< bytes of a head that is sent in parts
 inline constexpr int kMaxHeadSymbols = 128, kMaxHeadParts = 255;
@@ -99,6 +99,13 @@ struct MouthInterior {
   friend bool operator==(const MouthInterior&, const MouthInterior&) = default;
 };
 
+/// Which scenes the stream may return to. SPEC 6.6.
+enum class SceneKeeping : std::uint8_t {
+  kNone,        ///< none of those before
+  kAside,       ///< those that have been set aside
+  kAndPresent,  ///< those, and the present one, which is set aside, too
+};
+
 /// Begins a scene. All later packets of the scene depend on it.
 struct Setup {
   StreamPosition before;  ///< where the scene begins; can_last() is true
@@ -110,8 +117,9 @@ struct Setup {
   std::int32_t contrast = kContrastOne;  ///< of patterns' luma outside the face, kMinContrast..kContrastOne
   /// Contrast of the patterns' chroma, kContrastOne..kMaxChromaContrast, even.
   std::int32_t chroma_contrast = kContrastOne;
-  /// Scenes before it are kept: the stream may return to them, so a viewer does not join here.
-  bool keeps = false;
+  /// What becomes of the scenes before it. Where they are kept the stream may return to them, so a viewer
+  /// does not join here.
+  SceneKeeping keeps = SceneKeeping::kNone;
   friend bool operator==(const Setup&, const Setup&) = default;
 };
 
@@ -119,6 +127,7 @@ struct Setup {
 struct Return {
   std::uint32_t scene = 0;  ///< check of its first pattern packet, 16 or 24 bits
   StreamPosition before;    ///< where in the stream it goes on; can_last() is true
+  bool aside = false;       ///< the present scene is set aside; otherwise it is discarded
   friend bool operator==(const Return&, const Return&) = default;
 };
 

@@ -123,12 +123,13 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  const bool has_chroma = setup.keeps || setup.chroma_contrast > kContrastOne;
+  const bool keeps = setup.keeps != SceneKeeping::kNone;
+  const bool has_chroma = keeps || setup.chroma_contrast > kContrastOne;
   const bool has_contrast = has_chroma || setup.contrast < kContrastOne;
   if (setup.patterns > 1 || has_contrast) writer.varint(static_cast<std::uint64_t>(setup.patterns));
   if (has_contrast) writer.u8(static_cast<std::uint8_t>(kContrastOne - setup.contrast));
   if (has_chroma) writer.u8(static_cast<std::uint8_t>((setup.chroma_contrast - kContrastOne) / 2));
-  if (setup.keeps) writer.u8(1);
+  if (keeps) writer.u8(static_cast<std::uint8_t>(setup.keeps));
   return payload;
 }
 
@@ -168,9 +169,10 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (auto set = set_colour(setup.format, colour); !set) return fail(set.error());
   if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 
-  if (keeps > 1) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
+  if (keeps > static_cast<std::uint8_t>(SceneKeeping::kAndPresent))
+    return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
 
-  setup.keeps = keeps != 0;
+  setup.keeps = static_cast<SceneKeeping>(keeps);
   setup.format.frame_rate = *frame_rate;
   setup.format.pixel_aspect = *pixel_aspect;
   setup.parts = static_cast<PartMask>(parts << 1 | 1);
