@@ -84,6 +84,16 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
   return {};
 }
 
+Result<void> FaceCoder::request_scene() {
+  if (ledger_.live()) {
+    ledger_.request_scene();
+    return {};
+  }
+  if (auto ended = finish(); !ended) return ended;
+  ledger_.end_scene();
+  return {};
+}
+
 void FaceCoder::cut() {
   if (second_pass_) ledger_.patterns()->cut();
 }
@@ -157,6 +167,7 @@ Result<void> FaceCoder::end_lookahead() {
 
 Result<void> FaceCoder::write_head() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
+  scene_.setup.keeps = ledger_.keepings().of_scene(scene_.setup.before.pictures);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   auto surround = encode_surround(surround_.map());

@@ -70,6 +70,16 @@ void PlanarScene::cut() {
   ledger_.patterns()->cut();
 }
 
+Result<void> PlanarScene::request_scene() {
+  if (ledger_.live()) {
+    ledger_.request_scene();
+    return {};
+  }
+  if (auto ended = finish(); !ended) return ended;
+  ledger_.end_scene();
+  return {};
+}
+
 void PlanarScene::begin_again() {
   ledger_.begin_again(scene_.setup);
   global_ = {};
@@ -85,6 +95,7 @@ Result<void> PlanarScene::begin_motion() {
   scene_.patterns.clear();
   scene_.patterns.push_back(make_pattern({}, rest_state, scene_.geometry));
   ledger_.begin_motion(scene_.setup, rest);
+  scene_.setup.keeps = ledger_.keepings().of_scene(scene_.setup.before.pictures);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   ledger_.packets().start(

@@ -22,10 +22,7 @@ class PlanarScene : public SceneEncoder {
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
-  Result<void> request_scene() override {
-    ledger_.request_scene();
-    return {};
-  }
+  Result<void> request_scene() override;
   Result<void> lose_patterns() override {
     ledger_.lose_patterns();
     return {};
@@ -36,6 +33,10 @@ class PlanarScene : public SceneEncoder {
   }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return true; }
+  Result<void> set_keepings(const SceneKeepings& keepings) override {
+    ledger_.set_keepings(keepings);
+    return {};
+  }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override { return ledger_.packets().take(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }

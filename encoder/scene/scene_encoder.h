@@ -1,15 +1,31 @@
 // One scene of a video: from the picture that begins it to the next scene or the end.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "common/result.h"
 #include "encoder/analysis/picture_analysis.h"
 #include "encoder/landmarks/landmark_file.h"
 
 namespace fbs {
+
+/// What the setup packets of scenes say of the scenes before them.
+struct SceneKeepings {
+  std::uint64_t begin = 0, end = 0;  ///< scenes that begin at these pictures of the stream keep others
+  std::vector<std::uint64_t> aside;  ///< at these the scene before is set aside; rising
+
+  [[nodiscard]] bool sets_aside(std::uint64_t picture) const {
+    return std::ranges::binary_search(aside, picture);
+  }
+  [[nodiscard]] SceneKeeping of_scene(std::uint64_t picture) const {
+    if (sets_aside(picture)) return SceneKeeping::kAndPresent;
+    return picture >= begin && picture < end ? SceneKeeping::kAside : SceneKeeping::kNone;
+  }
+};
 
 class SceneEncoder {
  public:
@@ -28,8 +44,8 @@ class SceneEncoder {
   /// The picture pushed next begins another shot, which the scene must carry.
   virtual void cut() = 0;
 
-  /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
-  /// one still picture does not end.
+  /// Ends the scene, if it is live with its present group, so that the next picture begins another. A scene
+  /// that shows one still picture does not end.
   virtual Result<void> request_scene() { return {}; }
 
   /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
@@ -42,6 +58,15 @@ class SceneEncoder {
 
   /// Whether it can also carry a shot of anything else.
   [[nodiscard]] virtual bool carries_shots() const = 0;
+
+  /// Whether another scene may be shown in between.
+  [[nodiscard]] virtual bool can_go_on() const { return false; }
+  /// Another scene is shown next. The scene can_go_on().
+  virtual Result<void> leave() { return {}; }
+  /// The picture pushed next is the scene's again, after leave(). @param at  its position
+  virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
+  /// For packets that are coded from now on.
+  virtual Result<void> set_keepings(const SceneKeepings& /*keepings*/) { return {}; }
 
   /// Codes everything still held back.
   virtual Result<void> finish() = 0;
