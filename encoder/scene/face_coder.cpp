@@ -167,7 +167,6 @@ Result<void> FaceCoder::end_lookahead() {
 
 Result<void> FaceCoder::write_head() {
   mouth_colours_.set_chroma(scene_.setup.mouth);
-  scene_.setup.keeps = ledger_.keepings().of_scene(scene_.setup.before.pictures);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   auto surround = encode_surround(surround_.map());

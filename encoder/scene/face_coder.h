@@ -37,10 +37,10 @@ class FaceCoder {
   Result<void> finish();
 
   Result<void> request_scene();
-  /// SceneEncoder::leave(), go_on(), set_keepings().
+  /// Another scene is shown next.
   Result<void> leave() { return end_group(); }
+  /// SceneEncoder::go_on().
   void go_on(const StreamPosition& at) { ledger_.go_on(at); }
-  void set_keepings(const SceneKeepings& keepings) { ledger_.set_keepings(keepings); }
   void set_bitrate(double kbps) { ledger_.set_bitrate(kbps); }
   void lose_patterns() { ledger_.lose_patterns(); }
   [[nodiscard]] bool has_several_patterns() const { return second_pass_.has_value(); }

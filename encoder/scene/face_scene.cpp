@@ -130,13 +130,6 @@ Result<void> FaceScene::go_on(const StreamPosition& at) {
   });
 }
 
-Result<void> FaceScene::set_keepings(const SceneKeepings& keepings) {
-  return code_later([this, keepings]() -> Result<void> {
-    coder_.set_keepings(keepings);
-    return {};
-  });
-}
-
 Result<void> FaceScene::set_bitrate(double kbps) {
   return code_later([this, kbps]() -> Result<void> {
     coder_.set_bitrate(kbps);

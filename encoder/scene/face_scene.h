@@ -40,7 +40,6 @@ class FaceScene : public SceneEncoder {
   [[nodiscard]] bool can_go_on() const override { return can_go_on_; }
   Result<void> leave() override;
   Result<void> go_on(const StreamPosition& at) override;
-  Result<void> set_keepings(const SceneKeepings& keepings) override;
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
   [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }

@@ -95,7 +95,6 @@ Result<void> PlanarScene::begin_motion() {
   scene_.patterns.clear();
   scene_.patterns.push_back(make_pattern({}, rest_state, scene_.geometry));
   ledger_.begin_motion(scene_.setup, rest);
-  scene_.setup.keeps = ledger_.keepings().of_scene(scene_.setup.before.pictures);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
   ledger_.packets().start(

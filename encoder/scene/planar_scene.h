@@ -33,10 +33,6 @@ class PlanarScene : public SceneEncoder {
   }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return true; }
-  Result<void> set_keepings(const SceneKeepings& keepings) override {
-    ledger_.set_keepings(keepings);
-    return {};
-  }
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override { return ledger_.packets().take(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override { return analysis_; }

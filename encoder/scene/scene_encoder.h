@@ -1,7 +1,6 @@
 // One scene of a video: from the picture that begins it to the next scene or the end.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,20 +11,6 @@
 #include "encoder/landmarks/landmark_file.h"
 
 namespace fbs {
-
-/// What the setup packets of scenes say of the scenes before them.
-struct SceneKeepings {
-  std::uint64_t begin = 0, end = 0;  ///< scenes that begin at these pictures of the stream keep others
-  std::vector<std::uint64_t> aside;  ///< at these the scene before is set aside; rising
-
-  [[nodiscard]] bool sets_aside(std::uint64_t picture) const {
-    return std::ranges::binary_search(aside, picture);
-  }
-  [[nodiscard]] SceneKeeping of_scene(std::uint64_t picture) const {
-    if (sets_aside(picture)) return SceneKeeping::kAndPresent;
-    return picture >= begin && picture < end ? SceneKeeping::kAside : SceneKeeping::kNone;
-  }
-};
 
 class SceneEncoder {
  public:
@@ -63,15 +48,15 @@ class SceneEncoder {
   [[nodiscard]] virtual bool can_go_on() const { return false; }
   /// Another scene is shown next. The scene can_go_on().
   virtual Result<void> leave() { return {}; }
-  /// The picture pushed next is the scene's again, after leave(). @param at  its position
+  /// The picture pushed next is the scene's again, after leave().
+  /// @param at  its position
   virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
-  /// For packets that are coded from now on.
-  virtual Result<void> set_keepings(const SceneKeepings& /*keepings*/) { return {}; }
 
   /// Codes everything still held back.
   virtual Result<void> finish() = 0;
 
-  /// Whole packets that are ready; the scene forgets them.
+  /// Whole packets that are ready; the scene forgets them. What they say of other scenes is not set:
+  /// Setup::keeps, Return::scene and Return::aside.
   [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
 
   /// Whether packets may become ready without another call.

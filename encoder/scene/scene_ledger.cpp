@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bitstream/payload/return_payload.h"
+
 namespace fbs {
 
 SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RatePlan& rate,
@@ -42,7 +44,7 @@ Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit&
   auto next = returns_.begin();
   for (const auto& [type, payload] : *packets) {
     if (next != returns_.end() && next->first == group) {
-      packets_.return_at(next->second, keepings_.sets_aside(next->second.pictures));
+      packets_.add(PacketType::kReturn, encode_return({0, next->second, false}));
       ++next;
     }
     packets_.add(type, payload);

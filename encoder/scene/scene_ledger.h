@@ -10,7 +10,6 @@
 #include "decoder/scene/scene.h"
 #include "encoder/plan/motion_track.h"
 #include "encoder/plan/scene_timing.h"
-#include "encoder/scene/scene_encoder.h"
 #include "encoder/scene/scene_packets.h"
 #include "encoder/segment/pattern_stage.h"
 
@@ -33,8 +32,6 @@ class SceneLedger {
   [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
   /// The next picture is shown there, behind another scene's. No group has begun.
   void go_on(const StreamPosition& at);
-  void set_keepings(SceneKeepings keepings) { keepings_ = std::move(keepings); }
-  [[nodiscard]] const SceneKeepings& keepings() const { return keepings_; }
 
   /// Begins another group.
   /// @return durations of the pictures of the group before: empty if it has none
@@ -99,7 +96,6 @@ class SceneLedger {
   StreamPosition position_;  ///< of the next picture
   /// Where the segment goes on behind another scene: number of a group, and its position.
   std::vector<std::pair<std::size_t, StreamPosition>> returns_;
-  SceneKeepings keepings_;
   ScenePackets packets_;
 };
 

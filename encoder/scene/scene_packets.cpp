@@ -3,8 +3,6 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/payload/return_payload.h"
-
 namespace fbs {
 
 ScenePackets::ScenePackets(const LiveSettings& live) {
@@ -13,24 +11,14 @@ ScenePackets::ScenePackets(const LiveSettings& live) {
 
 void ScenePackets::add_motion(std::span<const std::uint8_t> payload) {
   if (started_)
-    write(PacketType::kMotion, payload);
+    writer_.write(ready_, PacketType::kMotion, payload);
   else
     held_back_.emplace_back(payload.begin(), payload.end());
 }
 
-void ScenePackets::write(PacketType type, std::span<const std::uint8_t> payload) {
-  const std::uint32_t check = writer_.write(ready_, type, payload);
-  if (type == PacketType::kSetup) in_head_ = true;
-  if (type == PacketType::kPattern && std::exchange(in_head_, false)) check_ = check;
-}
-
-void ScenePackets::return_at(const StreamPosition& at, bool aside) {
-  write(PacketType::kReturn, encode_return({check_, at, aside}));
-}
-
 void ScenePackets::add(PacketType type, std::span<const std::uint8_t> payload) {
   assert(started_);
-  write(type, payload);
+  writer_.write(ready_, type, payload);
 }
 
 void ScenePackets::start(const SceneHead& head) {
@@ -39,8 +27,8 @@ void ScenePackets::start(const SceneHead& head) {
                                       {PacketType::kGeometry, &head.geometry},
                                       {PacketType::kSurround, &head.surround},
                                       {PacketType::kPattern, &head.pattern}})
-    if (!payload->empty()) write(type, *payload);
-  for (const auto& payload : held_back_) write(PacketType::kMotion, payload);
+    if (!payload->empty()) writer_.write(ready_, type, *payload);
+  for (const auto& payload : held_back_) writer_.write(ready_, PacketType::kMotion, payload);
   held_back_.clear();
   started_ = true;
 }

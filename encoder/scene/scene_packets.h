@@ -30,9 +30,6 @@ class ScenePackets {
   /// Writes a packet; the scene has started.
   void add(PacketType type, std::span<const std::uint8_t> payload);
   [[nodiscard]] bool started() const { return started_; }
-  /// The scene, which has started and been left, goes on there.
-  /// @param aside  the scene that is left for it is set aside
-  void return_at(const StreamPosition& at, bool aside);
   /// Writes the parts of the head that are due for viewers who join. All that has been added is released.
   void end_group();
   /// Begins another scene, and holds motion back until it has started. None may be held back now.
@@ -47,7 +44,6 @@ class ScenePackets {
 
  private:
   void show_trickle();
-  void write(PacketType type, std::span<const std::uint8_t> payload);
 
   PacketWriter writer_;
   std::vector<std::vector<std::uint8_t>> held_back_;  // payloads of motion packets
@@ -55,8 +51,6 @@ class ScenePackets {
   std::size_t written_ = 0;  ///< bytes that have been taken
   std::size_t counted_from_ = 0;
   bool started_ = false;
-  std::uint32_t check_ = 0;  ///< of the scene's first pattern packet
-  bool in_head_ = false;     ///< that is yet to come
   std::optional<HeadTrickle> trickle_;
   std::size_t shown_ = 0;  ///< bytes of ready_ that it has seen
 };

@@ -1,7 +1,6 @@
 #include "encoder/scene/scene_span.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "bitstream/payload/return_payload.h"
@@ -21,12 +20,15 @@ std::optional<std::uint64_t> begin_of(const TypedPayload& packet) {
 }  // namespace
 
 Result<void> SceneSpan::begin(std::unique_ptr<SceneEncoder> scene, std::uint64_t picture) {
-  const bool aside = can_return(picture);
-  if (aside && open_.empty()) begin_ = picture;
-  if (auto left = leave(aside); !left) return left;
-  members_.push_back(std::make_unique<Member>(Member{std::move(scene)}));
-  members_.back()->packets.feed(kSignature);
-  return show(*members_.back(), {members_.back().get(), picture, false, aside});
+  const bool alone = open_.empty();
+  const auto left = leave(picture);
+  if (!left) return fail(left.error());
+  if (alone) begin_ = picture;
+  members_.push_back(std::make_unique<Member>(Member{std::move(scene), picture}));
+  present_ = members_.back().get();
+  present_->packets.feed(kSignature);
+  visits_.push_back({present_, picture, *left});
+  return {};
 }
 
 Result<bool> SceneSpan::return_to(const Picture& picture, const StreamPosition& at) {
@@ -35,34 +37,29 @@ Result<bool> SceneSpan::return_to(const Picture& picture, const StreamPosition& 
     return member->scene->recognises(picture);
   });
   if (found == open_.rend()) return false;
-  Member& member = **found;
+  Member* const member = *found;
   open_.erase(std::next(found).base());
-  const bool aside = can_return(at.pictures);
-  if (auto left = leave(aside); !left) return fail(left.error());
-  if (auto gone_on = member.scene->go_on(at); !gone_on) return fail(gone_on.error());
-  if (auto shown = show(member, {&member, at.pictures, true, aside}); !shown) return fail(shown.error());
+  const auto left = leave(at.pictures);
+  if (!left) return fail(left.error());
+  if (auto gone_on = member->scene->go_on(at); !gone_on) return fail(gone_on.error());
+  present_ = member;
+  visits_.push_back({member, at.pictures, *left});
   return true;
 }
 
-bool SceneSpan::can_return(std::uint64_t picture) const {
-  return present_ != nullptr && present_->scene->can_go_on() && ended_ != picture;
-}
-
-Result<void> SceneSpan::leave(bool aside) {
-  if (present_ == nullptr) return {};
-  if (!aside) return finish(*present_);
-  open_.push_back(present_);
-  if (open_.size() > kKeptScenes) {
-    if (auto finished = finish(*open_.front()); !finished) return finished;
+Result<SceneSpan::Member*> SceneSpan::leave(std::uint64_t picture) {
+  if (present_ == nullptr) return nullptr;
+  if (!present_->scene->can_go_on() || ended_ == picture) {
+    if (auto finished = finish(*present_); !finished) return fail(finished.error());
+    return nullptr;
+  }
+  if (open_.size() == kKeptScenes) {
+    if (auto finished = finish(*open_.front()); !finished) return fail(finished.error());
     open_.pop_front();
   }
-  return present_->scene->leave();
-}
-
-Result<void> SceneSpan::show(Member& member, Visit visit) {
-  present_ = &member;
-  visits_.push_back(visit);
-  return open_.empty() ? Result<void>{} : member.scene->set_keepings(keepings(false));
+  open_.push_back(present_);
+  if (auto left = present_->scene->leave(); !left) return fail(left.error());
+  return present_;
 }
 
 Result<void> SceneSpan::finish(Member& member) {
@@ -70,26 +67,7 @@ Result<void> SceneSpan::finish(Member& member) {
   return member.scene->finish();
 }
 
-SceneKeepings SceneSpan::keepings(bool final) const {
-  SceneKeepings out{begin_, final ? begin_ : std::numeric_limits<std::uint64_t>::max(), {}};
-  for (auto v = visits_.begin(); v != visits_.end(); ++v) {
-    if (final && v->returns) out.end = std::max(out.end, v->begin);
-    const bool known = final && v != visits_.begin();
-    const bool goes_on = !known || std::any_of(v, visits_.end(), [&](const Visit& later) {
-      return later.shown == std::prev(v)->shown;
-    });
-    if (v->aside && goes_on) out.aside.push_back(v->begin);
-  }
-  return out;
-}
-
 Result<void> SceneSpan::close() {
-  if (open_.empty()) return {};
-  open_.push_back(present_);
-  const SceneKeepings known = keepings(true);
-  for (const Member* member : open_)
-    if (auto set = member->scene->set_keepings(known); !set) return set;
-  open_.pop_back();
   for (Member* member : open_)
     if (auto finished = finish(*member); !finished) return finished;
   open_.clear();
@@ -108,6 +86,12 @@ Result<void> SceneSpan::finish() {
   return finish(*present_);
 }
 
+bool SceneSpan::returns(const Member* member) const {
+  return std::ranges::find(open_, member) != open_.end() ||
+         std::any_of(visits_.begin() + 1, visits_.end(),
+                     [&](const Visit& later) { return later.shown == member; });
+}
+
 bool SceneSpan::read_next(Member& member) {
   if (member.next) return true;
   member.packets.feed(member.scene->take());
@@ -118,28 +102,43 @@ bool SceneSpan::read_next(Member& member) {
   return true;
 }
 
+void SceneSpan::write_next(std::vector<std::uint8_t>& out) {
+  const Visit& visit = visits_.front();
+  Member& member = *visit.shown;
+  auto& [type, payload] = *member.next;
+  const bool aside = begin_of(*member.next) == visit.begin && visit.left != nullptr && returns(visit.left);
+  if (type == PacketType::kSetup) {
+    Setup setup = *decode_setup(payload);
+    const bool keeps = std::ranges::any_of(members_, [&](const auto& other) {
+      return other.get() != &member && other->begin < setup.before.pictures && returns(other.get());
+    });
+    setup.keeps = aside ? SceneKeeping::kAndPresent : keeps ? SceneKeeping::kAside : SceneKeeping::kNone;
+    payload = *encode_setup(setup);
+    member.in_head = true;
+  } else if (type == PacketType::kReturn) {
+    payload = encode_return({member.check, decode_return(payload)->before, aside});
+  }
+  const std::uint32_t check = writer_.write(out, type, payload);
+  if (type == PacketType::kPattern && std::exchange(member.in_head, false)) member.check = check;
+  member.next.reset();
+}
+
 std::vector<std::uint8_t> SceneSpan::take() {
   std::vector<std::uint8_t> out;
   while (!visits_.empty()) {
     Member& member = *visits_.front().shown;
     const bool last = visits_.size() == 1;
-    const auto is_later = [&] { return !last && begin_of(*member.next) >= visits_[1].begin; };
-    while (read_next(member) && !is_later()) {
-      const auto& [type, payload] = *member.next;
-      writer_.write(out, type, payload);
-      member.next.reset();
-    }
+    while (read_next(member) && (last || begin_of(*member.next) < visits_[1].begin)) write_next(out);
     if (last || (!member.next && !member.finished)) break;
+    if (member.finished && !returns(&member)) member.scene.reset();
     visits_.pop_front();
-    const auto shows = [&](const Visit& visit) { return visit.shown == &member; };
-    if (member.finished && std::ranges::none_of(visits_, shows))
-      std::erase_if(members_, [&](const auto& m) { return m.get() == &member; });
   }
   return out;
 }
 
 bool SceneSpan::is_coding() const {
-  return std::ranges::any_of(members_, [](const auto& member) { return member->scene->is_coding(); });
+  return std::ranges::any_of(members_,
+                             [](const auto& member) { return member->scene && member->scene->is_coding(); });
 }
 
 }  // namespace fbs

@@ -43,30 +43,32 @@ class SceneSpan {
 
  private:
   struct Member {
-    std::unique_ptr<SceneEncoder> scene;
+    std::unique_ptr<SceneEncoder> scene;  ///< null once all is written
+    std::uint64_t begin;                  ///< picture of the stream
     bool finished = false;
     PacketReader packets{};              ///< that it has coded
     std::optional<TypedPayload> next{};  ///< the first that is not written
+    bool in_head = false;                ///< its setup packet is written, and not its first pattern packet
+    std::uint32_t check = 0;             ///< of the latter
   };
   /// From a picture of the stream on, a scene is shown.
   struct Visit {
     Member* shown;
     std::uint64_t begin;
-    bool returns;  ///< the scene has been shown before
-    bool aside;    ///< the scene before may return
+    Member* left;  ///< the scene before, if it may return
   };
 
-  /// Whether the present scene, if it is left before this picture, may return.
-  [[nodiscard]] bool can_return(std::uint64_t picture) const;
-  /// @param aside  it can_return()
-  Result<void> leave(bool aside);
-  Result<void> show(Member& member, Visit visit);
+  /// Leaves the present scene before this picture.
+  /// @return it if it may return, or null
+  [[nodiscard]] Result<Member*> leave(std::uint64_t picture);
   static Result<void> finish(Member& member);
-  /// Ends all open scenes; what they may still return to is known.
+  /// Ends all open scenes.
   Result<void> close();
-  /// As far as is known, or as there are no more visits.
-  [[nodiscard]] SceneKeepings keepings(bool final) const;
+  /// Whether a scene returns behind the first of the visits, or may do so.
+  [[nodiscard]] bool returns(const Member* member) const;
   static bool read_next(Member& member);
+  /// Writes the next packet of the scene of the first visit.
+  void write_next(std::vector<std::uint8_t>& out);
 
   std::uint64_t most_;
   std::vector<std::unique_ptr<Member>> members_;

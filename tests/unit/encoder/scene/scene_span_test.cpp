@@ -39,26 +39,11 @@ class ToyScene : public SceneEncoder {
   [[nodiscard]] bool can_go_on() const override { return goes_on_; }
   Result<void> go_on(const StreamPosition& at) override {
     begin_ = at.pictures;
-    if (!ended_) coded_.emplace_back(PacketType::kReturn, encode_return({person_, at, false}));
-    return {};
-  }
-  Result<void> set_keepings(const SceneKeepings& keepings) override {
-    keepings_ = keepings;
+    if (!ended_) coded_.emplace_back(PacketType::kReturn, encode_return({0, at, false}));
     return {};
   }
   Result<void> finish() override {
-    for (auto& [type, payload] : coded_) {
-      if (type == PacketType::kSetup) {
-        Setup setup = *decode_setup(payload);
-        setup.keeps = keepings_.of_scene(setup.before.pictures);
-        payload = *encode_setup(setup);
-      } else if (type == PacketType::kReturn) {
-        Return to = *decode_return(payload);
-        to.aside = keepings_.sets_aside(to.before.pictures);
-        payload = encode_return(to);
-      }
-      writer_.write(ready_, type, payload);
-    }
+    for (const auto& [type, payload] : coded_) writer_.write(ready_, type, payload);
     coded_.clear();
     return {};
   }
@@ -78,7 +63,6 @@ class ToyScene : public SceneEncoder {
   bool goes_on_, ended_ = false;
   std::uint64_t begin_ = 0;
   std::vector<TypedPayload> coded_;
-  SceneKeepings keepings_;
   PacketWriter writer_;
   std::vector<std::uint8_t> ready_;
   PictureAnalysis analysis_;
@@ -102,14 +86,15 @@ class Shown {
     std::string out;
     PacketReader reader(stream_);
     std::optional<char> keeps;
+    std::map<std::uint32_t, char> people;
     for (auto read = reader.next(); read && read->status == ReadStatus::kPacket; read = reader.next()) {
       const auto& payload = read->packet.payload;
       if (read->packet.type == PacketType::kSetup)
         keeps = static_cast<char>('0' + static_cast<int>(decode_setup(payload)->keeps));
       else if (read->packet.type == PacketType::kPattern)
-        out += std::string("[") + static_cast<char>(payload[0]) + *keeps;
+        out += std::string("[") + (people[read->packet.check] = static_cast<char>(payload[0])) + *keeps;
       else if (read->packet.type == PacketType::kReturn)
-        out += std::string("<") + static_cast<char>(decode_return(payload)->scene) +
+        out += std::string("<") + people[decode_return(payload)->scene] +
                (decode_return(payload)->aside ? '1' : '0');
       else
         out += static_cast<char>(payload[0]);
@@ -128,12 +113,11 @@ class Shown {
     Picture picture(64, 64);
     picture.y.samples.front() = person;
     EXPECT_TRUE(span_.end_span(pictures_));
-    if (!span_.present() || !span_.present()->recognises(picture)) {
-      const auto returned =
-          span_.present() ? span_.return_to(picture, {pictures_, pictures_}) : Result(false);
-      ASSERT_TRUE(returned);
-      if (!*returned)
+    if (span_.present() == nullptr || !span_.present()->recognises(picture)) {
+      const bool returned = span_.present() != nullptr && *span_.return_to(picture, {pictures_, pictures_});
+      if (!returned) {
         ASSERT_TRUE(span_.begin(std::make_unique<ToyScene>(person, pictures_, person < 'a'), pictures_));
+      }
     }
     ASSERT_TRUE(span_.present()->push(picture, 0));
     ++pictures_;
