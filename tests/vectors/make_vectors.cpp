@@ -37,7 +37,7 @@ void add_good(Folder& folder, const Bytes& talk) {
 
   auto pieces = pieces_of(talk);
   pieces[place_of(pieces, PacketType::kSetup)].payload.insert(pieces[0].payload.end(),
-                                                              {1, 0, 0, 9, 9});  // 1: patterns, 0: contrasts
+                                                              {1, 0, 0, 0, 9, 9});  // 1: patterns, 0: contrasts, keeps
   pieces[place_of(pieces, PacketType::kEnd)].payload.push_back(7);
   pieces.insert(pieces.begin() + 2, {static_cast<PacketType>(99), Bytes(40, 0x5A)});
   pieces.insert(pieces.begin(), {static_cast<PacketType>(98), {}});
