@@ -53,8 +53,6 @@ class Decoder:
     def _lose(self, kind):
         """Notes a loss; without its first pattern, or the packet that begins it, nothing of a scene is of use."""
         self._guesses = True
-        if kind == SETUP:
-            self._aside.clear()
         if kind in (SETUP, RETURN):
             self._scene = None
         if self._scene:
@@ -103,7 +101,12 @@ class Decoder:
         self._time += duration
 
     def _take_setup(self, payload, passed):
+        kept, self._aside = self._aside, []
         setup = read_setup(payload)
+        if setup.keeps != KEEP_NONE:
+            self._aside = kept
+        if setup.keeps == KEEP_AND_PRESENT:
+            self._set_aside()
         size = setup.width, setup.height
         if self._size and size != self._size:
             raise unsupported("another picture size in a later scene")
@@ -114,17 +117,11 @@ class Decoder:
         if self._last is None:
             self._held_duration = setup.nominal_duration()
         self._size = size
-        if setup.keeps == KEEP_NONE:
-            self._aside.clear()
-        elif setup.keeps == KEEP_AND_PRESENT:
-            self._set_aside()
         self._is_lost = False
         self._scene = Scene(setup, passed)
 
     def _take_return(self, payload):
         check, (position, time), aside = read_return(payload)
-        if self._position is not None:
-            yield from self._fill_up_to(position, time)
         present = self._present()
         scene = next((s for s in [present, *reversed(self._aside)] if s and s.check == check), None)
         if scene is not present:
@@ -133,6 +130,7 @@ class Decoder:
                 self._set_aside()
         if not scene:
             raise invalid("there is no such scene to return to")
+        yield from self._fill_up_to(position, time)
         self._scene, self._is_lost = scene, False
 
     def _take_end(self, payload):
