@@ -1,12 +1,14 @@
 #include "bitstream/scene/scene_reader.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "bitstream/byte_io.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
 #include "bitstream/payload/head_part_payload.h"
+#include "bitstream/payload/return_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/sound_payload.h"
 #include "bitstream/payload/surround_payload.h"
@@ -42,7 +44,8 @@ std::int32_t guesses_of(const MotionGroup& group) {
 Result<SceneSyntax> SceneReader::read(const Packet& packet) {
   auto syntax = read_payload(packet);
   if (syntax) return syntax;
-  if (is_of_scene(packet.type) || packet.type == PacketType::kSetup) lose();
+  if (is_of_scene(packet.type) || packet.type == PacketType::kSetup || packet.type == PacketType::kReturn)
+    lose();
   Error error = std::move(syntax.error());
   error.byte_offset = packet.offset;
   return fail(std::move(error));
@@ -64,6 +67,7 @@ void SceneReader::go_back(const SceneReader& before) {
 
 Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
   if (packet.type == PacketType::kSetup) return read_setup(packet);
+  if (packet.type == PacketType::kReturn) return read_return(packet);
   if (packet.type == PacketType::kEnd) return as_syntax(decode_end(packet.payload));
   if (packet.type == PacketType::kSound) return read_sound(packet);
   if (packet.type == PacketType::kHeadPart) return read_head_part(packet);
@@ -97,28 +101,88 @@ Result<SceneSyntax> SceneReader::skip(bool needs_missing) const {
 
 // SPEC 6.1
 Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
-  lost_ = true;  // until it has been read
   const StreamPosition passed = packet.in_parts ? passed_ : StreamPosition{};
   const auto setup = decode_setup(packet.payload);
-  if (!setup) return fail(setup.error());
-  const std::int64_t next_sound = next_sound_;
-  *this = {};
-  next_sound_ = next_sound;
+  if (!setup) {
+    lost_ = true;
+    aside_.clear();
+    return fail(setup.error());
+  }
+  if (setup->keeps == SceneKeeping::kAndPresent) set_aside();
+  if (setup->keeps == SceneKeeping::kNone) aside_.clear();
+  enter({});
+  if (setup->keeps == SceneKeeping::kNone) earlier_losses_ = false;
+  sound_.reset();
+  scene_ = ++scenes_;
   has_setup_ = true;
   setup_ = *setup;
   Setup joined = setup_;
   joined.before.pictures += passed.pictures;
   joined.before.time += passed.time;
-  pictures_ = Timeline(joined.before.time, static_cast<std::int32_t>(passed.pictures));
+  pictures_ = Timeline(joined.before, static_cast<std::int32_t>(passed.pictures));
   has_losses_ = passed.pictures > 0;
   return SceneSyntax(joined);
+}
+
+// SPEC 6.6
+Result<SceneSyntax> SceneReader::read_return(const Packet& packet) {
+  const auto to = decode_return(packet.payload);
+  if (!to) {
+    lose_scene();
+    return fail(to.error());
+  }
+  if (!can_return() || check_ != to->scene) {  // otherwise the return that left it is lost
+    const auto next = take_out(to->scene);
+    if (to->aside) set_aside();
+    if (!next) {
+      const bool explained = has_losses_ || earlier_losses_;
+      lose_scene();
+      return explained ? Result<SceneSyntax>{} : refuse("a return to a scene that is not known");
+    }
+    enter(*next);
+    has_losses_ = has_losses_ || earlier_losses_;  // it may have been its return that was lost
+  }
+  pictures_.go_on(to->before);
+  return SceneSyntax(*to);
+}
+
+void SceneReader::set_aside() {
+  if (!can_return()) return;
+  auto scene = std::make_shared<SceneReader>(*this);
+  scene->aside_.clear();
+  aside_.push_back(std::move(scene));
+  if (aside_.size() > kKeptScenes) aside_.erase(aside_.begin());
+}
+
+std::shared_ptr<const SceneReader> SceneReader::take_out(std::uint32_t check) {
+  const auto found =
+      std::find_if(aside_.rbegin(), aside_.rend(), [&](const auto& scene) { return scene->check_ == check; });
+  if (found == aside_.rend()) return nullptr;
+  std::shared_ptr<const SceneReader> scene = std::move(*found);
+  aside_.erase(std::prev(found.base()));
+  return scene;
+}
+
+void SceneReader::enter(SceneReader scene) {
+  scene.next_sound_ = next_sound_;
+  scene.sound_ = sound_;
+  scene.aside_ = std::move(aside_);
+  scene.scenes_ = scenes_;
+  scene.earlier_losses_ = earlier_losses_ || has_losses_ || !has_setup_;
+  *this = std::move(scene);
+}
+
+bool SceneReader::knows(std::uint64_t scene) const {
+  return scene == scene_ ||
+         std::any_of(aside_.begin(), aside_.end(), [&](const auto& aside) { return aside->scene_ == scene; });
 }
 
 // SPEC 6.5
 Result<SceneSyntax> SceneReader::read_head_part(const Packet& packet) {
   auto part = decode_head_part(packet.payload);
   if (!part) return fail(part.error());
-  if (packet.in_parts || (motion_ && !lost_ && part->scene == check_)) return SceneSyntax{};
+  if (packet.in_parts || (motion_ && !lost_ && part->scene == static_cast<std::uint16_t>(check_)))
+    return SceneSyntax{};
   const StreamPosition passed = part->passed;
   auto head = head_parts_.add(std::move(*part));
   if (!head) return SceneSyntax{};
@@ -142,7 +206,7 @@ Result<SceneSyntax> SceneReader::read_geometry(const Packet& packet) {
 Result<SceneSyntax> SceneReader::read_patterns(const Packet& packet) {
   auto read = patterns_.decode(packet.payload, setup_, pictures_.end());
   if (!read) return fail(read.error());
-  if (!motion_) check_ = static_cast<std::uint16_t>(packet.check);
+  if (!motion_) check_ = packet.check;
   std::vector<ScenePattern> patterns;
   for (PatternSyntax& pattern : *read) {
     auto placed = place(std::move(pattern));

@@ -38,26 +38,27 @@ struct JoinedHead {
 
 /// What a packet says. monostate: nothing that can be used, since its type is unknown, it needs something
 /// that was lost, it has come before, or it has no effect where it is.
-using SceneSyntax = std::variant<std::monostate, Setup, End, std::shared_ptr<const WireFrame>, Geometry,
-                                 SurroundMap, std::vector<ScenePattern>, MotionGroup, BlendGroup, Unit,
-                                 std::optional<SoundSetup>, SoundGroup, JoinedHead>;
+using SceneSyntax = std::variant<std::monostate, Setup, Return, End, std::shared_ptr<const WireFrame>,
+                                 Geometry, SurroundMap, std::vector<ScenePattern>, MotionGroup, BlendGroup,
+                                 Unit, std::optional<SoundSetup>, SoundGroup, JoinedHead>;
 
 /// Reads the packets of a stream in their order, without pixels.
 class SceneReader {
  public:
-  /// Reads the next packet. A setup packet begins another scene at once, even if it is refused later on.
+  /// Reads the next packet. A setup or return packet begins another scene, or goes on with an earlier one, at
+  /// once, even if it is refused later on.
   /// @return errors of the payloads, and kInvalidStream for a packet that may not stand where it does; with
-  ///         the offset of the packet. An error in a setup packet or one that is_of_scene() is a loss, as if
-  ///         lose() had been called. Errors in sound do no harm to pictures (SPEC 6.3)
+  ///         the offset of the packet. An error in a setup packet, a return packet or one that is_of_scene()
+  ///         is a loss, as if lose() had been called. Errors in sound do no harm to pictures (SPEC 6.3)
   [[nodiscard]] Result<SceneSyntax> read(const Packet& packet);
 
   /// Packets are missing. In the head of a scene, up to its first pattern, nothing is of use up to the next
-  /// setup packet: the scene is lost(). Later on only what needs them is of no use (SPEC 6.2).
+  /// setup or return packet: the scene is lost(). Later on only what needs them is of no use (SPEC 6.2).
   void lose();
   /// The scene cannot be used.
   void lose_scene() { lost_ = has_losses_ = true; }
   [[nodiscard]] bool lost() const { return lost_; }
-  /// Whether something is known to be missing since the last setup packet.
+  /// Whether something of the scene is known to be missing.
   [[nodiscard]] bool has_losses() const { return has_losses_; }
   /// Reads again what has been read since `before`, with what had not come then. Pictures that have been
   /// displayed and sound are not repeated.
@@ -74,7 +75,12 @@ class SceneReader {
   /// Whether a setup packet has been read.
   [[nodiscard]] bool has_setup() const { return has_setup_; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
-  /// What the scene's last sound setup packet says; nothing if there was none, or none that is known.
+  /// Tells the present scene from all others, also after a return to it.
+  [[nodiscard]] std::uint64_t scene() const { return scene_; }
+  /// Whether this is the present scene or one that is set aside.
+  [[nodiscard]] bool knows(std::uint64_t scene) const;
+  /// What the last sound setup packet says; nothing if there was none since the last setup packet, or none
+  /// that is known.
   [[nodiscard]] const std::optional<SoundSetup>& sound_setup() const { return sound_; }
 
   /// Pictures of the scene: those that packets have released, and those that wait.
@@ -84,6 +90,15 @@ class SceneReader {
  private:
   [[nodiscard]] Result<SceneSyntax> read_payload(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_setup(const Packet& packet);
+  [[nodiscard]] Result<SceneSyntax> read_return(const Packet& packet);
+  /// Whether the stream may return to the present scene.
+  [[nodiscard]] bool can_return() const { return motion_ && !lost_; }
+  /// Sets the present scene aside, if it can_return().
+  void set_aside();
+  /// @return the last scene that was set aside and has this check; null: there is none
+  [[nodiscard]] std::shared_ptr<const SceneReader> take_out(std::uint32_t check);
+  /// Goes on with another scene, which takes over what is the stream's.
+  void enter(SceneReader scene);
   [[nodiscard]] Result<SceneSyntax> read_geometry(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_wire_frame(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_patterns(const Packet& packet);
@@ -102,19 +117,24 @@ class SceneReader {
 
   bool has_setup_ = false;
   bool lost_ = false, has_losses_ = false;
+  HeadParts head_parts_;   // of a scene that might be joined
+  StreamPosition passed_;  // pictures of a scene that is joined next
+  // The stream's:
   std::int64_t next_sound_ = 0;  // number of the first frame that has not come
-  HeadParts head_parts_;         // of a scene that might be joined
-  StreamPosition passed_;        // pictures of a scene that is joined next
+  std::optional<SoundSetup> sound_;
+  std::vector<std::shared_ptr<const SceneReader>> aside_;  // scenes that are set aside, in this order
+  std::uint64_t scenes_ = 0;                               // so many have begun
+  bool earlier_losses_ = false;                            // before the scene, since none was kept
   // The scene's:
+  std::uint64_t scene_ = 0;
   Setup setup_;
-  std::uint16_t check_ = 0;                      // of its first pattern packet, the low bits
+  std::uint32_t check_ = 0;                      // of its first pattern packet
   std::shared_ptr<const WireFrame> wire_frame_;  // null: the generic head
   PatternPacketReader patterns_;
   std::array<std::int32_t, kMaxPatterns>
       stored_{};                         // picture of the last pattern for each slot; 0: none, or the first
   std::optional<MotionDecoder> motion_;  // from the first pattern on
   std::optional<BlendDecoder> blend_;    // the same, where several patterns are blended
-  std::optional<SoundSetup> sound_;
   Timeline pictures_;
 };
 

@@ -13,14 +13,15 @@ Result<void> Timeline::add(std::span<const State> states, std::span<const std::u
   if (new_end - next_ > kMaxWaitingPictures || new_end > static_cast<std::int64_t>(kMaxPictureNumber))
     return fail(ErrorCode::kTooLarge, "too many pictures wait for their patterns");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    entries_.push_back({states[i], end_time_, durations[i], std::cmp_less(i, guessed)});
+    entries_.push_back({states[i], end_position_, durations[i], std::cmp_less(i, guessed)});
     State& state = entries_.back().state;
     state.picture = end() - 1;
     if (!ahead_.empty()) {
       state.blend = ahead_.front();
       ahead_.pop_front();
     }
-    end_time_ += durations[i];
+    ++end_position_.pictures;
+    end_position_.time += durations[i];
   }
   released_ = std::max(released_, std::min(with_modes_, end()));
   return {};
@@ -48,6 +49,17 @@ Timeline::Entry Timeline::next() {
   ++next_;
   for (; next_ - first_ > kKeptPictures; ++first_) entries_.pop_front();
   return entry;
+}
+
+void Timeline::go_on(const StreamPosition& next) {
+  const Entry* const known = find(next_);
+  const StreamPosition before = known != nullptr ? known->position : end_position_;
+  const auto move = [&](StreamPosition& position) {  // modulo 2^64
+    position.pictures += next.pictures - before.pictures;
+    position.time += next.time - before.time;
+  };
+  for (std::int32_t picture = next_; picture < end(); ++picture) move(entries_[picture - first_].position);
+  move(end_position_);
 }
 
 const Timeline::Entry* Timeline::find(std::int32_t picture) const {

@@ -18,15 +18,15 @@ class Timeline {
  public:
   struct Entry {
     State state;
-    std::uint64_t time = 0;      ///< of the stream, 1/90000 s
+    StreamPosition position;     ///< in the stream, if that does not leave the scene before the picture
     std::uint32_t duration = 0;  ///< 1/90000 s
     bool guessed = false;        ///< the state may be wrong, since a group is missing
   };
 
-  /// @param begin  time of the first picture, 1/90000 s
+  /// @param begin  position of the first picture
   /// @param first  its number
-  explicit Timeline(std::uint64_t begin = 0, std::int32_t first = 0)
-      : first_(first), next_(first), released_(first), with_modes_(first), end_time_(begin) {}
+  explicit Timeline(const StreamPosition& begin = {}, std::int32_t first = 0)
+      : first_(first), next_(first), released_(first), with_modes_(first), end_position_(begin) {}
 
   /// Adds the states of the next pictures and numbers them.
   /// @param guessed  how many of the first of them may be wrong, since a group is missing
@@ -53,6 +53,9 @@ class Timeline {
 
   /// How many have been displayed.
   [[nodiscard]] std::int32_t displayed() const { return next_; }
+  /// The stream returns to the scene: the next picture to be displayed, and those behind it, have another
+  /// position. SPEC 6.6.
+  void go_on(const StreamPosition& next);
   /// So many have been displayed, whether they are known or not.
   void skip_displayed(std::int32_t pictures) { next_ = std::max(next_, pictures); }
 
@@ -60,7 +63,7 @@ class Timeline {
   [[nodiscard]] std::int32_t end() const { return first_ + static_cast<std::int32_t>(entries_.size()); }
 
   /// When the last of them ends, 1/90000 s.
-  [[nodiscard]] std::uint64_t end_time() const { return end_time_; }
+  [[nodiscard]] std::uint64_t end_time() const { return end_position_.time; }
 
   /// A picture by its number; null when it is unknown, or no longer kept.
   [[nodiscard]] const Entry* find(std::int32_t picture) const;
@@ -73,7 +76,7 @@ class Timeline {
   std::int32_t with_modes_ = 0;    // pictures below this have modes
   std::deque<RegionModes> ahead_;  // of those that have no state yet
   RegionModes last_modes_{};
-  std::uint64_t end_time_;
+  StreamPosition end_position_;  // behind all entries
 };
 
 }  // namespace fbs

@@ -36,7 +36,7 @@ class LatePackets {
   [[nodiscard]] bool is_again() const { return again_; }
   /// Whether it may be read again.
   [[nodiscard]] bool is_kept() const { return before_ && given_up_ < *expected_; }
-  /// It begins a scene: those before it are not waited for any longer.
+  /// It begins a scene, or returns to one: those before it are not waited for any longer.
   void begin_scene();
 
   /// Numbers that are missing and still of use, by rising number.

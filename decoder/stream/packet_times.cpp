@@ -25,8 +25,14 @@ Result<TimedPacket> PacketTimes::take(const Packet& packet) {
 }
 
 Result<void> PacketTimes::place(const Setup& setup, TimedPacket& out) {
-  out.key = true;
+  out.key = setup.keeps == SceneKeeping::kNone;
   auto jumped = jump(clock_.go_to(setup.before), out);
+  if (!jumped) reader_.lose_scene();
+  return jumped;
+}
+
+Result<void> PacketTimes::place(const Return& to, TimedPacket& out) {
+  auto jumped = jump(clock_.go_to(to.before), out);
   if (!jumped) reader_.lose_scene();
   return jumped;
 }
@@ -47,7 +53,7 @@ Result<void> PacketTimes::jump(const Result<std::uint64_t>& missing, TimedPacket
 
 Result<void> PacketTimes::place(const std::vector<ScenePattern>& patterns, TimedPacket& out) {
   out.key = patterns.front().is_first();
-  if (!out.key) out.time = reader_.pictures().find(patterns.front().coded.picture)->time;
+  if (!out.key) out.time = reader_.pictures().find(patterns.front().coded.picture)->position.time;
   return {};
 }
 
@@ -56,8 +62,7 @@ Result<void> PacketTimes::place(const MotionGroup& group, TimedPacket& out) {
   const std::int32_t first = reader_.pictures().end() - group.pictures;
   out.missing = static_cast<std::uint64_t>(group.missing);
   if (group.missing > 0) clock_.lose();
-  out.first = {reader_.setup().before.pictures + static_cast<std::uint64_t>(first),
-               reader_.pictures().find(first)->time};
+  out.first = reader_.pictures().find(first)->position;
   out.time = out.first.time;
   return {};
 }

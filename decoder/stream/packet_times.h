@@ -14,8 +14,12 @@ namespace fbs {
 /// What a packet says, and when.
 struct TimedPacket {
   SceneSyntax syntax;
-  bool key = false;      ///< coded without reference to an earlier packet of its type
-  StreamPosition first;  ///< of the first picture that needs the packet; for an end packet the stream's end
+  /// Coded without reference to an earlier packet of its type; a setup packet: the stream can be joined
+  /// there.
+  bool key = false;
+  /// Of the first picture that needs the packet; for an end packet the stream's end. If the stream leaves the
+  /// scene before that picture, and returns, it is too early: as if the stream stayed.
+  StreamPosition first;
   /// When it counts, 1/90000 s; none if not known. A pattern packet: the picture that its first pattern
   /// shows; sound: its first sample; any other: `first`.
   std::optional<std::uint64_t> time;
@@ -40,6 +44,7 @@ class PacketTimes {
  private:
   // What a packet of each kind adds to `out`.
   Result<void> place(const Setup& setup, TimedPacket& out);
+  Result<void> place(const Return& to, TimedPacket& out);
   Result<void> place(const End& end, TimedPacket& out);
   Result<void> place(const std::vector<ScenePattern>& patterns, TimedPacket& out);
   Result<void> place(const MotionGroup& group, TimedPacket& out);

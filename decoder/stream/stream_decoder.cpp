@@ -31,7 +31,6 @@ Result<DecodeStatus> StreamDecoder::next() {
   for (;;) {
     if (reader_.pictures().has_next()) return show();
     if (clock_.is_behind()) return hold();
-    if (next_scene_) begin_scene();
     const auto read = packets_.next();
     if (!read) {
       // Without a signature the stream is joined in its middle: no loss is known.
@@ -63,7 +62,7 @@ Result<DecodeStatus> StreamDecoder::next() {
 DecodeStatus StreamDecoder::show() {
   const Timeline::Entry next = reader_.pictures().next();
   ++announced_;
-  picture_ = {next.state, clock_.now(), next.duration, false, scene_.shared()};
+  picture_ = {next.state, clock_.now(), next.duration, false, scene_->shared()};
   clock_.show(next.duration);
   quality_ = next.guessed                    ? PictureQuality::kInterpolated
              : reader_.has_broken_patterns() ? PictureQuality::kPatternMissing
@@ -122,6 +121,7 @@ Result<void> StreamDecoder::render_state(const State& state, const PictureView& 
 
 Result<void> StreamDecoder::take(const Packet& packet) {
   const Arrived arrived{packet, reader_.has_losses()};
+  if (packet.type == PacketType::kSetup || packet.type == PacketType::kReturn) late_.begin_scene();
   auto syntax = reader_.read(packet);
   auto taken = syntax ? std::visit([&](auto& s) { return take(s, arrived); }, *syntax)
                       : Result<void>(fail(syntax.error()));
@@ -135,31 +135,38 @@ Result<void> StreamDecoder::take(const Packet& packet) {
 
 // SPEC 6.1
 Result<void> StreamDecoder::take(const Setup& setup, const Arrived& arrived) {
-  auto next = next_scene(setup);
-  if (!next) {
+  auto patterns = decoder_for(setup);
+  if (!patterns) {
     reader_.lose_scene();
-    return fail(next.error());
+    return fail(patterns.error());
   }
-  const auto missing = clock_.go_to(setup.before);
-  if (!missing) {
-    reader_.lose_scene();
-    return fail(missing.error());
-  }
-  late_.begin_scene();
-  next_scene_ = std::move(*next);
-  return report_missing(*missing, arrived.lost);
+  scene_ = scenes_[reader_.scene()] = std::make_shared<SceneBuilder>();
+  scene_->begin(setup, std::move(*patterns));
+  return enter(setup.before, arrived);
 }
 
-Result<StreamDecoder::NextScene> StreamDecoder::next_scene(const Setup& setup) const {
+// SPEC 6.6
+Result<void> StreamDecoder::take(const Return& to, const Arrived& arrived) {
+  scene_ = scenes_.at(reader_.scene());
+  return enter(to.before, arrived);
+}
+
+Result<void> StreamDecoder::enter(const StreamPosition& before, const Arrived& arrived) {
+  std::erase_if(scenes_, [&](const auto& scene) { return !reader_.knows(scene.first); });
+  const auto missing = clock_.go_to(before);
+  if (missing) return report_missing(*missing, arrived.lost);
+  reader_.lose_scene();
+  return fail(missing.error());
+}
+
+Result<PatternDecoder> StreamDecoder::decoder_for(const Setup& setup) const {
   const VideoFormat &now = format(), &next = setup.format;
   if (now.width > 0 && (next.width != now.width || next.height != now.height))
     return fail(ErrorCode::kUnsupported, "the picture size changes inside the stream");
   const auto pixels = static_cast<std::uint64_t>(next.width) * static_cast<std::uint64_t>(next.height);
   if (max_pixels_ && pixels > *max_pixels_)
     return fail(ErrorCode::kTooLarge, "the picture has more pixels than are allowed");
-  auto patterns = PatternDecoder::create(next.width, next.height);
-  if (!patterns) return fail(patterns.error());
-  return NextScene{setup, std::move(*patterns)};
+  return PatternDecoder::create(next.width, next.height);
 }
 
 // SPEC 4.7
@@ -179,26 +186,21 @@ Result<void> StreamDecoder::report_missing(std::uint64_t missing, bool reported)
   return fail(ErrorCode::kInvalidStream, text);
 }
 
-void StreamDecoder::begin_scene() {
-  scene_.begin(next_scene_->setup, std::move(next_scene_->patterns));
-  next_scene_.reset();
-}
-
 Result<void> StreamDecoder::take(const Geometry& geometry, const Arrived& /*arrived*/) {
-  scene_.set_geometry(geometry);
+  scene_->set_geometry(geometry);
   return {};
 }
 
 Result<void> StreamDecoder::take(const SurroundMap& surround, const Arrived& /*arrived*/) {
-  if (scene_.set_surround(surround) && scene_.scene().geometry) scene_.apply_surround();
+  if (scene_->set_surround(surround) && scene_->scene().geometry) scene_->apply_surround();
   return {};
 }
 
 Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, const Arrived& arrived) {
   std::vector<bool> reduced;
   for (const ScenePattern& pattern : patterns) {
-    if (scene_.kept() >= kMostKept) late_.give_up();
-    auto made = scene_.make(pattern, late_.is_kept());
+    if (scene_->kept() >= kMostKept) late_.give_up();
+    auto made = scene_->make(pattern, late_.is_kept());
     if (!made) {
       if (pattern.is_first())
         reader_.lose_scene();
@@ -207,14 +209,14 @@ Result<void> StreamDecoder::take(const std::vector<ScenePattern>& patterns, cons
       return fail(made.error());
     }
     reduced.push_back(made->reduced);
-    scene_.store(std::move(made->pattern));
+    scene_->store(std::move(made->pattern));
   }
-  tally_.add(arrived.packet, reader_.setup(), patterns, reduced);
+  tally_.add(arrived.packet, reader_, patterns, reduced);
   return {};
 }
 
 Result<void> StreamDecoder::take(const MotionGroup& group, const Arrived& arrived) {
-  tally_.add(group);
+  tally_.add(group, reader_);
   if (group.missing > 0) clock_.lose();
   if (group.missing == 0 || arrived.lost) return {};
   return fail(ErrorCode::kInvalidStream, missing_text(static_cast<std::uint64_t>(group.missing)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,15 +41,15 @@ enum class PictureQuality : std::uint8_t {
 ///   decoder.feed(bytes);  decoder.close();
 ///   while (decoder.next() == DecodeStatus::kPicture && decoder.render(picture)) { ... }
 ///
-/// After an error the next call of next() continues with the first scene after the damage, and returns kEnd
-/// when there is none. An error is reported once; everything that depends on a lost packet is left out
-/// silently. Where a setup packet or the end packet says that pictures are missing, the last picture is
-/// repeated for each of them, so that later pictures keep their numbers and times: at most kMaxHeldPictures
-/// in a row (SPEC 6.2).
+/// After an error the next call of next() continues with the first scene after the damage that can be drawn,
+/// and returns kEnd when there is none. An error is reported once; everything that depends on a lost packet
+/// is left out silently. Where a setup packet or the end packet says that pictures are missing, the last
+/// picture is repeated for each of them, so that later pictures keep their numbers and times: at most
+/// kMaxHeldPictures in a row (SPEC 6.2).
 ///
-/// A stream may also be joined at any setup packet: feed kSignature, then the stream from there on. If it has
-/// the head of its scene in parts, it may be joined anywhere: the first picture is one of those that are sent
-/// when enough parts have come (SPEC 6.5).
+/// A stream may also be joined at any setup packet that keeps no other scene: feed kSignature, then the
+/// stream from there on. If it has the head of its scene in parts, it may be joined anywhere: the first
+/// picture is one of those that are sent when enough parts have come (SPEC 6.5).
 class StreamDecoder {
  public:
   /// Copies `bytes`.
@@ -115,7 +116,7 @@ class StreamDecoder {
   // These describe the picture that next() announced last; a held picture has the state and scene of the one
   // it repeats.
   [[nodiscard]] const State& state() const { return picture_.state; }
-  [[nodiscard]] const Scene& scene() const { return picture_.scene ? *picture_.scene : scene_.scene(); }
+  [[nodiscard]] const Scene& scene() const { return picture_.scene ? *picture_.scene : scene_->scene(); }
   [[nodiscard]] const VideoFormat& format() const { return scene().setup.format; }
   /// Number of the picture in the stream, from 0, and its time.
   [[nodiscard]] const StreamPosition& position() const { return picture_.position; }
@@ -142,14 +143,9 @@ class StreamDecoder {
   [[nodiscard]] std::optional<std::uint64_t> announced_pictures() const { return end_; }
 
  private:
-  struct NextScene {
-    Setup setup;
-    PatternDecoder patterns;
-  };
-
   struct Arrived {
     const Packet& packet;
-    bool lost;  ///< something since the last setup packet before it is known to be missing
+    bool lost;  ///< something of the scene before it is known to be missing
   };
 
   DecodeStatus show();
@@ -157,6 +153,7 @@ class StreamDecoder {
   Result<void> take(const Packet& packet);
   // What a packet says.
   Result<void> take(const Setup& setup, const Arrived& arrived);
+  Result<void> take(const Return& to, const Arrived& arrived);
   Result<void> take(const End& end, const Arrived& arrived);
   Result<void> take(const Geometry& geometry, const Arrived& arrived);
   Result<void> take(const SurroundMap& surround, const Arrived& arrived);
@@ -175,10 +172,11 @@ class StreamDecoder {
     return {};
   }
   /// @return kUnsupported for another size than before; limits of the caller and of PatternDecoder
-  [[nodiscard]] Result<NextScene> next_scene(const Setup& setup) const;
+  [[nodiscard]] Result<PatternDecoder> decoder_for(const Setup& setup) const;
+  /// The clock goes to where the stream says that a scene begins or goes on.
+  [[nodiscard]] Result<void> enter(const StreamPosition& before, const Arrived& arrived);
   /// @param reported  whether an error has reported a loss
   [[nodiscard]] Result<void> report_missing(std::uint64_t missing, bool reported) const;
-  void begin_scene();
 
   /// Has the pictures that follow drawn.
   void draw_ahead();
@@ -191,9 +189,9 @@ class StreamDecoder {
   LatePackets late_;
   SceneReader reader_;
   StreamClock clock_;
-  std::optional<NextScene> next_scene_;  ///< begins when the clock is not behind
-  SceneBuilder scene_;                   ///< what packets build
-  std::uint64_t announced_ = 0;          ///< pictures, held ones too
+  std::map<std::uint64_t, std::shared_ptr<SceneBuilder>> scenes_;           ///< by SceneReader::scene()
+  std::shared_ptr<SceneBuilder> scene_ = std::make_shared<SceneBuilder>();  ///< what packets build
+  std::uint64_t announced_ = 0;                                             ///< pictures, held ones too
   struct {
     State state;
     StreamPosition position;

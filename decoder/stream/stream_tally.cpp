@@ -59,10 +59,12 @@ void StreamTally::note_startup() {
   if (bytes_.startup == 0) bytes_.startup = bytes_.total;
 }
 
-void StreamTally::add(const Packet& packet, const Setup& setup, std::span<const ScenePattern> patterns,
+void StreamTally::add(const Packet& packet, const SceneReader& reader, std::span<const ScenePattern> patterns,
                       const std::vector<bool>& reduced) {
-  if (counts_motion_bits_ && patterns.front().is_first())
-    bit_counter_.emplace(setup, patterns.front().coded.state);
+  if (counts_motion_bits_ && patterns.front().is_first()) {
+    std::erase_if(bit_counters_, [&](const auto& scene) { return !reader.knows(scene.first); });
+    bit_counters_.emplace(reader.scene(), MotionBitCounter(reader.setup(), patterns.front().coded.state));
+  }
   if (!records_patterns_) return;
   std::uint64_t frames = 0, frames_before = 0;
   for (const ScenePattern& pattern : patterns) frames += pattern.coded.av1.size();
@@ -70,15 +72,17 @@ void StreamTally::add(const Packet& packet, const Setup& setup, std::span<const 
   for (std::size_t k = 0; k < patterns.size(); ++k) {
     const PatternSyntax& pattern = patterns[k].coded;
     const std::uint64_t frames_after = frames_before + pattern.av1.size();
-    patterns_.push_back({pattern.slot, setup.before.pictures + static_cast<std::uint64_t>(pattern.picture),
+    const Timeline::Entry* const known = reader.pictures().find(pattern.picture);
+    patterns_.push_back({pattern.slot, known ? known->position.pictures : reader.setup().before.pictures,
                          share(frames_after) - share(frames_before), reduced[k]});
     frames_before = frames_after;
   }
 }
 
-void StreamTally::add(const MotionGroup& group) {
-  if (!bit_counter_) return;
-  const PartBitsX256 bits = bit_counter_->count(group);
+void StreamTally::add(const MotionGroup& group, const SceneReader& reader) {
+  const auto counter = bit_counters_.find(reader.scene());
+  if (counter == bit_counters_.end()) return;
+  const PartBitsX256 bits = counter->second.count(group);
   std::transform(bits.begin(), bits.end(), motion_bits_.begin(), motion_bits_.begin(), std::plus<>());
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -45,9 +45,9 @@ class StreamTally {
   /// All that the first picture needs has come.
   void note_startup();
   /// @param reduced  of each pattern, whether it is coded at reduced size
-  void add(const Packet& packet, const Setup& setup, std::span<const ScenePattern> patterns,
+  void add(const Packet& packet, const SceneReader& reader, std::span<const ScenePattern> patterns,
            const std::vector<bool>& reduced);
-  void add(const MotionGroup& group);
+  void add(const MotionGroup& group, const SceneReader& reader);
 
   [[nodiscard]] const ByteCount& bytes() const { return bytes_; }
   /// Zero unless count_motion_bits() was called.
@@ -58,7 +58,7 @@ class StreamTally {
  private:
   bool counts_motion_bits_ = false, records_patterns_ = false;
   ByteCount bytes_;
-  std::optional<MotionBitCounter> bit_counter_;  // of the scene
+  std::map<std::uint64_t, MotionBitCounter> bit_counters_;  // by SceneReader::scene()
   PartBitsX256 motion_bits_{};
   std::vector<PatternRecord> patterns_;
 };

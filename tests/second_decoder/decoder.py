@@ -17,6 +17,7 @@ class Decoder:
         self.errors = []
         self._scene = None
         self._aside = []  # scenes to which the stream may return, the last one last
+        self._earlier_losses = False  # in a scene before, since the last that kept none
         self._size = None  # width and height of all scenes
         self._is_lost = False  # everything up to the next setup packet or return packet
         self._position = None  # pictures that have been shown, those before the place of joining included
@@ -103,6 +104,8 @@ class Decoder:
     def _take_setup(self, payload, passed):
         kept, self._aside = self._aside, []
         setup = read_setup(payload)
+        knows = not self._scene or self._has_losses()
+        self._earlier_losses = setup.keeps != KEEP_NONE and (self._earlier_losses or knows)
         if setup.keeps != KEEP_NONE:
             self._aside = kept
         if setup.keeps == KEEP_AND_PRESENT:
@@ -124,13 +127,20 @@ class Decoder:
         check, (position, time), aside = read_return(payload)
         present = self._present()
         scene = next((s for s in [present, *reversed(self._aside)] if s and s.check == check), None)
+        knows = self._earlier_losses or not self._scene or self._has_losses()
         if scene is not present:
             self._aside = [s for s in self._aside if s is not scene]
             if aside:
                 self._set_aside()
         if not scene:
-            raise invalid("there is no such scene to return to")
+            self._lose(RETURN)
+            if not knows:
+                raise invalid("there is no such scene to return to")
+            return
         yield from self._fill_up_to(position, time)
+        if scene is not present:
+            self._earlier_losses = knows
+            scene.has_losses |= knows
         self._scene, self._is_lost = scene, False
 
     def _take_end(self, payload):

@@ -169,8 +169,9 @@ void add_returns(Folder& folder) {
   written("returns_discarded.fbs", two(SceneKeeping::kAside));
   const StreamPosition early{1, 3000};
   written("returns_backwards.fbs", two(SceneKeeping::kAndPresent, &early));
-  invalid("returns_joined.fbs", joined({pieces.begin() + static_cast<std::ptrdiff_t>(second), pieces.end()}),
-          good.pictures() - must(decode_setup(pieces[second].payload)).before.pictures);
+  folder.add("returns_joined.fbs",
+             joined({pieces.begin() + static_cast<std::ptrdiff_t>(second), pieces.end()}),
+             good.pictures() - must(decode_setup(pieces[second].payload)).before.pictures);
   invalid("returns_removed_setup.fbs", joined_without(pieces, second), good.pictures());
   invalid("returns_removed.fbs", joined_without(pieces, place_of(pieces, PacketType::kReturn)),
           good.pictures());

@@ -186,5 +186,104 @@ TEST(StreamDecoderScenes, HeldPicturesComeAsSoonAsTheSetupTells) {
   EXPECT_TRUE(result.held.back());
 }
 
+// SPEC 6.6
+
+/// A scene that keeps others, of three patterns.
+fbs::Setup later_setup(const StreamPosition& before, SceneKeeping keeps = SceneKeeping::kAndPresent) {
+  fbs::Setup setup = setup_of(3);
+  setup.before = before;
+  setup.keeps = keeps;
+  return setup;
+}
+
+StreamPosition after(std::uint64_t pictures) {
+  return {pictures, pictures * 3000};
+}
+
+/// Two scenes that take turns, five pictures each; the head of either is four packets. Ten pictures have a
+/// state when five are shown.
+/// @param turns  0: the first scene, 1: the second
+Writer turns_of(const std::vector<std::size_t>& turns) {
+  Writer w;
+  std::vector<int> shown(2);
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const std::size_t scene = turns[k];
+    const bool begins = shown[scene] == 0;
+    if (begins)
+      w.setup(later_setup(after(5 * k), k == 0 ? SceneKeeping::kNone : SceneKeeping::kAndPresent))
+          .geometry()
+          .surround()
+          .pattern(face_picture(static_cast<int>(scene)));
+    else
+      w.go_back(scene, after(5 * k));
+    if (begins) w.motion(0, 5, true);
+    w.motion(shown[scene] + 5, shown[scene] + 10);
+    if (!begins) w.pattern(face_picture(static_cast<int>(scene) + 2), 1, shown[scene] + 2);
+    w.blend(5);
+    shown[scene] += 5;
+  }
+  w.end(5 * turns.size());
+  return w;
+}
+
+/// The same pictures, each scene by itself.
+std::vector<Picture> pictures_of(const std::vector<std::size_t>& turns) {
+  const auto of = [&](std::size_t scene) {
+    Writer w;
+    w.setup(later_setup({})).geometry().surround().pattern(face_picture(static_cast<int>(scene)));
+    w.motion(0, 5, true);
+    for (int shown = 0, k = 0; k < std::count(turns.begin(), turns.end(), scene); ++k, shown += 5) {
+      w.motion(shown + 5, shown + 10);
+      if (k > 0) w.pattern(face_picture(static_cast<int>(scene) + 2), 1, shown + 2);
+      w.blend(5);
+    }
+    return played(w.bytes).pictures;
+  };
+  std::vector<std::vector<Picture>> alone{of(0), of(1)};
+  std::vector<Picture> out;
+  for (const std::size_t scene : turns) {
+    out.insert(out.end(), alone[scene].begin(), alone[scene].begin() + 5);
+    alone[scene].erase(alone[scene].begin(), alone[scene].begin() + 5);
+  }
+  return out;
+}
+
+const std::vector<std::size_t> kTurns = {0, 1, 0, 1, 0};
+
+TEST(StreamDecoderScenes, ReturnGoesOnWhereTheSceneWasLeft) {
+  const Writer w = turns_of(kTurns);
+  const auto expected = pictures_of(kTurns);
+  for (const int threads : {1, 3}) {
+    StreamDecoder decoder;
+    decoder.use_threads(threads);
+    Played result;
+    play_through(decoder, w, result);
+    ASSERT_EQ(result.pictures.size(), 25U);
+    EXPECT_EQ(result.pictures, expected);
+    for (std::size_t i = 0; i < 25; ++i) EXPECT_EQ(result.positions[i], after(i)) << i;
+  }
+}
+
+/// Its packets begin[]: 0..6 the first scene, 7..13 the second, then four in each turn.
+void expect_held(const Bytes& bytes, std::size_t errors, const std::vector<std::size_t>& held) {
+  const Played result = played(bytes);
+  const auto expected = pictures_of(kTurns);
+  EXPECT_EQ(result.errors.size(), errors);
+  ASSERT_EQ(result.pictures.size(), 25U);
+  for (std::size_t i = 0; i < 25; ++i) {
+    const bool is_held = std::count(held.begin(), held.end(), i / 5) > 0;
+    EXPECT_EQ(result.held[i], is_held) << i;
+    if (!is_held) {
+      EXPECT_EQ(result.pictures[i], expected[i]) << i;
+    }
+    EXPECT_EQ(result.positions[i], after(i)) << i;
+  }
+}
+
+TEST(StreamDecoderScenes, WithoutItsReturnASceneIsDamagedUpToTheNext) {
+  const Writer w = turns_of(kTurns);
+  expect_held(without(w, 14, 15), 1, {2, 4});
+}
+
 }  // namespace
 }  // namespace fbs

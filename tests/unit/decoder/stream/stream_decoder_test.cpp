@@ -218,7 +218,7 @@ TEST(StreamDecoder, DurationStaysInRangeAtTheSlowestRate) {
 TEST(StreamDecoder, SetupMayBeLongerThanThisVersionKnows) {
   Bytes longer = *encode_setup(setup_of());
   longer.insert(longer.end(),
-                {1, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
+                {1, 0, 0, 0, 3, 4});  // one pattern of full contrasts, and what a later version has
   Writer w;
   PacketReader reader;
   reader.feed(sample().bytes);

@@ -16,6 +16,7 @@
 #include "bitstream/pattern/pattern_packet.h"
 #include "bitstream/payload/end_payload.h"
 #include "bitstream/payload/geometry_payload.h"
+#include "bitstream/payload/return_payload.h"
 #include "bitstream/payload/setup_payload.h"
 #include "bitstream/payload/surround_payload.h"
 #include "bitstream/track.h"
@@ -77,13 +78,14 @@ class Writer {
     return *this;
   }
   Writer& setup(const Setup& s = setup_of()) {
-    setup_ = s;
-    motion_.emplace(s, coded_at(0));
-    blend_ = {};
-    pattern_packets_ = {};
-    pictures_ = 0;
-    av1_.emplace(*PatternEncoder::create(s.format, 50));
+    scenes_.push_back({s, MotionEncoder(s, coded_at(0)), *PatternEncoder::create(s.format, 50), {}, {}});
+    present_ = scenes_.size() - 1;
     return packet(PacketType::kSetup, encode_setup(s));
+  }
+  /// @param scene  by the setups so far, from 0
+  Writer& go_back(std::size_t scene, const StreamPosition& before, bool aside = true) {
+    present_ = scene;
+    return packet(PacketType::kReturn, encode_return({now().check, before, aside}));
   }
   Writer& geometry() { return packet(PacketType::kGeometry, encode_geometry(toy_geometry())->payload); }
   Writer& surround(int follow = 2) {
@@ -91,39 +93,42 @@ class Writer {
   }
   /// The first of the scene, of picture 0.
   Writer& pattern(const Picture& picture = face_picture(0)) {
-    return patterns({{0, 0, coded_at(0), *av1_->encode(picture)}});
+    return patterns({{0, 0, coded_at(0), frame(picture)}});
   }
   /// A later one.
   /// @param number  of the picture whose state it was seen in
   Writer& pattern(const Picture& picture, int slot, int number) {
-    return patterns({{slot, number, {}, *av1_->encode(picture)}});
+    return patterns({{slot, number, {}, frame(picture)}});
   }
   /// The AV1 frame after the frames of the patterns so far.
-  [[nodiscard]] Bytes frame(const Picture& picture) { return *av1_->encode(picture); }
+  [[nodiscard]] Bytes frame(const Picture& picture) { return *now().av1.encode(picture); }
   /// Any, in one packet.
   Writer& patterns(const std::vector<PatternSyntax>& patterns) {
-    Setup wide = setup_;  // a writer may be wrong
+    Setup wide = now().setup;  // a writer may be wrong
     wide.patterns = kMaxPatterns;
-    return packet(PacketType::kPattern,
-                  pattern_packets_.encode(patterns, wide, std::max(pictures_, told_pictures)));
+    packet(PacketType::kPattern,
+           now().patterns.encode(patterns, wide, std::max(now().pictures, told_pictures)));
+    if (patterns.front().picture == 0) now().check = last_check();
+    return *this;
   }
   /// Pictures `from`..`end` - 1.
   Writer& motion(int from, int end, bool key = false, std::vector<std::uint32_t> durations = {}) {
     std::vector<CodedState> states;
     for (int t = from; t < end; ++t) states.push_back(coded_at(t));
-    MotionGroup group = knots_everywhere(motion_->anchor(), states, setup_.parts);
+    MotionGroup group = knots_everywhere(now().motion.anchor(), states, now().setup.parts);
     group.key = key;
-    group.first = motion_->next();
+    group.first = now().motion.next();
     group.durations = std::move(durations);
-    pictures_ += end - from;
-    return packet(PacketType::kMotion, motion_->encode(group));
+    now().pictures += end - from;
+    return packet(PacketType::kMotion, now().motion.encode(group));
   }
   /// Releases the next pictures, all regions of which have one mode.
   Writer& blend(std::size_t pictures, BlendMode mode = {}, bool key = false) {
     RegionModes modes;
     modes.fill(mode);
+    BlendEncoder& blend = now().blend;
     return packet(PacketType::kBlend,
-                  blend_.encode({key || blend_.groups() == 0, blend_.next(), 0, {pictures, modes}}));
+                  blend.encode({key || blend.groups() == 0, blend.next(), 0, {pictures, modes}}));
   }
   /// A scene of one pattern: pictures 0..`pictures` - 1.
   Writer& scene(const StreamPosition& before, int pictures, std::vector<std::uint32_t> durations = {}) {
@@ -140,13 +145,27 @@ class Writer {
   int told_pictures = 0;  ///< that have a state, where the writer thinks of more than there are
 
  private:
+  struct OfScene {
+    Setup setup;
+    MotionEncoder motion;
+    PatternEncoder av1;
+    PatternPacketWriter patterns;
+    BlendEncoder blend;
+    int pictures = 0;         // that have a state
+    std::uint32_t check = 0;  // of the first pattern packet
+  };
+  OfScene& now() { return scenes_[present_]; }
+  /// Of the last packet.
+  [[nodiscard]] std::uint32_t last_check() const {
+    const bool is_long = bytes.size() - begins.back() > packet_size(kLongPayload - 1);
+    std::uint32_t check = 0;
+    for (auto byte = bytes.end() - (is_long ? 3 : 2); byte != bytes.end(); ++byte) check = check << 8 | *byte;
+    return check;
+  }
+
   PacketWriter packets_;
-  Setup setup_;
-  std::optional<MotionEncoder> motion_;
-  std::optional<PatternEncoder> av1_;
-  PatternPacketWriter pattern_packets_;
-  int pictures_ = 0;  // that have a state
-  BlendEncoder blend_;
+  std::vector<OfScene> scenes_;
+  std::size_t present_ = 0;
 };
 
 /// Four groups of five pictures; the third is a key group.
