@@ -62,7 +62,7 @@ class Decoder:
 
     def _has_losses(self):
         """Whether an error has told of a loss in the scene."""
-        return self._is_lost or self._scene.has_losses
+        return self._is_lost or bool(self._scene) and self._scene.has_losses
 
     def _present(self):
         """The scene, if its first pattern has been read and it is not lost."""
@@ -127,13 +127,13 @@ class Decoder:
         check, (position, time), aside = read_return(payload)
         present = self._present()
         scene = next((s for s in [present, *reversed(self._aside)] if s and s.check == check), None)
-        knows = self._earlier_losses or not self._scene or self._has_losses()
+        knows = self._earlier_losses or self._has_losses()
         if scene is not present:
             self._aside = [s for s in self._aside if s is not scene]
             if aside:
                 self._set_aside()
         if not scene:
-            self._lose(RETURN)
+            self._scene, self._is_lost = None, True
             if not knows:
                 raise invalid("there is no such scene to return to")
             return
