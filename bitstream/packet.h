@@ -50,8 +50,8 @@ class PacketWriter {
  public:
   /// Appends the next packet.
   /// @param payload  at most kMaxPayload bytes (assert)
-  /// @return number of bytes appended: packet_size()
-  std::size_t write(std::vector<std::uint8_t>& stream, PacketType type,
+  /// @return its check
+  std::uint32_t write(std::vector<std::uint8_t>& stream, PacketType type,
                     std::span<const std::uint8_t> payload);
 
  private:
