@@ -9,9 +9,9 @@
 namespace fbs {
 namespace {
 
-constexpr auto kNames =
-    std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend",
-                                "wire-frame", "sound setup", "sound", "unit", "head part"});  // by PacketType
+constexpr auto kNames = std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion",
+                                                    "end", "blend", "wire-frame", "sound setup", "sound",
+                                                    "unit", "head part", "return"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);

@@ -130,7 +130,7 @@ typedef struct fbs_picture_info {
   uint64_t time;     /**< since the beginning of the stream, ticks */
   uint32_t duration; /**< ticks, at least 1 */
   int held;          /**< 1: this picture was lost, and the previous one is shown in its place */
-  int new_scene;     /**< 1: the first of a scene: decoding can begin here */
+  int new_scene;     /**< 1: the first of a scene where decoding can begin */
   int quality;       /**< fbs_quality */
 } fbs_picture_info;
 
