@@ -55,8 +55,8 @@ void write_signature(std::vector<std::uint8_t>& stream) {
   stream.insert(stream.end(), kSignature.begin(), kSignature.end());
 }
 
-std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType type,
-                                std::span<const std::uint8_t> payload) {
+std::uint32_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType type,
+                                  std::span<const std::uint8_t> payload) {
   assert(payload.size() <= kMaxPayload);
   const std::size_t begin = stream.size();
   ByteWriter writer(stream);
@@ -68,7 +68,7 @@ std::size_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType ty
   checks_.add(type, payload, check);
   for (unsigned bits = crc.bits(); bits > 0; bits -= 8)
     writer.u8(static_cast<std::uint8_t>(check >> (bits - 8)));
-  return stream.size() - begin;
+  return check;
 }
 
 struct PacketReader::Impl {

@@ -50,9 +50,9 @@ class PacketWriter {
  public:
   /// Appends the next packet.
   /// @param payload  at most kMaxPayload bytes (assert)
-  /// @return number of bytes appended: packet_size()
-  std::size_t write(std::vector<std::uint8_t>& stream, PacketType type,
-                    std::span<const std::uint8_t> payload);
+  /// @return its check
+  std::uint32_t write(std::vector<std::uint8_t>& stream, PacketType type,
+                      std::span<const std::uint8_t> payload);
 
  private:
   CheckChain checks_;

@@ -13,6 +13,7 @@
 #include "encoder/plan/scene_timing.h"
 #include "encoder/scene/face_scene.h"
 #include "encoder/scene/planar_scene.h"
+#include "encoder/scene/scene_span.h"
 #include "encoder/scene/still_scene.h"
 #include "encoder/segment/pass_settings.h"
 #include "encoder/shots/shot_watch.h"
@@ -25,6 +26,9 @@ constexpr std::array kTurnLooks{0.0, 2.0};
 
 /// Relative to a bitrate; a larger deviation is reported.
 constexpr double kRateTolerance = 0.1;
+
+/// Longest span of scenes that a video goes to and fro between, s.
+constexpr double kSpanSeconds = 120;
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -105,8 +109,8 @@ struct Encoder::Impl {
   EncoderSettings settings;
   FaceFinder finder;
   ShotWatch shots;
+  SceneSpan scenes;
   std::vector<std::uint8_t> ready{};
-  std::unique_ptr<SceneEncoder> scene{};
   bool face_seen = false;      ///< in any picture
   std::size_t turn_looks = 0;  ///< done
   int turn = 0;                ///< degrees clockwise
@@ -118,8 +122,8 @@ struct Encoder::Impl {
   std::uint64_t lost = 0;   ///< pictures, the last ones, whose face was not followed
   std::uint64_t bytes = 0;  ///< of the scenes so far
 
-  void take_from_scene() {
-    const auto taken = scene->take();
+  void take_from_scenes() {
+    const auto taken = scenes.take();
     ready.insert(ready.end(), taken.begin(), taken.end());
     bytes += taken.size();
   }
@@ -153,16 +157,13 @@ struct Encoder::Impl {
   }
 
   Result<void> begin_scene(const Picture& picture, const std::optional<Marks>& marks) {
-    if (scene) {
-      if (auto ended = scene->finish(); !ended) return ended;
-      take_from_scene();
-    }
     auto begun = marks ? FaceScene::begin(format, settings, finder, picture, *marks, position)
                  : settings.patterns == 1 ? StillScene::begin(format, settings, picture, position)
                                           : PlanarScene::begin(format, settings, position);
     if (!begun) return fail(begun.error());
-    scene = std::move(*begun);
-    shots.begin_scene({marks.has_value(), scene->carries_shots()});
+    if (auto shown = scenes.begin(std::move(*begun), position.pictures); !shown) return shown;
+    take_from_scenes();
+    shots.begin_scene({marks.has_value(), scenes.present()->carries_shots()});
     if (marks) {
       face_seen = true;
       settings.first_pattern.reset();  // later scenes have another first picture
@@ -180,15 +181,26 @@ struct Encoder::Impl {
     if (step.cut) {
       ++report.cuts;
       say(LogLevel::kInfo, report.pictures, "a cut");
-      scene->cut();
+      scenes.present()->cut();
     }
     if (!step.searches) return {};
-    if (step.recognises && scene->recognises(picture)) {
+    if (step.recognises && scenes.present()->recognises(picture)) {
       shots.recognised();
       return {};
     }
     const auto marks = look_for_face(picture, step.all_sizes);
     if (!marks) return fail(marks.error());
+    if (*marks) {
+      const auto returned = scenes.return_to(picture, position);
+      if (!returned) return fail(returned.error());
+      if (*returned) {
+        shots.begin_scene({true, scenes.present()->carries_shots()});
+        shots.recognised();
+        lost = 0;
+        say(LogLevel::kInfo, report.pictures, "an earlier scene goes on");
+        return {};
+      }
+    }
     return shots.scene_begins(marks->has_value()) ? begin_scene(picture, *marks) : Result<void>{};
   }
 
@@ -196,7 +208,7 @@ struct Encoder::Impl {
   void give_landmarks() {
     if (!settings.landmarks) return;
     if (const auto seen = settings.landmarks->find(report.pictures); seen != settings.landmarks->end())
-      scene->give_landmarks(seen->second);
+      scenes.present()->give_landmarks(seen->second);
   }
 
   /// Logs where the face is lost, and found again.
@@ -225,7 +237,7 @@ struct Encoder::Impl {
   /// Waits until the scene has analysed the picture pushed last.
   void end_picture() {
     if (!std::exchange(analysing, false)) return;
-    const PictureAnalysis& seen = scene->analysis();
+    const PictureAnalysis& seen = scenes.present()->analysis();
     shots.end_picture(seen.followed);
     note_face(seen);
     if (!seen.followed) ++report.without_face;
@@ -250,7 +262,8 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
   auto impl =
-      std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), ShotWatch(fps_of(format))});
+      std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), ShotWatch(fps_of(format)),
+                                     SceneSpan(static_cast<std::uint64_t>(kSpanSeconds * fps_of(format)))});
   write_signature(impl->ready);
   return Encoder(std::move(impl));
 }
@@ -261,10 +274,11 @@ Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
   if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
   i.shots.see(picture);  // while the picture before is analysed
   i.end_picture();
+  if (auto ended = i.scenes.end_span(i.position.pictures); !ended) return ended;
   if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
   i.give_landmarks();
-  if (auto pushed = i.scene->push(picture, duration); !pushed) return pushed;
-  i.take_from_scene();
+  if (auto pushed = i.scenes.present()->push(picture, duration); !pushed) return pushed;
+  i.take_from_scenes();
   i.analysing = true;
   ++i.report.pictures;
   i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
@@ -276,14 +290,14 @@ Result<void> Encoder::request_scene() {
   if (!i.settings.live)
     return fail(ErrorCode::kInvalidArgument, "scenes come on request in live encoding only");
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  return i.scene ? i.scene->request_scene() : Result<void>{};
+  return i.scenes.present() != nullptr ? i.scenes.present()->request_scene() : Result<void>{};
 }
 
 Result<void> Encoder::lose_patterns() {
   Impl& i = *impl_;
   if (!i.settings.live) return fail(ErrorCode::kInvalidArgument, "patterns are lost in live encoding only");
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  return i.scene ? i.scene->lose_patterns() : Result<void>{};
+  return i.scenes.present() != nullptr ? i.scenes.present()->lose_patterns() : Result<void>{};
 }
 
 Result<void> Encoder::set_bitrate(double kbps) {
@@ -294,7 +308,7 @@ Result<void> Encoder::set_bitrate(double kbps) {
   if (!(kbps > 0) || !is_size(kbps))
     return fail(ErrorCode::kInvalidArgument, "the bitrate is above 0 kbit/s");
   i.settings.bitrate = kbps;
-  return i.scene ? i.scene->set_bitrate(kbps) : Result<void>{};
+  return i.scenes.present() != nullptr ? i.scenes.present()->set_bitrate(kbps) : Result<void>{};
 }
 
 Result<void> Encoder::finish() {
@@ -305,9 +319,9 @@ Result<void> Encoder::finish() {
     return fail(ErrorCode::kNoFace, i.turn == 0 ? "no face found in any picture"
                                                 : "no face found in any picture; turned clockwise by " +
                                                       std::to_string(i.turn) + " degrees they show one");
-  if (auto ended = i.scene->finish(); !ended) return ended;
+  if (auto ended = i.scenes.finish(); !ended) return ended;
   i.end_picture();
-  i.take_from_scene();
+  i.take_from_scenes();
   i.note_rate();
   PacketWriter().write(i.ready, PacketType::kEnd, encode_end({i.report.pictures}));
   i.has_ended = true;
@@ -315,12 +329,12 @@ Result<void> Encoder::finish() {
 }
 
 std::vector<std::uint8_t> Encoder::take() {
-  if (impl_->scene) impl_->take_from_scene();
+  impl_->take_from_scenes();
   return std::exchange(impl_->ready, {});
 }
 
 bool Encoder::is_coding() const {
-  return impl_->scene && impl_->scene->is_coding();
+  return impl_->scenes.is_coding();
 }
 
 int Encoder::turn_to_upright() const {
@@ -328,7 +342,8 @@ int Encoder::turn_to_upright() const {
 }
 
 const PictureAnalysis& Encoder::analysis() const {
-  return impl_->scene ? impl_->scene->analysis() : impl_->nothing;
+  const SceneEncoder* const scene = impl_->scenes.present();
+  return scene != nullptr ? scene->analysis() : impl_->nothing;
 }
 
 const EncodingReport& Encoder::report() const {

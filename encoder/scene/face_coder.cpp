@@ -84,6 +84,16 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
   return {};
 }
 
+Result<void> FaceCoder::request_scene() {
+  if (ledger_.live()) {
+    ledger_.request_scene();
+    return {};
+  }
+  if (auto ended = finish(); !ended) return ended;
+  ledger_.end_scene();
+  return {};
+}
+
 void FaceCoder::cut() {
   if (second_pass_) ledger_.patterns()->cut();
 }

@@ -36,7 +36,11 @@ class FaceCoder {
   void cut();
   Result<void> finish();
 
-  void request_scene() { ledger_.request_scene(); }
+  Result<void> request_scene();
+  /// Another scene is shown next.
+  Result<void> leave() { return end_group(); }
+  /// SceneEncoder::go_on().
+  void go_on(const StreamPosition& at) { ledger_.go_on(at); }
   void set_bitrate(double kbps) { ledger_.set_bitrate(kbps); }
   void lose_patterns() { ledger_.lose_patterns(); }
   [[nodiscard]] bool has_several_patterns() const { return second_pass_.has_value(); }

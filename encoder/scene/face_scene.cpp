@@ -95,6 +95,8 @@ FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, 
                 {start.scene.setup, start.scene.geometry->geometry(), first.picture, first.pattern,
                  start.scene.patterns.front().seen, first.centre, start.eye_distance_px,
                  thread_count(settings), settings.hooks}),
+      // A viewer who joins a live scene, or at a key interval, does not know those before.
+      can_go_on_(settings.patterns != 1 && !settings.live && settings.key_interval == 0),
       coder_(settings, std::move(start)),
       coding_(ahead, "fbs-code", settings.hooks),
       analysing_(std::min<std::size_t>(ahead, 1), "fbs-analyse", settings.hooks) {}
@@ -114,8 +116,16 @@ Result<void> FaceScene::code_later(std::function<Result<void>()> task) {
 }
 
 Result<void> FaceScene::request_scene() {
-  return code_later([this]() -> Result<void> {
-    coder_.request_scene();
+  return code_later([this] { return coder_.request_scene(); });
+}
+
+Result<void> FaceScene::leave() {
+  return code_later([this] { return coder_.leave(); });
+}
+
+Result<void> FaceScene::go_on(const StreamPosition& at) {
+  return code_later([this, at]() -> Result<void> {
+    coder_.go_on(at);
     return {};
   });
 }

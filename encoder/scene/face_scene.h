@@ -37,6 +37,9 @@ class FaceScene : public SceneEncoder {
   Result<void> lose_patterns() override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return settled().recognises(picture); }
   [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
+  [[nodiscard]] bool can_go_on() const override { return can_go_on_; }
+  Result<void> leave() override;
+  Result<void> go_on(const StreamPosition& at) override;
   Result<void> finish() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
   [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }
@@ -66,9 +69,10 @@ class FaceScene : public SceneEncoder {
   Result<void> code_later(std::function<Result<void>()> task);
 
   FaceAnalysis analysis_;  ///< changed by tasks of analysing_, or once it has settled
-  bool cut_ = false;       ///< the next picture begins another shot
-  PictureQueue waiting_;   ///< pictures analysed and not yet coded
-  FaceCoder coder_;        ///< what changes is coding_'s alone
+  bool can_go_on_;
+  bool cut_ = false;      ///< the next picture begins another shot
+  PictureQueue waiting_;  ///< pictures analysed and not yet coded
+  FaceCoder coder_;       ///< what changes is coding_'s alone
   mutable std::mutex mutex_;
   std::vector<std::uint8_t> ready_;  ///< under the mutex
   // Last, so that they end first; analysing_ adds to coding_.

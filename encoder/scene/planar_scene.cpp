@@ -70,6 +70,16 @@ void PlanarScene::cut() {
   ledger_.patterns()->cut();
 }
 
+Result<void> PlanarScene::request_scene() {
+  if (ledger_.live()) {
+    ledger_.request_scene();
+    return {};
+  }
+  if (auto ended = finish(); !ended) return ended;
+  ledger_.end_scene();
+  return {};
+}
+
 void PlanarScene::begin_again() {
   ledger_.begin_again(scene_.setup);
   global_ = {};

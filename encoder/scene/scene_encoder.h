@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bitstream/syntax.h"
 #include "common/picture.h"
 #include "common/result.h"
 #include "encoder/analysis/picture_analysis.h"
@@ -28,8 +29,8 @@ class SceneEncoder {
   /// The picture pushed next begins another shot, which the scene must carry.
   virtual void cut() = 0;
 
-  /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
-  /// one still picture does not end.
+  /// Ends the scene, if it is live with its present group, so that the next picture begins another. A scene
+  /// that shows one still picture does not end.
   virtual Result<void> request_scene() { return {}; }
 
   /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
@@ -43,10 +44,19 @@ class SceneEncoder {
   /// Whether it can also carry a shot of anything else.
   [[nodiscard]] virtual bool carries_shots() const = 0;
 
+  /// Whether another scene may be shown in between.
+  [[nodiscard]] virtual bool can_go_on() const { return false; }
+  /// Another scene is shown next. The scene can_go_on().
+  virtual Result<void> leave() { return {}; }
+  /// The picture pushed next is the scene's again, after leave().
+  /// @param at  its position
+  virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
+
   /// Codes everything still held back.
   virtual Result<void> finish() = 0;
 
-  /// Whole packets that are ready; the scene forgets them.
+  /// Whole packets that are ready; the scene forgets them. What they say of other scenes is not set:
+  /// Setup::keeps, Return::scene and Return::aside.
   [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
 
   /// Whether packets may become ready without another call.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bitstream/payload/return_payload.h"
+
 namespace fbs {
 
 SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RatePlan& rate,
@@ -38,10 +40,25 @@ Result<void> SceneLedger::plan(std::span<const PictureCost> costs, std::span<con
 Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit& refit) {
   const auto packets = patterns_->end_segment(scene, last, packets_.counted(), refit);
   if (!packets) return fail(packets.error());
-  for (const auto& [type, payload] : *packets) packets_.add(type, payload);
+  std::size_t group = 0;
+  auto next = returns_.begin();
+  for (const auto& [type, payload] : *packets) {
+    if (next != returns_.end() && next->first == group) {
+      packets_.add(PacketType::kReturn, encode_return({0, next->second, false}));
+      ++next;
+    }
+    packets_.add(type, payload);
+    if (type == PacketType::kBlend || type == PacketType::kUnit) ++group;
+  }
+  returns_.clear();
   packets_.count_from_here();
   packets_.end_group();
   return {};
+}
+
+void SceneLedger::go_on(const StreamPosition& at) {
+  position_ = at;
+  if (!ended_) returns_.emplace_back(patterns_->groups(), at);
 }
 
 bool SceneLedger::scene_ends() const {

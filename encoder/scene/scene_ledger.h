@@ -30,6 +30,9 @@ class SceneLedger {
   Result<void> add(const SharedPicture& picture, std::uint32_t duration);
   /// Whether a group ends with the picture added last.
   [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
+  /// The next picture is shown there, behind another scene's. No group has begun.
+  void go_on(const StreamPosition& at);
+
   /// Begins another group.
   /// @return durations of the pictures of the group before: empty if it has none
   [[nodiscard]] std::vector<std::uint32_t> end_group() { return std::exchange(durations_, {}); }
@@ -90,7 +93,9 @@ class SceneLedger {
   std::uint64_t pictures_ = 0;            ///< of the scene
   bool requested_ = false;                ///< the scene ends with its present group
   bool ended_ = false;
-  StreamPosition position_;  ///< behind the last picture
+  StreamPosition position_;  ///< of the next picture
+  /// Where the segment goes on behind another scene: number of a group, and its position.
+  std::vector<std::pair<std::size_t, StreamPosition>> returns_;
   ScenePackets packets_;
 };
 

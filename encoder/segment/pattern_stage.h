@@ -105,6 +105,9 @@ class PatternStage {
   /// Pictures of the segment so far.
   [[nodiscard]] std::size_t pictures() const { return store_.segment().pictures.count(); }
 
+  /// Groups of the segment so far.
+  [[nodiscard]] std::size_t groups() const { return store_.segment().groups.size(); }
+
   /// Patterns that the decoder keeps.
   [[nodiscard]] std::int32_t slots() const { return store_.slots(); }
 

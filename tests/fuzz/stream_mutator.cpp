@@ -104,12 +104,9 @@ void name_scenes(std::vector<LoosePacket>& packets, Random& random) {
         packet.payload = encode_return(*to);
       }
     Bytes written;
-    writer.write(written, type, packet.payload);
+    const std::uint32_t check = writer.write(written, type, packet.payload);
     if (type == PacketType::kSetup) in_head = true;
-    if (type != PacketType::kPattern || !std::exchange(in_head, false)) continue;
-    scenes.push_back(0);
-    for (auto byte = written.end() - crc_of(packet.payload.size()).bits() / 8; byte != written.end(); ++byte)
-      scenes.back() = scenes.back() << 8 | *byte;
+    if (type == PacketType::kPattern && std::exchange(in_head, false)) scenes.push_back(check);
   }
 }
 
