@@ -51,7 +51,8 @@ typedef struct fbs_packet_info {
   size_t size;     /**< bytes, from its type to its check */
   int key; /**< 1: coded without an earlier packet of its type; of setup packets those where decoding can
               begin */
-  uint64_t number; /**< of the first picture that needs it; of an end packet: pictures in all */
+  uint64_t number; /**< of the first picture that needs it, as if the stream stayed in the scene up to there;
+                        of an end packet: pictures in all */
   uint64_t time;   /**< of that picture, ticks; of an end packet: the length of the video */
   /** Pictures that can be shown once it has arrived, and when the first of them begins and the last one ends,
    * ticks. Pictures that a setup, return or end packet says are missing are not among them. */
