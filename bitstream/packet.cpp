@@ -56,7 +56,7 @@ void write_signature(std::vector<std::uint8_t>& stream) {
 }
 
 std::uint32_t PacketWriter::write(std::vector<std::uint8_t>& stream, PacketType type,
-                                std::span<const std::uint8_t> payload) {
+                                  std::span<const std::uint8_t> payload) {
   assert(payload.size() <= kMaxPayload);
   const std::size_t begin = stream.size();
   ByteWriter writer(stream);

@@ -52,7 +52,7 @@ class PacketWriter {
   /// @param payload  at most kMaxPayload bytes (assert)
   /// @return its check
   std::uint32_t write(std::vector<std::uint8_t>& stream, PacketType type,
-                    std::span<const std::uint8_t> payload);
+                      std::span<const std::uint8_t> payload);
 
  private:
   CheckChain checks_;

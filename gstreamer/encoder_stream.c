@@ -31,7 +31,7 @@ static GstFbsGroup* open_group(GstFbsEncoderStream* stream) {
 
 static void take_packet(GstFbsEncoderStream* stream, const fbs_packet* packet) {
   GstFbsGroup* const group = open_group(stream);
-  group->key = group->key || packet->type == FBS_PACKET_SETUP;
+  group->key = group->key || packet->key;
   group->end = packet->type == FBS_PACKET_END;
   g_byte_array_append(group->bytes, packet->data, (guint)packet->size);
   if (!group->end && packet->pictures == 0) return;

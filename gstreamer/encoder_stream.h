@@ -11,7 +11,7 @@ G_BEGIN_DECLS
 typedef struct {
   GByteArray* bytes; /**< owned */
   guint64 number;    /**< of the first picture shown; for the end packet: number of pictures */
-  gboolean key;      /**< begins a scene */
+  gboolean key;      /**< begins a scene where decoding can begin */
   gboolean end;      /**< the end packet */
 } GstFbsGroup;
 

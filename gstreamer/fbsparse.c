@@ -42,7 +42,7 @@ static gboolean index_bytes(GstFbsParse* self, const guint8* data, gsize size) {
   while ((status = fbs_packet_reader_next(reader, &packet)) != FBS_END && status != FBS_ERROR_NO_MEMORY) {
     if (status != FBS_OK || packet.fault != NULL) continue;
     end = packet.shown_until;
-    if (packet.type != FBS_PACKET_SETUP || (has_scene && packet.time <= last)) continue;
+    if (packet.type != FBS_PACKET_SETUP || !packet.key || (has_scene && packet.time <= last)) continue;
     gst_base_parse_add_index_entry(parse, packet.offset, gst_fbs_ticks_to_time(packet.time), TRUE, TRUE);
     has_scene = TRUE;
     last = packet.time;
@@ -116,11 +116,12 @@ static void forget(GstFbsParse* self, gsize size) {
   begin_group(self);
 }
 
-static void take_setup(GstFbsParse* self) {
+static void take_setup(GstFbsParse* self, gboolean key) {
   fbs_format format;
   if (fbs_packet_reader_get_format(self->packets, &format) != FBS_OK) return;
   gst_fbs_set_format(GST_BASE_PARSE_SRC_PAD(self), &format);
-  self->has_scene = self->key = TRUE;
+  self->has_scene = TRUE;
+  self->key = key;
 }
 
 static GstFlowReturn send_group(GstFbsParse* self, GstBaseParseFrame* frame) {
@@ -138,10 +139,11 @@ typedef enum { PACKET_GOES_ON, PACKET_ENDS_GROUP, PACKET_IS_OF_NEXT_GROUP } Pack
 
 static PacketPlace place_packet(GstFbsParse* self, const fbs_packet_info* packet) {
   const gboolean is_setup = packet->type == FBS_PACKET_SETUP, is_end = packet->type == FBS_PACKET_END;
+  const gboolean begins = is_setup || packet->type == FBS_PACKET_RETURN || is_end;
   const gboolean has_packets = self->scanned > FBS_SIGNATURE_SIZE;
-  if ((is_setup || is_end) && has_packets && self->has_scene) return PACKET_IS_OF_NEXT_GROUP;
+  if (begins && has_packets && self->has_scene) return PACKET_IS_OF_NEXT_GROUP;
   if (packet->fault != NULL) GST_ELEMENT_WARNING(self, STREAM, DECODE, (NULL), ("%s", packet->fault));
-  if (is_setup && packet->fault == NULL) take_setup(self);
+  if (is_setup && packet->fault == NULL) take_setup(self, packet->key != 0);
   self->synced = TRUE;
   self->scanned = (gsize)(packet->offset - self->base) + packet->size;
   if (packet->pictures > 0 || is_end) {

@@ -25,7 +25,7 @@ struct _GstFbsParse {
   fbs_packet_info next;
   guint64 offset;     /**< of the next buffer in the file, bytes */
   gboolean has_scene; /**< a setup packet has come */
-  gboolean key;       /**< it begins with a setup packet */
+  gboolean key;       /**< it begins with a setup packet where decoding can begin */
   GstClockTime pts;   /**< of its first picture; or none */
   GstClockTime end;   /**< of the last picture so far */
 };

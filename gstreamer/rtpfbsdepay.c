@@ -28,7 +28,8 @@ typedef struct {
 
   GstAdapter* group;   /* payloads since the last start */
   gboolean in_group;   /* its start has come, and all since */
-  gboolean key;        /* it begins a scene */
+  gboolean key;        /* it begins a scene where decoding can begin */
+  gboolean enters;     /* it begins a scene, or returns to one */
   gboolean waiting;    /* for a scene: of what comes before only parts of its head are of use */
   GstAdapter* parts;   /* groups with such parts */
   gboolean goes_on;    /* groups are of use without those before them */
@@ -113,11 +114,11 @@ static void lose(GstRtpFbsDepay* self) {
 /* ---- groups ---- */
 
 /* Reads the packets of a group, as a decoder would.
- * @return FALSE: they are damaged, or the beginning of their scene is missing */
+ * @return FALSE: they are damaged, or the beginning of their scene, or all of it, is missing */
 static gboolean read_packets(GstRtpFbsDepay* self, const guint8* data, gsize size) {
   fbs_packet_info packet;
   fbs_status status;
-  gboolean begins = !self->key;
+  gboolean begins = !self->key, of_setup = self->key;
   if (self->key) {
     fbs_packet_reader_reset(self->reader);
     fbs_packet_reader_feed(self->reader, (const guint8*)FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
@@ -127,11 +128,12 @@ static gboolean read_packets(GstRtpFbsDepay* self, const guint8* data, gsize siz
   while ((status = fbs_packet_reader_next(self->reader, &packet)) == FBS_OK) {
     if (packet.fault != NULL || packet.skipped) self->incomplete = TRUE;
     if (packet.type == FBS_PACKET_SETUP && packet.fault == NULL) {
-      begins = TRUE;
+      begins = of_setup = TRUE;
       self->restarted = packet.number < self->number || (packet.number == 0 && self->begun);
       self->number = packet.number;
     }
-    if (!self->key && (packet.type == FBS_PACKET_MOTION || packet.type == FBS_PACKET_UNIT))
+    if (packet.type == FBS_PACKET_RETURN && (packet.fault != NULL || packet.skipped)) begins = FALSE;
+    if (!of_setup && (packet.type == FBS_PACKET_MOTION || packet.type == FBS_PACKET_UNIT))
       self->goes_on = packet.key != 0;
   }
   return begins && status == FBS_NEED_DATA;
@@ -160,7 +162,9 @@ static gboolean read_group(GstRtpFbsDepay* self) {
   const gsize size = gst_adapter_available(self->group);
   fbs_format format;
   const guint8* const data = gst_adapter_map(self->group, size);
-  const gboolean read = self->waiting ? join_with(self, data, size) : read_packets(self, data, size);
+  self->enters = self->key || data[0] == FBS_PACKET_SETUP || data[0] == FBS_PACKET_RETURN;
+  const gboolean read =
+      self->waiting && !self->enters ? join_with(self, data, size) : read_packets(self, data, size);
   gst_adapter_unmap(self->group);
   if (read && (self->key || self->waiting)) {
     if (fbs_packet_reader_get_format(self->reader, &format) != FBS_OK) return FALSE;
@@ -175,14 +179,13 @@ static GstBuffer* whole_group(GstRtpFbsDepay* self) {
     wait_for_scene(self);
     return NULL;
   }
-  const gboolean joins = self->waiting;
+  const gboolean joins = self->waiting && !self->enters;
   GstAdapter* const groups = joins ? self->parts : self->group; /* the group is the last of the parts */
   GstBuffer* out = gst_buffer_make_writable(gst_adapter_take_buffer(groups, gst_adapter_available(groups)));
   drop_group(self);
-  if (joins) {
-    GST_INFO_OBJECT(self, "joins a scene by the parts of its head");
-    self->waiting = FALSE;
-  }
+  if (joins) GST_INFO_OBJECT(self, "joins a scene by the parts of its head");
+  self->waiting = FALSE;
+  gst_adapter_clear(self->parts);
   if (!self->begun) {
     GstBuffer* const signature = gst_buffer_new_memdup(FBS_SIGNATURE, FBS_SIGNATURE_SIZE);
     out = gst_buffer_append(signature, out);

@@ -198,7 +198,10 @@ fbs_status fbs_decoder_next(fbs_decoder* decoder, fbs_picture_info* info) {
                d.stream->position().time,
                d.stream->duration(),
                d.stream->held() ? 1 : 0,
-               !d.stream->held() && d.stream->state().picture == 0 ? 1 : 0,
+               !d.stream->held() && d.stream->state().picture == 0 &&
+                       d.stream->scene().setup.keeps == SceneKeeping::kNone
+                   ? 1
+                   : 0,
                static_cast<int>(d.stream->quality())};
     return FBS_OK;
   });

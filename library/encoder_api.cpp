@@ -154,7 +154,7 @@ fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
     *out = {p.bytes.data(),
             p.bytes.size(),
             static_cast<int>(p.type),
-            p.type == PacketType::kSetup ? 1 : 0,
+            p.joinable ? 1 : 0,
             static_cast<std::uint32_t>(p.pictures),
             p.first.pictures,
             p.first.time};

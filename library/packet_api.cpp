@@ -81,7 +81,9 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
     StreamPosition from = times.released();
     const auto timed = times.take(packet);
     const StreamPosition& until = times.released();
-    if (packet.type == PacketType::kSetup || packet.type == PacketType::kEnd) from = until;
+    if (packet.type == PacketType::kSetup || packet.type == PacketType::kReturn ||
+        packet.type == PacketType::kEnd)
+      from = until;
     *info = {static_cast<int>(packet.type),
              packet.offset,
              packet.size,
@@ -94,8 +96,8 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
              nullptr,
              0};
     if (timed) {
-      info->skipped =
-          is_of_scene(packet.type) && std::holds_alternative<std::monostate>(timed->syntax) ? 1 : 0;
+      const bool counts = is_of_scene(packet.type) || packet.type == PacketType::kReturn;
+      info->skipped = counts && std::holds_alternative<std::monostate>(timed->syntax) ? 1 : 0;
       info->key = timed->key ? 1 : 0;
       info->number = timed->first.pictures;
       info->time = timed->first.time;

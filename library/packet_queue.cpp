@@ -23,15 +23,17 @@ Result<std::optional<QueuedPacket>> PacketQueue::next() {
   if (!signed_) (void)reader.bytes(kSignature.size());
   const auto type = static_cast<PacketType>(reader.u8());
   const auto payload = reader.bytes(reader.varint());
-  (void)reader.bytes(crc_of(payload.size()).bits() / 8);  // the check
+  std::uint32_t check = 0;
+  for (const std::uint8_t byte : reader.bytes(crc_of(payload.size()).bits() / 8)) check = check << 8 | byte;
   if (reader.malformed()) return not_ours();
   if (reader.past_end()) return std::nullopt;
   const std::uint64_t before = times_.released().pictures;
-  const auto timed = times_.take({type, 0, payload, reader.offset()});
+  const auto timed = times_.take({type, 0, payload, reader.offset(), false, check});
   if (!timed) return not_ours();
   begin_ += reader.offset();
   signed_ = true;
-  return QueuedPacket{ahead.first(reader.offset()), type, times_.released().pictures - before, timed->first};
+  return QueuedPacket{ahead.first(reader.offset()), type, type == PacketType::kSetup && timed->key,
+                      times_.released().pictures - before, timed->first};
 }
 
 }  // namespace fbs

@@ -14,6 +14,7 @@ namespace fbs {
 struct QueuedPacket {
   std::span<const std::uint8_t> bytes;  ///< whole packet; that of the first begins with the signature
   PacketType type{};
+  bool joinable = false;       ///< a setup packet at which the stream can be joined
   std::uint64_t pictures = 0;  ///< that can be shown once it has arrived
   StreamPosition first;        ///< of the first picture that needs it; of the end packet, the end
 };

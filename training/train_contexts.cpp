@@ -45,14 +45,15 @@ std::vector<SceneStates> read_scenes(const std::string& path) {
     if (!syntax) throw std::runtime_error(path + ": " + syntax.error().text);
     while (reader.pictures().has_next()) reader.pictures().next();
     if (const auto* const setup = std::get_if<Setup>(&*syntax)) out.push_back({*setup, {}, {}, {}});
+    if (out.empty()) continue;
+    SceneStates& scene = out[reader.scene() - 1];  // they are numbered from 1
     if (const auto* const patterns = std::get_if<std::vector<ScenePattern>>(&*syntax))
-      if (patterns->front().is_first()) out.back().rest = patterns->front().coded.state;
-    if (auto* const group = std::get_if<MotionGroup>(&*syntax))
-      out.back().motion.push_back(std::move(*group));
-    if (auto* const group = std::get_if<BlendGroup>(&*syntax)) out.back().blends.push_back(std::move(*group));
+      if (patterns->front().is_first()) scene.rest = patterns->front().coded.state;
+    if (auto* const group = std::get_if<MotionGroup>(&*syntax)) scene.motion.push_back(std::move(*group));
+    if (auto* const group = std::get_if<BlendGroup>(&*syntax)) scene.blends.push_back(std::move(*group));
     if (auto* const unit = std::get_if<Unit>(&*syntax)) {
-      out.back().motion.push_back(std::move(unit->motion));
-      out.back().blends.push_back(std::move(unit->blend));
+      scene.motion.push_back(std::move(unit->motion));
+      scene.blends.push_back(std::move(unit->blend));
     }
   }
 }

@@ -140,8 +140,8 @@ Result<SceneSyntax> SceneReader::read_return(const Packet& packet) {
       return explained ? Result<SceneSyntax>{} : refuse("a return to a scene that is not known");
     }
     enter(*next);
-    has_losses_ = has_losses_ || earlier_losses_;  // it may have been its return that was lost
   }
+  has_losses_ = has_losses_ || earlier_losses_;  // its return may have been lost
   pictures_.go_on(to->before);
   return SceneSyntax(*to);
 }

@@ -75,7 +75,7 @@ class SceneReader {
   /// Whether a setup packet has been read.
   [[nodiscard]] bool has_setup() const { return has_setup_; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
-  /// Tells the present scene from all others, also after a return to it.
+  /// Tells the present scene from all others, also after a return to it: scenes are numbered from 1.
   [[nodiscard]] std::uint64_t scene() const { return scene_; }
   /// Whether this is the present scene or one that is set aside.
   [[nodiscard]] bool knows(std::uint64_t scene) const;

@@ -92,7 +92,9 @@ nlohmann::json to_json(const SceneEntry& s) {
           {"seconds", seconds_of(s.before.time)},
           {"offset", s.offset},
           {"bytes", s.bytes},
-          {"face", s.face}};
+          {"face", s.face},
+          {"joinable", s.is_joinable},
+          {"return", s.is_return}};
 }
 
 nlohmann::json to_json(const Summary& s) {
@@ -151,10 +153,13 @@ void print(const std::string& name, const Summary& s) {
   line("total", b.total);
   std::printf("  scenes: %zu%s\n", s.scenes.size(), s.ended ? "" : "; no end packet: cut, or not ended yet");
   for (const SceneEntry& scene : s.scenes)
-    std::printf("    %-14s %9llu bytes %9.2f s, at byte %llu, %s\n",
+    std::printf("    %-14s %9llu bytes %9.2f s, at byte %llu, %s%s\n",
                 ("picture " + std::to_string(scene.before.pictures)).c_str(),
                 static_cast<unsigned long long>(scene.bytes), seconds_of(scene.before.time),
-                static_cast<unsigned long long>(scene.offset), scene.face ? "a face" : "no face");
+                static_cast<unsigned long long>(scene.offset), scene.face ? "a face" : "no face",
+                scene.is_return     ? ", a return"
+                : scene.is_joinable ? ""
+                                    : ", not to be joined");
   std::printf("  needed before the first picture: %llu bytes\n", static_cast<unsigned long long>(b.startup));
   std::printf(
       "  quantiser steps: rotation %.3f deg, translation %.3f px, scale %.2f %%, control points %.2f %% of "

@@ -15,14 +15,15 @@ class BlockDivision {
   explicit BlockDivision(std::span<const std::uint8_t> stream) : stream_(stream) {}
 
   Result<void> take(const Packet& packet) {
+    const bool enters = packet.type == PacketType::kSetup || packet.type == PacketType::kReturn;
+    if (enters) append(packet.offset);
     if (packet.type == PacketType::kSetup)
       if (auto begun = begin_scene(packet); !begun) return begun;
     const StreamPosition before = times_.released();
     (void)times_.take(packet);
     const StreamPosition after = times_.released();
     const std::uint64_t end = packet.offset + packet.size;
-    const bool jumps = packet.type == PacketType::kSetup || packet.type == PacketType::kEnd;
-    if (after.time > before.time && !jumps) {
+    if (after.time > before.time && !enters && packet.type != PacketType::kEnd) {
       add(before.time, after.time, end);
       const std::uint64_t nominal = nominal_duration(out_.setup.format.frame_rate);
       if (after.time - before.time != (after.pictures - before.pictures) * nominal)
@@ -46,9 +47,9 @@ class BlockDivision {
 
  private:
   Result<void> begin_scene(const Packet& packet) {
-    append(packet.offset);
-    if (has_setup_) return {};
     auto setup = decode_setup(packet.payload);
+    if (setup && setup->keeps == SceneKeeping::kNone) joinable_ = static_cast<std::size_t>(packet.offset);
+    if (has_setup_) return {};
     if (!setup) return fail(setup.error());
     has_setup_ = true;
     out_.setup = *setup;
@@ -58,7 +59,7 @@ class BlockDivision {
   }
 
   void add(std::uint64_t time, std::uint64_t until, std::uint64_t end) {
-    const bool key = stream_[pending_] == static_cast<std::uint8_t>(PacketType::kSetup);
+    const bool key = pending_ == joinable_;
     out_.blocks.push_back({time, until - time, key, pending_, static_cast<std::size_t>(end)});
     pending_ = static_cast<std::size_t>(end);
   }
@@ -76,6 +77,7 @@ class BlockDivision {
   PacketTimes times_;
   StreamBlocks out_;
   std::size_t pending_ = kSignature.size();  // first byte not yet in a block
+  std::size_t joinable_ = 0;                 // where the last scene begins that can be joined
   bool has_setup_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace fbs::cli {
 /// Packets that are read together: those that release some pictures, and those they need.
 struct StreamBlock {
   std::uint64_t time = 0, duration = 0;  ///< of its pictures, 1/90000 s
-  bool key = false;                      ///< begins with a setup packet
+  bool key = false;                      ///< begins with a setup packet where the stream can be joined
   std::size_t begin = 0, end = 0;        ///< bytes of the stream
 };
 

@@ -9,16 +9,16 @@
 namespace fbs {
 namespace {
 
-constexpr auto kNames =
-    std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion", "end", "blend",
-                                "wire-frame", "sound setup", "sound", "unit", "head part"});  // by PacketType
+constexpr auto kNames = std::to_array<const char*>({"", "setup", "geometry", "surround", "pattern", "motion",
+                                                    "end", "blend", "wire-frame", "sound setup", "sound",
+                                                    "unit", "head part", "return"});  // by PacketType
 
 std::string name_of(PacketType type) {
   const auto number = static_cast<std::size_t>(type);
   return number > 0 && number < kNames.size() ? kNames[number] : "type " + std::to_string(number);
 }
 
-PacketEntry entry_of(const Packet& packet, PacketTimes& times) {
+PacketEntry entry_of(const Packet& packet, PacketTimes& times, PacketReader& reader) {
   PacketEntry entry{packet.offset, packet.size, name_of(packet.type), false,
                     std::nullopt,  {},          packet.repaired};
   const bool lost = times.has_losses();
@@ -27,6 +27,7 @@ PacketEntry entry_of(const Packet& packet, PacketTimes& times) {
     entry.error = timed.error().text;
     return entry;
   }
+  if (const auto* const head = std::get_if<JoinedHead>(&timed->syntax)) reader.read_head(head->packets);
   entry.key = timed->key;
   entry.time = timed->time;
   if (timed->missing > 0 && !lost)  // otherwise the loss has been reported
@@ -49,6 +50,10 @@ std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {
       times.lose();
       continue;
     }
+    if (read->packet.in_parts) {
+      (void)times.take(read->packet);
+      continue;
+    }
     const bool end = read->status != ReadStatus::kPacket;
     if (damage) {
       const std::uint64_t next = end ? stream.size() : read->packet.offset;
@@ -57,7 +62,7 @@ std::vector<PacketEntry> list_packets(std::span<const std::uint8_t> stream) {
       damage.reset();
     }
     if (end) return entries;
-    entries.push_back(entry_of(read->packet, times));
+    entries.push_back(entry_of(read->packet, times, reader));
   }
 }
 

@@ -13,13 +13,15 @@ void PacketTimes::lose() {
 
 Result<TimedPacket> PacketTimes::take(const Packet& packet) {
   auto syntax = reader_.read(packet);
-  if (!syntax) {
-    if (is_of_scene(packet.type)) clock_.lose();
-    return fail(syntax.error());
-  }
-  TimedPacket out{std::move(*syntax), false, clock_.now(), clock_.now().time, 0};
-  if (auto placed = std::visit([&](const auto& s) { return place(s, out); }, out.syntax); !placed)
+  TimedPacket out{{}, false, clock_.now(), clock_.now().time, 0};
+  if (syntax) out.syntax = std::move(*syntax);
+  const auto placed = syntax ? std::visit([&](const auto& s) { return place(s, out); }, out.syntax)
+                             : Result<void>(fail(syntax.error()));
+  if (!placed) {
+    const bool enters = packet.type == PacketType::kSetup || packet.type == PacketType::kReturn;
+    if (is_of_scene(packet.type) || (enters && reader_.lost())) clock_.lose();
     return fail(placed.error().code, placed.error().text, packet.offset);
+  }
   for (Timeline& pictures = reader_.pictures(); pictures.has_next();) clock_.show(pictures.next().duration);
   return out;
 }

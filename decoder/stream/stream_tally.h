@@ -21,7 +21,7 @@ struct ByteCount {
   std::uint64_t motion = 0;  ///< motion and blend packets
   std::uint64_t blend = 0;   ///< of `motion`, the blend packets
   std::uint64_t sound = 0;   ///< sound packets and their setups
-  std::uint64_t other = 0;   ///< signature, setup, end, unknown packets and skipped bytes
+  std::uint64_t other = 0;   ///< signature, setup, return, end, unknown packets and skipped bytes
 };
 
 /// A pattern as received.

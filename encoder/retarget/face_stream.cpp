@@ -34,14 +34,17 @@ class InteriorMean {
   double weight_ = 0;
 };
 
-/// Reads the packets of a stream up to the end of the first scene with a face.
+/// Reads the packets of the first scene with a face, up to where the stream cannot return to it any more.
 class Reading {
  public:
   /// @return false when the scene is complete
   Result<bool> take(const Packet& packet) {
-    if (has_face() && (packet.type == PacketType::kSetup || packet.type == PacketType::kEnd)) return false;
-    if (packet.type == PacketType::kEnd || is_sound(packet.type)) return true;
+    if (packet.type == PacketType::kEnd) return !has_face();
+    if (is_sound(packet.type)) return true;
     auto syntax = reader_.read(packet);
+    while (reader_.pictures().has_next()) (void)reader_.pictures().next();
+    const bool elsewhere = has_face() && (reader_.scene() != scene_ || reader_.lost());
+    if (elsewhere) return syntax && reader_.knows(scene_);
     if (!syntax) return fail(syntax.error());
     return std::visit([&](auto& s) { return take(s, packet); }, *syntax);
   }
@@ -56,6 +59,7 @@ class Reading {
  private:
   bool take(const Setup& setup, const Packet& /*packet*/) {
     face_ = {};
+    scene_ = reader_.scene();
     face_.setup = setup;
     has_pattern_ = false;
     interior_ = {};
@@ -106,6 +110,7 @@ class Reading {
   }
 
   SceneReader reader_;
+  std::uint64_t scene_ = 0;  // of face_
   FaceStream face_;
   bool has_pattern_ = false;
   InteriorMean interior_;

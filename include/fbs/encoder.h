@@ -79,7 +79,7 @@ typedef struct fbs_packet {
   const uint8_t* data; /**< valid until the next call for this encoder */
   size_t size;         /**< bytes, at least 1 */
   int type;            /**< fbs_packet_type */
-  int key;             /**< 1: a setup packet: decoding can begin here */
+  int key;             /**< 1: a setup packet where decoding can begin */
   uint32_t pictures;   /**< that can be shown once it has arrived */
   uint64_t number;     /**< of the first picture that needs the packet; of the last packet: pictures in all */
   uint64_t time;       /**< of that picture, ticks; of the last packet: the length of the video */

@@ -130,7 +130,7 @@ typedef struct fbs_picture_info {
   uint64_t time;     /**< since the beginning of the stream, ticks */
   uint32_t duration; /**< ticks, at least 1 */
   int held;          /**< 1: this picture was lost, and the previous one is shown in its place */
-  int new_scene;     /**< 1: the first of a scene: decoding can begin here */
+  int new_scene;     /**< 1: the first of a scene where decoding can begin */
   int quality;       /**< fbs_quality */
 } fbs_picture_info;
 
@@ -223,7 +223,8 @@ typedef struct fbs_decoder_settings {
   size_t struct_size;
   /** Streams with more pixels per picture are refused with FBS_ERROR_TOO_LARGE before memory is allocated.
    * 0: FBS_MAX_SIDE * FBS_MAX_SIDE. Default: 0. A decoder takes about 3 bytes per pixel, and 1 MB, for each
-   * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. */
+   * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. There are up
+   * to 3 scenes, besides the present one, to which a stream may return. */
   uint64_t max_pixels;
   /** Threads that draw, 1..FBS_MAX_THREADS, including the caller's. With more than 1, while pictures are
    * drawn in a row, others draw those that follow and whose packets have been fed; pictures are the same, and

@@ -40,7 +40,8 @@ typedef enum fbs_packet_type {
   FBS_PACKET_SOUND_SETUP = 9,
   FBS_PACKET_SOUND = 10,
   FBS_PACKET_UNIT = 11,
-  FBS_PACKET_HEAD_PART = 12
+  FBS_PACKET_HEAD_PART = 12,
+  FBS_PACKET_RETURN = 13 /**< goes on with an earlier scene */
 } fbs_packet_type;
 
 /** A whole packet whose check is right. */
@@ -48,11 +49,13 @@ typedef struct fbs_packet_info {
   int type;        /**< fbs_packet_type, or an unknown number up to 255 */
   uint64_t offset; /**< of its first byte, from the first byte fed */
   size_t size;     /**< bytes, from its type to its check */
-  int key; /**< 1: coded without an earlier packet of its type; a setup packet: decoding can begin here */
-  uint64_t number; /**< of the first picture that needs it; of an end packet: pictures in all */
+  int key; /**< 1: coded without an earlier packet of its type; of setup packets those where decoding can
+              begin */
+  uint64_t number; /**< of the first picture that needs it, as if the stream stayed in the scene up to there;
+                        of an end packet: pictures in all */
   uint64_t time;   /**< of that picture, ticks; of an end packet: the length of the video */
   /** Pictures that can be shown once it has arrived, and when the first of them begins and the last one ends,
-   * ticks. Pictures that a setup or end packet says are missing are not among them. */
+   * ticks. Pictures that a setup, return or end packet says are missing are not among them. */
   uint32_t pictures;
   uint64_t shown_from, shown_until;
   /** Why a decoder leaves it out: its payload is damaged, or it may not stand where it does. Null: it does

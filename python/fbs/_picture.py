@@ -89,7 +89,7 @@ class Picture:
     held : bool
         This picture was lost; the previous one is shown in its place.
     new_scene : bool
-        The first picture of a scene: decoding can begin here.
+        The first picture of a scene where decoding can begin.
     quality : {"exact", "pattern missing", "interpolated", "held"}
         What it has suffered from losses.
 

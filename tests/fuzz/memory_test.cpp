@@ -298,6 +298,27 @@ TEST(Memory, WaitingPicturesAreBounded) {
   EXPECT_LT(meter.peak(), bytes.size() + kMaxWaitingPictures * 2 * sizeof(Timeline::Entry) + kMiB);
 }
 
+TEST(Memory, ScenesThatAreSetAsideAreBounded) {
+  LooseStream head = read_loose(vector_named("talk.fbs"));
+  (void)take_motion(head);
+  auto setup = *decode_setup(head.packets.front().payload);
+  setup.keeps = SceneKeeping::kAndPresent;
+  head.packets.front().payload = *encode_setup(setup);
+  const auto peak_of = [&](std::size_t scenes) {
+    LooseStream many;
+    for (std::size_t k = 0; k < scenes; ++k)
+      many.packets.insert(many.packets.end(), head.packets.begin(), head.packets.end());
+    const Bytes bytes = write_loose(many);
+    const Meter meter;
+    StreamDecoder decoder;
+    (void)decode(decoder, bytes);
+    return meter.peak() - bytes.size();
+  };
+  const std::size_t kept = peak_of(kKeptScenes + 2);
+  EXPECT_GT(kept, peak_of(1)) << "they are set aside";
+  EXPECT_LT(peak_of(10 * kKeptScenes), kept + kMiB / 8);
+}
+
 TEST(Memory, KeptPicturesAreBounded) {
   // Many groups of a scene of one pattern: each is shown and then forgotten, except for kKeptPictures.
   LooseStream stream = read_loose(vector_named("talk.fbs"));

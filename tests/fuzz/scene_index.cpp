@@ -18,6 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(scene.before.pictures >= last.pictures && scene.before.time >= last.time,
             "a scene that goes back");
     last = scene.before;
+    if (!scene.is_joinable) continue;
     const fbs::SceneEntry* const found = fbs::scene_at(scenes, scene.before.time);
     require(found != nullptr && found->before.time == scene.before.time,
             "another scene than that of the time");

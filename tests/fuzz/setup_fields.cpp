@@ -10,10 +10,10 @@ namespace fbs::fuzz {
 namespace {
 
 // SPEC 4.1, in order; v: varint, b: byte. Version, head, position, size, rate and aspect, colour, steps,
-// parts, mouth colours, then the optional patterns and contrasts.
-constexpr std::string_view kLayout = "vbvvvvvvvvbvvvvvvbbbbbbvbb";
-constexpr std::size_t kRequired = kLayout.size() - 3;
-constexpr std::size_t kWidth = 4, kHeight = 5, kPatterns = kRequired;
+// parts, mouth colours, then the optional patterns, contrasts and what is kept.
+constexpr std::string_view kLayout = "vbvvvvvvvvbvvvvvvbbbbbbvbbb";
+constexpr std::size_t kRequired = kLayout.size() - 4;
+constexpr std::size_t kWidth = 4, kHeight = 5, kPatterns = kRequired, kKeeps = kRequired + 3;
 
 /// Numbers at the limits of some field, and beyond.
 constexpr std::uint64_t kOne = 1;
@@ -86,9 +86,10 @@ void change_setup(SetupFields& fields, Random& random) {
   if (values.empty()) return;
   if (values.size() >= kRequired && random() % 4 == 0) {
     // Three slots more or less matter more than a limit of something else.
-    values.resize(kRequired + random() % 4);
+    values.resize(kRequired + random() % 5);
     if (values.size() > kPatterns) values[kPatterns] = 1 + random() % (kMaxPatterns + 1);
     for (std::size_t i = kPatterns + 1; i < values.size(); ++i) values[i] = random() % 130;
+    if (values.size() > kKeeps) values[kKeeps] = random() % 4;
     return;
   }
   const std::size_t at = random() % values.size();

@@ -5,6 +5,8 @@
 
 #include "bitstream/byte_io.h"
 #include "bitstream/packet.h"
+#include "bitstream/payload/return_payload.h"
+#include "bitstream/payload/setup_payload.h"
 #include "tests/fuzz/setup_fields.h"
 
 namespace fbs::fuzz {
@@ -80,6 +82,34 @@ void change_a_payload(std::vector<LoosePacket>& packets, Random& random, const M
   }
 }
 
+/// Puts a return packet in some place, with the position of another setup packet if there is one.
+void insert_return(std::vector<LoosePacket>& packets, Random& random) {
+  Return to{0, {}, random() % 4 != 0};
+  if (const auto setup = decode_setup(any_of(packets, random).payload)) to.before = setup->before;
+  packets.insert(packets.begin() + index(packets.size() + 1, random),
+                 {static_cast<std::uint8_t>(PacketType::kReturn), encode_return(to)});
+}
+
+/// Has most returns to scenes that are not there name others: checks depend on all that is before them.
+void name_scenes(std::vector<LoosePacket>& packets, Random& random) {
+  PacketWriter writer;
+  std::vector<std::uint32_t> scenes;
+  bool in_head = false;
+  for (LoosePacket& packet : packets) {
+    const auto type = static_cast<PacketType>(packet.type);
+    if (type == PacketType::kReturn && !scenes.empty() && random() % 8 != 0)
+      if (auto to = decode_return(packet.payload);
+          to && std::ranges::find(scenes, to->scene) == scenes.end()) {
+        to->scene = scenes[index(scenes.size(), random)];
+        packet.payload = encode_return(*to);
+      }
+    Bytes written;
+    const std::uint32_t check = writer.write(written, type, packet.payload);
+    if (type == PacketType::kSetup) in_head = true;
+    if (type == PacketType::kPattern && std::exchange(in_head, false)) scenes.push_back(check);
+  }
+}
+
 /// Changes the length of a packet and nothing else.
 void change_a_length(Bytes& stream, Random& random) {
   const auto borders = packet_borders(stream);
@@ -141,7 +171,7 @@ void change_packets(LooseStream& stream, const LooseStream& other, Random& rando
   auto& packets = stream.packets;
   if (packets.empty()) return insert_run(packets, other.packets, random);
   const std::size_t at = index(packets.size(), random);
-  switch (random() % 12) {
+  switch (random() % 13) {
     case 0:
       packets.erase(packets.begin() + at);
       break;
@@ -161,16 +191,20 @@ void change_packets(LooseStream& stream, const LooseStream& other, Random& rando
       go_on_with(packets, other.packets, random);
       break;
     case 6:
-      packets[at].type = static_cast<std::uint8_t>(random() % 10);
+      packets[at].type = static_cast<std::uint8_t>(random() % 14);
       break;
     case 7:
     case 8:
       change_a_setup(packets, random);
       break;
+    case 9:
+      insert_return(packets, random);
+      break;
     default:
       change_a_payload(packets, random, mutate);
       break;
   }
+  name_scenes(packets, random);
 }
 
 Bytes mutate_stream(std::span<const std::uint8_t> stream, std::span<const std::uint8_t> other, Random& random,

@@ -116,10 +116,10 @@ TEST(StreamMutator, MutationsRepeatWithTheirSeed) {
 TEST(SetupFields, AreThoseOfTheSetup) {
   auto setup = small_setup();
   for (const bool optional : {false, true}) {
-    if (optional) setup.chroma_contrast = kMaxChromaContrast;
+    if (optional) setup.keeps = SceneKeeping::kAside;
     const Bytes payload = *encode_setup(setup);
     SetupFields fields = read_setup_fields(payload);
-    EXPECT_EQ(fields.values.size(), optional ? 26u : 23u);
+    EXPECT_EQ(fields.values.size(), optional ? 27u : 23u);
     EXPECT_TRUE(fields.rest.empty());
     EXPECT_EQ(write_setup_fields(fields), payload);
     fields.values[4] = 120;

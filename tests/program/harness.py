@@ -121,7 +121,7 @@ def packets(stream):
     return found
 
 
-SETUP, SURROUND, PATTERN, MOTION, END, BLEND, UNIT = 1, 3, 4, 5, 6, 7, 11  # packet types
+SETUP, SURROUND, PATTERN, MOTION, END, BLEND, UNIT, RETURN = 1, 3, 4, 5, 6, 7, 11, 13  # packet types
 
 
 class ProgramTest(unittest.TestCase):

@@ -1,11 +1,11 @@
 """fbs inspect --packets: every packet of a stream, and where it is damaged."""
 import json
 
-from harness import (BLEND, END, FAILED, LITTLE_LOST, MOTION, PATTERN, SETUP, SOURCE, SURROUND, TALK_FBS, TALK_ONE_FBS,
-                     TWO_SCENES_FBS, UNIT, ProgramTest, packets)
+from harness import (BLEND, END, FAILED, LITTLE_LOST, MOTION, PATTERN, RETURN, SETUP, SOURCE, SURROUND, TALK_FBS,
+                     TALK_ONE_FBS, TWO_SCENES_FBS, UNIT, ProgramTest, packets)
 
 NAMES = {SETUP: "setup", 2: "geometry", SURROUND: "surround", PATTERN: "pattern", MOTION: "motion", END: "end",
-         BLEND: "blend", UNIT: "unit"}
+         BLEND: "blend", UNIT: "unit", RETURN: "return"}
 VECTORS = SOURCE / "tests/vectors"
 # Wrong only in their AV1 data, which is not decoded.
 WRONG_FRAMES = {"bad_av1.fbs", "wrong_size.fbs", "two_frames.fbs", "show_existing.fbs"}

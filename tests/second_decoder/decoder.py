@@ -1,13 +1,13 @@
-"""From the bytes of a stream to its pictures; errors, position and loss (SPEC 6.1, 6.2, 7)."""
+"""From the bytes of a stream to its pictures; errors, position, loss, returning (SPEC 6.1, 6.2, 6.6, 7)."""
 
 from .byte_reader import ByteReader
 from .errors import StreamError, invalid, too_large, truncated, unsupported
 from .head_parts import HeadParts
 from .integers import clamp
-from .limits import MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
-from .packets import END, HEAD_PART, PATTERN, SCENE_PACKETS, SETUP, Damage, packets
+from .limits import KEPT_SCENES, MAX_DURATION, MAX_HELD_PICTURES, MAX_STREAM_PICTURES
+from .packets import END, HEAD_PART, RETURN, SCENE_PACKETS, SETUP, Damage, packets
 from .scene import Scene
-from .setup import read_setup
+from .setup import KEEP_AND_PRESENT, KEEP_NONE, read_return, read_setup
 
 
 class Decoder:
@@ -16,8 +16,10 @@ class Decoder:
     def __init__(self):
         self.errors = []
         self._scene = None
+        self._aside = []  # scenes to which the stream may return, the last one last
+        self._earlier_losses = False  # in a scene before, since the last that kept none
         self._size = None  # width and height of all scenes
-        self._is_lost = False  # everything up to the next setup packet
+        self._is_lost = False  # everything up to the next setup packet or return packet
         self._position = None  # pictures that have been shown, those before the place of joining included
         self._time = 0  # sum of their durations, 1/90000 s
         self._guesses = False  # durations of lost pictures, since the last position
@@ -25,7 +27,6 @@ class Decoder:
         self._held = 0  # times that it has been shown in the place of others
         self._head_parts = HeadParts()
         self._passed = 0, 0  # pictures of the scene before it was joined, and their time
-        self._first_pattern = None  # the low bits of the check of its packet, once the scene is complete
         self._held_duration = 0  # nominal duration in its scene, or while there is none in the last scene
 
     @property
@@ -46,31 +47,41 @@ class Decoder:
             except StreamError as error:
                 self.errors.append(error)
                 if packet.type not in (END, HEAD_PART):
-                    self._lose(packet.type == SETUP)
+                    self._lose(packet.type)
         if not self._scene and not self.errors:
             self.errors.append(truncated("the stream ends before its first scene"))
 
-    def _lose(self, is_setup):
-        """Notes a loss; without its first pattern, or the setup packet, nothing of a scene is of use."""
+    def _lose(self, kind):
+        """Notes a loss; without its first pattern, or the packet that begins it, nothing of a scene is of use."""
         self._guesses = True
-        self._is_lost |= is_setup or not self._scene or not self._scene.is_complete
+        if kind in (SETUP, RETURN):
+            self._scene = None
         if self._scene:
             self._scene.has_losses = True
+        self._is_lost |= not self._scene or not self._scene.is_complete
 
     def _has_losses(self):
-        """Whether an error has told of a loss since the last setup packet."""
-        return self._is_lost or self._scene.has_losses
+        """Whether an error has told of a loss in the scene."""
+        return self._is_lost or bool(self._scene) and self._scene.has_losses
+
+    def _present(self):
+        """The scene, if its first pattern has been read and it is not lost."""
+        return self._scene if self._scene and self._scene.is_complete and not self._is_lost else None
+
+    def _set_aside(self):
+        if self._present():
+            self._aside = [*self._aside, self._scene][-KEPT_SCENES:]
 
     def _take(self, packet):
         if packet.type == SETUP:
             yield from self._take_setup(packet.payload, self._passed if packet.in_parts else (0, 0))
+        elif packet.type == RETURN:
+            yield from self._take_return(packet.payload)
         elif packet.type == END:
             yield from self._take_end(packet.payload)
         elif packet.type in SCENE_PACKETS and not self._is_lost:
             if not self._scene:
                 raise invalid("a packet before the first setup packet")
-            if packet.type == PATTERN and not self._scene.is_complete:
-                self._first_pattern = packet.check & 0xFFFF
             for picture, duration in self._scene.take(packet):
                 self._show(picture, duration)
                 self._held = 0
@@ -79,8 +90,8 @@ class Decoder:
 
     def _take_part(self, payload, source):
         """A part of a head. If that is whole, its packets are the next."""
-        is_known = self._scene and self._scene.is_complete and not self._is_lost
-        head = self._head_parts.take(payload, self._first_pattern if is_known else None)
+        present = self._present()
+        head = self._head_parts.take(payload, present.check & 0xFFFF if present else None)
         if head:
             packets_of_head, self._passed = head
             source.send(packets_of_head)
@@ -91,7 +102,14 @@ class Decoder:
         self._time += duration
 
     def _take_setup(self, payload, passed):
+        kept, self._aside = self._aside, []
         setup = read_setup(payload)
+        knows = not self._scene or self._has_losses()
+        self._earlier_losses = setup.keeps != KEEP_NONE and (self._earlier_losses or knows)
+        if setup.keeps != KEEP_NONE:
+            self._aside = kept
+        if setup.keeps == KEEP_AND_PRESENT:
+            self._set_aside()
         size = setup.width, setup.height
         if self._size and size != self._size:
             raise unsupported("another picture size in a later scene")
@@ -104,6 +122,26 @@ class Decoder:
         self._size = size
         self._is_lost = False
         self._scene = Scene(setup, passed)
+
+    def _take_return(self, payload):
+        check, (position, time), aside = read_return(payload)
+        present = self._present()
+        scene = next((s for s in [present, *reversed(self._aside)] if s and s.check == check), None)
+        knows = self._earlier_losses or self._has_losses()
+        if scene is not present:
+            self._aside = [s for s in self._aside if s is not scene]
+            if aside:
+                self._set_aside()
+        if not scene:
+            self._scene, self._is_lost = None, True
+            if not knows:
+                raise invalid("there is no such scene to return to")
+            return
+        yield from self._fill_up_to(position, time)
+        if scene is not present:
+            self._earlier_losses = knows
+            scene.has_losses |= knows
+        self._scene, self._is_lost = scene, False
 
     def _take_end(self, payload):
         pictures = ByteReader(payload).varint()

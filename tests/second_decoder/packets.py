@@ -7,9 +7,9 @@ from .errors import StreamError, invalid, too_large, truncated
 from .limits import MAX_PAYLOAD
 
 SIGNATURE = b"\x89fbs"
-KNOWN_TYPES = range(1, 13)
+KNOWN_TYPES = range(1, 14)
 (SETUP, GEOMETRY, SURROUND, PATTERN, MOTION, END, BLEND, WIRE_FRAME, SOUND_SETUP, SOUND, UNIT,
- HEAD_PART) = KNOWN_TYPES
+ HEAD_PART, RETURN) = KNOWN_TYPES
 SCENE_PACKETS = (GEOMETRY, SURROUND, PATTERN, MOTION, BLEND, WIRE_FRAME, UNIT)
 MAX_SEARCHED_PAYLOAD = 2047  # bytes of a packet at which a reader goes on after damage
 MAX_REPAIRED_PAYLOAD = 65535  # bytes of a packet in which a wrong bit is set right
@@ -70,11 +70,18 @@ def crc_of(length):
     return _SHORT if length < 256 else _LONG
 
 
+def _scene_of_return(payload):
+    try:
+        return ByteReader(payload).varint()
+    except StreamError:
+        return 0
+
+
 class Checks:
     """With what the checks of packets begin (SPEC 3.1)."""
 
     def __init__(self):
-        self._check = 0xFFFF  # of the last packet of the head
+        self._check = 0xFFFF  # of the last packet of the head, or what a return packet names
         self._in_head = False
 
     def of(self, data, crc):
@@ -82,9 +89,13 @@ class Checks:
         before = self._check if data[0] in SCENE_PACKETS else 0xFFFF
         return crc.of(data, before if crc.bits == 16 else before << 8 | 0xFF)
 
-    def add(self, kind, check):
+    def add(self, packet):
         """Goes on behind a packet."""
-        if kind == SETUP or self._in_head and kind in SCENE_PACKETS:
+        kind, check = packet.type, packet.check
+        if kind == RETURN:
+            self._check = _scene_of_return(packet.payload) & 0xFFFF
+            self._in_head = False
+        elif kind == SETUP or self._in_head and kind in SCENE_PACKETS:
             self._check = check & 0xFFFF
             self._in_head = kind != PATTERN
 
@@ -151,7 +162,7 @@ def packets(data, checks=None):
                 data = repaired
                 continue
             position = end
-            checks.add(packet.type, check)
+            checks.add(packet)
             head = yield packet
             if head:
                 yield  # what send() returns

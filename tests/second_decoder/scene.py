@@ -42,6 +42,7 @@ class Scene:
 
     def __init__(self, setup, passed=(0, 0)):
         self.setup = setup
+        self.check = None  # of the first pattern packet
         self._begin, self._passed_time = passed
         self.has_losses = self._begin > 0  # an error has told of something that is missing
         self._layout = Layout(setup)
@@ -73,6 +74,8 @@ class Scene:
 
     def take(self, packet):
         """Yields the pictures that a packet releases: planes Y, U, V, and duration in 1/90000 s."""
+        if packet.type == PATTERN and not self.is_complete:
+            self.check = packet.check
         taker = self._takers.get(packet.type)
         yield from (taker(packet.payload) if taker else None) or ()
 

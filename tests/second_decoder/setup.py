@@ -1,4 +1,4 @@
-"""Setup packet (SPEC 4.1)."""
+"""Setup packet, and the return packet, which has a position, too (SPEC 4.1, 4.13)."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -6,13 +6,14 @@ from fractions import Fraction
 from .byte_reader import ByteReader
 from .errors import invalid, too_large, unsupported
 from .integers import clamp
-from .limits import (MAX_DURATION, MAX_PATTERNS, MAX_PICTURE_SIZE, MAX_PICTURES_PER_SECOND, MAX_STEP,
+from .limits import (MAX_CHECK, MAX_DURATION, MAX_PATTERNS, MAX_PICTURE_SIZE, MAX_PICTURES_PER_SECOND, MAX_STEP,
                      MAX_STREAM_PICTURES, MAX_STREAM_TIME, MIN_PICTURE_SIZE)
 
-VERSION = 8
+VERSION = 9
 GENERIC_HEAD = 3
 PARTS_AFTER_POSE = 9
 MAX_CONTRAST = 128
+KEEP_NONE, KEEP_ASIDE, KEEP_AND_PRESENT = range(3)  # scenes before this one
 
 
 @dataclass
@@ -32,6 +33,7 @@ class Setup:
     patterns: int  # slots of the store
     contrast: int
     chroma_contrast: int
+    keeps: int
 
     def nominal_duration(self):
         """Duration of a picture in 1/90000 s unless the stream says another (SPEC 5.5)."""
@@ -43,9 +45,9 @@ def _varint_in(reader, low, high, error=invalid):
     """A varint in low..high; `error` if it is larger."""
     value = reader.varint()
     if value < low:
-        raise invalid("a field of the setup is too small")
+        raise invalid("a field is too small")
     if value > high:
-        raise error("a field of the setup is too large")
+        raise error("a field is too large")
     return value
 
 
@@ -71,11 +73,12 @@ def _read_colour(reader):
     return bool(colour & 1), colour >> 1
 
 
-def _read_contrast(reader):
-    contrast = 0 if reader.at_end() else reader.u8()
-    if contrast > MAX_CONTRAST:
-        raise invalid("a contrast is too large")
-    return contrast
+def _read_u8_up_to(reader, high):
+    """A byte in 0..high; 0 if the payload ends here."""
+    value = 0 if reader.at_end() else reader.u8()
+    if value > high:
+        raise invalid("a field is too large")
+    return value
 
 
 def read_setup(payload):
@@ -95,7 +98,19 @@ def read_setup(payload):
     parts = _varint_in(reader, 0, 2**PARTS_AFTER_POSE - 1)
     upper_lip, lower_lip = reader.bytes(3), reader.bytes(3)
     patterns = 1 if reader.at_end() else _varint_in(reader, 1, MAX_PATTERNS, too_large)
-    contrast = _read_contrast(reader)
-    chroma_contrast = _read_contrast(reader)
+    contrast = _read_u8_up_to(reader, MAX_CONTRAST)
+    chroma_contrast = _read_u8_up_to(reader, MAX_CONTRAST)
+    keeps = _read_u8_up_to(reader, KEEP_AND_PRESENT)
     return Setup(pictures_before, time_before, width, height, frame_rate, pixel_aspect, full_range, matrix, steps,
-                 parts, upper_lip, lower_lip, patterns, contrast, chroma_contrast)
+                 parts, upper_lip, lower_lip, patterns, contrast, chroma_contrast, keeps)
+
+
+def read_return(payload):
+    """The check of the scene to return to, pictures and time before, and whether the present scene is set aside."""
+    reader = ByteReader(payload)
+    scene = _varint_in(reader, 0, MAX_CHECK)
+    position = _read_position(reader)
+    aside = reader.u8()
+    if aside > 1:
+        raise invalid("a field is too large")
+    return scene, position, aside == 1

@@ -9,6 +9,7 @@
 #include "tests/vectors/blend_vectors.h"
 #include "tests/vectors/limits_vectors.h"
 #include "tests/vectors/loss_vectors.h"
+#include "tests/vectors/return_vectors.h"
 #include "tests/vectors/scene_vectors.h"
 #include "tests/vectors/sound_vectors.h"
 #include "tests/vectors/vector_tools.h"
@@ -36,8 +37,8 @@ void add_good(Folder& folder, const Bytes& talk) {
              12);
 
   auto pieces = pieces_of(talk);
-  pieces[place_of(pieces, PacketType::kSetup)].payload.insert(pieces[0].payload.end(),
-                                                              {1, 0, 0, 9, 9});  // 1: patterns, 0: contrasts
+  pieces[place_of(pieces, PacketType::kSetup)].payload.insert(
+      pieces[0].payload.end(), {1, 0, 0, 0, 9, 9});  // 1: patterns, 0: contrasts, keeps
   pieces[place_of(pieces, PacketType::kEnd)].payload.push_back(7);
   pieces.insert(pieces.begin() + 2, {static_cast<PacketType>(99), Bytes(40, 0x5A)});
   pieces.insert(pieces.begin(), {static_cast<PacketType>(98), {}});
@@ -136,6 +137,7 @@ int main(int argc, char** argv) {
   fbs::add_removed(folder, talk);
   fbs::add_broken_scenes(folder);
   fbs::add_losses(folder);
+  fbs::add_returns(folder);
   fbs::add_broken_blends(folder, talk);
   fbs::add_broken_wire_frames(folder, talk);
   return 0;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bitstream/byte_io.h"
+#include "bitstream/payload/return_payload.h"
 
 namespace fbs {
 namespace {
@@ -95,16 +96,19 @@ std::vector<std::size_t> offsets_until_stop(PacketReader& reader, Result<ReadRes
 TEST(Packet, SizeIsThatOfWhatIsWritten) {
   for (const std::size_t payload : {0u, 1u, 127u, 128u, 255u, 256u, 16383u, 16384u, 300000u}) {
     Bytes out;
-    EXPECT_EQ(PacketWriter().write(out, PacketType::kEnd, Bytes(payload)), packet_size(payload));
+    const std::uint32_t check = PacketWriter().write(out, PacketType::kEnd, Bytes(payload));
     EXPECT_EQ(out.size(), packet_size(payload));
+    EXPECT_EQ(out.back(), check & 0xFF);
   }
 }
 
 TEST(Packet, WritesFourBytesBesideAShortPayload) {
   Bytes bytes;
   PacketWriter writer;
-  EXPECT_EQ(writer.write(bytes, PacketType::kMotion, Bytes(127)), 131u);
-  EXPECT_EQ(writer.write(bytes, PacketType::kMotion, Bytes(128)), 133u);
+  writer.write(bytes, PacketType::kMotion, Bytes(127));
+  EXPECT_EQ(bytes.size(), 131u);
+  writer.write(bytes, PacketType::kMotion, Bytes(128));
+  EXPECT_EQ(bytes.size(), 131u + 133u);
 }
 
 // SPEC 3.1
@@ -130,6 +134,24 @@ TEST(CheckChain, RunsThroughTheHeadOfASceneAndThenBeginsWithIt) {
       expect_check(type, head);
     expect_check(kSound, 0xFFFF);
   }
+}
+
+// SPEC 3.1
+TEST(CheckChain, BeginsWithTheSceneThatAReturnNames) {
+  const auto check_behind = [](const Bytes& payload) {
+    Bytes bytes;
+    PacketWriter writer;
+    writer.write(bytes, PacketType::kSetup, Bytes{1});
+    writer.write(bytes, PacketType::kReturn, payload);
+    bytes.clear();
+    writer.write(bytes, PacketType::kPattern, Bytes{2});  // it ends no head
+    bytes.clear();
+    writer.write(bytes, PacketType::kMotion, Bytes{0x5A});
+    return ByteReader(std::span(bytes).subspan(3)).u16();
+  };
+  const Bytes motion = {static_cast<std::uint8_t>(PacketType::kMotion), 1, 0x5A};
+  EXPECT_EQ(check_behind(encode_return({0x123456, {}, false})), kCrc16.of(motion, 0x3456));
+  EXPECT_EQ(check_behind({0xFF}), kCrc16.of(motion, 0)) << "not a varint";
 }
 
 TEST(Packet, EndIsTheSameFromAnyWriter) {

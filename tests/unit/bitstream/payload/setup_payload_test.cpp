@@ -43,6 +43,7 @@ TEST(SetupPayload, LargestIsFoundAfterDamage) {
   setup.steps = {65535, 65535, 65535, 65535, 65535};
   setup.contrast = kMinContrast;
   setup.chroma_contrast = kMaxChromaContrast;
+  setup.keeps = SceneKeeping::kAndPresent;
   const auto payload = encode_setup(setup);
   ASSERT_TRUE(payload);
   EXPECT_LE(payload->size() + 50, kMaxSearchedPayload);
@@ -204,6 +205,20 @@ TEST(SetupPayload, FullChromaContrastIsNotCoded) {
   }
   auto payload = *encode_setup(sample_setup());
   payload.insert(payload.end(), {0, (kMaxChromaContrast - kContrastOne) / 2 + 1});
+  EXPECT_EQ(decode_setup(payload).error().code, ErrorCode::kInvalidStream);
+}
+
+TEST(SetupPayload, WhatBecomesOfScenesBeforeComesLast) {
+  auto setup = sample_setup();
+  const std::size_t without = encode_setup(setup)->size();
+  for (const SceneKeeping keeps : {SceneKeeping::kAside, SceneKeeping::kAndPresent}) {
+    setup.keeps = keeps;
+    const auto payload = *encode_setup(setup);
+    EXPECT_EQ(payload.size(), without + 3);
+    EXPECT_EQ(*decode_setup(payload), setup);
+  }
+  auto payload = *encode_setup(setup);
+  payload.back() = 3;
   EXPECT_EQ(decode_setup(payload).error().code, ErrorCode::kInvalidStream);
 }
 

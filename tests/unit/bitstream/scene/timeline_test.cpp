@@ -162,5 +162,20 @@ TEST(Timeline, BoundsThePicturesThatWait) {
   EXPECT_FALSE(add(t, kMaxWaitingPictures + 1, 1));
 }
 
+TEST(Timeline, GoesOnAtAnotherPosition) {
+  Timeline t({100, 5000}, 3);
+  ASSERT_TRUE(add(t, 3, 4));  // they last 3, 4, 5 and 6
+  ASSERT_TRUE(t.release(3, modes(2)));
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(t.next().position.pictures, 100U + static_cast<unsigned>(i));
+  EXPECT_EQ(t.find(5)->position, (StreamPosition{102, 5007}));
+  t.go_on({200, 9000});
+  ASSERT_TRUE(add(t, 7, 1));
+  EXPECT_EQ(t.find(4)->position, (StreamPosition{101, 5003})) << "it has been displayed before";
+  EXPECT_EQ(t.find(5)->position, (StreamPosition{200, 9000}));
+  EXPECT_EQ(t.find(6)->position, (StreamPosition{201, 9005}));
+  EXPECT_EQ(t.find(7)->position, (StreamPosition{202, 9011}));
+  EXPECT_EQ(t.end_time(), 9018U);
+}
+
 }  // namespace
 }  // namespace fbs

@@ -6,6 +6,7 @@
 #include "cli/matroska/block_division.h"
 #include "decoder/stream/stream_decoder.h"
 #include "tests/unit/cli/matroska/voiced_vector.h"
+#include "tests/unit/decoder/stream/stream_writer.h"
 
 namespace fbs::cli {
 namespace {
@@ -76,6 +77,24 @@ TEST(StreamMapping, BlocksFollowOneAnotherFromPictureToPicture) {
 TEST(StreamMapping, EachSceneBeginsAKeyBlock) {
   const auto blocks = divide_stream(vector_file("two_heads.fbs"))->blocks;
   EXPECT_GE(std::ranges::count_if(blocks, [](const StreamBlock& b) { return b.key; }), 2);
+}
+
+// SPEC 6.6
+TEST(StreamMapping, ReturnBeginsABlockThatIsNoKey) {
+  Writer w;
+  fbs::Setup other = setup_at({5, 15000});
+  other.keeps = SceneKeeping::kAndPresent;
+  w.scene({}, 5).setup(other).pattern().motion(0, 5, true).packet(static_cast<PacketType>(99), Bytes{1});
+  w.go_back(0, {10, 30000}).motion(5, 10).scene({15, 45000}, 5).end(20);
+  const auto blocks = divide_stream(w.bytes)->blocks;
+  ASSERT_EQ(blocks.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(blocks[k].time, 15000 * k) << k;
+    EXPECT_EQ(blocks[k].duration, 15000U) << k;
+    EXPECT_EQ(blocks[k].key, k == 0 || k == 3) << k;
+  }
+  EXPECT_EQ(blocks[2].begin, w.begins[9]);
+  EXPECT_EQ(back(content_of(w.bytes)), w.bytes);
 }
 
 TEST(StreamMapping, WhatFollowsTheLastPicturesStaysInTheirBlock) {

@@ -191,6 +191,48 @@ TEST(LatePackets, PatternsAreNotKeptWithoutEnd) {
   EXPECT_EQ(result.pictures.size(), static_cast<std::size_t>(kMany * kGroup));
 }
 
+// SPEC 6.6
+TEST(LatePackets, ReturnMayComeLate) {
+  Writer w;
+  std::vector<std::size_t> cuts;
+  fbs::Setup other = setup_of(3);
+  other.keeps = SceneKeeping::kAndPresent;
+  w.setup(setup_of(3)).geometry().surround().pattern().motion(0, 5, true).blend(5);
+  other.before = {5, 15000};
+  cuts.push_back(w.bytes.size());
+  w.setup(other).geometry().surround().pattern(face_picture(1)).motion(0, 5, true).blend(5);
+  for (int turn = 2; turn < 6; ++turn) {
+    const auto before = static_cast<std::uint64_t>(5 * turn);
+    const int from = turn / 2 * 5;
+    cuts.push_back(w.bytes.size());
+    w.go_back(static_cast<std::size_t>(turn % 2), {before, before * 3000})
+        .motion(from, from + 2, true)
+        .blend(2);
+    cuts.push_back(w.bytes.size());
+    w.pattern(face_picture(turn), 1, from + 1).motion(from + 2, from + 5, true).blend(3);
+  }
+  const Played whole = played(w.bytes);
+  ASSERT_TRUE(whole.errors.empty());
+  const auto part = [&](std::size_t k) {
+    const std::size_t begin = k == 0 ? 0 : cuts[k - 1], end = k == cuts.size() ? w.bytes.size() : cuts[k];
+    return std::span(w.bytes).subspan(begin, end - begin);
+  };
+  for (const std::size_t late : {2U, 4U, 6U}) {
+    StreamDecoder decoder;
+    Played result;
+    for (const std::size_t k : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U}) {
+      if (k != late) decoder.feed_packet(k, part(k));
+      EXPECT_FALSE(play(decoder, result));
+      if (k != late + 1) continue;
+      decoder.feed_packet(late, part(late));
+      EXPECT_FALSE(play(decoder, result));
+    }
+    EXPECT_EQ(result.positions, whole.positions) << late;
+    EXPECT_EQ(result.pictures, whole.pictures) << late;
+    EXPECT_LE(result.errors.size(), 1U) << late;
+  }
+}
+
 // Any order of packets, some lost and some twice: no failure, no picture twice, and right at the end where
 // all have come.
 TEST(LatePackets, AnyOrderIsSafe) {

@@ -86,5 +86,29 @@ TEST(SceneIndex, PicturesFromASceneOnAreThoseOfTheWholeStream) {
   }
 }
 
+// SPEC 6.6
+TEST(SceneIndex, KnowsReturnsAndWhereAStreamCanBeJoined) {
+  Writer w;
+  fbs::Setup nobody = setup_at({5, 15000});
+  nobody.keeps = SceneKeeping::kAndPresent;
+  w.scene({}, 5).setup(nobody).pattern().motion(0, 5, true);
+  w.go_back(0, {10, 30000}).motion(5, 10).go_back(1, {15, 45000}).motion(5, 10).scene({20, 60000}, 5).end(25);
+  const auto scenes = index_scenes(w.bytes);
+  ASSERT_EQ(scenes.size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(scenes[k].before, (StreamPosition{5 * k, 15000 * k})) << k;
+    EXPECT_EQ(scenes[k].face, k % 2 == 0) << k;
+    EXPECT_EQ(scenes[k].is_return, k == 2 || k == 3) << k;
+    EXPECT_EQ(scenes[k].is_joinable, k == 0 || k == 4) << k;
+    if (k > 0) {
+      EXPECT_EQ(scenes[k].offset, scenes[k - 1].offset + scenes[k - 1].bytes) << k;
+    }
+  }
+  EXPECT_EQ(scene_at(scenes, 59999), &scenes[0]);
+  EXPECT_EQ(scene_at(scenes, 60000), &scenes[4]);
+  EXPECT_EQ(scene_at(std::span(scenes).subspan(1), 0), &scenes[4]);
+  EXPECT_EQ(scene_at(std::span(scenes).subspan(1, 3), 0), nullptr);
+}
+
 }  // namespace
 }  // namespace fbs

@@ -285,5 +285,57 @@ TEST(StreamDecoderScenes, WithoutItsReturnASceneIsDamagedUpToTheNext) {
   expect_held(without(w, 14, 15), 1, {2, 4});
 }
 
+TEST(StreamDecoderScenes, WhatBelongsToALostTurnIsHeldBeforeTheNext) {
+  const Writer w = turns_of(kTurns);
+  expect_held(without(w, 18, 22), 1, {3});
+}
+
+TEST(StreamDecoderScenes, ReturnToASceneThatIsLostIsOneErrorWithIt) {
+  const Writer w = turns_of(kTurns);
+  Bytes bytes = w.bytes;
+  bytes[w.begins[10] + 30] ^= 3;  // the first pattern of the second scene
+  expect_held(bytes, 1, {1, 3});
+}
+
+TEST(StreamDecoderScenes, JoinableSceneHasNoReturnToOneBefore) {
+  Writer w;
+  w.scene({}, 5).scene(after(5), 5).go_back(0, after(10)).motion(5, 10).end(15);
+  const Played result = played(w.bytes);
+  ASSERT_EQ(result.errors.size(), 1U);
+  EXPECT_EQ(result.errors[0].text, "a return to a scene that is not known");
+  EXPECT_EQ(result.errors[0].byte_offset, w.begins[10]);
+  ASSERT_EQ(result.pictures.size(), 15U);
+  for (std::size_t i = 10; i < 15; ++i) EXPECT_TRUE(result.held[i]) << i;
+}
+
+TEST(StreamDecoderScenes, MayBeJoinedBetweenReturns) {
+  Writer w;
+  w.scene({}, 5).setup(later_setup(after(5))).pattern().motion(0, 5, true).blend(5);
+  w.go_back(0, after(10)).motion(5, 10);
+  const std::size_t joinable = w.begins.size();
+  w.scene(after(15), 5).setup(later_setup(after(20))).pattern(face_picture(1)).motion(0, 5, true).blend(5);
+  w.go_back(2, after(25)).motion(5, 10).go_back(3, after(30)).motion(5, 10).blend(5).end(35);
+  const Played whole = played(w.bytes), joined = played(without(w, 0, joinable));
+  EXPECT_TRUE(whole.errors.empty());
+  EXPECT_TRUE(joined.errors.empty());
+  ASSERT_EQ(whole.pictures.size(), 35U);
+  EXPECT_EQ(joined.pictures, std::vector(whole.pictures.begin() + 15, whole.pictures.end()));
+  EXPECT_EQ(joined.positions, std::vector(whole.positions.begin() + 15, whole.positions.end()));
+}
+
+TEST(StreamDecoderScenes, CountsAndRecordsGoOnWithAReturn) {
+  const Writer w = turns_of({0, 1, 0});
+  StreamDecoder decoder;
+  decoder.count_motion_bits();
+  decoder.record_patterns();
+  Played result;
+  play_through(decoder, w, result);
+  std::vector<std::uint64_t> pictures;
+  for (const PatternRecord& record : decoder.pattern_records()) pictures.push_back(record.picture);
+  EXPECT_EQ(pictures, (std::vector<std::uint64_t>{0, 5, 12}));
+  const auto bits = decoder.motion_bits();
+  EXPECT_LT(std::accumulate(bits.begin(), bits.end(), std::uint64_t{0}) / 256 / 8, decoder.bytes().motion);
+}
+
 }  // namespace
 }  // namespace fbs

@@ -27,6 +27,14 @@ TEST(StreamLength, CountsFromTheLastScene) {
   EXPECT_EQ(stream_length(w.bytes), 123456 + 5 * kPicture);
 }
 
+TEST(StreamLength, CountsFromTheLastReturn) {
+  Writer w = ten_pictures();
+  fbs::Setup other = setup_at({10, 123456});
+  other.keeps = SceneKeeping::kAndPresent;
+  w.setup(other).pattern().motion(0, 5, true).go_back(0, {15, 150000}).motion(10, 12).end(17);
+  EXPECT_EQ(stream_length(w.bytes), 150000 + 2 * kPicture);
+}
+
 TEST(StreamLength, IsNotKnownWithoutAnEnd) {
   EXPECT_FALSE(stream_length(ten_pictures().bytes));
   EXPECT_FALSE(stream_length({}));

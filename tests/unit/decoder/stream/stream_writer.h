@@ -74,7 +74,7 @@ class Writer {
   Writer& packet(PacketType type, const Result<Bytes>& payload) {
     EXPECT_TRUE(payload);
     begins.push_back(bytes.size());
-    packets_.write(bytes, type, *payload);
+    check_ = packets_.write(bytes, type, *payload);
     return *this;
   }
   Writer& setup(const Setup& s = setup_of()) {
@@ -108,7 +108,7 @@ class Writer {
     wide.patterns = kMaxPatterns;
     packet(PacketType::kPattern,
            now().patterns.encode(patterns, wide, std::max(now().pictures, told_pictures)));
-    if (patterns.front().picture == 0) now().check = last_check();
+    if (patterns.front().picture == 0) now().check = check_;
     return *this;
   }
   /// Pictures `from`..`end` - 1.
@@ -155,15 +155,9 @@ class Writer {
     std::uint32_t check = 0;  // of the first pattern packet
   };
   OfScene& now() { return scenes_[present_]; }
-  /// Of the last packet.
-  [[nodiscard]] std::uint32_t last_check() const {
-    const bool is_long = bytes.size() - begins.back() > packet_size(kLongPayload - 1);
-    std::uint32_t check = 0;
-    for (auto byte = bytes.end() - (is_long ? 3 : 2); byte != bytes.end(); ++byte) check = check << 8 | *byte;
-    return check;
-  }
 
   PacketWriter packets_;
+  std::uint32_t check_ = 0;  // of the last packet
   std::vector<OfScene> scenes_;
   std::size_t present_ = 0;
 };
