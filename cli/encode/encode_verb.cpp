@@ -25,6 +25,7 @@
 #include "cli/source/until_stopped.h"
 #include "cli/stream/stream_file.h"
 #include "cli/video/video_modules.h"
+#include "encoder/segment/pass_settings.h"
 
 namespace fbs::cli {
 namespace {
@@ -184,11 +185,13 @@ Result<void> check_files(const EncodeArguments& a) {
 }
 
 /// Pictures come and go all the time. That the system takes their memory back each time costs 1 to 3 % of the
-/// time; kept, there are 3 MB more.
-void keep_freed_memory() {
+/// time; kept, there are 3 MB more. No more heaps than threads that work at once: each open scene has threads
+/// of its own, whose heaps would hold as much again.
+void keep_freed_memory([[maybe_unused]] int threads) {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // NOLINT(concurrency-mt-unsafe): ahead of all other threads
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // NOLINT(concurrency-mt-unsafe)
+  mallopt(M_ARENA_MAX, threads);        // NOLINT(concurrency-mt-unsafe)
 #endif
 }
 
@@ -236,7 +239,7 @@ Result<Outcome> encode(const EncodeArguments& arguments, const StopSignal& stop)
 
 FBS_MODULE_EXPORT void fbs_run_encode(const fbs::cli::EncodeArguments& arguments,
                                       fbs::Result<fbs::cli::Outcome>& result) {
-  fbs::cli::keep_freed_memory();
+  fbs::cli::keep_freed_memory(fbs::thread_count(arguments.settings));
   result =
       fbs::cli::until_stopped(arguments.quiet, fbs::cli::kFinishingStream, "nothing written",
                               [&](const fbs::StopSignal& stop) { return fbs::cli::encode(arguments, stop); });

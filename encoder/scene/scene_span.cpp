@@ -49,22 +49,26 @@ Result<bool> SceneSpan::return_to(const Picture& picture, const StreamPosition& 
 
 Result<SceneSpan::Member*> SceneSpan::leave(std::uint64_t picture) {
   if (present_ == nullptr) return nullptr;
-  if (!present_->scene->can_go_on() || ended_ == picture) {
-    if (auto finished = finish(*present_); !finished) return fail(finished.error());
+  Member* const left = std::exchange(present_, nullptr);
+  if (!left->scene->can_go_on() || ended_ == picture) {
+    if (auto finished = finish(*left); !finished) return fail(finished.error());
     return nullptr;
   }
   if (open_.size() == kKeptScenes) {
     if (auto finished = finish(*open_.front()); !finished) return fail(finished.error());
     open_.pop_front();
   }
-  open_.push_back(present_);
-  if (auto left = present_->scene->leave(); !left) return fail(left.error());
-  return present_;
+  open_.push_back(left);
+  if (auto done = left->scene->leave(); !done) return fail(done.error());
+  return left;
 }
 
 Result<void> SceneSpan::finish(Member& member) {
+  if (auto finished = member.scene->finish(); !finished) return finished;
   member.finished = true;
-  return member.scene->finish();
+  member.packets.feed(member.scene->take());
+  if (&member != present_) member.scene.reset();  // its patterns take much memory
+  return {};
 }
 
 Result<void> SceneSpan::close() {
@@ -94,7 +98,7 @@ bool SceneSpan::returns(const Member* member) const {
 
 bool SceneSpan::read_next(Member& member) {
   if (member.next) return true;
-  member.packets.feed(member.scene->take());
+  if (!member.finished) member.packets.feed(member.scene->take());
   const auto read = member.packets.next();
   if (!read || read->status != ReadStatus::kPacket) return false;
   member.next.emplace(read->packet.type,
@@ -130,7 +134,6 @@ std::vector<std::uint8_t> SceneSpan::take() {
     const bool last = visits_.size() == 1;
     while (read_next(member) && (last || begin_of(*member.next) < visits_[1].begin)) write_next(out);
     if (last || (!member.next && !member.finished)) break;
-    if (member.finished && !returns(&member)) member.scene.reset();
     visits_.pop_front();
   }
   return out;

@@ -43,7 +43,7 @@ class SceneSpan {
 
  private:
   struct Member {
-    std::unique_ptr<SceneEncoder> scene;  ///< null once all is written
+    std::unique_ptr<SceneEncoder> scene;  ///< null once it has finished, and another is shown
     std::uint64_t begin;                  ///< picture of the stream
     bool finished = false;
     PacketReader packets{};              ///< that it has coded
@@ -61,7 +61,7 @@ class SceneSpan {
   /// Leaves the present scene before this picture.
   /// @return it if it may return, or null
   [[nodiscard]] Result<Member*> leave(std::uint64_t picture);
-  static Result<void> finish(Member& member);
+  Result<void> finish(Member& member);
   /// Ends all open scenes.
   Result<void> close();
   /// Whether a scene returns behind the first of the visits, or may do so.
