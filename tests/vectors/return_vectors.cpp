@@ -28,10 +28,10 @@ std::uint64_t shown(std::vector<Piece> pieces, std::size_t count) {
 }
 
 std::uint32_t last_check(const std::vector<Piece>& pieces) {
-  const Bytes stream = joined(pieces);
+  Bytes stream;
+  PacketWriter writer;
   std::uint32_t check = 0;
-  for (std::size_t left = crc_of(pieces.back().payload.size()).bits() / 8; left > 0; --left)
-    check = check << 8 | stream[stream.size() - left];
+  for (const Piece& p : pieces) check = writer.write(stream, p.type, p.payload);
   return check;
 }
 
