@@ -14,7 +14,9 @@
 
 namespace fbs {
 
-inline constexpr int kFormatVersion = 9;
+inline constexpr int kFormatVersion = 9;  ///< the newest
+/// As the newest, but no scene is kept. Written wherever that is so: decoders of that version can read it.
+inline constexpr int kVersionWithoutReturns = 8;
 inline constexpr int kMaxGroupPictures = 256;  ///< pictures in one motion packet
 /// Probability that a group is not key, 1/65536. It is fixed, since a key group resets all contexts.
 inline constexpr std::uint32_t kNotKey = 15 << 12;

@@ -110,7 +110,8 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   std::vector<std::uint8_t> payload;
   ByteWriter writer(payload);
-  writer.varint(kFormatVersion);
+  const bool keeps = setup.keeps != SceneKeeping::kNone;
+  writer.varint(keeps ? kFormatVersion : kVersionWithoutReturns);
   writer.u8(kGenericHeadId);
   writer.varint(setup.before.pictures);
   writer.varint(setup.before.time);
@@ -123,7 +124,6 @@ Result<std::vector<std::uint8_t>> encode_setup(const Setup& setup) {
   for (const std::int32_t* step : in_order(setup.steps)) writer.varint(static_cast<std::uint64_t>(*step));
   writer.varint(setup.parts >> 1);
   for (const YuvColour& c : {setup.mouth.upper, setup.mouth.lower}) write_colour(writer, c);
-  const bool keeps = setup.keeps != SceneKeeping::kNone;
   const bool has_chroma = keeps || setup.chroma_contrast > kContrastOne;
   const bool has_contrast = has_chroma || setup.contrast < kContrastOne;
   if (setup.patterns > 1 || has_contrast) writer.varint(static_cast<std::uint64_t>(setup.patterns));
@@ -138,7 +138,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
 
   // SPEC 4.1: check the version first, since the layout of another version is unknown.
   const std::uint64_t version = reader.varint();
-  if (reader.ok() && version != 0 && version != kFormatVersion) {
+  if (reader.ok() && version != 0 && version != kVersionWithoutReturns && version != kFormatVersion) {
     return fail(ErrorCode::kUnsupported, version > kFormatVersion ? "stream is of a newer format version"
                                                                   : "stream is of an older format version");
   }
@@ -160,7 +160,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (reader.remaining() > 0) setup.patterns = to_int(reader.varint());
   if (reader.remaining() > 0) setup.contrast = kContrastOne - reader.u8();
   if (reader.remaining() > 0) setup.chroma_contrast = kContrastOne + 2 * reader.u8();
-  const std::uint8_t keeps = reader.remaining() > 0 ? reader.u8() : 0;
+  const std::uint8_t keeps = version == kFormatVersion && reader.remaining() > 0 ? reader.u8() : 0;
 
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "setup packet ends early", reader.offset());
   if (reader.malformed() || version == 0) return fail(ErrorCode::kInvalidStream, "setup packet is damaged");

@@ -55,7 +55,7 @@ extern "C" {
 FBS_API const char* fbs_version_string(void);
 /** Version of the running library: major << 16 | minor << 8 | patch. */
 FBS_API uint32_t fbs_version_number(void);
-/** The newest version of the stream format that the library reads; also the one that the encoder writes. */
+/** The newest version of the stream format that the library reads; the encoder writes that or the one before. */
 FBS_API uint32_t fbs_format_version(void);
 
 /* ---- answers ---- */

@@ -9,7 +9,7 @@ from .integers import clamp
 from .limits import (MAX_CHECK, MAX_DURATION, MAX_PATTERNS, MAX_PICTURE_SIZE, MAX_PICTURES_PER_SECOND, MAX_STEP,
                      MAX_STREAM_PICTURES, MAX_STREAM_TIME, MIN_PICTURE_SIZE)
 
-VERSION = 9
+VERSIONS = (8, 9)
 GENERIC_HEAD = 3
 PARTS_AFTER_POSE = 9
 MAX_CONTRAST = 128
@@ -84,7 +84,7 @@ def _read_u8_up_to(reader, high):
 def read_setup(payload):
     reader = ByteReader(payload)
     version = reader.varint()
-    if version != VERSION:
+    if version not in VERSIONS:
         raise invalid("version 0") if version == 0 else unsupported("another version of the format")
     if reader.u8() != GENERIC_HEAD:
         raise unsupported("another generic head")
@@ -100,7 +100,7 @@ def read_setup(payload):
     patterns = 1 if reader.at_end() else _varint_in(reader, 1, MAX_PATTERNS, too_large)
     contrast = _read_u8_up_to(reader, MAX_CONTRAST)
     chroma_contrast = _read_u8_up_to(reader, MAX_CONTRAST)
-    keeps = _read_u8_up_to(reader, KEEP_AND_PRESENT)
+    keeps = KEEP_NONE if version == 8 else _read_u8_up_to(reader, KEEP_AND_PRESENT)
     return Setup(pictures_before, time_before, width, height, frame_rate, pixel_aspect, full_range, matrix, steps,
                  parts, upper_lip, lower_lip, patterns, contrast, chroma_contrast, keeps)
 

@@ -130,7 +130,8 @@ TEST(SetupPayload, ReadsKnownBytesAndNamesWhatIsWrong) {
     return read ? ErrorCode::kInternal : read.error().code;
   };
   EXPECT_EQ(code_with(0, kFormatVersion + 1), ErrorCode::kUnsupported);
-  for (std::uint8_t older = 1; older < kFormatVersion; ++older)
+  EXPECT_EQ(code_with(0, kVersionWithoutReturns), ErrorCode::kInternal);
+  for (std::uint8_t older = 1; older < kVersionWithoutReturns; ++older)
     EXPECT_EQ(code_with(0, older), ErrorCode::kUnsupported);
   EXPECT_EQ(code_with(0, 0), ErrorCode::kInvalidStream);
   EXPECT_EQ(code_with(1, 2), ErrorCode::kUnsupported);
