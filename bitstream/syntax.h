@@ -130,6 +130,9 @@ struct Return {
   std::uint32_t scene = 0;  ///< check of its first pattern packet, 16 or 24 bits
   StreamPosition before;    ///< where in the stream it goes on; can_last() is true
   bool aside = false;       ///< the present scene is set aside; otherwise it is discarded
+  /// Pictures of the scene that were to be shown before: those of them that wait, since something is lost,
+  /// are not shown any more. At most kMaxPictureNumber.
+  std::uint32_t passed = 0;
   friend bool operator==(const Return&, const Return&) = default;
 };
 

@@ -13,7 +13,8 @@ namespace fbs {
 [[nodiscard]] std::vector<std::uint8_t> encode_return(const Return& to);
 
 /// Bytes after the known fields are ignored.
-/// @return kTruncated, kInvalidStream, or kTooLarge beyond kMaxStreamPictures or kMaxStreamTime
+/// @return kTruncated, kInvalidStream, or kTooLarge beyond kMaxStreamPictures, kMaxStreamTime or
+///         kMaxPictureNumber
 [[nodiscard]] Result<Return> decode_return(std::span<const std::uint8_t> payload);
 
 }  // namespace fbs

@@ -142,6 +142,7 @@ Result<SceneSyntax> SceneReader::read_return(const Packet& packet) {
     enter(*next);
   }
   has_losses_ = has_losses_ || earlier_losses_;  // its return may have been lost
+  pictures_.skip_displayed(static_cast<std::int32_t>(to->passed));
   pictures_.go_on(to->before);
   return SceneSyntax(*to);
 }

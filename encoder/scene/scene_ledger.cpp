@@ -44,7 +44,7 @@ Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit&
   auto next = returns_.begin();
   for (const auto& [type, payload] : *packets) {
     if (next != returns_.end() && next->first == group) {
-      packets_.add(PacketType::kReturn, encode_return({0, next->second, false}));
+      packets_.add(PacketType::kReturn, encode_return(next->second));
       ++next;
     }
     packets_.add(type, payload);
@@ -58,7 +58,8 @@ Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit&
 
 void SceneLedger::go_on(const StreamPosition& at) {
   position_ = at;
-  if (!ended_) returns_.emplace_back(patterns_->groups(), at);
+  if (!ended_)
+    returns_.emplace_back(patterns_->groups(), Return{0, at, false, static_cast<std::uint32_t>(pictures_)});
 }
 
 bool SceneLedger::scene_ends() const {

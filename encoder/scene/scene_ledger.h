@@ -94,8 +94,8 @@ class SceneLedger {
   bool requested_ = false;                ///< the scene ends with its present group
   bool ended_ = false;
   StreamPosition position_;  ///< of the next picture
-  /// Where the segment goes on behind another scene: number of a group, and its position.
-  std::vector<std::pair<std::size_t, StreamPosition>> returns_;
+  /// Where the segment goes on behind another scene, by the number of a group.
+  std::vector<std::pair<std::size_t, Return>> returns_;
   ScenePackets packets_;
 };
 

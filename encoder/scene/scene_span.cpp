@@ -120,7 +120,10 @@ void SceneSpan::write_next(std::vector<std::uint8_t>& out) {
     payload = *encode_setup(setup);
     member.in_head = true;
   } else if (type == PacketType::kReturn) {
-    payload = encode_return({member.check, decode_return(payload)->before, aside});
+    Return to = *decode_return(payload);
+    to.scene = member.check;
+    to.aside = aside;
+    payload = encode_return(to);
   }
   const std::uint32_t check = writer_.write(out, type, payload);
   if (type == PacketType::kPattern && std::exchange(member.in_head, false)) member.check = check;

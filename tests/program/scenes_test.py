@@ -1,8 +1,8 @@
-"""A stream of two scenes: joined in the middle, begun at a time, damaged in the first scene."""
+"""Streams of several scenes: joined in the middle, begun at a time, damaged in one."""
 import json
 
-from harness import (GREY_FIRST, LITTLE_LOST, MOTION, MUCH_LOST, SETUP, TALK_FBS, TWO_SCENES_FBS, ProgramTest, Y4m, ffmpeg,
-                     ffprobe, packets)
+from harness import (GREY_FIRST, LITTLE_LOST, MOTION, MUCH_LOST, RETURN, SETUP, TALK_FBS, TALK_Y4M, TWO_SCENES_FBS,
+                     ProgramTest, Y4m, ffmpeg, ffprobe, packets, read_y4m, talker)
 
 FIRST, ALL = GREY_FIRST, 187  # pictures: the encoder finds the cut
 
@@ -100,3 +100,49 @@ class Scenes(ProgramTest):
         self.assertIn(f"pictures lost: {FIRST} of {ALL}, held: 0".encode(), done.stderr)
         times = [float(packet["pts_time"]) for packet in ffprobe(self.folder / "out.mkv", "packet=pts_time")["packets"]]
         self.assertAlmostEqual(min(times), FIRST / 30, delta=0.002)
+
+
+class Conversation(ProgramTest):
+    """Two talkers who take turns of 40 pictures, as in an interview that is cut from one to the other."""
+    TURN, TURNS = 40, 5
+
+    def setUp(self):
+        super().setUp()
+        talker(self.folder / "other.y4m", "--size", "176x144", "--frames", "80", "--eye-distance", "0.25", "--seed", "6")
+        people = [read_y4m(path) for path in (TALK_Y4M, self.folder / "other.y4m")]
+        frames = [people[turn % 2].pictures[turn // 2 * self.TURN + k] for turn in range(self.TURNS) for k in range(self.TURN)]
+        header = TALK_Y4M.read_bytes().partition(b"\n")[0]
+        self.write("talk.y4m", header + b"\n" + b"".join(b"FRAME\n" + frame for frame in frames))
+        self.succeed("encode", "talk.y4m", "talk.fbs", "--quiet", "--effort", "1")
+        self.stream = (self.folder / "talk.fbs").read_bytes()
+        self.whole = self.decoded("talk.fbs").pictures
+        self.assertEqual(len(self.whole), self.TURN * self.TURNS)
+
+    def test_returns_instead_of_beginning_anew(self):
+        kinds = [kind for kind, _, _ in packets(self.stream)]
+        self.assertEqual((kinds.count(SETUP), kinds.count(RETURN)), (2, self.TURNS - 2))
+        scenes = json.loads(self.succeed("inspect", "talk.fbs", "--json"))["scenes"]
+        self.assertEqual([s["picture"] for s in scenes], list(range(0, self.TURN * self.TURNS, self.TURN)))
+        self.succeed("encode", "talk.y4m", "anew.fbs", "--quiet", "--effort", "1", "--key-interval", "60")
+        anew = (self.folder / "anew.fbs").read_bytes()
+        self.assertNotIn(RETURN, [kind for kind, _, _ in packets(anew)], "whoever joins knows no scene before")
+        self.assertLess(len(self.stream), 0.8 * len(anew))
+
+    def test_conversation_begins_at_any_time(self):
+        for first in (10, 55, 100, 190):
+            out = self.succeed("decode", "talk.fbs", "-", "--from", first / 30)
+            self.assertEqual(Y4m(out).pictures, self.whole[first:], first)
+
+    def test_conversation_goes_through_matroska(self):
+        self.succeed("remux", "talk.fbs", "talk.mkv")
+        self.succeed("remux", "talk.mkv", "back.fbs")
+        self.assertEqual((self.folder / "back.fbs").read_bytes(), self.stream)
+        self.assertEqual(self.decoded("talk.mkv").pictures, self.whole)
+
+    def test_lost_return_costs_its_turn(self):
+        _, begin, end = [packet for packet in packets(self.stream) if packet[0] == RETURN][1]
+        self.write("bad.fbs", self.stream[:begin] + self.stream[end:])
+        done = self.fbs("decode", "bad.fbs", "-", "--keep-going")
+        self.assertEqual(done.returncode, MUCH_LOST)
+        shown, first = Y4m(done.stdout).pictures, 3 * self.TURN
+        self.assertEqual(shown, self.whole[:first] + [self.whole[first - 1]] * self.TURN + self.whole[first + self.TURN:])

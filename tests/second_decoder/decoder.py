@@ -124,7 +124,7 @@ class Decoder:
         self._scene = Scene(setup, passed)
 
     def _take_return(self, payload):
-        check, (position, time), aside = read_return(payload)
+        check, (position, time), passed, aside = read_return(payload)
         present = self._present()
         scene = next((s for s in [present, *reversed(self._aside)] if s and s.check == check), None)
         knows = self._earlier_losses or self._has_losses()
@@ -141,6 +141,7 @@ class Decoder:
         if scene is not present:
             self._earlier_losses = knows
             scene.has_losses |= knows
+        scene.first_shown = max(scene.first_shown, passed)
         self._scene, self._is_lost = scene, False
 
     def _take_end(self, payload):

@@ -43,6 +43,7 @@ class Scene:
     def __init__(self, setup, passed=(0, 0)):
         self.setup = setup
         self.check = None  # of the first pattern packet
+        self.first_shown = 0  # pictures before are passed
         self._begin, self._passed_time = passed
         self.has_losses = self._begin > 0  # an error has told of something that is missing
         self._layout = Layout(setup)
@@ -252,6 +253,9 @@ class Scene:
         """Yields the pictures that have a state and modes, and have not been shown."""
         while self._released < min(len(self._states), len(self._modes)):
             values, duration = self._states[self._released]
+            if self._released < self.first_shown:
+                self._released += 1
+                continue
             picture = self._draw(State(values), self._released, self._modes[self._released])
             self._released += 1
             yield picture, duration

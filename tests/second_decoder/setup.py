@@ -6,8 +6,8 @@ from fractions import Fraction
 from .byte_reader import ByteReader
 from .errors import invalid, too_large, unsupported
 from .integers import clamp
-from .limits import (MAX_CHECK, MAX_DURATION, MAX_PATTERNS, MAX_PICTURE_SIZE, MAX_PICTURES_PER_SECOND, MAX_STEP,
-                     MAX_STREAM_PICTURES, MAX_STREAM_TIME, MIN_PICTURE_SIZE)
+from .limits import (MAX_CHECK, MAX_DURATION, MAX_PATTERNS, MAX_PICTURE_NUMBER, MAX_PICTURE_SIZE,
+                     MAX_PICTURES_PER_SECOND, MAX_STEP, MAX_STREAM_PICTURES, MAX_STREAM_TIME, MIN_PICTURE_SIZE)
 
 VERSIONS = (8, 9)
 GENERIC_HEAD = 3
@@ -106,11 +106,13 @@ def read_setup(payload):
 
 
 def read_return(payload):
-    """The check of the scene to return to, pictures and time before, and whether the present scene is set aside."""
+    """The check of the scene to return to, pictures and time before, pictures of the scene before, and whether the
+    present scene is set aside."""
     reader = ByteReader(payload)
     scene = _varint_in(reader, 0, MAX_CHECK)
     position = _read_position(reader)
+    passed = _varint_in(reader, 0, MAX_PICTURE_NUMBER, too_large)
     aside = reader.u8()
     if aside > 1:
         raise invalid("a field is too large")
-    return scene, position, aside == 1
+    return scene, position, passed, aside == 1

@@ -49,7 +49,9 @@ class Cutter {
   /// @param before  the position; null: the right one
   void go_on(Shot& shot, std::size_t packets, bool aside, const StreamPosition* before = nullptr) {
     const StreamPosition at = before == nullptr ? position() : *before;
-    pieces_.push_back({PacketType::kReturn, encode_return({shot.check, at, aside})});
+    pieces_.push_back(
+        {PacketType::kReturn,
+         encode_return({shot.check, at, aside, static_cast<std::uint32_t>(shown(shot.pieces, shot.sent))})});
     send(shot, packets);
   }
 

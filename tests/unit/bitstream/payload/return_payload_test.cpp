@@ -7,8 +7,8 @@ namespace {
 
 TEST(ReturnPayload, RoundTrips) {
   for (const Return& to :
-       {Return{}, Return{0x1234, {7, 21000}, true}, Return{0xFFFFFF, {1, kMaxDuration}, false},
-        Return{9, {kMaxStreamPictures, kMaxStreamTime}, true}}) {
+       {Return{}, Return{0x1234, {7, 21000}, true, 300}, Return{0xFFFFFF, {1, kMaxDuration}, false},
+        Return{9, {kMaxStreamPictures, kMaxStreamTime}, true, kMaxPictureNumber}}) {
     const auto read = decode_return(encode_return(to));
     ASSERT_TRUE(read);
     EXPECT_EQ(*read, to);
@@ -21,6 +21,7 @@ TEST(ReturnPayload, EachBoundIsChecked) {
   EXPECT_EQ(code({1, {3, 2}, false}), ErrorCode::kInvalidStream) << "pictures need time";
   EXPECT_EQ(code({1, {kMaxStreamPictures + 1, kMaxStreamTime}, false}), ErrorCode::kTooLarge);
   EXPECT_EQ(code({1, {kMaxStreamPictures, kMaxStreamTime + 1}, false}), ErrorCode::kTooLarge);
+  EXPECT_EQ(code({1, {}, false, kMaxPictureNumber + 1}), ErrorCode::kTooLarge);
   auto payload = encode_return({1, {2, 6000}, false});
   payload.back() = 2;
   EXPECT_EQ(decode_return(payload).error().code, ErrorCode::kInvalidStream);

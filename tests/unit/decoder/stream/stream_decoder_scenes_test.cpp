@@ -215,11 +215,11 @@ Writer turns_of(const std::vector<std::size_t>& turns) {
           .surround()
           .pattern(face_picture(static_cast<int>(scene)));
     else
-      w.go_back(scene, after(5 * k));
+      w.go_back(scene, after(5 * k), true, static_cast<std::uint32_t>(shown[scene]));
     if (begins) w.motion(0, 5, true);
     w.motion(shown[scene] + 5, shown[scene] + 10);
     if (!begins) w.pattern(face_picture(static_cast<int>(scene) + 2), 1, shown[scene] + 2);
-    w.blend(5);
+    w.blend(5, {}, true);
     shown[scene] += 5;
   }
   w.end(5 * turns.size());
@@ -235,7 +235,7 @@ std::vector<Picture> pictures_of(const std::vector<std::size_t>& turns) {
     for (int shown = 0, k = 0; k < std::count(turns.begin(), turns.end(), scene); ++k, shown += 5) {
       w.motion(shown + 5, shown + 10);
       if (k > 0) w.pattern(face_picture(static_cast<int>(scene) + 2), 1, shown + 2);
-      w.blend(5);
+      w.blend(5, {}, true);
     }
     return played(w.bytes).pictures;
   };
@@ -288,6 +288,11 @@ TEST(StreamDecoderScenes, WithoutItsReturnASceneIsDamagedUpToTheNext) {
 TEST(StreamDecoderScenes, WhatBelongsToALostTurnIsHeldBeforeTheNext) {
   const Writer w = turns_of(kTurns);
   expect_held(without(w, 18, 22), 1, {3});
+}
+
+TEST(StreamDecoderScenes, PicturesThatWereHeldAreNotShownAfterAReturn) {
+  const Writer w = turns_of(kTurns);
+  expect_held(without(w, 17, 18), 2, {2});
 }
 
 TEST(StreamDecoderScenes, ReturnToASceneThatIsLostIsOneErrorWithIt) {

@@ -83,9 +83,11 @@ class Writer {
     return packet(PacketType::kSetup, encode_setup(s));
   }
   /// @param scene  by the setups so far, from 0
-  Writer& go_back(std::size_t scene, const StreamPosition& before, bool aside = true) {
+  /// @param passed  pictures of it before
+  Writer& go_back(std::size_t scene, const StreamPosition& before, bool aside = true,
+                  std::uint32_t passed = 0) {
     present_ = scene;
-    return packet(PacketType::kReturn, encode_return({now().check, before, aside}));
+    return packet(PacketType::kReturn, encode_return({now().check, before, aside, passed}));
   }
   Writer& geometry() { return packet(PacketType::kGeometry, encode_geometry(toy_geometry())->payload); }
   Writer& surround(int follow = 2) {
