@@ -27,6 +27,11 @@ void write_signature(std::vector<std::uint8_t>& stream);
 /// Whether a packet counts for the pictures of a scene.
 [[nodiscard]] bool is_of_scene(PacketType type);
 
+/// Whether a packet begins a scene or goes on with one.
+[[nodiscard]] constexpr bool enters_scene(PacketType type) {
+  return type == PacketType::kSetup || type == PacketType::kReturn;
+}
+
 /// With what the check of a packet begins. Through the head of a scene, up to its first pattern, checks run
 /// on from packet to packet; every later packet of the scene begins with the check of that pattern packet. So
 /// one that is lost does no harm to others, and none passes for a packet of another scene. A return packet

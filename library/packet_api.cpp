@@ -81,9 +81,7 @@ fbs_status fbs_packet_reader_next(fbs_packet_reader* reader, fbs_packet_info* in
     StreamPosition from = times.released();
     const auto timed = times.take(packet);
     const StreamPosition& until = times.released();
-    if (packet.type == PacketType::kSetup || packet.type == PacketType::kReturn ||
-        packet.type == PacketType::kEnd)
-      from = until;
+    if (enters_scene(packet.type) || packet.type == PacketType::kEnd) from = until;
     *info = {static_cast<int>(packet.type),
              packet.offset,
              packet.size,

@@ -44,8 +44,7 @@ std::int32_t guesses_of(const MotionGroup& group) {
 Result<SceneSyntax> SceneReader::read(const Packet& packet) {
   auto syntax = read_payload(packet);
   if (syntax) return syntax;
-  if (is_of_scene(packet.type) || packet.type == PacketType::kSetup || packet.type == PacketType::kReturn)
-    lose();
+  if (is_of_scene(packet.type) || enters_scene(packet.type)) lose();
   Error error = std::move(syntax.error());
   error.byte_offset = packet.offset;
   return fail(std::move(error));

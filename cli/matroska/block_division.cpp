@@ -15,7 +15,7 @@ class BlockDivision {
   explicit BlockDivision(std::span<const std::uint8_t> stream) : stream_(stream) {}
 
   Result<void> take(const Packet& packet) {
-    const bool enters = packet.type == PacketType::kSetup || packet.type == PacketType::kReturn;
+    const bool enters = enters_scene(packet.type);
     if (enters) append(packet.offset);
     if (packet.type == PacketType::kSetup)
       if (auto begun = begin_scene(packet); !begun) return begun;

@@ -18,8 +18,7 @@ Result<TimedPacket> PacketTimes::take(const Packet& packet) {
   const auto placed = syntax ? std::visit([&](const auto& s) { return place(s, out); }, out.syntax)
                              : Result<void>(fail(syntax.error()));
   if (!placed) {
-    const bool enters = packet.type == PacketType::kSetup || packet.type == PacketType::kReturn;
-    if (is_of_scene(packet.type) || (enters && reader_.lost())) clock_.lose();
+    if (is_of_scene(packet.type) || (enters_scene(packet.type) && reader_.lost())) clock_.lose();
     return fail(placed.error().code, placed.error().text, packet.offset);
   }
   for (Timeline& pictures = reader_.pictures(); pictures.has_next();) clock_.show(pictures.next().duration);

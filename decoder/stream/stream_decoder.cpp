@@ -121,14 +121,13 @@ Result<void> StreamDecoder::render_state(const State& state, const PictureView& 
 
 Result<void> StreamDecoder::take(const Packet& packet) {
   const Arrived arrived{packet, reader_.has_losses()};
-  const bool enters = packet.type == PacketType::kSetup || packet.type == PacketType::kReturn;
-  if (enters) late_.begin_scene();
+  if (enters_scene(packet.type)) late_.begin_scene();
   auto syntax = reader_.read(packet);
   auto taken = syntax ? std::visit([&](auto& s) { return take(s, arrived); }, *syntax)
                       : Result<void>(fail(syntax.error()));
   if (taken) return taken;
   if (is_of_scene(packet.type)) reader_.lose();
-  if (is_of_scene(packet.type) || (enters && reader_.lost())) clock_.lose();
+  if (is_of_scene(packet.type) || (enters_scene(packet.type) && reader_.lost())) clock_.lose();
   return fail(taken.error().code, taken.error().text, packet.offset);
 }
 
