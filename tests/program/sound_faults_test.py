@@ -41,7 +41,7 @@ def joined(parts):
     for kind, payload in parts:
         packet, crc = bytes([kind]) + varint(len(payload)) + payload, crc_of(len(payload))
         check = checks.of(packet, crc)
-        checks.add(kind, check)
+        checks.add(kind, payload, check)
         out += packet + check.to_bytes(crc.bits // 8, "big")
     return out
 

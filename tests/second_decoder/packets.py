@@ -89,11 +89,10 @@ class Checks:
         before = self._check if data[0] in SCENE_PACKETS else 0xFFFF
         return crc.of(data, before if crc.bits == 16 else before << 8 | 0xFF)
 
-    def add(self, packet):
+    def add(self, kind, payload, check):
         """Goes on behind a packet."""
-        kind, check = packet.type, packet.check
         if kind == RETURN:
-            self._check = _scene_of_return(packet.payload) & 0xFFFF
+            self._check = _scene_of_return(payload) & 0xFFFF
             self._in_head = False
         elif kind == SETUP or self._in_head and kind in SCENE_PACKETS:
             self._check = check & 0xFFFF
@@ -162,7 +161,7 @@ def packets(data, checks=None):
                 data = repaired
                 continue
             position = end
-            checks.add(packet)
+            checks.add(packet.type, packet.payload, packet.check)
             head = yield packet
             if head:
                 yield  # what send() returns
