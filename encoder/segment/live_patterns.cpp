@@ -27,6 +27,10 @@ constexpr int kKeyBoost = 12, kWindowKeyBoost = 9;
 /// no better (four clips at 5 kbit/s).
 constexpr double kFiner = 2;
 
+/// A pattern is to take at most this share of the room: as it is sent it may be larger than tried or
+/// expected.
+constexpr double kRoomShare = 0.9;
+
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
 constexpr double kWindowDelay = 0.7;
 /// SolverSettings::pull: stronger than for files, since later windows are drawn from the patterns, too.
@@ -112,7 +116,7 @@ double LivePatterns::Size::at(int other_quantiser) const {
 
 std::optional<int> LivePatterns::affordable(const Size& size, int from, double room) {
   for (int q = from; q <= kMaxQuantiser; ++q)
-    if (size.at(q) <= 8 * room) return q;
+    if (size.at(q) <= 8 * kRoomShare * room) return q;
   return std::nullopt;
 }
 
@@ -142,7 +146,7 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   store_.reduce_contrast(scene, time, picture);
   const Picture coded = sequence_.to_coded_size(std::move(picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
-  auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, room)), wanted_);
+  auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, kRoomShare * room)), wanted_);
   if (!quantiser) return quantiser;
   const auto bytes = trial.bytes(*quantiser);
   if (!bytes) return fail(bytes.error());

@@ -24,7 +24,7 @@ constexpr double kWindowSteps = 12;
 /// EncoderSettings::start, s; 0: none.
 double start_of(const EncoderSettings& settings) {
   const bool by_default = settings.bitrate > 0 && settings.live && !settings.live->relies_on_first();
-  return settings.start.value_or(by_default ? kLiveStart : 0);
+  return settings.start.value_or(by_default ? std::min(kLiveStart, settings.live->buffer) : 0);
 }
 
 LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
