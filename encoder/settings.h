@@ -50,7 +50,7 @@ struct EncoderSettings {
   double seconds = 0;  ///< length of the video, for bitrate; 0: unknown, ten are assumed
   /// With a bitrate, s of it: the first picture is there after so long, coarse if need be, and a finer
   /// pattern follows. As coarse as can be it may still take longer. 0: as fine as the rate as a whole allows.
-  /// Empty: 1 live, unless LiveSettings::relies_on_first(), otherwise 0.
+  /// Empty: 1 live, or the buffer if that is less, unless LiveSettings::relies_on_first(), otherwise 0.
   std::optional<double> start;
   double motion_bitrate = 0;             ///< kbit/s of the motion alone; 0: quality decides
   Tune tune = Tune::kEye;                ///< of files: live patterns are all of one contrast

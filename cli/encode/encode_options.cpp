@@ -29,7 +29,8 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
   verb.add_option(
           "--start", a.settings.start,
           "With --bitrate: the first picture is there after so many seconds of that rate, coarse if need "
-          "be, and finer ones follow; 0: as fine as the rate as a whole allows (default: 0; with --live 1)")
+          "be, and finer ones follow; 0: as fine as the rate as a whole allows (default: 0; with "
+          "--live 1, or --buffer if that is less)")
       ->check(number_within(0, 60));
   verb.add_option("--patterns", a.settings.patterns,
                   "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
