@@ -27,9 +27,9 @@ constexpr int kKeyBoost = 12, kWindowKeyBoost = 9;
 /// no better (four clips at 5 kbit/s).
 constexpr double kFiner = 2;
 
-/// A pattern is to take at most this share of the room: as it is sent it may be larger than tried or
-/// expected.
-constexpr double kRoomShare = 0.9;
+/// Patterns are to take at most these shares of the room, since they may be larger as they are sent: one that
+/// is coded on trial, and one of which only the last ones tell.
+constexpr double kTriedShare = 0.9, kExpectedShare = 0.75;
 
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
 constexpr double kWindowDelay = 0.7;
@@ -116,7 +116,7 @@ double LivePatterns::Size::at(int other_quantiser) const {
 
 std::optional<int> LivePatterns::affordable(const Size& size, int from, double room) {
   for (int q = from; q <= kMaxQuantiser; ++q)
-    if (size.at(q) <= 8 * kRoomShare * room) return q;
+    if (size.at(q) <= 8 * kExpectedShare * room) return q;
   return std::nullopt;
 }
 
@@ -146,7 +146,7 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   store_.reduce_contrast(scene, time, picture);
   const Picture coded = sequence_.to_coded_size(std::move(picture));
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
-  auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, kRoomShare * room)), wanted_);
+  auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, kTriedShare * room)), wanted_);
   if (!quantiser) return quantiser;
   const auto bytes = trial.bytes(*quantiser);
   if (!bytes) return fail(bytes.error());
@@ -212,7 +212,7 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   std::ptrdiff_t last = -since_pattern_;  // pattern, or cut
   bool cut = false;
   const auto is_bought = [&]() {
-    const Size& size = cut || plan.key ? key_ : later_;
+    const Size size = cut || plan.key ? key_ : later();
     const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price), room);
     if (!quantiser || !pays(size.at(*quantiser), price)) return false;
     plan.others = *quantiser;
@@ -238,21 +238,27 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
       static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(t) - last));
   const std::size_t from = last < 0 ? 0 : static_cast<std::size_t>(last);
   const std::size_t end = least.size(), middle = interval < end ? from + interval / 2 : end - 1;
-  double spent = (cut ? key_ : later_).at(plan.others) / 8;
+  double spent = (cut ? key_ : later()).at(plan.others) / 8;
   for (std::size_t p = std::clamp(middle, begin, end - 1); p < end && spent <= room; p += interval) {
     plan.times.push_back(p);
-    spent += later_.at(plan.others) / 8;
+    spent += later().at(plan.others) / 8;
   }
+}
+
+LivePatterns::Size LivePatterns::later() const {
+  if (later_) return *later_;
+  // A finer one than the key pattern adds what that lacks.
+  const double whole = key_.at(settings_.quantiser);
+  return {whole - (1 - kLaterShare) * std::min(whole, key_.bits), settings_.quantiser};
 }
 
 void LivePatterns::learn(std::size_t bytes, int quantiser, bool key) {
   const double bits = 8.0 * static_cast<double>(bytes);
-  if (key) {
+  const double expected = later().at(quantiser);
+  if (key)
     key_ = {bits, quantiser};
-    if (later_.bits == 0) later_ = {kLaterShare * key_.at(settings_.quantiser), settings_.quantiser};
-  } else {
-    later_ = {later_.at(quantiser) + kLearn * (bits - later_.at(quantiser)), quantiser};
-  }
+  else
+    later_ = {expected + kLearn * (bits - expected), quantiser};
 }
 
 Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDraft& draft) {

@@ -85,6 +85,8 @@ class LivePatterns : public PatternPolicy {
   /// Whether a pattern of these bits pays.
   /// @param price  LiveRate::price()
   [[nodiscard]] bool pays(double bits, double price) const;
+  /// The size to expect of a pattern that others predict.
+  [[nodiscard]] Size later() const;
   /// Records the bytes of a pattern.
   /// @param key  most of it could not be predicted
   void learn(std::size_t bytes, int quantiser, bool key);
@@ -98,7 +100,8 @@ class LivePatterns : public PatternPolicy {
   std::optional<LiveRate> rate_;
   bool over_ = false;  ///< the rate has no room
   int wanted_ = 0;     ///< quantiser of the last pattern that nothing predicted, if there had been room
-  Size key_, later_;   ///< of a whole picture, and of one that others predict
+  Size key_;           ///< of a whole picture
+  std::optional<Size> later_;  ///< of one that others predict, once one has been coded
   // The scene's:
   PatternRegret regret_;
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
