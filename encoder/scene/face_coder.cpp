@@ -56,9 +56,7 @@ Result<void> FaceCoder::add(const SharedPicture& picture, FaceAnalysis::Observat
     if (auto ended = end_group(); !ended) return ended;
   if (!surround_.has_ended() && ledger_.pictures() >= ledger_.timing().lookahead)
     if (auto done = end_lookahead(); !done) return done;
-  if (second_pass_ || !ledger_.scene_ends()) return {};
-  ledger_.end_scene();
-  return finish();
+  return second_pass_ || !ledger_.scene_ends() ? Result<void>{} : finish();
 }
 
 Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::Observation& seen) {
@@ -81,16 +79,6 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
   }
   surround_.begin_again(picture, rest_);
   fixed_ = false;
-  return {};
-}
-
-Result<void> FaceCoder::request_scene() {
-  if (ledger_.live()) {
-    ledger_.request_scene();
-    return {};
-  }
-  if (auto ended = finish(); !ended) return ended;
-  ledger_.end_scene();
   return {};
 }
 
@@ -130,10 +118,7 @@ Result<void> FaceCoder::plan_group() {
 Result<void> FaceCoder::end_group() {
   if (auto planned = plan_group(); !planned) return planned;
   if (!ledger_.segment_ends()) return {};
-  const bool last = ledger_.scene_ends();
-  if (auto ended = end_segment(last); !ended) return ended;
-  if (last) ledger_.end_scene();
-  return {};
+  return end_segment(ledger_.scene_ends());
 }
 
 void FaceCoder::fit_map() {
@@ -200,6 +185,7 @@ Result<void> FaceCoder::end_segment(bool last) {
 Result<void> FaceCoder::finish() {
   if (auto planned = plan_group(); !planned) return planned;
   if (second_pass_) return end_segment(true);
+  ledger_.end_scene();
   if (!fixed_) fix_head();
   return ledger_.packets().started() ? Result<void>{} : write_head();
 }

@@ -36,7 +36,7 @@ class FaceCoder {
   void cut();
   Result<void> finish();
 
-  Result<void> request_scene();
+  void request_scene() { ledger_.request_scene(); }
   /// Another scene is shown next.
   Result<void> leave() { return end_group(); }
   /// SceneEncoder::go_on().

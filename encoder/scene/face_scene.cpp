@@ -116,7 +116,10 @@ Result<void> FaceScene::code_later(std::function<Result<void>()> task) {
 }
 
 Result<void> FaceScene::request_scene() {
-  return code_later([this] { return coder_.request_scene(); });
+  return code_later([this]() -> Result<void> {
+    coder_.request_scene();
+    return {};
+  });
 }
 
 Result<void> FaceScene::leave() {

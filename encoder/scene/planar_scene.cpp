@@ -70,16 +70,6 @@ void PlanarScene::cut() {
   ledger_.patterns()->cut();
 }
 
-Result<void> PlanarScene::request_scene() {
-  if (ledger_.live()) {
-    ledger_.request_scene();
-    return {};
-  }
-  if (auto ended = finish(); !ended) return ended;
-  ledger_.end_scene();
-  return {};
-}
-
 void PlanarScene::begin_again() {
   ledger_.begin_again(scene_.setup);
   global_ = {};
@@ -105,10 +95,7 @@ Result<void> PlanarScene::begin_motion() {
 Result<void> PlanarScene::end_group() {
   if (ledger_.in_group()) groups_.push_back(ledger_.end_group());
   if (!ledger_.segment_ends()) return {};
-  const bool last = ledger_.scene_ends();
-  if (auto ended = end_segment(last); !ended) return ended;
-  if (last) ledger_.end_scene();
-  return {};
+  return end_segment(ledger_.scene_ends());
 }
 
 Result<void> PlanarScene::add_motion() {

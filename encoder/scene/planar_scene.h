@@ -22,7 +22,10 @@ class PlanarScene : public SceneEncoder {
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
-  Result<void> request_scene() override;
+  Result<void> request_scene() override {
+    ledger_.request_scene();
+    return {};
+  }
   Result<void> lose_patterns() override {
     ledger_.lose_patterns();
     return {};

@@ -29,8 +29,8 @@ class SceneEncoder {
   /// The picture pushed next begins another shot, which the scene must carry.
   virtual void cut() = 0;
 
-  /// Ends the scene, if it is live with its present group, so that the next picture begins another. A scene
-  /// that shows one still picture does not end.
+  /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
+  /// one still picture does not end.
   virtual Result<void> request_scene() { return {}; }
 
   /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
@@ -52,7 +52,7 @@ class SceneEncoder {
   /// @param at  its position
   virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
 
-  /// Codes everything still held back.
+  /// Codes everything still held back. A picture that is pushed afterwards begins another scene.
   virtual Result<void> finish() = 0;
 
   /// Whole packets that are ready; the scene forgets them. What they say of other scenes is not set:

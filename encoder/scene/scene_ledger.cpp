@@ -53,6 +53,7 @@ Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit&
   returns_.clear();
   packets_.count_from_here();
   packets_.end_group();
+  if (last) end_scene();
   return {};
 }
 

@@ -82,7 +82,7 @@ Result<void> SceneSpan::end_span(std::uint64_t picture) {
   if (open_.empty() || picture - begin_ < most_) return {};
   if (auto closed = close(); !closed) return closed;
   ended_ = picture;
-  return present_->scene->request_scene();
+  return present_->scene->finish();
 }
 
 Result<void> SceneSpan::finish() {

@@ -28,10 +28,6 @@ class ToyScene : public SceneEncoder {
     return {};
   }
   void cut() override {}
-  Result<void> request_scene() override {
-    ended_ = true;
-    return finish();
-  }
   [[nodiscard]] bool recognises(const Picture& picture) override {
     return picture.y.samples.front() == person_;
   }
@@ -43,6 +39,7 @@ class ToyScene : public SceneEncoder {
     return {};
   }
   Result<void> finish() override {
+    ended_ = true;
     for (const auto& [type, payload] : coded_) writer_.write(ready_, type, payload);
     coded_.clear();
     return {};
