@@ -175,6 +175,17 @@ struct Encoder::Impl {
     return {};
   }
 
+  /// Goes on with an earlier scene, if the picture shows its person.
+  Result<bool> return_to_scene(const Picture& picture) {
+    auto returned = scenes.return_to(picture, position);
+    if (!returned || !*returned) return returned;
+    shots.begin_scene({true, scenes.present()->carries_shots()});
+    shots.recognised();
+    lost = 0;
+    say(LogLevel::kInfo, report.pictures, "an earlier scene goes on");
+    return true;
+  }
+
   /// Ensures, before a picture, that there is a scene for it.
   Result<void> choose_scene(const Picture& picture) {
     const ShotWatch::Step step = shots.next();
@@ -190,17 +201,9 @@ struct Encoder::Impl {
     }
     const auto marks = look_for_face(picture, step.all_sizes);
     if (!marks) return fail(marks.error());
-    if (*marks) {
-      const auto returned = scenes.return_to(picture, position);
-      if (!returned) return fail(returned.error());
-      if (*returned) {
-        shots.begin_scene({true, scenes.present()->carries_shots()});
-        shots.recognised();
-        lost = 0;
-        say(LogLevel::kInfo, report.pictures, "an earlier scene goes on");
-        return {};
-      }
-    }
+    const auto returned = *marks ? return_to_scene(picture) : Result<bool>(false);
+    if (!returned) return fail(returned.error());
+    if (*returned) return {};
     return shots.scene_begins(marks->has_value()) ? begin_scene(picture, *marks) : Result<void>{};
   }
 

@@ -170,7 +170,7 @@ Result<Setup> decode_setup(std::span<const std::uint8_t> payload) {
   if (parts > kAllParts >> 1) return fail(ErrorCode::kInvalidStream, "a part of the state is unknown");
 
   if (keeps > static_cast<std::uint8_t>(SceneKeeping::kAndPresent))
-    return fail(ErrorCode::kInvalidStream, "setup packet is damaged");
+    return fail(ErrorCode::kInvalidStream, "what becomes of earlier scenes is unknown");
 
   setup.keeps = static_cast<SceneKeeping>(keeps);
   setup.format.frame_rate = *frame_rate;

@@ -17,8 +17,8 @@ struct TimedPacket {
   /// Coded without reference to an earlier packet of its type; a setup packet: the stream can be joined
   /// there.
   bool key = false;
-  /// Of the first picture that needs the packet; for an end packet the stream's end. If the stream leaves the
-  /// scene before that picture, and returns, it is too early: as if the stream stayed.
+  /// Position of the first picture that needs the packet; for an end packet the stream's end. If the stream
+  /// leaves the scene before that picture, and returns, it is too early: as if the stream stayed.
   StreamPosition first;
   /// When it counts, 1/90000 s; none if not known. A pattern packet: the picture that its first pattern
   /// shows; sound: its first sample; any other: `first`.

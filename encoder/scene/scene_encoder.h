@@ -52,7 +52,8 @@ class SceneEncoder {
   /// @param at  its position
   virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
 
-  /// Codes everything still held back. A picture that is pushed afterwards begins another scene.
+  /// Codes everything still held back. With several patterns, a picture that is pushed afterwards begins
+  /// another scene.
   virtual Result<void> finish() = 0;
 
   /// Whole packets that are ready; the scene forgets them. What they say of other scenes is not set:
