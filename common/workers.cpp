@@ -44,48 +44,43 @@ void Workers::run(int jobs, const Job& job) {
     for (int k = 0; k < jobs; ++k) job(k, 0);
     return;
   }
-  {
-    const std::lock_guard lock(mutex_);
-    job_ = &job;
-    jobs_ = jobs;
-    next_ = 0;
-    working_ = static_cast<int>(threads_.size());
-    ++call_;
-  }
-  begun_.notify_all();
-  take_jobs(0);
   std::unique_lock lock(mutex_);
-  ended_.wait(lock, [&] { return working_ == 0; });
+  job_ = &job;
+  jobs_ = jobs;
+  next_ = 0;
+  begun_.notify_all();
+  take_jobs(0, lock);
+  // Threads that have not woken up yet find nothing left, and are not waited for.
+  ended_.wait(lock, [&] { return running_ == 0; });
   if (const std::exception_ptr fault = std::exchange(fault_, nullptr)) std::rethrow_exception(fault);
 }
 
 void Workers::work(int worker) {
-  unsigned seen = 0;
   std::unique_lock lock(mutex_);
   for (;;) {
-    begun_.wait(lock, [&] { return stops_ || call_ != seen; });
+    begun_.wait(lock, [&] { return stops_ || next_ < jobs_; });
     if (stops_) return;
-    seen = call_;
-    lock.unlock();
-    take_jobs(worker);
-    lock.lock();
-    if (--working_ == 0) ended_.notify_one();
+    take_jobs(worker, lock);
   }
 }
 
-void Workers::take_jobs(int worker) {
-  std::unique_lock lock(mutex_);
+void Workers::take_jobs(int worker, std::unique_lock<std::mutex>& lock) {
   while (next_ < jobs_) {
     const int k = next_++;
+    ++running_;
     lock.unlock();
+    std::exception_ptr fault;
     try {
       (*job_)(k, worker);
-      lock.lock();
     } catch (...) {
-      lock.lock();
-      fault_ = std::current_exception();
+      fault = std::current_exception();
+    }
+    lock.lock();
+    if (fault) {
+      fault_ = fault;
       next_ = jobs_;
     }
+    if (--running_ == 0) ended_.notify_one();
   }
 }
 

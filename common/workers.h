@@ -44,15 +44,15 @@ class Workers {
 
  private:
   void work(int worker);
-  void take_jobs(int worker);
+  /// Does jobs of the current call until none is left to begin.
+  void take_jobs(int worker, std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable begun_, ended_;
   // The current call; all under the mutex.
   const Job* job_ = nullptr;
   int jobs_ = 0, next_ = 0;
-  int working_ = 0;    ///< threads that have not finished the call
-  unsigned call_ = 0;  ///< number of the call
+  int running_ = 0;  ///< jobs that have begun and not ended
   std::exception_ptr fault_;
   bool stops_ = false;
   std::vector<std::thread> threads_;  ///< last: they use the rest
