@@ -1,5 +1,6 @@
 #include "encoder/encoder.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -29,6 +30,9 @@ constexpr double kRateTolerance = 0.1;
 
 /// Longest span of scenes that a video goes to and fro between, s.
 constexpr double kSpanSeconds = 120;
+
+/// Scenes that are coded to their ends at the same time, where there are threads for it: each needs memory.
+constexpr int kScenesTogether = 2;
 
 constexpr const char* kEnded = "the stream has ended";
 
@@ -264,9 +268,10 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
       return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
-  auto impl =
-      std::unique_ptr<Impl>(new Impl{format, settings, std::move(*finder), ShotWatch(fps_of(format)),
-                                     SceneSpan(static_cast<std::uint64_t>(kSpanSeconds * fps_of(format)))});
+  auto impl = std::unique_ptr<Impl>(
+      new Impl{format, settings, std::move(*finder), ShotWatch(fps_of(format)),
+               SceneSpan(static_cast<std::uint64_t>(kSpanSeconds * fps_of(format)),
+                         settings.live ? 1 : std::min(kScenesTogether, thread_count(settings)))});
   write_signature(impl->ready);
   return Encoder(std::move(impl));
 }

@@ -163,7 +163,10 @@ Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
 }
 
 Result<void> FaceScene::finish() {
-  if (auto done = code_later([this] { return coder_.finish(); }); !done) return done;
+  return code_later([this] { return coder_.finish(); });
+}
+
+Result<void> FaceScene::wait() {
   if (auto done = analysing_.wait(); !done) return done;
   return coding_.wait();
 }

@@ -41,6 +41,7 @@ class FaceScene : public SceneEncoder {
   Result<void> leave() override;
   Result<void> go_on(const StreamPosition& at) override;
   Result<void> finish() override;
+  Result<void> wait() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
   [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override {

@@ -52,9 +52,11 @@ class SceneEncoder {
   /// @param at  its position
   virtual Result<void> go_on(const StreamPosition& /*at*/) { return {}; }
 
-  /// Codes everything still held back. With several patterns, a picture that is pushed afterwards begins
-  /// another scene.
+  /// Codes everything still held back, if need be while the caller goes on. With several patterns, a picture
+  /// that is pushed afterwards begins another scene.
   virtual Result<void> finish() = 0;
+  /// Waits until all that was pushed before finish() is coded.
+  virtual Result<void> wait() { return {}; }
 
   /// Whole packets that are ready; the scene forgets them. What they say of other scenes is not set:
   /// Setup::keeps, Return::scene and Return::aside.

@@ -51,11 +51,11 @@ Result<SceneSpan::Member*> SceneSpan::leave(std::uint64_t picture) {
   if (present_ == nullptr) return nullptr;
   Member* const left = std::exchange(present_, nullptr);
   if (!left->scene->can_go_on() || ended_ == picture) {
-    if (auto finished = finish(*left); !finished) return fail(finished.error());
+    if (auto ended = end(*left); !ended) return fail(ended.error());
     return nullptr;
   }
   if (open_.size() == kKeptScenes) {
-    if (auto finished = finish(*open_.front()); !finished) return fail(finished.error());
+    if (auto ended = end(*open_.front()); !ended) return fail(ended.error());
     open_.pop_front();
   }
   open_.push_back(left);
@@ -63,23 +63,37 @@ Result<SceneSpan::Member*> SceneSpan::leave(std::uint64_t picture) {
   return left;
 }
 
-Result<void> SceneSpan::finish(Member& member) {
-  if (auto finished = member.scene->finish(); !finished) return finished;
-  member.finished = true;
-  member.packets.feed(member.scene->take());
-  if (&member != present_) member.scene.reset();  // its patterns take much memory
+bool SceneSpan::has_ended(const Member& member) {
+  return !member.scene || (member.ends && !member.scene->is_coding());
+}
+
+Result<void> SceneSpan::end(Member& member) {
+  member.ends = true;
+  ending_.push_back(&member);
+  if (auto done = member.scene->finish(); !done) return done;
+  return wait(together_ - 1);
+}
+
+Result<void> SceneSpan::wait(std::size_t ending) {
+  while (ending_.size() > ending || (!ending_.empty() && has_ended(*ending_.front()))) {
+    Member& member = *ending_.front();
+    if (auto done = member.scene->wait(); !done) return done;
+    member.packets.feed(member.scene->take());
+    if (&member != present_) member.scene.reset();  // its patterns take much memory
+    ending_.pop_front();
+  }
   return {};
 }
 
 Result<void> SceneSpan::close() {
   for (Member* member : open_)
-    if (auto finished = finish(*member); !finished) return finished;
+    if (auto ended = end(*member); !ended) return ended;
   open_.clear();
   return {};
 }
 
 Result<void> SceneSpan::end_span(std::uint64_t picture) {
-  if (open_.empty() || picture - begin_ < most_) return {};
+  if (open_.empty() || picture - begin_ < most_) return wait(together_);
   if (auto closed = close(); !closed) return closed;
   ended_ = picture;
   return present_->scene->finish();
@@ -87,7 +101,8 @@ Result<void> SceneSpan::end_span(std::uint64_t picture) {
 
 Result<void> SceneSpan::finish() {
   if (auto closed = close(); !closed) return closed;
-  return finish(*present_);
+  if (auto ended = end(*present_); !ended) return ended;
+  return wait(0);
 }
 
 bool SceneSpan::returns(const Member* member) const {
@@ -98,7 +113,7 @@ bool SceneSpan::returns(const Member* member) const {
 
 bool SceneSpan::read_next(Member& member) {
   if (member.next) return true;
-  if (!member.finished) member.packets.feed(member.scene->take());
+  if (member.scene) member.packets.feed(member.scene->take());
   const auto read = member.packets.next();
   if (!read || read->status != ReadStatus::kPacket) return false;
   member.next.emplace(read->packet.type,
@@ -134,9 +149,9 @@ std::vector<std::uint8_t> SceneSpan::take() {
   std::vector<std::uint8_t> out;
   while (!visits_.empty()) {
     Member& member = *visits_.front().shown;
-    const bool last = visits_.size() == 1;
+    const bool last = visits_.size() == 1, all_ready = has_ended(member);
     while (read_next(member) && (last || begin_of(*member.next) < visits_[1].begin)) write_next(out);
-    if (last || (!member.next && !member.finished)) break;
+    if (last || (!member.next && !all_ready)) break;
     visits_.pop_front();
   }
   return out;

@@ -19,7 +19,8 @@ namespace fbs {
 class SceneSpan {
  public:
   /// @param most  pictures of a span, after its second scene has begun
-  explicit SceneSpan(std::uint64_t most) : most_(most) {}
+  /// @param together  scenes that may end at the same time, at least 1; the stream is the same
+  SceneSpan(std::uint64_t most, std::size_t together) : most_(most), together_(together) {}
 
   /// Null before the first.
   [[nodiscard]] SceneEncoder* present() const {
@@ -43,13 +44,13 @@ class SceneSpan {
 
  private:
   struct Member {
-    std::unique_ptr<SceneEncoder> scene;  ///< null once it has finished, and another is shown
+    std::unique_ptr<SceneEncoder> scene;  ///< null once it has ended, and another is shown
     std::uint64_t begin;                  ///< picture of the stream
-    bool finished = false;
-    PacketReader packets{};              ///< that it has coded
-    std::optional<TypedPayload> next{};  ///< the first that is not written
-    bool in_head = false;                ///< its setup packet is written, and not its first pattern packet
-    std::uint32_t check = 0;             ///< of the latter
+    bool ends = false;                    ///< nothing more is shown of it
+    PacketReader packets{};               ///< that it has coded
+    std::optional<TypedPayload> next{};   ///< the first that is not written
+    bool in_head = false;                 ///< its setup packet is written, and not its first pattern packet
+    std::uint32_t check = 0;              ///< of the latter
   };
   /// From a picture of the stream on, a scene is shown.
   struct Visit {
@@ -61,9 +62,14 @@ class SceneSpan {
   /// Leaves the present scene before this picture.
   /// @return it if it may return, or null
   [[nodiscard]] Result<Member*> leave(std::uint64_t picture);
-  Result<void> finish(Member& member);
-  /// Ends all open scenes.
+  /// Begins to end a scene.
+  Result<void> end(Member& member);
+  /// Waits until at most so many scenes are ending, and frees those that have ended.
+  Result<void> wait(std::size_t ending);
+  /// Begins to end all open scenes.
   Result<void> close();
+  /// Whether all packets of a scene are ready.
+  [[nodiscard]] static bool has_ended(const Member& member);
   /// Whether a scene returns behind the first of the visits, or may do so.
   [[nodiscard]] bool returns(const Member* member) const;
   static bool read_next(Member& member);
@@ -71,9 +77,11 @@ class SceneSpan {
   void write_next(std::vector<std::uint8_t>& out);
 
   std::uint64_t most_;
+  std::size_t together_;
   std::vector<std::unique_ptr<Member>> members_;
   Member* present_ = nullptr;
   std::deque<Member*> open_;              ///< besides the present one, in the order in which they were left
+  std::deque<Member*> ending_;            ///< their scenes are not freed yet
   std::uint64_t begin_ = 0;               ///< of the span: where a scene was first left open
   std::optional<std::uint64_t> ended_{};  ///< before this picture a span ended, and the present scene
   std::deque<Visit> visits_;              ///< whose packets are not all written
