@@ -7,13 +7,6 @@
 #include "common/workers.h"
 
 namespace fbs {
-namespace {
-
-void copy(const Plane& from, const PlaneView& to) {
-  for (int y = 0; y < to.height; ++y) std::copy_n(from.row(y), to.width, to.row(y));
-}
-
-}  // namespace
 
 PicturesAhead::PicturesAhead(int threads, const Hooks& hooks)
     : threads_(start_threads({threads, "fbs-draw", hooks}, [this](int) { work(); })) {}
@@ -33,23 +26,22 @@ void PicturesAhead::expect(std::uint64_t number, std::shared_ptr<const Scene> sc
   auto job = std::make_unique<Job>(Job{number, std::move(scene), state});
   {
     const std::lock_guard lock(mutex_);
-    if (!spare_.empty()) {
-      job->picture = std::move(spare_.back());
-      spare_.pop_back();
-    }
+    job->picture = spare();
     jobs_.push_back(std::move(job));
   }
   expected_.notify_one();
 }
 
-Result<void> PicturesAhead::draw(std::uint64_t number, Renderer& renderer, const Scene& scene,
-                                 const State& state, const PictureView& out) {
+Result<Picture> PicturesAhead::take(std::uint64_t number, Renderer& renderer, const Scene& scene,
+                                    const State& state) {
   end_ = std::max(end_, number + 1);
   std::unique_lock lock(mutex_);
   forget(number, lock);
   if (jobs_.empty() || jobs_.front()->number != number) {
+    Picture out = spare();
     lock.unlock();
-    return renderer.render(scene, state, out);
+    if (auto drawn = renderer.render(scene, state, out); !drawn) return fail(drawn.error());
+    return out;
   }
   Job& wanted = *jobs_.front();
   while (wanted.stage != Stage::kDrawn) {
@@ -62,15 +54,20 @@ Result<void> PicturesAhead::draw(std::uint64_t number, Renderer& renderer, const
   jobs_.pop_front();
   lock.unlock();
   if (done->fault) std::rethrow_exception(done->fault);
-  if (!done->result) return done->result;
-  const Picture& from = done->picture;
-  if (from.width() != out.y.width || from.height() != out.y.height) return renderer.render(scene, state, out);
-  copy(from.y, out.y);
-  copy(from.u, out.u);
-  copy(from.v, out.v);
-  lock.lock();
-  spare_.push_back(std::move(done->picture));
-  return {};
+  if (!done->result) return fail(done->result.error());
+  return std::move(done->picture);
+}
+
+Picture PicturesAhead::spare() {
+  if (spare_.empty()) return {};
+  Picture out = std::move(spare_.back());
+  spare_.pop_back();
+  return out;
+}
+
+void PicturesAhead::give_back(Picture picture) {
+  const std::lock_guard lock(mutex_);
+  spare_.push_back(std::move(picture));
 }
 
 void PicturesAhead::forget(std::uint64_t below, std::unique_lock<std::mutex>& lock) {

@@ -34,12 +34,14 @@ class PicturesAhead {
   /// @param number  rising with time
   void expect(std::uint64_t number, std::shared_ptr<const Scene> scene, const State& state);
 
-  /// Draws a picture, or takes it as it was drawn ahead; earlier ones are no longer expected. While another
+  /// Takes a picture as it was drawn ahead, or draws it; earlier ones are no longer expected. While another
   /// thread draws it, draws later ones.
   /// @param renderer  the caller's
-  /// @return as Renderer::render()
-  [[nodiscard]] Result<void> draw(std::uint64_t number, Renderer& renderer, const Scene& scene,
-                                  const State& state, const PictureView& out);
+  /// @return errors as of Renderer::render()
+  [[nodiscard]] Result<Picture> take(std::uint64_t number, Renderer& renderer, const Scene& scene,
+                                     const State& state);
+  /// Takes a picture's memory for later ones.
+  void give_back(Picture picture);
 
  private:
   /// The caller's time between pictures and threads' own vary: two each keep all at work.
@@ -57,6 +59,8 @@ class PicturesAhead {
   };
 
   void work();
+  /// Memory for a picture. Under the mutex.
+  [[nodiscard]] Picture spare();
   /// The first that nobody draws; null: there is none. Under the mutex.
   [[nodiscard]] Job* next_expected();
   /// @param lock  released meanwhile

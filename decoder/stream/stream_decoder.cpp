@@ -12,6 +12,10 @@ constexpr std::size_t kMostKept = 16;
 
 constexpr const char* kNoPicture = "no picture has been decoded yet";
 
+void copy(const Plane& from, const PlaneView& to) {
+  for (int y = 0; y < to.height; ++y) std::copy_n(from.row(y), to.width, to.row(y));
+}
+
 std::string missing_text(std::uint64_t pictures) {
   return std::to_string(pictures) + (pictures == 1 ? " picture is" : " pictures are") + " missing";
 }
@@ -83,9 +87,13 @@ void StreamDecoder::use_threads(int threads, const Hooks& hooks) {
   ahead_ = threads > 1 ? std::make_unique<PicturesAhead>(threads - 1, hooks) : nullptr;
 }
 
-void StreamDecoder::draw_ahead() {
+Result<Picture> StreamDecoder::take_ahead() {
   const bool in_a_row = std::exchange(rendered_, announced_) + 1 == announced_;
-  if (!in_a_row) return;  // the caller wants not all of them
+  if (in_a_row) expect_next();  // otherwise the caller wants not all of them
+  return ahead_->take(announced_, renderer_, scene(), state());
+}
+
+void StreamDecoder::expect_next() {
   for (std::uint64_t k = 0; k < ahead_->most(); ++k) {
     const Timeline::Entry* const entry = reader_.pictures().behind_next(static_cast<std::int32_t>(k));
     if (entry == nullptr) return;
@@ -95,16 +103,25 @@ void StreamDecoder::draw_ahead() {
 
 Result<void> StreamDecoder::render(Picture& out) {
   if (pictures() == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  if (out.width() != format().width || out.height() != format().height)
-    out = Picture(format().width, format().height);
-  return render(PictureView(out));
+  if (!ahead_) return renderer_.render(scene(), state(), out);
+  auto drawn = take_ahead();
+  if (!drawn) return fail(drawn.error());
+  std::swap(out, *drawn);
+  ahead_->give_back(std::move(*drawn));
+  return {};
 }
 
 Result<void> StreamDecoder::render(const PictureView& out) {
   if (pictures() == 0) return fail(ErrorCode::kInvalidArgument, kNoPicture);
-  if (!ahead_) return renderer_.render(scene(), state(), out);
-  draw_ahead();
-  return ahead_->draw(announced_, renderer_, scene(), state(), out);
+  if (!ahead_ || out.y.width != format().width || out.y.height != format().height)
+    return renderer_.render(scene(), state(), out);
+  auto drawn = take_ahead();
+  if (!drawn) return fail(drawn.error());
+  copy(drawn->y, out.y);
+  copy(drawn->u, out.u);
+  copy(drawn->v, out.v);
+  ahead_->give_back(std::move(*drawn));
+  return {};
 }
 
 Result<void> StreamDecoder::render_state(const State& state, std::optional<std::size_t> pattern,

@@ -178,8 +178,9 @@ class StreamDecoder {
   /// @param reported  whether an error has reported a loss
   [[nodiscard]] Result<void> report_missing(std::uint64_t missing, bool reported) const;
 
-  /// Has the pictures that follow drawn.
-  void draw_ahead();
+  /// Draws the present picture, or takes it as drawn ahead; has those that follow drawn. There is ahead_.
+  [[nodiscard]] Result<Picture> take_ahead();
+  void expect_next();
 
   Renderer renderer_;
   std::unique_ptr<PicturesAhead> ahead_;  ///< null with one thread

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include <utility>
 
 #include "tests/unit/toy_scene.h"
 
@@ -24,8 +24,10 @@ struct Ahead {
   explicit Ahead(int threads) : pictures(threads) {}
 
   Picture drawn(std::uint64_t number) {
-    Picture out(160, 128);
-    EXPECT_TRUE(pictures.draw(number, renderer, *scene, state_of(number), out));
+    auto drawn = pictures.take(number, renderer, *scene, state_of(number));
+    EXPECT_TRUE(drawn);
+    Picture out = *drawn;
+    pictures.give_back(std::move(*drawn));
     return out;
   }
   void expect_until(std::uint64_t end) {
@@ -69,13 +71,9 @@ TEST(PicturesAhead, ErrorsAreThoseOfTheRenderer) {
   Ahead ahead(1);
   const auto nothing = std::make_shared<const Scene>();
   ahead.pictures.expect(0, nothing, {});
-  Picture out(160, 128);
-  EXPECT_EQ(ahead.pictures.draw(0, ahead.renderer, *nothing, {}, out).error().code,
-            ErrorCode::kInvalidArgument);
-  ahead.pictures.expect(1, ahead.scene, state_of(1));
-  Picture small(16, 16);
-  EXPECT_EQ(ahead.pictures.draw(1, ahead.renderer, *ahead.scene, state_of(1), small).error().code,
-            ErrorCode::kInvalidArgument);
+  EXPECT_EQ(ahead.pictures.take(0, ahead.renderer, *nothing, {}).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(ahead.pictures.take(1, ahead.renderer, *nothing, {}).error().code, ErrorCode::kInvalidArgument)
+      << "one that was not expected";
 }
 
 TEST(PicturesAhead, EndsWhilePicturesAreExpected) {
