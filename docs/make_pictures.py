@@ -4,7 +4,7 @@ marks.md.
 
     docs/make_pictures.py [BUILD]       BUILD contains fbs, talker and step_pictures; default build/release
 
-All show the talker of samples/. Needs ffmpeg with drawtext and the font DejaVu Sans.
+All show the generated talker, tests/talker. Needs ffmpeg with drawtext and the font DejaVu Sans.
 """
 
 import base64

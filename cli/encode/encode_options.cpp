@@ -28,9 +28,9 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
       ->excludes("--quality");
   verb.add_option(
           "--start", a.settings.start,
-          "With --bitrate: the first picture is there after so many seconds of that rate, coarse if need "
-          "be, and finer ones follow; 0: as fine as the rate as a whole allows (default: 0; with "
-          "--live 1, or --buffer if that is less)")
+          "Show the first picture after at most this many seconds at --bitrate; it is coarse if need be, "
+          "and finer ones follow. 0: as fine as the rate allows (default: 0; with --live 1, or --buffer if "
+          "that is less; 0 with --join or --resilience strong)")
       ->check(number_within(0, 60));
   verb.add_option("--patterns", a.settings.patterns,
                   "Number of patterns, in a long video of each two minutes or so; 1 sends one picture and "
@@ -41,13 +41,13 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
                 "file is better encoded without");
   verb.add_option(
           "--delay", a.delay,
-          "With --live: seconds of pictures that are encoded together, for which the stream is late; more of "
-          "them take fewer bits (default: 0.2)")
+          "Delay of a live stream in seconds; its pictures are encoded together, so a longer delay takes "
+          "fewer bits. Needs --live (default: 0.2)")
       ->check(number_within(0.01, 40));
   verb.add_option(
           "--buffer", a.buffer,
-          "With --live and --bitrate: no picture arrives later than so many seconds over a channel of "
-          "that rate (default: 2)")
+          "Most seconds that a picture may arrive late over a channel of the rate --bitrate; needs --live "
+          "(default: 2)")
       ->check(number_within(0.1, 60));
   verb.add_option("--threads", a.settings.threads,
                   "Threads that encode; the stream is the same for any number (default: one for each core)")
@@ -59,16 +59,16 @@ void add_encode_rate(CLI::App& verb, EncodeArguments& a) {
                            : to == "strong" ? Resilience::kStrong
                                             : Resilience::kNone;
           },
-          "With --live: none takes the fewest bytes; packet suits links on which lost packets are sent "
-          "again: "
-          "motion goes on without them; strong suits one-way links: so do patterns")
+          "Protection of a live stream against lost packets; packet: motion goes on without them, for "
+          "links that send them again; strong: so do patterns, for one-way links; none: fewest bytes. "
+          "Needs --live")
       ->check(CLI::IsMember({"none", "packet", "strong"}))
       ->type_name("none|packet|strong")
       ->default_str("none");
   verb.add_option(
           "--join", a.join,
-          "With --live: parts of the head of a scene are sent all along, so that a viewer who comes in its "
-          "middle can join it within so many seconds (default: only where a scene begins)")
+          "Let a viewer join a live stream at any time within this many seconds; what begins a scene is "
+          "repeated in parts. Needs --live (default: join only where a scene begins)")
       ->check(number_within(1, 3600));
   verb.add_option("--key-interval", a.settings.key_interval,
                   "Most seconds between the places where a viewer can join and damage ends (default: up to "
@@ -86,10 +86,11 @@ void add_sound(CLI::App& verb, EncodeArguments& a) {
       ->type_name("opus|codec2");
   verb.add_option(
           "--sound-bitrate", a.sound_bitrate,
-          "Of the sound in kbit/s, part of --bitrate: 6 to 64 of opus, 1.2 to 3.2 of codec2 (default: "
-          "chosen by the quality or bitrate)")
+          "Bitrate of the sound in kbit/s, part of --bitrate; 6 to 64 with opus, 1.2 to 3.2 with codec2 "
+          "(default: chosen from --quality or --bitrate)")
       ->check(number_within(1.2, 64));
-  verb.add_option("--track", a.track, "Which sound of the source, from 0 (default: its main one)")
+  verb.add_option("--track", a.track,
+                  "Sound track of the source to encode, counted from 0 (default: its main one)")
       ->check(CLI::Range(0, 1000));
   verb.add_flag("--no-sound", a.no_sound, "Leave the sound out")
       ->excludes("--sound")

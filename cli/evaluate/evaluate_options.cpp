@@ -15,15 +15,15 @@ constexpr const char* kEvaluateExamples =
     "  fbs evaluate talk.mkv --quality 30 50 70        choose the qualities\n"
     "  fbs evaluate talk.mkv --peers --html talk.html  draw curves beside x264, x265 and AV1\n"
     "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
-    "  fbs evaluate talk.mkv --json talk.json --csv -  results for programs, in a file and printed\n"
-    "picture\n"
+    "  fbs evaluate talk.mkv --json talk.json --csv -  JSON in a file, values of each picture printed\n"
     "\n"
-    "A run with --html or --keep that is interrupted goes on where it was when it is started again.";
+    "Repeat an interrupted command with --html or --keep to go on where it stopped.";
 
 void add_peers(CLI::App& verb, EvaluateArguments& a) {
   verb.add_flag("--peers", a.peers, "Also encode with x264, x265 and AV1, through ffmpeg; takes minutes");
   verb.add_option("--peer-codec", a.peer_codecs, "Only these of x264, x265, av1")
       ->check(CLI::IsMember({"x264", "x265", "av1"}))
+      ->type_name("x264|x265|av1")
       ->expected(1, 3)
       ->needs("--peers");
   verb.add_option("--peer-size", a.peer_sizes, "Only at the full size (1), at half of it (2)")

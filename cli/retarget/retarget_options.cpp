@@ -27,7 +27,7 @@ void add_retarget(CLI::App& app, Run& run) {
       ->type_name("MODEL");
   verb->add_option("OUTPUT", a.output, "Stream to write (.fbs)")->required();
   verb->add_option("--quality", a.quality,
-                   "Where --face is a picture: of its pattern, from 0 to 100 (default: 70)")
+                   "Quality of the pattern, from 0 to 100, where --face is a picture (default: 70)")
       ->check(CLI::Range(0, 100));
   verb->add_flag("--no-sound", a.no_sound, "Leave out the sound, which is that of --motion");
   verb->add_flag("--quiet", a.quiet, "Print no summary");

@@ -23,7 +23,7 @@ void add_track(CLI::App& app, Run& run) {
                    "Video file, - (Y4M on standard input), camera:0, or images (frame_%05d.png or a folder)")
       ->required();
   verb->add_option("OUTPUT", a.output, "Table to write (.csv, .json), or - for standard output")->required();
-  verb->add_option("--format", a.format, "Of a table on standard output (default: csv)")
+  verb->add_option("--format", a.format, "Format of the table on standard output (default: csv)")
       ->check(CLI::IsMember({"csv", "json"}))
       ->type_name("csv|json");
   verb->add_option("--marks", a.marks,
