@@ -44,10 +44,9 @@ static GstClockTime timestamp(GstFbsDec* self, const fbs_picture_info* info) {
   const GstClockTime time = gst_fbs_ticks_to_time(info->time);
   if (!info->held && GST_CLOCK_TIME_IS_VALID(self->group)) { /* held ones are of the time before the group */
     self->offset = GST_CLOCK_DIFF(time, self->group);
-    self->has_offset = TRUE;
     self->group = GST_CLOCK_TIME_NONE;
   }
-  const GstClockTimeDiff at = (GstClockTimeDiff)time + (self->has_offset ? self->offset : 0);
+  const GstClockTimeDiff at = (GstClockTimeDiff)time + self->offset;
   return at >= 0 ? (GstClockTime)at : 0;
 }
 
@@ -87,7 +86,7 @@ static GstFlowReturn show(GstFbsDec* self) {
 static void join(GstFbsDec* self) {
   if (self->decoder != NULL) fbs_decoder_reset(self->decoder);
   self->finished = FALSE;
-  self->has_offset = FALSE;
+  self->offset = 0;
   self->group = GST_CLOCK_TIME_NONE;
 }
 

@@ -17,9 +17,8 @@ struct _GstFbsDec {
   fbs_decoder* decoder; /**< null: not started */
   gboolean has_input;
   gboolean finished;
-  fbs_format format;       /**< of the output; width 0: unknown */
-  GstClockTimeDiff offset; /**< timestamp of a picture less its time in the stream */
-  gboolean has_offset;
+  fbs_format format;                  /**< of the output; width 0: unknown */
+  GstClockTimeDiff offset;            /**< timestamp of a picture less its time in the stream; 0: unknown */
   GstClockTime group;                 /**< timestamp of a buffer whose first picture has not come; or none */
   GstPadChainFunction decode_picture; /**< the base class takes a buffer for each picture */
 };

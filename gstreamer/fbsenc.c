@@ -79,10 +79,8 @@ static GstClockTime start_of(const GstFbsEnc* self, guint64 number) {
   return frame != NULL ? frame->pts : self->end;
 }
 
-static GstBuffer* buffer_of(GstFbsGroup* group) {
-  GByteArray* const bytes = g_steal_pointer(&group->bytes);
-  group->bytes = g_byte_array_new();
-  return gst_buffer_new_wrapped_bytes(g_byte_array_free_to_bytes(bytes));
+static GstBuffer* buffer_of(const GstFbsGroup* group) {
+  return gst_buffer_new_memdup(group->bytes->data, group->bytes->len);
 }
 
 /* The end packet shows no picture: it belongs to no frame. */

@@ -53,114 +53,55 @@ static void follow_bitrate(GstFbsEnc* self) {
   GST_VIDEO_ENCODER_STREAM_UNLOCK(self);
 }
 
+/* Members that the properties are; numbers and enumerations are int there, and the bitrate kbit/s. */
+static const gsize members[] = {
+    [PROP_QUALITY] = offsetof(fbs_encoder_settings, quality),
+    [PROP_BITRATE] = offsetof(fbs_encoder_settings, bitrate),
+    [PROP_EFFORT] = offsetof(fbs_encoder_settings, effort),
+    [PROP_TUNE] = offsetof(fbs_encoder_settings, tune),
+    [PROP_PATTERNS] = offsetof(fbs_encoder_settings, patterns),
+    [PROP_FACE] = offsetof(fbs_encoder_settings, face),
+    [PROP_ALLOW_NO_FACE] = offsetof(fbs_encoder_settings, allow_no_face),
+    [PROP_KEY_INTERVAL] = offsetof(fbs_encoder_settings, key_interval),
+    [PROP_LIVE] = offsetof(fbs_encoder_settings, live),
+    [PROP_DELAY] = offsetof(fbs_encoder_settings, live_delay),
+    [PROP_BUFFER] = offsetof(fbs_encoder_settings, live_buffer),
+    [PROP_RESILIENCE] = offsetof(fbs_encoder_settings, resilience),
+    [PROP_JOIN] = offsetof(fbs_encoder_settings, join),
+    [PROP_START] = offsetof(fbs_encoder_settings, start),
+    [PROP_THREADS] = offsetof(fbs_encoder_settings, threads),
+};
+
 static void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
-  fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
+  void* const member = (guint8*)&GST_FBS_ENC(object)->settings + members[id];
+  (void)spec;
   GST_OBJECT_LOCK(object);
-  switch (id) {
-    case PROP_QUALITY:
-      s->quality = g_value_get_int(value);
-      break;
-    case PROP_BITRATE:
-      s->bitrate = g_value_get_uint(value) / 1000.0;
-      break;
-    case PROP_EFFORT:
-      s->effort = g_value_get_int(value);
-      break;
-    case PROP_TUNE:
-      s->tune = g_value_get_enum(value);
-      break;
-    case PROP_PATTERNS:
-      s->patterns = g_value_get_int(value);
-      break;
-    case PROP_FACE:
-      s->face = g_value_get_int(value);
-      break;
-    case PROP_ALLOW_NO_FACE:
-      s->allow_no_face = g_value_get_boolean(value);
-      break;
-    case PROP_KEY_INTERVAL:
-      s->key_interval = g_value_get_double(value);
-      break;
-    case PROP_LIVE:
-      s->live = g_value_get_boolean(value);
-      break;
-    case PROP_DELAY:
-      s->live_delay = g_value_get_double(value);
-      break;
-    case PROP_BUFFER:
-      s->live_buffer = g_value_get_double(value);
-      break;
-    case PROP_JOIN:
-      s->join = g_value_get_double(value);
-      break;
-    case PROP_START:
-      s->start = g_value_get_double(value);
-      break;
-    case PROP_RESILIENCE:
-      s->resilience = g_value_get_enum(value);
-      break;
-    case PROP_THREADS:
-      s->threads = g_value_get_int(value);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  if (G_VALUE_HOLDS_UINT(value))
+    *(double*)member = g_value_get_uint(value) / 1000.0;
+  else if (G_VALUE_HOLDS_DOUBLE(value))
+    *(double*)member = g_value_get_double(value);
+  else if (G_VALUE_HOLDS_BOOLEAN(value))
+    *(int*)member = g_value_get_boolean(value);
+  else
+    *(int*)member = G_VALUE_HOLDS_ENUM(value) ? g_value_get_enum(value) : g_value_get_int(value);
   GST_OBJECT_UNLOCK(object);
   if (id == PROP_BITRATE) follow_bitrate(GST_FBS_ENC(object));
 }
 
 static void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
-  const fbs_encoder_settings* const s = &GST_FBS_ENC(object)->settings;
+  const void* const member = (const guint8*)&GST_FBS_ENC(object)->settings + members[id];
+  (void)spec;
   GST_OBJECT_LOCK(object);
-  switch (id) {
-    case PROP_QUALITY:
-      g_value_set_int(value, s->quality);
-      break;
-    case PROP_BITRATE:
-      g_value_set_uint(value, (guint)(s->bitrate * 1000 + 0.5));
-      break;
-    case PROP_EFFORT:
-      g_value_set_int(value, s->effort);
-      break;
-    case PROP_TUNE:
-      g_value_set_enum(value, s->tune);
-      break;
-    case PROP_PATTERNS:
-      g_value_set_int(value, s->patterns);
-      break;
-    case PROP_FACE:
-      g_value_set_int(value, s->face);
-      break;
-    case PROP_ALLOW_NO_FACE:
-      g_value_set_boolean(value, s->allow_no_face);
-      break;
-    case PROP_KEY_INTERVAL:
-      g_value_set_double(value, s->key_interval);
-      break;
-    case PROP_LIVE:
-      g_value_set_boolean(value, s->live);
-      break;
-    case PROP_DELAY:
-      g_value_set_double(value, s->live_delay);
-      break;
-    case PROP_BUFFER:
-      g_value_set_double(value, s->live_buffer);
-      break;
-    case PROP_JOIN:
-      g_value_set_double(value, s->join);
-      break;
-    case PROP_START:
-      g_value_set_double(value, s->start);
-      break;
-    case PROP_RESILIENCE:
-      g_value_set_enum(value, s->resilience);
-      break;
-    case PROP_THREADS:
-      g_value_set_int(value, s->threads);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  if (G_VALUE_HOLDS_UINT(value))
+    g_value_set_uint(value, (guint)(*(const double*)member * 1000 + 0.5));
+  else if (G_VALUE_HOLDS_DOUBLE(value))
+    g_value_set_double(value, *(const double*)member);
+  else if (G_VALUE_HOLDS_BOOLEAN(value))
+    g_value_set_boolean(value, *(const int*)member);
+  else if (G_VALUE_HOLDS_ENUM(value))
+    g_value_set_enum(value, *(const int*)member);
+  else
+    g_value_set_int(value, *(const int*)member);
   GST_OBJECT_UNLOCK(object);
 }
 
