@@ -17,7 +17,10 @@ void SoundParts::add(std::span<const std::uint8_t> bytes) {
       continue;
     }
     if (read->status != ReadStatus::kPacket) return;
-    if (pictures_) (void)pictures_->take(read->packet);
+    if (pictures_)
+      if (const auto timed = pictures_->take(read->packet))
+        if (const auto* const head = std::get_if<JoinedHead>(&timed->syntax))
+          packets_.read_head(head->packets);
     take(read->packet);
   }
 }

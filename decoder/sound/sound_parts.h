@@ -22,7 +22,8 @@ class SoundParts {
   /// @param bytes  the next ones of the stream, in pieces of any size
   void add(std::span<const std::uint8_t> bytes);
 
-  /// Reads motion too from now on, for released(). Off by default, since it takes longer than all the rest.
+  /// Reads motion too from now on, for released(), and joins a scene by the parts of its head (SPEC 6.5). Off
+  /// by default, since it takes longer than all the rest.
   void follow_pictures() { pictures_.emplace(); }
   /// End of the pictures that may be shown once all that was added has come, 1/90000 s: their sound has come.
   /// 0 without follow_pictures().

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include "bitstream/payload/sound_payload.h"
 #include "cli/stream/sound_interleaver.h"
@@ -17,9 +19,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr SoundSetup kVoice{SoundCodec::kOpus, 1, 0, 960, 312};
 
-/// A stream of several scenes, with frames of 20 ms that have their number in them.
-Bytes stream_with_sound() {
-  std::ifstream file(FBS_VECTORS "/late.fbs", std::ios::binary);
+/// A vector, by default of several scenes, with frames of 20 ms that have their number in them.
+Bytes stream_with_sound(const std::string& vector = "late.fbs") {
+  std::ifstream file(FBS_VECTORS "/" + vector, std::ios::binary);
   const Bytes stream(std::istreambuf_iterator<char>(file), {});
   SoundGroup group{0, {}};
   const auto feed = [&](std::int64_t before) -> Result<std::vector<SoundGroup>> {
@@ -44,8 +46,9 @@ std::vector<SoundGroup> decoded(const Bytes& stream) {
   }
 }
 
-std::vector<SoundGroup> read(const Bytes& stream) {
+std::vector<SoundGroup> read(const Bytes& stream, bool follows_pictures = false) {
   SoundParts parts;
+  if (follows_pictures) parts.follow_pictures();
   parts.add(stream);
   std::vector<SoundGroup> out;
   for (const SoundPart& part : parts.all()) out.push_back(part.group);
@@ -95,6 +98,23 @@ TEST(SoundPartsOfStream, AreTheSameBehindLostMotion) {
   w.bytes[w.begins[4] + 3] ^= 1;
   EXPECT_EQ(decoded(w.bytes).size(), 1U);
   EXPECT_EQ(read(w.bytes), decoded(w.bytes));
+}
+
+// SPEC 6.5
+TEST(SoundPartsOfStream, AreThoseOfASceneThatIsJoinedByThePartsOfItsHead) {
+  const Bytes stream = stream_with_sound("live_parts.fbs");
+  PacketReader reader(stream);
+  std::size_t begin = 0;
+  for (int units = 0; units < 3;) {
+    const auto read = reader.next();
+    ASSERT_EQ(read->status, ReadStatus::kPacket);
+    begin = read->packet.offset;
+    if (read->packet.type == PacketType::kUnit) ++units;
+  }
+  const Bytes joined(stream.begin() + static_cast<std::ptrdiff_t>(begin), stream.end());
+  EXPECT_FALSE(decoded(joined).empty());
+  EXPECT_EQ(read(joined, true), decoded(joined));
+  EXPECT_TRUE(read(joined).empty());
 }
 
 TEST(SoundPartsOfStream, PicturesAreReleasedWithTheirSound) {
