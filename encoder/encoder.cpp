@@ -241,6 +241,15 @@ struct Encoder::Impl {
     settings.hooks.say(LogLevel::kWarning, text.data());
   }
 
+  /// SceneEncoder::change() of the present scene, if there is one.
+  Result<void> change(const std::function<void(SceneLedger&)>& how) {
+    if (has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
+    if (scenes.present() == nullptr) return {};
+    auto changed = scenes.present()->change(how);
+    if (changed || changed.error().code != ErrorCode::kInvalidArgument) return changed;
+    return fail(ErrorCode::kInternal, changed.error().text);  // of the coding: not that nothing has changed
+  }
+
   /// Waits until the scene has analysed the picture pushed last.
   void end_picture() {
     if (!std::exchange(analysing, false)) return;
@@ -297,15 +306,13 @@ Result<void> Encoder::request_scene() {
   Impl& i = *impl_;
   if (!i.settings.live)
     return fail(ErrorCode::kInvalidArgument, "scenes come on request in live encoding only");
-  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  return i.scenes.present() != nullptr ? i.scenes.present()->request_scene() : Result<void>{};
+  return i.change([](SceneLedger& ledger) { ledger.request_scene(); });
 }
 
 Result<void> Encoder::lose_patterns() {
   Impl& i = *impl_;
   if (!i.settings.live) return fail(ErrorCode::kInvalidArgument, "patterns are lost in live encoding only");
-  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  return i.scenes.present() != nullptr ? i.scenes.present()->lose_patterns() : Result<void>{};
+  return i.change([](SceneLedger& ledger) { ledger.lose_patterns(); });
 }
 
 Result<void> Encoder::set_bitrate(double kbps) {
@@ -316,7 +323,7 @@ Result<void> Encoder::set_bitrate(double kbps) {
   if (!(kbps > 0) || !is_size(kbps))
     return fail(ErrorCode::kInvalidArgument, "the bitrate is above 0 kbit/s");
   i.settings.bitrate = kbps;
-  return i.scenes.present() != nullptr ? i.scenes.present()->set_bitrate(kbps) : Result<void>{};
+  return i.change([kbps](SceneLedger& ledger) { ledger.set_bitrate(kbps); });
 }
 
 Result<void> Encoder::finish() {

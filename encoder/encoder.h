@@ -60,8 +60,7 @@ class Encoder {
 
   /// Codes everything still held back and ends the stream.
   /// @return kNoFace when no picture showed a face, whose text says if one lies on its side; kInvalidArgument
-  /// when there was no picture at all, or the
-  ///         stream has ended already
+  ///         when there was no picture at all, or the stream has ended already
   Result<void> finish();
 
   /// The bytes that are ready; the encoder forgets them.

@@ -1,8 +1,7 @@
 // Pictures in a caller's memory, as described in fbs/fbs.h.
 #pragma once
 
-#include <array>
-#include <cstdlib>
+#include <cstddef>
 
 #include "common/picture.h"
 #include "fbs/fbs.h"

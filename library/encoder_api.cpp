@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "encoder/encoder.h"
@@ -134,7 +132,6 @@ fbs_status fbs_encoder_finish(fbs_encoder* encoder) {
   fbs_encoder& e = *encoder;
   if (e.phase != fbs_encoder::Phase::kPushing) return e.error.set_argument("the encoding has ended");
   e.phase = fbs_encoder::Phase::kFinished;
-  if (e.encoder.report().pictures == 0) return e.error.set_argument("there was no picture");
   return e.encode([&] { return e.encoder.finish(); });
 }
 
@@ -165,24 +162,28 @@ fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out) {
 fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   if (out == nullptr) return encoder->error.set_argument(kNullPointer);
-  const EncodingReport& report = encoder->encoder.report();
-  *out = {report.pictures, report.without_face, report.cuts, report.scenes};
-  return FBS_OK;
+  return guarded(encoder->error, [&] {
+    const EncodingReport& report = encoder->encoder.report();
+    *out = {report.pictures, report.without_face, report.cuts, report.scenes};
+    return FBS_OK;
+  });
 }
 
 fbs_status fbs_encoder_get_landmarks(const fbs_encoder* encoder, fbs_landmark* out) {
   if (encoder == nullptr) return FBS_ERROR_ARGUMENT;
   if (out == nullptr) return encoder->error.set_argument(kNullPointer);
-  if (encoder->phase == fbs_encoder::Phase::kFailed || encoder->encoder.report().pictures == 0)
-    return encoder->error.set_argument("there is no picture");
-  const PictureAnalysis& analysis = encoder->encoder.analysis();
-  if (!analysis.face) return encoder->error.set(FBS_ERROR_NO_FACE, "the scene has no face");
-  const float confidence = analysis.followed ? static_cast<float>(analysis.confidence) : 0;
-  for (std::size_t k = 0; k < kLandmarkCount; ++k) {
-    const glm::dvec2 at = analysis.vertices[vertex_of_landmark(k)];
-    out[k] = {static_cast<float>(at.x), static_cast<float>(at.y), confidence};
-  }
-  return FBS_OK;
+  return guarded(encoder->error, [&] {
+    if (encoder->phase == fbs_encoder::Phase::kFailed || encoder->encoder.report().pictures == 0)
+      return encoder->error.set_argument("there is no picture");
+    const PictureAnalysis& analysis = encoder->encoder.analysis();
+    if (!analysis.face) return encoder->error.set(FBS_ERROR_NO_FACE, "the scene has no face");
+    const float confidence = analysis.followed ? static_cast<float>(analysis.confidence) : 0;
+    for (std::size_t k = 0; k < kLandmarkCount; ++k) {
+      const glm::dvec2 at = analysis.vertices[vertex_of_landmark(k)];
+      out[k] = {static_cast<float>(at.x), static_cast<float>(at.y), confidence};
+    }
+    return FBS_OK;
+  });
 }
 
 const char* fbs_encoder_error(const fbs_encoder* encoder) {

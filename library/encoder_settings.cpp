@@ -1,6 +1,5 @@
 #include "library/encoder_settings.h"
 
-#include <cmath>
 #include <cstring>
 
 #include "library/settings_struct.h"
@@ -44,10 +43,9 @@ Result<EncoderInput> encoder_input(const fbs_encoder_settings& settings) {
   if (!within(settings.bitrate, kMaxKbitPerSecond))
     return fail(ErrorCode::kInvalidArgument, "bitrate out of range");
   for (const double seconds :
-       {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer, settings.join})
+       {settings.seconds, settings.key_interval, settings.live_delay, settings.live_buffer, settings.join,
+        settings.start == -1 ? 0 : settings.start})
     if (!within(seconds, kMaxSeconds)) return fail(ErrorCode::kInvalidArgument, "a time out of range");
-  if (settings.start != -1 && !within(settings.start, kMaxSeconds))
-    return fail(ErrorCode::kInvalidArgument, "a time out of range");
   if (settings.tune != FBS_TUNE_EYE && settings.tune != FBS_TUNE_PSNR)
     return fail(ErrorCode::kInvalidArgument, "the tune is unknown");
   if (settings.resilience < FBS_RESILIENCE_NONE || settings.resilience > FBS_RESILIENCE_STRONG)

@@ -20,7 +20,7 @@ void PacketQueue::add(std::span<const std::uint8_t> bytes) {
 Result<std::optional<QueuedPacket>> PacketQueue::next() {
   const auto ahead = std::span(std::as_const(bytes_)).subspan(begin_);
   ByteReader reader(ahead);
-  if (!signed_) (void)reader.bytes(kSignature.size());
+  if (!times_.has_setup()) (void)reader.bytes(kSignature.size());
   const auto type = static_cast<PacketType>(reader.u8());
   const auto payload = reader.bytes(reader.varint());
   std::uint32_t check = 0;
@@ -31,7 +31,6 @@ Result<std::optional<QueuedPacket>> PacketQueue::next() {
   const auto timed = times_.take({type, 0, payload, reader.offset(), false, check});
   if (!timed) return not_ours();
   begin_ += reader.offset();
-  signed_ = true;
   return QueuedPacket{ahead.first(reader.offset()), type, type == PacketType::kSetup && timed->key,
                       times_.released().pictures - before, timed->first};
 }

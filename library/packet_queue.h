@@ -30,7 +30,6 @@ class PacketQueue {
  private:
   std::vector<std::uint8_t> bytes_;
   std::size_t begin_ = 0;  // of the bytes not yet returned
-  bool signed_ = false;    // the signature has been returned
   PacketTimes times_;
 };
 

@@ -1,6 +1,5 @@
 // The sound of fbs/sound.h.
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -21,9 +21,9 @@ constexpr std::uint64_t kSurroundPictures = 12;
 
 FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
     : ledger_(start.scene.setup, start.seen, start.rate, settings,
-              settings.patterns == 1
-                  ? nullptr
-                  : face_patterns(settings, start.rate.point, start.scene.setup.format, start.seen)),
+              settings.patterns == 1 ? nullptr
+                                     : pattern_stage(pass_settings(settings, start.rate.point), settings,
+                                                     start.scene.setup.format, start.seen)),
       scene_(std::move(start.scene)),
       rest_(scene_.patterns.front().seen),
       mouth_colours_(mouth_height(scene_.geometry->project_vertices(scene_.patterns.front().seen)),
@@ -78,7 +78,6 @@ Result<void> FaceCoder::begin_again(const Picture& picture, const FaceAnalysis::
     pattern_payload_ = std::move(*payload);
   }
   surround_.begin_again(picture, rest_);
-  fixed_ = false;
   return {};
 }
 
@@ -106,10 +105,8 @@ void FaceCoder::learn(const Picture& picture, const FaceAnalysis::Observation& s
 
 Result<void> FaceCoder::plan_group() {
   if (!ledger_.in_group()) return {};
-  if (ledger_.live() && !second_pass_ && !fixed_) {
-    fix_head();
+  if (ledger_.live() && !second_pass_ && !ledger_.packets().started())
     if (auto written = write_head(); !written) return written;
-  }
   if (auto planned = ledger_.plan(costs_, ledger_.end_group()); !planned) return planned;
   costs_.clear();
   return {};
@@ -129,7 +126,6 @@ void FaceCoder::fit_map() {
 
 void FaceCoder::fix_head() {
   fit_map();
-  fixed_ = true;
   if (!ledger_.live() || ledger_.pictures() >= ledger_.timing().lookahead) surround_.end(scene_.setup.format);
 }
 
@@ -151,6 +147,7 @@ Result<void> FaceCoder::end_lookahead() {
 }
 
 Result<void> FaceCoder::write_head() {
+  if (!surround_.has_ended()) fix_head();
   mouth_colours_.set_chroma(scene_.setup.mouth);
   auto setup = encode_setup(scene_.setup);
   if (!setup) return fail(setup.error());
@@ -161,7 +158,6 @@ Result<void> FaceCoder::write_head() {
 }
 
 Result<void> FaceCoder::end_segment(bool last) {
-  if (!fixed_) fix_head();
   if (!ledger_.packets().started()) {
     scene_.setup.patterns = ledger_.patterns()->slots();
     scene_.setup.contrast = second_pass_->contrast;
@@ -186,7 +182,6 @@ Result<void> FaceCoder::finish() {
   if (auto planned = plan_group(); !planned) return planned;
   if (second_pass_) return end_segment(true);
   ledger_.end_scene();
-  if (!fixed_) fix_head();
   return ledger_.packets().started() ? Result<void>{} : write_head();
 }
 

@@ -36,16 +36,10 @@ class FaceCoder {
   void cut();
   Result<void> finish();
 
-  void request_scene() { ledger_.request_scene(); }
   /// Another scene is shown next.
   Result<void> leave() { return end_group(); }
-  /// SceneEncoder::go_on().
-  void go_on(const StreamPosition& at) { ledger_.go_on(at); }
-  void set_bitrate(double kbps) { ledger_.set_bitrate(kbps); }
-  void lose_patterns() { ledger_.lose_patterns(); }
+  [[nodiscard]] SceneLedger& ledger() { return ledger_; }
   [[nodiscard]] bool has_several_patterns() const { return second_pass_.has_value(); }
-  /// Whole packets that are ready; forgets them.
-  [[nodiscard]] std::vector<std::uint8_t> take() { return ledger_.packets().take(); }
 
  private:
   /// Adds body and ground to the observation of the next picture.
@@ -58,6 +52,7 @@ class FaceCoder {
   Result<void> begin_again(const Picture& picture, const FaceAnalysis::Observation& seen);
   /// Fixes the content of the scene's head.
   void fix_head();
+  /// Writes the head, with what is known now if it is not fixed yet.
   Result<void> write_head();
   /// Fits the surround's map to the observations so far.
   void fit_map();
@@ -76,7 +71,6 @@ class FaceCoder {
   int pattern_speed_;  ///< Effort's
   SurroundLearning surround_;
   std::optional<SurroundMotion> surround_motion_;  ///< since the scene's first picture
-  bool fixed_ = false;                             ///< whether fix_head() has been called
   struct SecondPass {
     SegmentRefit refit;
     std::int32_t contrast;           ///< of patterns outside the face

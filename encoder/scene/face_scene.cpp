@@ -104,7 +104,7 @@ FaceScene::FaceScene(const FaceFinder& finder, const EncoderSettings& settings, 
 Result<void> FaceScene::code(std::function<Result<void>()> task) {
   return coding_.add([this, task = std::move(task)]() -> Result<void> {
     if (auto done = task(); !done) return done;
-    const auto bytes = coder_.take();
+    const auto bytes = coder_.ledger().packets().take();
     const std::lock_guard lock(mutex_);
     ready_.insert(ready_.end(), bytes.begin(), bytes.end());
     return {};
@@ -115,36 +115,15 @@ Result<void> FaceScene::code_later(std::function<Result<void>()> task) {
   return analysing_.add([this, task = std::move(task)] { return code(task); });
 }
 
-Result<void> FaceScene::request_scene() {
-  return code_later([this]() -> Result<void> {
-    coder_.request_scene();
+Result<void> FaceScene::change(const std::function<void(SceneLedger&)>& how) {
+  return code_later([this, how]() -> Result<void> {
+    how(coder_.ledger());
     return {};
   });
 }
 
 Result<void> FaceScene::leave() {
   return code_later([this] { return coder_.leave(); });
-}
-
-Result<void> FaceScene::go_on(const StreamPosition& at) {
-  return code_later([this, at]() -> Result<void> {
-    coder_.go_on(at);
-    return {};
-  });
-}
-
-Result<void> FaceScene::set_bitrate(double kbps) {
-  return code_later([this, kbps]() -> Result<void> {
-    coder_.set_bitrate(kbps);
-    return {};
-  });
-}
-
-Result<void> FaceScene::lose_patterns() {
-  return code_later([this]() -> Result<void> {
-    coder_.lose_patterns();
-    return {};
-  });
 }
 
 Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {

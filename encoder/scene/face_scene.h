@@ -32,14 +32,14 @@ class FaceScene : public SceneEncoder {
     settled().cut();
     cut_ = true;
   }
-  Result<void> request_scene() override;
-  Result<void> set_bitrate(double kbps) override;
-  Result<void> lose_patterns() override;
+  Result<void> change(const std::function<void(SceneLedger&)>& how) override;
   [[nodiscard]] bool recognises(const Picture& picture) override { return settled().recognises(picture); }
   [[nodiscard]] bool carries_shots() const override { return coder_.has_several_patterns(); }
   [[nodiscard]] bool can_go_on() const override { return can_go_on_; }
   Result<void> leave() override;
-  Result<void> go_on(const StreamPosition& at) override;
+  Result<void> go_on(const StreamPosition& at) override {
+    return change([at](SceneLedger& ledger) { ledger.go_on(at); });
+  }
   Result<void> finish() override;
   Result<void> wait() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;

@@ -26,20 +26,20 @@ constexpr double kSoon = 1.5, kSoonHeads = 1.5;
 
 HeadTrickle::HeadTrickle(double join) : join_(join) {
   packets_.feed(kSignature);
-  begin_ = kSignature.size();
+  (void)packets_.next();
 }
 
 void HeadTrickle::add(std::span<const std::uint8_t> packets) {
+  const std::uint64_t begin = packets_.offset();
   packets_.feed(packets);
   for (;;) {
     const auto read = packets_.next();
     assert(read);
     if (read->status != ReadStatus::kPacket) break;
     const Packet& packet = read->packet;
-    add(packet, packets.subspan(static_cast<std::size_t>(packet.offset - begin_), packet.size));
+    add(packet, packets.subspan(static_cast<std::size_t>(packet.offset - begin), packet.size));
     while (reader_.pictures().has_next()) (void)reader_.pictures().next();
   }
-  begin_ += packets.size();
 }
 
 void HeadTrickle::add(const Packet& packet, std::span<const std::uint8_t> whole) {

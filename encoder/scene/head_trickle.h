@@ -33,7 +33,6 @@ class HeadTrickle {
   double join_;  ///< s
   PacketReader packets_;
   SceneReader reader_;
-  std::uint64_t begin_ = 0;  ///< offset of the packets added next
   // The scene's:
   std::vector<std::uint8_t> head_;      ///< packets up to the first pattern
   std::vector<std::uint8_t> surround_;  ///< payload of the last surround packet behind them

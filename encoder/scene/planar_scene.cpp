@@ -42,8 +42,9 @@ Result<std::unique_ptr<SceneEncoder>> PlanarScene::begin(const VideoFormat& form
 
 PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, const RatePlan& rate,
                          PicturePlane plane)
-    : ledger_(setup, CodedState{}, rate, settings,
-              planar_patterns(settings, rate.point, setup.format, CodedState{})),
+    : ledger_(
+          setup, CodedState{}, rate, settings,
+          pattern_stage(planar_pass_settings(settings, rate.point), settings, setup.format, CodedState{})),
       plane_(std::move(plane)) {
   scene_.setup = setup;
   scene_.setup.patterns = ledger_.patterns()->slots();

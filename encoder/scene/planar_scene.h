@@ -22,16 +22,8 @@ class PlanarScene : public SceneEncoder {
 
   Result<void> push(const Picture& picture, std::uint32_t duration) override;
   void cut() override;
-  Result<void> request_scene() override {
-    ledger_.request_scene();
-    return {};
-  }
-  Result<void> lose_patterns() override {
-    ledger_.lose_patterns();
-    return {};
-  }
-  Result<void> set_bitrate(double kbps) override {
-    ledger_.set_bitrate(kbps);
+  Result<void> change(const std::function<void(SceneLedger&)>& how) override {
+    how(ledger_);
     return {};
   }
   [[nodiscard]] bool recognises(const Picture&) override { return false; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bitstream/syntax.h"
@@ -11,6 +12,8 @@
 #include "encoder/landmarks/landmark_file.h"
 
 namespace fbs {
+
+class SceneLedger;
 
 class SceneEncoder {
  public:
@@ -29,14 +32,9 @@ class SceneEncoder {
   /// The picture pushed next begins another shot, which the scene must carry.
   virtual void cut() = 0;
 
-  /// Ends a live scene with its present group, so that the next picture begins another. A scene that shows
-  /// one still picture does not end.
-  virtual Result<void> request_scene() { return {}; }
-
-  /// The bitrate of a live scene that has a limit, from the next group on, kbit/s.
-  virtual Result<void> set_bitrate(double /*kbps*/) { return {}; }
-  /// A viewer has lost a pattern of the scene for good.
-  virtual Result<void> lose_patterns() { return {}; }
+  /// Has a live scene behave otherwise from the pictures on that have not been coded. A scene that shows one
+  /// still picture stays as it is.
+  virtual Result<void> change(const std::function<void(SceneLedger&)>& /*how*/) { return {}; }
 
   /// Whether the picture, which is pushed next, shows the scene's person, who is then tracked again.
   [[nodiscard]] virtual bool recognises(const Picture& picture) = 0;

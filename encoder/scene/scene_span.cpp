@@ -20,10 +20,9 @@ std::optional<std::uint64_t> begin_of(const TypedPayload& packet) {
 }  // namespace
 
 Result<void> SceneSpan::begin(std::unique_ptr<SceneEncoder> scene, std::uint64_t picture) {
-  const bool alone = open_.empty();
+  if (open_.empty()) begin_ = picture;
   const auto left = leave(picture);
   if (!left) return fail(left.error());
-  if (alone) begin_ = picture;
   members_.push_back(std::make_unique<Member>(Member{std::move(scene), picture}));
   present_ = members_.back().get();
   present_->packets.feed(kSignature);
@@ -154,6 +153,11 @@ std::vector<std::uint8_t> SceneSpan::take() {
     if (last || (!member.next && !all_ready)) break;
     visits_.pop_front();
   }
+  std::erase_if(members_, [&](const auto& member) {
+    return !member->scene && std::ranges::none_of(visits_, [&](const Visit& visit) {
+      return visit.shown == member.get() || visit.left == member.get();
+    });
+  });
   return out;
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "common/workers.h"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "encoder/blend/mode_choice.h"
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/plan/pattern_point.h"
 #include "encoder/plan/scene_timing.h"
@@ -188,8 +187,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size_t shared) {
-  const bool refines = coarse_ > 0 && store_.segment().shots.size() == 1;
-  if (refines) {
+  if (coarse_ > 0 && store_.segment().shots.size() == 1) {
     const double left = pattern_room();
     if (left < kFiner * coarse_) return Plan{};
     const std::size_t last = store_.segment().states.size() - 1;  // nearest to what is not yet known

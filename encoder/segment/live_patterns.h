@@ -1,10 +1,8 @@
 // Patterns of a live scene: sent when they pay for past pictures, and solved for where the delay is long.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "common/workers.h"

@@ -27,9 +27,9 @@ double start_of(const EncoderSettings& settings) {
   return settings.start.value_or(by_default ? std::min(kLiveStart, settings.live->buffer) : 0);
 }
 
-LivePatternSettings live_settings(const EncoderSettings& settings, const OperatingPoint& motion,
+LivePatternSettings live_settings(const PatternSettings& common, const EncoderSettings& settings,
                                   const VideoFormat& format) {
-  LivePatternSettings out;
+  LivePatternSettings out{common};
   out.delay = settings.live->delay;
   const Effort effort = Effort::of(settings.effort);
   out.solves = effort.solves;
@@ -41,34 +41,10 @@ LivePatternSettings live_settings(const EncoderSettings& settings, const Operati
                       : quantiser_of(point, format.width >> halvings, format.height >> halvings) - kLiveFiner;
   if (settings.pattern_quantiser < 0 && LivePatterns::has_windows(out.delay))
     out.quantiser += static_cast<int>(std::lround(kWindowSteps * (50 - settings.quality) / 50));
-  out.lambda = motion.lambda;
   out.refits = effort.refits > 0 && !settings.track_only;
-  out.bitrate_kbps = settings.bitrate;
   out.buffer = settings.live->buffer;
-  out.start = start_of(settings);
-  out.groups_per_key = SceneTiming(format, settings).groups_per_key;
   out.alone = settings.live->resilience == Resilience::kStrong;
-  out.threads = std::max(1, thread_count(settings) - 1);  // one is the analysis's
-  out.hooks = settings.hooks;
-  return out;
-}
-
-/// @param pass  of a file
-std::unique_ptr<PatternStage> patterns(FilePatternSettings pass, const EncoderSettings& settings,
-                                       const OperatingPoint& motion, const VideoFormat& format,
-                                       const CodedState& rest) {
-  if (!settings.live) {
-    pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
-    auto out = std::make_unique<PatternStage>(format, pass, rest);
-    out->decide_by(std::make_unique<FilePatterns>(*out, pass));
-    return out;
-  }
-  const LivePatternSettings live = live_settings(settings, motion, format);
-  auto out = std::make_unique<PatternStage>(format, live, rest);
-  // A rate is kept by what waits to be sent, not over a whole scene.
-  const bool knows_scenes = LivePatterns::has_windows(live.delay) && live.bitrate_kbps == 0 && !live.alone;
-  out->decide_by(std::make_unique<LivePatterns>(*out, live),
-                 knows_scenes ? std::make_unique<FilePatterns>(*out, pass) : nullptr);
+  out.threads = std::max(1, common.threads - 1);  // one is the analysis's
   return out;
 }
 
@@ -114,14 +90,21 @@ FilePatternSettings planar_pass_settings(const EncoderSettings& settings, const 
   return out;
 }
 
-std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
+std::unique_ptr<PatternStage> pattern_stage(FilePatternSettings pass, const EncoderSettings& settings,
                                             const VideoFormat& format, const CodedState& rest) {
-  return patterns(pass_settings(settings, motion), settings, motion, format, rest);
-}
-
-std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings, const OperatingPoint& motion,
-                                              const VideoFormat& format, const CodedState& rest) {
-  return patterns(planar_pass_settings(settings, motion), settings, motion, format, rest);
+  pass.groups_per_key = SceneTiming(format, settings).groups_per_key;
+  if (!settings.live) {
+    auto out = std::make_unique<PatternStage>(format, pass, rest);
+    out->decide_by(std::make_unique<FilePatterns>(*out, pass));
+    return out;
+  }
+  const LivePatternSettings live = live_settings(pass, settings, format);
+  auto out = std::make_unique<PatternStage>(format, live, rest);
+  // A rate is kept by what waits to be sent, not over a whole scene.
+  const bool knows_scenes = LivePatterns::has_windows(live.delay) && live.bitrate_kbps == 0 && !live.alone;
+  out->decide_by(std::make_unique<LivePatterns>(*out, live),
+                 knows_scenes ? std::make_unique<FilePatterns>(*out, pass) : nullptr);
+  return out;
 }
 
 }  // namespace fbs

@@ -24,17 +24,11 @@ namespace fbs {
 [[nodiscard]] FilePatternSettings planar_pass_settings(const EncoderSettings& settings,
                                                        const OperatingPoint& motion);
 
-/// The stage for the patterns of a scene with a face, live or with look-ahead.
-/// @param motion  operating point of the motion
-/// @param rest    seen state of pattern 0 as coded
-[[nodiscard]] std::unique_ptr<PatternStage> face_patterns(const EncoderSettings& settings,
-                                                          const OperatingPoint& motion,
+/// The stage for the patterns of a scene, live or with look-ahead.
+/// @param pass  from one of the functions above
+/// @param rest  seen state of pattern 0 as coded
+[[nodiscard]] std::unique_ptr<PatternStage> pattern_stage(FilePatternSettings pass,
+                                                          const EncoderSettings& settings,
                                                           const VideoFormat& format, const CodedState& rest);
-
-/// The same for a scene without a face.
-[[nodiscard]] std::unique_ptr<PatternStage> planar_patterns(const EncoderSettings& settings,
-                                                            const OperatingPoint& motion,
-                                                            const VideoFormat& format,
-                                                            const CodedState& rest);
 
 }  // namespace fbs

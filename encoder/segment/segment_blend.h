@@ -2,7 +2,6 @@
 // Results are the same for any number of workers.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "encoder/blend/mode_errors.h"

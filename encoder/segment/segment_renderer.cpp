@@ -1,7 +1,6 @@
 #include "encoder/segment/segment_renderer.h"
 
 #include "decoder/blend/picture_blend.h"
-#include "decoder/head/head_deformation.h"
 #include "decoder/head/mouth_interior.h"
 
 namespace fbs {

@@ -55,7 +55,6 @@ class SegmentStore {
   /// Patterns that the decoder keeps.
   [[nodiscard]] std::int32_t slots() const { return slots_; }
   [[nodiscard]] Coders& coders() { return coders_; }
-  [[nodiscard]] const Coders& coders() const { return coders_; }
 
   /// Seen state of a pattern that is a picture of the segment.
   [[nodiscard]] const State& seen_state(const Scene& scene, std::size_t time) const;

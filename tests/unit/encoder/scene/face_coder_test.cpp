@@ -45,7 +45,7 @@ class RestingHead {
   }
   /// The packets that are ready.
   std::vector<PacketType> taken() {
-    reader_.feed(coder_.take());
+    reader_.feed(coder_.ledger().packets().take());
     std::vector<PacketType> out;
     for (auto read = reader_.next(); read && read->status == ReadStatus::kPacket; read = reader_.next()) {
       out.push_back(read->packet.type);
@@ -140,9 +140,9 @@ TEST(FaceCoder, AnotherSceneBeginsAfterTheKeyInterval) {
 TEST(FaceCoder, ARequestEndsALiveSceneOnce) {
   RestingHead head(live({}));
   head.add(3);
-  head.coder().request_scene();
+  head.coder().ledger().request_scene();
   head.add(2);
-  head.coder().request_scene();
+  head.coder().ledger().request_scene();
   head.add(3);
   const auto packets = head.taken();
   EXPECT_EQ(std::count(packets.begin(), packets.end(), kSetup), 2) << "it had ended already";

@@ -26,8 +26,9 @@ EncoderSettings settings(double key_interval, bool live) {
 SceneLedger ledger(const EncoderSettings& settings, bool several) {
   const RatePlan rate{OperatingPoint::at(50, 32), 0};
   const CodedState rest = coded_pose(toy_state());
-  return {setup(), rest, rate, settings,
-          several ? face_patterns(settings, rate.point, setup().format, rest) : nullptr};
+  return {
+      setup(), rest, rate, settings,
+      several ? pattern_stage(pass_settings(settings, rate.point), settings, setup().format, rest) : nullptr};
 }
 
 /// Adds pictures, and ends groups where they end.

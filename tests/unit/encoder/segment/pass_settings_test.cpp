@@ -98,14 +98,16 @@ TEST(PassSettings, FilesStartInASecondOnlyIfAskedTo) {
 }
 
 TEST(PassSettings, OnlyALiveStageEndsASegmentWithEachGroup) {
-  const CodedState rest{};
-  for (const auto& make : {&face_patterns, &planar_patterns}) {
-    EXPECT_TRUE(make(live(), kMotion, format(), rest)->segment_ends(5));
-    EXPECT_FALSE(make({}, kMotion, format(), rest)->segment_ends(5));
-    EXPECT_EQ(make(live(), kMotion, format(), rest)->slots(), pattern_store(format()));
+  for (const auto& pass_of : {&pass_settings, &planar_pass_settings}) {
+    const auto make = [&](const EncoderSettings& settings) {
+      return pattern_stage(pass_of(settings, kMotion), settings, format(), {});
+    };
+    EXPECT_TRUE(make(live())->segment_ends(5));
+    EXPECT_FALSE(make({})->segment_ends(5));
+    EXPECT_EQ(make(live())->slots(), pattern_store(format()));
     EncoderSettings late = live();
     late.live->delay = 1;
-    EXPECT_FALSE(make(late, kMotion, format(), rest)->segment_ends(5));
+    EXPECT_FALSE(make(late)->segment_ends(5));
   }
 }
 
