@@ -72,7 +72,7 @@ Result<SceneSyntax> SceneReader::read_payload(const Packet& packet) {
   if (packet.type == PacketType::kHeadPart) return read_head_part(packet);
   if (packet.type != PacketType::kSoundSetup && (!is_of_scene(packet.type) || lost_))
     return SceneSyntax{};  // SPEC 3.1, 6.2: skipped
-  if (!has_setup_) return has_losses_ ? Result<SceneSyntax>{} : refuse("a packet before the setup");
+  if (!has_setup()) return has_losses_ ? Result<SceneSyntax>{} : refuse("a packet before the setup");
   switch (packet.type) {
     case PacketType::kWireFrame:
       return read_wire_frame(packet);
@@ -113,7 +113,6 @@ Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
   if (setup->keeps == SceneKeeping::kNone) earlier_losses_ = false;
   sound_.reset();
   scene_ = ++scenes_;
-  has_setup_ = true;
   setup_ = *setup;
   Setup joined = setup_;
   joined.before.pictures += passed.pictures;
@@ -168,7 +167,7 @@ void SceneReader::enter(SceneReader scene) {
   scene.sound_ = sound_;
   scene.aside_ = std::move(aside_);
   scene.scenes_ = scenes_;
-  scene.earlier_losses_ = earlier_losses_ || has_losses_ || !has_setup_;
+  scene.earlier_losses_ = earlier_losses_ || has_losses_ || !has_setup();
   *this = std::move(scene);
 }
 

@@ -73,7 +73,7 @@ class SceneReader {
   }
 
   /// Whether a setup packet has been read.
-  [[nodiscard]] bool has_setup() const { return has_setup_; }
+  [[nodiscard]] bool has_setup() const { return scene_ > 0; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
   /// Tells the present scene from all others, also after a return to it: scenes are numbered from 1.
   [[nodiscard]] std::uint64_t scene() const { return scene_; }
@@ -115,7 +115,6 @@ class SceneReader {
   [[nodiscard]] Result<SceneSyntax> read_sound_setup(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_sound(const Packet& packet);
 
-  bool has_setup_ = false;
   bool lost_ = false, has_losses_ = false;
   HeadParts head_parts_;   // of a scene that might be joined
   StreamPosition passed_;  // pictures of a scene that is joined next

@@ -23,7 +23,6 @@ Result<void> Timeline::add(std::span<const State> states, std::span<const std::u
     ++end_position_.pictures;
     end_position_.time += durations[i];
   }
-  released_ = std::max(released_, std::min(with_modes_, end()));
   return {};
 }
 
@@ -39,7 +38,6 @@ Result<void> Timeline::release(std::int32_t first, std::span<const RegionModes> 
     else
       ahead_.push_back(last_modes_);
   }
-  released_ = std::min(with_modes_, end());
   return {};
 }
 

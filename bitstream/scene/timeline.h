@@ -26,7 +26,7 @@ class Timeline {
   /// @param begin  position of the first picture
   /// @param first  its number
   explicit Timeline(const StreamPosition& begin = {}, std::int32_t first = 0)
-      : first_(first), next_(first), released_(first), with_modes_(first), end_position_(begin) {}
+      : first_(first), next_(first), with_modes_(first), end_position_(begin) {}
 
   /// Adds the states of the next pictures and numbers them.
   /// @param guessed  how many of the first of them may be wrong, since a group is missing
@@ -41,14 +41,14 @@ class Timeline {
   /// @return kTooLarge when modes would be more than kMaxWaitingPictures ahead of the states
   [[nodiscard]] Result<void> release(std::int32_t first, std::span<const RegionModes> modes);
   /// Releases all pictures.
-  void release_all() { with_modes_ = released_ = end(); }
+  void release_all() { with_modes_ = end(); }
 
-  [[nodiscard]] bool has_next() const { return next_ < released_; }
+  [[nodiscard]] bool has_next() const { return next_ < released(); }
   /// The next picture to be displayed; has_next() is true.
   Entry next();
   /// The picture that is displayed so many after the next one; null as long as it is not released.
   [[nodiscard]] const Entry* behind_next(std::int32_t pictures) const {
-    return next_ + pictures < released_ ? &entries_[next_ + pictures - first_] : nullptr;
+    return next_ + pictures < released() ? &entries_[next_ + pictures - first_] : nullptr;
   }
 
   /// How many have been displayed.
@@ -69,10 +69,12 @@ class Timeline {
   [[nodiscard]] const Entry* find(std::int32_t picture) const;
 
  private:
+  /// Pictures below this may be displayed.
+  [[nodiscard]] std::int32_t released() const { return std::min(with_modes_, end()); }
+
   std::deque<Entry> entries_;      // pictures first_, first_ + 1, ...
   std::int32_t first_ = 0;         // number of the oldest picture that is kept
   std::int32_t next_ = 0;          // to be displayed
-  std::int32_t released_ = 0;      // pictures below this may be displayed
   std::int32_t with_modes_ = 0;    // pictures below this have modes
   std::deque<RegionModes> ahead_;  // of those that have no state yet
   RegionModes last_modes_{};

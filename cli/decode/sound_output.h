@@ -12,7 +12,6 @@
 #include "cli/video/video_sink.h"
 #include "common/result.h"
 #include "decoder/sound/decoded_sound.h"
-#include "decoder/stream/stream_decoder.h"
 #include "encoder/sound/sound_encoder.h"
 
 namespace fbs::cli {

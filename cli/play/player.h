@@ -85,8 +85,6 @@ class Player {
   [[nodiscard]] Size content_of(const cv::Mat& image) const;
   [[nodiscard]] std::vector<Panel> panels() const;
   [[nodiscard]] std::vector<std::string> info() const;
-  /// How the sound differs from the stream's; empty if not.
-  [[nodiscard]] std::string sound_text() const;
   [[nodiscard]] double progress() const;
   [[nodiscard]] StreamDecoder& decoder() { return file_->decoder(); }
   [[nodiscard]] const StreamDecoder& decoder() const { return file_->decoder(); }

@@ -111,8 +111,4 @@ void Player::take_sound_key(const KeyPress& press) {
     sound_->change_volume(press.amount);
 }
 
-std::string Player::sound_text() const {
-  return device_ ? sound_->volume_text() : "";
-}
-
 }  // namespace fbs::cli

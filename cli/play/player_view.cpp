@@ -91,7 +91,7 @@ std::vector<std::string> Player::info() const {
   const std::uint64_t time = std::max<std::uint64_t>(end, kTicksPerSecond);
   const double rate =
       8e-3 * static_cast<double>(file_->bytes_decoded()) * kTicksPerSecond / static_cast<double>(time);
-  const std::string sound = sound_text();
+  const std::string sound = device_ ? sound_->volume_text() : "";
   std::array<char, 200> line{};
   std::snprintf(line.data(), line.size(), "%s%s%s   %.1f kbit/s   picture %llu   patterns %zu%s%s%s%s",
                 clock_text(begin).c_str(), length_ ? " / " : "", length_ ? clock_text(*length_).c_str() : "",

@@ -33,9 +33,6 @@ class Stage {
   /// Selects another pattern of the scene, cyclically.
   void choose_next(const StreamDecoder& decoder, int step);
 
-  /// The picture as drawn, without overlays.
-  [[nodiscard]] const Picture& picture() const { return picture_; }
-
   /// For the screen: enlarged by display_zoom(), with all overlays and the legend of the patterns.
   [[nodiscard]] Result<cv::Mat> screen_image(const StreamDecoder& decoder) const;
 

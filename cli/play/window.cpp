@@ -170,8 +170,8 @@ bool Window::full_screen() const {
   return (SDL_GetWindowFlags(handles_->window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
-bool Window::set_full_screen(bool full) {
-  if (full == full_screen()) return full;
+void Window::set_full_screen(bool full) {
+  if (full == full_screen()) return;
   SDL_Window* const window = handles_->window;
   Box& before = before_full_screen_;
   // SDL leaves the size to the window manager. Without one, the window sets it itself.
@@ -189,7 +189,6 @@ bool Window::set_full_screen(bool full) {
     SDL_SetWindowSize(window, before.width, before.height);
     SDL_SetWindowPosition(window, before.x, before.y);
   }
-  return full_screen();
 }
 
 void Window::resize() {

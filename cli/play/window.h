@@ -54,8 +54,7 @@ class Window {
   /// @param progress  where the time bar ends, 0..1; negative: no bar
   Result<void> show(const cv::Mat& image, Size content, std::span<const Panel> panels, double progress);
 
-  /// @return whether it then fills the screen
-  bool set_full_screen(bool full);
+  void set_full_screen(bool full);
   [[nodiscard]] bool full_screen() const;
 
  private:

@@ -49,10 +49,6 @@ struct Drawing {
 
 /// The planes of Y, U, V that have the scale.
 template <class T>
-[[nodiscard]] std::span<T> planes_of_scale(std::array<T, 3>& planes, PlaneScale scale) {
-  return scale == PlaneScale::kLuma ? std::span<T>(planes).first(1) : std::span<T>(planes).last(2);
-}
-template <class T>
 [[nodiscard]] std::span<const T> planes_of_scale(const std::array<T, 3>& planes, PlaneScale scale) {
   return scale == PlaneScale::kLuma ? std::span<const T>(planes).first(1)
                                     : std::span<const T>(planes).last(2);

@@ -1,8 +1,6 @@
 #include "decoder/draw/renderer.h"
 
 #include <algorithm>
-#include <span>
-#include <utility>
 
 #include "decoder/blend/mesh_blend.h"
 #include "decoder/draw/head_painter.h"

@@ -1,12 +1,10 @@
 #include "decoder/draw/silhouette.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace fbs {

@@ -26,7 +26,7 @@ struct LookSource {
 
 /// What a triangle shows.
 struct TriangleLook {
-  /// Of the triangle in the texture, 1/64 luma pixel, as ScreenVertex::at.
+  /// The triangle's corners in the texture, 1/64 luma pixel, as ScreenVertex::at.
   std::array<glm::ivec2, 3> corners;
   /// Light of the texture at the corners, as VertexLight.
   std::array<std::int32_t, 3> offset{}, gain{};
@@ -53,7 +53,7 @@ class Rasteriser {
   /// Draws all samples that show a triangle; leaves the others alone.
   void draw() { draw_triangles(list_, shading_, depth_); }
 
-  /// Of what was drawn.
+  /// The depth of what was drawn.
   [[nodiscard]] const DepthPlane& depth() const { return depth_; }
 
  private:

@@ -35,7 +35,7 @@ struct Shading {
   /// A plane of luma, or two of chroma; of one size from 2 x 2, or without width if no triangle shows it.
   std::span<const ConstPlaneView> texture;
   LightUse light;  ///< of the texture; luma only
-  /// Of still sources, which are shown where they are: sources x planes, each of the target's size.
+  /// Still sources, which are shown where they are: sources x planes, each of the target's size.
   std::span<const ConstPlaneView> still;
   std::span<const PlaneView> target;  ///< as many as of the texture
 

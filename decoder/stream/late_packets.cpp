@@ -16,7 +16,7 @@ void LatePackets::feed(std::uint64_t number, std::span<const std::uint8_t> bytes
   arrived_.push_back({number, {bytes.begin(), bytes.end()}});
 }
 
-LatePackets::Bytes LatePackets::next(SceneReader& reader) {
+std::optional<std::span<const std::uint8_t>> LatePackets::next(SceneReader& reader) {
   drop_complete(reader);
   // All that are there are put in order before one is read behind a gap.
   while (!arrived_.empty() && (position_ == kept_.size() || kept_.size() < kMaxKept)) {
@@ -25,17 +25,12 @@ LatePackets::Bytes LatePackets::next(SceneReader& reader) {
     if (!before_ && packet.number == expected_.value_or(packet.number)) {
       expected_ = packet.number + 1;
       current_ = std::move(packet);
-      return read(current_);
+      return current_.bytes;
     }
     place(std::move(packet), reader);
   }
   if (position_ == kept_.size()) return std::nullopt;
-  return read(kept_[position_++]);
-}
-
-LatePackets::Bytes LatePackets::read(Received& packet) {
-  again_ = std::exchange(packet.read, true);
-  return packet.bytes;
+  return kept_[position_++].bytes;
 }
 
 void LatePackets::place(Received packet, SceneReader& reader) {

@@ -32,9 +32,7 @@ class LatePackets {
   /// @return valid until the next call; nothing if none waits
   [[nodiscard]] std::optional<std::span<const std::uint8_t>> next(SceneReader& reader);
 
-  /// Whether the packet that next() returned last has been read before.
-  [[nodiscard]] bool is_again() const { return again_; }
-  /// Whether it may be read again.
+  /// Whether the packet that next() returned last may be read again.
   [[nodiscard]] bool is_kept() const { return before_ && given_up_ < *expected_; }
   /// It begins a scene, or returns to one: those before it are not waited for any longer.
   void begin_scene();
@@ -51,15 +49,12 @@ class LatePackets {
   struct Received {
     std::uint64_t number;
     std::vector<std::uint8_t> bytes;
-    bool read = false;
   };
-  using Bytes = std::optional<std::span<const std::uint8_t>>;
 
   /// Drops what has been read if nothing before it is waited for.
   void drop_complete(const SceneReader& reader);
   /// Takes in a packet that has come while one is missing. One that comes twice, or too late, is left out.
   void place(Received packet, SceneReader& reader);
-  [[nodiscard]] Bytes read(Received& packet);
 
   std::deque<Received> arrived_;           ///< not placed yet
   std::optional<std::uint64_t> expected_;  ///< behind the highest number placed
@@ -69,7 +64,7 @@ class LatePackets {
   std::size_t position_ = 0;               ///< in kept_, of the next to be read
   std::uint64_t given_up_ = 0;             ///< numbers below are not waited for
   Received current_{};                     ///< read last, where none is missing
-  bool again_ = false, closed_ = false;
+  bool closed_ = false;
 };
 
 }  // namespace fbs

@@ -1,7 +1,6 @@
 #include "decoder/stream/packet_list.h"
 
 #include <array>
-#include <utility>
 
 #include "bitstream/packet.h"
 #include "decoder/stream/packet_times.h"

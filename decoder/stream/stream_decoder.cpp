@@ -57,7 +57,7 @@ Result<DecodeStatus> StreamDecoder::next() {
       reader_.lose();  // reported once
       return fail(ErrorCode::kTruncated, "the stream ends before its setup", packets_.offset());
     }
-    if (!late_.is_again() && !read->packet.in_parts) tally_.count(read->packet);
+    if (!read->packet.in_parts) tally_.count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
     if (reader_.pictures().has_next()) tally_.note_startup();
   }
@@ -66,20 +66,19 @@ Result<DecodeStatus> StreamDecoder::next() {
 DecodeStatus StreamDecoder::show() {
   const Timeline::Entry next = reader_.pictures().next();
   ++announced_;
-  picture_ = {next.state, clock_.now(), next.duration, false, scene_->shared()};
+  const PictureQuality quality = next.guessed                    ? PictureQuality::kInterpolated
+                                 : reader_.has_broken_patterns() ? PictureQuality::kPatternMissing
+                                                                 : PictureQuality::kExact;
+  picture_ = {next.state, clock_.now(), next.duration, quality, scene_->shared()};
   clock_.show(next.duration);
-  quality_ = next.guessed                    ? PictureQuality::kInterpolated
-             : reader_.has_broken_patterns() ? PictureQuality::kPatternMissing
-                                             : PictureQuality::kExact;
   return DecodeStatus::kPicture;
 }
 
 DecodeStatus StreamDecoder::hold() {
-  const StreamPosition position = clock_.now();
   ++announced_;
-  picture_.position = position;
+  picture_.position = clock_.now();
   picture_.duration = clock_.hold(nominal_duration(format().frame_rate));
-  picture_.held = true;
+  picture_.quality = PictureQuality::kHeld;
   return DecodeStatus::kPicture;
 }
 

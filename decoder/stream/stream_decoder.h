@@ -123,9 +123,9 @@ class StreamDecoder {
   /// Its duration in 1/90000 s.
   [[nodiscard]] std::uint32_t duration() const { return picture_.duration; }
   /// Whether the previous picture is repeated in place of a missing one.
-  [[nodiscard]] bool held() const { return picture_.held; }
+  [[nodiscard]] bool held() const { return quality() == PictureQuality::kHeld; }
   /// How far it is what was sent.
-  [[nodiscard]] PictureQuality quality() const { return held() ? PictureQuality::kHeld : quality_; }
+  [[nodiscard]] PictureQuality quality() const { return picture_.quality; }
 
   /// Position of the first picture: not 0, 0 if the stream was joined in its middle.
   [[nodiscard]] const StreamPosition& start() const { return clock_.start(); }
@@ -197,10 +197,9 @@ class StreamDecoder {
     State state;
     StreamPosition position;
     std::uint32_t duration = 0;  ///< 1/90000 s
-    bool held = false;
+    PictureQuality quality{};
     std::shared_ptr<const Scene> scene;
   } picture_;                         ///< announced last
-  PictureQuality quality_{};          ///< of it, unless it is held
   std::optional<std::uint64_t> end_;  ///< number of pictures, when the end packet has been read
   SoundInbox sound_;
   StreamTally tally_;

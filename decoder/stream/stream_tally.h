@@ -16,12 +16,12 @@ namespace fbs {
 struct ByteCount {
   std::uint64_t total = 0;
   std::uint64_t startup = 0;   ///< prefix that must have arrived before the first picture can be shown
-  std::uint64_t geometry = 0;  ///< geometry and surround packets
+  std::uint64_t geometry = 0;  ///< wire-frame, geometry and surround packets
   std::uint64_t patterns = 0;
-  std::uint64_t motion = 0;  ///< motion and blend packets
-  std::uint64_t blend = 0;   ///< of `motion`, the blend packets
+  std::uint64_t motion = 0;  ///< motion, blend and unit packets
+  std::uint64_t blend = 0;   ///< of `motion`, blend packets and the blends of units
   std::uint64_t sound = 0;   ///< sound packets and their setups
-  std::uint64_t other = 0;   ///< signature, setup, return, end, unknown packets and skipped bytes
+  std::uint64_t other = 0;   ///< signature, setup, return, end, head part, unknown packets and skipped bytes
 };
 
 /// A pattern as received.

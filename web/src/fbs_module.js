@@ -291,7 +291,7 @@ export class FbsDecoder {
     return { time, sampleRate, channels, samples: new Int16Array(this.memory, address, count * channels).slice() };
   }
 
-  /** Of the sound: Hz, bytes, and ticks. */
+  /** What has come of the sound: Hz, bytes, and ticks. */
   arrived() {
     this.check(this.functions.fbs_sound_get_info(this.soundReader, this.block + ANY));
     const view = this.view;

@@ -8,7 +8,7 @@
 /** Hz of what they decode. */
 const RATES = { opus: 48000, codec2: 8000 };
 const OPUS_RESET_STATE = 4028;
-/** Of the longest Opus packet and its samples: 0.12 s of two channels. */
+/** The longest Opus packet and its samples: 0.12 s of two channels. */
 const PACKET_BYTES = 61298, SAMPLE_BYTES = 4 * 5760;
 
 /** What the modules import besides each other: there are no files. */

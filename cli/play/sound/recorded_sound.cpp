@@ -20,7 +20,7 @@ Result<RecordedSound> RecordedSound::create(const SoundParts& parts, int sample_
   settings.bitrate = kChannelBitrate * channels;
   auto encoder = SoundEncoder::create(settings);
   if (!encoder) return fail(encoder.error());
-  return RecordedSound(std::move(*encoder), SoundCursor(parts, sample_rate, channels), channels);
+  return RecordedSound(std::move(*encoder), SoundCursor(parts, sample_rate, channels));
 }
 
 Result<void> RecordedSound::write(const SoundSpan& span, std::int64_t end, VideoSink& sink) {
@@ -41,13 +41,13 @@ Result<void> RecordedSound::write(const SoundSpan& span, std::int64_t end, Video
   SoundEncoder::Frames frames;
   if (auto coded = encoder_->add(std::span(waiting_).first(count), frames); !coded) return coded;
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
-  written_ += static_cast<std::int64_t>(count) / channels_;
+  written_ += static_cast<std::int64_t>(count) / cursor_.channels();
   return write(frames, sink);
 }
 
 std::size_t RecordedSound::room(std::int64_t end) const {
   const std::int64_t samples = end * encoder_->sample_rate() / kTicksPerSecond - written_;
-  return static_cast<std::size_t>(std::max<std::int64_t>(samples, 0) * channels_);
+  return static_cast<std::size_t>(std::max<std::int64_t>(samples, 0) * cursor_.channels());
 }
 
 Result<void> RecordedSound::write(const SoundEncoder::Frames& frames, VideoSink& sink) {

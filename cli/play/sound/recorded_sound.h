@@ -36,15 +36,14 @@ class RecordedSound {
   Result<void> finish(VideoSink& sink);
 
  private:
-  RecordedSound(std::unique_ptr<SoundEncoder> encoder, SoundCursor cursor, int channels)
-      : encoder_(std::move(encoder)), cursor_(std::move(cursor)), channels_(channels) {}
+  RecordedSound(std::unique_ptr<SoundEncoder> encoder, SoundCursor cursor)
+      : encoder_(std::move(encoder)), cursor_(std::move(cursor)) {}
   Result<void> write(const SoundEncoder::Frames& frames, VideoSink& sink);
   /// Samples of all channels that are missing before a time in the sink, 1/90000 s.
   [[nodiscard]] std::size_t room(std::int64_t end) const;
 
   std::unique_ptr<SoundEncoder> encoder_;
   SoundCursor cursor_;
-  int channels_;
   std::int64_t next_ = -1;             ///< time in the stream after the last span
   std::int64_t end_ = 0;               ///< of the last picture in the sink, 1/90000 s
   std::vector<std::int16_t> waiting_;  ///< a sample that did not fit the last picture

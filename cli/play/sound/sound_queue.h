@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace fbs::cli {
 
