@@ -15,7 +15,7 @@ extern "C" {
 #include "cli/video/av/av_colour.h"
 #include "cli/video/av/av_filter.h"
 #include "cli/video/av/av_picture.h"
-#include "cli/video/av/av_support.h"
+#include "cli/video/av/av_track.h"
 #include "cli/video/orientation.h"
 #include "cli/video/picture_size.h"
 #include "cli/video/timestamps.h"
@@ -66,14 +66,14 @@ Orientation orientation_of(const AVStream& stream, const AVFrame& frame) {
 
 class AvSource final : public VideoSource {
  public:
-  explicit AvSource(std::string name) : name_(std::move(name)) {}
+  explicit AvSource(std::string name) : track_(std::move(name)) {}
 
   Result<void> open(const SourceOptions& options);
 
   [[nodiscard]] const VideoFormat& format() const override { return format_; }
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
-  [[nodiscard]] std::int64_t damaged_packets() const override { return damaged_packets_; }
+  [[nodiscard]] std::int64_t damaged_packets() const override { return track_.damaged_packets(); }
   [[nodiscard]] std::vector<std::string> notes() const override;
   /// Time of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
   [[nodiscard]] std::int64_t first_picture_time() const;
@@ -83,82 +83,56 @@ class AvSource final : public VideoSource {
   void describe(const AVFrame& first);
   /// Prepares the conversion of HDR and wide colours to BT.709. Without it they are encoded as they are.
   void convert_colours(const AVFrame& first);
-  /// Decodes the next frame into frame_. @return false at the end
-  Result<bool> decode();
-  /// Sends the next packet, or the end, to the decoder.
-  Result<void> feed();
-  /// @param code  libav's, at the end of the container
-  /// @param cut   whether it came too early
-  void note_failure(int code, bool cut);
   std::int64_t next_pts();
   [[nodiscard]] std::int64_t on_regular_grid(std::int64_t pts) const;
-  [[nodiscard]] tl::unexpected<Error> error(ErrorCode code, const std::string& text) const {
-    return fail(code, name_ + ": " + text);
-  }
-
-  std::string name_;
-  AvInput container_;
-  AvCodec decoder_;
-  AvPacket packet_{av_packet_alloc()};
-  AvFrame frame_{av_frame_alloc()};
-  AVStream* stream_ = nullptr;           ///< of container_
+  AvTrack track_;
   std::unique_ptr<FrameFilter> filter_;  ///< null: none is needed
   std::string colour_note_;              ///< empty: colours are as in the source
   FramePicture converter_;
   VideoFormat format_;
   Orientation orientation_;
-  bool frame_waiting_ = false;    ///< frame_ is decoded and not yet returned
-  bool drained_ = false;          ///< the decoder has got its end-of-stream packet
-  std::optional<Error> failure_;  ///< what ended the container early; reported after the last picture
+  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;
-  std::int64_t damaged_packets_ = 0;
-  bool last_packet_cut_ = false;  ///< libav read less of it than expected
 };
 
 Result<void> AvSource::open(const SourceOptions& options) {
-  int code = 0;
-  container_ = open_av_input(name_, options.stop, code);
-  if (!container_) {
+  if (const int code = track_.open(options.stop); code < 0) {
     const bool other_kind = code == AVERROR_INVALIDDATA || code == AVERROR_PROTOCOL_NOT_FOUND;
     return fail(other_kind ? ErrorCode::kUnsupported : ErrorCode::kIo,
-                "cannot read " + name_ + ": " +
+                "cannot read " + track_.name() + ": " +
                     (other_kind ? "not a video that we know, or cut off before its index" : av_reason(code)));
   }
   if (auto opened = open_decoder(options); !opened) return opened;
-  auto decoded = decode();
+  const auto decoded = track_.decode();
   if (!decoded) return fail(decoded.error());
-  if (!*decoded) return error(ErrorCode::kUnsupported, "contains no picture that can be decoded");
+  if (!*decoded) return track_.error(ErrorCode::kUnsupported, "contains no picture that can be decoded");
   frame_waiting_ = true;
-  describe(*frame_);
-  return check_picture_size(name_, format_.width, format_.height);
+  describe(track_.frame());
+  return check_picture_size(track_.name(), format_.width, format_.height);
 }
 
 Result<void> AvSource::open_decoder(const SourceOptions& options) {
   const AVCodec* codec = nullptr;
-  const int index = av_find_best_stream(container_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-  if (index == AVERROR_DECODER_NOT_FOUND) return error(ErrorCode::kUnsupported, "no decoder for its video");
-  if (index < 0) return error(ErrorCode::kUnsupported, "holds no video");
-  stream_ = container_->streams[index];
-  if ((stream_->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
-    return error(ErrorCode::kUnsupported, "holds no video, only a cover picture");
+  const int index = av_find_best_stream(&track_.container(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+  if (index == AVERROR_DECODER_NOT_FOUND)
+    return track_.error(ErrorCode::kUnsupported, "no decoder for its video");
+  if (index < 0) return track_.error(ErrorCode::kUnsupported, "holds no video");
+  if ((track_.container().streams[index]->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0) {
+    return track_.error(ErrorCode::kUnsupported, "holds no video, only a cover picture");
   }
-  discard_others(*container_, index);
-  const int code = open_av_decoder(*codec, *stream_, std::max(options.decoder_threads, 1), decoder_);
-  if (!decoder_) return error(ErrorCode::kInternal, "out of memory");
-  if (code < 0) return error(ErrorCode::kUnsupported, "cannot decode its video: " + av_reason(code));
-  return {};
+  return track_.choose(index, *codec, std::max(options.decoder_threads, 1), "video");
 }
 
 void AvSource::describe(const AVFrame& first) {
-  orientation_ = orientation_of(*stream_, first);
+  orientation_ = orientation_of(track_.stream(), first);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libav only reads the frame
   auto* const frame = const_cast<AVFrame*>(&first);
-  const AVRational aspect = av_guess_sample_aspect_ratio(container_.get(), stream_, frame);
+  const AVRational aspect = av_guess_sample_aspect_ratio(&track_.container(), &track_.stream(), frame);
   format_.width = first.width;
   format_.height = first.height;
-  format_.frame_rate = choose_frame_rate(container_.get(), stream_);
+  format_.frame_rate = choose_frame_rate(&track_.container(), &track_.stream());
   format_.pixel_aspect = as_rational(aspect);
   format_.range = colour_range(first);
   format_.matrix = colour_matrix(first);
@@ -171,7 +145,7 @@ void AvSource::describe(const AVFrame& first) {
 }
 
 void AvSource::convert_colours(const AVFrame& first) {
-  const auto conversion = colour_conversion(*stream_, first);
+  const auto conversion = colour_conversion(track_.stream(), first);
   if (!conversion) return;
   const auto open = load_module_function<OpenFilterFunction>(kAvFilterModule, kOpenFilterSymbol);
   Result<std::unique_ptr<FrameFilter>> filter;
@@ -198,74 +172,32 @@ std::vector<std::string> AvSource::notes() const {
 
 Result<std::optional<TimedPicture>> AvSource::next() {
   if (!std::exchange(frame_waiting_, false)) {
-    const auto decoded = decode();
+    const auto decoded = track_.decode();
     if (!decoded) return fail(decoded.error());
     if (!*decoded) return std::nullopt;
   }
   const bool lies = orientation_.transposed;
-  const int width = lies ? frame_->height : frame_->width, height = lies ? frame_->width : frame_->height;
-  if (width != format_.width || height != format_.height) return size_change(name_, format_, width, height);
-  Result<const AVFrame*> frame = frame_.get();
-  if (filter_) frame = filter_->filter(*frame_);
+  AVFrame& decoded = track_.frame();
+  const int width = lies ? decoded.height : decoded.width, height = lies ? decoded.width : decoded.height;
+  if (width != format_.width || height != format_.height)
+    return size_change(track_.name(), format_, width, height);
+  Result<const AVFrame*> frame = &decoded;
+  if (filter_) frame = filter_->filter(decoded);
   auto picture = frame.and_then([&](const AVFrame* f) { return converter_.convert(*f); });
-  if (!picture) return error(picture.error().code, picture.error().text);
+  if (!picture) return track_.error(picture.error().code, picture.error().text);
   TimedPicture timed{oriented(std::move(*picture), orientation_), next_pts()};
   ++index_;
   return timed;
 }
 
-Result<bool> AvSource::decode() {
-  for (;;) {
-    const int code = avcodec_receive_frame(decoder_.get(), frame_.get());
-    if (code == AVERROR_EOF && failure_) return fail(*failure_);
-    if (code == AVERROR_EOF) return false;
-    if (code >= 0) return true;
-    if (code != AVERROR(EAGAIN)) {
-      ++damaged_packets_;
-      continue;
-    }
-    if (auto fed = feed(); !fed) return fail(fed.error());
-  }
-}
-
-Result<void> AvSource::feed() {
-  if (drained_) return error(ErrorCode::kInternal, "decoder does not end");
-  const std::int64_t complaints = demuxer_complaints();
-  int code = 0;
-  do {
-    av_packet_unref(packet_.get());
-    code = av_read_frame(container_.get(), packet_.get());
-  } while (code >= 0 && packet_->stream_index != stream_->index);
-  if (code < 0) {
-    note_failure(code, demuxer_complaints() > complaints || last_packet_cut_);
-    drained_ = true;
-    avcodec_send_packet(decoder_.get(), nullptr);
-    return {};
-  }
-  last_packet_cut_ = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
-  if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) ++damaged_packets_;
-  return {};
-}
-
-void AvSource::note_failure(int code, bool cut) {
-  if (code == AVERROR_EOF && !cut) return;
-  const bool damaged = code == AVERROR_EOF || code == AVERROR_INVALIDDATA;
-  failure_ = Error{damaged ? ErrorCode::kTruncated : ErrorCode::kIo,
-                   name_ + ": " + (damaged ? "cut off or damaged" : av_reason(code))};
-}
-
 std::int64_t AvSource::first_picture_time() const {
-  if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
-    return av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTimeBase);
-  }
-  return start_time(*container_);
+  return track_.frame_time(kTimeBase).value_or(start_time(track_.container()));
 }
 
 std::int64_t AvSource::next_pts() {
   std::int64_t pts = last_pts_ + regular_pts(1, format_.frame_rate);
-  if (frame_->best_effort_timestamp != AV_NOPTS_VALUE) {
-    const std::int64_t start = av_rescale(start_time(*container_), kTicksPerSecond, AV_TIME_BASE);
-    pts = av_rescale_q(frame_->best_effort_timestamp, stream_->time_base, kTick) - start;
+  if (const auto time = track_.frame_time(kTick)) {
+    pts = *time - av_rescale(start_time(track_.container()), kTicksPerSecond, AV_TIME_BASE);
   } else if (index_ == 0) {
     pts = 0;
   }
@@ -277,8 +209,8 @@ std::int64_t AvSource::next_pts() {
 }
 
 std::int64_t AvSource::on_regular_grid(std::int64_t pts) const {
-  const std::int64_t unit =
-      av_rescale_rnd(stream_->time_base.num, kTicksPerSecond, stream_->time_base.den, AV_ROUND_UP);
+  const std::int64_t unit = av_rescale_rnd(track_.stream().time_base.num, kTicksPerSecond,
+                                           track_.stream().time_base.den, AV_ROUND_UP);
   const std::int64_t tolerance = std::min(unit, regular_pts(1, format_.frame_rate) / 4);
   const std::int64_t elapsed = pts - first_pts_;
   if (elapsed < 0) return pts;
@@ -290,12 +222,12 @@ std::int64_t AvSource::on_regular_grid(std::int64_t pts) const {
 }
 
 std::optional<std::int64_t> AvSource::frame_count_estimate() const {
-  if (stream_->nb_frames > 0) return stream_->nb_frames;
+  if (track_.stream().nb_frames > 0) return track_.stream().nb_frames;
   double seconds = 0;
-  if (stream_->duration > 0) {
-    seconds = static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
-  } else if (container_->duration > 0) {
-    seconds = static_cast<double>(container_->duration) / AV_TIME_BASE;
+  if (track_.stream().duration > 0) {
+    seconds = static_cast<double>(track_.stream().duration) * av_q2d(track_.stream().time_base);
+  } else if (track_.container().duration > 0) {
+    seconds = static_cast<double>(track_.container().duration) / AV_TIME_BASE;
   }
   if (seconds <= 0) return std::nullopt;
   return std::llround(seconds * format_.frame_rate.num / format_.frame_rate.den);

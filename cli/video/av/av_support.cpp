@@ -54,14 +54,4 @@ void discard_others(AVFormatContext& container, int index) {
   }
 }
 
-int open_av_decoder(const AVCodec& codec, const AVStream& stream, int threads, AvCodec& decoder) {
-  decoder.reset(avcodec_alloc_context3(&codec));
-  if (!decoder) return AVERROR(ENOMEM);
-  const int code = avcodec_parameters_to_context(decoder.get(), stream.codecpar);
-  if (code < 0) return code;
-  decoder->pkt_timebase = stream.time_base;  // lets a sound decoder leave out the encoder's delay
-  decoder->thread_count = threads;
-  return avcodec_open2(decoder.get(), &codec, nullptr);
-}
-
 }  // namespace fbs

@@ -59,8 +59,4 @@ AvInput open_av_input(const std::string& name, const StopSignal* stop, int& erro
 /// Makes the demuxer skip all streams but one.
 void discard_others(AVFormatContext& container, int index);
 
-/// Opens a decoder of a stream.
-/// @return libav's code, negative when it fails; `decoder` is null when there is no memory
-int open_av_decoder(const AVCodec& codec, const AVStream& stream, int threads, AvCodec& decoder);
-
 }  // namespace fbs
