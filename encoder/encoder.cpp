@@ -242,7 +242,7 @@ struct Encoder::Impl {
   }
 
   /// SceneEncoder::change() of the present scene, if there is one.
-  Result<void> change(const std::function<void(SceneLedger&)>& how) {
+  Result<void> change(const std::function<void(SceneLedger&)>& how) const {
     if (has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
     if (scenes.present() == nullptr) return {};
     auto changed = scenes.present()->change(how);

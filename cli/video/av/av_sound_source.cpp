@@ -108,7 +108,7 @@ Result<bool> AvSoundSource::decode() {
   const std::int64_t damaged = track_.damaged_packets();
   const AVFrame& frame = track_.frame();
   for (;;) {
-    const auto decoded = track_.decode();
+    auto decoded = track_.decode();
     if (track_.damaged_packets() > damaged) timeline_.expect_gap();
     if (!decoded && decoded.error().code == ErrorCode::kTruncated) return false;
     if (!decoded || !*decoded) return decoded;
