@@ -12,6 +12,8 @@
 namespace fbs {
 namespace {
 
+using namespace scene_sender;  // NOLINT(google-build-using-namespace): a test's own tools
+
 /// Scenes of one stream, each with a sender; the reader goes from one to the next.
 class Turns {
  public:

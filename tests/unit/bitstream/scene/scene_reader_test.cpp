@@ -10,6 +10,8 @@
 namespace fbs {
 namespace {
 
+using namespace scene_sender;  // NOLINT(google-build-using-namespace): a test's own tools
+
 TEST(SceneReader, MotionReleasesPicturesOfASinglePattern) {
   Sender s = begun(1, 5);
   EXPECT_EQ(shown(s.reader), numbers(0, 5));

@@ -15,7 +15,8 @@
 #include "bitstream/track.h"
 #include "tests/unit/toy_scene.h"
 
-namespace fbs {
+/// A namespace of its own, since other tests have senders and states of theirs.
+namespace fbs::scene_sender {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -122,4 +123,4 @@ inline std::vector<int> numbers(int begin, int end) {
   return out;
 }
 
-}  // namespace fbs
+}  // namespace fbs::scene_sender
