@@ -319,7 +319,6 @@ Result<void> Encoder::set_bitrate(double kbps) {
   Impl& i = *impl_;
   if (!i.settings.live || i.settings.bitrate <= 0)
     return fail(ErrorCode::kInvalidArgument, "the bitrate changes in live encoding with a bitrate only");
-  if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
   if (!(kbps > 0) || !is_size(kbps))
     return fail(ErrorCode::kInvalidArgument, "the bitrate is above 0 kbit/s");
   i.settings.bitrate = kbps;

@@ -25,7 +25,7 @@ class AvSoundSource final : public SoundSource {
   Result<void> open_decoder(int index);
   /// Decodes the next frame with samples. @return false at the end, also of a container that is cut off
   Result<bool> decode();
-  /// Appends the frame, or some of the silence before it.
+  /// Appends the track's frame, or some of the silence before it.
   Result<void> place(std::vector<std::int16_t>& samples);
   void cut(std::vector<std::int16_t>& samples);
 
@@ -34,7 +34,7 @@ class AvSoundSource final : public SoundSource {
   std::int64_t start_ = 0;  ///< of the first picture, on the container's clock, 1/AV_TIME_BASE s
   std::int64_t left_;       ///< samples of one channel that may still be returned
   int channels_;
-  bool frame_waiting_ = false;  ///< it is decoded and not yet placed
+  bool frame_waiting_ = false;  ///< the track's frame has not been placed
   bool ended_ = false;
 };
 

@@ -85,13 +85,14 @@ class AvSource final : public VideoSource {
   void convert_colours(const AVFrame& first);
   std::int64_t next_pts();
   [[nodiscard]] std::int64_t on_regular_grid(std::int64_t pts) const;
+
   AvTrack track_;
   std::unique_ptr<FrameFilter> filter_;  ///< null: none is needed
   std::string colour_note_;              ///< empty: colours are as in the source
   FramePicture converter_;
   VideoFormat format_;
   Orientation orientation_;
-  bool frame_waiting_ = false;  ///< frame_ is decoded and not yet returned
+  bool frame_waiting_ = false;  ///< the track's frame has not been returned
   std::int64_t index_ = 0;
   std::int64_t first_pts_ = 0;
   std::int64_t last_pts_ = 0;

@@ -177,13 +177,23 @@ TEST(StreamDecoder, NothingIsDrawnBeforeTheFirstPicture) {
 }
 
 TEST(StreamDecoder, DrawsIntoTheCallersMemory) {
-  StreamDecoder decoder;
-  decoder.feed(sample().bytes);
-  ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
-  Picture expected, out(kWidth, kHeight);
-  ASSERT_TRUE(decoder.render(expected));
-  ASSERT_TRUE(decoder.render(PictureView(out)));
-  EXPECT_EQ(out, expected);
+  for (const int threads : {1, 2}) {
+    StreamDecoder decoder;
+    decoder.use_threads(threads);
+    decoder.feed(sample().bytes);
+    ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+    Picture expected, out(kWidth, kHeight), small(16, 16);
+    const Picture untouched = small;
+    ASSERT_TRUE(decoder.render(expected));
+    ASSERT_TRUE(decoder.render(PictureView(out)));
+    EXPECT_EQ(out, expected) << threads;
+    EXPECT_EQ(decoder.render(PictureView(small)).error().code, ErrorCode::kInvalidArgument) << threads;
+    EXPECT_EQ(small, untouched) << threads;
+    ASSERT_EQ(*decoder.next(), DecodeStatus::kPicture);
+    EXPECT_EQ(decoder.render(PictureView(small)).error().code, ErrorCode::kInvalidArgument) << threads;
+    ASSERT_TRUE(decoder.render(small)) << threads;
+    EXPECT_EQ(small.width(), kWidth) << "a picture takes the video's size";
+  }
 }
 
 // SPEC 6: of several before pattern 0 the last counts; what comes behind it changes nothing.
