@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <limits>
 #include <random>
 
 #include "common/quality.h"
@@ -422,71 +421,6 @@ TEST(Encoder, SurvivesNoise) {
   for (std::size_t i = 3; i < 8; ++i)
     for (auto& s : p[i].y.samples) s = static_cast<std::uint8_t>(random());
   EXPECT_EQ(coded(p).pictures.size(), p.size());
-}
-
-TEST(Encoder, RefusesSettingsOutOfRange) {
-  const VideoFormat format = format_of(shortly());
-  const auto refusal = [&](const VideoFormat& f, const EncoderSettings& s) {
-    const auto encoder = Encoder::create(f, s);
-    return encoder ? ErrorCode::kInternal : encoder.error().code;
-  };
-  EncoderSettings settings;
-  EXPECT_EQ(refusal(format, quality(-1)), ErrorCode::kInvalidArgument);
-  EXPECT_EQ(refusal(format, quality(101)), ErrorCode::kInvalidArgument);
-  settings.group_pictures = 257;
-  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
-  settings = {};
-  settings.face = -1;
-  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
-  for (const int patterns : {-1, kMaxPatterns + 1}) {
-    settings = {};
-    settings.patterns = patterns;
-    EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument) << patterns;
-  }
-  settings = {};
-  settings.pattern_quantiser = 64;
-  EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument);
-  settings = {};
-  for (const int effort : {-1, Effort::kMost + 1}) {
-    settings.effort = effort;
-    EXPECT_EQ(refusal(format, settings), ErrorCode::kInvalidArgument) << effort;
-  }
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {-1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
-    const auto with = [&](auto set) {
-      EncoderSettings s;
-      set(s);
-      return refusal(format, s);
-    };
-    EXPECT_EQ(with([&](auto& s) { s.bitrate = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.motion_bitrate = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.seconds = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.key_interval = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.live.emplace().delay = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.live.emplace().buffer = bad; }), ErrorCode::kInvalidArgument) << bad;
-    EXPECT_EQ(with([&](auto& s) { s.bitrate = 5, s.start = bad; }), ErrorCode::kInvalidArgument) << bad;
-  }
-  EncoderSettings starts;
-  starts.start = 1;
-  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument) << "of no rate";
-  starts.bitrate = 5;
-  EXPECT_TRUE(Encoder::create(format, starts));
-  starts.live.emplace().resilience = Resilience::kStrong;
-  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
-  starts.live.emplace().join = 20;
-  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
-  starts.start = 0;
-  EXPECT_TRUE(Encoder::create(format, starts));
-  starts = {};
-  starts.bitrate = 5;
-  starts.start = 1;
-  starts.patterns = 1;
-  EXPECT_EQ(refusal(format, starts), ErrorCode::kInvalidArgument);
-  VideoFormat small = format, large = format;
-  small.width = 63;
-  large.height = 8193;
-  EXPECT_EQ(refusal(small, {}), ErrorCode::kInvalidArgument);
-  EXPECT_NE(refusal(large, {}), ErrorCode::kInternal);
 }
 
 TEST(Encoder, RefusesAPictureOfAnotherSize) {
