@@ -26,9 +26,11 @@ void add_peers(CLI::App& verb, EvaluateArguments& a) {
       ->type_name("x264|x265|av1")
       ->expected(1, 3)
       ->needs("--peers");
-  verb.add_option("--peer-size", a.peer_sizes, "Only at the full size (1), at half of it (2)")
-      ->check(CLI::Range(1, 2))
-      ->expected(1, 2)
+  verb.add_option("--peer-size", a.peer_sizes,
+                  "Only at the full size (1), half of it (2), a quarter (4; pictures of more than 400x400)")
+      ->check(CLI::IsMember({1, 2, 4}))
+      ->type_name("1|2|4")
+      ->expected(1, 3)
       ->needs("--peers");
   verb.add_option("--peer-rate", a.peer_rates,
                   "Only with all pictures (1), every second (2), every third (3)")

@@ -69,6 +69,14 @@ def test_each_clip_and_setting_is_a_task_with_its_points(client, order, tmp_path
     assert not list(Path(order.results).glob("attempts/*"))
 
 
+def test_a_quarter_of_a_small_picture_is_not_coded(client, order, tmp_path, fake):
+    clips = make_clips(tmp_path / "clips", a="ok")
+    tally, tasks = drive(client, clips, order, settings=settings_of([50], ["av1"], [1, 4], [1]))
+    assert (tally.done, tally.failed) == (3, 0)
+    assert tasks.loc["a.y4m", "points"].to_dict() == {"fbs-quality-50": 1, "av1-size-1-rate-1": 5, "av1-size-4-rate-1": 0}
+    assert not any("--peer-size 4" in line for line in fake.lines("evaluate"))
+
+
 def test_a_broken_clip_is_listed_and_the_rest_goes_on(client, order, tmp_path):
     clips = make_clips(tmp_path / "clips", a="ok", b="broken", c="ok")
     tally, tasks = drive(client, clips, order)

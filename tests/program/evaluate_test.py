@@ -194,6 +194,14 @@ class Peers(EvaluateTest):
                          {"x264 1/2 size", "x264 1/2 size 1/3 rate"})
         self.fail_cleanly("evaluate", "talk.y4m", "best.fbs", "--peer-codec", "x264", says=["--peer-codec requires --peers"])
 
+    def test_a_quarter_of_the_size_is_for_large_pictures(self):
+        talker(self.folder / "large.y4m", "--size", "448x448", "--frames", "6")
+        of_a_quarter = "--quality", "50", "--peers", "--peer-codec", "x264", "--peer-size", "4", "--peer-rate", "1", "--json"
+        large = json.loads(self.succeed("evaluate", "large.y4m", *of_a_quarter))
+        self.assertEqual({point["point"].partition(" crf")[0] for point in large["peers"]}, {"x264 1/4 size"})
+        self.assertEqual(json.loads(self.succeed("evaluate", "talk.y4m", *of_a_quarter))["peers"], [])
+        self.fail_cleanly("evaluate", "talk.y4m", "--peers", "--peer-size", "3", says=["--peer-size", "3"])
+
     def test_needs_ffmpeg(self):
         self.fail_cleanly("evaluate", "talk.y4m", "--peers", says=["--peers needs ffmpeg"],
                           environment={**os.environ, "PATH": "/nowhere"})

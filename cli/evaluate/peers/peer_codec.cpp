@@ -7,7 +7,8 @@
 namespace fbs::cli {
 namespace {
 
-constexpr int kMinSide = 64;  // samples
+constexpr int kMinSide = 64;             // samples
+constexpr int kMostOfSmall = 400 * 400;  // samples of a picture
 
 // One group of pictures, as in a stream of fbs. Leaves out what the encoders write about themselves: at these
 // rates it would be a fifth of the bytes.
@@ -56,7 +57,8 @@ std::vector<PeerCodec> installed_peers() {
 
 std::vector<PeerVariant> peer_variants(int width, int height) {
   std::vector<PeerVariant> out;
-  for (const int divisor : {1, 2})
+  const int smallest = width * height > kMostOfSmall ? 4 : 2;
+  for (int divisor = 1; divisor <= smallest; divisor *= 2)
     for (const int step : {1, 2, 3})
       if (divisor == 1 || std::min(width, height) / divisor >= kMinSide) out.push_back({divisor, step});
   return out;

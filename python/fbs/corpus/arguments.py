@@ -102,7 +102,7 @@ def _add_measuring(group: argparse._ArgumentGroup) -> None:
         type=_list_of(SIZES),
         default=list(SIZES),
         metavar="LIST",
-        help="divisors of width and height for peers (default: 1,2)",
+        help="divisors of width and height for peers; 4 is for pictures of more than 400x400 (default: 1,2,4)",
     )
     group.add_argument(
         "--peer-rates",

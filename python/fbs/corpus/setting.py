@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 PEERS = ("x264", "x265", "av1")
-SIZES = (1, 2)
+SIZES = (1, 2, 4)
 RATES = (1, 2, 3)
 
 

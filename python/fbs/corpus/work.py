@@ -11,6 +11,10 @@ from fbs.corpus.measures import Row, crf_of, format_columns, picture_columns, po
 from fbs.corpus.setting import FbsSetting, PeerSetting
 
 
+LARGE = 400 * 400
+"""Samples of a picture. Larger ones are coded by peers at a quarter of their size, too, as ``fbs evaluate`` does."""
+
+
 def measure_stream(calls: Calls, clip: Clip, stream: Path, region: Path, encode_s: float, scratch: Path) -> Row:
     """Decode a stream of fbs and compare its pictures with the clip's."""
     row = format_columns(calls.run("inspect", stream, "--json")[0])
@@ -32,8 +36,10 @@ def measure_pose(calls: Calls, stream: Path, scratch: Path) -> Row:
 
 
 def measure_peer(calls: Calls, clip: Clip, setting: PeerSetting, reference: Path) -> list[Row]:
-    """Points of another codec, up to a rate above that of the reference."""
+    """Points of another codec, up to a rate above that of the reference. None at a quarter of a small picture's size."""
     shape = format_columns(calls.run("inspect", reference, "--json")[0])
+    if setting.size == 4 and int(shape["width"]) * int(shape["height"]) <= LARGE:
+        return []
     options = ["--peer-codec", setting.codec, "--peer-size", setting.size, "--peer-rate", setting.rate]
     report = _evaluate(calls, clip, reference, "--peers", *map(str, options))
     columns = {

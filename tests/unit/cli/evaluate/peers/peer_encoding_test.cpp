@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -39,6 +40,20 @@ TEST(PeerEncoding, OtherStreamsCountAsTheyAre) {
 TEST(PeerCodec, HalfSizeNeedsSixtyFourSamples) {
   EXPECT_EQ(peer_variants(176, 144).size(), 6U);
   EXPECT_EQ(peer_variants(176, 120).size(), 3U);
+}
+
+int smallest_size(int width, int height) {
+  int divisor = 0;
+  for (const PeerVariant& variant : peer_variants(width, height))
+    divisor = std::max(divisor, variant.divisor);
+  return divisor;
+}
+
+TEST(PeerCodec, QuarterSizeIsForLargePictures) {
+  EXPECT_EQ(smallest_size(400, 400), 2);
+  EXPECT_EQ(smallest_size(402, 400), 4);
+  EXPECT_EQ(peer_variants(512, 512).size(), 9U);
+  EXPECT_EQ(smallest_size(1280, 128), 2) << "a quarter has fewer than 64 samples";
 }
 
 TEST(PeerCodec, LabelSaysSizeAndRate) {
