@@ -17,8 +17,8 @@ import statistics
 RESULTS = pathlib.Path(__file__).resolve().parent / "results.md"
 # kbit/s at which the clips are compared: where fbs is at home, and the peers' rates begin.
 RATES = {"akiyo_cif": (3, 5), "carphone_hq_qcif": (3, 5), "carphone_qcif": (3, 5), "claire_qcif": (3, 4.8),
-         "foreman_cif": (3, 5), "man_glasses_720x1280": (12,), "man_goatee_512": (12,), "woman_expressions_512": (8,),
-         "woman_presenter_700": (12,), "woman_speech_512": (12,)}
+         "foreman_cif": (3, 5), "man_glasses_720x1280": (6, 12), "man_goatee_512": (6, 12),
+         "woman_expressions_512": (5, 8), "woman_presenter_700": (7, 12), "woman_speech_512": (7, 12)}
 
 
 def table(head, rows):
