@@ -229,6 +229,14 @@ void PacketReader::feed(std::span<const std::uint8_t> bytes) {
   s.buffer.insert(s.buffer.end(), bytes.begin(), bytes.end());
 }
 
+bool PacketReader::begin_packet() {
+  Impl& s = *impl_;
+  const bool cut = !s.searching && s.position < s.buffer.size();
+  s.position = s.buffer.size();
+  s.searching = false;
+  return cut;
+}
+
 void PacketReader::close() {
   impl_->closed = true;
 }

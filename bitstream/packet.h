@@ -131,6 +131,10 @@ class PacketReader {
   /// Copies `bytes` and invalidates the payloads of earlier packets. Not after close() (assert).
   void feed(std::span<const std::uint8_t> bytes);
 
+  /// What is fed next begins with a packet, whatever came before.
+  /// @return whether that ended inside a packet, which is lost
+  bool begin_packet();
+
   /// No more bytes will come.
   void close();
 

@@ -1,6 +1,7 @@
 // The decoder of fbs/fbs.h.
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +21,8 @@
 namespace {
 
 using namespace fbs;
+
+static_assert(FBS_REORDER == LatePackets::kReorder);
 
 constexpr const char* kNoPicture = "there is no picture yet";
 
@@ -68,6 +71,7 @@ struct fbs_decoder {  // NOLINT(readability-identifier-naming): the interface is
   std::unique_ptr<StreamDecoder> stream;  ///< never null
   StreamEntry entry{false};
   StateEdit edit;
+  enum class Fed : std::uint8_t { kNothing, kBytes, kPackets } fed = Fed::kNothing;
   bool finished = false;
   bool broken = false;                  ///< an exception has left the stream in an unknown state
   Picture picture;                      ///< returned to the caller
@@ -123,16 +127,21 @@ void fbs_decoder_close(fbs_decoder** decoder) {
 
 namespace {
 
+/// @param kind  of what is fed: a stream has one
 /// @param feed  of bytes that may be fed
 template <class Feed>
-fbs_status checked_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size, Feed&& feed) {
+fbs_status checked_feed(fbs_decoder* decoder, fbs_decoder::Fed kind, const uint8_t* bytes, size_t size,
+                        Feed&& feed) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   fbs_decoder& d = *decoder;
   if (bytes == nullptr && size > 0) return d.error.set_argument(kNullPointer);
   if (d.finished) return d.error.set_argument("bytes after fbs_decoder_finish()");
+  if (d.fed != fbs_decoder::Fed::kNothing && d.fed != kind)
+    return d.error.set_argument("fbs_decoder_feed() and fbs_decoder_feed_packet() for the same stream");
   if (d.broken || size == 0) return FBS_OK;
   return guarded(d.error, [&] {
     feed(d, std::span(bytes, size));
+    d.fed = kind;
     return FBS_OK;
   });
 }
@@ -140,11 +149,14 @@ fbs_status checked_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size,
 }  // namespace
 
 fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size) {
-  return checked_feed(decoder, bytes, size, [](fbs_decoder& d, auto data) { d.entry.feed(*d.stream, data); });
+  return checked_feed(decoder, fbs_decoder::Fed::kBytes, bytes, size,
+                      [](fbs_decoder& d, auto data) { d.entry.feed(*d.stream, data); });
 }
 
 fbs_status fbs_decoder_feed_packet(fbs_decoder* decoder, uint64_t number, const uint8_t* bytes, size_t size) {
-  return checked_feed(decoder, bytes, size,
+  if (decoder != nullptr && number == std::numeric_limits<uint64_t>::max())
+    return decoder->error.set_argument("there is no packet of this number");
+  return checked_feed(decoder, fbs_decoder::Fed::kPackets, bytes, size,
                       [number](fbs_decoder& d, auto data) { d.stream->feed_packet(number, data); });
 }
 
@@ -164,6 +176,15 @@ fbs_status fbs_decoder_packets_lost(fbs_decoder* decoder, uint64_t before) {
   if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
   decoder->stream->give_up_packets(before);
   return FBS_OK;
+}
+
+fbs_status fbs_decoder_skip_missing(fbs_decoder* decoder) {
+  if (decoder == nullptr) return FBS_ERROR_ARGUMENT;
+  return decoder->stream->skip_missing() ? FBS_OK : FBS_NEED_DATA;
+}
+
+int fbs_decoder_needs_scene(const fbs_decoder* decoder) {
+  return decoder != nullptr && !decoder->broken && decoder->stream->needs_scene() ? 1 : 0;
 }
 
 fbs_status fbs_decoder_finish(fbs_decoder* decoder) {
@@ -214,6 +235,7 @@ fbs_status fbs_decoder_reset(fbs_decoder* decoder) {
     d.stream = new_stream(d.settings);
     d.entry = StreamEntry(true);
     d.watch.reset();
+    d.fed = fbs_decoder::Fed::kNothing;
     d.finished = d.broken = false;
     d.drawn_with.reset();
     d.error.clear();

@@ -98,6 +98,11 @@ Result<SceneSyntax> SceneReader::skip(bool needs_missing) const {
   return SceneSyntax{};
 }
 
+Result<SceneSyntax> SceneReader::skip_group(bool needs_key) {
+  waits_for_key_ = waits_for_key_ || needs_key;
+  return skip(needs_key);
+}
+
 // SPEC 6.1
 Result<SceneSyntax> SceneReader::read_setup(const Packet& packet) {
   const StreamPosition passed = packet.in_parts ? passed_ : StreamPosition{};
@@ -261,8 +266,11 @@ Result<std::optional<MotionGroup>> SceneReader::add_motion(std::span<const std::
 Result<SceneSyntax> SceneReader::read_motion(const Packet& packet) {
   auto group = add_motion(packet.payload);
   if (!group) return fail(group.error());
-  if (!*group) return skip(motion_->needs_key());
-  if (!blend_) pictures_.release_all();
+  if (!*group) return skip_group(motion_->needs_key());
+  if (!blend_) {
+    waits_for_key_ = false;
+    pictures_.release_all();
+  }
   return SceneSyntax(std::move(**group));
 }
 
@@ -270,7 +278,8 @@ Result<SceneSyntax> SceneReader::read_blend(const Packet& packet) {
   if (!blend_) return refuse("a blend packet where nothing is blended");
   auto group = blend_->decode(packet.payload);
   if (!group) return fail(group.error());
-  if (!*group) return skip(blend_->needs_key());
+  if (!*group) return skip_group(blend_->needs_key());
+  waits_for_key_ = false;
   if (auto released = pictures_.release((*group)->first, (*group)->modes); !released)
     return fail(released.error());
   return SceneSyntax(std::move(**group));
@@ -286,9 +295,10 @@ Result<SceneSyntax> SceneReader::read_unit(const Packet& packet) {
   if (reader.past_end()) return fail(ErrorCode::kTruncated, "a unit ends early");
   auto group = add_motion(motion);
   if (!group) return fail(group.error());
-  if (!*group) return skip(motion_->needs_key());
+  if (!*group) return skip_group(motion_->needs_key());
   auto blend = blend_->decode_in_unit(packet.payload.subspan(reader.offset()), **group);
   if (!blend) return fail(blend.error());
+  waits_for_key_ = !*blend && blend_->needs_key();
   if (!*blend) return SceneSyntax(std::move(**group));
   if (auto released = pictures_.release((*blend)->first, (*blend)->modes); !released)
     return fail(released.error());

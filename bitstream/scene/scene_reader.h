@@ -55,6 +55,8 @@ class SceneReader {
   /// Packets are missing. In the head of a scene, up to its first pattern, nothing is of use up to the next
   /// setup or return packet: the scene is lost(). Later on only what needs them is of no use (SPEC 6.2).
   void lose();
+  /// Packets may be missing that the link has lost. What needs them is left out, and is no error.
+  void note_losses() { has_losses_ = true; }
   /// The scene cannot be used.
   void lose_scene() { lost_ = has_losses_ = true; }
   [[nodiscard]] bool lost() const { return lost_; }
@@ -66,6 +68,8 @@ class SceneReader {
   void go_back(const SceneReader& before);
   /// Whether a pattern that others need is missing.
   [[nodiscard]] bool has_broken_patterns() const { return patterns_.is_broken(); }
+  /// Whether groups are left out until a key group comes.
+  [[nodiscard]] bool waits_for_key() const { return waits_for_key_; }
   /// A pattern could not be decoded: those that need it are of no use.
   void lose_patterns() {
     has_losses_ = true;
@@ -105,6 +109,8 @@ class SceneReader {
   /// Leaves a packet out.
   /// @param needs_missing  not since it came twice or late: a loss if none is known
   [[nodiscard]] Result<SceneSyntax> skip(bool needs_missing) const;
+  /// The same for a group of motion or blends.
+  [[nodiscard]] Result<SceneSyntax> skip_group(bool needs_key);
   [[nodiscard]] Result<std::optional<ScenePattern>> place(PatternSyntax pattern);
   [[nodiscard]] Result<SceneSyntax> read_head_part(const Packet& packet);
   [[nodiscard]] Result<SceneSyntax> read_motion(const Packet& packet);
@@ -134,6 +140,7 @@ class SceneReader {
       stored_{};                         // picture of the last pattern for each slot; 0: none, or the first
   std::optional<MotionDecoder> motion_;  // from the first pattern on
   std::optional<BlendDecoder> blend_;    // the same, where several patterns are blended
+  bool waits_for_key_ = false;
   Timeline pictures_;
 };
 

@@ -37,19 +37,15 @@ Result<DecodeStatus> StreamDecoder::next() {
     if (clock_.is_behind()) return hold();
     const auto read = packets_.next();
     if (!read) {
-      // Without a signature the stream is joined in its middle: no loss is known.
-      if (read.error().code != ErrorCode::kNotFbs) clock_.lose();
-      reader_.lose();
-      return fail(read.error());
+      if (const auto error = lose_packet(read.error())) return fail(*error);
+      continue;
     }
     if (read->status == ReadStatus::kNeedMore) {
-      const auto bytes = late_.next(reader_);
-      if (bytes)
-        packets_.feed(*bytes);
-      else if (late_.is_closed())
-        packets_.close();
-      else
-        return DecodeStatus::kNeedMore;
+      if (late_.has_begun() && packets_.begin_packet()) {
+        const Error cut = {ErrorCode::kInvalidStream, "a packet of the link is cut off", packets_.offset()};
+        if (const auto error = lose_packet(cut)) return fail(*error);
+      }
+      if (!feed_next()) return DecodeStatus::kNeedMore;
       continue;
     }
     if (read->status == ReadStatus::kEnd) {
@@ -57,13 +53,42 @@ Result<DecodeStatus> StreamDecoder::next() {
       reader_.lose();  // reported once
       return fail(ErrorCode::kTruncated, "the stream ends before its setup", packets_.offset());
     }
+    if (unsure_ && read->packet.repaired) {  // rather of a scene that is not known
+      const Error unknown = {ErrorCode::kInvalidStream, "a packet is damaged", read->packet.offset};
+      if (const auto error = lose_packet(unknown)) return fail(*error);
+      continue;
+    }
     if (!read->packet.in_parts) tally_.count(read->packet);
     if (auto taken = take(read->packet); !taken) return fail(taken.error());
     if (reader_.pictures().has_next()) tally_.note_startup();
   }
 }
 
+bool StreamDecoder::feed_next() {
+  const auto bytes = late_.next(reader_);
+  if (bytes) {
+    if (late_.is_behind_gap()) {
+      unsure_ = true;
+      clock_.lose();
+    }
+    packets_.feed(*bytes);
+  } else if (late_.is_closed()) {
+    packets_.close();
+  }
+  return bytes || late_.is_closed();
+}
+
+std::optional<Error> StreamDecoder::lose_packet(const Error& error) {
+  // Without a signature the stream is joined in its middle: no loss is known.
+  if (error.code != ErrorCode::kNotFbs) clock_.lose();
+  reader_.lose();
+  ++strangers_;
+  const bool explained = std::exchange(unsure_, late_.has_begun());
+  return explained ? std::nullopt : std::optional(error);
+}
+
 DecodeStatus StreamDecoder::show() {
+  late_.begin_pictures();
   const Timeline::Entry next = reader_.pictures().next();
   ++announced_;
   const PictureQuality quality = next.guessed                    ? PictureQuality::kInterpolated
@@ -138,6 +163,10 @@ Result<void> StreamDecoder::render_state(const State& state, const PictureView& 
 Result<void> StreamDecoder::take(const Packet& packet) {
   const Arrived arrived{packet, reader_.has_losses()};
   if (enters_scene(packet.type)) late_.begin_scene();
+  if (enters_scene(packet.type) || is_of_scene(packet.type)) {
+    unsure_ = false;
+    strangers_ = 0;
+  }
   auto syntax = reader_.read(packet);
   auto taken = syntax ? std::visit([&](auto& s) { return take(s, arrived); }, *syntax)
                       : Result<void>(fail(syntax.error()));
@@ -154,6 +183,7 @@ Result<void> StreamDecoder::take(const Setup& setup, const Arrived& arrived) {
     reader_.lose_scene();
     return fail(patterns.error());
   }
+  if (late_.has_begun() && announced_ == 0) clock_ = {};  // what came before it is not shown
   scene_ = scenes_[reader_.scene()] = std::make_shared<SceneBuilder>();
   scene_->begin(setup, std::move(*patterns));
   return enter(setup.before, arrived);
@@ -194,7 +224,7 @@ Result<void> StreamDecoder::take(const End& end, const Arrived& arrived) {
 
 Result<void> StreamDecoder::report_missing(std::uint64_t missing, bool reported) const {
   const bool left_out = missing > 0 && pictures() > 0 && !clock_.is_behind();
-  if (missing == 0 || (reported && !left_out)) return {};
+  if (missing == 0 || (reported && (!left_out || late_.has_begun()))) return {};
   const std::string text = missing_text(missing);
   if (left_out) return fail(ErrorCode::kTooLarge, text + ", too many to be held");
   return fail(ErrorCode::kInvalidStream, text);

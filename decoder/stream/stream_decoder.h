@@ -55,9 +55,10 @@ class StreamDecoder {
   /// Copies `bytes`.
   void feed(std::span<const std::uint8_t> bytes) { packets_.feed(bytes); }
   /// The same with what a packet of a link brings: whole packets of the stream. Some may be missing, come
-  /// twice or late; a late one cannot change pictures that have been announced, but those behind them are as
-  /// if it had come in order. Not mixed with feed(). The signature may be left out.
-  /// @param number  one more for each packet sent
+  /// twice or in another order: LatePackets says which are waited for. One that comes later cannot change
+  /// pictures that have been announced, but those behind them are as if it had come in order. Not mixed with
+  /// feed(). The signature may be left out. What the link has lost is no error.
+  /// @param number  one more for each packet sent, from 0; below 2^64 - 1
   void feed_packet(std::uint64_t number, std::span<const std::uint8_t> bytes);
   /// Packets of the link that are known to be missing and still of use, by rising number.
   /// @param most  how many at most
@@ -66,6 +67,13 @@ class StreamDecoder {
   }
   /// Packets of the link below this number that are missing will not come.
   void give_up_packets(std::uint64_t number) { late_.give_up(number); }
+  /// The packets of the link that are missing next are not waited for.
+  /// @return whether others have come behind them
+  bool skip_missing() { return late_.skip(); }
+  /// Whether nothing more is shown, as far as is known, until a scene begins.
+  [[nodiscard]] bool needs_scene() const {
+    return reader_.lost() || reader_.waits_for_key() || strangers_ > (late_.has_begun() ? 1 : 0);
+  }
   /// No more bytes will come.
   void close() { late_.has_begun() ? late_.close() : packets_.close(); }
 
@@ -150,6 +158,12 @@ class StreamDecoder {
 
   DecodeStatus show();
   DecodeStatus hold();
+  /// Feeds the next packet of the link, or the end of the stream.
+  /// @return whether there is one
+  bool feed_next();
+  /// A packet has no right check: it is damaged, or of a scene whose head is missing.
+  /// @return the error; nothing where the link has lost packets that explain it
+  std::optional<Error> lose_packet(const Error& error);
   Result<void> take(const Packet& packet);
   // What a packet says.
   Result<void> take(const Setup& setup, const Arrived& arrived);
@@ -188,6 +202,8 @@ class StreamDecoder {
   std::optional<std::uint64_t> max_pixels_;
   PacketReader packets_;
   LatePackets late_;
+  bool unsure_ = false;  ///< packets of the link are missing, and maybe the head of a scene
+  int strangers_ = 0;    ///< packets in a row that the scene does not know
   SceneReader reader_;
   StreamClock clock_;
   std::map<std::uint64_t, std::shared_ptr<SceneBuilder>> scenes_;           ///< by SceneReader::scene()

@@ -68,7 +68,8 @@ typedef enum fbs_status {
 
   FBS_ERROR_ARGUMENT = -1,    /**< a null pointer, a value out of its range, or a call at the wrong time */
   FBS_ERROR_NOT_FBS = -2,     /**< the input does not begin as an fbs stream does */
-  FBS_ERROR_DAMAGED = -3,     /**< a packet is damaged, missing, or breaks a rule of the format */
+  FBS_ERROR_DAMAGED = -3,     /**< a packet is damaged, breaks a rule of the format, or is missing from what
+                                   fbs_decoder_feed() was given */
   FBS_ERROR_TRUNCATED = -4,   /**< the stream ends inside a packet, or before its setup */
   FBS_ERROR_UNSUPPORTED = -5, /**< a newer version of the format, or a change of the picture's size */
   FBS_ERROR_TOO_LARGE = -6,   /**< beyond a limit of the format or of the settings */
@@ -253,30 +254,56 @@ FBS_API void fbs_decoder_close(fbs_decoder** decoder);
  * This function and fbs_decoder_feed_packet() may run in one thread while another is in
  * fbs_decoder_get_picture(), fbs_decoder_draw() or fbs_decoder_draw_state(), and leave pictures valid. No
  * other two calls for one decoder run at once.
- * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
- *         FBS_ERROR_NO_MEMORY, with nothing taken */
+ * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish() or fbs_decoder_feed_packet(), or when bytes
+ *         is null and size is not 0; FBS_ERROR_NO_MEMORY, with nothing taken */
 FBS_API fbs_status fbs_decoder_feed(fbs_decoder* decoder, const uint8_t* bytes, size_t size);
 
-/** The same for a link that loses packets: copies what one of its packets brings, which is whole packets of
- * the stream, such as what fbs_encoder_pull() returns. Packets may be missing, come twice or late. A late one
- * does not change pictures that have been returned; those behind it are as if it had come in order. A stream
- * is fed by one of the two functions.
- * @param number  one more for each packet that is sent
- * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish(), or when bytes is null and size is not 0;
- *         FBS_ERROR_NO_MEMORY, with nothing taken */
+/** How many numbers late a packet may come without harm: fbs_decoder_feed_packet(). */
+#define FBS_REORDER 8
+
+/** The same for a link that loses packets or changes their order: copies what one of its packets brings,
+ * which is whole packets of the stream, such as what fbs_encoder_pull() returns. A stream is fed by one of
+ * the two functions.
+ *
+ * Packets are decoded by rising number. One that is missing is waited for: fbs_decoder_next() returns
+ * FBS_NEED_DATA at its place until a number more than FBS_REORDER above it has come, or
+ * fbs_decoder_skip_missing(), fbs_decoder_packets_lost() or fbs_decoder_finish() is called. Then decoding
+ * goes on without it, which is no error: info.quality says what a picture lacks. If it comes after all,
+ * pictures that have been returned stay as they were, and those behind it are as if it had come in order.
+ * One that comes twice has no effect.
+ *
+ * A viewer who joins later begins with any number above FBS_REORDER. If that is not the first of a scene,
+ * packets below it are waited for as for missing ones; in any case they are accepted until a picture has been
+ * returned.
+ * @param number  one more for each packet that is sent, 0 or 1 for the first of the stream; below 2^64 - 1
+ * @return FBS_OK; FBS_ERROR_ARGUMENT after fbs_decoder_finish() or fbs_decoder_feed(), for a number beyond
+ *         its range, or when bytes is null and size is not 0; FBS_ERROR_NO_MEMORY, with nothing taken */
 FBS_API fbs_status fbs_decoder_feed_packet(fbs_decoder* decoder, uint64_t number, const uint8_t* bytes,
                                            size_t size);
 
-/** Numbers of packets that are missing and still of use, by rising number: to be asked for.
+/** Numbers of packets that are missing and still of use, by rising number: to be asked for. Those that are
+ * waited for are among them, which may only be late.
  * @param out    null when most is 0
  * @param most   how many at most
  * @param count  set to how many were written
  * @return FBS_OK, FBS_ERROR_ARGUMENT */
 FBS_API fbs_status fbs_decoder_get_missing(fbs_decoder* decoder, uint64_t* out, size_t most, size_t* count);
 
-/** Packets below this number that are missing will not come: they are not kept a place for.
+/** Packets below this number that are missing will not come: they are not waited for, nor kept a place for.
  * @return FBS_OK, FBS_ERROR_ARGUMENT */
 FBS_API fbs_status fbs_decoder_packets_lost(fbs_decoder* decoder, uint64_t before);
+
+/** Says that the next picture is due: fbs_decoder_next() goes on with the lowest number behind the missing
+ * ones that it waits for. To be called when that has returned FBS_NEED_DATA and the picture cannot wait any
+ * longer; where a jitter buffer has waited already, whenever it returns FBS_NEED_DATA.
+ * @return FBS_OK; FBS_NEED_DATA: all packets that have come have been decoded; FBS_ERROR_ARGUMENT */
+FBS_API fbs_status fbs_decoder_skip_missing(fbs_decoder* decoder);
+
+/** Says whether to ask the sender for a scene: fbs_encoder_request_scene().
+ * @return 1: because of what is missing, nothing that follows can be decoded until a scene begins.
+ *         0: packets can be decoded, or may still come. Where a pattern alone is missing
+ *         (FBS_QUALITY_PATTERN_MISSING), fbs_encoder_lose_patterns() costs less. 0 for null, too */
+FBS_API int fbs_decoder_needs_scene(const fbs_decoder* decoder);
 
 /** Ends the stream: the rest is returned, then FBS_END. Repeating the call has no effect.
  * @return FBS_OK, FBS_ERROR_NO_MEMORY */

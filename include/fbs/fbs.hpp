@@ -67,6 +67,18 @@ class Decoder {
   void feed_packet(std::uint64_t number, const std::uint8_t* bytes, std::size_t size) {
     check(fbs_decoder_feed_packet(get(), number, bytes, size));
   }
+  /// Numbers of packets to be asked for, at most so many.
+  std::vector<std::uint64_t> missing(std::size_t most) const {
+    std::vector<std::uint64_t> out(most);
+    std::size_t count = 0;
+    check(fbs_decoder_get_missing(get(), out.data(), most, &count));
+    out.resize(count);
+    return out;
+  }
+  void packets_lost(std::uint64_t before) { check(fbs_decoder_packets_lost(get(), before)); }
+  /// @return whether there was one to go on with
+  bool skip_missing() { return check(fbs_decoder_skip_missing(get())) == FBS_OK; }
+  bool needs_scene() const noexcept { return fbs_decoder_needs_scene(get()) != 0; }
   void finish() { check(fbs_decoder_finish(get())); }
   void reset() { check(fbs_decoder_reset(get())); }
 

@@ -143,13 +143,16 @@ class Decoder:
     def feed_packet(self, number: int, packet: Buffer) -> None:
         """Copy what one packet of a link brings, in place of :meth:`feed`: a packet of :class:`Encoder`, or several.
 
-        Packets may be missing, come twice or late. A late one does not change pictures that have been returned; those
-        behind it are as if it had come in order.
+        Packets may be missing, come twice or in another order. One that is missing is waited for until one comes
+        that is more than eight numbers above it, or until :meth:`skip_missing`, :meth:`packets_lost` or
+        :meth:`finish`. If it comes later, pictures that have been returned stay as they were; those behind it are as
+        if it had come in order.
 
         Parameters
         ----------
         number : int
-            One more for each packet that is sent.
+            One more for each packet that is sent, 0 or 1 for the first of the stream. A viewer who joins later
+            begins with any number above eight.
         """
         self._require_fed()
         self._decoder.feed_packet(number, packet)
@@ -160,8 +163,23 @@ class Decoder:
         return self._decoder.missing(_MOST_MISSING)
 
     def packets_lost(self, before: int) -> None:
-        """Wait no longer for missing packets with numbers below `before`."""
+        """Missing packets with numbers below `before` will not come."""
         self._decoder.packets_lost(before)
+
+    def skip_missing(self) -> bool:
+        """Go on with the next packet that has come, without the missing ones before it: a picture is due.
+
+        Returns
+        -------
+        bool
+            Whether there is one.
+        """
+        return self._decoder.skip_missing()
+
+    @property
+    def needs_scene(self) -> bool:
+        """Whether what follows cannot be decoded until a scene begins: :meth:`Encoder.request_scene` would help."""
+        return self._decoder.needs_scene()
 
     def finish(self) -> None:
         """End the stream."""

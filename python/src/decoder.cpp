@@ -186,6 +186,14 @@ void bind_decoder(nb::module_& module) {
             self.call([&](fbs_decoder* d) { check(d, fbs_decoder_packets_lost(d, before)); });
           },
           nb::arg("before"))
+      .def("skip_missing",
+           [](Decoder& self) {
+             return self.call([](fbs_decoder* d) { return check(d, fbs_decoder_skip_missing(d)); }) == FBS_OK;
+           })
+      .def("needs_scene",
+           [](Decoder& self) {
+             return self.call([](fbs_decoder* d) { return fbs_decoder_needs_scene(d); }) != 0;
+           })
       .def("finish",
            [](Decoder& self) { self.call([](fbs_decoder* d) { check(d, fbs_decoder_finish(d)); }); })
       .def("reset", [](Decoder& self) { self.call([](fbs_decoder* d) { check(d, fbs_decoder_reset(d)); }); })

@@ -182,15 +182,19 @@ def test_packets_of_a_link_may_be_missing_or_late():
     lost = next(k for k, packet in enumerate(packets) if packet[0] == 11) + 1  # a unit
 
     def decoder_behind_the_loss():
-        decoder = fbs.Decoder(keep_going=True)
+        decoder = fbs.Decoder()
         for k, packet in enumerate(packets[: lost + 2]):
             if k != lost:
                 decoder.feed_packet(k, packet)
         return decoder
 
     decoder = decoder_behind_the_loss()
-    assert {picture.quality for picture in decoder} > {"exact"}
+    assert {picture.quality for picture in decoder} == {"exact"}  # it is waited for
     assert decoder.missing == [lost]
+    assert decoder.skip_missing()
+    assert {picture.quality for picture in decoder} > {"exact"}
+    assert not decoder.skip_missing()
+    assert not decoder.needs_scene
     decoder.packets_lost(lost + 1)
     assert decoder.missing == []
 
@@ -202,6 +206,15 @@ def test_packets_of_a_link_may_be_missing_or_late():
     assert [picture.tobytes() for picture in decoder] == whole
     with pytest.raises(fbs.ArgumentError):
         fbs.Decoder(stream).feed_packet(0, b"")
+
+    decoder = fbs.Decoder()
+    for k in range(2, 9):  # the head of the scene is lost
+        decoder.feed_packet(k, packets[k])
+    assert list(decoder) == [] and not decoder.needs_scene
+    assert decoder.skip_missing()
+    assert list(decoder) == [] and decoder.needs_scene
+    with pytest.raises(fbs.ArgumentError):
+        decoder.feed(stream)
 
 
 @pytest.mark.parametrize("name", ["talk.fbs", "joined.fbs", "late.fbs", "durations.fbs", "two_heads.fbs", "lost_scene.fbs"])

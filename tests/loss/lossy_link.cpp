@@ -6,7 +6,7 @@
 //   --loss        percent of packets
 //   --burst       s: losses come in runs of this mean length; 0: each by itself
 //   --round-trip  s: what is lost is asked for and sent again, as often as needed; 0: never
-//   --wait        s that the receiver holds packets back for those that are missing
+//   --wait        s that the receiver shows pictures later, and so waits for packets that are missing
 //   --worst       PGM file: source, whole stream and what was shown, where the face was worst
 //   --copies      each packet is sent again so many times, one group later each
 //   --heads       1: heads of scenes behind the first are lost with any of their packets of 1200 bytes
@@ -159,12 +159,10 @@ class Link {
   }
 
   void run(const Options& options, unsigned seed, Sums& sums) const {
-    const std::vector<double> fed = arrivals(options, seed);
-    // Order in which the receiver feeds its decoder: in the stream's order as long as it waits, late ones
-    // later.
+    const std::vector<double> arrived = arrivals(options, seed);
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < units_.size(); ++k)
-      if (fed[k] < kNever && units_[k].begin >= options.from) order.push_back({fed[k], k});
+      if (arrived[k] < kNever && units_[k].begin >= options.from) order.push_back({arrived[k], k});
     std::stable_sort(order.begin(), order.end());
     StreamDecoder decoder;
     Picture picture;
@@ -173,8 +171,22 @@ class Link {
     double frozen_since = -1;
     bool joined = false;
     std::map<std::size_t, Plane> waiting;  // released before they are due
+    const auto take_pictures = [&] {
+      for (;;) {
+        const auto status = decoder.next();
+        if (!status) continue;
+        if (*status != DecodeStatus::kPicture) break;
+        if (!decoder.render(picture)) give_up("cannot draw");
+        const auto n = static_cast<std::size_t>(decoder.position().pictures);
+        if (n >= next)
+          waiting[n] = picture.y;
+        else if (n + 1 == next)
+          shown = picture.y;  // late, but nearer than what is shown
+      }
+    };
     const auto show_until = [&](double now) {
       for (; next < references_.size() && due(next, options) < now; ++next) {
+        while (!waiting.contains(next) && decoder.skip_missing()) take_pictures();
         const auto released = waiting.find(next);
         const bool current = released != waiting.end();
         if (current) shown = std::move(released->second);
@@ -200,17 +212,7 @@ class Link {
           if (uniform(random) < options.loss) bytes.clear();
       bytes.insert(bytes.end(), units_[k].bytes.begin(), units_[k].bytes.end());
       decoder.feed_packet(k, bytes);
-      for (;;) {
-        const auto status = decoder.next();
-        if (!status) continue;
-        if (*status != DecodeStatus::kPicture) break;
-        if (!decoder.render(picture)) give_up("cannot draw");
-        const auto n = static_cast<std::size_t>(decoder.position().pictures);
-        if (n >= next)
-          waiting[n] = picture.y;
-        else if (n + 1 == next)
-          shown = picture.y;  // late, but nearer than what is shown
-      }
+      take_pictures();
     }
     show_until(kNever);
   }
@@ -235,7 +237,7 @@ class Link {
     return times_[picture] + group_ + kOneWay + options.wait;
   }
 
-  /// When each unit is fed to the decoder.
+  /// When each unit arrives.
   [[nodiscard]] std::vector<double> arrivals(const Options& o, unsigned seed) const {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -250,9 +252,7 @@ class Link {
         bad = uniform(random) < o.loss;
       lost.push_back(bad && units_[k].head.empty());
     }
-    std::vector<double> fed;
-    double last = 0;
-    std::optional<double> patience;  // until when those that are missing in a row are waited for
+    std::vector<double> arrived;
     for (std::size_t k = 0; k < units_.size(); ++k) {
       double arrives = lost[k] ? kNever : units_[k].end + kOneWay;
       for (int c = 1; c <= o.copies && k + c < units_.size(); ++c)
@@ -263,18 +263,9 @@ class Link {
         do arrives += o.round_trip;
         while (uniform(random) < o.loss);
       }
-      const double deadline = patience.value_or(due(units_[k].first, o) - 1e-6);
-      if (arrives <= std::max(deadline, last)) {
-        last = std::max(arrives, last);
-        fed.push_back(last);
-        patience.reset();
-      } else {
-        patience = deadline;
-        last = std::max(deadline, last);  // what follows is not held back any longer
-        fed.push_back(arrives);
-      }
+      arrived.push_back(arrives);
     }
-    return fed;
+    return arrived;
   }
 
   void count(std::size_t n, bool current, const Plane& shown, Sums& sums) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <random>
 
 #include "tests/unit/library/api_decoder.h"
@@ -30,6 +31,8 @@ TEST(ApiCalls, NullPointersAreAnswered) {
   EXPECT_EQ(fbs_decoder_feed_packet(none, 0, nullptr, 0), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_missing(none, nullptr, 0, nullptr), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_packets_lost(none, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_skip_missing(none), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_needs_scene(none), 0);
   EXPECT_EQ(fbs_decoder_next(none, &info), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_reset(none), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_decoder_get_picture(none, &picture), FBS_ERROR_ARGUMENT);
@@ -124,6 +127,7 @@ class RandomCalls {
       case 6:
         return draw();
       case 7:
+        EXPECT_NE(fbs_decoder_skip_missing(get()), FBS_ERROR_ARGUMENT);
         return ask();
       case 8:
         return read_picture();
@@ -146,11 +150,14 @@ class RandomCalls {
     if (random_() % 16 == 0) at_ = random_() % (stream.size() + 1);
     const std::size_t size = std::min<std::size_t>(stream.size() - at_, random_() % 900);
     const bool in_packets = random_() % 4 == 0;
+    const bool mixed = kind_ && *kind_ != in_packets;
     const fbs_status status =
         in_packets ? fbs_decoder_feed_packet(get(), number_ + random_() % 4, stream.data() + at_, size)
                    : fbs_decoder_feed(get(), stream.data() + at_, size);
+    EXPECT_EQ(status, finished_ || mixed ? FBS_ERROR_ARGUMENT : FBS_OK);
+    if (status != FBS_OK) return;
+    if (size > 0) kind_ = in_packets;
     if (in_packets) ++number_;
-    EXPECT_EQ(status, finished_ ? FBS_ERROR_ARGUMENT : FBS_OK);
     at_ += size;
   }
 
@@ -234,6 +241,7 @@ class RandomCalls {
   void reset() {
     EXPECT_EQ(fbs_decoder_reset(get()), FBS_OK);
     finished_ = has_picture_ = false;
+    kind_.reset();
     stream_ = random_() % streams_.size();
     at_ = random_() % 2 == 0 ? 0 : 4;
   }
@@ -243,6 +251,7 @@ class RandomCalls {
   ApiDecoder decoder_;
   std::size_t stream_ = 0, at_ = 0;
   std::uint64_t number_ = 0;  // of a packet of a link
+  std::optional<bool> kind_;  // whether packets have been fed, or bytes
   bool finished_ = false, has_picture_ = false;
 };
 

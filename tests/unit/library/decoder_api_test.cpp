@@ -153,7 +153,11 @@ TEST(DecoderApi, PacketsOfALinkMayComeLate) {
   for (std::size_t k = 0; k < 6; ++k) feed(k);
   EXPECT_EQ(worst(), FBS_QUALITY_EXACT);
   feed(7);
+  EXPECT_EQ(worst(), FBS_OK) << "it is waited for";
+  EXPECT_EQ(fbs_decoder_skip_missing(decoder.get()), FBS_OK);
   EXPECT_EQ(worst(), FBS_QUALITY_INTERPOLATED);
+  EXPECT_EQ(fbs_decoder_skip_missing(decoder.get()), FBS_NEED_DATA);
+  EXPECT_EQ(fbs_decoder_needs_scene(decoder.get()), 0);
   std::uint64_t missing[2] = {};
   std::size_t count = 0;
   ASSERT_EQ(fbs_decoder_get_missing(decoder.get(), missing, 2, &count), FBS_OK);
@@ -170,6 +174,19 @@ TEST(DecoderApi, PacketsOfALinkMayComeLate) {
   ASSERT_EQ(fbs_decoder_get_missing(decoder.get(), missing, 2, &count), FBS_OK);
   EXPECT_EQ(count, 0u);
   EXPECT_EQ(fbs_decoder_get_missing(decoder.get(), nullptr, 2, &count), FBS_ERROR_ARGUMENT);
+}
+
+TEST(DecoderApi, AStreamIsFedInOneWay) {
+  const auto bytes = vector_bytes("live.fbs");
+  const ApiDecoder decoder = api_decoder();
+  const std::uint8_t* const data = bytes.data();
+  ASSERT_EQ(fbs_decoder_feed(decoder.get(), data, 9), FBS_OK);
+  EXPECT_EQ(fbs_decoder_feed_packet(decoder.get(), 0, data, 9), FBS_ERROR_ARGUMENT);
+  ASSERT_EQ(fbs_decoder_reset(decoder.get()), FBS_OK);
+  EXPECT_EQ(fbs_decoder_feed_packet(decoder.get(), UINT64_MAX, data, bytes.size()), FBS_ERROR_ARGUMENT);
+  ASSERT_EQ(fbs_decoder_feed_packet(decoder.get(), 0, data, bytes.size()), FBS_OK);
+  EXPECT_EQ(fbs_decoder_feed(decoder.get(), data, 9), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_decoder_next(decoder.get(), nullptr), FBS_OK);
 }
 
 TEST(DecoderApi, TellsTheFormatOnceTheSetupHasArrived) {

@@ -179,6 +179,131 @@ TEST(EncoderApi, LivePacketsComeAtOnce) {
   expect_right_places(encoded(settings, 20));
 }
 
+/// @param key_interval  s; 0: the default
+fbs_encoder_settings live_settings(int resilience, double key_interval = 0, double join = 0) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.quality = 40;
+  settings.live = 1;
+  settings.resilience = resilience;
+  if (key_interval > 0) settings.key_interval = key_interval;
+  settings.join = join;
+  return settings;
+}
+
+/// A viewer of a live stream whose packets come in any order.
+struct Viewer {
+  ApiDecoder decoder = api_decoder();
+  Heard heard;
+  Md5 md5;
+  bool draws = false, asked = false;  ///< asked: a scene would have helped at some time
+
+  void feed(std::uint64_t number, const std::vector<std::uint8_t>& packet) {
+    EXPECT_EQ(fbs_decoder_feed_packet(decoder.get(), number, packet.data(), packet.size()), FBS_OK);
+    look();
+  }
+  void look() {
+    fbs_picture_info info{};
+    while ((heard.last = fbs_decoder_next(decoder.get(), &info)) != FBS_NEED_DATA && heard.last != FBS_END) {
+      if (heard.last != FBS_OK) {
+        heard.errors.push_back(heard.last);
+        continue;
+      }
+      heard.infos.push_back(info);
+      if (draws) md5.add(shown_by(decoder.get()));
+    }
+    asked = asked || fbs_decoder_needs_scene(decoder.get()) != 0;
+  }
+  void finish() {
+    EXPECT_EQ(fbs_decoder_finish(decoder.get()), FBS_OK);
+    look();
+    EXPECT_EQ(heard.last, FBS_END);
+    heard.md5 = md5.hex();
+  }
+  [[nodiscard]] std::size_t missing() const {
+    std::uint64_t numbers[64];
+    std::size_t count = 0;
+    EXPECT_EQ(fbs_decoder_get_missing(decoder.get(), numbers, 64, &count), FBS_OK);
+    return count;
+  }
+};
+
+/// Numbers 0..`packets` - 1 in a random order in which none comes before one that is more than FBS_REORDER
+/// below it.
+std::vector<std::size_t> any_order(std::size_t packets, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::pair<std::uint64_t, std::size_t>> places;
+  for (std::size_t k = 0; k < packets; ++k)
+    places.push_back({1000 * k + random() % (1000 * (FBS_REORDER + 1)), k});
+  std::sort(places.begin(), places.end());
+  std::vector<std::size_t> order;
+  for (const auto& place : places) order.push_back(place.second);
+  return order;
+}
+
+TEST(EncoderApi, LivePacketsMayComeInAnyOrder) {
+  const std::array settings = {live_settings(FBS_RESILIENCE_NONE), live_settings(FBS_RESILIENCE_NONE, 0.5),
+                               live_settings(FBS_RESILIENCE_PACKET), live_settings(FBS_RESILIENCE_STRONG, 1),
+                               live_settings(FBS_RESILIENCE_PACKET, 0, 5)};
+  std::vector<std::vector<std::vector<std::uint8_t>>> streams;
+  std::vector<std::string> digests;
+  for (const fbs_encoder_settings& s : settings) {
+    streams.push_back(encoded(s, kPictures).packets);
+    Viewer in_order;
+    in_order.draws = true;
+    for (std::size_t k = 0; k < streams.back().size(); ++k) in_order.feed(k, streams.back()[k]);
+    in_order.finish();
+    ASSERT_EQ(in_order.heard.infos.size(), static_cast<std::size_t>(kPictures));
+    digests.push_back(in_order.heard.md5);
+  }
+  for (unsigned seed = 0; seed < 1000 && !testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::size_t stream = seed % streams.size();
+    const std::uint64_t first = std::array{0, 0, 1, 5000}[seed / 5 % 4];
+    const auto& packets = streams[stream];
+    Viewer viewer;
+    viewer.draws = seed < 20;
+    for (const std::size_t k : any_order(packets.size(), seed)) viewer.feed(first + k, packets[k]);
+    EXPECT_EQ(viewer.missing(), 0U);
+    viewer.finish();
+    EXPECT_TRUE(viewer.heard.errors.empty());
+    EXPECT_FALSE(viewer.asked);
+    ASSERT_EQ(viewer.heard.infos.size(), static_cast<std::size_t>(kPictures));
+    for (std::size_t n = 0; n < kPictures; ++n) {
+      EXPECT_EQ(viewer.heard.infos[n].number, n);
+      EXPECT_EQ(viewer.heard.infos[n].quality, FBS_QUALITY_EXACT);
+    }
+    if (viewer.draws) {
+      EXPECT_EQ(viewer.heard.md5, digests[stream]);
+    }
+  }
+}
+
+// Whatever is lost: no error, every picture that is shown is in its place, and motion goes on behind a loss.
+TEST(EncoderApi, LivePacketsMayBeLostInAnyOrder) {
+  for (const int resilience : {FBS_RESILIENCE_NONE, FBS_RESILIENCE_PACKET, FBS_RESILIENCE_STRONG}) {
+    const auto packets = encoded(live_settings(resilience), kPictures).packets;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+      SCOPED_TRACE(testing::Message() << "resilience " << resilience << ", seed " << seed);
+      std::mt19937 random(seed + 5000);
+      Viewer viewer;
+      bool head_lost = false;
+      for (const std::size_t k : any_order(packets.size(), seed)) {
+        if (random() % 10 > 0)
+          viewer.feed(k, packets[k]);
+        else
+          head_lost = head_lost || k < 4;
+      }
+      viewer.finish();
+      EXPECT_TRUE(viewer.heard.errors.empty());
+      for (std::size_t n = 1; n < viewer.heard.infos.size(); ++n)
+        EXPECT_EQ(viewer.heard.infos[n].number, viewer.heard.infos[n - 1].number + 1);
+      const bool goes_on = !head_lost && resilience != FBS_RESILIENCE_NONE;
+      EXPECT_TRUE(goes_on ? !viewer.asked : viewer.asked || !viewer.heard.infos.empty());
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
 TEST(EncoderApi, RowsMayLieInAnyOrder) {
   fbs_encoder_settings settings = quick_settings();
   settings.patterns = 1;
