@@ -8,6 +8,7 @@
 #include "common/picture.h"
 #include "common/result.h"
 #include "encoder/analysis/picture_analysis.h"
+#include "encoder/plan/group_clock.h"
 #include "encoder/settings.h"
 
 namespace fbs {
@@ -37,11 +38,11 @@ class Encoder {
   Encoder& operator=(const Encoder&) = delete;
   ~Encoder();
 
-  /// @param picture   4:2:0, of the format's size
-  /// @param duration  1/90000 s, at most kMaxDuration; 0: the frame rate's
+  /// @param picture  4:2:0, of the format's size
+  /// @param when     with a time to begin, which rises, a duration that is expected: GroupClock
   /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then;
   ///         kTooFewFaces when the first picture with a face shows fewer than EncoderSettings::face asks for
-  Result<void> push(const Picture& picture, std::uint32_t duration = 0);
+  Result<void> push(const Picture& picture, const PictureTime& when = {});
 
   /// Requests a place where a viewer can join: the present group becomes the last of its scene. Has no effect
   /// where a scene begins anyway.

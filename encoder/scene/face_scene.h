@@ -26,7 +26,8 @@ class FaceScene : public SceneEncoder {
                                                      const FaceFinder& finder, const Picture& first,
                                                      const Marks& marks, const StreamPosition& before = {});
 
-  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> push(const Picture& picture, const PictureTime& when) override;
+  StreamPosition end_picture(std::optional<std::uint64_t> time) override;
   void give_landmarks(const LandmarkPoints& landmarks) override { settled().give_landmarks(landmarks); }
   void cut() override {
     settled().cut();
