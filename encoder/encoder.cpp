@@ -368,6 +368,17 @@ bool Encoder::is_coding() const {
   return impl_->scenes.is_coding();
 }
 
+bool Encoder::wait(std::chrono::steady_clock::time_point until) {
+  Impl& i = *impl_;
+  for (bool waits = true;;) {
+    const std::uint64_t rings = i.scenes.bell().rings();
+    waits = waits && i.scenes.is_coding();  // before taking: it may end in between
+    i.take_from_scenes();
+    if (!i.ready.empty() || !waits) return !i.ready.empty();
+    waits = i.scenes.bell().wait(rings, until);
+  }
+}
+
 int Encoder::turn_to_upright() const {
   return impl_->turn;
 }

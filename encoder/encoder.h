@@ -1,6 +1,7 @@
 // Pictures to stream: create, feed, take, finish.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -69,6 +70,10 @@ class Encoder {
 
   /// Whether another thread is still coding: bytes become ready without another push.
   [[nodiscard]] bool is_coding() const;
+
+  /// Waits until take() has bytes, or until no other thread is coding.
+  /// @return whether take() has bytes
+  [[nodiscard]] bool wait(std::chrono::steady_clock::time_point until);
 
   /// Degrees clockwise by which pictures must be turned for a face that lies in them: 90, 180, 270; 0: none
   /// does, as far as is known. Looked for in two pictures of the first two seconds, where no upright face is

@@ -44,6 +44,10 @@ class FaceScene : public SceneEncoder {
   Result<void> finish() override;
   Result<void> wait() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
+  void ring(const std::shared_ptr<Bell>& bell) override {
+    analysing_.ring(bell);
+    coding_.ring(bell);
+  }
   [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override {
     analysing_.settle();

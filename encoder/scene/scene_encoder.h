@@ -16,6 +16,7 @@
 
 namespace fbs {
 
+class Bell;
 class SceneLedger;
 
 class SceneEncoder {
@@ -68,6 +69,8 @@ class SceneEncoder {
   /// Setup::keeps, Return::scene and Return::aside.
   [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
 
+  /// Has the bell ring whenever threads of the scene's own have done something.
+  virtual void ring(const std::shared_ptr<Bell>& /*bell*/) {}
   /// Whether packets may become ready without another call.
   [[nodiscard]] virtual bool is_coding() const { return false; }
 
