@@ -68,14 +68,15 @@ fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* setti
   if (out == nullptr) return FBS_ERROR_ARGUMENT;
   *out = nullptr;
   fbs_encoder_settings taken = kEncoderDefaults;
-  if (settings == nullptr || !take_settings(*settings, kFirstEncoderSettingsSize, taken))
-    return FBS_ERROR_ARGUMENT;
-  LastError ignored;
-  return guarded(ignored, [&] {
+  LastError error;
+  const fbs_status status = guarded(error, [&] {
+    if (settings == nullptr) return error.set_argument(kNullPointer);
+    if (!take_settings(*settings, kFirstEncoderSettingsSize, taken))
+      return error.set_argument(kOtherSettings);
     const Hooks hooks = hooks_of(taken);
-    const auto refused = [&](const Error& error) {
-      hooks.say(LogLevel::kError, error.text);
-      return status_of(error.code);
+    const auto refused = [&](const Error& why) {
+      hooks.say(LogLevel::kError, why.text);
+      return error.set(why);
     };
     const auto input = encoder_input(taken);
     if (!input) return refused(input.error());
@@ -84,6 +85,8 @@ fbs_status fbs_encoder_open(fbs_encoder** out, const fbs_encoder_settings* setti
     *out = std::make_unique<fbs_encoder>(input->format, std::move(*encoder), hooks).release();
     return FBS_OK;
   });
+  error.copy_to(taken.open_error);
+  return status;
 }
 
 void fbs_encoder_close(fbs_encoder** encoder) {

@@ -69,6 +69,8 @@ typedef struct fbs_encoder_settings {
   double start; /**< with bitrate, seconds of it: the first picture is there after so long, coarse if need be,
                    and a finer one follows. 0: as fine as the rate as a whole allows; -1 (default): 1 live
                    without `join` and FBS_RESILIENCE_STRONG, with which it must be 0, otherwise 0 */
+  char* open_error; /**< null (default), or FBS_ERROR_SIZE bytes: fbs_encoder_open() writes there why it
+                       fails, in one line; "" if it does not. Not needed after the call */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;

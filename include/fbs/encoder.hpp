@@ -28,12 +28,8 @@ class Encoder {
     fbs_encoder_default_settings(&settings, sizeof settings);
     return settings;
   }
-  explicit Encoder(const fbs_encoder_settings& settings) {
-    fbs_encoder* opened = nullptr;
-    const fbs_status status = fbs_encoder_open(&opened, &settings);
-    if (status < 0) throw Error(status, "");
-    encoder_.reset(opened);
-  }
+  explicit Encoder(const fbs_encoder_settings& settings)
+      : encoder_(detail::open(fbs_encoder_open, settings)) {}
 
   void push(const fbs_const_picture& picture, std::uint32_t duration = 0) {
     check(fbs_encoder_push(get(), &picture, duration));

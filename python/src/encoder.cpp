@@ -50,9 +50,11 @@ void open(Encoder* self, const nb::dict& settings) {
   take(settings, "resilience", s.resilience);
   take(settings, "join", s.join);
   take(settings, "start", s.start);
+  char why[FBS_ERROR_SIZE] = "";
+  s.open_error = why;
   fbs_encoder* encoder = nullptr;
   const fbs_status status = fbs_encoder_open(&encoder, &s);
-  if (status < 0) throw StatusError(status);
+  if (status < 0) throw StatusError(status, why);
   new (self) Encoder(encoder);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -289,6 +290,31 @@ TEST(EncoderApi, SettingsOutOfRangeAreRefused) {
   EXPECT_TRUE(refuses([](Settings& s) { s.start = 1; })) << "of no rate";
   EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.live_delay = 0; }));
   EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.patterns = 2; }));
+}
+
+TEST(EncoderApi, OpenTellsWhyItFails) {
+  char why[FBS_ERROR_SIZE] = "?";
+  fbs_encoder_settings settings = quick_settings();
+  settings.open_error = why;
+  EXPECT_EQ(open_status(settings), FBS_OK);
+  EXPECT_STREQ(why, "");
+  settings.format.width = 7;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(why, "width or height outside 64..8192");
+  settings.format.width = 64;
+  settings.quality = 101;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(why, "quality outside 0..100");
+}
+
+// A program compiled with the header of version 0.2.
+TEST(EncoderApi, SettingsWithoutALaterMemberAreTaken) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.struct_size = offsetof(fbs_encoder_settings, open_error);
+  settings.open_error = reinterpret_cast<char*>(1);  // what comes to lie there
+  EXPECT_EQ(open_status(settings), FBS_OK);
+  settings.quality = -1;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
 }
 
 TEST(EncoderApi, PicturesThatDoNotFitAreRefused) {

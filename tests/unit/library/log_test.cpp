@@ -86,6 +86,25 @@ TEST(Log, SaysWhyAnEncoderDoesNotOpen) {
   EXPECT_TRUE(log.has(FBS_LOG_ERROR, "width or height outside 64..8192")) << all(log);
 }
 
+/// what() of the error that opening throws.
+template <class Object, class Settings>
+std::string refusal(const Settings& settings) {
+  try {
+    const Object opened(settings);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), FBS_ERROR_ARGUMENT);
+    return error.what();
+  }
+  return "opened";
+}
+
+TEST(Wrappers, ThrowWhyAnObjectDoesNotOpen) {
+  EXPECT_EQ(refusal<Encoder>(Encoder::default_settings()), "width or height outside 64..8192");
+  auto settings = Decoder::default_settings();
+  settings.threads = -1;
+  EXPECT_EQ(refusal<Decoder>(settings), "threads outside 0..64");
+}
+
 /// Encodes grey pictures, in which there is no face.
 void encode_grey(fbs_encoder_settings settings) {
   settings.format.width = settings.format.height = 64;
