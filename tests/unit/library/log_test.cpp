@@ -127,6 +127,22 @@ TEST(Log, TellsOfABitrateThatIsNotMet) {
   EXPECT_TRUE(log.has(FBS_LOG_INFO, "picture 0: a scene begins, without a face")) << all(log);
 }
 
+TEST(Wrappers, StampsComeBackWithPackets) {
+  auto settings = Encoder::default_settings();
+  settings.format.width = settings.format.height = 64;
+  settings.allow_no_face = settings.live = 1;
+  Encoder encoder(settings);
+  const std::vector<std::uint8_t> grey(64 * 64, 90);
+  const fbs_const_picture picture = {64, 64, {grey.data(), grey.data(), grey.data()}, {64, 32, 32}};
+  encoder.push(picture, fbs_stamp{sizeof(fbs_stamp), 4711, 42, 0});
+  ASSERT_TRUE(encoder.wait(std::chrono::minutes(10)));
+  ASSERT_TRUE(encoder.pull());
+  EXPECT_EQ(encoder.stamp().time, 4711);
+  EXPECT_EQ(encoder.stamp().user, 42U);
+  while (encoder.pull()) continue;
+  EXPECT_FALSE(encoder.wait(std::chrono::hours(-1)));
+}
+
 /// Names of threads that have started.
 struct Names {
   static void note(void* user, const char* name) {
