@@ -95,14 +95,15 @@ bool is_plane(const Plane& plane, int width, int height) {
          plane.samples.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-Result<void> check_picture(const Picture& picture, const VideoFormat& format, std::uint32_t duration) {
+Result<void> check_picture(const Picture& picture, const VideoFormat& format, const PictureTime& when) {
   if (picture.width() != format.width || picture.height() != format.height)
     return fail(ErrorCode::kInvalidArgument, "the picture size changes inside the video");
   const int width = (format.width + 1) / 2, height = (format.height + 1) / 2;
   if (!is_plane(picture.y, format.width, format.height) || !is_plane(picture.u, width, height) ||
       !is_plane(picture.v, width, height))
     return fail(ErrorCode::kInvalidArgument, "a picture is not 4:2:0");
-  if (duration > kMaxDuration) return fail(ErrorCode::kInvalidArgument, "a picture lasts more than a minute");
+  if (when.duration > kMaxDuration)
+    return fail(ErrorCode::kInvalidArgument, "a picture lasts more than a minute");
   return {};
 }
 
@@ -119,7 +120,8 @@ struct Encoder::Impl {
   std::size_t turn_looks = 0;  ///< done
   int turn = 0;                ///< degrees clockwise
   EncodingReport report{};
-  StreamPosition position{};  ///< behind the last picture
+  StreamPosition position{};  ///< behind the last picture; where `timed`, its time is what is expected
+  bool timed = false;         ///< pictures have times to begin
   bool analysing = false;     ///< the last picture may be so yet
   bool has_ended = false;     ///< the stream has its end packet
   PictureAnalysis nothing{};
@@ -130,6 +132,19 @@ struct Encoder::Impl {
     const auto taken = scenes.take();
     ready.insert(ready.end(), taken.begin(), taken.end());
     bytes += taken.size();
+  }
+
+  /// Ensures, before a scene begins, that its position is right: only the scene before knows which of its
+  /// pictures could still end in time.
+  void end_picture_at(const std::optional<std::uint64_t>& begin) {
+    if (timed && scenes.present() != nullptr) position = scenes.present()->end_picture(begin);
+  }
+
+  /// Counts a picture that has been pushed.
+  void add(const PictureTime& when) {
+    const std::uint32_t duration = when.duration > 0 ? when.duration : nominal_duration(format.frame_rate);
+    const std::uint64_t begin = std::max(position.time, when.begin.value_or(0));
+    position = {position.pictures + 1, begin + duration};
   }
 
   /// Logs what happens at the picture of this number.
@@ -191,7 +206,7 @@ struct Encoder::Impl {
   }
 
   /// Ensures, before a picture, that there is a scene for it.
-  Result<void> choose_scene(const Picture& picture) {
+  Result<void> choose_scene(const Picture& picture, const std::optional<std::uint64_t>& begin) {
     const ShotWatch::Step step = shots.next();
     if (step.cut) {
       ++report.cuts;
@@ -205,6 +220,7 @@ struct Encoder::Impl {
     }
     const auto marks = look_for_face(picture, step.all_sizes);
     if (!marks) return fail(marks.error());
+    end_picture_at(begin);
     const auto returned = *marks ? return_to_scene(picture) : Result<bool>(false);
     if (!returned) return fail(returned.error());
     if (*returned) return {};
@@ -273,7 +289,7 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   setup.format = format;
   if (auto checked = check_setup(setup); !checked) return fail(checked.error());
   if (settings.first_pattern)
-    if (auto checked = check_picture(*settings.first_pattern, format, 0); !checked)
+    if (auto checked = check_picture(*settings.first_pattern, format, {}); !checked)
       return fail(checked.error());
   auto finder = FaceFinder::create();
   if (!finder) return fail(finder.error());
@@ -285,20 +301,21 @@ Result<Encoder> Encoder::create(const VideoFormat& format, const EncoderSettings
   return Encoder(std::move(impl));
 }
 
-Result<void> Encoder::push(const Picture& picture, std::uint32_t duration) {
+Result<void> Encoder::push(const Picture& picture, const PictureTime& when) {
   Impl& i = *impl_;
   if (i.has_ended) return fail(ErrorCode::kInvalidArgument, kEnded);
-  if (auto checked = check_picture(picture, i.format, duration); !checked) return checked;
+  if (auto checked = check_picture(picture, i.format, when); !checked) return checked;
+  i.timed = i.timed || when.begin;
   i.shots.see(picture);  // while the picture before is analysed
   i.end_picture();
   if (auto ended = i.scenes.end_span(i.position.pictures); !ended) return ended;
-  if (auto chosen = i.choose_scene(picture); !chosen) return chosen;
+  if (auto chosen = i.choose_scene(picture, when.begin); !chosen) return chosen;
   i.give_landmarks();
-  if (auto pushed = i.scenes.present()->push(picture, duration); !pushed) return pushed;
+  if (auto pushed = i.scenes.present()->push(picture, when); !pushed) return pushed;
   i.take_from_scenes();
   i.analysing = true;
   ++i.report.pictures;
-  i.position.add(duration > 0 ? duration : nominal_duration(i.format.frame_rate));
+  i.add(when);
   return {};
 }
 
@@ -349,6 +366,17 @@ std::vector<std::uint8_t> Encoder::take() {
 
 bool Encoder::is_coding() const {
   return impl_->scenes.is_coding();
+}
+
+bool Encoder::wait(std::chrono::steady_clock::time_point until) {
+  Impl& i = *impl_;
+  for (bool waits = true;;) {
+    const std::uint64_t rings = i.scenes.bell().rings();
+    waits = waits && i.scenes.is_coding();  // before taking: it may end in between
+    i.take_from_scenes();
+    if (!i.ready.empty() || !waits) return !i.ready.empty();
+    waits = i.scenes.bell().wait(rings, until);
+  }
 }
 
 int Encoder::turn_to_upright() const {

@@ -1,6 +1,7 @@
 // Pictures to stream: create, feed, take, finish.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "common/picture.h"
 #include "common/result.h"
 #include "encoder/analysis/picture_analysis.h"
+#include "encoder/plan/group_clock.h"
 #include "encoder/settings.h"
 
 namespace fbs {
@@ -37,11 +39,11 @@ class Encoder {
   Encoder& operator=(const Encoder&) = delete;
   ~Encoder();
 
-  /// @param picture   4:2:0, of the format's size
-  /// @param duration  1/90000 s, at most kMaxDuration; 0: the frame rate's
+  /// @param picture  4:2:0, of the format's size
+  /// @param when     with a time to begin, which rises, a duration that is expected: GroupClock
   /// @return kInvalidArgument for another picture or duration, or after finish(): nothing has changed then;
   ///         kTooFewFaces when the first picture with a face shows fewer than EncoderSettings::face asks for
-  Result<void> push(const Picture& picture, std::uint32_t duration = 0);
+  Result<void> push(const Picture& picture, const PictureTime& when = {});
 
   /// Requests a place where a viewer can join: the present group becomes the last of its scene. Has no effect
   /// where a scene begins anyway.
@@ -68,6 +70,10 @@ class Encoder {
 
   /// Whether another thread is still coding: bytes become ready without another push.
   [[nodiscard]] bool is_coding() const;
+
+  /// Waits until take() has bytes, or until no other thread is coding.
+  /// @return whether take() has bytes
+  [[nodiscard]] bool wait(std::chrono::steady_clock::time_point until);
 
   /// Degrees clockwise by which pictures must be turned for a face that lies in them: 90, 180, 270; 0: none
   /// does, as far as is known. Looked for in two pictures of the first two seconds, where no upright face is

@@ -229,12 +229,13 @@ static gboolean gst_fbs_dec_start(GstVideoDecoder* decoder) {
   GstFbsDec* const self = GST_FBS_DEC(decoder);
   fbs_decoder_settings settings;
   fbs_decoder_default_settings(&settings, sizeof settings);
-  settings.threads =
-      self->threads > 0 ? self->threads : (gint)CLAMP(g_get_num_processors(), 1, FBS_MAX_THREADS);
+  settings.threads = self->threads;
   settings.log = log_line;
   settings.user = self;
+  char why[FBS_ERROR_SIZE] = "";
+  settings.open_error = why;
   if (fbs_decoder_open(&self->decoder, &settings) != FBS_OK) {
-    GST_ELEMENT_ERROR(self, LIBRARY, INIT, (NULL), (NULL));
+    GST_ELEMENT_ERROR(self, LIBRARY, INIT, (NULL), ("%s", why));
     return FALSE;
   }
   self->format = (fbs_format){0};

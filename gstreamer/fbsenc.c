@@ -138,11 +138,15 @@ static void log_line(void* self, int level, const char* text) {
   GST_CAT_LEVEL_LOG(GST_CAT_DEFAULT, gst_fbs_debug_level(level), GST_OBJECT(self), "%s", text);
 }
 
-static fbs_status open_encoder(GstFbsEnc* self) {
+static gboolean open_encoder(GstFbsEnc* self) {
+  char why[FBS_ERROR_SIZE] = "";
   fbs_encoder_settings settings = self->settings;
   settings.log = log_line;
   settings.user = self;
-  return gst_fbs_encoder_stream_open(&self->stream, &settings);
+  settings.open_error = why;
+  if (gst_fbs_encoder_stream_open(&self->stream, &settings) == FBS_OK) return TRUE;
+  GST_ELEMENT_ERROR(self, LIBRARY, SETTINGS, (NULL), ("the encoder does not take these settings: %s", why));
+  return FALSE;
 }
 
 static GstFlowReturn finish_encoder(GstFbsEnc* self) {
@@ -190,12 +194,9 @@ static GstFlowReturn gst_fbs_enc_handle_frame(GstVideoEncoder* encoder, GstVideo
     GST_LOG_OBJECT(self, "late: picture %u is dropped", frame->system_frame_number);
     return gst_video_encoder_finish_frame(encoder, frame); /* without a buffer: tells of it, too */
   }
-  if (self->stream.encoder == NULL) {
-    const fbs_status status = open_encoder(self);
-    if (status != FBS_OK) {
-      gst_video_codec_frame_unref(frame);
-      return fail(self, status);
-    }
+  if (self->stream.encoder == NULL && !open_encoder(self)) {
+    gst_video_codec_frame_unref(frame);
+    return GST_FLOW_ERROR;
   }
   if (GST_VIDEO_CODEC_FRAME_IS_FORCE_KEYFRAME(frame)) request_scene(self);
   if (!GST_CLOCK_TIME_IS_VALID(self->origin)) self->origin = frame->pts;
@@ -280,10 +281,7 @@ static gboolean gst_fbs_enc_set_format(GstVideoEncoder* encoder, GstVideoCodecSt
   g_clear_pointer(&self->input, gst_video_codec_state_unref);
   self->input = gst_video_codec_state_ref(state);
   take_format(self, &state->info);
-  if (open_encoder(self) != FBS_OK) {
-    GST_ELEMENT_ERROR(self, LIBRARY, SETTINGS, (NULL), ("the encoder does not take these settings"));
-    return FALSE;
-  }
+  if (!open_encoder(self)) return FALSE;
   GstVideoCodecState* const output =
       gst_video_encoder_set_output_state(encoder, gst_caps_from_string(GST_FBS_GROUP_CAPS), state);
   gst_video_codec_state_unref(output);

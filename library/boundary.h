@@ -1,6 +1,7 @@
 // The boundary of C++: results and exceptions become statuses and a line of text.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <exception>
@@ -15,6 +16,8 @@
 namespace fbs {
 
 inline constexpr const char* kNullPointer = "a null pointer";
+inline constexpr const char* kOtherSettings =
+    "settings of another version: struct_size, or an unknown member";
 
 [[nodiscard]] fbs_status status_of(ErrorCode code);
 
@@ -30,11 +33,15 @@ class LastError {
   void clear() { set(FBS_OK, ""); }
 
   [[nodiscard]] const char* text() const { return text_.data(); }
+  /// @param out  FBS_ERROR_SIZE bytes; null: nothing happens
+  void copy_to(char* out) const {
+    if (out != nullptr) std::copy(text_.begin(), text_.end(), out);
+  }
   [[nodiscard]] std::uint64_t offset() const { return offset_; }
 
  private:
   std::mutex mutex_;
-  std::array<char, 256> text_{};
+  std::array<char, FBS_ERROR_SIZE> text_{};
   std::uint64_t offset_ = 0;
 };
 

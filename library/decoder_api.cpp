@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "common/workers.h"
 #include "decoder/expression/expression_targets.h"
 #include "decoder/scene/scene_face.h"
 #include "decoder/stream/scene_index.h"
@@ -22,11 +23,16 @@ namespace {
 
 using namespace fbs;
 
+<<<<<<< HEAD
 static_assert(FBS_REORDER == LatePackets::kReorder);
+=======
+static_assert(FBS_MAX_THREADS == 64, "a text names it");
+>>>>>>> loop
 
 constexpr const char* kNoPicture = "there is no picture yet";
 
-constexpr fbs_decoder_settings kDefaults = {sizeof(fbs_decoder_settings), 0, 1, nullptr, nullptr, nullptr};
+constexpr fbs_decoder_settings kDefaults = {
+    sizeof(fbs_decoder_settings), 0, 1, nullptr, nullptr, nullptr, nullptr};
 /// sizeof(fbs_decoder_settings) in version 0.1.
 constexpr std::size_t kFirstSize = offsetof(fbs_decoder_settings, max_pixels) + sizeof(std::uint64_t);
 
@@ -116,9 +122,18 @@ fbs_status fbs_decoder_open(fbs_decoder** out, const fbs_decoder_settings* setti
   if (out == nullptr) return FBS_ERROR_ARGUMENT;
   *out = nullptr;
   fbs_decoder_settings taken = kDefaults;
-  if (settings != nullptr && !take_settings(*settings, kFirstSize, taken)) return FBS_ERROR_ARGUMENT;
-  if (taken.threads < 1 || taken.threads > FBS_MAX_THREADS) return FBS_ERROR_ARGUMENT;
-  return open_object(out, taken);
+  LastError error;
+  const fbs_status status = guarded(error, [&] {
+    if (settings != nullptr && !take_settings(*settings, kFirstSize, taken))
+      return error.set_argument(kOtherSettings);
+    if (taken.threads < 0 || taken.threads > FBS_MAX_THREADS)
+      return error.set_argument("threads outside 0..64");
+    if (taken.threads == 0) taken.threads = std::min(core_count(), FBS_MAX_THREADS);
+    *out = std::make_unique<fbs_decoder>(taken).release();
+    return FBS_OK;
+  });
+  error.copy_to(taken.open_error);
+  return status;
 }
 
 void fbs_decoder_close(fbs_decoder** decoder) {

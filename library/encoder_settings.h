@@ -30,7 +30,8 @@ inline constexpr fbs_encoder_settings kEncoderDefaults = {sizeof(fbs_encoder_set
                                                           nullptr,
                                                           nullptr,
                                                           nullptr,
-                                                          -1};
+                                                          -1,
+                                                          nullptr};
 
 /// sizeof(fbs_encoder_settings) in version 0.1.
 inline constexpr std::size_t kFirstEncoderSettingsSize =

@@ -43,8 +43,10 @@ int main(int argc, char** argv) {
   settings.format.height = (uint32_t)strtoul(argv[2], NULL, 10);
   settings.format.frame_rate_num = (uint32_t)strtoul(argv[3], NULL, 10);
   settings.quality = 60; /* or settings.bitrate, in kbit/s */
+  char why[FBS_ERROR_SIZE];
+  settings.open_error = why;
   fbs_encoder* encoder = NULL;
-  if (fbs_encoder_open(&encoder, &settings) != FBS_OK) return fprintf(stderr, "bad size or rate\n"), 2;
+  if (fbs_encoder_open(&encoder, &settings) != FBS_OK) return fprintf(stderr, "encode_frames: %s\n", why), 2;
 
   FILE* const out = fopen(argv[4], "wb");
   if (out == NULL) return perror(argv[4]), 1;

@@ -7,6 +7,24 @@
 
 namespace fbs {
 
+void Bell::ring() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++rings_;
+  }
+  rung_.notify_all();
+}
+
+std::uint64_t Bell::rings() const {
+  const std::lock_guard lock(mutex_);
+  return rings_;
+}
+
+bool Bell::wait(std::uint64_t rings, std::chrono::steady_clock::time_point until) const {
+  std::unique_lock lock(mutex_);
+  return rung_.wait_until(lock, until, [&] { return rings_ > rings; });
+}
+
 Background::Background(std::size_t most, const char* name, const Hooks& hooks)
     : most_(most), thread_(start_threads({most > 0 ? 1 : 0, name, hooks}, [this](int) { work(); })) {}
 
@@ -18,6 +36,11 @@ Background::~Background() {
   }
   added_.notify_one();
   thread_.front().join();
+}
+
+void Background::ring(const std::shared_ptr<Bell>& bell) {
+  const std::lock_guard lock(mutex_);
+  bell_ = bell;
 }
 
 Result<void> Background::add(Task task) {
@@ -72,6 +95,7 @@ void Background::work() {
       tasks_.clear();
     }
     done_.notify_all();
+    if (bell_) bell_->ring();
   }
 }
 

@@ -1,9 +1,12 @@
 // Runs work in parallel to the caller's.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -12,6 +15,21 @@
 #include "common/result.h"
 
 namespace fbs {
+
+/// Wakes a thread that waits for others to get on.
+class Bell {
+ public:
+  void ring();
+  [[nodiscard]] std::uint64_t rings() const;
+  /// Waits until it has rung more often than this.
+  /// @return false: not until then
+  bool wait(std::uint64_t rings, std::chrono::steady_clock::time_point until) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable rung_;
+  std::uint64_t rings_ = 0;  // under the mutex
+};
 
 /// Tasks that another thread does in their order. After one has failed, none is begun.
 class Background {
@@ -25,6 +43,9 @@ class Background {
   ~Background();
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
+
+  /// Has the bell ring whenever another thread has done a task.
+  void ring(const std::shared_ptr<Bell>& bell);
 
   /// Waits as long as too many tasks wait.
   /// @return failure of this task or of one before, once
@@ -49,6 +70,7 @@ class Background {
   Result<void> result_{};
   std::exception_ptr fault_{};  ///< thrown instead
   bool stops_ = false;
+  std::shared_ptr<Bell> bell_{};     ///< or null
   std::vector<std::thread> thread_;  ///< empty: the caller does all
 };
 

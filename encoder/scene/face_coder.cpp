@@ -40,7 +40,7 @@ FaceCoder::FaceCoder(const EncoderSettings& settings, Start start)
 }
 
 Result<void> FaceCoder::add(const SharedPicture& picture, FaceAnalysis::Observation seen,
-                            std::uint32_t duration) {
+                            const PictureTime& when) {
   if (!surround_.is_still()) observe_surround(picture, seen);
   if (ledger_.scene_ended())
     if (auto begun = begin_again(picture, seen); !begun) return begun;
@@ -49,9 +49,9 @@ Result<void> FaceCoder::add(const SharedPicture& picture, FaceAnalysis::Observat
     mouth_colours_.add(picture, seen.vertices);
     if (second_pass_) second_pass_->chroma_contrast.add(picture);
   }
-  if (second_pass_) second_pass_->refit.add(seen, duration);
+  if (second_pass_) second_pass_->refit.add(seen);
   costs_.push_back(std::move(seen.cost));
-  if (auto added = ledger_.add(picture, duration); !added) return added;
+  if (auto added = ledger_.add(picture, when); !added) return added;
   if (ledger_.group_ends())
     if (auto ended = end_group(); !ended) return ended;
   if (!surround_.has_ended() && ledger_.pictures() >= ledger_.timing().lookahead)
@@ -107,7 +107,9 @@ Result<void> FaceCoder::plan_group() {
   if (!ledger_.in_group()) return {};
   if (ledger_.live() && !second_pass_ && !ledger_.packets().started())
     if (auto written = write_head(); !written) return written;
-  if (auto planned = ledger_.plan(costs_, ledger_.end_group()); !planned) return planned;
+  std::vector<std::uint32_t> durations = ledger_.end_group();
+  if (auto planned = ledger_.plan(costs_, durations); !planned) return planned;
+  if (second_pass_) second_pass_->refit.end_group(std::move(durations));
   costs_.clear();
   return {};
 }

@@ -30,8 +30,7 @@ class FaceCoder {
   FaceCoder(const EncoderSettings& settings, Start start);
 
   /// Adds the next picture with its observation.
-  /// @param duration  1/90000 s; 0: the frame rate's
-  Result<void> add(const SharedPicture& picture, FaceAnalysis::Observation seen, std::uint32_t duration);
+  Result<void> add(const SharedPicture& picture, FaceAnalysis::Observation seen, const PictureTime& when);
   /// The next picture begins another shot.
   void cut();
   Result<void> finish();

@@ -126,19 +126,26 @@ Result<void> FaceScene::leave() {
   return code_later([this] { return coder_.leave(); });
 }
 
-Result<void> FaceScene::push(const Picture& picture, std::uint32_t duration) {
-  const auto task = [this, shared = SharedPicture(picture), duration,
+Result<void> FaceScene::push(const Picture& picture, const PictureTime& when) {
+  const auto task = [this, shared = SharedPicture(picture), when,
                      cut = std::exchange(cut_, false)]() -> Result<void> {
     auto seen = analysis_.observe(shared);
     if (auto kept = waiting_.push(shared); !kept) return kept;
-    return code([this, seen = std::move(seen), duration, cut]() mutable -> Result<void> {
+    return code([this, seen = std::move(seen), when, cut]() mutable -> Result<void> {
       const auto next = waiting_.pop();
       if (!next) return fail(next.error());
       if (cut) coder_.cut();
-      return coder_.add(*next, std::move(seen), duration);
+      return coder_.add(*next, std::move(seen), when);
     });
   };
   return analysing_.add(task);
+}
+
+StreamPosition FaceScene::end_picture(std::optional<std::uint64_t> time) {
+  analysing_.settle();
+  coding_.settle();
+  if (time) coder_.ledger().end_picture(*time);
+  return coder_.ledger().position();
 }
 
 Result<void> FaceScene::finish() {

@@ -26,7 +26,8 @@ class FaceScene : public SceneEncoder {
                                                      const FaceFinder& finder, const Picture& first,
                                                      const Marks& marks, const StreamPosition& before = {});
 
-  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> push(const Picture& picture, const PictureTime& when) override;
+  StreamPosition end_picture(std::optional<std::uint64_t> time) override;
   void give_landmarks(const LandmarkPoints& landmarks) override { settled().give_landmarks(landmarks); }
   void cut() override {
     settled().cut();
@@ -43,6 +44,10 @@ class FaceScene : public SceneEncoder {
   Result<void> finish() override;
   Result<void> wait() override;
   [[nodiscard]] std::vector<std::uint8_t> take() override;
+  void ring(const std::shared_ptr<Bell>& bell) override {
+    analysing_.ring(bell);
+    coding_.ring(bell);
+  }
   [[nodiscard]] bool is_coding() const override { return !analysing_.is_idle() || !coding_.is_idle(); }
   [[nodiscard]] const PictureAnalysis& analysis() const override {
     analysing_.settle();

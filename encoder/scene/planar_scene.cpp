@@ -50,7 +50,8 @@ PlanarScene::PlanarScene(const Setup& setup, const EncoderSettings& settings, co
   scene_.setup.patterns = ledger_.patterns()->slots();
 }
 
-Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
+Result<void> PlanarScene::push(const Picture& picture, const PictureTime& when) {
+  end_picture(when.begin);
   if (ledger_.scene_ended()) begin_again();
   GlobalMotion::Observation seen = global_.observe(picture);
   if (!plane_.covers(seen.since_first)) {
@@ -62,8 +63,13 @@ Result<void> PlanarScene::push(const Picture& picture, std::uint32_t duration) {
   const double kept = ledger_.live() ? 1 - 1 / std::max(1.0, fps_of(scene_.setup.format)) : 1;
   moved_ = kept * moved_ + seen.moved;
   still_ = kept * still_ + seen.still;
-  if (auto added = ledger_.add(picture, duration); !added) return added;
+  if (auto added = ledger_.add(picture, when); !added) return added;
   return ledger_.group_ends() ? end_group() : Result<void>{};
+}
+
+StreamPosition PlanarScene::end_picture(std::optional<std::uint64_t> time) {
+  if (time) ledger_.end_picture(*time);
+  return ledger_.position();
 }
 
 void PlanarScene::cut() {

@@ -20,7 +20,8 @@ class PlanarScene : public SceneEncoder {
                                                      const EncoderSettings& settings,
                                                      const StreamPosition& before = {});
 
-  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> push(const Picture& picture, const PictureTime& when) override;
+  StreamPosition end_picture(std::optional<std::uint64_t> time) override;
   void cut() override;
   Result<void> change(const std::function<void(SceneLedger&)>& how) override {
     how(ledger_);

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "bitstream/syntax.h"
@@ -10,9 +12,11 @@
 #include "common/result.h"
 #include "encoder/analysis/picture_analysis.h"
 #include "encoder/landmarks/landmark_file.h"
+#include "encoder/plan/group_clock.h"
 
 namespace fbs {
 
+class Bell;
 class SceneLedger;
 
 class SceneEncoder {
@@ -23,8 +27,13 @@ class SceneEncoder {
   virtual ~SceneEncoder() = default;
 
   /// Pushes the next picture, beginning with the scene's first.
-  /// @param duration  1/90000 s; 0: the frame rate's
-  virtual Result<void> push(const Picture& picture, std::uint32_t duration) = 0;
+  virtual Result<void> push(const Picture& picture, const PictureTime& when) = 0;
+
+  /// The picture pushed last ends at this time, if its group has not been coded: GroupClock. Waits for those
+  /// pushed before.
+  /// @param time  since the beginning of the stream, 1/90000 s; nothing: as it was pushed
+  /// @return the position behind it
+  virtual StreamPosition end_picture(std::optional<std::uint64_t> time) = 0;
 
   /// Landmarks of the picture pushed next, by another tracker.
   virtual void give_landmarks(const LandmarkPoints& /*landmarks*/) {}
@@ -60,6 +69,8 @@ class SceneEncoder {
   /// Setup::keeps, Return::scene and Return::aside.
   [[nodiscard]] virtual std::vector<std::uint8_t> take() = 0;
 
+  /// Has the bell ring whenever threads of the scene's own have done something.
+  virtual void ring(const std::shared_ptr<Bell>& /*bell*/) {}
   /// Whether packets may become ready without another call.
   [[nodiscard]] virtual bool is_coding() const { return false; }
 

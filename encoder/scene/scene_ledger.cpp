@@ -13,15 +13,14 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       live_(settings.live.has_value()),
       patterns_(std::move(patterns)),
       motion_(setup, seen, rate, timing_),
-      position_(setup.before),
+      clock_(setup.before, timing_.nominal_duration),
       packets_(settings.live.value_or(LiveSettings{})) {}
 
-Result<void> SceneLedger::add(const SharedPicture& picture, std::uint32_t duration) {
+Result<void> SceneLedger::add(const SharedPicture& picture, const PictureTime& when) {
   if (patterns_)
     if (auto added = patterns_->add(picture); !added) return added;
-  durations_.push_back(duration);
+  clock_.add(when);
   ++pictures_;
-  position_.add(duration > 0 ? duration : timing_.nominal_duration);
   return {};
 }
 
@@ -58,7 +57,7 @@ Result<void> SceneLedger::end_segment(Scene& scene, bool last, const StateRefit&
 }
 
 void SceneLedger::go_on(const StreamPosition& at) {
-  position_ = at;
+  clock_.go_on(at);
   if (!ended_)
     returns_.emplace_back(patterns_->groups(), Return{0, at, false, static_cast<std::uint32_t>(pictures_)});
 }
@@ -69,7 +68,7 @@ bool SceneLedger::scene_ends() const {
 
 void SceneLedger::begin_again(Setup& setup) {
   ended_ = requested_ = false;
-  setup.before = position_;
+  setup.before = clock_.position();
   pictures_ = 0;
   if (packets_.started()) packets_.begin_again();
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decoder/scene/scene.h"
+#include "encoder/plan/group_clock.h"
 #include "encoder/plan/motion_track.h"
 #include "encoder/plan/scene_timing.h"
 #include "encoder/scene/scene_packets.h"
@@ -26,17 +27,20 @@ class SceneLedger {
               const EncoderSettings& settings, std::unique_ptr<PatternStage> patterns);
 
   /// Counts a picture. The pattern stage gets it, too, if there is one.
-  /// @param duration  1/90000 s; 0: the frame rate's
-  Result<void> add(const SharedPicture& picture, std::uint32_t duration);
+  Result<void> add(const SharedPicture& picture, const PictureTime& when);
+  /// GroupClock::end_at() of the picture added last.
+  void end_picture(std::uint64_t time) { clock_.end_at(time); }
+  /// Behind the picture added last.
+  [[nodiscard]] const StreamPosition& position() const { return clock_.position(); }
   /// Whether a group ends with the picture added last.
-  [[nodiscard]] bool group_ends() const { return timing_.group_ends(durations_.size(), pictures_); }
+  [[nodiscard]] bool group_ends() const { return timing_.group_ends(clock_.pictures(), pictures_); }
   /// The next picture is shown there, behind another scene's. No group has begun.
   void go_on(const StreamPosition& at);
 
   /// Begins another group.
   /// @return durations of the pictures of the group before: empty if it has none
-  [[nodiscard]] std::vector<std::uint32_t> end_group() { return std::exchange(durations_, {}); }
-  [[nodiscard]] bool in_group() const { return !durations_.empty(); }
+  [[nodiscard]] std::vector<std::uint32_t> end_group() { return clock_.end_group(); }
+  [[nodiscard]] bool in_group() const { return clock_.pictures() > 0; }
 
   /// Plans the motion of a group.
   Result<void> plan(std::span<const PictureCost> costs, std::span<const std::uint32_t> durations);
@@ -89,11 +93,10 @@ class SceneLedger {
   bool live_;
   std::unique_ptr<PatternStage> patterns_;
   MotionTrack motion_;
-  std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
-  std::uint64_t pictures_ = 0;            ///< of the scene
-  bool requested_ = false;                ///< the scene ends with its present group
+  GroupClock clock_;
+  std::uint64_t pictures_ = 0;  ///< of the scene
+  bool requested_ = false;      ///< the scene ends with its present group
   bool ended_ = false;
-  StreamPosition position_;  ///< of the next picture
   /// Where the segment goes on behind another scene, by the number of a group.
   std::vector<std::pair<std::size_t, Return>> returns_;
   ScenePackets packets_;

@@ -23,6 +23,7 @@ Result<void> SceneSpan::begin(std::unique_ptr<SceneEncoder> scene, std::uint64_t
   if (open_.empty()) begin_ = picture;
   const auto left = leave(picture);
   if (!left) return fail(left.error());
+  scene->ring(bell_);
   members_.push_back(std::make_unique<Member>(Member{std::move(scene), picture}));
   present_ = members_.back().get();
   present_->packets.feed(kSignature);

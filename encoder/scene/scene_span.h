@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bitstream/packet.h"
+#include "encoder/scene/background.h"
 #include "encoder/scene/scene_encoder.h"
 #include "encoder/segment/segment.h"
 
@@ -41,6 +42,8 @@ class SceneSpan {
   [[nodiscard]] std::vector<std::uint8_t> take();
   /// Whether packets may become ready without another call.
   [[nodiscard]] bool is_coding() const;
+  /// Rings whenever that may have changed, or packets may have become ready.
+  [[nodiscard]] const Bell& bell() const { return *bell_; }
 
  private:
   struct Member {
@@ -78,6 +81,7 @@ class SceneSpan {
 
   std::uint64_t most_;
   std::size_t together_;
+  std::shared_ptr<Bell> bell_ = std::make_shared<Bell>();
   std::vector<std::unique_ptr<Member>> members_;
   Member* present_ = nullptr;
   std::deque<Member*> open_;              ///< besides the present one, in the order in which they were left

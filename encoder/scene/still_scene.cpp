@@ -16,7 +16,10 @@ constexpr double kUsualEyeDistance = 64;  // pixels; quality is defined relative
 }  // namespace
 
 StillScene::StillScene(const Setup& setup, const SceneTiming& timing)
-    : timing_(timing), parts_(setup.parts), coder_(setup, CodedState{}) {}
+    : timing_(timing),
+      parts_(setup.parts),
+      coder_(setup, CodedState{}),
+      clock_(setup.before, timing.nominal_duration) {}
 
 Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& format,
                                                         const EncoderSettings& settings, const Picture& first,
@@ -47,23 +50,23 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
   return scene;
 }
 
-Result<void> StillScene::push(const Picture&, std::uint32_t duration) {
-  durations_.push_back(duration);
+Result<void> StillScene::push(const Picture&, const PictureTime& when) {
+  clock_.add(when);
   ++pictures_;
-  return timing_.group_ends(durations_.size(), pictures_) ? end_group() : Result<void>{};
+  return timing_.group_ends(clock_.pictures(), pictures_) ? end_group() : Result<void>{};
 }
 
 Result<void> StillScene::end_group() {
-  if (durations_.empty()) return {};
+  if (clock_.pictures() == 0) return {};
+  const std::vector<std::uint32_t> durations = clock_.end_group();
   const CodedState& anchor = coder_.anchor();
-  MotionGroup group = knots_everywhere(anchor, std::vector(durations_.size(), anchor), parts_);
+  MotionGroup group = knots_everywhere(anchor, std::vector(durations.size(), anchor), parts_);
   group.key = coder_.groups() == 0;
   group.first = coder_.next();
-  group.durations = group_durations(durations_, timing_.nominal_duration);
+  group.durations = group_durations(durations, timing_.nominal_duration);
   const auto payload = coder_.encode(group);
   if (!payload) return fail(payload.error());
   packets_.add_motion(*payload);
-  durations_.clear();
   return {};
 }
 

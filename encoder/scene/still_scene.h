@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bitstream/motion/motion_encoder.h"
+#include "encoder/plan/group_clock.h"
 #include "encoder/plan/scene_timing.h"
 #include "encoder/scene/scene_encoder.h"
 #include "encoder/scene/scene_packets.h"
@@ -17,7 +18,11 @@ class StillScene : public SceneEncoder {
                                                      const EncoderSettings& settings, const Picture& first,
                                                      const StreamPosition& before = {});
 
-  Result<void> push(const Picture& picture, std::uint32_t duration) override;
+  Result<void> push(const Picture& picture, const PictureTime& when) override;
+  StreamPosition end_picture(std::optional<std::uint64_t> time) override {
+    if (time) clock_.end_at(*time);
+    return clock_.position();
+  }
   void cut() override {}
   [[nodiscard]] bool recognises(const Picture&) override { return false; }
   [[nodiscard]] bool carries_shots() const override { return false; }
@@ -33,7 +38,7 @@ class StillScene : public SceneEncoder {
   SceneTiming timing_;
   PartMask parts_;
   MotionEncoder coder_;
-  std::vector<std::uint32_t> durations_;  ///< of the group's pictures, 1/90000 s; 0: nominal
+  GroupClock clock_;
   std::uint64_t pictures_ = 0;
   ScenePackets packets_;
   PictureAnalysis analysis_;

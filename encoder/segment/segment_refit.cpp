@@ -22,8 +22,8 @@ SegmentRefit::SegmentRefit(const Setup& setup, const Geometry& geometry, const P
            {WorkFrame::cut(first.picture, pose_of(first.seen).shift, eye_distance_px, false), first.seen}),
       before_(std::move(motion)) {}
 
-void SegmentRefit::add(const FaceAnalysis::Observation& picture, std::uint32_t duration) {
-  Analysed out{picture.state, picture.face, picture.eye_distance_px, duration, {}, {}};
+void SegmentRefit::add(const FaceAnalysis::Observation& picture) {
+  Analysed out{picture.state, picture.face, picture.eye_distance_px, {}, {}};
   const PictureCost& cost = picture.cost;
   std::copy_n(cost.fit.begin() + kFirstSurround, kSurroundCount, out.surround.begin());
   for (const LayerCost& layer : cost.layers)
@@ -88,13 +88,11 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
                         : fail(source.error());
     });
     std::vector<PictureCost> costs;
-    std::vector<std::uint32_t> durations;
     for (auto& cost : found) {
       if (!cost) return fail(cost.error());
-      durations.push_back(pictures_[first + costs.size()].duration);
       costs.push_back(std::move(*cost));
     }
-    auto planned = motion.add(costs, durations);
+    auto planned = motion.add(costs, durations_[g]);
     if (!planned) return fail(planned.error());
     group.payload = std::move(planned->payload);
     for (const State& to : planned->states) segment.move(first++, to);
@@ -105,6 +103,7 @@ Result<void> SegmentRefit::run(Segment& segment, const SegmentPatterns& patterns
 
 void SegmentRefit::begin_segment(const MotionTrack& motion) {
   pictures_.clear();
+  durations_.clear();
   before_ = motion;
   after_.reset();
 }

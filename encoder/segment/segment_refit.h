@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "encoder/analysis/face_analysis.h"
@@ -26,8 +27,10 @@ class SegmentRefit {
                MotionTrack motion);
 
   /// The next picture of the segment, as analysed.
-  /// @param duration  1/90000 s; 0: nominal
-  void add(const FaceAnalysis::Observation& picture, std::uint32_t duration);
+  void add(const FaceAnalysis::Observation& picture);
+  /// A group ends with the picture added last.
+  /// @param durations  of its pictures, 1/90000 s; 0: nominal
+  void end_group(std::vector<std::uint32_t> durations) { durations_.push_back(std::move(durations)); }
 
   /// Replaces the motion of a segment whose pictures have been added: payloads of groups and states of
   /// pictures. Blend modes stay. Can be run again: each time starts from the motion before the segment.
@@ -46,8 +49,7 @@ class SegmentRefit {
   struct Analysed {
     State state;
     bool face;
-    double eye_distance_px;  ///< FaceAnalysis::Observation's
-    std::uint32_t duration;
+    double eye_distance_px;                       ///< FaceAnalysis::Observation's
     std::array<double, kSurroundCount> surround;  ///< of PictureCost::fit: body and ground
     cv::Matx<double, kSurroundCount, kSurroundCount> surround_quadratic;
   };
@@ -68,8 +70,9 @@ class SegmentRefit {
 
   PictureFit fit_;
   std::vector<Analysed> pictures_;
-  MotionTrack before_;                ///< the segment
-  std::optional<MotionTrack> after_;  ///< it, as run() planned it last
+  std::vector<std::vector<std::uint32_t>> durations_;  ///< of the pictures, by group
+  MotionTrack before_;                                 ///< the segment
+  std::optional<MotionTrack> after_;                   ///< it, as run() planned it last
 };
 
 }  // namespace fbs

@@ -69,6 +69,8 @@ typedef struct fbs_encoder_settings {
   double start; /**< with bitrate, seconds of it: the first picture is there after so long, coarse if need be,
                    and a finer one follows. 0: as fine as the rate as a whole allows; -1 (default): 1 live
                    without `join` and FBS_RESILIENCE_STRONG, with which it must be 0, otherwise 0 */
+  char* open_error; /**< null (default), or FBS_ERROR_SIZE bytes: fbs_encoder_open() writes there why it
+                       fails, in one line; "" if it does not. Not needed after the call */
 } fbs_encoder_settings;
 
 typedef struct fbs_encoder fbs_encoder;
@@ -84,6 +86,20 @@ typedef struct fbs_packet {
   uint64_t number;     /**< of the first picture that needs the packet; of the last packet: pictures in all */
   uint64_t time;       /**< of that picture, ticks; of the last packet: the length of the video */
 } fbs_packet;
+
+/** In place of a time: none. */
+#define FBS_NO_TIME INT64_MIN
+
+/** What a caller says of a picture, and gets back with its packets. Begins as {sizeof stamp, time}; all
+ * others may be 0. */
+typedef struct fbs_stamp {
+  size_t struct_size;
+  int64_t time;      /**< at which the picture begins, ticks of any clock, within +-2^61; FBS_NO_TIME: where
+                          the one before ends */
+  uint64_t user;     /**< a number or a pointer of the caller's */
+  uint32_t duration; /**< ticks, at most a minute; 0: with a time until the next one, otherwise the frame
+                          rate's */
+} fbs_stamp;
 
 /** Statistics so far. */
 typedef struct fbs_encoder_report {
@@ -113,6 +129,22 @@ FBS_API void fbs_encoder_close(fbs_encoder** encoder);
 FBS_API fbs_status fbs_encoder_push(fbs_encoder* encoder, const fbs_const_picture* picture,
                                     uint32_t duration);
 
+/** The same with a stamp, for cameras, whose pictures come when they come.
+ * In the stream a picture begins at its stamp's time minus the first one's, to a tick: fbs_picture_info.time.
+ * Only the first picture of a group can be off. The picture before it was coded with the group before, when
+ * nobody knew how long it lasts, so it got the `duration` of its stamp or, if that is 0, the shorter one of
+ * the two durations before (at first the frame rate's). By what that was wrong, the next picture begins too
+ * early or too late; those after it are right again, as far as each lasts at least a tick. So nothing is
+ * delayed, times do not drift, and a steady camera is exact from its third picture on, at any rate. A group
+ * is the first picture of a scene, and then as many as the frame rate has in `live_delay`, or without `live`
+ * in a second. More than a minute between two pictures counts as a minute.
+ * What a caller keeps of a picture is found by fbs_picture_info.number: that of the first one pushed is 0.
+ * @param stamp  null: as fbs_encoder_push() with a duration of 0
+ * @return as fbs_encoder_push(); FBS_ERROR_ARGUMENT, with nothing taken, also when a time is not later than
+ *         the last one, or out of range */
+FBS_API fbs_status fbs_encoder_push_stamped(fbs_encoder* encoder, const fbs_const_picture* picture,
+                                            const fbs_stamp* stamp);
+
 /** Requests a place where a viewer can join, for instance after a loss: a scene begins with the next picture
  * that can begin one, after `delay` at the latest. With `live` only. Repeating the request before then has no
  * effect. An unchanged picture, shown while there is no face and only one pattern, is not sent again.
@@ -141,9 +173,22 @@ FBS_API fbs_status fbs_encoder_finish(fbs_encoder* encoder);
 
 /** Returns the next packet.
  * @return FBS_OK; FBS_NEED_DATA: push more, or finish. With `live` and `threads` other than 1 packets may
- *         become ready a little later, without another push; FBS_END: the encoding has ended, and all packets
- *         have been returned */
+ *         become ready a little later, without another push: fbs_encoder_wait(); FBS_END: the encoding has
+ *         ended, and all packets have been returned */
 FBS_API fbs_status fbs_encoder_pull(fbs_encoder* encoder, fbs_packet* out);
+
+/** Waits until fbs_encoder_pull() has a packet, while other threads code what has been pushed. They do with
+ * `threads` other than 1; without them the answer comes at once.
+ * @param milliseconds  how long at most
+ * @return FBS_OK: a packet is ready; FBS_NEED_DATA: the time has passed, or the next packet takes another
+ *         push; FBS_END and errors as fbs_encoder_pull() */
+FBS_API fbs_status fbs_encoder_wait(fbs_encoder* encoder, uint32_t milliseconds);
+
+/** The stamp that the picture fbs_packet.number was pushed with, for the packet pulled last. Pictures without
+ * a stamp have FBS_NO_TIME and their duration.
+ * @param out  its struct_size is set by the caller
+ * @return FBS_OK; FBS_ERROR_ARGUMENT before the first packet, and for the last one, which has no picture */
+FBS_API fbs_status fbs_encoder_get_stamp(const fbs_encoder* encoder, fbs_stamp* out);
 
 FBS_API fbs_status fbs_encoder_get_report(const fbs_encoder* encoder, fbs_encoder_report* out);
 

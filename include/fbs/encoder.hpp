@@ -15,6 +15,7 @@
 
 #include <fbs/encoder.h>
 
+#include <chrono>
 #include <fbs/fbs.hpp>
 
 namespace fbs {
@@ -28,15 +29,14 @@ class Encoder {
     fbs_encoder_default_settings(&settings, sizeof settings);
     return settings;
   }
-  explicit Encoder(const fbs_encoder_settings& settings) {
-    fbs_encoder* opened = nullptr;
-    const fbs_status status = fbs_encoder_open(&opened, &settings);
-    if (status < 0) throw Error(status, "");
-    encoder_.reset(opened);
-  }
+  explicit Encoder(const fbs_encoder_settings& settings)
+      : encoder_(detail::open(fbs_encoder_open, settings)) {}
 
   void push(const fbs_const_picture& picture, std::uint32_t duration = 0) {
     check(fbs_encoder_push(get(), &picture, duration));
+  }
+  void push(const fbs_const_picture& picture, const fbs_stamp& stamp) {
+    check(fbs_encoder_push_stamped(get(), &picture, &stamp));
   }
   void request_scene() { check(fbs_encoder_request_scene(get())); }
   void lose_patterns() { check(fbs_encoder_lose_patterns(get())); }
@@ -47,6 +47,21 @@ class Encoder {
   std::optional<fbs_packet> pull() {
     fbs_packet out;
     if (check(fbs_encoder_pull(get(), &out)) != FBS_OK) return std::nullopt;
+    return out;
+  }
+
+  /// fbs_encoder_wait()
+  /// @return true: a packet is ready
+  bool wait(std::chrono::milliseconds longest) {
+    const auto most = static_cast<std::chrono::milliseconds::rep>(UINT32_MAX);
+    const auto milliseconds = longest.count() < 0 ? 0 : longest.count() > most ? most : longest.count();
+    return check(fbs_encoder_wait(get(), static_cast<std::uint32_t>(milliseconds))) == FBS_OK;
+  }
+  /// Of the packet pulled last: fbs_encoder_get_stamp().
+  fbs_stamp stamp() const {
+    fbs_stamp out{};
+    out.struct_size = sizeof out;
+    check(fbs_encoder_get_stamp(get(), &out));
     return out;
   }
 

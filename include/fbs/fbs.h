@@ -55,7 +55,8 @@ extern "C" {
 FBS_API const char* fbs_version_string(void);
 /** Version of the running library: major << 16 | minor << 8 | patch. */
 FBS_API uint32_t fbs_version_number(void);
-/** The newest version of the stream format that the library reads; the encoder writes that or the one before. */
+/** The newest version of the stream format that the library reads; the encoder writes that or the one before.
+ */
 FBS_API uint32_t fbs_format_version(void);
 
 /* ---- answers ---- */
@@ -81,6 +82,9 @@ typedef enum fbs_status {
 
 /** A text for users, such as "damaged stream"; never null. fbs_decoder_error() has details. */
 FBS_API const char* fbs_status_text(fbs_status status);
+
+/** Bytes that hold the text of any error, with its final zero. */
+#define FBS_ERROR_SIZE 256
 
 /* ---- pictures ---- */
 
@@ -227,13 +231,16 @@ typedef struct fbs_decoder_settings {
    * of a scene's patterns, of which there are 64 at most, and about 30 bytes per pixel besides. There are up
    * to 3 scenes, besides the present one, to which a stream may return. */
   uint64_t max_pixels;
-  /** Threads that draw, 1..FBS_MAX_THREADS, including the caller's. With more than 1, while pictures are
-   * drawn in a row, others draw those that follow and whose packets have been fed; pictures are the same, and
-   * none is later. Each takes about 20 bytes per pixel. Default: 1. */
+  /** Threads that draw, up to FBS_MAX_THREADS, including the caller's; 0: as many as there are cores. With
+   * more than 1, while pictures are drawn in a row, others draw those that follow and whose packets have been
+   * fed; pictures are the same, and none is later. Each takes about 20 bytes per pixel. Default: 1. */
   int threads;
   fbs_log log;                   /**< null (default): nobody is told */
   fbs_thread_start thread_start; /**< null (default): nothing is done */
   void* user;                    /**< passed to both; lives as long as the decoder */
+  /** Null (default), or FBS_ERROR_SIZE bytes: fbs_decoder_open() writes there why it fails, in one line; ""
+   * if it does not. Not needed after the call. */
+  char* open_error;
 } fbs_decoder_settings;
 
 /** @param settings     null: nothing happens

@@ -48,6 +48,21 @@ void log_to(Settings& settings, Sink& sink) {
   };
 }
 
+namespace detail {
+
+/// Opens an object, or throws with the reason. The caller's `open_error` is not written to.
+template <class Object, class Settings>
+Object* open(fbs_status (*how)(Object**, const Settings*), Settings settings) {
+  char why[FBS_ERROR_SIZE] = "";
+  settings.open_error = why;
+  Object* opened = nullptr;
+  const fbs_status status = how(&opened, &settings);
+  if (status < 0) throw Error(status, why);
+  return opened;
+}
+
+}  // namespace detail
+
 /// An fbs_decoder. The functions are those of fbs/fbs.h, which describes them.
 class Decoder {
  public:
@@ -56,12 +71,8 @@ class Decoder {
     fbs_decoder_default_settings(&settings, sizeof settings);
     return settings;
   }
-  explicit Decoder(const fbs_decoder_settings& settings = default_settings()) {
-    fbs_decoder* opened = nullptr;
-    const fbs_status status = fbs_decoder_open(&opened, &settings);
-    if (status < 0) throw Error(status, "");
-    decoder_.reset(opened);
-  }
+  explicit Decoder(const fbs_decoder_settings& settings = default_settings())
+      : decoder_(detail::open(fbs_decoder_open, settings)) {}
 
   void feed(const std::uint8_t* bytes, std::size_t size) { check(fbs_decoder_feed(get(), bytes, size)); }
   void feed_packet(std::uint64_t number, const std::uint8_t* bytes, std::size_t size) {

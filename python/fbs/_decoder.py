@@ -50,7 +50,8 @@ class Decoder:
         Matroska file with a stream. A file, or any object with a method ``read``, is read as pictures are requested.
         Without: the stream comes through :meth:`feed`.
     threads : int, optional
-        Threads that draw pictures side by side, 1 to 64; the pictures are the same. By default one per core, up to 16.
+        Threads that draw pictures side by side, up to 64; the pictures are the same. 0: one per core; by default up to
+        16 of them.
     max_pixels : int, optional
         Streams with more pixels per picture are refused before allocating memory. 0: the format's limit, 8192 by 8192.
     keep_going : bool
@@ -94,8 +95,8 @@ class Decoder:
     ) -> None:
         if threads is None:
             threads = min(16, len(os.sched_getaffinity(0)))
-        if not 1 <= threads <= 64:
-            raise ArgumentError(f"threads is 1 to 64, not {threads}")
+        if not 0 <= threads <= 64:
+            raise ArgumentError(f"threads is 0 to 64, not {threads}")
         if max_pixels < 0:
             raise ArgumentError(f"max_pixels is not negative, as {max_pixels} is")
         self.errors: list[Error] = []

@@ -23,6 +23,8 @@ _SIDES = range(64, 8193)
 _TUNES = ("eye", "psnr")
 _RESILIENCES = ("none", "packet", "strong")
 _MAX_DURATION = 60.0  # s
+_MAX_TIME = 2e13  # s
+_MAX_TIMEOUT = 1e6  # s
 
 
 class Packet(bytes):
@@ -36,11 +38,14 @@ class Packet(bytes):
         Of the first picture that needs it; in the last packet: number of pictures.
     time : float
         Of that picture, s; in the last packet: the length of the video.
+    pushed_time : float or None
+        The `time` that picture was pushed with, s.
     """
 
     key: bool
     number: int
     time: float
+    pushed_time: float | None
 
 
 class Report(NamedTuple):
@@ -190,7 +195,9 @@ class Encoder:
             }
         )
 
-    def push(self, picture: PictureLike, duration: float | None = None) -> list[Packet]:
+    def push(
+        self, picture: PictureLike, duration: float | None = None, *, time: float | None = None
+    ) -> list[Packet]:
         """Encode the next picture, which is copied.
 
         Parameters
@@ -198,7 +205,11 @@ class Encoder:
         picture : (h, w, 3) uint8 array, Picture, or three planes
             RGB, or Y, Cb and Cr of 8-bit 4:2:0.
         duration : float, optional
-            Seconds, at most 60; from `fps` unless given.
+            Seconds, at most 60; until the next picture, or from `fps`, unless given.
+        time : float, optional
+            At which the picture begins, seconds of any clock, such as ``time.monotonic()``: for cameras. Times rise.
+            In the stream the first is 0, and the first picture of a group can be off by as much as the camera is
+            irregular.
 
         Returns
         -------
@@ -208,7 +219,8 @@ class Encoder:
         Raises
         ------
         ArgumentError
-            The picture has another size, or the encoding has ended; nothing is taken.
+            The picture has another size, its time is not later than the last one, or the encoding has ended;
+            nothing is taken.
         Error
             Any other error ends the encoding.
         """
@@ -216,7 +228,11 @@ class Encoder:
         if duration is not None:
             _require("duration", 0 < duration <= _MAX_DURATION, duration, "at most 60 s")
             ticks = max(1, round(duration * TICKS_PER_SECOND))
-        self._encoder.push(*planes_of(picture, self._format), ticks)
+        clock = None
+        if time is not None:
+            _require("time", abs(time) <= _MAX_TIME, time, "finite, in seconds")
+            clock = round(time * TICKS_PER_SECOND)
+        self._encoder.push(*planes_of(picture, self._format), ticks, clock)
         return self.pull()
 
     def finish(self) -> list[Packet]:
@@ -235,13 +251,23 @@ class Encoder:
         self._encoder.finish()
         return self.pull()
 
-    def pull(self) -> list[Packet]:
-        """Packets that have become ready since: with `live` and `threads` a little after a push."""
+    def pull(self, timeout: float = 0) -> list[Packet]:
+        """Packets that have become ready since: with `live` and `threads` a little after a push.
+
+        Parameters
+        ----------
+        timeout : float
+            Seconds to wait for the first of them, if others are encoding.
+        """
+        _require("timeout", 0 <= timeout <= _MAX_TIMEOUT, timeout, "0 to 1000000 s")
+        if timeout > 0:
+            self._encoder.wait(round(timeout * 1000))
         packets = []
         while (found := self._encoder.pull()) is not None:
-            data, key, number, ticks = found
+            data, key, number, ticks, clock = found
             packet = Packet(data)
             packet.key, packet.number, packet.time = key, number, ticks / TICKS_PER_SECOND
+            packet.pushed_time = None if clock is None else clock / TICKS_PER_SECOND
             packets.append(packet)
         return packets
 

@@ -31,9 +31,11 @@ void open(Decoder* self, int threads, std::uint64_t max_pixels) {
   fbs_decoder_default_settings(&settings, sizeof settings);
   settings.threads = threads;
   settings.max_pixels = max_pixels;
+  char why[FBS_ERROR_SIZE] = "";
+  settings.open_error = why;
   fbs_decoder* decoder = nullptr;
   const fbs_status status = fbs_decoder_open(&decoder, &settings);
-  if (status < 0) throw StatusError(status);
+  if (status < 0) throw StatusError(status, why);
   new (self) Decoder(decoder);
 }
 

@@ -1,8 +1,11 @@
 #include "encoder.h"
 
 #include <fbs/encoder.h>
+#include <nanobind/stl/optional.h>
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,29 +53,43 @@ void open(Encoder* self, const nb::dict& settings) {
   take(settings, "resilience", s.resilience);
   take(settings, "join", s.join);
   take(settings, "start", s.start);
+  char why[FBS_ERROR_SIZE] = "";
+  s.open_error = why;
   fbs_encoder* encoder = nullptr;
   const fbs_status status = fbs_encoder_open(&encoder, &s);
-  if (status < 0) throw StatusError(status);
+  if (status < 0) throw StatusError(status, why);
   new (self) Encoder(encoder);
 }
 
 void push(Encoder& self, const ConstPlaneArray& y, const ConstPlaneArray& u, const ConstPlaneArray& v,
-          std::uint32_t duration) {
+          std::uint32_t duration, std::optional<std::int64_t> time) {
   const fbs_const_picture picture = view_of(y, u, v);
-  self.call([&](fbs_encoder* e) { Encoder::check(e, fbs_encoder_push(e, &picture, duration)); });
+  const fbs_stamp stamp = {sizeof stamp, time.value_or(FBS_NO_TIME), 0, duration};
+  self.call([&](fbs_encoder* e) { Encoder::check(e, fbs_encoder_push_stamped(e, &picture, &stamp)); });
 }
 
-/// Bytes, whether decoding can begin with them, number and time of the first picture that needs them.
+/// @return whether a packet is ready
+bool wait(Encoder& self, std::uint32_t milliseconds) {
+  return self.call(
+      [&](fbs_encoder* e) { return Encoder::check(e, fbs_encoder_wait(e, milliseconds)) == FBS_OK; });
+}
+
+/// Bytes, whether decoding can begin with them, number and time of the first picture that needs them, and the
+/// time it was pushed with, if there is one.
 nb::object pull(Encoder& self) {
   std::string bytes;
   fbs_packet packet{};
+  fbs_stamp stamp = {sizeof stamp, FBS_NO_TIME, 0, 0};
   const fbs_status status = self.call([&](fbs_encoder* e) {
     const fbs_status pulled = Encoder::check(e, fbs_encoder_pull(e, &packet));
-    if (pulled == FBS_OK) bytes.assign(reinterpret_cast<const char*>(packet.data), packet.size);
+    if (pulled != FBS_OK) return pulled;
+    bytes.assign(reinterpret_cast<const char*>(packet.data), packet.size);
+    if (packet.type != FBS_PACKET_END) Encoder::check(e, fbs_encoder_get_stamp(e, &stamp));
     return pulled;
   });
   if (status != FBS_OK) return nb::none();
-  return nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), packet.key != 0, packet.number, packet.time);
+  return nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), packet.key != 0, packet.number, packet.time,
+                        stamp.time == FBS_NO_TIME ? nb::none() : nb::object(nb::int_(stamp.time)));
 }
 
 nb::tuple report(Encoder& self) {
@@ -102,7 +119,9 @@ void bind_encoder(nb::module_& module) {
   nb::class_<Encoder>(module, "Encoder")
       .def("__init__", open, nb::arg("settings"))
       .def("close", &Encoder::close)
-      .def("push", push, nb::arg("y"), nb::arg("u"), nb::arg("v"), nb::arg("duration"))
+      .def("push", push, nb::arg("y"), nb::arg("u"), nb::arg("v"), nb::arg("duration"),
+           nb::arg("time").none())
+      .def("wait", wait, nb::arg("milliseconds"))
       .def("request_scene",
            [](Encoder& self) {
              self.call([](fbs_encoder* e) { Encoder::check(e, fbs_encoder_request_scene(e)); });

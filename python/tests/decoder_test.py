@@ -330,7 +330,7 @@ def test_calls_that_make_no_sense():
         decoder.feed(b"")
     with pytest.raises(fbs.ArgumentError, match="by itself"):
         fbs.Decoder(VECTORS / "talk.fbs").feed(b"")
-    for threads in (0, 65):
+    for threads in (-1, 65):
         with pytest.raises(fbs.ArgumentError, match="threads"):
             fbs.Decoder(threads=threads)
 

@@ -75,6 +75,26 @@ def test_durations_are_kept(pictures):
     np.testing.assert_allclose(states.time, [0, 0.1, 2.1], atol=1e-4)
 
 
+def test_a_cameras_times_come_back(pictures):
+    times = [1e6 + t for t in np.cumsum([0] + [0.12, 0.14, 0.05, 0.9, 0.03, 0.12, 0.1] + [0.13] * (len(pictures) - 8))]
+    encoder = fbs.Encoder(176, 144, fps=30, live=True, threads=2)
+    packets = []
+    for picture, time in zip(pictures, times):
+        packets += encoder.push(picture, time=time) + encoder.pull(timeout=60)
+    packets += encoder.finish()
+    assert packets[-1].pushed_time is None
+    for packet in packets[:-1]:
+        assert packet.pushed_time == pytest.approx(times[packet.number], abs=1e-4)
+    shown = fbs.Decoder(b"".join(packets)).states.time
+    firsts = range(1, len(pictures), 6)  # of groups, whose times depend on what is expected
+    others = [n for n in range(len(pictures)) if n not in firsts]
+    np.testing.assert_allclose(shown[others], [times[n] - times[0] for n in others], atol=3e-5)
+    with pytest.raises(fbs.ArgumentError, match="later"):
+        again = fbs.Encoder(176, 144, allow_no_face=True)
+        again.push(pictures[0], time=5)
+        again.push(pictures[1], time=5)
+
+
 def test_live_gives_packets_at_once_and_scenes_on_request(pictures):
     with fbs.Encoder(176, 144, fps=30, live=True, threads=1) as encoder:
         first = encoder.push(pictures[0])

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "bitstream/byte_io.h"
@@ -242,7 +243,13 @@ class Session {
   void push(Choices& choices) {
     const Picture picture = read_picture(choices, format_.width, format_.height, last_);
     const std::uint32_t duration = read_duration(choices);
-    const auto pushed = encoder_.push(picture, duration);
+    std::optional<std::uint64_t> begin;
+    if (choices.below(4) == 3) {
+      begin_ += static_cast<std::uint64_t>(choices.below(200)) * (choices.below(8) == 0 ? 50'000 : 50);
+      begin = begin_;
+      timed_ = true;
+    }
+    const auto pushed = encoder_.push(picture, {duration, begin});
     if (duration > fbs::kMaxDuration) {
       require(refused(pushed), "too long a duration is taken");
       return;
@@ -270,7 +277,7 @@ class Session {
       const auto status = decoder.next();
       if (!status) std::fprintf(stderr, "%s\n", status.error().text.c_str());
       require(status && *status == fbs::DecodeStatus::kPicture, "a picture is missing");
-      require(!decoder.held() && decoder.duration() == duration, "a picture of another duration");
+      require(!decoder.held() && (timed_ || decoder.duration() == duration), "a picture of another duration");
       require(decoder.render(picture) && picture.width() == last_.width(), "a picture is not drawn");
     }
     require(decoder.next() == fbs::DecodeStatus::kEnd, "too many pictures");
@@ -280,7 +287,9 @@ class Session {
   fbs::Encoder encoder_;
   VideoFormat format_;
   fbs::fuzz::Bytes stream_;
-  std::vector<std::uint32_t> durations_;  // of the pictures taken
+  std::vector<std::uint32_t> durations_;  // of the pictures taken, unless they have times to begin
+  bool timed_ = false;                    // one has
+  std::uint64_t begin_ = 0;
   Picture last_;
   bool failed_ = false;  // by a push, after which the stream is useless
 };

@@ -6,7 +6,7 @@
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "size of " #type)
 
 MEMBER(fbs_decoder_settings, max_pixels, 8);
-SIZE(fbs_decoder_settings, 32);
+SIZE(fbs_decoder_settings, 40);
 
 MEMBER(fbs_picture_info, time, 8);
 MEMBER(fbs_picture_info, duration, 16);

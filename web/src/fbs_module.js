@@ -144,7 +144,7 @@ export class FbsDecoder {
     /** Where in it the decoder began. */
     this.origin = this.decoder = this.soundReader = 0;
     this.block = this.functions.malloc(BLOCK_BYTES);
-    this.functions.fbs_decoder_default_settings(this.block + ANY, 32);
+    this.functions.fbs_decoder_default_settings(this.block + ANY, 40);
     this.view.setBigUint64(ANY + 8, MAX_PIXELS, true);
     this.check(this.functions.fbs_decoder_open(this.block, this.block + ANY));
     this.decoder = this.view.getUint32(0, true);

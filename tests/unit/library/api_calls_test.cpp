@@ -1,6 +1,7 @@
 // Invalid calls, and calls in any order: nothing crashes, and the documentation holds.
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -95,8 +96,13 @@ TEST(ApiCalls, SettingsMayBeOfAnotherVersion) {
   fbs_decoder_close(&decoder);
   later.unknown = 1;
   EXPECT_EQ(fbs_decoder_open(&decoder, &later.known), FBS_ERROR_ARGUMENT) << "it asks for what we cannot do";
+  fbs_decoder_settings earlier;  // of version 0.2
+  fbs_decoder_default_settings(&earlier, offsetof(fbs_decoder_settings, open_error));
+  earlier.open_error = reinterpret_cast<char*>(1);  // what comes to lie there
+  EXPECT_EQ(fbs_decoder_open(&decoder, &earlier), FBS_OK);
+  fbs_decoder_close(&decoder);
 
-  fbs_decoder_settings untouched{77, 77, 77, nullptr, nullptr, nullptr};
+  fbs_decoder_settings untouched{77, 77, 77, nullptr, nullptr, nullptr, nullptr};
   fbs_decoder_default_settings(&untouched, sizeof untouched.struct_size);
   EXPECT_EQ(untouched.struct_size, 77u) << "no version is so small";
 }

@@ -258,11 +258,18 @@ TEST(DecoderApi, ThreadsDrawWhatOneDraws) {
   fbs_decoder_default_settings(&settings, sizeof settings);
   EXPECT_EQ(settings.threads, 1);
   fbs_decoder* decoder = nullptr;
-  for (const int threads : {-1, 0, FBS_MAX_THREADS + 1}) {
+  char why[FBS_ERROR_SIZE] = "?";
+  settings.open_error = why;
+  for (const int threads : {-1, FBS_MAX_THREADS + 1}) {
     settings.threads = threads;
     EXPECT_EQ(fbs_decoder_open(&decoder, &settings), FBS_ERROR_ARGUMENT);
     EXPECT_EQ(decoder, nullptr);
+    EXPECT_STREQ(why, "threads outside 0..64");
   }
+  settings.threads = 0;  // as many as there are cores
+  ASSERT_EQ(fbs_decoder_open(&decoder, &settings), FBS_OK);
+  EXPECT_STREQ(why, "");
+  fbs_decoder_close(&decoder);
   settings.threads = 3;
   ASSERT_EQ(fbs_decoder_open(&decoder, &settings), FBS_OK);
   const ApiDecoder several(decoder), one = api_decoder();

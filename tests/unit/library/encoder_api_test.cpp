@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -163,6 +165,241 @@ TEST(EncoderApi, EachPacketTellsItsFirstPicture) {
       keys += pulled.infos[k].key;
     }
     EXPECT_GT(keys, 1) << "a scene every second";
+  }
+}
+
+/// Stamps of pictures as a camera makes them, in ticks of its clock.
+using Camera = std::vector<std::int64_t>;
+
+constexpr std::int64_t kClock = 1'000'000'007;  // at the first picture
+
+Camera camera(int pictures, const std::function<std::int64_t(int)>& interval) {
+  Camera out{kClock};
+  while (out.size() < static_cast<std::size_t>(pictures))
+    out.push_back(out.back() + interval(static_cast<int>(out.size())));
+  return out;
+}
+
+/// 7.5 pictures per second, by a clock of milliseconds.
+Camera slow_camera(int pictures) {
+  return camera(pictures, [](int n) { return n % 3 == 0 ? 11'970 : 12'015; });
+}
+Camera jittering_camera(int pictures) {
+  std::mt19937 random(3);
+  return camera(pictures, [&](int) { return 2000 + static_cast<std::int64_t>(random() % 2000); });
+}
+/// 30 pictures per second, with a gap of 20 seconds before this picture.
+Camera interrupted_camera(int pictures, int gap) {
+  return camera(pictures, [=](int n) { return n == gap ? 1'800'000 : 3000; });
+}
+
+void push_stamped(fbs_encoder* encoder, int n, std::int64_t time, std::uint32_t duration = 0) {
+  const fbs_const_picture picture = view_of(clip()[n]);
+  const fbs_stamp stamp = {sizeof stamp, time, 1000 + static_cast<std::uint64_t>(n), duration};
+  EXPECT_EQ(fbs_encoder_push_stamped(encoder, &picture, &stamp), FBS_OK) << fbs_encoder_error(encoder);
+}
+
+/// @return how much later each picture is shown than it was taken, ticks
+std::vector<std::int64_t> lateness(const fbs_encoder_settings& settings, const Camera& times) {
+  const ApiEncoder encoder = api_encoder(settings);
+  Pulled pulled;
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    push_stamped(encoder.get(), static_cast<int>(n), times[n]);
+    pull(encoder.get(), pulled);
+  }
+  EXPECT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+  pull(encoder.get(), pulled);
+  const Heard shown = heard(pulled.stream());
+  EXPECT_TRUE(shown.errors.empty());
+  EXPECT_EQ(shown.infos.size(), times.size());
+  std::vector<std::int64_t> out;
+  for (const fbs_picture_info& info : shown.infos)
+    out.push_back(static_cast<std::int64_t>(info.time) - (times[out.size()] - times.front()));
+  return out;
+}
+
+fbs_encoder_settings live_settings(int threads) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.live = 1;
+  settings.threads = threads;
+  return settings;
+}
+
+/// Pictures that begin a group of live_settings(): one, then six each.
+bool begins_group(std::size_t picture) {
+  return picture % 6 == 1;
+}
+
+TEST(EncoderApi, ASteadyCameraIsExactAtAnyRate) {
+  for (const int live : {0, 1}) {
+    fbs_encoder_settings settings = live_settings(2);
+    settings.live = live;
+    const auto late = lateness(settings, slow_camera(40));
+    EXPECT_EQ(late[0], 0);
+    EXPECT_EQ(late[1], 3000 - 12'015) << "the first is a group of its own, of nominal length";
+    for (std::size_t n = 2; n < late.size(); ++n)
+      EXPECT_LE(std::abs(late[n]), n % 6 == 1 ? 45 : 1) << "picture " << n << ", live " << live;
+  }
+}
+
+TEST(EncoderApi, OnlyTheFirstPictureOfAGroupCanBeOffAndTimesDoNotDrift) {
+  for (const int gap : {0, 20, 25, 26}) {
+    const Camera times = gap == 0 ? jittering_camera(kPictures) : interrupted_camera(kPictures, gap);
+    const auto late = lateness(live_settings(2), times);
+    for (std::size_t n = 0; n < late.size(); ++n) {
+      std::int64_t most = 1;
+      if (begins_group(n) && gap == 0) most = 2000;
+      if (begins_group(n) && n == static_cast<std::size_t>(gap)) most = 1'797'000;
+      EXPECT_LE(std::abs(late[n]), most) << "picture " << n << ", gap " << gap;
+    }
+  }
+}
+
+TEST(EncoderApi, TimesAreRightWhereScenesBegin) {
+  fbs_encoder_settings settings = live_settings(2);
+  settings.key_interval = 0.5;  // 15 pictures
+  for (const std::int64_t late : lateness(settings, slow_camera(kPictures))) EXPECT_LE(std::abs(late), 9015);
+}
+
+TEST(EncoderApi, TimesGoOnFromASceneWithoutAFaceToOneWithAFace) {
+  const Picture grey(kSide, kSide);
+  const Camera times = jittering_camera(kPictures);
+  for (const auto& [live, patterns] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+    fbs_encoder_settings settings = live_settings(2);
+    settings.live = live;
+    settings.patterns = patterns;
+    settings.allow_no_face = 1;
+    const ApiEncoder encoder = api_encoder(settings);
+    Pulled pulled;
+    for (int n = 0; n < kPictures; ++n) {
+      const fbs_const_picture picture = view_of(n / 10 % 2 == 0 ? grey : clip()[n]);
+      const fbs_stamp stamp = {sizeof stamp, times[static_cast<std::size_t>(n)], 0, 0};
+      ASSERT_EQ(fbs_encoder_push_stamped(encoder.get(), &picture, &stamp), FBS_OK);
+    }
+    ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+    pull(encoder.get(), pulled);
+    fbs_encoder_report report{};
+    ASSERT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+    EXPECT_GT(report.scenes, 1U) << live << patterns;
+    const Heard shown = heard(pulled.stream());
+    EXPECT_TRUE(shown.errors.empty()) << live << patterns;
+    ASSERT_EQ(shown.infos.size(), std::size_t{kPictures});
+    std::size_t off = 0;
+    for (std::size_t n = 0; n < times.size(); ++n) {
+      const auto late = static_cast<std::int64_t>(shown.infos[n].time) - (times[n] - times.front());
+      EXPECT_LE(std::abs(late), 2000) << n;
+      off += std::abs(late) > 1 ? 1 : 0;
+    }
+    EXPECT_LE(off, kPictures / (live ? 6 : 30) + 2 * report.scenes) << "groups, and scenes";
+  }
+}
+
+TEST(EncoderApi, ADurationThatIsKnownMakesAllTimesExact) {
+  const Camera times = jittering_camera(20);
+  const ApiEncoder encoder = api_encoder(live_settings(1));
+  Pulled pulled;
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    const std::int64_t next = n + 1 < times.size() ? times[n + 1] : times[n] + 7777;
+    push_stamped(encoder.get(), static_cast<int>(n), times[n], static_cast<std::uint32_t>(next - times[n]));
+  }
+  ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+  pull(encoder.get(), pulled);
+  const Heard shown = heard(pulled.stream());
+  ASSERT_EQ(shown.infos.size(), times.size());
+  for (std::size_t n = 0; n < times.size(); ++n)
+    EXPECT_LE(std::abs(static_cast<std::int64_t>(shown.infos[n].time) - (times[n] - times.front())), 1) << n;
+  EXPECT_NEAR(shown.infos.back().duration, 7777, 1);
+}
+
+TEST(EncoderApi, PacketsBringTheStampOfTheirPicture) {
+  const ApiEncoder encoder = api_encoder(live_settings(1));
+  const auto stamp_of = [&] {
+    fbs_stamp stamp{};
+    stamp.struct_size = sizeof stamp;
+    EXPECT_EQ(fbs_encoder_get_stamp(encoder.get(), &stamp), FBS_OK);
+    EXPECT_EQ(stamp.struct_size, sizeof stamp);
+    return stamp;
+  };
+  fbs_stamp stamp{};
+  stamp.struct_size = sizeof stamp;
+  EXPECT_EQ(fbs_encoder_get_stamp(encoder.get(), &stamp), FBS_ERROR_ARGUMENT) << "no packet yet";
+  const Camera times = slow_camera(20);
+  fbs_packet packet{};
+  std::size_t packets = 0;
+  for (int n = 0; n < 20; ++n) {
+    if (n == 13) {  // a group begins
+      const fbs_const_picture picture = view_of(clip()[n]);
+      ASSERT_EQ(fbs_encoder_push(encoder.get(), &picture, 1234), FBS_OK);
+    } else {
+      push_stamped(encoder.get(), n, times[static_cast<std::size_t>(n)]);
+    }
+    while (fbs_encoder_pull(encoder.get(), &packet) == FBS_OK) {
+      ++packets;
+      const fbs_stamp found = stamp_of();
+      if (packet.number == 13) {
+        EXPECT_EQ(found.time, FBS_NO_TIME);
+        EXPECT_EQ(found.user, 0U);
+        EXPECT_EQ(found.duration, 1234U);
+      } else {
+        EXPECT_EQ(found.time, times[packet.number]);
+        EXPECT_EQ(found.user, 1000 + packet.number);
+      }
+    }
+  }
+  EXPECT_GT(packets, 4U);
+  ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+  while (fbs_encoder_pull(encoder.get(), &packet) == FBS_OK)
+    if (packet.type != FBS_PACKET_END) {
+      EXPECT_EQ(stamp_of().time, times[packet.number]);
+    }
+  EXPECT_EQ(fbs_encoder_get_stamp(encoder.get(), &stamp), FBS_ERROR_ARGUMENT) << "of the end packet";
+}
+
+TEST(EncoderApi, StampsThatMakeNoSenseAreRefused) {
+  const ApiEncoder encoder = api_encoder(live_settings(1));
+  const fbs_const_picture picture = view_of(clip()[0]);
+  const auto push = [&](const fbs_stamp& stamp) {
+    return fbs_encoder_push_stamped(encoder.get(), &picture, &stamp);
+  };
+  EXPECT_EQ(push({0, 5, 0, 0}), FBS_ERROR_ARGUMENT) << "no size";
+  EXPECT_EQ(push({sizeof(fbs_stamp), 500, 0, 0}), FBS_OK);
+  for (const std::int64_t time : {std::int64_t{500}, std::int64_t{-1}, INT64_MAX})
+    EXPECT_EQ(push({sizeof(fbs_stamp), time, 0, 0}), FBS_ERROR_ARGUMENT) << time;
+  EXPECT_STRNE(fbs_encoder_error(encoder.get()), "");
+  EXPECT_EQ(push({sizeof(fbs_stamp), 600, 0, 60 * FBS_TICKS_PER_SECOND + 1}), FBS_ERROR_ARGUMENT);
+  struct Later {
+    fbs_stamp known;
+    std::uint64_t unknown;
+  } later{{sizeof(Later), 600, 0, 0}, 1};
+  EXPECT_EQ(push(later.known), FBS_ERROR_ARGUMENT) << "a member that is unknown";
+  later.unknown = 0;
+  EXPECT_EQ(push(later.known), FBS_OK);
+  fbs_encoder_report report{};
+  ASSERT_EQ(fbs_encoder_get_report(encoder.get(), &report), FBS_OK);
+  EXPECT_EQ(report.pictures, 2U);
+}
+
+TEST(EncoderApi, WaitsForWhatOthersCode) {
+  constexpr std::uint32_t kLong = 600'000;  // ms: a test that hangs fails
+  for (const int threads : {1, 3}) {
+    const ApiEncoder encoder = api_encoder(live_settings(threads));
+    EXPECT_EQ(fbs_encoder_wait(encoder.get(), kLong), FBS_NEED_DATA) << "there is nothing to wait for";
+    Pulled pulled;
+    for (int n = 0; n < 7; ++n) {
+      push_stamped(encoder.get(), n, 3000 * n);
+      while (fbs_encoder_wait(encoder.get(), kLong) == FBS_OK) {
+        EXPECT_EQ(fbs_encoder_wait(encoder.get(), 0), FBS_OK) << "until it is pulled";
+        fbs_packet packet{};
+        ASSERT_EQ(fbs_encoder_pull(encoder.get(), &packet), FBS_OK);
+        pulled.packets.emplace_back(packet.data, packet.data + packet.size);
+      }
+      const std::size_t complete = n < 6 ? 1 : 7;
+      EXPECT_EQ(heard(pulled.stream()).infos.size(), complete) << "after picture " << n;
+    }
+    ASSERT_EQ(fbs_encoder_finish(encoder.get()), FBS_OK);
+    EXPECT_EQ(fbs_encoder_wait(encoder.get(), kLong), FBS_OK);
+    pull(encoder.get(), pulled);
+    EXPECT_EQ(fbs_encoder_wait(encoder.get(), kLong), FBS_END);
   }
 }
 
@@ -416,6 +653,31 @@ TEST(EncoderApi, SettingsOutOfRangeAreRefused) {
   EXPECT_TRUE(refuses([](Settings& s) { s.live = 1, s.patterns = 2; }));
 }
 
+TEST(EncoderApi, OpenTellsWhyItFails) {
+  char why[FBS_ERROR_SIZE] = "?";
+  fbs_encoder_settings settings = quick_settings();
+  settings.open_error = why;
+  EXPECT_EQ(open_status(settings), FBS_OK);
+  EXPECT_STREQ(why, "");
+  settings.format.width = 7;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(why, "width or height outside 64..8192");
+  settings.format.width = 64;
+  settings.quality = 101;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
+  EXPECT_STREQ(why, "quality outside 0..100");
+}
+
+// A program compiled with the header of version 0.2.
+TEST(EncoderApi, SettingsWithoutALaterMemberAreTaken) {
+  fbs_encoder_settings settings = quick_settings();
+  settings.struct_size = offsetof(fbs_encoder_settings, open_error);
+  settings.open_error = reinterpret_cast<char*>(1);  // what comes to lie there
+  EXPECT_EQ(open_status(settings), FBS_OK);
+  settings.quality = -1;
+  EXPECT_EQ(open_status(settings), FBS_ERROR_ARGUMENT);
+}
+
 TEST(EncoderApi, PicturesThatDoNotFitAreRefused) {
   const ApiEncoder encoder = api_encoder(quick_settings());
   const auto refuses = [&](auto&& change, std::uint32_t duration = 0) {
@@ -442,11 +704,15 @@ TEST(EncoderApi, NullPointersAreAnswered) {
   const fbs_encoder_settings settings = quick_settings();
   const fbs_const_picture picture = view_of(clip()[0]);
   fbs_packet packet;
+  fbs_stamp stamp{};
   fbs_encoder_report report;
   fbs_landmark landmarks[FBS_LANDMARKS];
   EXPECT_EQ(fbs_encoder_open(nullptr, &settings), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_open(&none, nullptr), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_push(none, &picture, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_push_stamped(none, &picture, nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_wait(none, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_stamp(none, &stamp), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_finish(none), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_pull(none, &packet), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_get_report(none, &report), FBS_ERROR_ARGUMENT);
@@ -456,6 +722,9 @@ TEST(EncoderApi, NullPointersAreAnswered) {
   fbs_encoder_close(&none);
   const ApiEncoder encoder = api_encoder(settings);
   EXPECT_EQ(fbs_encoder_push(encoder.get(), nullptr, 0), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_push_stamped(encoder.get(), nullptr, nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_stamp(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
+  EXPECT_EQ(fbs_encoder_get_stamp(encoder.get(), &stamp), FBS_ERROR_ARGUMENT) << "its size is 0";
   EXPECT_EQ(fbs_encoder_pull(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_get_report(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);
   EXPECT_EQ(fbs_encoder_get_landmarks(encoder.get(), nullptr), FBS_ERROR_ARGUMENT);

@@ -86,6 +86,25 @@ TEST(Log, SaysWhyAnEncoderDoesNotOpen) {
   EXPECT_TRUE(log.has(FBS_LOG_ERROR, "width or height outside 64..8192")) << all(log);
 }
 
+/// what() of the error that opening throws.
+template <class Object, class Settings>
+std::string refusal(const Settings& settings) {
+  try {
+    const Object opened(settings);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), FBS_ERROR_ARGUMENT);
+    return error.what();
+  }
+  return "opened";
+}
+
+TEST(Wrappers, ThrowWhyAnObjectDoesNotOpen) {
+  EXPECT_EQ(refusal<Encoder>(Encoder::default_settings()), "width or height outside 64..8192");
+  auto settings = Decoder::default_settings();
+  settings.threads = -1;
+  EXPECT_EQ(refusal<Decoder>(settings), "threads outside 0..64");
+}
+
 /// Encodes grey pictures, in which there is no face.
 void encode_grey(fbs_encoder_settings settings) {
   settings.format.width = settings.format.height = 64;
@@ -106,6 +125,22 @@ TEST(Log, TellsOfABitrateThatIsNotMet) {
   encode_grey(settings);
   EXPECT_TRUE(log.has(FBS_LOG_WARNING, "target 4000.00 kbit/s not reachable")) << all(log);
   EXPECT_TRUE(log.has(FBS_LOG_INFO, "picture 0: a scene begins, without a face")) << all(log);
+}
+
+TEST(Wrappers, StampsComeBackWithPackets) {
+  auto settings = Encoder::default_settings();
+  settings.format.width = settings.format.height = 64;
+  settings.allow_no_face = settings.live = 1;
+  Encoder encoder(settings);
+  const std::vector<std::uint8_t> grey(64 * 64, 90);
+  const fbs_const_picture picture = {64, 64, {grey.data(), grey.data(), grey.data()}, {64, 32, 32}};
+  encoder.push(picture, fbs_stamp{sizeof(fbs_stamp), 4711, 42, 0});
+  ASSERT_TRUE(encoder.wait(std::chrono::minutes(10)));
+  ASSERT_TRUE(encoder.pull());
+  EXPECT_EQ(encoder.stamp().time, 4711);
+  EXPECT_EQ(encoder.stamp().user, 42U);
+  while (encoder.pull()) continue;
+  EXPECT_FALSE(encoder.wait(std::chrono::hours(-1)));
 }
 
 /// Names of threads that have started.

@@ -82,6 +82,20 @@ TEST(Background, ExceptionsReachTheCaller) {
   EXPECT_THROW((void)work.wait(), std::runtime_error);
 }
 
+TEST(Background, RingsWhenATaskIsDoneWhateverItsResult) {
+  const auto bell = std::make_shared<Bell>();
+  const auto past = std::chrono::steady_clock::now();
+  EXPECT_FALSE(bell->wait(0, past));
+  Background work(1);
+  work.ring(bell);
+  EXPECT_TRUE(work.add([]() -> Result<void> { return {}; }));
+  EXPECT_TRUE(bell->wait(0, past + std::chrono::minutes(10)));
+  EXPECT_TRUE(work.add(failed));
+  EXPECT_TRUE(bell->wait(1, past + std::chrono::minutes(10)));
+  EXPECT_EQ(bell->rings(), 2U);
+  EXPECT_TRUE(bell->wait(1, past)) << "it has rung before";
+}
+
 TEST(Background, EndsWithTasksThatWait) {
   Background work(4);
   for (int k = 0; k < 4; ++k) EXPECT_TRUE(work.add([]() -> Result<void> { return {}; }));

@@ -28,12 +28,13 @@ class ToyScene : public SceneEncoder {
     begin_again(begin);
   }
 
-  Result<void> push(const Picture& picture, std::uint32_t /*duration*/) override {
+  Result<void> push(const Picture& picture, const PictureTime&) override {
     if (std::exchange(ended_, false)) begin_again(begin_);
     coded_.emplace_back(PacketType::kMotion, std::vector{picture.y.samples.front()});
     ++begin_;
     return {};
   }
+  StreamPosition end_picture(std::optional<std::uint64_t>) override { return {begin_, begin_}; }
   void cut() override {}
   [[nodiscard]] bool recognises(const Picture& picture) override {
     return picture.y.samples.front() == person_;

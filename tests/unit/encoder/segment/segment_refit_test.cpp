@@ -60,7 +60,8 @@ struct StillSegment {
     FaceAnalysis::Observation seen{segment.states[t], face, {}, {}, {}, WorkFrame::kWorkEyeDistance};
     seen.cost.layers.push_back(
         {CostLayer::kSurround, 0, 0, cv::Mat1d::zeros(kParameterCount, kParameterCount)});
-    refit.add(seen, 0);
+    refit.add(seen);
+    if ((t + 1) % kGroup == 0) refit.end_group(std::vector<std::uint32_t>(kGroup));
   }
   void run() {
     const std::vector<AvailablePatterns> all(segment.groups.size(), s.all());
