@@ -23,11 +23,8 @@ namespace {
 
 using namespace fbs;
 
-<<<<<<< HEAD
 static_assert(FBS_REORDER == LatePackets::kReorder);
-=======
 static_assert(FBS_MAX_THREADS == 64, "a text names it");
->>>>>>> loop
 
 constexpr const char* kNoPicture = "there is no picture yet";
 
