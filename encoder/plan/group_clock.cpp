@@ -14,7 +14,7 @@ constexpr std::uint64_t kRounding = 1;
 std::uint32_t GroupClock::until(std::uint64_t end) const {
   const std::uint64_t now = position_.time;
   const std::uint64_t exact = std::clamp<std::uint64_t>(end > now ? end - now : 0, 1, kMaxDuration);
-  for (const std::uint64_t usual : {ticks(durations_.empty() ? last_ : durations_.back()), nominal_})
+  for (const std::uint64_t usual : {std::uint64_t{last()}, std::uint64_t{nominal_}})
     if (exact + kRounding >= usual && exact <= usual + kRounding)
       return usual == nominal_ ? 0 : static_cast<std::uint32_t>(usual);
   return static_cast<std::uint32_t>(exact);
@@ -37,7 +37,8 @@ void GroupClock::end_at(std::uint64_t time) {
 }
 
 std::vector<std::uint32_t> GroupClock::end_group() {
-  if (!durations_.empty()) last_ = ticks(durations_.back());
+  last_ = last();
+  begin_ = position_.time;
   return std::exchange(durations_, {});
 }
 

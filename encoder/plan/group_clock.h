@@ -29,7 +29,7 @@ class GroupClock {
   /// @param at       where the first picture begins
   /// @param nominal  duration of a picture, 1/90000 s
   GroupClock(const StreamPosition& at, std::uint32_t nominal)
-      : position_(at), nominal_(nominal), last_(nominal) {}
+      : position_(at), begin_(at.time), nominal_(nominal), last_(nominal) {}
 
   /// Adds a picture to the group. If it has a time to begin, the picture before ends then, if it can.
   void add(const PictureTime& when);
@@ -41,11 +41,18 @@ class GroupClock {
   /// @return durations of the pictures of the group before, 1/90000 s; 0: nominal. Empty if it has none
   [[nodiscard]] std::vector<std::uint32_t> end_group();
   [[nodiscard]] std::size_t pictures() const { return durations_.size(); }  ///< of the group
+  /// Length of the group, 1/90000 s.
+  [[nodiscard]] std::uint64_t lasts() const { return position_.time - begin_; }
+  /// Duration of the picture added last, 1/90000 s.
+  [[nodiscard]] std::uint32_t last() const { return durations_.empty() ? last_ : ticks(durations_.back()); }
 
   /// Behind the picture added last.
   [[nodiscard]] const StreamPosition& position() const { return position_; }
   /// Others are shown up to there. No group has begun.
-  void go_on(const StreamPosition& at) { position_ = at; }
+  void go_on(const StreamPosition& at) {
+    position_ = at;
+    begin_ = at.time;
+  }
 
  private:
   [[nodiscard]] std::uint32_t ticks(std::uint32_t duration) const {
@@ -55,6 +62,7 @@ class GroupClock {
   [[nodiscard]] std::uint32_t until(std::uint64_t end) const;
 
   StreamPosition position_;
+  std::uint64_t begin_;  ///< of the group, as position().time
   std::uint32_t nominal_;
   std::uint32_t last_;  ///< duration of the last picture of the group before
   std::vector<std::uint32_t> durations_;

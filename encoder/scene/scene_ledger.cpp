@@ -14,6 +14,7 @@ SceneLedger::SceneLedger(const Setup& setup, const CodedState& seen, const RateP
       patterns_(std::move(patterns)),
       motion_(setup, seen, rate, timing_),
       clock_(setup.before, timing_.nominal_duration),
+      begin_(setup.before.time),
       packets_(settings.live.value_or(LiveSettings{})) {}
 
 Result<void> SceneLedger::add(const SharedPicture& picture, const PictureTime& when) {
@@ -22,6 +23,12 @@ Result<void> SceneLedger::add(const SharedPicture& picture, const PictureTime& w
   clock_.add(when);
   ++pictures_;
   return {};
+}
+
+std::vector<std::uint32_t> SceneLedger::end_group() {
+  std::vector<std::uint32_t> durations = clock_.end_group();
+  if (patterns_) patterns_->end_group(durations);
+  return durations;
 }
 
 Result<void> SceneLedger::plan(std::span<const PictureCost> costs, std::span<const std::uint32_t> durations) {
@@ -63,12 +70,13 @@ void SceneLedger::go_on(const StreamPosition& at) {
 }
 
 bool SceneLedger::scene_ends() const {
-  return timing_.key_pictures > 0 ? requested_ || is_full() : patterns_ != nullptr;
+  return timing_.key_ticks > 0 ? requested_ || is_full() : patterns_ != nullptr;
 }
 
 void SceneLedger::begin_again(Setup& setup) {
   ended_ = requested_ = false;
   setup.before = clock_.position();
+  begin_ = setup.before.time;
   pictures_ = 0;
   if (packets_.started()) packets_.begin_again();
 }

@@ -33,13 +33,15 @@ class SceneLedger {
   /// Behind the picture added last.
   [[nodiscard]] const StreamPosition& position() const { return clock_.position(); }
   /// Whether a group ends with the picture added last.
-  [[nodiscard]] bool group_ends() const { return timing_.group_ends(clock_.pictures(), pictures_); }
+  [[nodiscard]] bool group_ends() const {
+    return timing_.group_ends(clock_.pictures(), clock_.lasts(), clock_.last(), pictures_) || is_full();
+  }
   /// The next picture is shown there, behind another scene's. No group has begun.
   void go_on(const StreamPosition& at);
 
   /// Begins another group.
   /// @return durations of the pictures of the group before: empty if it has none
-  [[nodiscard]] std::vector<std::uint32_t> end_group() { return clock_.end_group(); }
+  [[nodiscard]] std::vector<std::uint32_t> end_group();
   [[nodiscard]] bool in_group() const { return clock_.pictures() > 0; }
 
   /// Plans the motion of a group.
@@ -85,8 +87,10 @@ class SceneLedger {
   [[nodiscard]] ScenePackets& packets() { return packets_; }
 
  private:
-  /// Whether the scene has as many pictures as it may.
-  [[nodiscard]] bool is_full() const { return timing_.key_pictures > 0 && pictures_ >= timing_.key_pictures; }
+  /// Whether the scene is as long as it may be.
+  [[nodiscard]] bool is_full() const {
+    return timing_.scene_is_full(clock_.position().time - begin_, clock_.last());
+  }
 
   SceneTiming timing_;
   RatePlan rate_;
@@ -94,6 +98,7 @@ class SceneLedger {
   std::unique_ptr<PatternStage> patterns_;
   MotionTrack motion_;
   GroupClock clock_;
+  std::uint64_t begin_;         ///< of the scene, as position().time
   std::uint64_t pictures_ = 0;  ///< of the scene
   bool requested_ = false;      ///< the scene ends with its present group
   bool ended_ = false;

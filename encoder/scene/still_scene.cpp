@@ -53,7 +53,8 @@ Result<std::unique_ptr<SceneEncoder>> StillScene::begin(const VideoFormat& forma
 Result<void> StillScene::push(const Picture&, const PictureTime& when) {
   clock_.add(when);
   ++pictures_;
-  return timing_.group_ends(clock_.pictures(), pictures_) ? end_group() : Result<void>{};
+  const bool ends = timing_.group_ends(clock_.pictures(), clock_.lasts(), clock_.last(), pictures_);
+  return ends || pictures_ == timing_.key_pictures ? end_group() : Result<void>{};
 }
 
 Result<void> StillScene::end_group() {

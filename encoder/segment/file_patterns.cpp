@@ -9,7 +9,6 @@
 #include "encoder/patterns/first_pattern.h"
 #include "encoder/patterns/pattern_size.h"
 #include "encoder/patterns/pattern_trial.h"
-#include "encoder/plan/scene_timing.h"
 
 namespace fbs {
 namespace {
@@ -57,15 +56,13 @@ void FilePatterns::note_added(const Picture& picture) {
 }
 
 bool FilePatterns::segment_ends(std::size_t /*next*/) const {
-  const std::size_t pictures = stage_.pictures();
   // The motion of a whole segment may be sent before its first picture is shown.
-  if (pictures + kMaxGroupPictures > kMaxWaitingPictures) return true;
+  if (stage_.pictures() + kMaxGroupPictures > kMaxWaitingPictures) return true;
   if (settings_.count > 0) return false;
   if (std::cmp_greater_equal(store_.segment().shots.size(), store_.slots() / 2)) return true;
   const bool any_density = settings_.without_face && settings_.bitrate_kbps > 0;
   const double per_second = any_density ? settings_.point_at(100).per_second : point_.per_second;
-  const double seconds = std::min(kSegmentSeconds, (most_ - 1) / per_second);
-  return static_cast<double>(pictures) >= std::max(1.0, seconds * fps_of(store_.format()));
+  return store_.seconds() >= std::min(kSegmentSeconds, (most_ - 1) / per_second);
 }
 
 Result<SegmentDraft> FilePatterns::draft() const {
@@ -89,8 +86,8 @@ int FilePatterns::quantiser_at(bool reduced) const {
   const int usual =
       quantiser_of(point_, store_.format().width >> halvings, store_.format().height >> halvings);
   if (!settings_.without_face || settings_.count > 0) return usual;
-  const double seconds = store_.seconds();
-  const double wanted = std::min(point_.per_second, fps_of(store_.format())) * seconds;
+  const double wanted =
+      std::min(point_.per_second * store_.seconds(), static_cast<double>(store_.segment().states.size()));
   const double octaves = std::log2(wanted / static_cast<double>(times_wanted().size()));
   return std::max(0, usual - static_cast<int>(std::lround(kStepsPerSharing * std::max(0.0, octaves))));
 }

@@ -96,7 +96,7 @@ bool LivePatterns::segment_ends(std::size_t next) const {
     return true;
   // So many whole groups as are nearest to the delay, besides a scene's first.
   const double end = settings_.delay * fps_of(store_.format()) + 1;
-  return static_cast<double>(stage_.pictures()) + 0.5 * static_cast<double>(next) > end;
+  return store_.seconds() * fps_of(store_.format()) + 0.5 * static_cast<double>(next) > end;
 }
 
 bool LivePatterns::has_windows(double delay) {

@@ -86,7 +86,10 @@ class PatternStage {
   Result<void> add(const SharedPicture& picture);
   /// The picture added next begins another shot.
   void cut() { store_.cut(); }
-  /// Adds the next group of pictures.
+  /// A group ends with the picture added last.
+  /// @param durations  of its pictures, 1/90000 s; 0: nominal
+  void end_group(std::span<const std::uint32_t> durations) { store_.end_group(durations); }
+  /// Adds the motion of the next group.
   /// @param states  of its pictures
   void add(std::span<const State> states, std::vector<std::uint8_t> payload) {
     store_.add(states, std::move(payload));

@@ -33,13 +33,25 @@ void SegmentStore::add(std::span<const State> states, std::vector<std::uint8_t> 
   }
 }
 
+void SegmentStore::end_group(std::span<const std::uint32_t> durations) {
+  for (const std::uint32_t duration : durations) {
+    if (duration == 0 || duration == nominal_duration(format_.frame_rate)) continue;
+    ++timed_;
+    ticks_ += duration;
+  }
+}
+
 void SegmentStore::end_segment() {
   picture_ = number_of(segment_.states.size());
   segment_ = {};
+  timed_ = 0;
+  ticks_ = 0;
 }
 
 double SegmentStore::seconds() const {
-  return static_cast<double>(segment_.states.size()) / fps_of(format_);
+  // Nominal durations are rounded to ticks; the frame rate is exact.
+  const std::size_t regular = segment_.pictures.count() - timed_;
+  return static_cast<double>(regular) / fps_of(format_) + static_cast<double>(ticks_) / kTicksPerSecond;
 }
 
 double SegmentStore::motion_bytes() const {

@@ -35,6 +35,9 @@ class SegmentStore {
   void cut() { cut_ = true; }
   /// The next group of the pictures.
   void add(std::span<const State> states, std::vector<std::uint8_t> payload);
+  /// A group ends with the picture added last.
+  /// @param durations  of its pictures, 1/90000 s; 0: nominal
+  void end_group(std::span<const std::uint32_t> durations);
   /// Begins another segment.
   void end_segment();
 
@@ -42,7 +45,7 @@ class SegmentStore {
   [[nodiscard]] const Segment& segment() const { return segment_; }
   /// Whether it is the scene's first.
   [[nodiscard]] bool is_first() const { return picture_ == 0; }
-  /// Its length, nominal.
+  /// Its length, at the end of a group.
   [[nodiscard]] double seconds() const;
   /// Bytes of its motion.
   [[nodiscard]] double motion_bytes() const;
@@ -77,6 +80,8 @@ class SegmentStore {
   std::int32_t slots_;
   std::int32_t picture_ = 0;  ///< number of the segment's first
   Segment segment_;
+  std::size_t timed_ = 0;    ///< pictures of the segment whose durations are not nominal
+  std::uint64_t ticks_ = 0;  ///< that they last, 1/90000 s
   bool cut_ = false;
   Coders coders_;
 };

@@ -33,6 +33,21 @@ TEST(GroupClock, APictureOfAGroupEndsWhereTheNextOneBegins) {
   EXPECT_EQ(clock.end_group(), (Durations{5000, 500, 94'500, 0}));
 }
 
+TEST(GroupClock, AGroupLastsAsLongAsItsPictures) {
+  GroupClock clock({7, 100}, kNominal);
+  EXPECT_EQ(clock.lasts(), 0U);
+  for (const std::uint64_t begin : {100, 5100}) clock.add(at(begin));
+  EXPECT_EQ(clock.lasts(), 5000 + kNominal);
+  clock.end_at(6000);
+  EXPECT_EQ(clock.lasts(), 5900U);
+  EXPECT_EQ(clock.last(), 900U);
+  (void)clock.end_group();
+  EXPECT_EQ(clock.lasts(), 0U);
+  clock.go_on({20, 70'000});
+  clock.add(0);
+  EXPECT_EQ(clock.lasts(), kNominal);
+}
+
 TEST(GroupClock, TheNextGroupMakesUpForTheLastPictureOfTheOneBefore) {
   GroupClock clock({}, kNominal);
   clock.add(at(0));

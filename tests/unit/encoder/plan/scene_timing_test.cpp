@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace fbs {
 namespace {
 
@@ -26,7 +29,7 @@ TEST(SceneTiming, GroupsStayWithinTheFormatsLimits) {
   EXPECT_EQ(timing_at({1, 10}).lookahead, 1U);
 }
 
-TEST(SceneTiming, AKeyIntervalIsInPicturesAndTenSecondsOfALiveScene) {
+TEST(SceneTiming, AKeyIntervalIsWholePicturesAndTenSecondsOfALiveScene) {
   VideoFormat format;
   format.frame_rate = {30000, 1001};
   EncoderSettings settings;
@@ -35,7 +38,8 @@ TEST(SceneTiming, AKeyIntervalIsInPicturesAndTenSecondsOfALiveScene) {
     settings.key_interval = interval;
     const SceneTiming timing(format, settings);
     EXPECT_EQ(timing.key_pictures, pictures) << interval;
-    EXPECT_TRUE(timing.group_ends(1, pictures)) << interval;
+    EXPECT_TRUE(timing.scene_is_full(pictures * 3003, 3003)) << interval;
+    EXPECT_TRUE(pictures == 1 || !timing.scene_is_full((pictures - 1) * 3003, 3003)) << interval;
   }
   settings.key_interval = 0;
   settings.live.emplace();
@@ -44,9 +48,52 @@ TEST(SceneTiming, AKeyIntervalIsInPicturesAndTenSecondsOfALiveScene) {
 
 TEST(SceneTiming, FirstPictureIsAGroupOfItsOwn) {
   const SceneTiming timing = timing_at({25, 1}, 4);
-  EXPECT_TRUE(timing.group_ends(1, 1));
-  EXPECT_FALSE(timing.group_ends(3, 4));
-  EXPECT_TRUE(timing.group_ends(4, 5));
+  EXPECT_TRUE(timing.group_ends(1, 3600, 3600, 1));
+  EXPECT_FALSE(timing.group_ends(3, 10'800, 3600, 4));
+  EXPECT_TRUE(timing.group_ends(4, 14'400, 3600, 5));
+}
+
+TEST(SceneTiming, AGroupOfAFileEndsByNumber) {
+  const SceneTiming timing = timing_at({25, 1}, 4);
+  EXPECT_FALSE(timing.group_ends(3, 900'000, 300'000, 4));
+  EXPECT_TRUE(timing.group_ends(4, 4, 1, 5));
+}
+
+SceneTiming live_timing(Rational fps, double delay) {
+  VideoFormat format;
+  format.frame_rate = fps;
+  EncoderSettings settings;
+  settings.live.emplace().delay = delay;
+  return {format, settings};
+}
+
+/// Pictures of the second group, all of which last this long.
+std::size_t live_group(const SceneTiming& timing, std::uint32_t duration) {
+  std::size_t out = 1;
+  while (!timing.group_ends(out, out * duration, duration, 1 + out)) ++out;
+  return out;
+}
+
+TEST(SceneTiming, ALiveGroupOfAConstantRateIsAsLongAsTheDelayToThePicture) {
+  for (const Rational fps :
+       {Rational{1, 1}, {5, 1}, {15, 2}, {24000, 1001}, {25, 1}, {30000, 1001}, {60000, 1001}, {1000, 1}})
+    for (const double delay : {0.001, 0.04, 0.1, 0.2, 0.5, 0.7, 1.0, 2.0, 3.3}) {
+      const SceneTiming timing = live_timing(fps, delay);
+      const double pictures = fps.num * delay / std::ceil(delay) / fps.den;
+      EXPECT_EQ(timing.group_pictures, std::clamp(std::lround(pictures), 1L, 256L));
+      EXPECT_EQ(live_group(timing, timing.nominal_duration), timing.group_pictures)
+          << fps.num << ' ' << delay;
+    }
+}
+
+TEST(SceneTiming, ALiveGroupOfAnotherRateThanTheNominalOneEndsByTime) {
+  constexpr std::uint32_t kDuration = 12'000;  // 7.5 pictures a second
+  for (const double delay : {0.05, 0.2, 0.4, 0.7, 1.0, 2.5})
+    for (const std::uint32_t fps : {1U, 10U, 30U, 240U})
+      EXPECT_EQ(live_group(live_timing({fps, 1}, delay), kDuration),
+                live_timing({15, 2}, delay).group_pictures)
+          << fps << ' ' << delay;
+  EXPECT_EQ(live_group(live_timing({30, 1}, 1), 1), 256U) << "the format's limit";
 }
 
 }  // namespace

@@ -32,11 +32,12 @@ SceneLedger ledger(const EncoderSettings& settings, bool several) {
 }
 
 /// Adds pictures, and ends groups where they end.
+/// @param duration  of each picture, 1/90000 s; 0: nominal
 /// @return pictures of each
-std::vector<std::size_t> groups(SceneLedger& scene, int pictures) {
+std::vector<std::size_t> groups(SceneLedger& scene, int pictures, std::uint32_t duration = 0) {
   std::vector<std::size_t> out;
   for (int t = 0; t < pictures; ++t) {
-    EXPECT_TRUE(scene.add(noise_picture(160, 128, 1), 0));
+    EXPECT_TRUE(scene.add(noise_picture(160, 128, 1), duration));
     if (scene.group_ends()) out.push_back(scene.end_group().size());
   }
   return out;
@@ -47,6 +48,13 @@ TEST(SceneLedger, TheFirstPictureIsAGroupOfItsOwn) {
   EXPECT_EQ(groups(scene, 25), (std::vector<std::size_t>{1, 10, 10}));
   EXPECT_TRUE(scene.in_group());
   EXPECT_EQ(scene.end_group().size(), 4U);
+}
+
+TEST(SceneLedger, TimeEndsLiveGroupsAndIsTheLengthOfSegments) {
+  SceneLedger scene = ledger(settings(0, true), true);
+  EXPECT_EQ(groups(scene, 15, 3000), (std::vector<std::size_t>{1, 6, 6})) << "30 pictures a second, not 10";
+  EXPECT_EQ(scene.end_group().size(), 2U);
+  EXPECT_NEAR(scene.patterns()->store().seconds(), 15 / 30.0, 1e-9);
 }
 
 TEST(SceneLedger, WithoutAKeyIntervalAScenesSegmentEndsItAndOnePatternNeverDoes) {
@@ -63,6 +71,14 @@ TEST(SceneLedger, ASceneIsAsLongAsTheKeyInterval) {
         << "a shorter group, or a whole one";
     EXPECT_TRUE(scene.scene_ends());
   }
+}
+
+TEST(SceneLedger, AKeyIntervalIsTime) {
+  SceneLedger scene = ledger(settings(2.5, true), true);  // 25 pictures by the frame rate
+  groups(scene, 74, 3000);
+  EXPECT_FALSE(scene.scene_ends());
+  groups(scene, 1, 3000);
+  EXPECT_TRUE(scene.scene_ends());
 }
 
 TEST(SceneLedger, ARequestHoldsUntilTheSceneHasEnded) {

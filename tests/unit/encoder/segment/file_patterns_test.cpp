@@ -148,6 +148,39 @@ TEST(FilePatterns, ARateThatCannotBeReachedGivesTheSmallestStream) {
   EXPECT_NEAR(static_cast<double>(a.stream.size()) * 8 / (kCount / 10.0) / 1000, 3, 0.6);
 }
 
+// At 10 pictures a second by the header, and 2.5 by their durations.
+TEST(FilePatterns, ARateIsReckonedFromTheDurationsOfPictures) {
+  EncoderSettings settings;
+  settings.bitrate = 3;
+  TalkerClip source = clip(10);
+  const std::vector<std::uint32_t> durations(kCount, 36'000);
+  const auto stream = encode_pictures(
+      source.format(), settings, kCount, [&](int i) { return source[i]; }, durations);
+  ASSERT_TRUE(stream) << stream.error().text;
+  EXPECT_NEAR(static_cast<double>(stream->size()) * 8e-3 / (kCount / 2.5), 3, 0.15);
+}
+
+TEST(FilePatterns, ASegmentEndsByTheDurationsOfPictures) {
+  VideoFormat format;
+  format.width = 128, format.height = 96, format.frame_rate = {10, 1};
+  for (const std::uint32_t duration : {0U, 3000U, 36'000U}) {
+    FilePatternSettings settings;
+    settings.point = PatternPoint::at(0);
+    PatternStage stage(format, settings, {});
+    stage.decide_by(std::make_unique<FilePatterns>(stage, settings));
+    const std::vector<std::uint32_t> group(20, duration);
+    double seconds = 0;
+    while (!stage.segment_ends(group.size())) {
+      for (std::size_t i = 0; i < group.size(); ++i)
+        ASSERT_TRUE(stage.add(Picture(format.width, format.height)));
+      stage.end_group(group);
+      seconds += static_cast<double>(group.size()) * (duration > 0 ? duration : 9000) / kTicksPerSecond;
+    }
+    EXPECT_NEAR(seconds, kSegmentSeconds, 8) << duration;
+    EXPECT_GE(seconds, kSegmentSeconds - 1e-9) << duration;
+  }
+}
+
 // A decoder keeps no more pictures waiting than kMaxWaitingPictures.
 TEST(FilePatterns, SegmentEndsBeforeTooManyPicturesWait) {
   VideoFormat format;

@@ -33,6 +33,19 @@ TEST(SegmentStore, PicturesAreNumberedThroughTheScene) {
   EXPECT_TRUE(s.is_first());
 }
 
+TEST(SegmentStore, TheSegmentLastsAsLongAsItsPictures) {
+  SegmentStore s = store();
+  const VideoFormat format = toy_setup().format;
+  const double fps = static_cast<double>(format.frame_rate.num) / format.frame_rate.den;
+  const std::uint32_t nominal = nominal_duration(format.frame_rate);
+  s.end_group(std::vector<std::uint32_t>{0, nominal});
+  EXPECT_EQ(s.seconds(), 4 / fps);
+  s.end_group(std::vector<std::uint32_t>{0, 45'000});
+  EXPECT_NEAR(s.seconds(), 3 / fps + 0.5, 1e-9);
+  s.end_segment();
+  EXPECT_EQ(s.seconds(), 0);
+}
+
 TEST(SegmentStore, AShotBeginsWithACut) {
   const SegmentStore s = store();
   ASSERT_EQ(s.segment().shots.size(), 2U);
