@@ -106,10 +106,7 @@ Result<EncoderSettings> settings_of(const EncodeArguments& arguments, const Vide
     if (!track) return fail(about_file(arguments.landmarks, track.error()));
     settings.landmarks = std::make_shared<const LandmarkTrack>(std::move(*track));
   }
-  if (const auto pictures = source.frame_count_estimate(); pictures && *pictures > 0) {
-    const Rational& rate = source.format().frame_rate;
-    settings.seconds = static_cast<double>(*pictures) * rate.den / rate.num;
-  }
+  settings.seconds = source.seconds_estimate().value_or(0);
   return settings;
 }
 

@@ -16,6 +16,12 @@ bool ends_source(const Error& error) {
          error.code == ErrorCode::kIo;
 }
 
+/// The lesser of those that are known.
+template <class T>
+std::optional<T> least(std::optional<T> a, std::optional<T> b) {
+  return a && b ? std::min(*a, *b) : a ? a : b;
+}
+
 }  // namespace
 
 SourcePart::SourcePart(std::unique_ptr<VideoSource> source, const PartLimits& limits, const StopSignal* stop)
@@ -46,15 +52,23 @@ bool SourcePart::within_seconds(std::int64_t pts) {
   return static_cast<double>(pts - *first_pts_) < *limits_.seconds * kTicksPerSecond;
 }
 
-std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
-  auto estimate = source_->frame_count_estimate();
-  const auto limit = [&](std::int64_t pictures) {
-    estimate = estimate ? std::min(*estimate, pictures) : pictures;
-  };
-  if (limits_.pictures) limit(*limits_.pictures);
+std::optional<std::int64_t> SourcePart::most_pictures() const {
   const Rational rate = format().frame_rate;
-  if (limits_.seconds) limit(std::llround(std::ceil(*limits_.seconds * rate.num / rate.den)));
-  return estimate;
+  std::optional<std::int64_t> in_seconds;
+  if (limits_.seconds) in_seconds = std::llround(std::ceil(*limits_.seconds * rate.num / rate.den));
+  return least(limits_.pictures, in_seconds);
+}
+
+std::optional<std::int64_t> SourcePart::frame_count_estimate() const {
+  return least(source_->frame_count_estimate(), most_pictures());
+}
+
+std::optional<double> SourcePart::seconds_estimate() const {
+  const auto most = most_pictures();
+  const Rational rate = format().frame_rate;
+  std::optional<double> allowed;
+  if (most) allowed = static_cast<double>(*most) * rate.den / rate.num;
+  return least(source_->seconds_estimate(), allowed);
 }
 
 Error about_input(Error error, const std::string& name) {

@@ -32,6 +32,7 @@ class SourcePart final : public VideoSource {
   [[nodiscard]] bool has_constant_rate() const override { return source_->has_constant_rate(); }
   /// The limits are an estimate where the source has none.
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
+  [[nodiscard]] std::optional<double> seconds_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
   [[nodiscard]] std::vector<std::string> notes() const override { return source_->notes(); }
 
@@ -43,6 +44,8 @@ class SourcePart final : public VideoSource {
  private:
   /// The end, or the error if it is to be passed on.
   Result<std::optional<TimedPicture>> end_by(const Error& error);
+  /// Most pictures that the limits allow, at the frame rate; nullopt: there are none.
+  [[nodiscard]] std::optional<std::int64_t> most_pictures() const;
   [[nodiscard]] bool stopped() const { return stop_ != nullptr && stop_->raised(); }
   [[nodiscard]] bool within_seconds(std::int64_t pts);
 

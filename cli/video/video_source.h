@@ -46,6 +46,13 @@ class VideoSource {
   /// Number of pictures according to the container, for progress bars; nullopt when it does not say.
   [[nodiscard]] virtual std::optional<std::int64_t> frame_count_estimate() const = 0;
 
+  /// Length according to the container, s, in whole pictures of the frame rate; nullopt when it does not say.
+  [[nodiscard]] virtual std::optional<double> seconds_estimate() const {
+    const auto pictures = frame_count_estimate();
+    if (!pictures) return std::nullopt;
+    return static_cast<double>(*pictures) * format().frame_rate.den / format().frame_rate.num;
+  }
+
   /// Damaged packets skipped so far; worth a warning when not zero.
   [[nodiscard]] virtual std::int64_t damaged_packets() const { return 0; }
 

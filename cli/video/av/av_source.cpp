@@ -73,6 +73,7 @@ class AvSource final : public VideoSource {
   [[nodiscard]] const VideoFormat& format() const override { return format_; }
   Result<std::optional<TimedPicture>> next() override;
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override;
+  [[nodiscard]] std::optional<double> seconds_estimate() const override;
   [[nodiscard]] std::int64_t damaged_packets() const override { return track_.damaged_packets(); }
   [[nodiscard]] std::vector<std::string> notes() const override;
   /// Time of the picture that open() has decoded, on the container's own clock, 1/AV_TIME_BASE s.
@@ -81,6 +82,8 @@ class AvSource final : public VideoSource {
  private:
   Result<void> open_decoder(const SourceOptions& options);
   void describe(const AVFrame& first);
+  /// Length according to the container, pictures of the frame rate.
+  [[nodiscard]] std::optional<std::int64_t> regular_pictures() const;
   /// Prepares the conversion of HDR and wide colours to BT.709. Without it they are encoded as they are.
   void convert_colours(const AVFrame& first);
   std::int64_t next_pts();
@@ -222,8 +225,7 @@ std::int64_t AvSource::on_regular_grid(std::int64_t pts) const {
   return std::abs(regular - pts) <= tolerance ? regular : pts;
 }
 
-std::optional<std::int64_t> AvSource::frame_count_estimate() const {
-  if (track_.stream().nb_frames > 0) return track_.stream().nb_frames;
+std::optional<std::int64_t> AvSource::regular_pictures() const {
   double seconds = 0;
   if (track_.stream().duration > 0) {
     seconds = static_cast<double>(track_.stream().duration) * av_q2d(track_.stream().time_base);
@@ -232,6 +234,17 @@ std::optional<std::int64_t> AvSource::frame_count_estimate() const {
   }
   if (seconds <= 0) return std::nullopt;
   return std::llround(seconds * format_.frame_rate.num / format_.frame_rate.den);
+}
+
+std::optional<std::int64_t> AvSource::frame_count_estimate() const {
+  if (track_.stream().nb_frames > 0) return track_.stream().nb_frames;
+  return regular_pictures();
+}
+
+std::optional<double> AvSource::seconds_estimate() const {
+  const auto pictures = regular_pictures();
+  if (!pictures) return VideoSource::seconds_estimate();
+  return static_cast<double>(*pictures) * format_.frame_rate.den / format_.frame_rate.num;
 }
 
 }  // namespace

@@ -55,6 +55,9 @@ class TurnedSource final : public VideoSource {
   [[nodiscard]] std::optional<std::int64_t> frame_count_estimate() const override {
     return source_->frame_count_estimate();
   }
+  [[nodiscard]] std::optional<double> seconds_estimate() const override {
+    return source_->seconds_estimate();
+  }
   [[nodiscard]] std::int64_t damaged_packets() const override { return source_->damaged_packets(); }
   [[nodiscard]] std::vector<std::string> notes() const override { return source_->notes(); }
 

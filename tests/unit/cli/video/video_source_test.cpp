@@ -101,6 +101,8 @@ TEST_P(VideoSourceOfEachKind, ReadsBackCountSizeRateTimesAndColour) {
   EXPECT_EQ((*source)->format().range, format.range);
   EXPECT_EQ((*source)->format().matrix, format.matrix);
   EXPECT_NEAR(static_cast<double>((*source)->frame_count_estimate().value_or(0)), 40, 1);
+  const double period = static_cast<double>(format.frame_rate.den) / format.frame_rate.num;
+  EXPECT_NEAR((*source)->seconds_estimate().value_or(0), 40 * period, period);
 
   const std::vector<TimedPicture> pictures = read_all(**source);
   ASSERT_EQ(pictures.size(), 40U);
