@@ -3,7 +3,7 @@ import json
 import re
 
 from clips import first_pictures
-from harness import CLOSE_Y4M, TALK_Y4M, ProgramTest
+from harness import CLOSE_Y4M, TALK_Y4M, ProgramTest, ffmpeg
 
 WITHIN = 0.1  # of a rate
 NOT_REACHABLE = "kbit/s not reachable, got "
@@ -67,6 +67,54 @@ class Rate(ProgramTest):
                 self.assertGreater(points[0][0], 625)
                 self.assertLessEqual(points[1][0], 625)
                 self.assertGreater(points[1][1], points[0][1] - 0.5)
+
+    def most_waiting(self, kbps):
+        """Most bytes that wait for a channel of this rate, which takes the packets of out.fbs by their times."""
+        waiting = most = before = 0
+        for packet in json.loads(self.succeed("inspect", "out.fbs", "--packets", "--json"))["packets"]:
+            if packet["seconds"] is not None:
+                waiting = max(0, waiting - 125 * kbps * (packet["seconds"] - before))
+                before = packet["seconds"]
+            waiting += packet["bytes"]
+            most = max(most, waiting)
+        return most
+
+    def stamped(self, name, *codec):
+        """Stamps are the clock, in a file and live, whatever the rate in the header: at a fourth of it, at three times as
+        much, and at a third of it for the first half of the pictures."""
+        kbps, buffer, within, within_live = 4, 2, 0.05, 0.15
+        for header, true, stamp in (30, 7.5, "TS*4"), (10, 30, "TS/3"), (30, 15, "TS+2*min(N\\,75)/30/TB"):
+            plain, source = (self.folder / (kind + name) for kind in ("plain", "stamped"))
+            ffmpeg("-r", str(header), "-i", CLOSE_Y4M, *codec, plain)
+            ffmpeg("-i", plain, "-c", "copy", "-bsf:v", f"setts=ts={stamp}", source)
+            with self.subTest(header=header, true=true):
+                reported, said = self.encode(source, "--bitrate", kbps)
+                self.assertAlmostEqual(reported["seconds"], 150 / true, delta=0.15)
+                self.assertAlmostEqual(self.rate(reported), kbps, delta=within * kbps)
+                self.assertEqual(said, "")
+                live = self.rate(self.encode(source, "--bitrate", kbps, "--live", "--buffer", buffer)[0])
+                self.assertLess(self.most_waiting(kbps), (1 + within) * 125 * kbps * buffer)
+                if stamp.startswith("TS+"):
+                    continue
+                right = self.folder / "right.y4m"
+                ffmpeg("-r", str(true), "-i", CLOSE_Y4M, right)
+                usual = self.rate(self.encode(right, "--bitrate", kbps, "--live", "--buffer", buffer)[0])
+                self.assertAlmostEqual(live, usual, delta=within_live * usual)
+
+    def test_stamps_in_matroska(self):
+        self.stamped("in.mkv", "-c:v", "libx264", "-bf", "0", "-qp", "0")
+
+    def test_stamps_in_webm(self):
+        self.stamped("in.webm", "-c:v", "libvpx-vp9", "-lossless", "1", "-deadline", "realtime", "-cpu-used", "8")
+
+    def test_stamps_in_flv(self):
+        self.stamped("in.flv", "-c:v", "libx264", "-bf", "0", "-qp", "0")
+
+    def test_stamps_in_mpeg_ts(self):
+        self.stamped("in.ts", "-c:v", "libx264", "-bf", "0", "-qp", "0")
+
+    def test_stamps_in_mp4(self):
+        self.stamped("in.mp4", "-c:v", "libx264", "-bf", "0", "-qp", "0")
 
     def motion(self, source):
         worse = 0
