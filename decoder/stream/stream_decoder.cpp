@@ -216,6 +216,7 @@ Result<PatternDecoder> StreamDecoder::decoder_for(const Setup& setup) const {
 // SPEC 4.7
 Result<void> StreamDecoder::take(const End& end, const Arrived& arrived) {
   end_ = end.pictures;
+  late_.give_up();  // pictures are held in place of those that are missing
   const std::uint32_t nominal = format().width > 0 ? nominal_duration(format().frame_rate) : 1;
   const auto missing = clock_.go_to_end(end.pictures, nominal);
   if (!missing) return fail(missing.error());

@@ -122,14 +122,14 @@ class GStreamer(ProgramTest):
 
     def start(self, words, output):
         environment = {**os.environ, "GST_PLUGIN_PATH": str(PLUGIN.parent), "LC_ALL": "C",
-                       "GST_REGISTRY": str(self.folder / "registry.bin")}
+                       "GST_REGISTRY": str(self.folder / "registry.bin"), "GST_DEBUG": "rtprtxreceive:5"}
         with open(self.folder / output, "wb") as out:
             return subprocess.Popen([words[0], "-v", *(word.replace('"', "") for word in words[1:])], cwd=self.folder,
                                     env=environment, stdout=out, stderr=subprocess.STDOUT)
 
     def test_lines_of_the_document_run(self):
         play, camera, best, *ends = self.documented()
-        self.assertEqual(len(ends), 2)
+        self.assertEqual(len(ends), 4)
         self.write("talk.fbs", TALK_FBS.read_bytes())
         self.tool(*play)
         recorder = self.start(camera, "camera.txt")
@@ -140,10 +140,11 @@ class GStreamer(ProgramTest):
         self.tool(*best)
         self.assertEqual(len(self.decoded("talk.fbs").pictures), 120)
 
-    def test_the_call_of_the_document_shows_pictures(self):
-        sender, receiver = (self.start(words, f"{name}.txt") for words, name in zip(self.documented()[3:], ("sends", "sees")))
+    def check_call(self, sends, sees, *expected):
+        """Runs both ends until the second one has printed what is expected."""
+        sender, receiver = (self.start(words, f"{name}.txt") for words, name in ((sends, "sends"), (sees, "sees")))
         end = time.monotonic() + 60
-        while time.monotonic() < end and "GstFakeSink:window.GstPad:sink: caps" not in (self.folder / "sees.txt").read_text():
+        while time.monotonic() < end and not all(text in (self.folder / "sees.txt").read_text() for text in expected):
             time.sleep(0.2)
         for process, name in ((sender, "sends.txt"), (receiver, "sees.txt")):
             text = (self.folder / name).read_text()
@@ -151,7 +152,16 @@ class GStreamer(ProgramTest):
             self.assertNotIn("ERROR", text)
             process.kill()
             process.wait()
-        self.assertLess(time.monotonic(), end, "no picture")
+        self.assertLess(time.monotonic(), end, expected)
+
+    def test_the_call_of_the_document_shows_pictures(self):
+        self.check_call(*self.documented()[3:5], "GstFakeSink:window.GstPad:sink: caps")
+
+    def test_the_call_with_retransmission_repairs_what_is_lost(self):
+        sends, sees = self.documented()[5:]
+        first = sends.index("udpsink")
+        sends[first:first] = "netsim drop-probability=0.3 delay-probability=1 min-delay=20 max-delay=60 !".split()
+        self.check_call(sends, sees, "GstFakeSink:window.GstPad:sink: caps", "Got rtx packet")
 
     def test_elements_are_described(self):
         for element in ELEMENTS:

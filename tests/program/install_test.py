@@ -161,7 +161,7 @@ class Install(ProgramTest):
     def test_pkg_config_and_a_compiler_are_enough(self):
         self.compile_with_pkg_config(self.lib, "fbs", ["feed_in_pieces", "print_landmarks"])
         self.check_decoding(self.folder / "feed_in_pieces", self.lib, None, [1, 7, 4096])
-        self.compile_with_pkg_config(self.lib, "fbs-encoder", ["encode_frames"])
+        self.compile_with_pkg_config(self.lib, "fbs-encoder", ["encode_frames", "lossy_call"])
         self.check_encoding(self.folder, self.lib)
 
     def test_pkg_config_names_all_that_static_libraries_need(self):

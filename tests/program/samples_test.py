@@ -66,3 +66,30 @@ class Samples(ProgramTest):
         reported = json.loads(self.succeed("evaluate", "frames.y4m", "frames.fbs", "--json"))["points"][0]
         self.assertEqual(reported["frames"], 75)
         self.assertGreater(reported["psnr_face"], 28)
+
+    def lossy_call(self, source, *arguments):
+        """What the call prints: the rows of its seconds by column, and the one of all."""
+        columns, *rows = (line.split() for line in self.sample("lossy_call", "176", "144", "15", *arguments, stdin=source).splitlines())
+        *seconds, total = (dict(zip(columns[1:], map(float, row[1:]))) for row in rows)
+        return seconds, total
+
+    def test_lossy_call_repairs_what_is_lost(self):
+        source = b""
+        for seed, frames in ((1, 130), (3, 50)):  # another person comes when the link has become narrow
+            talker(self.folder / "talk.y4m", "--size", "176x144", "--fps", "15", "--frames", str(frames), "--seed", str(seed))
+            source += b"".join(read_y4m(self.folder / "talk.y4m").pictures)
+        _, whole = self.lossy_call(source, "0")
+        self.assertEqual((whole["lost"], whole["scenes"], whole["shown"], whole["flawed"]), (0, 0, 180, 0))
+
+        seconds, total = self.lossy_call(source, "10")
+        self.assertGreater(total["lost"], 5)
+        self.assertGreater(total["resent"], 5)
+        self.assertEqual((total["shown"], total["scenes"]), (180, 0))
+        self.assertLess(total["flawed"], 60)
+        self.assertLess(total["late"], 5)
+        self.assertLess(seconds[-1]["coded"], 6, "the rate follows the link")
+        self.assertEqual((seconds, total), self.lossy_call(source, "10", "1", "2"), "other threads change nothing")
+
+        _, bad = self.lossy_call(source, "60")
+        self.assertGreater(bad["scenes"], 0)
+        self.assertGreater(bad["shown"], 20)

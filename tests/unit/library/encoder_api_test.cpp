@@ -417,7 +417,7 @@ TEST(EncoderApi, LivePacketsComeAtOnce) {
 }
 
 /// @param key_interval  s; 0: the default
-fbs_encoder_settings live_settings(int resilience, double key_interval = 0, double join = 0) {
+fbs_encoder_settings lossy_settings(int resilience, double key_interval = 0, double join = 0) {
   fbs_encoder_settings settings = quick_settings();
   settings.quality = 40;
   settings.live = 1;
@@ -478,9 +478,10 @@ std::vector<std::size_t> any_order(std::size_t packets, unsigned seed) {
 }
 
 TEST(EncoderApi, LivePacketsMayComeInAnyOrder) {
-  const std::array settings = {live_settings(FBS_RESILIENCE_NONE), live_settings(FBS_RESILIENCE_NONE, 0.5),
-                               live_settings(FBS_RESILIENCE_PACKET), live_settings(FBS_RESILIENCE_STRONG, 1),
-                               live_settings(FBS_RESILIENCE_PACKET, 0, 5)};
+  const std::array settings = {lossy_settings(FBS_RESILIENCE_NONE), lossy_settings(FBS_RESILIENCE_NONE, 0.5),
+                               lossy_settings(FBS_RESILIENCE_PACKET),
+                               lossy_settings(FBS_RESILIENCE_STRONG, 1),
+                               lossy_settings(FBS_RESILIENCE_PACKET, 0, 5)};
   std::vector<std::vector<std::vector<std::uint8_t>>> streams;
   std::vector<std::string> digests;
   for (const fbs_encoder_settings& s : settings) {
@@ -518,7 +519,7 @@ TEST(EncoderApi, LivePacketsMayComeInAnyOrder) {
 // Whatever is lost: no error, every picture that is shown is in its place, and motion goes on behind a loss.
 TEST(EncoderApi, LivePacketsMayBeLostInAnyOrder) {
   for (const int resilience : {FBS_RESILIENCE_NONE, FBS_RESILIENCE_PACKET, FBS_RESILIENCE_STRONG}) {
-    const auto packets = encoded(live_settings(resilience), kPictures).packets;
+    const auto packets = encoded(lossy_settings(resilience), kPictures).packets;
     for (unsigned seed = 0; seed < 100; ++seed) {
       SCOPED_TRACE(testing::Message() << "resilience " << resilience << ", seed " << seed);
       std::mt19937 random(seed + 5000);

@@ -233,6 +233,23 @@ TEST(LatePackets, ALostHeadNeedsAScene) {
   EXPECT_EQ(result.pictures.size(), 10U);
 }
 
+// In the place of the groups that are missing pictures have been held: there are no more.
+TEST(LatePackets, AreOfNoUseBehindTheEnd) {
+  Writer w;
+  w.scene({}, 5).motion(5, 10, true).motion(10, 15, true).end(15);
+  const std::vector<std::size_t> cuts = {0, w.begins[5], w.begins[6], w.begins[7], w.bytes.size()};
+  StreamDecoder decoder;
+  Played result;
+  for (const std::size_t k : {0U, 3U, 1U, 2U}) {
+    decoder.feed_packet(k, std::span(w.bytes).subspan(cuts[k], cuts[k + 1] - cuts[k]));
+    do play(decoder, result);
+    while (decoder.skip_missing());
+    EXPECT_EQ(result.pictures.size(), k == 0 ? 5U : 15U) << k;
+  }
+  for (const Error& error : result.errors) ADD_FAILURE() << error.text;
+  EXPECT_TRUE(decoder.missing_packets(9).empty());
+}
+
 TEST(LatePackets, MayAllBeFedBeforeTheFirstIsRead) {
   const auto packets = link_packets();
   StreamDecoder decoder;
