@@ -146,13 +146,12 @@ Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture, bool alone
 Result<void> Av1Encoder::set(int quantiser, int speed) {
   if (quantiser < 0 || quantiser > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
+  if (speed < 0 || speed > kMaxSpeed) return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..6");
   Context& c = *context_;
-  // Speeds of its own that are higher than this spoil the picture behind others of good quality.
-  c.config.g_usage = speed == kRealTimeSpeed ? AOM_USAGE_REALTIME : AOM_USAGE_GOOD_QUALITY;
   c.config.rc_min_quantizer = c.config.rc_max_quantizer = static_cast<unsigned>(quantiser);
   if (aom_codec_enc_config_set(&c.codec, &c.config) != AOM_CODEC_OK ||
       aom_codec_control(&c.codec, AOME_SET_CQ_LEVEL, quantiser) != AOM_CODEC_OK ||
-      aom_codec_control(&c.codec, AOME_SET_CPUUSED, std::min(speed, kMaxSpeed)) != AOM_CODEC_OK)
+      aom_codec_control(&c.codec, AOME_SET_CPUUSED, speed) != AOM_CODEC_OK)
     return fail(ErrorCode::kInternal, "libaom refuses a quantiser or a speed");
   return {};
 }

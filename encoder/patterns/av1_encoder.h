@@ -14,9 +14,6 @@ namespace fbs {
 /// long for 3 % fewer bytes, 2 four times for 6 %, 1 seven times for 7 %; 5 takes 0.6 of the time for 6 %
 /// more.
 inline constexpr int kSentSpeed = 3;
-/// libaom's real-time usage, without look-ahead: a tenth of the time of 6, for 12 % more bytes at 0.2 dB
-/// less.
-inline constexpr int kRealTimeSpeed = 7;
 /// Speed for trials.
 inline constexpr int kTrialSpeed = 6;
 
@@ -51,7 +48,8 @@ class Av1Encoder {
 
   /// Changes settings for the pictures that follow, without look-ahead.
   /// @param quantiser  libaom's scale, 0..63
-  /// @param speed      Av1Settings::speed, or kRealTimeSpeed
+  /// @param speed      Av1Settings::speed. libaom 3.6 cannot go back from its real-time usage, which would be
+  /// faster: it then writes frames that no decoder reads
   Result<void> set(int quantiser, int speed);
 
   /// The remaining frames; no picture may follow.

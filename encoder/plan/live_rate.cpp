@@ -1,19 +1,22 @@
 #include "encoder/plan/live_rate.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fbs {
 namespace {
 
-/// Seconds in which a rate twice too high raises the price by e. Shorter ones make quality swing from pattern
-/// to pattern.
-constexpr double kSettlesIn = 8;
+/// Share of the bucket that should wait: enough that the channel is not idle between two patterns. More of it
+/// would only add to the delay.
+constexpr double kWaits = 0.3;
 
-/// Increase in the logarithm of the price from a half full to a full bucket.
-constexpr double kFullness = 2;
+/// By how much of the channel's rate the target falls from an empty to a full bucket. With 2 it swings with
+/// each pattern, and the quantiser with it (-.2 dB in the face).
+constexpr double kGain = 0.7;
 
-const double kLimit = std::log(LiveRate::kMaxFactor);
+/// s in which a bucket that is empty, less kWaits, raises the target by the channel's rate: plans that always
+/// take more or less than they say are corrected.
+constexpr double kSettlesIn = 4;
+constexpr double kMostCorrection = 0.6;
 
 }  // namespace
 
@@ -24,18 +27,16 @@ void LiveRate::set(double kbps) {
   const double factor = 125 * kbps / bytes_per_second_;
   bytes_per_second_ *= factor;
   capacity_ *= factor;
-  log_price_ = std::clamp(log_price_ - std::log(factor), -kLimit, kLimit);
 }
 
 void LiveRate::add(double bytes, double seconds) {
-  const double drained = bytes_per_second_ * seconds;
-  waiting_ = std::max(0.0, waiting_ + bytes - drained);
-  log_price_ = std::clamp(log_price_ + (bytes - drained) / (bytes_per_second_ * kSettlesIn), -kLimit, kLimit);
+  waiting_ = std::max(0.0, waiting_ + bytes - bytes_per_second_ * seconds);
+  correction_ += (kWaits - waiting_ / capacity_) * seconds / kSettlesIn;
+  correction_ = std::clamp(correction_, -kMostCorrection, kMostCorrection);
 }
 
-double LiveRate::price() const {
-  const double log_price = log_price_ + kFullness * (waiting_ / capacity_ - 0.5);
-  return std::clamp(std::exp(log_price), 1 / kMaxFactor, kMaxFactor);
+double LiveRate::target() const {
+  return 8 * bytes_per_second_ * (1 + correction_ + kGain * (kWaits - waiting_ / capacity_));
 }
 
 }  // namespace fbs

@@ -1,4 +1,4 @@
-// Holds a live stream to a rate: limits what may be sent at once, and prices bits.
+// Holds a live stream to a rate: limits what may be sent at once, and tells what to spend.
 #pragma once
 
 namespace fbs {
@@ -18,20 +18,19 @@ class LiveRate {
 
   /// Bytes that may be sent now; negative: more than the buffer allows is waiting.
   [[nodiscard]] double room() const { return capacity_ - waiting_; }
+  [[nodiscard]] double capacity() const { return capacity_; }
   /// The same for another longest wait, s.
   [[nodiscard]] double room(double seconds) const { return bytes_per_second_ * seconds - waiting_; }
 
-  /// How much more a bit is worth than at the start: rises while more is sent than the channel takes, and
-  /// falls while it is idle. 1/kMaxFactor..kMaxFactor
-  [[nodiscard]] double price() const;
-
-  static constexpr double kMaxFactor = 4096;
+  /// Bits a second to spend now: more than the channel takes while less waits than should, since idle bits
+  /// are lost, and fewer while more waits.
+  [[nodiscard]] double target() const;
 
  private:
   double bytes_per_second_;
-  double capacity_;     ///< bytes
-  double waiting_ = 0;  ///< bytes
-  double log_price_ = 0;
+  double capacity_;        ///< bytes
+  double waiting_ = 0;     ///< bytes
+  double correction_ = 0;  ///< of the target, as a share of the rate
 };
 
 }  // namespace fbs

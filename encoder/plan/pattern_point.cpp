@@ -86,12 +86,8 @@ double pattern_lambda(int quantiser) {
   return kShare * step * step;
 }
 
-int quantiser_at_price(int quantiser, double price) {
-  const auto steps = std::lround(std::log(price) / (2 * kLogStep));
-  return std::clamp(quantiser + static_cast<int>(steps), 0, 63);
-}
-
-int motion_quality_at(double kbps) {
+int motion_quality_at(double kbps, bool live) {
+  if (live) return std::clamp(static_cast<int>(std::lround(50 + 14 * std::log2(kbps / 6))), 0, 90);
   // From 20 at 1.7 kbit/s to 50 at 14, as on the hull for small pictures.
   return std::clamp(static_cast<int>(std::lround(20 + 10 * std::log2(kbps / 1.7))), 0, 50);
 }

@@ -1,4 +1,5 @@
-// Decides when a pattern pays although later pictures are unknown.
+// Decides when a pattern of a given quality pays although later pictures are unknown. With a bitrate
+// PatternReplacement decides, which also chooses how fine it is.
 #pragma once
 
 #include <algorithm>

@@ -12,15 +12,12 @@
 namespace fbs {
 namespace {
 
-/// Assumed size of a later pattern relative to the first, until one has been coded.
-constexpr double kLaterShare = 0.35;
-
-/// How fast the expected size of a pattern follows coded ones.
-constexpr double kLearn = 0.5;
-
 /// How much finer a scene's first pattern is: all others are predicted from it, and at first it is alone. In
 /// a window it is not alone for long.
 constexpr int kKeyBoost = 12, kWindowKeyBoost = 9;
+
+/// The same with a rate: the room limits it.
+constexpr int kRateBoost = 29;
 
 /// It is replaced once there is room for a pattern of so many times its bytes. With 3 that comes later and is
 /// no better (four clips at 5 kbit/s).
@@ -43,6 +40,19 @@ constexpr double kWindowPrice = 1.4, kWindowPatience = 4;
 /// Most pictures that share errors in a draft, where windows are drafted or time is short: it takes 4 % less
 /// of it at 640x480, and 2 to 3 % more of the rate.
 constexpr std::size_t kDraftShared = 3;
+
+/// Largest share of the buffer that a pattern may be planned to take, and s in which the price follows a
+/// rate: at a steady price bits go where they gain most, and .3 dB are gained at 12 kbit/s.
+constexpr double kMostOfBuffer = 0.65, kPriceFollows = 4;
+/// Least share of the rate that patterns are planned for. With .2 akiyo loses 1.2 dB in the face at 3 kbit/s:
+/// the price that a full buffer makes at first stays for seconds.
+constexpr double kLeastShare = 0.35;
+
+/// Bytes of a group besides motion and patterns, about: blend, packet header.
+constexpr double kGroupHeadBytes = 10;
+
+/// Bits a second of motion until it has been seen, and how fast they follow it.
+constexpr double kAssumedMotion = 1000, kFollowMotion = 0.3;
 
 /// Viewers look at the face more than at the rest. With 3 against 1 it takes 4 % fewer bits at the same PSNR,
 /// the frame as many.
@@ -79,12 +89,15 @@ std::vector<double> least_errors(const SegmentErrors& errors) {
 LivePatterns::LivePatterns(PatternStage& stage, const LivePatternSettings& settings)
     : PatternPolicy(stage),
       settings_(settings),
-      sequence_(store_.format(), settings.reduced, settings.alone) {
+      sequence_(store_.format(), settings.reduced, settings.alone),
+      motion_(kAssumedMotion),
+      replacement_(1.0 * store_.format().width * store_.format().height) {
   if (settings.bitrate_kbps > 0) rate_.emplace(settings.bitrate_kbps, settings.buffer);
 }
 
 void LivePatterns::begin_scene() {
   sequence_.begin_scene();
+  replacement_.begin_scene();
   regret_ = {};
   since_pattern_ = 0;
   next_slot_ = 0;
@@ -103,22 +116,6 @@ bool LivePatterns::has_windows(double delay) {
   return delay >= kWindowDelay;
 }
 
-bool LivePatterns::pays(double bits, double price) const {
-  const double lambda = price * pattern_lambda(settings_.quantiser);
-  return has_windows(settings_.delay) ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
-                                      : regret_.pays(bits, lambda, 1);
-}
-
-double LivePatterns::Size::at(int other_quantiser) const {
-  return bits * std::pow(kBytesPerStep, quantiser - other_quantiser);
-}
-
-std::optional<int> LivePatterns::affordable(const Size& size, int from, double room) {
-  for (int q = from; q <= kMaxQuantiser; ++q)
-    if (size.at(q) <= 8 * kExpectedShare * room) return q;
-  return std::nullopt;
-}
-
 double LivePatterns::room() const {
   return rate_ ? rate_->room() : std::numeric_limits<double>::infinity();
 }
@@ -134,10 +131,9 @@ double LivePatterns::pattern_room() const {
 }
 
 Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, double room) {
-  const double price = rate_ ? rate_->price() : 1;
-  const int key_boost = has_windows(settings_.delay) ? kWindowKeyBoost : kKeyBoost;
+  const int key_boost = rate_ ? kRateBoost : has_windows(settings_.delay) ? kWindowKeyBoost : kKeyBoost;
   // What takes the place of a coarse pattern is as fine as that was to be.
-  if (coarse_ == 0) wanted_ = std::max(0, quantiser_at_price(settings_.quantiser, price) - key_boost);
+  if (coarse_ == 0) wanted_ = std::max(0, std::clamp(settings_.quantiser, 0, kMaxQuantiser) - key_boost);
   if (!rate_) return wanted_;
   const auto source = store_.segment().pictures.read(time);
   if (!source) return fail(source.error());
@@ -149,17 +145,18 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   if (!quantiser) return quantiser;
   const auto bytes = trial.bytes(*quantiser);
   if (!bytes) return fail(bytes.error());
-  key_ = {8.0 * static_cast<double>(*bytes), *quantiser};
+  sizes_.set_whole(8.0 * static_cast<double>(*bytes), *quantiser);
   return quantiser;
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
   auto quantiser = key_quantiser(scene, 0, pattern_room());
   if (!quantiser) return fail(quantiser.error());
-  Plan plan{{0}, *quantiser, quantiser_at_price(settings_.quantiser, 1), true};
-  double left = room() - key_.bits / 8;
-  if (const double in_time = start_room(); key_.bits > 8 * in_time) {
-    const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key_.bits / 8);
+  Plan plan{{0}, *quantiser, std::min(settings_.quantiser, kMaxQuantiser), true};
+  double key = sizes_.whole(*quantiser) / 8;
+  double left = room() - key;
+  if (const double in_time = start_room(); key > in_time) {
+    const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key);
     plan.start = static_cast<std::size_t>(coarse);
     left = pattern_room() - coarse;
     if (store_.segment().states.size() == 1 || left < kFiner * coarse) return plan;
@@ -167,7 +164,8 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
     if (!quantiser) return fail(quantiser.error());
     plan.times.push_back(1);
     plan.first = *quantiser;
-    left -= key_.bits / 8;
+    key = sizes_.whole(*quantiser) / 8;
+    left -= key;
   }
   if (store_.segment().states.size() == 1) return plan;
   auto draft = SegmentDraft::of_sources(store_, plan.times, 0);
@@ -178,9 +176,10 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
   trial.boost = 0;
   trial.reduced = settings_.reduced;
   if (auto tried = draft->code(store_, scene, trial, workers_); !tried) return fail(tried.error());
-  learn(draft->coded.front().av1.size(), plan.first, true);
+  sizes_.set_whole(8.0 * static_cast<double>(draft->coded.front().av1.size()), plan.first);
   if (auto measured = stage_.measure(draft->usable(scene), 1); !measured) return fail(measured.error());
   const std::vector<double> least = least_errors(std::exchange(stage_.errors(), {}));
+  replacement_.begin(least.front(), plan.first);
   regret_.begin(least.front());
   add_paying(least, plan.times.size(), left, plan);
   return plan;
@@ -193,7 +192,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size
     const std::size_t last = store_.segment().states.size() - 1;  // nearest to what is not yet known
     const auto finer = key_quantiser(scene, last, left);
     if (!finer) return fail(finer.error());
-    return key_.bits <= 8 * left ? Plan{{last}, *finer, *finer, true} : Plan{};
+    return sizes_.whole(*finer) <= 8 * left ? Plan{{last}, *finer, *finer, true} : Plan{};
   }
   SegmentDraft none;
   none.place(store_, scene);
@@ -206,27 +205,26 @@ Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size
 }
 
 void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan) {
-  const double price = rate_ ? rate_->price() : 1;
+  const bool windows = has_windows(settings_.delay);
   std::ptrdiff_t last = -since_pattern_;  // pattern, or cut
   bool cut = false;
-  const auto is_bought = [&]() {
-    const Size size = cut || plan.key ? key_ : later();
-    const auto quantiser = affordable(size, quantiser_at_price(settings_.quantiser, price), room);
-    if (!quantiser || !pays(size.at(*quantiser), price)) return false;
-    plan.others = *quantiser;
-    return true;
-  };
+  double sum = 0;
+  std::optional<int> bought;
   std::size_t t = begin;
   for (; t < least.size(); ++t) {
     if (store_.segment().is_cut(t)) {
       last = static_cast<std::ptrdiff_t>(t);
       cut = true;
     }
+    replacement_.add(least[t]);
     regret_.add(least[t]);
-    if (is_bought()) break;
+    sum += least[t];
+    if (windows && (bought = paying(room, cut || plan.key, replacement_.recent()))) break;
   }
-  if (t == least.size()) return;
-  if (!has_windows(settings_.delay)) {  // nearest to what is not yet known
+  if (!windows && t > begin) bought = paying(room, cut || plan.key, sum / static_cast<double>(t - begin));
+  if (!bought) return;
+  plan.others = *bought;
+  if (!windows) {  // nearest to what is not yet known
     plan.times.push_back(cut ? static_cast<std::size_t>(last) : least.size() - 1);
     return;
   }
@@ -236,27 +234,48 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
       static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(t) - last));
   const std::size_t from = last < 0 ? 0 : static_cast<std::size_t>(last);
   const std::size_t end = least.size(), middle = interval < end ? from + interval / 2 : end - 1;
-  double spent = (cut ? key_ : later()).at(plan.others) / 8;
+  const double later = sizes_.change(plan.others, interval) / 8;
+  double spent = cut ? sizes_.whole(plan.others) / 8 : later;
   for (std::size_t p = std::clamp(middle, begin, end - 1); p < end && spent <= room; p += interval) {
     plan.times.push_back(p);
-    spent += later().at(plan.others) / 8;
+    spent += later;
   }
 }
 
-LivePatterns::Size LivePatterns::later() const {
-  if (later_) return *later_;
-  // A finer one than the key pattern adds what that lacks.
-  const double whole = key_.at(settings_.quantiser);
-  return {whole - (1 - kLaterShare) * std::min(whole, key_.bits), settings_.quantiser};
+double LivePatterns::price(const PatternReplacement::Offers& offers,
+                           const PatternReplacement::Timing& timing) {
+  // A full buffer delays patterns; it must not make the price of later ones.
+  const double least = kLeastShare * 8 * rate_->capacity() / settings_.buffer;
+  const double bits = std::max(least, rate_->target() - motion_) / timing.per_second;
+  const double now = replacement_.price_of(bits, offers, timing);
+  const double seconds = static_cast<double>(timing.together) / timing.per_second;
+  price_ = price_ ? *price_ * std::pow(now / *price_, 1 - std::exp(-seconds / kPriceFollows)) : now;
+  return *price_;
 }
 
-void LivePatterns::learn(std::size_t bytes, int quantiser, bool key) {
-  const double bits = 8.0 * static_cast<double>(bytes);
-  const double expected = later().at(quantiser);
-  if (key)
-    key_ = {bits, quantiser};
-  else
-    later_ = {expected + kLearn * (bits - expected), quantiser};
+std::optional<int> LivePatterns::paying_at_rate(double room, bool whole, double error) {
+  const double fps = fps_of(store_.format()), fits = 8 * kExpectedShare * room;
+  const auto pictures = static_cast<std::size_t>(std::max(1L, std::lround(settings_.delay * fps)));
+  const PatternReplacement::Timing timing{has_windows(settings_.delay) ? 1 : pictures, pictures, fps};
+  const PatternReplacement::Offers any{sizes_, 8 * kMostOfBuffer * rate_->capacity(), whole};
+  const double bit = price(any, timing);
+  const auto best = replacement_.at_price(bit, any, timing);
+  if (!best || !PatternReplacement::pays(*best, error)) return std::nullopt;
+  if (any.bits_now(best->quantiser, replacement_.age()) <= fits) return best->quantiser;
+  // Room is saved up for it, unless a smaller one pays although it will soon be replaced.
+  const auto smaller = replacement_.at_price(bit, {sizes_, fits, whole}, timing);
+  return smaller && smaller->cost < error ? std::optional(smaller->quantiser) : std::nullopt;
+}
+
+std::optional<int> LivePatterns::paying(double room, bool whole, double error) {
+  if (rate_) return paying_at_rate(room, whole, error);
+  const int quantiser = std::min(settings_.quantiser, kMaxQuantiser);
+  const PatternReplacement::Offers offers{sizes_, 0, whole};
+  const double bits = offers.bits_now(quantiser, replacement_.age());
+  const double lambda = pattern_lambda(settings_.quantiser);
+  const bool pays = has_windows(settings_.delay) ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
+                                                 : regret_.pays(bits, lambda, 1);
+  return pays ? std::optional(quantiser) : std::nullopt;
 }
 
 Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDraft& draft) {
@@ -269,8 +288,11 @@ Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDra
                        : sequence_.code(std::move(picture), quantiser);
     if (!next) return fail(next.error());
     coarse_ = coarse ? static_cast<double>(next->av1.size()) : 0;
-    if (!coarse)
-      learn(next->av1.size(), quantiser, k == first && (plan.key || store_.segment().shots.size() > 1));
+    const double bits = 8.0 * static_cast<double>(next->av1.size());
+    if (k == first && !coarse && (plan.key || store_.segment().shots.size() > 1))
+      sizes_.set_whole(bits, quantiser);
+    else if (!coarse)
+      sizes_.learn(bits, quantiser, k > 0 ? plan.times[k] - plan.times[k - 1] : replacement_.age());
     next->picture = k;
     if (coarse) draft.start = *next;
     coded.push_back(std::move(*next));
@@ -280,22 +302,33 @@ Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDra
   return {};
 }
 
-void LivePatterns::count_regret(const Plan& plan) {
-  const auto pictures = static_cast<std::ptrdiff_t>(store_.segment().states.size());
+void LivePatterns::learn_errors(const Plan& plan) {
+  const std::size_t pictures = store_.segment().states.size();
   if (plan.times.empty()) {  // its pictures have been counted
-    since_pattern_ += pictures;
+    since_pattern_ += static_cast<std::ptrdiff_t>(pictures);
     if (store_.segment().shots.size() > 1)
       since_pattern_ = static_cast<std::ptrdiff_t>(store_.segment().shots.back().pictures);
     return;
   }
   const std::size_t last = plan.times.back();
+  const bool is_one = plan.times.size() == 1;
+  double before = 0;
   std::size_t t = 0;
   for (const SegmentErrors::Run& run : stage_.errors().runs)
     for (std::size_t i = 0; i < run.pictures; ++i, ++t) {
-      if (t == last) regret_.begin(error_of(run.errors, store_.segment().states[t].blend));
-      if (t > last) regret_.add(least_error(run.errors));
+      const double error = error_of(run.errors, store_.segment().states[t].blend);
+      if (t <= last) before += error;
+      if (t == last) {
+        replacement_.begin(error, is_one ? plan.first : plan.others);
+        regret_.begin(error);
+      }
+      if (t > last) {
+        replacement_.add(least_error(run.errors));
+        regret_.add(least_error(run.errors));
+      }
     }
-  since_pattern_ = pictures - static_cast<std::ptrdiff_t>(last);
+  if (is_one && last > 1) replacement_.learn_between(before / static_cast<double>(last + 1), last + 1);
+  since_pattern_ = static_cast<std::ptrdiff_t>(pictures - last);
 }
 
 void LivePatterns::note_sent(std::size_t bytes) {
@@ -303,6 +336,7 @@ void LivePatterns::note_sent(std::size_t bytes) {
   sequence_.pass(seconds);
   if (!rate_) return;
   rate_->add(static_cast<double>(bytes), seconds);
+  motion_ += kFollowMotion * (8 * (store_.motion_bytes() + kGroupHeadBytes) / seconds - motion_);
   const bool was_over = std::exchange(over_, rate_->room() < 0);
   if (over_ && !was_over)
     settings_.hooks.say(LogLevel::kWarning, "more waits to be sent than the buffer allows");
@@ -332,7 +366,7 @@ Result<SegmentDraft> LivePatterns::make_segment(const Scene& scene, std::size_t 
   if (draft) draft = stage_.make(scene, std::move(*draft), making, refit);
   if (!draft) return draft;
   next_slot_ = draft->slot(draft->coded.size(), static_cast<std::size_t>(store_.slots()));
-  count_regret(*plan);
+  learn_errors(*plan);
   return draft;
 }
 

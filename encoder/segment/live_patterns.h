@@ -9,6 +9,7 @@
 #include "encoder/patterns/live_sequence.h"
 #include "encoder/plan/live_rate.h"
 #include "encoder/plan/pattern_regret.h"
+#include "encoder/plan/pattern_replacement.h"
 #include "encoder/segment/pattern_stage.h"
 #include "encoder/segment/segment_draft.h"
 
@@ -51,12 +52,6 @@ class LivePatterns : public PatternPolicy {
     /// So many bytes at most has the scene's first pattern, which is coarse.
     std::optional<std::size_t> start{};
   };
-  /// Predicted bits of a pattern: those of the last one like it.
-  struct Size {
-    double bits = 0;
-    int quantiser = 0;
-    [[nodiscard]] double at(int other_quantiser) const;
-  };
   /// The quantiser to code a picture of the segment with that nothing predicts.
   /// @param room  bytes that it may take
   [[nodiscard]] Result<int> key_quantiser(const Scene& scene, std::size_t time, double room);
@@ -72,36 +67,36 @@ class LivePatterns : public PatternPolicy {
   /// @param begin  picture from which on they count
   /// @param room   bytes that may be sent now
   void add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan);
-  /// The finest quantiser, no finer than `from`, at which a pattern fits; nothing: even the coarsest takes
-  /// too much.
-  /// @param room  bytes that may be sent now
-  [[nodiscard]] static std::optional<int> affordable(const Size& size, int from, double room);
+  /// The quantiser of the next pattern, if buying it now pays.
+  /// @param whole  nothing predicts it
+  /// @param error  of the pictures next to it, drawn without it
+  [[nodiscard]] std::optional<int> paying(double room, bool whole, double error);
+  /// The same with a rate.
+  [[nodiscard]] std::optional<int> paying_at_rate(double room, bool whole, double error);
+  /// With a rate, what a bit of a pattern is worth so that patterns take what motion leaves of it, squared
+  /// luma levels.
+  [[nodiscard]] double price(const PatternReplacement::Offers& offers,
+                             const PatternReplacement::Timing& timing);
   /// Bytes that may be sent now.
   [[nodiscard]] double room() const;
   /// The same for frames of patterns: what else the segment has is left out, approximately.
   [[nodiscard]] double pattern_room() const;
-  /// Whether a pattern of these bits pays.
-  /// @param price  LiveRate::price()
-  [[nodiscard]] bool pays(double bits, double price) const;
-  /// The size to expect of a pattern that others predict.
-  [[nodiscard]] Size later() const;
-  /// Records the bytes of a pattern.
-  /// @param key  most of it could not be predicted
-  void learn(std::size_t bytes, int quantiser, bool key);
   /// Codes the pictures of a draft.
   Result<void> code(const Scene& scene, const Plan& plan, SegmentDraft& draft);
-  /// Remembers what pictures have lost since the last pattern.
-  void count_regret(const Plan& plan);
+  /// Remembers the errors of the segment as sent.
+  void learn_errors(const Plan& plan);
 
   LivePatternSettings settings_;
   LiveSequence sequence_;
   std::optional<LiveRate> rate_;
   bool over_ = false;  ///< the rate has no room
   int wanted_ = 0;     ///< quantiser of the last pattern that nothing predicted, if there had been room
-  Size key_;           ///< of a whole picture
-  std::optional<Size> later_;  ///< of one that others predict, once one has been coded
+  std::optional<double> price_;  ///< with a rate: price(), once known
+  double motion_ = 0;            ///< bits a second of all but patterns, smoothed
+  PatternSizes sizes_;
+  PatternReplacement replacement_;  ///< decides with a rate
   // The scene's:
-  PatternRegret regret_;
+  PatternRegret regret_;              ///< decides by quality
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
   std::size_t next_slot_ = 0;
   double coarse_ = 0;  ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine

@@ -57,7 +57,7 @@ int thread_count(const EncoderSettings& settings) {
 RateTarget motion_target(const EncoderSettings& settings, double eye_distance_px) {
   RateTarget target = rate_target(settings, eye_distance_px);
   if (settings.patterns == 1) return target;
-  target.quality = settings.bitrate > 0 ? motion_quality_at(settings.bitrate)
+  target.quality = settings.bitrate > 0 ? motion_quality_at(settings.bitrate, settings.live.has_value())
                                         : PatternPoint::at(settings.quality).motion_quality;
   target.bitrate_kbps = 0;  // patterns take the rest of the rate
   return target;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace fbs {
 namespace {
 
@@ -32,18 +30,17 @@ TEST(LiveRate, LessMayBeSentForAShorterWait) {
 
 TEST(LiveRate, TheChannelMayChange) {
   LiveRate rate(kKbps, kBuffer);
-  const double before = rate.price();
   rate.add(1500, 0);
-  const double busy = rate.price();
+  const double before = rate.target();
   rate.set(kKbps / 2);
   EXPECT_EQ(rate.room(), -500) << "what waits stays";
-  EXPECT_GT(rate.price(), busy) << "bits are dearer at once";
+  EXPECT_LT(rate.target(), before / 2) << "and is more of what the buffer holds now";
   rate.add(0, 1);
   EXPECT_EQ(rate.room(), 0);
   rate.set(kKbps);
   rate.add(0, 10);
   EXPECT_EQ(rate.room(), kBytesPerSecond * kBuffer);
-  EXPECT_LT(rate.price(), before) << "it was idle";
+  EXPECT_GT(rate.target(), 1000 * kKbps) << "it was idle";
 }
 
 TEST(LiveRate, MoreThanTheBufferLeavesNoRoom) {
@@ -52,35 +49,33 @@ TEST(LiveRate, MoreThanTheBufferLeavesNoRoom) {
   EXPECT_EQ(rate.room(), -500);
 }
 
-TEST(LiveRate, TheChannelsOwnRateKeepsThePrice) {
+TEST(LiveRate, SpendingTheTargetSettlesAtTheChannelsRate) {
   LiveRate rate(kKbps, kBuffer);
-  const double before = rate.price();
-  for (int i = 0; i < 100; ++i) rate.add(kBytesPerSecond / 5, 0.2);
-  EXPECT_NEAR(rate.price(), before, 1e-9);
+  for (int i = 0; i < 300; ++i) rate.add(rate.target() / 8 * 0.2, 0.2);
+  EXPECT_NEAR(rate.target(), 1000 * kKbps, 10);
+  EXPECT_GT(rate.room(), 0.5 * kBytesPerSecond * kBuffer) << "and little waits";
+  EXPECT_LT(rate.room(), kBytesPerSecond * kBuffer) << "but something, so that the channel is not idle";
 }
 
-TEST(LiveRate, ABitIsWorthMoreWhileTooMuchIsSentAndLessWhileTheChannelIsIdle) {
-  LiveRate busy(kKbps, kBuffer), idle(kKbps, kBuffer);
-  const double before = busy.price();
-  for (int i = 0; i < 8; ++i) {
-    const double busy_before = busy.price(), idle_before = idle.price();
-    busy.add(2 * kBytesPerSecond, 1);
-    idle.add(0, 1);
-    EXPECT_GT(busy.price(), busy_before);
-    EXPECT_LT(idle.price(), idle_before);
+TEST(LiveRate, PlansThatTakeMoreOrLessThanTheySayAreCorrected) {
+  for (const double taken : {0.7, 1.5}) {
+    LiveRate rate(kKbps, kBuffer);
+    double sent = 0;
+    for (int i = 0; i < 300; ++i) {
+      const double bytes = taken * rate.target() / 8 * 0.2;
+      rate.add(bytes, 0.2);
+      if (i >= 150) sent += bytes;
+      EXPECT_GT(rate.room(), 0) << taken;
+    }
+    EXPECT_NEAR(sent / 30, kBytesPerSecond, 0.02 * kBytesPerSecond) << taken;
   }
-  EXPECT_GT(busy.price(), std::exp(1) * before) << "twice the rate for eight seconds, and a full bucket";
-  EXPECT_NEAR(idle.price(), before / std::exp(1), 1e-9);
 }
 
-TEST(LiveRate, ThePriceIsBounded) {
-  LiveRate busy(kKbps, kBuffer), idle(kKbps, kBuffer);
-  for (int i = 0; i < 1000; ++i) {
-    busy.add(10 * kBytesPerSecond, 1);
-    idle.add(0, 1);
-  }
-  EXPECT_EQ(busy.price(), LiveRate::kMaxFactor);
-  EXPECT_EQ(idle.price(), 1 / LiveRate::kMaxFactor);
+TEST(LiveRate, TheTargetIsBoundedAfterALongRest) {
+  LiveRate rate(kKbps, kBuffer);
+  for (int i = 0; i < 1000; ++i) rate.add(0, 1);
+  EXPECT_GT(rate.target(), 1000 * kKbps);
+  EXPECT_LT(rate.target(), 3000 * kKbps);
 }
 
 }  // namespace

@@ -24,5 +24,16 @@ TEST(PatternPoint, QualityBeyondItsRangeIsTheNearest) {
   EXPECT_EQ(PatternPoint::at(140).quantiser, PatternPoint::at(100).quantiser);
 }
 
+TEST(PatternPoint, BitsOfCoarserPatternsAreDearer) {
+  for (int quantiser = 1; quantiser <= 63; ++quantiser)
+    EXPECT_GT(pattern_lambda(quantiser), pattern_lambda(quantiser - 1));
+}
+
+TEST(PatternPoint, MotionIsFinerAtHigherRates) {
+  for (const bool live : {false, true})
+    for (double kbps = 1; kbps < 30; kbps *= 2)
+      EXPECT_GE(motion_quality_at(2 * kbps, live), motion_quality_at(kbps, live));
+}
+
 }  // namespace
 }  // namespace fbs

@@ -38,7 +38,7 @@ TEST(MotionTarget, SeveralPatternsTakeWhatTheMotionLeaves) {
   settings.bitrate = 8;
   const RateTarget target = motion_target(settings, kEye);
   EXPECT_EQ(target.bitrate_kbps, 0);
-  EXPECT_EQ(target.quality, motion_quality_at(8));
+  EXPECT_EQ(target.quality, motion_quality_at(8, false));
 }
 
 TEST(PassSettings, PsnrKeepsContrastAndCoarserPatterns) {
