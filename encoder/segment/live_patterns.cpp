@@ -25,7 +25,7 @@ constexpr double kFiner = 2;
 
 /// Patterns are to take at most these shares of the room, since they may be larger as they are sent: one that
 /// is coded on trial, and one of which only the last ones tell.
-constexpr double kTriedShare = 0.9, kExpectedShare = 0.75;
+constexpr double kTriedShare = 0.8, kExpectedShare = 0.5;
 
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
 constexpr double kWindowDelay = 0.7;
