@@ -191,7 +191,7 @@ class Player {
 TEST(FbsParse, DecodingBeginsWithTheSceneThatIsSoughtIn) {
   constexpr GstClockTime kSlower = 50;  // scenes of more than half a minute
   const auto time_of = [](GstClockTime number) { return kSlower * number * GST_SECOND / kRate; };
-  const std::vector<Buffer> groups = encoded(kPictures, {20, 40}, kSlower);
+  const std::vector<Buffer> groups = encoded(kPictures, {20, 40}, kSlower, "key-interval=600");
   const std::vector<std::size_t> scenes = scenes_of(groups, kSlower);
   ASSERT_EQ(scenes.size(), 3U);
   const StreamFile file(joined(groups));
