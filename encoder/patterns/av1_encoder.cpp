@@ -49,6 +49,13 @@ void configure(const VideoFormat& format, const Av1Settings& settings, aom_codec
   if (settings.look_ahead == 0) config.rc_max_quantizer = static_cast<unsigned>(settings.quantiser);
 }
 
+Result<void> check(int quantiser, int speed) {
+  if (quantiser < 0 || quantiser > kMaxQuantiser)
+    return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
+  if (speed < 0 || speed > kMaxSpeed) return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..6");
+  return {};
+}
+
 bool set_controls(const VideoFormat& format, const Av1Settings& settings, aom_codec_ctx_t& codec) {
   const auto set = [&](int key, int value) { return aom_codec_control(&codec, key, value) == AOM_CODEC_OK; };
   const bool ahead = settings.look_ahead > 0;
@@ -89,10 +96,7 @@ void Av1Encoder::Deleter::operator()(Context* c) const {
 }
 
 Result<Av1Encoder> Av1Encoder::create(const VideoFormat& format, const Av1Settings& settings) {
-  if (settings.quantiser < 0 || settings.quantiser > kMaxQuantiser)
-    return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
-  if (settings.speed < 0 || settings.speed > kMaxSpeed)
-    return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..6");
+  if (auto checked = check(settings.quantiser, settings.speed); !checked) return fail(checked.error());
   if (settings.boost < 0 || settings.boost > kMaxQuantiser)
     return fail(ErrorCode::kInvalidArgument, "boost outside 0..63");
   std::unique_ptr<Context, Deleter> context(new Context);
@@ -144,9 +148,7 @@ Result<Av1Encoder::Frames> Av1Encoder::encode(const Picture& picture, bool alone
 }
 
 Result<void> Av1Encoder::set(int quantiser, int speed) {
-  if (quantiser < 0 || quantiser > kMaxQuantiser)
-    return fail(ErrorCode::kInvalidArgument, "quantiser outside 0..63");
-  if (speed < 0 || speed > kMaxSpeed) return fail(ErrorCode::kInvalidArgument, "AV1 speed outside 0..6");
+  if (auto checked = check(quantiser, speed); !checked) return checked;
   Context& c = *context_;
   c.config.rc_min_quantizer = c.config.rc_max_quantizer = static_cast<unsigned>(quantiser);
   if (aom_codec_enc_config_set(&c.codec, &c.config) != AOM_CODEC_OK ||

@@ -33,6 +33,9 @@ class FirstPattern {
   /// coarse enough.
   Result<int> finest_within(std::size_t bytes, int from);
 
+  /// Bytes by quantiser, of all that have been coded.
+  [[nodiscard]] const std::map<int, std::size_t>& tried() const { return bytes_; }
+
   /// Takes the pattern out; call last.
   Result<CodedPattern> take(int quantiser);
 

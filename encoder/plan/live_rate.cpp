@@ -7,11 +7,11 @@ namespace {
 
 /// Share of the bucket that should wait: enough that the channel is not idle between two patterns. More of it
 /// would only add to the delay.
-constexpr double kWaits = 0.3;
+constexpr double kWaits = 0.2;
 
 /// By how much of the channel's rate the target falls from an empty to a full bucket. With 2 it swings with
 /// each pattern, and the quantiser with it (-.2 dB in the face).
-constexpr double kGain = 0.7;
+constexpr double kGain = 1.5;
 
 /// s in which a bucket that is empty, less kWaits, raises the target by the channel's rate: plans that always
 /// take more or less than they say are corrected.

@@ -22,9 +22,6 @@ constexpr double kAssumedBetween = 0.5;
 /// Error of a pattern's own picture when the quantiser is one higher: 1.04 to 1.06 in akiyo and claire.
 constexpr double kErrorPerStep = 1.045;
 
-/// Steps by which the quantiser may fall at once. More makes patterns that take a second of the rate.
-constexpr int kFinerAtOnce = 8;
-
 /// Longest interval, and the time in which what a pattern refines pays, since it lasts, s.
 constexpr double kLongest = 3, kRefinementLasts = 5;
 
@@ -48,7 +45,6 @@ double PatternReplacement::Offers::bits_now(int quantiser, std::size_t age) cons
 struct PatternReplacement::Outlook {
   struct Entry {
     int quantiser;
-    std::size_t interval;
     double own, error, bits;  ///< means of a picture
   };
   std::vector<Entry> entries;
@@ -57,7 +53,7 @@ struct PatternReplacement::Outlook {
     const auto cost = [&](const Entry& e) { return e.error + price * e.bits; };
     const auto best = std::ranges::min_element(entries, {}, cost);
     if (best == entries.end()) return std::nullopt;
-    return Choice{best->quantiser, cost(*best), best->own, best->bits, best->interval};
+    return Choice{best->quantiser, cost(*best), best->own, best->bits};
   }
 };
 
@@ -109,7 +105,7 @@ PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, co
   const auto longest = std::max(timing.together, static_cast<std::size_t>(kLongest * timing.per_second));
   const std::vector<double> sums = expected_growth(longest);
   Outlook out;
-  for (int q = std::max(0, quantiser_ - kFinerAtOnce); q <= 63; ++q) {
+  for (int q = 0; q <= 63; ++q) {
     const double refinement = offers.whole ? 0 : offers.sizes.refinement(q);
     if (offers.bits_now(q, age()) > offers.most_bits) continue;
     const double own = base_ * std::pow(kErrorPerStep, q - quantiser_);
@@ -119,7 +115,7 @@ PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, co
       const std::size_t known = std::min(timing.known, t);
       const double growth = sums[t - known] + between_ * 2 * sums[known / 2];
       const auto pictures = static_cast<double>(t);
-      out.entries.push_back({q, t, own, own + growth / pictures,
+      out.entries.push_back({q, own, own + growth / pictures,
                              change / pictures + refinement / (kRefinementLasts * timing.per_second)});
     }
   }

@@ -19,11 +19,10 @@ class PatternReplacement {
  public:
   /// The patterns to go on with.
   struct Choice {
-    int quantiser;         ///< of the next
-    double cost;           ///< mean of a picture: its error, and its bits at their price
-    double own;            ///< of that, the error of the next pattern's own picture
-    double bits;           ///< mean of a picture
-    std::size_t interval;  ///< pictures from one to the next
+    int quantiser;  ///< of the next
+    double cost;    ///< mean of a picture: its error, and its bits at their price
+    double own;     ///< of that, the error of the next pattern's own picture
+    double bits;    ///< mean of a picture
   };
   /// What is known of sizes, and what limits them.
   struct Offers {

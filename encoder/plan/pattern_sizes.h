@@ -1,7 +1,9 @@
 // What the next pattern of a live scene is expected to take.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <map>
 
 namespace fbs {
 
@@ -9,6 +11,9 @@ namespace fbs {
 /// since, and where its quantiser is finer than all of them, what they lack of the whole picture.
 class PatternSizes {
  public:
+  PatternSizes();
+  /// What trials of a whole picture took, at one quantiser at least; set_whole() scales it.
+  void set_tried(const std::map<int, std::size_t>& bytes);
   /// A scene's first pattern, or one after a cut: nothing predicts it.
   void set_whole(double bits, int quantiser);
   /// A pattern that earlier ones predict.
@@ -23,13 +28,9 @@ class PatternSizes {
   [[nodiscard]] double refinement(int quantiser) const;
 
  private:
-  struct Size {
-    double bits = 0;
-    int quantiser = 0;
-    [[nodiscard]] double at(int other_quantiser) const;
-  };
-  Size whole_;
-  Size change_;      ///< after one picture; no bits: unknown
+  std::array<double, 64> log_whole_;  ///< natural logarithm of the bits of a whole picture
+  double change_ = 0;                 ///< bits after one picture, at change_quantiser_; 0: unknown
+  int change_quantiser_ = 0;
   int finest_ = 63;  ///< quantiser of the scene so far
 };
 

@@ -25,7 +25,7 @@ constexpr double kFiner = 2;
 
 /// Patterns are to take at most these shares of the room, since they may be larger as they are sent: one that
 /// is coded on trial, and one of which only the last ones tell.
-constexpr double kTriedShare = 0.8, kExpectedShare = 0.5;
+constexpr double kTriedShare = 0.8, kExpectedShare = 0.65;
 
 /// From this delay on, s, a segment is as long as the delay and can have several patterns.
 constexpr double kWindowDelay = 0.7;
@@ -43,7 +43,14 @@ constexpr std::size_t kDraftShared = 3;
 
 /// Largest share of the buffer that a pattern may be planned to take, and s in which the price follows a
 /// rate: at a steady price bits go where they gain most, and .3 dB are gained at 12 kbit/s.
-constexpr double kMostOfBuffer = 0.65, kPriceFollows = 4;
+constexpr double kMostOfBuffer = 0.5, kPriceFollows = 4;
+/// Share of the buffer below which so little waits that the next group finds it empty.
+constexpr double kIdle = 0.1;
+
+/// Room for a scene's head is kept, since a new one can come at any time, but not more than this share, and
+/// fully from so many seconds of a scene on: at first a finer picture matters more.
+constexpr double kMostKept = 0.4, kKeptFrom = 1;
+
 /// Least share of the rate that patterns are planned for. With .2 akiyo loses 1.2 dB in the face at 3 kbit/s:
 /// the price that a full buffer makes at first stays for seconds.
 constexpr double kLeastShare = 0.35;
@@ -120,14 +127,18 @@ double LivePatterns::room() const {
   return rate_ ? rate_->room() : std::numeric_limits<double>::infinity();
 }
 
-double LivePatterns::start_room() const {
-  if (stage_.begun() || !rate_ || settings_.start == 0) return std::numeric_limits<double>::infinity();
-  return rate_->room(settings_.start) - static_cast<double>(store_.segment().groups.front().payload.size()) -
-         kPatternHeadBytes;
+double LivePatterns::first_room() const {
+  if (!rate_) return std::numeric_limits<double>::infinity();
+  const bool in_time = !stage_.begun() && settings_.start > 0;
+  return (in_time ? rate_->room(settings_.start) : rate_->room()) - kPatternHeadBytes -
+         static_cast<double>(store_.segment().groups.front().payload.size());
 }
 
 double LivePatterns::pattern_room() const {
-  return room() - kPatternHeadBytes - store_.motion_bytes();
+  double kept = 0;
+  if (rate_ && coarse_ == 0)
+    kept = std::min(1.0, age_ / kKeptFrom) * std::min(head_, kMostKept * rate_->capacity());
+  return room() - kept - kPatternHeadBytes - store_.motion_bytes();
 }
 
 Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, double room) {
@@ -143,20 +154,20 @@ Result<int> LivePatterns::key_quantiser(const Scene& scene, std::size_t time, do
   FirstPattern trial(sequence_.coded_format(), coded, kTrialSpeed);
   auto quantiser = trial.finest_within(static_cast<std::size_t>(std::max(0.0, kTriedShare * room)), wanted_);
   if (!quantiser) return quantiser;
-  const auto bytes = trial.bytes(*quantiser);
-  if (!bytes) return fail(bytes.error());
-  sizes_.set_whole(8.0 * static_cast<double>(*bytes), *quantiser);
+  if (auto bytes = trial.bytes(*quantiser); !bytes) return fail(bytes.error());
+  sizes_.set_tried(trial.tried());
   return quantiser;
 }
 
 Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
-  auto quantiser = key_quantiser(scene, 0, pattern_room());
+  const double fits = first_room();
+  auto quantiser = key_quantiser(scene, 0, std::min(fits, pattern_room()));
   if (!quantiser) return fail(quantiser.error());
   Plan plan{{0}, *quantiser, std::min(settings_.quantiser, kMaxQuantiser), true};
   double key = sizes_.whole(*quantiser) / 8;
-  double left = room() - key;
-  if (const double in_time = start_room(); key > in_time) {
-    const double coarse = std::clamp(in_time, 0.0, kCoarseShare * key);
+  double left = pattern_room() - key;
+  if (key > fits && !settings_.reduced) {  // even at its coarsest
+    const double coarse = std::max(fits, 0.0);
     plan.start = static_cast<std::size_t>(coarse);
     left = pattern_room() - coarse;
     if (store_.segment().states.size() == 1 || left < kFiner * coarse) return plan;
@@ -199,7 +210,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size
   if (auto measured = stage_.measure(none.usable(scene), shared); !measured) return fail(measured.error());
   Plan plan;
   plan.key = coarse_ > 0;
-  add_paying(least_errors(stage_.errors()), 0, room(), plan);
+  add_paying(least_errors(stage_.errors()), 0, pattern_room(), plan);
   plan.first = plan.others;
   return plan;
 }
@@ -254,10 +265,14 @@ double LivePatterns::price(const PatternReplacement::Offers& offers,
 }
 
 std::optional<int> LivePatterns::paying_at_rate(double room, bool whole, double error) {
-  const double fps = fps_of(store_.format()), fits = 8 * kExpectedShare * room;
+  const double fps = static_cast<double>(stage_.pictures()) / store_.seconds();
   const auto pictures = static_cast<std::size_t>(std::max(1L, std::lround(settings_.delay * fps)));
   const PatternReplacement::Timing timing{has_windows(settings_.delay) ? 1 : pictures, pictures, fps};
-  const PatternReplacement::Offers any{sizes_, 8 * kMostOfBuffer * rate_->capacity(), whole};
+  const double waiting = rate_->capacity() - rate_->room();
+  // While nothing waits, the channel is idle.
+  const double fits = 8 * (waiting < kIdle * rate_->capacity() ? 1 : kExpectedShare) * room;
+  const PatternReplacement::Offers any{
+      sizes_, 8 * std::min(kMostOfBuffer * rate_->capacity(), room + waiting), whole};
   const double bit = price(any, timing);
   const auto best = replacement_.at_price(bit, any, timing);
   if (!best || !PatternReplacement::pays(*best, error)) return std::nullopt;
@@ -334,6 +349,7 @@ void LivePatterns::learn_errors(const Plan& plan) {
 void LivePatterns::note_sent(std::size_t bytes) {
   const double seconds = store_.seconds();
   sequence_.pass(seconds);
+  age_ += seconds;
   if (!rate_) return;
   rate_->add(static_cast<double>(bytes), seconds);
   motion_ += kFollowMotion * (8 * (store_.motion_bytes() + kGroupHeadBytes) / seconds - motion_);
@@ -347,6 +363,10 @@ Result<SegmentDraft> LivePatterns::make_segment(const Scene& scene, std::size_t 
                                                 const StateRefit& refit) {
   if (rate_) rate_->add(static_cast<double>(other_bytes), 0);
   const bool is_first = store_.is_first();
+  if (is_first) {
+    head_ = static_cast<double>(other_bytes);
+    age_ = 0;
+  }
   PatternStage::Making making;
   making.refits = refit && settings_.refits && !(is_first && store_.segment().states.size() == 1) ? 1 : 0;
   if (has_windows(settings_.delay) || 1LL * store_.format().width * store_.format().height > 352 * 288)

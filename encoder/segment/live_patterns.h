@@ -55,8 +55,9 @@ class LivePatterns : public PatternPolicy {
   /// The quantiser to code a picture of the segment with that nothing predicts.
   /// @param room  bytes that it may take
   [[nodiscard]] Result<int> key_quantiser(const Scene& scene, std::size_t time, double room);
-  /// Bytes of the frame of the stream's first pattern with which it is there in time.
-  [[nodiscard]] double start_room() const;
+  /// Bytes that the frame of a scene's first pattern may have: beyond them it is coarse. The stream's first
+  /// picture is to be there in time.
+  [[nodiscard]] double first_room() const;
   /// Plans a scene's first segment.
   [[nodiscard]] Result<Plan> plan_first(const Scene& scene);
   /// Plans another one, by the errors of its pictures without patterns of their own.
@@ -99,6 +100,8 @@ class LivePatterns : public PatternPolicy {
   PatternRegret regret_;              ///< decides by quality
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
   std::size_t next_slot_ = 0;
+  double head_ = 0;    ///< bytes of its head besides the pattern
+  double age_ = 0;     ///< s
   double coarse_ = 0;  ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine
 };
 

@@ -93,7 +93,7 @@ class Rate(ProgramTest):
                 self.assertAlmostEqual(self.rate(reported), kbps, delta=within * kbps)
                 self.assertEqual(said, "")
                 live = self.rate(self.encode(source, "--bitrate", kbps, "--live", "--buffer", buffer)[0])
-                self.assertLess(self.most_waiting(kbps), (1 + within_live) * 125 * kbps * buffer)
+                self.assertLess(self.most_waiting(kbps), (1 + within) * 125 * kbps * buffer)
                 if stamp.startswith("TS+"):
                     continue
                 right = self.folder / "right.y4m"

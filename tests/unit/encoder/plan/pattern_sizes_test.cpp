@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace fbs {
 namespace {
 
@@ -11,6 +13,17 @@ TEST(PatternSizes, FinerQuantisersTakeMore) {
   EXPECT_EQ(sizes.whole(40), 8000);
   EXPECT_GT(sizes.whole(30), 1.5 * sizes.whole(40));
   EXPECT_GT(sizes.change(30, 6), sizes.change(40, 6));
+}
+
+TEST(PatternSizes, TrialsTellHowAWholePictureGrows) {
+  PatternSizes sizes;
+  sizes.set_tried({{63, 250}, {57, 600}, {45, 1400}});
+  EXPECT_DOUBLE_EQ(sizes.whole(57), 8 * 600.0);
+  EXPECT_NEAR(sizes.whole(60), 8 * std::sqrt(250 * 600.0), 1e-6);
+  EXPECT_GT(sizes.whole(44), sizes.whole(45));
+  sizes.set_whole(8 * 300.0, 63);
+  EXPECT_NEAR(sizes.refinement(57), 8 * (600 * 300.0 / 250 - 300), 1e-6)
+      << "all are as much larger as the one sent";
 }
 
 TEST(PatternSizes, MoreChangesInALongerTime) {
