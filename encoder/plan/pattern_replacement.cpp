@@ -45,6 +45,7 @@ double PatternReplacement::Offers::bits_now(int quantiser, std::size_t age) cons
 struct PatternReplacement::Outlook {
   struct Entry {
     int quantiser;
+    std::size_t interval;
     double own, error, bits;  ///< means of a picture
   };
   std::vector<Entry> entries;
@@ -53,7 +54,7 @@ struct PatternReplacement::Outlook {
     const auto cost = [&](const Entry& e) { return e.error + price * e.bits; };
     const auto best = std::ranges::min_element(entries, {}, cost);
     if (best == entries.end()) return std::nullopt;
-    return Choice{best->quantiser, cost(*best), best->own, best->bits};
+    return Choice{best->quantiser, cost(*best), best->own, best->bits, best->interval};
   }
 };
 
@@ -115,7 +116,7 @@ PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, co
       const std::size_t known = std::min(timing.known, t);
       const double growth = sums[t - known] + between_ * 2 * sums[known / 2];
       const auto pictures = static_cast<double>(t);
-      out.entries.push_back({q, own, own + growth / pictures,
+      out.entries.push_back({q, t, own, own + growth / pictures,
                              change / pictures + refinement / (kRefinementLasts * timing.per_second)});
     }
   }
@@ -138,8 +139,9 @@ double PatternReplacement::price_of(double bits, const Offers& offers, const Tim
   return std::exp(dear);
 }
 
-bool PatternReplacement::pays(const Choice& choice, double error) {
-  return error > choice.own + kPays * (choice.cost - choice.own);
+bool PatternReplacement::pays(const Choice& choice, double error) const {
+  const double share = age() < choice.interval ? kPays : 0;
+  return error > choice.own + share * (choice.cost - choice.own);
 }
 
 }  // namespace fbs

@@ -19,10 +19,11 @@ class PatternReplacement {
  public:
   /// The patterns to go on with.
   struct Choice {
-    int quantiser;  ///< of the next
-    double cost;    ///< mean of a picture: its error, and its bits at their price
-    double own;     ///< of that, the error of the next pattern's own picture
-    double bits;    ///< mean of a picture
+    int quantiser;         ///< of the next
+    double cost;           ///< mean of a picture: its error, and its bits at their price
+    double own;            ///< of that, the error of the next pattern's own picture
+    double bits;           ///< mean of a picture
+    std::size_t interval;  ///< pictures from one to the next
   };
   /// What is known of sizes, and what limits them.
   struct Offers {
@@ -63,9 +64,9 @@ class PatternReplacement {
                                                const Timing& timing) const;
   /// The price at which the cheapest choice takes a mean of so many bits a picture, > 0, or a little less.
   [[nodiscard]] double price_of(double bits, const Offers& offers, const Timing& timing) const;
-  /// Whether to replace the pattern now.
+  /// Whether to replace the pattern now: it has lived as long as the choice plans, or fares worse than that.
   /// @param error  of the pictures next to the new pattern, drawn without it
-  [[nodiscard]] static bool pays(const Choice& choice, double error);
+  [[nodiscard]] bool pays(const Choice& choice, double error) const;
 
  private:
   /// Sums of the expected growth of errors over the first pictures of a pattern's life.

@@ -275,7 +275,7 @@ std::optional<int> LivePatterns::paying_at_rate(double room, bool whole, double 
       sizes_, 8 * std::min(kMostOfBuffer * rate_->capacity(), room + waiting), whole};
   const double bit = price(any, timing);
   const auto best = replacement_.at_price(bit, any, timing);
-  if (!best || !PatternReplacement::pays(*best, error)) return std::nullopt;
+  if (!best || !replacement_.pays(*best, error)) return std::nullopt;
   if (any.bits_now(best->quantiser, replacement_.age()) <= fits) return best->quantiser;
   // Room is saved up for it, unless a smaller one pays although it will soon be replaced.
   const auto smaller = replacement_.at_price(bit, {sizes_, fits, whole}, timing);

@@ -36,7 +36,7 @@ int pictures_until_bought(PatternReplacement replacement, const PatternSizes& si
     replacement.add(base + growth * t);
     if (t % 6 != 0) continue;
     const auto choice = replacement.at_price(price, {sizes, 1e9}, kGroups);
-    if (choice && PatternReplacement::pays(*choice, base + growth * (t - 2.5))) return t;
+    if (choice && replacement.pays(*choice, base + growth * (t - 2.5))) return t;
   }
   return 1000;
 }
@@ -61,7 +61,7 @@ TEST(PatternReplacement, AStillHeadIsRefinedUntilThatIsWorthLessThanItsBits) {
     for (int i = 0; i < 6; ++i) head.add(base);
     const auto choice = head.at_price(100, {sizes, 1e9}, kGroups);
     ASSERT_TRUE(choice);
-    if (!PatternReplacement::pays(*choice, base)) continue;
+    if (!head.pays(*choice, base)) continue;
     ASSERT_LT(choice->quantiser, quantiser) << "refinement is monotone";
     sizes.learn(sizes.refinement(choice->quantiser) + 100, choice->quantiser, head.age());
     base *= 0.9;
@@ -127,7 +127,7 @@ TEST(PatternReplacement, ACutIsBoughtAtOnce) {
   for (int i = 0; i < 6; ++i) talker.add(1e7);
   const auto choice = talker.at_price(100, {sizes, 1e9, true}, kGroups);
   ASSERT_TRUE(choice);
-  EXPECT_TRUE(PatternReplacement::pays(*choice, 1e7));
+  EXPECT_TRUE(talker.pays(*choice, 1e7));
 }
 
 }  // namespace
