@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 #include "cli/evaluate/measurement.h"
@@ -49,7 +50,8 @@ class ClipEvaluation {
   Result<void> copy_source(const std::string& name);
   Result<void> copy_stream(RdPoint& point);
   Result<void> make_streams();
-  Result<void> encode(int quality);
+  /// @param name  of the file, without its suffix
+  Result<void> encode(const std::string& name, const std::string& label, EncoderSettings settings);
   Result<void> read_tracks();
   Result<void> take_regions(std::vector<StreamTrack>& tracks);
   Result<void> measure_streams();
@@ -134,10 +136,23 @@ Result<void> ClipEvaluation::make_streams() {
       if (auto copied = copy_stream(point); !copied) return copied;
   }
   if (!arguments_.streams.empty()) return {};
+  EncoderSettings settings;
+  for (const double kbps : arguments_.bitrates) {
+    settings.bitrate = kbps;
+    std::ostringstream number;
+    number << kbps;
+    const std::string name = (arguments_.live ? "live-bitrate-" : "bitrate-") + number.str();
+    if (auto encoded = encode(name, number.str() + " kbit/s", settings); !encoded) return encoded;
+  }
+  if (!arguments_.bitrates.empty()) return {};
   std::vector<int> qualities = arguments_.qualities;
   if (qualities.empty()) qualities.assign(std::begin(kDefaultQualities), std::end(kDefaultQualities));
-  for (const int quality : qualities)
-    if (auto encoded = encode(quality); !encoded) return encoded;
+  for (const int quality : qualities) {
+    settings.quality = quality;
+    const std::string number = std::to_string(quality);
+    const std::string name = (arguments_.live ? "live-" : "quality-") + number;
+    if (auto encoded = encode(name, "quality " + number, settings); !encoded) return encoded;
+  }
   return {};
 }
 
@@ -150,10 +165,10 @@ EncodingReport read_report(const json& j) {
   return {number("pictures"), number("without_face"), number("cuts"), number("scenes")};
 }
 
-Result<void> ClipEvaluation::encode(int quality) {
-  const std::string name = (arguments_.live ? "live-" : "quality-") + std::to_string(quality);
+Result<void> ClipEvaluation::encode(const std::string& name, const std::string& label,
+                                    EncoderSettings settings) {
   RdPoint& point = clip_.points.emplace_back();
-  point.label = "quality " + std::to_string(quality);
+  point.label = label;
   point.codec = "fbs";
   point.file = run_.path(name + ".fbs");
   json key = key_;
@@ -163,8 +178,6 @@ Result<void> ClipEvaluation::encode(int quality) {
     point.report = read_report((*made)["report"]);
     return {};
   }
-  EncoderSettings settings;
-  settings.quality = quality;
   settings.allow_no_face = arguments_.allow_no_face;
   if (arguments_.jobs.value_or(1) > 1) settings.threads = 1;  // the clips share the cores
   if (arguments_.live) settings.live.emplace();
@@ -326,10 +339,12 @@ Result<Tools> find_tools(const EvaluateArguments& arguments) {
   Tools tools;
   tools.vmaf = has_vmaf();
   if (!arguments.peers) return tools;
-  tools.peers = installed_peers();
+  tools.peers = installed_peers(arguments.live);
   if (tools.peers.empty())
     return fail(ErrorCode::kUnsupported,
-                "--peers needs ffmpeg with libx264, libx265, libsvtav1 or libaom-av1, and finds none");
+                arguments.live
+                    ? "--live --peers needs ffmpeg with libaom-av1, and finds none"
+                    : "--peers needs ffmpeg with libx264, libx265, libsvtav1 or libaom-av1, and finds none");
   if (arguments.peer_codecs.empty()) return tools;
   std::vector<PeerCodec> wanted;
   for (const std::string& name : arguments.peer_codecs) {

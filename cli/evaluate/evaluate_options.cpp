@@ -14,6 +14,7 @@ constexpr const char* kEvaluateExamples =
     "  fbs evaluate talk.mkv a.fbs b.fbs               compare two streams, with the face of the first\n"
     "  fbs evaluate talk.mkv --quality 30 50 70        choose the qualities\n"
     "  fbs evaluate talk.mkv --peers --html talk.html  draw curves beside x264, x265 and AV1\n"
+    "  fbs evaluate talk.mkv --live --bitrate 6 12     what a call shows over such links\n"
     "  fbs evaluate clips/ --peers --html all.html     a folder of videos, in one report\n"
     "  fbs evaluate talk.mkv --json talk.json --csv -  JSON in a file, values of each picture printed\n"
     "\n"
@@ -50,7 +51,11 @@ void add_evaluate(CLI::App& app, Run& run) {
   verb->add_option("--quality", a.qualities, "One or more qualities to encode with (default: 20 35 50 65 80)")
       ->check(CLI::Range(0, 100))
       ->expected(1, 16);
-  verb->add_flag("--live", a.live, "Encode as live pictures are");
+  verb->add_option("--bitrate", a.bitrates, "Total bitrates in kbit/s to encode with, instead of qualities")
+      ->check(number_within(0.1, 10000))
+      ->expected(1, 16)
+      ->excludes("--quality");
+  verb->add_flag("--live", a.live, "Encode as live pictures are; --peers is AV1 in real time, then");
   verb->add_flag("--allow-no-face", a.allow_no_face, "Measure a video without a face instead of failing");
   add_rotate(*verb, a.rotate);
   verb->add_option("--frames", a.frames, "Encode and measure the first N pictures only")

@@ -38,10 +38,11 @@ Result<void> check_folder(const EvaluateArguments& a) {
 Result<void> check_streams(const EvaluateArguments& a) {
   if (std::count(a.streams.begin(), a.streams.end(), "-") + (a.source == "-" ? 1 : 0) > 1)
     return refuse("- : standard input can be read once only");
-  const char* option = !a.qualities.empty() ? "--quality"
-                       : a.live             ? "--live"
-                       : a.allow_no_face    ? "--allow-no-face"
-                                            : nullptr;
+  const char* option = !a.qualities.empty()  ? "--quality"
+                       : !a.bitrates.empty() ? "--bitrate"
+                       : a.live              ? "--live"
+                       : a.allow_no_face     ? "--allow-no-face"
+                                             : nullptr;
   if (option == nullptr) return {};
   return refuse(std::string(option) + " is for encoding: it does nothing for " + a.streams.front() +
                 ", which is a stream already");

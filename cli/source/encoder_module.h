@@ -71,7 +71,8 @@ struct EvaluateArguments {
   std::string source;                ///< a video, or a folder of them
   std::vector<std::string> streams;  ///< empty: encode the source
   std::vector<int> qualities;        ///< used without streams; empty: kDefaultQualities
-  bool live = false;                 ///< encode as live pictures are
+  std::vector<double> bitrates;      ///< kbit/s, in place of qualities
+  bool live = false;                 ///< encode as live pictures are; the peer is AV1 in real time
   bool allow_no_face = false;
   int rotate = 0;                        ///< of the source, degrees clockwise: 0, 90, 180, 270
   std::optional<std::int64_t> frames;    ///< encode and measure at most this many pictures of the source

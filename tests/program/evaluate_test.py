@@ -186,6 +186,15 @@ class Peers(EvaluateTest):
         self.assertEqual(set(report["bd_rate"]), {"face", "frame"})
         self.assertEqual((self.folder / "out.html").read_text().count("data:image/jpeg"), 6)
 
+    def test_a_call_is_compared_with_av1_in_real_time(self):
+        report = json.loads(self.succeed("evaluate", "talk.y4m", "--live", "--bitrate", "3", "10", "--peers", "--peer-size", "1",
+                                         "--json", "--html", "out.html", "--quiet"))
+        self.assertEqual([point["point"] for point in report["points"]], ["3 kbit/s", "10 kbit/s"])
+        slow, fast = (point["kbps"] for point in report["points"])
+        self.assertLess(slow, 0.7 * fast)
+        self.assertEqual({point["codec"] for point in report["peers"]}, {"AV1"})
+        self.assertIn("10 kbit/s", (self.folder / "out.html").read_text())
+
     def test_only_the_peers_that_are_asked_for(self):
         self.succeed("encode", "talk.y4m", "best.fbs", "--quality", "50", "--quiet")
         report = json.loads(self.succeed("evaluate", "talk.y4m", "best.fbs", "--peers", "--peer-codec", "x264", "--peer-size", "2",
@@ -245,6 +254,7 @@ class Refused(EvaluateTest):
                            ("talk.y4m --jobs 2", "--jobs is for a folder"),
                            ("talk.y4m talk.fbs --quality 50", "--quality is for encoding"),
                            ("talk.y4m talk.fbs --live", "--live is for encoding"),
+                           ("talk.y4m talk.fbs --bitrate 6", "--bitrate is for encoding"),
                            ("talk.y4m talk.fbs --allow-no-face", "--allow-no-face is for encoding"),
                            ("talk.y4m --csv talk.y4m", "--csv talk.y4m is the same file as SOURCE"),
                            ("talk.y4m talk.fbs --html talk.fbs", "--html talk.fbs is the same file as STREAM"),

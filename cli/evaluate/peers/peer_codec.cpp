@@ -37,14 +37,22 @@ const PeerCodec kAom{"AV1",
                      "ivf",
                      {"-cpu-used", "3", "-b:v", "0", "-g", "9999", "-f", "ivf"},
                      {63, 57, 51, 45, 39, 33, 27}};
+const PeerCodec kRealTimeAom{"AV1",
+                             "av1",
+                             "libaom-av1",
+                             "ivf",
+                             {"-usage", "realtime", "-cpu-used", "5", "-lag-in-frames", "0", "-threads", "1",
+                              "-b:v", "0", "-g", "9999", "-f", "ivf"},
+                             {63, 57, 51, 45, 39, 33, 27}};
 
 }  // namespace
 
-std::vector<PeerCodec> installed_peers() {
+std::vector<PeerCodec> installed_peers(bool live) {
   const std::string list = output_of({"ffmpeg", "-v", "quiet", "-encoders"});
   const auto has = [&](const PeerCodec& codec) {
     return list.find(" " + codec.encoder + " ") != std::string::npos;
   };
+  if (live) return has(kRealTimeAom) ? std::vector{kRealTimeAom} : std::vector<PeerCodec>{};
   std::vector<PeerCodec> out;
   for (const PeerCodec& codec : {kX264, kX265})
     if (has(codec)) out.push_back(codec);

@@ -21,8 +21,9 @@ struct PeerVariant {
   int step = 1;     ///< codes one of this many pictures of the source
 };
 
-/// x264, x265 and SVT-AV1 (or libaom), as far as ffmpeg has them; none without ffmpeg.
-[[nodiscard]] std::vector<PeerCodec> installed_peers();
+/// As far as ffmpeg has them; none without ffmpeg.
+/// @param live  libaom in real time, else x264, x265 and SVT-AV1 (or libaom)
+[[nodiscard]] std::vector<PeerCodec> installed_peers(bool live);
 
 /// Full and half size, and a quarter of it for pictures of more than 400x400 samples, which at low rates are
 /// often best there; each at full, half and a third of the rate. Reduced sizes only where both sides are 64

@@ -20,8 +20,9 @@ std::string style_of(const std::string& codec) {
   return out;
 }
 
-/// "quality 50" as "50".
+/// "quality 50" as "50", "6 kbit/s" as it is.
 std::string short_label(const std::string& label) {
+  if (label.ends_with(" kbit/s")) return label;
   return label.starts_with("quality ") ? label.substr(8) : "";
 }
 
