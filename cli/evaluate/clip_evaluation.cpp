@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 #include "cli/evaluate/measurement.h"
 #include "cli/evaluate/peers/peer_encoding.h"
 #include "cli/evaluate/quality/face_regions.h"
 #include "cli/evaluate/quality/vmaf.h"
+#include "cli/evaluate/report/chart_ticks.h"
 #include "cli/evaluate/run/file_stamp.h"
 #include "cli/files/atomic_file.h"
 #include "cli/source/encode_session.h"
@@ -139,10 +139,9 @@ Result<void> ClipEvaluation::make_streams() {
   EncoderSettings settings;
   for (const double kbps : arguments_.bitrates) {
     settings.bitrate = kbps;
-    std::ostringstream number;
-    number << kbps;
-    const std::string name = (arguments_.live ? "live-bitrate-" : "bitrate-") + number.str();
-    if (auto encoded = encode(name, number.str() + " kbit/s", settings); !encoded) return encoded;
+    const std::string number = tick_text(kbps);
+    const std::string name = (arguments_.live ? "live-bitrate-" : "bitrate-") + number;
+    if (auto encoded = encode(name, number + " kbit/s", settings); !encoded) return encoded;
   }
   if (!arguments_.bitrates.empty()) return {};
   std::vector<int> qualities = arguments_.qualities;

@@ -13,6 +13,10 @@
 namespace fbs {
 namespace {
 
+/// A coarse first pattern has at most this share of the bytes of what was wanted: more of them delay what
+/// takes its place.
+constexpr double kCoarseShare = 1.0 / 3;
+
 /// Limit for the patterns of a segment, bytes, of which several copies exist in the making.
 constexpr double kSegmentBytes = 64e6;
 

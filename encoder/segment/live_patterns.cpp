@@ -47,8 +47,8 @@ constexpr double kMostOfBuffer = 0.5, kPriceFollows = 4;
 /// Share of the buffer below which so little waits that the next group finds it empty.
 constexpr double kIdle = 0.1;
 
-/// Room for a scene's head is kept, since a new one can come at any time, but not more than this share, and
-/// fully from so many seconds of a scene on: at first a finer picture matters more.
+/// Room for a scene's head is kept, since a new one can come at any time, but not more than this share. It
+/// grows over this time, s: at the start of a scene a finer picture matters more.
 constexpr double kMostKept = 0.4, kKeptFrom = 1;
 
 /// Least share of the rate that patterns are planned for. With .2 akiyo loses 1.2 dB in the face at 3 kbit/s:

@@ -49,14 +49,14 @@ class LivePatterns : public PatternPolicy {
     std::vector<std::size_t> times;  ///< their pictures, rising
     int first = 0, others = 0;       ///< quantisers
     bool key = false;                ///< the first of them is not predicted
-    /// So many bytes at most has the scene's first pattern, which is coarse.
+    /// Most bytes of the scene's first pattern, if it is coarse.
     std::optional<std::size_t> start{};
   };
   /// The quantiser to code a picture of the segment with that nothing predicts.
   /// @param room  bytes that it may take
   [[nodiscard]] Result<int> key_quantiser(const Scene& scene, std::size_t time, double room);
-  /// Bytes that the frame of a scene's first pattern may have: beyond them it is coarse. The stream's first
-  /// picture is to be there in time.
+  /// Most bytes of the frame of a scene's first pattern, which is coarse if need be. The stream's first has
+  /// to arrive in time.
   [[nodiscard]] double first_room() const;
   /// Plans a scene's first segment.
   [[nodiscard]] Result<Plan> plan_first(const Scene& scene);

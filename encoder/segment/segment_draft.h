@@ -17,10 +17,6 @@ namespace fbs {
 /// state, modes.
 inline constexpr double kPatternHeadBytes = 20;
 
-/// A coarse first pattern has at most this share of the bytes of what was wanted: more of them delay what
-/// takes its place.
-inline constexpr double kCoarseShare = 1.0 / 3;
-
 struct SegmentDraft {
   std::vector<std::size_t> times;  ///< pictures of the segment that are patterns, rising
   std::vector<Picture> pictures;   ///< to be coded, in the order of times

@@ -86,7 +86,7 @@ def test_a_cameras_times_come_back(pictures):
     for packet in packets[:-1]:
         assert packet.pushed_time == pytest.approx(times[packet.number], abs=1e-4)
     shown = fbs.Decoder(b"".join(packets)).states.time
-    firsts = {packet.number for packet in packets}  # of groups, whose times depend on what is expected
+    firsts = {packet.number for packet in packets}  # a group begins when the encoder expects it to
     others = [n for n in range(len(pictures)) if n not in firsts]
     assert len(others) > len(pictures) / 3
     np.testing.assert_allclose(shown[others], [times[n] - times[0] for n in others], atol=3e-5)
