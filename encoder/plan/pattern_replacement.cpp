@@ -25,6 +25,11 @@ constexpr double kErrorPerStep = 1.045;
 /// Longest interval, and the time in which what a pattern refines pays, since it lasts, s.
 constexpr double kLongest = 3, kRefinementLasts = 5;
 
+/// A head keeps still if for so many seconds errors have grown by less than this share of the error of the
+/// pattern's own picture, on average: by .07 to .11 in generated talkers who only blink, .15 and more in
+/// akiyo. A finer pattern is then expected to last, s.
+constexpr double kStillFor = 1.5, kStillGrowth = 0.12, kStillLasts = 16;
+
 /// A pattern is bought once the error exceeds that of its own picture by this share of what the choice costs
 /// besides: patterns also serve the pictures before them. 1 loses .2 dB at 12 kbit/s, .6 .3 dB at 6 (face,
 /// three clips).
@@ -34,6 +39,21 @@ constexpr double kPays = 0.7;
 constexpr int kHalvings = 16;
 constexpr double kLogCheapest = -2, kLogDearest = 20;
 
+/// Growth of errors between two patterns: each picture's since the one, or towards the other, whichever is
+/// nearer.
+/// @param sums  of the growth over the first pictures of a life
+double growth_between(const std::vector<double>& sums, std::size_t interval) {
+  return sums[(interval - 1) / 2] + sums[interval / 2];
+}
+
+/// Half of so many pictures, and multiples of them. (Thirds gain the frame .1 dB and take a tenth more time.)
+std::vector<std::size_t> intervals(std::size_t together, std::size_t longest) {
+  std::vector<std::size_t> out;
+  if (together > 1) out.push_back((together + 1) / 2);
+  for (std::size_t t = together; t <= longest; t += together) out.push_back(t);
+  return out;
+}
+
 }  // namespace
 
 double PatternReplacement::Offers::bits_now(int quantiser, std::size_t age) const {
@@ -41,20 +61,21 @@ double PatternReplacement::Offers::bits_now(int quantiser, std::size_t age) cons
                : sizes.change(quantiser, std::max<std::size_t>(age, 1)) + sizes.refinement(quantiser);
 }
 
-/// Costs of a picture by quantiser and interval.
+/// Choices by quantiser and interval.
 struct PatternReplacement::Outlook {
   struct Entry {
-    int quantiser;
-    std::size_t interval;
-    double own, error, bits;  ///< means of a picture
+    double error;   ///< mean of a picture
+    Choice choice;  ///< its cost is not set
   };
   std::vector<Entry> entries;
 
   [[nodiscard]] std::optional<Choice> cheapest(double price) const {
-    const auto cost = [&](const Entry& e) { return e.error + price * e.bits; };
+    const auto cost = [&](const Entry& e) { return e.error + price * e.choice.bits; };
     const auto best = std::ranges::min_element(entries, {}, cost);
     if (best == entries.end()) return std::nullopt;
-    return Choice{best->quantiser, cost(*best), best->own, best->bits, best->interval};
+    Choice out = best->choice;
+    out.cost = cost(*best);
+    return out;
   }
 };
 
@@ -83,7 +104,7 @@ void PatternReplacement::add(double error) {
 }
 
 void PatternReplacement::learn_between(double error, std::size_t pictures) {
-  const double after = 2 * expected_growth(pictures)[pictures / 2];
+  const double after = growth_between(expected_growth(pictures), pictures);
   if (after <= 0) return;
   const double share = (error - base_) * static_cast<double>(pictures) / after;
   between_ += kLearnBetween * (std::clamp(share, 0.0, 2.0) - between_);
@@ -105,19 +126,24 @@ std::vector<double> PatternReplacement::expected_growth(std::size_t pictures) co
 PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, const Timing& timing) const {
   const auto longest = std::max(timing.together, static_cast<std::size_t>(kLongest * timing.per_second));
   const std::vector<double> sums = expected_growth(longest);
+  const std::vector<std::size_t> possible = intervals(timing.together, longest);
   Outlook out;
   for (int q = 0; q <= 63; ++q) {
     const double refinement = offers.whole ? 0 : offers.sizes.refinement(q);
-    if (offers.bits_now(q, age()) > offers.most_bits) continue;
     const double own = base_ * std::pow(kErrorPerStep, q - quantiser_);
-    for (std::size_t t = timing.together; t <= longest; t += timing.together) {
-      const double change = offers.whole ? offers.sizes.whole(q) : offers.sizes.change(q, t);
+    for (const std::size_t t : possible) {
+      const double change = offers.sizes.change(q, t);
+      const std::size_t patterns = t < timing.together ? 2 : 1;
+      const double first = offers.bits_now(q, patterns > 1 ? t : age());
+      const double bits_now = first + static_cast<double>(patterns - 1) * change;
+      if (bits_now > offers.most_bits) continue;
       // The last pictures of a life lie between two patterns.
       const std::size_t known = std::min(timing.known, t);
-      const double growth = sums[t - known] + between_ * 2 * sums[known / 2];
+      const double growth = sums[t - known] + between_ * growth_between(sums, known);
       const auto pictures = static_cast<double>(t);
-      out.entries.push_back({q, t, own, own + growth / pictures,
-                             change / pictures + refinement / (kRefinementLasts * timing.per_second)});
+      const double bits = (offers.whole ? offers.sizes.whole(q) : change) / pictures +
+                          refinement / (kRefinementLasts * timing.per_second);
+      out.entries.push_back({own + growth / pictures, {q, t, patterns, 0, own, bits, bits_now}});
     }
   }
   return out;
@@ -142,6 +168,21 @@ double PatternReplacement::price_of(double bits, const Offers& offers, const Tim
 bool PatternReplacement::pays(const Choice& choice, double error) const {
   const double share = age() < choice.interval ? kPays : 0;
   return error > choice.own + share * (choice.cost - choice.own);
+}
+
+std::optional<int> PatternReplacement::finer(double price, const PatternSizes& sizes,
+                                             double per_second) const {
+  const auto pictures = static_cast<double>(age());
+  const double grown = std::accumulate(life_.begin(), life_.end(), 0.0);
+  if (pictures < kStillFor * per_second || grown > kStillGrowth * pictures * base_) return std::nullopt;
+  const auto gain = [&](int q) {
+    const double error = base_ * (1 - std::pow(kErrorPerStep, q - quantiser_));
+    return error * kStillLasts * per_second - price * (sizes.whole(q) - sizes.whole(quantiser_));
+  };
+  int best = quantiser_;
+  for (int q = 0; q < quantiser_; ++q)
+    if (gain(q) > gain(best)) best = q;
+  return best < quantiser_ ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace fbs

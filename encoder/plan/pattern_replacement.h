@@ -20,22 +20,25 @@ class PatternReplacement {
   /// The patterns to go on with.
   struct Choice {
     int quantiser;         ///< of the next
+    std::size_t interval;  ///< pictures from one to the next
+    std::size_t patterns;  ///< sent at once: two where the interval is half
     double cost;           ///< mean of a picture: its error, and its bits at their price
     double own;            ///< of that, the error of the next pattern's own picture
     double bits;           ///< mean of a picture
-    std::size_t interval;  ///< pictures from one to the next
+    double bits_now;       ///< of what is sent at once
   };
   /// What is known of sizes, and what limits them.
   struct Offers {
     const PatternSizes& sizes;
-    double most_bits;    ///< of one pattern
+    double most_bits;    ///< of what is sent at once
     bool whole = false;  ///< nothing predicts the next one
     /// The next one's, when the last is this old.
     [[nodiscard]] double bits_now(int quantiser, std::size_t age) const;
   };
   /// Pictures as they are coded.
   struct Timing {
-    std::size_t together;  ///< shortest interval; at least 1
+    /// Pictures from one decision to the next: intervals are multiples of it, or half. At least 1.
+    std::size_t together;
     /// Pictures before a new pattern that are drawn from it, too; at least `together`.
     std::size_t known;
     double per_second;
@@ -50,8 +53,8 @@ class PatternReplacement {
   void begin(double error, int quantiser);
   /// Adds the next picture, drawn without the next pattern.
   void add(double error);
-  /// The last `pictures` before a pattern have been drawn from it, too.
-  /// @param error  their mean
+  /// `pictures` between two patterns have been drawn from both.
+  /// @param error  their mean, and the second pattern's own
   void learn_between(double error, std::size_t pictures);
 
   /// Pictures added since the last pattern.
@@ -67,6 +70,9 @@ class PatternReplacement {
   /// Whether to replace the pattern now: it has lived as long as the choice plans, or fares worse than that.
   /// @param error  of the pictures next to the new pattern, drawn without it
   [[nodiscard]] bool pays(const Choice& choice, double error) const;
+  /// Where patterns have one quantiser and a head keeps still: that of a finer one, if it pays.
+  /// @param price  squared luma levels that a bit is worth
+  [[nodiscard]] std::optional<int> finer(double price, const PatternSizes& sizes, double per_second) const;
 
  private:
   /// Sums of the expected growth of errors over the first pictures of a pattern's life.

@@ -83,11 +83,15 @@ double least_error(const ModeErrors& errors) {
   return sum;
 }
 
-/// The least error of each picture.
+/// The least error of each picture; between those that have been measured, errors rise evenly.
 std::vector<double> least_errors(const SegmentErrors& errors) {
   std::vector<double> out;
-  for (const SegmentErrors::Run& run : errors.runs)
-    out.insert(out.end(), run.pictures, least_error(run.errors));
+  for (auto run = errors.runs.begin(); run != errors.runs.end(); ++run) {
+    const double first = least_error(run->errors);
+    const double next = run + 1 != errors.runs.end() ? least_error((run + 1)->errors) : first;
+    for (std::size_t i = 0; i < run->pictures; ++i)
+      out.push_back(std::lerp(first, next, static_cast<double>(i) / static_cast<double>(run->pictures)));
+  }
   return out;
 }
 
@@ -220,7 +224,7 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   std::ptrdiff_t last = -since_pattern_;  // pattern, or cut
   bool cut = false;
   double sum = 0;
-  std::optional<int> bought;
+  std::optional<Bought> bought;
   std::size_t t = begin;
   for (; t < least.size(); ++t) {
     if (store_.segment().is_cut(t)) {
@@ -234,9 +238,15 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   }
   if (!windows && t > begin) bought = paying(room, cut || plan.key, sum / static_cast<double>(t - begin));
   if (!bought) return;
-  plan.others = *bought;
-  if (!windows) {  // nearest to what is not yet known
-    plan.times.push_back(cut ? static_cast<std::size_t>(last) : least.size() - 1);
+  plan.others = bought->quantiser;
+  if (!windows && cut) {
+    plan.times.push_back(static_cast<std::size_t>(last));
+    return;
+  }
+  if (!windows) {  // the last one is nearest to what is not yet known
+    const std::size_t count = std::min(bought->patterns, least.size() - begin);
+    for (std::size_t k = 1; k <= count; ++k)
+      plan.times.push_back(begin + (least.size() - begin) * k / count - 1);
     return;
   }
   // It took so long to pay. The first has as long before it, of what is not yet drawn, as behind it, and the
@@ -264,10 +274,13 @@ double LivePatterns::price(const PatternReplacement::Offers& offers,
   return *price_;
 }
 
-std::optional<int> LivePatterns::paying_at_rate(double room, bool whole, double error) {
-  const double fps = static_cast<double>(stage_.pictures()) / store_.seconds();
-  const auto pictures = static_cast<std::size_t>(std::max(1L, std::lround(settings_.delay * fps)));
-  const PatternReplacement::Timing timing{has_windows(settings_.delay) ? 1 : pictures, pictures, fps};
+double LivePatterns::fps() const {
+  return static_cast<double>(stage_.pictures()) / store_.seconds();
+}
+
+std::optional<LivePatterns::Bought> LivePatterns::paying_at_rate(double room, bool whole, double error) {
+  const auto pictures = static_cast<std::size_t>(std::max(1L, std::lround(settings_.delay * fps())));
+  const PatternReplacement::Timing timing{has_windows(settings_.delay) ? 1 : pictures, pictures, fps()};
   const double waiting = rate_->capacity() - rate_->room();
   // While nothing waits, the channel is idle.
   const double fits = 8 * (waiting < kIdle * rate_->capacity() ? 1 : kExpectedShare) * room;
@@ -276,13 +289,14 @@ std::optional<int> LivePatterns::paying_at_rate(double room, bool whole, double 
   const double bit = price(any, timing);
   const auto best = replacement_.at_price(bit, any, timing);
   if (!best || !replacement_.pays(*best, error)) return std::nullopt;
-  if (any.bits_now(best->quantiser, replacement_.age()) <= fits) return best->quantiser;
+  if (best->bits_now <= fits) return Bought{best->quantiser, best->patterns};
   // Room is saved up for it, unless a smaller one pays although it will soon be replaced.
   const auto smaller = replacement_.at_price(bit, {sizes_, fits, whole}, timing);
-  return smaller && smaller->cost < error ? std::optional(smaller->quantiser) : std::nullopt;
+  return smaller && smaller->cost < error ? std::optional(Bought{smaller->quantiser, smaller->patterns})
+                                          : std::nullopt;
 }
 
-std::optional<int> LivePatterns::paying(double room, bool whole, double error) {
+std::optional<LivePatterns::Bought> LivePatterns::paying(double room, bool whole, double error) {
   if (rate_) return paying_at_rate(room, whole, error);
   const int quantiser = std::min(settings_.quantiser, kMaxQuantiser);
   const PatternReplacement::Offers offers{sizes_, 0, whole};
@@ -290,11 +304,14 @@ std::optional<int> LivePatterns::paying(double room, bool whole, double error) {
   const double lambda = pattern_lambda(settings_.quantiser);
   const bool pays = has_windows(settings_.delay) ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
                                                  : regret_.pays(bits, lambda, 1);
-  return pays ? std::optional(quantiser) : std::nullopt;
+  if (pays) return Bought{quantiser};
+  const auto finer = replacement_.finer(lambda, sizes_, fps());
+  return finer ? std::optional(Bought{*finer}) : std::nullopt;
 }
 
 Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDraft& draft) {
   std::vector<SequencePattern> coded;
+  const auto since = static_cast<std::size_t>(since_pattern_);
   for (Picture& picture : draft.to_code(store_, scene, workers_)) {
     const std::size_t k = coded.size(), first = plan.start ? 1 : 0;
     const int quantiser = k <= first ? plan.first : plan.others;
@@ -307,7 +324,7 @@ Result<void> LivePatterns::code(const Scene& scene, const Plan& plan, SegmentDra
     if (k == first && !coarse && (plan.key || store_.segment().shots.size() > 1))
       sizes_.set_whole(bits, quantiser);
     else if (!coarse)
-      sizes_.learn(bits, quantiser, k > 0 ? plan.times[k] - plan.times[k - 1] : replacement_.age());
+      sizes_.learn(bits, quantiser, k > 0 ? plan.times[k] - plan.times[k - 1] : since + plan.times[k]);
     next->picture = k;
     if (coarse) draft.start = *next;
     coded.push_back(std::move(*next));
@@ -342,7 +359,8 @@ void LivePatterns::learn_errors(const Plan& plan) {
         regret_.add(least_error(run.errors));
       }
     }
-  if (is_one && last > 1) replacement_.learn_between(before / static_cast<double>(last + 1), last + 1);
+  if (last > 1)
+    replacement_.learn_between(before / static_cast<double>(last + 1), (last + 1) / plan.times.size());
   since_pattern_ = static_cast<std::ptrdiff_t>(pictures - last);
 }
 

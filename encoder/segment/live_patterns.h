@@ -68,16 +68,22 @@ class LivePatterns : public PatternPolicy {
   /// @param begin  picture from which on they count
   /// @param room   bytes that may be sent now
   void add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan);
-  /// The quantiser of the next pattern, if buying it now pays.
-  /// @param whole  nothing predicts it
+  /// The next patterns, if buying them now pays.
+  struct Bought {
+    int quantiser;
+    std::size_t patterns = 1;  ///< at once
+  };
+  /// @param whole  nothing predicts the next one
   /// @param error  of the pictures next to it, drawn without it
-  [[nodiscard]] std::optional<int> paying(double room, bool whole, double error);
+  [[nodiscard]] std::optional<Bought> paying(double room, bool whole, double error);
   /// The same with a rate.
-  [[nodiscard]] std::optional<int> paying_at_rate(double room, bool whole, double error);
+  [[nodiscard]] std::optional<Bought> paying_at_rate(double room, bool whole, double error);
   /// With a rate, what a bit of a pattern is worth so that patterns take what motion leaves of it, squared
   /// luma levels.
   [[nodiscard]] double price(const PatternReplacement::Offers& offers,
                              const PatternReplacement::Timing& timing);
+  /// Pictures a second in the segment.
+  [[nodiscard]] double fps() const;
   /// Bytes that may be sent now.
   [[nodiscard]] double room() const;
   /// The same for frames of patterns: what else the segment has is left out, approximately.

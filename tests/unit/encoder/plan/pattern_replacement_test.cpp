@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fbs {
 namespace {
@@ -72,6 +73,40 @@ TEST(PatternReplacement, AStillHeadIsRefinedUntilThatIsWorthLessThanItsBits) {
   EXPECT_GT(bought, 0);
   EXPECT_LT(bought, 20) << "and it ends";
   EXPECT_GT(quantiser, 0);
+}
+
+TEST(PatternReplacement, ALivelyHeadGetsTwoPatternsAtOnce) {
+  const PatternSizes sizes = sizes_with(1000);
+  const auto patterns = [&](double growth) {
+    const auto choice = after_lives(1000, growth).at_price(1, {sizes, 1e9}, kGroups);
+    EXPECT_TRUE(choice);
+    EXPECT_EQ(choice->patterns > 1, choice->interval < kGroups.together);
+    return choice->patterns;
+  };
+  EXPECT_EQ(patterns(10), 1);
+  EXPECT_EQ(patterns(3000), 2);
+  const auto alone = after_lives(1000, 3000).at_price(1, {sizes, 2000}, kGroups);
+  ASSERT_TRUE(alone);
+  EXPECT_LE(alone->bits_now, 2000) << "all that is sent at once counts";
+}
+
+TEST(PatternReplacement, AHeadThatKeepsStillIsRefinedOnce) {
+  const PatternSizes sizes = sizes_with(1000);
+  const double base = 50000, price = 100;
+  const auto finer_after = [&](int pictures, double growth) {
+    PatternReplacement head = after_lives(base, 0);
+    for (int t = 0; t < pictures; ++t) head.add(base + growth);
+    return head.finer(price, sizes, kGroups.per_second);
+  };
+  EXPECT_FALSE(finer_after(30, 0)) << "too early to tell";
+  EXPECT_FALSE(finer_after(60, base / 2)) << "it moves";
+  const auto quantiser = finer_after(60, 0);
+  ASSERT_TRUE(quantiser);
+  EXPECT_LT(*quantiser, kFirst);
+  PatternReplacement refined = after_lives(base, 0);
+  refined.begin(base * std::pow(1.045, *quantiser - kFirst), *quantiser);
+  for (int t = 0; t < 60; ++t) refined.add(base / 2);
+  EXPECT_FALSE(refined.finer(price, sizes, kGroups.per_second));
 }
 
 TEST(PatternReplacement, CheaperBitsBuyFinerPatterns) {
