@@ -116,10 +116,17 @@ TEST(Live, PicturesAreFit) {
   EXPECT_GT(psnr_of(line.shown), 27);
 }
 
-TEST(Live, APictureThatStaysNeedsNoOtherPattern) {
+TEST(Live, APictureThatStaysGetsOneFinerPatternAfterTwoSeconds) {
   LiveLine line;
-  for (int i = 0; i < kPictures; ++i) line.push(clip()[0]);
+  const auto error = [&] { return squared_error(line.shown.back().y, clip()[0].y).psnr(); };
+  for (int i = 0; i < 2 * kPicturesPerSecond; ++i) line.push(clip()[0]);
   EXPECT_EQ(line.patterns, 1U);
+  const double before = error();
+  for (int i = 0; i < 2 * kGroup; ++i) line.push(clip()[0]);
+  EXPECT_EQ(line.patterns, 2U);
+  EXPECT_GT(error(), before + 0.5);
+  for (int i = 0; i < 4 * kPicturesPerSecond; ++i) line.push(clip()[0]);
+  EXPECT_EQ(line.patterns, 2U);
 }
 
 // The room changes as much as by a cut, but without one: the light of half of it changes.
