@@ -149,7 +149,14 @@ PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, co
       const auto pictures = static_cast<double>(t);
       const double bits = (offers.whole ? offers.sizes.whole(q) : change) / pictures +
                           refinement / (kRefinementLasts * timing.per_second);
-      out.entries.push_back({own + growth / pictures, {q, t, patterns, 0, own, bits, bits_now}});
+      out.entries.push_back({.error = own + growth / pictures,
+                             .choice = {.quantiser = q,
+                                        .interval = t,
+                                        .patterns = patterns,
+                                        .cost = 0,
+                                        .own = own,
+                                        .bits = bits,
+                                        .bits_now = bits_now}});
     }
   }
   return out;

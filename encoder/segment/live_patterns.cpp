@@ -83,12 +83,13 @@ double least_error(const ModeErrors& errors) {
   return sum;
 }
 
-/// The least error of each picture; between those that have been measured, errors rise evenly.
-std::vector<double> least_errors(const SegmentErrors& errors) {
+/// The least error of each picture of a segment; between those that have been measured, errors rise evenly.
+std::vector<double> least_errors(const Segment& segment, const SegmentErrors& errors) {
   std::vector<double> out;
   for (auto run = errors.runs.begin(); run != errors.runs.end(); ++run) {
     const double first = least_error(run->errors);
-    const double next = run + 1 != errors.runs.end() ? least_error((run + 1)->errors) : first;
+    const bool goes_on = run + 1 != errors.runs.end() && !segment.is_cut(out.size() + run->pictures);
+    const double next = goes_on ? least_error((run + 1)->errors) : first;
     for (std::size_t i = 0; i < run->pictures; ++i)
       out.push_back(std::lerp(first, next, static_cast<double>(i) / static_cast<double>(run->pictures)));
   }
@@ -193,7 +194,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_first(const Scene& scene) {
   if (auto tried = draft->code(store_, scene, trial, workers_); !tried) return fail(tried.error());
   sizes_.set_whole(8.0 * static_cast<double>(draft->coded.front().av1.size()), plan.first);
   if (auto measured = stage_.measure(draft->usable(scene), 1); !measured) return fail(measured.error());
-  const std::vector<double> least = least_errors(std::exchange(stage_.errors(), {}));
+  const std::vector<double> least = least_errors(store_.segment(), std::exchange(stage_.errors(), {}));
   replacement_.begin(least.front(), plan.first);
   regret_.begin(least.front());
   add_paying(least, plan.times.size(), left, plan);
@@ -214,7 +215,7 @@ Result<LivePatterns::Plan> LivePatterns::plan_next(const Scene& scene, std::size
   if (auto measured = stage_.measure(none.usable(scene), shared); !measured) return fail(measured.error());
   Plan plan;
   plan.key = coarse_ > 0;
-  add_paying(least_errors(stage_.errors()), 0, pattern_room(), plan);
+  add_paying(least_errors(store_.segment(), stage_.errors()), 0, pattern_room(), plan);
   plan.first = plan.others;
   return plan;
 }
