@@ -306,7 +306,7 @@ std::optional<LivePatterns::Bought> LivePatterns::paying(double room, bool whole
   const bool pays = has_windows(settings_.delay) ? regret_.pays(bits, kWindowPrice * lambda, kWindowPatience)
                                                  : regret_.pays(bits, lambda, 1);
   if (pays) return Bought{quantiser};
-  if (sequence_.alone()) return std::nullopt;  // no other one would be predicted from a finer one
+  if (!settings_.refines) return std::nullopt;
   const auto finer = replacement_.finer(lambda, sizes_, fps());
   return finer ? std::optional(Bought{*finer}) : std::nullopt;
 }

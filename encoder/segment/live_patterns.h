@@ -23,6 +23,7 @@ struct LivePatternSettings : PatternSettings {
   bool refits = true;    ///< states are fitted to the blend
   double buffer = 0;     ///< LiveSettings::buffer
   bool alone = false;    ///< each pattern needs the first alone
+  bool refines = true;   ///< a head that keeps still gets a finer pattern: by quality
 };
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
