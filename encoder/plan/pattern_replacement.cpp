@@ -25,9 +25,9 @@ constexpr double kErrorPerStep = 1.045;
 /// Longest interval, and the time in which what a pattern refines pays, since it lasts, s.
 constexpr double kLongest = 3, kRefinementLasts = 5;
 
-/// A head keeps still if for so many seconds errors have grown by less than this share of the error of the
-/// pattern's own picture, on average: by .07 to .11 in generated talkers who only blink, .15 and more in
-/// akiyo. A finer pattern is then expected to last, s.
+/// A head is still once the mean growth of errors over kStillFor seconds is below kStillGrowth times the
+/// error of the pattern's own picture: it is .07 to .11 in generated talkers who only blink, .15 and more in
+/// akiyo. A finer pattern is then assumed to last kStillLasts seconds.
 constexpr double kStillFor = 2, kStillGrowth = 0.12, kStillLasts = 16;
 
 /// A pattern is bought once the error exceeds that of its own picture by this share of what the choice costs
@@ -43,14 +43,14 @@ constexpr double kTwoAtOnce = 1.06;
 constexpr int kHalvings = 16;
 constexpr double kLogCheapest = -2, kLogDearest = 20;
 
-/// Growth of errors between two patterns: each picture's since the one, or towards the other, whichever is
-/// nearer.
+/// Growth of errors between two patterns: each picture is drawn from the nearer one.
 /// @param sums  of the growth over the first pictures of a life
 double growth_between(const std::vector<double>& sums, std::size_t interval) {
   return sums[(interval - 1) / 2] + sums[interval / 2];
 }
 
-/// Half of so many pictures, and multiples of them. (Thirds gain the frame .1 dB and take a tenth more time.)
+/// Intervals to choose from, rising: half of `together`, then its multiples. (A third gains the frame .1 dB
+/// and takes a tenth more time.)
 std::vector<std::size_t> intervals(std::size_t together, std::size_t longest) {
   std::vector<std::size_t> out;
   if (together > 1) out.push_back((together + 1) / 2);
@@ -137,22 +137,21 @@ PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, co
   for (int q = 0; q <= 63; ++q) {
     const double refinement = offers.whole ? 0 : offers.sizes.refinement(q);
     const double own = base_ * std::pow(kErrorPerStep, q - quantiser_);
+    const double one = offers.bits_now(q, age());
     for (const std::size_t t : possible) {
-      const double change = offers.sizes.change(q, t);
-      const std::size_t patterns = t < timing.together ? 2 : 1;
-      const double first = offers.bits_now(q, patterns > 1 ? t : age());
-      const double bits_now = first + static_cast<double>(patterns - 1) * change;
+      const bool two = t < timing.together;
+      const double bits_now = two ? offers.bits_now(q, t) + offers.sizes.change(q, t) : one;
       if (bits_now > offers.most_bits) continue;
+      const double change = offers.whole ? offers.sizes.whole(q) : offers.sizes.change(q, t);
       // The last pictures of a life lie between two patterns.
       const std::size_t known = std::min(timing.known, t);
       const double growth = sums[t - known] + between_ * growth_between(sums, known);
       const auto pictures = static_cast<double>(t);
-      const double bits = (offers.whole ? offers.sizes.whole(q) : change) / pictures +
-                          refinement / (kRefinementLasts * timing.per_second);
+      const double bits = change / pictures + refinement / (kRefinementLasts * timing.per_second);
       out.entries.push_back({.error = own + growth / pictures,
                              .choice = {.quantiser = q,
                                         .interval = t,
-                                        .patterns = patterns,
+                                        .patterns = two ? std::size_t{2} : 1,
                                         .cost = 0,
                                         .own = own,
                                         .bits = bits,

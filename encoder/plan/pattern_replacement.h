@@ -25,12 +25,12 @@ class PatternReplacement {
     double cost;           ///< mean of a picture: its error, and its bits at their price
     double own;            ///< of that, the error of the next pattern's own picture
     double bits;           ///< mean of a picture
-    double bits_now;       ///< of what is sent at once
+    double bits_now;       ///< sum over the patterns sent at once
   };
   /// What is known of sizes, and what limits them.
   struct Offers {
     const PatternSizes& sizes;
-    double most_bits;    ///< of what is sent at once
+    double most_bits;    ///< limit for the patterns sent at once
     bool whole = false;  ///< nothing predicts the next one
     /// The next one's, when the last is this old.
     [[nodiscard]] double bits_now(int quantiser, std::size_t age) const;
@@ -70,7 +70,7 @@ class PatternReplacement {
   /// Whether to replace the pattern now: it has lived as long as the choice plans, or fares worse than that.
   /// @param error  of the pictures next to the new pattern, drawn without it
   [[nodiscard]] bool pays(const Choice& choice, double error) const;
-  /// Where patterns have one quantiser and a head keeps still: that of a finer one, if it pays.
+  /// With a fixed quantiser: the quantiser of a finer pattern, if the head has kept still and it pays.
   /// @param price  squared luma levels that a bit is worth
   [[nodiscard]] std::optional<int> finer(double price, const PatternSizes& sizes, double per_second) const;
 

@@ -13,8 +13,8 @@
 namespace fbs {
 namespace {
 
-/// A coarse first pattern has at most this share of the bytes of what was wanted: more of them delay what
-/// takes its place.
+/// Largest size of a coarse first pattern, as a share of the wanted one: a larger one delays its
+/// replacement.
 constexpr double kCoarseShare = 1.0 / 3;
 
 /// Limit for the patterns of a segment, bytes, of which several copies exist in the making.

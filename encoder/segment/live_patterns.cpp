@@ -83,7 +83,8 @@ double least_error(const ModeErrors& errors) {
   return sum;
 }
 
-/// The least error of each picture of a segment; between those that have been measured, errors rise evenly.
+/// The least error of each picture of a segment. Each run measures its first picture; the others are
+/// interpolated.
 std::vector<double> least_errors(const Segment& segment, const SegmentErrors& errors) {
   std::vector<double> out;
   for (auto run = errors.runs.begin(); run != errors.runs.end(); ++run) {
@@ -240,11 +241,12 @@ void LivePatterns::add_paying(std::span<const double> least, std::size_t begin, 
   if (!windows && t > begin) bought = paying(room, cut || plan.key, sum / static_cast<double>(t - begin));
   if (!bought) return;
   plan.others = bought->quantiser;
-  if (!windows && cut) {
-    plan.times.push_back(static_cast<std::size_t>(last));
-    return;
-  }
-  if (!windows) {  // the last one is nearest to what is not yet known
+  if (!windows) {
+    if (cut) {
+      plan.times.push_back(static_cast<std::size_t>(last));
+      return;
+    }
+    // The last picture is nearest to the pictures to come.
     const std::size_t count = std::min(bought->patterns, least.size() - begin);
     for (std::size_t k = 1; k <= count; ++k)
       plan.times.push_back(begin + (least.size() - begin) * k / count - 1);
@@ -288,13 +290,14 @@ std::optional<LivePatterns::Bought> LivePatterns::paying_at_rate(double room, bo
   const PatternReplacement::Offers any{
       sizes_, 8 * std::min(kMostOfBuffer * rate_->capacity(), room + waiting), whole};
   const double bit = price(any, timing);
-  const auto best = replacement_.at_price(bit, any, timing);
+  auto best = replacement_.at_price(bit, any, timing);
   if (!best || !replacement_.pays(*best, error)) return std::nullopt;
-  if (best->bits_now <= fits) return Bought{best->quantiser, best->patterns};
-  // Room is saved up for it, unless a smaller one pays although it will soon be replaced.
-  const auto smaller = replacement_.at_price(bit, {sizes_, fits, whole}, timing);
-  return smaller && smaller->cost < error ? std::optional(Bought{smaller->quantiser, smaller->patterns})
-                                          : std::nullopt;
+  if (best->bits_now > fits) {
+    // Room is saved up for it, unless a smaller one pays although it will soon be replaced.
+    best = replacement_.at_price(bit, {sizes_, fits, whole}, timing);
+    if (!best || best->cost >= error) return std::nullopt;
+  }
+  return Bought{best->quantiser, best->patterns};
 }
 
 std::optional<LivePatterns::Bought> LivePatterns::paying(double room, bool whole, double error) {

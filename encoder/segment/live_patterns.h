@@ -23,7 +23,7 @@ struct LivePatternSettings : PatternSettings {
   bool refits = true;    ///< states are fitted to the blend
   double buffer = 0;     ///< LiveSettings::buffer
   bool alone = false;    ///< each pattern needs the first alone
-  bool refines = true;   ///< a head that keeps still gets a finer pattern: by quality
+  bool refines = true;   ///< without a bitrate, a still head gets a finer pattern
 };
 
 /// What is known is a window of pictures, which is a segment: a group where the delay is short, or all groups
@@ -69,11 +69,12 @@ class LivePatterns : public PatternPolicy {
   /// @param begin  picture from which on they count
   /// @param room   bytes that may be sent now
   void add_paying(std::span<const double> least, std::size_t begin, double room, Plan& plan);
-  /// The next patterns, if buying them now pays.
+  /// Patterns to buy now.
   struct Bought {
     int quantiser;
-    std::size_t patterns = 1;  ///< at once
+    std::size_t patterns = 1;  ///< in this group
   };
+  /// The next patterns, if buying them now pays.
   /// @param whole  nothing predicts the next one
   /// @param error  of the pictures next to it, drawn without it
   [[nodiscard]] std::optional<Bought> paying(double room, bool whole, double error);

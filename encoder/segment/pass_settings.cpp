@@ -44,7 +44,7 @@ LivePatternSettings live_settings(const PatternSettings& common, const EncoderSe
   out.refits = effort.refits > 0 && !settings.track_only;
   out.buffer = settings.live->buffer;
   out.alone = settings.live->resilience == Resilience::kStrong;
-  // Where packets may be lost, so may this one, and what has been predicted from it with it.
+  // A lossy link may lose the finer pattern, and the patterns predicted from it become useless.
   out.refines = settings.live->resilience == Resilience::kNone;
   out.threads = std::max(1, common.threads - 1);  // one is the analysis's
   return out;
