@@ -18,8 +18,8 @@ enum class Resilience : std::uint8_t {
   kNone,    ///< nothing: least bytes
   kPacket,  ///< motion needs the head of its scene alone; patterns need those before them, so that lost
             ///< packets are to be sent again
-  kStrong,  ///< patterns, too, need the head of their scene alone, and that is sent again: for links without
-            ///< a way back
+  kStrong,  ///< patterns, too, need the head of their scene alone; that is sent again, and so are groups with
+            ///< a pattern: for links without a way back
 };
 
 /// For a source that is encoded as it happens.

@@ -35,7 +35,9 @@ class FilePatterns : public PatternPolicy {
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
   [[nodiscard]] Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
                                                   const StateRefit& refit) override;
-  void note_sent(std::size_t bytes) override { left_bytes_ -= static_cast<double>(bytes); }
+  void end_segment(std::vector<TypedPayload>& packets) override {
+    left_bytes_ -= static_cast<double>(bytes_of(packets));
+  }
 
  private:
   /// A draft of the pictures that are to become patterns.

@@ -42,7 +42,7 @@ class LivePatterns : public PatternPolicy {
   [[nodiscard]] bool segment_ends(std::size_t next) const override;
   [[nodiscard]] Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
                                                   const StateRefit& refit) override;
-  void note_sent(std::size_t bytes) override;
+  void end_segment(std::vector<TypedPayload>& packets) override;
 
  private:
   /// Patterns to be made of the segment.
@@ -94,6 +94,12 @@ class LivePatterns : public PatternPolicy {
   Result<void> code(const Scene& scene, const Plan& plan, SegmentDraft& draft);
   /// Remembers the errors of the segment as sent.
   void learn_errors(const Plan& plan);
+  /// Adds the packets of the group before to those of a group if they are worth sending again.
+  void repeat(std::vector<TypedPayload>& packets);
+  /// @param gain   of a pattern, squared luma levels
+  /// @param bytes  of its group
+  /// @param left   bytes of room that would be left
+  [[nodiscard]] bool repeats(double gain, double bytes, double left) const;
 
   LivePatternSettings settings_;
   LiveSequence sequence_;
@@ -108,8 +114,11 @@ class LivePatterns : public PatternPolicy {
   PatternRegret regret_;              ///< decides by quality
   std::ptrdiff_t since_pattern_ = 0;  ///< pictures from the last pattern, or cut, to the segment's first
   std::size_t next_slot_ = 0;
-  double head_ = 0;    ///< bytes of its head besides the pattern
-  double age_ = 0;     ///< s
+  double head_ = 0;  ///< bytes of its head besides the pattern
+  double age_ = 0;   ///< s
+  /// The group before, if a viewer who loses it lacks a pattern.
+  std::vector<TypedPayload> with_pattern_;
+  double gain_ = 0;    ///< of the last pattern, until it is as old as the one before was: squared luma levels
   double coarse_ = 0;  ///< bytes of the first pattern, until a finer one takes its place; 0: it is fine
 };
 

@@ -87,7 +87,7 @@ Result<std::vector<TypedPayload>> PatternStage::end_segment(Scene& scene, bool l
   auto out = draft->packets(store_, scene.setup, store_.coders());
   if (!out) return out;
   draft->keep(store_, scene);
-  policy.note_sent(bytes_of(*out));
+  policy.end_segment(*out);
   modes_ = store_.segment().states.back().blend;
   store_.end_segment();
   errors_ = {};

@@ -53,8 +53,9 @@ class PatternPolicy {
   /// @param other_bytes, refit  as of PatternStage::end_segment()
   [[nodiscard]] virtual Result<SegmentDraft> make_segment(const Scene& scene, std::size_t other_bytes,
                                                           const StateRefit& refit) = 0;
-  /// Packets of the segment are as made, and take so many bytes.
-  virtual void note_sent(std::size_t bytes) = 0;
+  /// The segment has been coded.
+  /// @param packets  of the segment, in stream order; others may be added
+  virtual void end_segment(std::vector<TypedPayload>& packets) = 0;
 
  protected:
   explicit PatternPolicy(PatternStage& stage);

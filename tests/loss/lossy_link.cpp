@@ -12,10 +12,10 @@
 //   --heads       1: heads of scenes behind the first are lost with any of their packets of 1200 bytes
 //   --from        s: the viewer comes then, and knows nothing; counts from the first picture that is shown
 //
-// A packet of the link is a group's motion, pattern and blend. Without --heads the head of a scene is not
-// lost, as it would be sent until it is confirmed. A picture is due when its group and `wait` have passed; it
-// is frozen if it has not been released by then, and right if its luma is that of the whole stream. Prints
-// one line of JSON.
+// A packet of the link is a group's motion, pattern and blend, and before them a group that is sent again.
+// Without --heads the head of a scene is not lost, as it would be sent until it is confirmed. A picture is
+// due when its group and `wait` have passed; it is frozen if it has not been released by then, and right if
+// its luma is that of the whole stream. Prints one line of JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +27,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bitstream/packet.h"
@@ -72,7 +73,7 @@ std::vector<Unit> units_of(const Bytes& stream) {
   PacketReader reader(stream);
   PacketTimes times;
   std::vector<Unit> units;
-  bool in_head = false;
+  bool in_head = false, repeats = false;  // a group that has come goes with the next
   Bytes head(kSignature.begin(), kSignature.end());
   for (;;) {
     const auto read = reader.next();
@@ -83,9 +84,11 @@ std::vector<Unit> units_of(const Bytes& stream) {
     if (!timed) give_up(timed.error().text);
     if (read->packet.type == PacketType::kSetup) in_head = true;
     if (read->packet.type == PacketType::kMotion || read->packet.type == PacketType::kUnit) {
-      units.push_back({std::move(head), {}, seconds(timed->first.time), 0, timed->first.pictures});
+      if (!std::exchange(repeats, !timed->time)) units.push_back({std::move(head), {}});
       head.clear();
       in_head = false;
+      units.back().begin = seconds(timed->first.time);
+      units.back().first = timed->first.pictures;
     }
     if (read->packet.type == PacketType::kEnd) break;
     Bytes& to = in_head || units.empty() ? head : units.back().bytes;

@@ -3,7 +3,7 @@ import random
 import subprocess
 import time
 
-from harness import END, FBS, KEYED_FBS, PATTERN, SETUP, TALK_Y4M, ProgramTest, read_y4m
+from harness import BLEND, END, FBS, KEYED_FBS, MOTION, PATTERN, SETUP, SURROUND, TALK_Y4M, ProgramTest, read_y4m
 from loss import Whole, burst_loss, decode, random_loss, with_flipped_bits, without
 
 
@@ -68,6 +68,22 @@ class Loss(ProgramTest):
                 self.assertEqual(len(viewing.decoded), len(source.pictures), "motion that is lost is interpolated")
                 shown.append(source.luma_psnr(viewing.video))
             self.assertGreater(sum(shown) / len(shown), right - most, resilience)
+
+    def test_a_group_that_is_sent_again_takes_the_place_of_a_lost_one(self):
+        self.succeed("encode", TALK_Y4M, "live.fbs", "--live", "--resilience", "strong", "--bitrate", 12)
+        whole = Whole(self.folder / "live.fbs")
+        content = [whole.stream[begin:end] for _, begin, end in whole.packets]
+        kinds = [kind for kind, _, _ in whole.packets]
+        # Packets of groups that come again, and how many packets after the first time. (What is drawn late has the surround
+        # that has come meanwhile.)
+        again = {k: k - content.index(packet) for k, packet in enumerate(content)
+                 if kinds[k] in (MOTION, PATTERN, BLEND) and SURROUND not in kinds[content.index(packet):k]}
+        again = {k: after for k, after in again.items() if after > 0}
+        self.assertTrue(any(kinds[k] == PATTERN for k in again))
+        for gone in (set(again), {k - after for k, after in again.items()}):
+            viewing = whole.seen(without(whole.stream, [k in gone for k in range(len(content))]))
+            self.assertTrue(all(viewing.right))
+            self.assertEqual(viewing.exit_code, 0)
 
     def test_a_stream_is_joined_by_the_parts_of_its_head(self):
         self.succeed("encode", TALK_Y4M, "live.fbs", "--live", "--patterns", 1, "--resilience", "packet", "--join", 1,
