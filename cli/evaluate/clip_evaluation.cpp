@@ -349,7 +349,9 @@ Result<Tools> find_tools(const EvaluateArguments& arguments) {
   for (const std::string& name : arguments.peer_codecs) {
     const auto found = std::ranges::find(tools.peers, name, &PeerCodec::option);
     if (found == tools.peers.end())
-      return fail(ErrorCode::kUnsupported, "--peer-codec " + name + ": ffmpeg has no encoder of it");
+      return fail(ErrorCode::kUnsupported, "--peer-codec " + name +
+                                               (arguments.live ? ": --live is compared with av1 alone"
+                                                               : ": ffmpeg has no encoder of it"));
     wanted.push_back(*found);
   }
   tools.peers = std::move(wanted);

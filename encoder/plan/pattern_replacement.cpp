@@ -51,9 +51,10 @@ double growth_between(const std::vector<double>& sums, std::size_t interval) {
 
 /// Intervals to choose from, rising: half of `together`, then its multiples. (A third gains the frame .1 dB
 /// and takes a tenth more time.)
-std::vector<std::size_t> intervals(std::size_t together, std::size_t longest) {
+std::vector<std::size_t> intervals(const PatternReplacement::Timing& timing, std::size_t longest) {
+  const std::size_t together = timing.together;
   std::vector<std::size_t> out;
-  if (together > 1) out.push_back((together + 1) / 2);
+  if (timing.two_at_once && together > 1) out.push_back((together + 1) / 2);
   for (std::size_t t = together; t <= longest; t += together) out.push_back(t);
   return out;
 }
@@ -132,7 +133,7 @@ std::vector<double> PatternReplacement::expected_growth(std::size_t pictures) co
 PatternReplacement::Outlook PatternReplacement::outlook(const Offers& offers, const Timing& timing) const {
   const auto longest = std::max(timing.together, static_cast<std::size_t>(kLongest * timing.per_second));
   const std::vector<double> sums = expected_growth(longest);
-  const std::vector<std::size_t> possible = intervals(timing.together, longest);
+  const std::vector<std::size_t> possible = intervals(timing, longest);
   Outlook out;
   for (int q = 0; q <= 63; ++q) {
     const double refinement = offers.whole ? 0 : offers.sizes.refinement(q);

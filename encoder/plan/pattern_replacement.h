@@ -42,6 +42,7 @@ class PatternReplacement {
     /// Pictures before a new pattern that are drawn from it, too; at least `together`.
     std::size_t known;
     double per_second;
+    bool two_at_once = true;  ///< an interval may be half of `together`
   };
 
   /// @param samples  of a picture: what is assumed of errors until they are known is proportional to them

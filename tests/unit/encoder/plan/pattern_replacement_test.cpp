@@ -88,6 +88,9 @@ TEST(PatternReplacement, ALivelyHeadGetsTwoPatternsAtOnce) {
   const auto alone = after_lives(1000, 3000).at_price(1, {sizes, 2000}, kGroups);
   ASSERT_TRUE(alone);
   EXPECT_LE(alone->bits_now, 2000) << "all that is sent at once counts";
+  auto one = kGroups;
+  one.two_at_once = false;
+  EXPECT_EQ(after_lives(1000, 3000).at_price(1, {sizes, 1e9}, one)->patterns, 1);
 }
 
 TEST(PatternReplacement, AHeadThatKeepsStillIsRefinedOnce) {
