@@ -41,8 +41,8 @@ constexpr double kWindowPrice = 1.4, kWindowPatience = 4;
 /// of it at 640x480, and 2 to 3 % more of the rate.
 constexpr std::size_t kDraftShared = 3;
 
-/// Largest picture, in samples, that may have two patterns at once. At 1280x720 and 24 kbit/s they take 7 % of
-/// the time and 30 MB; the faces and frames of two large clips change by 0 to .2 dB, to either side.
+/// Largest picture, in samples, that may have two patterns at once. At 1280x720 and 24 kbit/s they take 7 %
+/// of the time and 30 MB; the faces and frames of two large clips change by 0 to .2 dB, to either side.
 constexpr long long kMostForTwo = 640LL * 480;
 
 /// Largest share of the buffer that a pattern may be planned to take, and s in which the price follows a
@@ -381,11 +381,6 @@ void LivePatterns::learn_errors(const Plan& plan) {
   since_pattern_ = static_cast<std::ptrdiff_t>(pictures - last);
 }
 
-bool LivePatterns::repeats(double gain, double bytes, double left) const {
-  if (rate_) return left > kRepeatLeaves * rate_->capacity();
-  return kLossWeight * gain > pattern_lambda(settings_.quantiser) * 8 * bytes;
-}
-
 void LivePatterns::repeat(std::vector<TypedPayload>& packets) {
   const std::vector<TypedPayload> before = std::exchange(with_pattern_, {});
   const bool has_pattern =
@@ -395,8 +390,10 @@ void LivePatterns::repeat(std::vector<TypedPayload>& packets) {
     return;
   }
   const auto bytes = static_cast<double>(bytes_of(before));
-  if (repeats(gain_, bytes, room() - bytes - static_cast<double>(bytes_of(packets))))
-    packets.insert(packets.begin(), before.begin(), before.end());
+  const bool pays = rate_ ? rate_->room() - bytes - static_cast<double>(bytes_of(packets)) >
+                                kRepeatLeaves * rate_->capacity()
+                          : kLossWeight * gain_ > pattern_lambda(settings_.quantiser) * 8 * bytes;
+  if (pays) packets.insert(packets.begin(), before.begin(), before.end());
 }
 
 void LivePatterns::end_segment(std::vector<TypedPayload>& packets) {

@@ -96,10 +96,6 @@ class LivePatterns : public PatternPolicy {
   void learn_errors(const Plan& plan);
   /// Adds the packets of the group before to those of a group if they are worth sending again.
   void repeat(std::vector<TypedPayload>& packets);
-  /// @param gain   of a pattern, squared luma levels
-  /// @param bytes  of its group
-  /// @param left   bytes of room that would be left
-  [[nodiscard]] bool repeats(double gain, double bytes, double left) const;
 
   LivePatternSettings settings_;
   LiveSequence sequence_;
