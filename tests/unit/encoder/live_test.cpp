@@ -129,6 +129,12 @@ TEST(Live, APictureThatStaysGetsOneFinerPatternAfterTwoSeconds) {
   EXPECT_EQ(line.patterns, 2U);
 }
 
+TEST(Live, APictureThatStaysGetsNoFinerPatternInWindows) {
+  LiveLine line(live_settings(kPicturesPerSecond));
+  for (int i = 0; i < 6 * kPicturesPerSecond; ++i) line.push(clip()[0]);
+  EXPECT_EQ(line.patterns, 1U);
+}
+
 // The room changes as much as by a cut, but without one: the light of half of it changes.
 TEST(Live, AChangeIsSentWithItsGroup) {
   Picture changed = clip()[0];
