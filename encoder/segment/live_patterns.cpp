@@ -61,7 +61,7 @@ constexpr double kLeastShare = 0.35;
 
 /// With strong resilience a group with a pattern is sent again in the next one, if that has none: with a rate
 /// if this share of the buffer is left, without if the loss, weighted by this, costs more than the bits. With
-/// 1 streams have 33 % more bytes and not 13, and 92 % of pictures within 1 dB at 10 % lost, not 90.
+/// 1 streams have 33 % more bytes and not 14, and 92 % of pictures within 1 dB at 10 % lost, not 90.
 constexpr double kRepeatLeaves = 0.1, kLossWeight = 0.6;
 
 /// Bytes of a group besides motion and patterns, about: blend, packet header.

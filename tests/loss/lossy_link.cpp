@@ -15,7 +15,7 @@
 // A packet of the link is a group's motion, pattern and blend, and before them a group that is sent again.
 // Without --heads the head of a scene is not lost, as it would be sent until it is confirmed. A picture is
 // due when its group and `wait` have passed; it is frozen if it has not been released by then, and right if
-// its luma is that of the whole stream. Prints one line of JSON.
+// its luma equals the whole stream's. Prints one line of JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>

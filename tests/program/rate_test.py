@@ -79,38 +79,44 @@ class Rate(ProgramTest):
             most = max(most, waiting)
         return most
 
-    def stamped(self, name, codec, header, stamp):
-        """A file whose header has the rate `header`, with other stamps."""
-        plain, source = (self.folder / (kind + name) for kind in ("plain", "stamped"))
-        ffmpeg("-r", str(header), "-i", CLOSE_Y4M, *codec, plain)
-        ffmpeg("-i", plain, "-c", "copy", "-bsf:v", f"setts=ts={stamp}", source)
-        return source
+    def stamped(self, header, true, stamp, steady=True):
+        """Stamps are the clock, in a file and live, whatever the rate in the header of the container.
 
-    def test_stamps_are_the_clock(self):
-        """In a file and live, whatever the rate in the header: stamps at a fourth of it, at three times as much, and at a
-        third of it for the first half of the pictures."""
+        header -- the rate in the header
+        true   -- the mean rate that the stamps have
+        stamp  -- setts' expression for them
+        steady -- they are evenly spaced, so that a live stream has the rate that one of a Y4M file has
+        """
         kbps, buffer, within = 4, 2, 0.05
-        slow, fast, changing = (30, 7.5, "TS*4"), (10, 30, "TS/3"), (30, 15, "TS+2*min(N\\,75)/30/TB")
-        live_rates = {}  # by true rate
-        for true in (slow[1], fast[1]):
+        live = "--bitrate", kbps, "--live", "--buffer", buffer
+        if steady:
             right = self.folder / "right.y4m"
             ffmpeg("-r", str(true), "-i", CLOSE_Y4M, right)
-            live_rates[true] = self.rate(self.encode(right, "--bitrate", kbps, "--live", "--buffer", buffer)[0])
+            usual = self.rate(self.encode(right, *live)[0])
         h264 = ("-c:v", "libx264", "-bf", "0", "-qp", "0")
         vp9 = ("-c:v", "libvpx-vp9", "-lossless", "1", "-deadline", "realtime", "-cpu-used", "8")
-        for name, codec, stamps in (("in.mkv", h264, (slow, fast, changing)), ("in.webm", vp9, (fast,)), ("in.flv", h264, (slow,)),
-                                    ("in.ts", h264, (changing,)), ("in.mp4", h264, (slow,))):
-            for header, true, stamp in stamps:
-                with self.subTest(name=name, header=header, true=true):
-                    source = self.stamped(name, codec, header, stamp)
-                    reported, said = self.encode(source, "--bitrate", kbps)
-                    self.assertAlmostEqual(reported["seconds"], 150 / true, delta=0.15)
-                    self.assertAlmostEqual(self.rate(reported), kbps, delta=within * kbps)
-                    self.assertEqual(said, "")
-                    live = self.rate(self.encode(source, "--bitrate", kbps, "--live", "--buffer", buffer)[0])
-                    self.assertLess(self.most_waiting(kbps), (1 + within) * 125 * kbps * buffer)
-                    if true in live_rates:
-                        self.assertAlmostEqual(live, live_rates[true], delta=within * live_rates[true])
+        for name, codec in ("in.mkv", h264), ("in.webm", vp9), ("in.flv", h264), ("in.ts", h264), ("in.mp4", h264):
+            with self.subTest(name=name):
+                plain, source = (self.folder / (kind + name) for kind in ("plain", "stamped"))
+                ffmpeg("-r", str(header), "-i", CLOSE_Y4M, *codec, plain)
+                ffmpeg("-i", plain, "-c", "copy", "-bsf:v", f"setts=ts={stamp}", source)
+                reported, said = self.encode(source, "--bitrate", kbps)
+                self.assertAlmostEqual(reported["seconds"], 150 / true, delta=0.15)
+                self.assertAlmostEqual(self.rate(reported), kbps, delta=within * kbps)
+                self.assertEqual(said, "")
+                rate = self.rate(self.encode(source, *live)[0])
+                self.assertLess(self.most_waiting(kbps), (1 + within) * 125 * kbps * buffer)
+                if steady:
+                    self.assertAlmostEqual(rate, usual, delta=within * usual)
+
+    def test_stamps_at_a_fourth_of_the_rate(self):
+        self.stamped(30, 7.5, "TS*4")
+
+    def test_stamps_at_three_times_the_rate(self):
+        self.stamped(10, 30, "TS/3")
+
+    def test_stamps_at_a_third_of_the_rate_for_half_of_the_pictures(self):
+        self.stamped(30, 15, "TS+2*min(N\\,75)/30/TB", steady=False)
 
     def motion(self, source):
         worse = 0
